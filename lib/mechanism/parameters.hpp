@@ -1,0 +1,56 @@
+// Every number of a mechanism that a study may vary without rebuilding it.
+//
+// A mechanism is immutable and shared by all threads; a sample is a `Parameters` value (a copy of the mechanism's own
+// with some numbers changed). A number is named by its path, the same in `--set`, studies and results:
+//   clearance.F1.radial   clearance.*.contact.restitution   payload.mass   body.rod1.mass   gravity.z
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "boresight/math/types.hpp"
+
+namespace boresight {
+
+// Material and impact data of one contact pair. The two entries are journal and sleeve.
+struct ContactParameters {
+  double restitution = 0.9;                      // [-], in (0, 1]
+  std::array<double, 2> young = {72e9, 72e9};    // [Pa]
+  std::array<double, 2> poisson = {0.33, 0.33};  // [-]
+  double density = 2700.0;                       // [kg/m^3], for the speed up to which Flores' law is valid
+  double minimum_impact_speed = 1e-3;            // [m/s], lower bound of the latched impact speed
+  double stiffness_scale = 1.0;                  // [-], multiplies the Hertz stiffness; calibration fits it
+};
+
+struct FrictionParameters {
+  double coefficient = 0.0;     // [-]
+  double static_speed = 1e-4;   // v_s [m/s]
+  double dynamic_speed = 1e-3;  // v_d [m/s]
+};
+
+struct ClearanceParameters {
+  double radial = 0.0;          // c_r = R_b - R_a [m]
+  double axial = 0.0;           // per side [m]
+  double journal_radius = 0.0;  // R_a [m]
+  double cap_radius = 0.0;      // R_s [m]
+  double sleeve_length = 0.0;   // L_b [m]
+  ContactParameters contact;
+  FrictionParameters friction;
+};
+
+struct SpringParameters {
+  double stiffness = 0.0;    // [N/m]
+  double damping = 0.0;      // [N s/m]
+  double free_length = 0.0;  // [m]
+};
+
+struct Parameters {
+  Vec3 gravity = Vec3::Zero();                 // world axes [m/s^2]
+  double payload_mass = 0.0;                   // [kg]
+  std::vector<double> body_mass;               // per body, without the payload [kg]
+  std::vector<ClearanceParameters> clearance;  // in the order of the description
+  std::vector<SpringParameters> spring;        // in the order of the description
+};
+
+}  // namespace boresight
