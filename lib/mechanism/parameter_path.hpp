@@ -1,0 +1,42 @@
+// Parameter paths: the names by which `--set`, studies and results address a number of a `Parameters` value.
+//
+//   gravity.x|y|z, payload.mass, body.NAME.mass,
+//   clearance.JOINT.{radial, axial, journal_radius, cap_radius, sleeve_length},
+//   clearance.JOINT.contact.{restitution, young, poisson, density, minimum_impact_speed, stiffness_scale},
+//   clearance.JOINT.friction.{coefficient, static_speed, dynamic_speed},
+//   spring.NUMBER.{stiffness, damping, free_length}            (NUMBER from 1, in file order)
+//
+// JOINT or NAME may be *: all of them, one value. young and poisson set both parts.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "boresight/mechanism/description.hpp"
+
+namespace boresight {
+
+class ParameterPath {
+ public:
+  // Throws InputError (key = the path, nearest = the closest path that exists) if the path names nothing.
+  ParameterPath(const MechanismDescription& mechanism, const std::string& path, const Origin& origin = {});
+
+  const std::string& path() const { return path_; }
+  // The SI unit its values are read with: "m", "kg", "m/s^2", "1" (a pure number), ...
+  const std::string& unit() const { return unit_; }
+  double get(const Parameters& parameters) const;  // the first number it names
+  void set(Parameters& parameters, double value) const;
+
+ private:
+  std::string path_, unit_;
+  std::vector<std::function<double*(Parameters&)>> numbers_;
+};
+
+// Every path of this mechanism that names one number (no *), in order.
+std::vector<std::string> parameter_paths(const MechanismDescription& mechanism);
+
+// The parameters as the file gives them.
+Parameters nominal_parameters(const MechanismDescription& mechanism);
+
+}  // namespace boresight

@@ -1,0 +1,101 @@
+#include "boresight/pointing/indices.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace boresight {
+namespace {
+
+// Angle between two vectors, exact to rounding at small and at straight angles alike (Kahan's form loses nothing at 0).
+double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+Vec3 rotation_vector(Quat q) {
+  if (q.w() < 0.0) q.coeffs() *= -1.0;
+  const double sine = q.vec().norm();
+  if (sine < 1e-12) return 2.0 * q.vec();
+  return (2.0 * std::atan2(sine, q.w()) / sine) * q.vec();
+}
+
+}  // namespace
+
+PoseError pose_error(const Pose& truth, const Pose& ideal, const Vec3& boresight_B) {
+  PoseError e;
+  e.displacement = truth.p - ideal.p;
+  e.rotation = rotation_vector(truth.q * ideal.q.conjugate());
+  e.position = e.displacement.norm();
+  e.orientation = e.rotation.norm();
+  e.boresight = angle_between(truth.q * boresight_B, ideal.q * boresight_B);
+  // A centre of mass at the world origin has no line of sight from there.
+  e.line_of_sight = ideal.p.squaredNorm() > 0.0 ? angle_between(truth.p, ideal.p) : 0.0;
+  return e;
+}
+
+void StatisticsOverTime::reserve(std::size_t steps) {
+  time_.reserve(steps);
+  value_.reserve(steps);
+}
+
+void StatisticsOverTime::add(double t, double value) {
+  time_.push_back(t);
+  value_.push_back(value);
+}
+
+Statistics StatisticsOverTime::result() const {
+  Statistics s;
+  const std::size_t n = value_.size();
+  if (n == 0) return s;
+  std::vector<double> weight(n, 0.0);
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double half = 0.5 * (time_[i + 1] - time_[i]);
+    weight[i] += half;
+    weight[i + 1] += half;
+  }
+  const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
+  if (total <= 0.0) std::fill(weight.begin(), weight.end(), 1.0 / static_cast<double>(n));
+  const double scale = total > 0.0 ? total : 1.0;
+  double sum = 0.0, sum_of_squares = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    sum += weight[i] * value_[i];
+    sum_of_squares += weight[i] * value_[i] * value_[i];
+    if (value_[i] > s.max) {
+      s.max = value_[i];
+      s.time_of_max = time_[i];
+    }
+  }
+  s.mean = sum / scale;
+  s.rms = std::sqrt(sum_of_squares / scale);
+
+  // Only the highest values matter for the quantile: walk down from the top until 0.27 % of the time lies above.
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return value_[a] > value_[b]; });
+  const double above_allowed = (1.0 - 0.9973) * scale;
+  double above = 0.0;
+  s.p9973 = value_[order.back()];
+  for (std::size_t i : order) {
+    above += weight[i];
+    if (above > above_allowed) {
+      s.p9973 = value_[i];
+      break;
+    }
+  }
+  return s;
+}
+
+void IndicesOverTime::reserve(std::size_t steps) {
+  for (StatisticsOverTime* s : {&position_, &orientation_, &boresight_, &line_of_sight_}) s->reserve(steps);
+}
+
+void IndicesOverTime::add(double t, const PoseError& error) {
+  position_.add(t, error.position);
+  orientation_.add(t, error.orientation);
+  boresight_.add(t, error.boresight);
+  line_of_sight_.add(t, error.line_of_sight);
+}
+
+PointingIndices IndicesOverTime::result() const {
+  return {position_.result(), orientation_.result(), boresight_.result(), line_of_sight_.result()};
+}
+
+}  // namespace boresight
