@@ -1,0 +1,58 @@
+#include "boresight/mechanism/error.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace boresight {
+namespace {
+
+// One line, whatever the file held: control characters are shown as blanks, long texts are cut in the middle.
+std::string on_one_line(const std::string& text, std::size_t longest) {
+  std::string line = text;
+  if (line.size() > longest) line = line.substr(0, longest - 23) + " ... " + line.substr(line.size() - 18);
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return line;
+}
+
+std::string compose(const Origin& origin, const std::string& key, const std::string& found,
+                    const std::string& expected, const std::string& nearest) {
+  std::string line = on_one_line(origin.file, 400);
+  if (origin.line > 0) line += ":" + std::to_string(origin.line);
+  if (!line.empty()) line += ": ";
+  if (!key.empty()) line += on_one_line(key, 200) + ": ";
+  line += "found " + on_one_line(found, 200) + ", expected " + on_one_line(expected, 400);
+  if (!nearest.empty()) line += "; did you mean " + on_one_line(nearest, 200) + "?";
+  return line;
+}
+
+}  // namespace
+
+InputError::InputError(const Origin& where, const std::string& which, const std::string& what_was_found,
+                       const std::string& what_was_expected, const std::string& nearest_known)
+    : std::runtime_error(compose(where, which, what_was_found, what_was_expected, nearest_known)),
+      origin(where),
+      key(which),
+      found(what_was_found),
+      expected(what_was_expected),
+      nearest(nearest_known) {}
+
+// Levenshtein's distance, one row at a time. Names longer than 200 characters are compared by their beginnings.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  const std::size_t rows = std::min<std::size_t>(a.size(), 200), columns = std::min<std::size_t>(b.size(), 200);
+  std::vector<std::size_t> row(columns + 1);
+  for (std::size_t j = 0; j <= columns; ++j) row[j] = j;
+  for (std::size_t i = 1; i <= rows; ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= columns; ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row[columns];
+}
+
+}  // namespace boresight
