@@ -5,14 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "boresight/contact/contact_memory.hpp"
 #include "boresight/pointing/indices.hpp"
 
 namespace boresight {
-
-// Where in a clearance joint a contact lies. radial_minus/plus: at the sleeve's ends (free axes only).
-// Sleeve frame: y along the joint's axis; plus is the end at +y.
-enum class ContactPlace : std::uint8_t { radial, radial_minus, radial_plus, axial_minus, axial_plus };
-const char* to_string(ContactPlace place);  // "radial", "radial-", "radial+", "axial-", "axial+"
 
 // One contact from its start to its end (or to the end of the motion).
 struct ContactEvent {

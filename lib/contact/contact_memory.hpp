@@ -1,0 +1,30 @@
+// The discrete state of a clearance joint's contacts: which touch, and how fast each began.
+//
+// It belongs to the state of the motion and changes only between accepted steps; a right-hand side reads it and never
+// writes it, so a rejected step leaves no trace.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace boresight {
+
+// Where in a clearance joint a contact lies. radial_minus/plus: at the sleeve's ends (free axes only). Sleeve frame: y along
+// the joint's axis; plus is the end at +y.
+enum class ContactPlace : std::uint8_t { radial, radial_minus, radial_plus, axial_minus, axial_plus };
+inline constexpr int kContactPlaces = 5;
+
+// "radial", "radial-", "radial+", "axial-", "axial+"
+inline const char* to_string(ContactPlace place) {
+  constexpr const char* names[] = {"radial", "radial-", "radial+", "axial-", "axial+"};
+  return names[static_cast<int>(place)];
+}
+
+struct ContactMemory {
+  std::array<bool, kContactPlaces> touching{};
+  // Approach speed at the start of the contact; while not touching, the speed to use should a contact begin inside the
+  // coming step. Always positive [m/s].
+  std::array<double, kContactPlaces> impact_speed{1e-3, 1e-3, 1e-3, 1e-3, 1e-3};
+};
+
+}  // namespace boresight

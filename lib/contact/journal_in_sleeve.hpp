@@ -1,0 +1,141 @@
+// Three-dimensional clearance of a revolute or cylindrical joint: the forces between journal and sleeve.
+//
+// Everything is expressed in the sleeve frame (origin at the sleeve's centre, y along its axis). With e the journal's
+// centre, edot its rate as seen from the sleeve, w the journal's angular velocity relative to the sleeve:
+//   radial   n = e_perp / |e_perp|, d = |e_perp| - c_r, ddot = edot . n;  contact at Q = R_b n on the bore
+//   axial    plus face:  d = -e_y - c_a;  minus face: d = e_y - c_a;      contact at (0, +-L_b/2, 0)
+//   sliding  v = edot + w x (Q - e), its part across the normal
+// Sun et al., Eq. 1-24, with the slips mended: e without its axial part, the spin kept in the sliding velocity, and force
+// and friction applied at one point on both bodies so that no angular momentum leaks.
+// The journal's axis stays parallel to the sleeve's here (axes = "parallel").
+#pragma once
+
+#include <array>
+
+#include "boresight/contact/contact_memory.hpp"
+#include "boresight/contact/modified_coulomb.hpp"
+#include "boresight/contact/normal_law.hpp"
+#include "boresight/math/types.hpp"
+#include "boresight/mechanism/description.hpp"
+
+namespace boresight {
+
+// How the journal sits and moves in the sleeve, sleeve frame.
+template <typename T>
+struct JournalMotion {
+  Vec3T<T> e, e_dot;  // centre offset [m] and its rate as seen from the sleeve [m/s]
+  Vec3T<T> w;         // angular velocity relative to the sleeve [rad/s]
+};
+
+// One possible contact.
+template <typename T>
+struct ContactState {
+  T penetration{}, rate{}, normal_force{};  // [m], [m/s], [N]; penetration < 0: a gap
+};
+
+// What the sleeve does to the journal: force, and moment about the sleeve's centre, sleeve frame.
+template <typename T>
+struct JournalWrench {
+  Vec3T<T> force, moment;
+  std::array<ContactState<T>, kContactPlaces> contact;  // by ContactPlace; unused places keep a gap of -1 m
+};
+
+// Numbers of one clearance joint that a motion does not change.
+struct JournalInSleeve {
+  double radial_clearance = 0.0;  // c_r [m]
+  double axial_clearance = 0.0;   // c_a, per side [m]
+  double bore_radius = 0.0;       // R_b [m]
+  double half_length = 0.0;       // L_b / 2 [m]
+  bool has_faces = true;          // end faces that limit the axial play (not on a cylindrical joint)
+  NormalLaw radial_law;
+  double face_stiffness = 0.0;    // K_c [N/m]
+  ModifiedCoulomb friction;
+  double minimum_impact_speed = 1e-3;  // [m/s]
+  double validity_speed = 0.0;         // Eq. 26 [m/s]
+
+  JournalInSleeve() = default;
+  JournalInSleeve(const ClearanceDescription& description, JointType joint, const ClearanceParameters& parameters);
+
+  // The contacts this joint can have.
+  std::vector<ContactPlace> places() const;
+
+  // impact_speed: by ContactPlace [m/s].
+  template <typename T>
+  void wrench(const JournalMotion<T>& motion, const std::array<T, kContactPlaces>& impact_speed,
+              JournalWrench<T>& out) const;
+
+  // Penetration of every place only; used to see where contacts stand without their forces.
+  template <typename T>
+  void gaps(const JournalMotion<T>& motion, std::array<ContactState<T>, kContactPlaces>& contact) const;
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+
+template <typename T>
+void JournalInSleeve::gaps(const JournalMotion<T>& m, std::array<ContactState<T>, kContactPlaces>& contact) const {
+  using std::sqrt;
+  for (ContactState<T>& c : contact) c = {T(-1.0), T(0.0), T(0.0)};
+  const T square = m.e.x() * m.e.x() + m.e.z() * m.e.z();
+  // A concentric journal has no normal; it is far from the bore, so any divisor does.
+  const T distance = sqrt(select(square > T(0.0), square, T(1e-60)));
+  ContactState<T>& radial = contact[static_cast<int>(ContactPlace::radial)];
+  radial.penetration = distance - T(radial_clearance);
+  radial.rate = (m.e_dot.x() * m.e.x() + m.e_dot.z() * m.e.z()) / distance;
+  if (!has_faces) return;
+  ContactState<T>& plus = contact[static_cast<int>(ContactPlace::axial_plus)];
+  plus.penetration = -m.e.y() - T(axial_clearance);
+  plus.rate = -m.e_dot.y();
+  ContactState<T>& minus = contact[static_cast<int>(ContactPlace::axial_minus)];
+  minus.penetration = m.e.y() - T(axial_clearance);
+  minus.rate = m.e_dot.y();
+}
+
+template <typename T>
+void JournalInSleeve::wrench(const JournalMotion<T>& m, const std::array<T, kContactPlaces>& impact_speed,
+                             JournalWrench<T>& out) const {
+  using std::sqrt;
+  gaps(m, out.contact);
+  out.force.setConstant(T(0.0));
+  out.moment.setConstant(T(0.0));
+
+  ContactState<T>& radial = out.contact[static_cast<int>(ContactPlace::radial)];
+  if (any(radial.penetration > T(0.0))) {
+    const T inverse = T(1.0) / (radial.penetration + T(radial_clearance));
+    const T nx = m.e.x() * inverse, nz = m.e.z() * inverse;
+    radial.normal_force =
+        radial_law.force(radial.penetration, radial.rate, impact_speed[static_cast<int>(ContactPlace::radial)]);
+    // Sliding: around the bore along (n_z, 0, -n_x), in which a positive spin about y carries the journal's surface, and
+    // along the axis. The contact point lies R_b - |e| from the journal's centre.
+    const T arm = T(bore_radius - radial_clearance) - radial.penetration;
+    const T around = m.e_dot.x() * nz - m.e_dot.z() * nx + m.w.y() * arm;
+    const T along = m.e_dot.y() + (m.w.z() * nx - m.w.x() * nz) * arm;
+    const T pull = radial.normal_force * friction.force_per_velocity(T(sqrt(around * around + along * along)));
+    const T f_around = -pull * around, f_along = -pull * along;
+    out.force.x() += -radial.normal_force * nx + f_around * nz;
+    out.force.y() += f_along;
+    out.force.z() += -radial.normal_force * nz - f_around * nx;
+    // Q x F with Q = R_b n.
+    out.moment.x() += -T(bore_radius) * nz * f_along;
+    out.moment.y() += T(bore_radius) * f_around;
+    out.moment.z() += T(bore_radius) * nx * f_along;
+  }
+  if (!has_faces) return;
+  for (const auto [place, side] : {std::pair{ContactPlace::axial_minus, -1.0}, std::pair{ContactPlace::axial_plus, 1.0}}) {
+    ContactState<T>& face = out.contact[static_cast<int>(place)];
+    if (!any(face.penetration > T(0.0))) continue;
+    face.normal_force = T(face_stiffness) * positive_part(face.penetration);
+    // At M = (0, side L_b/2, 0): edot + w x (M - e), its part across the axis.
+    const T lever = T(side * half_length) - m.e.y();
+    const T vx = m.e_dot.x() - m.w.y() * m.e.z() - m.w.z() * lever;
+    const T vz = m.e_dot.z() + m.w.x() * lever + m.w.y() * m.e.x();
+    const T pull = face.normal_force * friction.force_per_velocity(T(sqrt(vx * vx + vz * vz)));
+    out.force.x() -= pull * vx;
+    out.force.y() += T(side) * face.normal_force;
+    out.force.z() -= pull * vz;
+    // M x F.
+    out.moment.x() -= T(side * half_length) * pull * vz;
+    out.moment.z() += T(side * half_length) * pull * vx;
+  }
+}
+
+}  // namespace boresight

@@ -1,0 +1,28 @@
+// Modified Coulomb friction (Ambrosio 2002; Sun et al., Eq. 29-30): F_t = c_f c_d F_n against the sliding, with
+//   c_d = 0 below v_s,   (v - v_s) / (v_d - v_s) from v_s to v_d,   1 above v_d.
+// Smooth enough for explicit integration, but it cannot hold a load: under one it creeps at the speed where the ramp
+// balances it, v = v_s + (v_d - v_s) F / (c_f F_n).
+#pragma once
+
+#include "boresight/math/scalar.hpp"
+
+namespace boresight {
+
+struct ModifiedCoulomb {
+  double coefficient = 0.0;     // c_f [-]
+  double static_speed = 1e-4;   // v_s [m/s]
+  double dynamic_speed = 1e-3;  // v_d [m/s]
+
+  // Friction force over normal force over sliding speed [s/m]: multiply by F_n and the sliding velocity vector.
+  // speed >= 0.
+  template <typename T>
+  T force_per_velocity(const T& speed) const {
+    const T ramp = (speed - T(static_speed)) * T(1.0 / (dynamic_speed - static_speed));
+    const T factor = select(ramp > T(1.0), T(1.0), positive_part(ramp));
+    // Where the factor is zero the speed may be too: divide by something harmless there.
+    const T divisor = select(speed > T(static_speed), speed, T(1.0));
+    return T(coefficient) * factor / divisor;
+  }
+};
+
+}  // namespace boresight

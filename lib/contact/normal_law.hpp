@@ -1,0 +1,43 @@
+// Normal contact: Hertz stiffness with dissipation, F = K d^(3/2) (1 + h ddot / ddot0), never below zero.
+//
+// K [N/m^1.5], d penetration [m], ddot its rate, ddot0 > 0 the approach speed at the start of this contact (a discrete
+// state, latched by an event; see contact_memory.hpp), h the law's damping factor, a function of the restitution alone.
+// All laws of the Hunt-Crossley family share this line and differ in h only. F is clamped at zero: no suction.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "boresight/math/scalar.hpp"
+
+namespace boresight {
+
+struct NormalLaw {
+  double stiffness = 0.0;       // K [N/m^1.5]
+  double damping_factor = 0.0;  // h [-]
+
+  // Zero where penetration <= 0.
+  template <typename T>
+  T force(const T& penetration, const T& rate, const T& impact_speed) const {
+    using std::sqrt;
+    // The root is taken of a positive number in every lane: at d = 0 its derivative would be infinite.
+    const T depth = select(penetration > T(0.0), penetration, T(1.0));
+    const T elastic = T(stiffness) * depth * sqrt(depth);
+    const T whole = elastic * (T(1.0) + T(damping_factor) * rate / impact_speed);
+    return select(penetration > T(0.0), positive_part(whole), T(0.0));
+  }
+};
+
+// A law of the family, by its name in mechanism files.
+struct NormalLawEntry {
+  const char* name;
+  const char* source;
+  double (*damping_factor)(double restitution);
+  double lowest_restitution;  // exclusive: the factor grows without bound towards it; -1: takes zero too
+};
+
+const std::vector<NormalLawEntry>& normal_laws();
+// Throws std::invalid_argument for an unknown name.
+const NormalLawEntry& normal_law(const std::string& name);
+
+}  // namespace boresight

@@ -1,0 +1,73 @@
+// A TOML file as a plain tree with line numbers, the settings that replace some of its values, and a record of both.
+//
+// Every value has a path ("clearance.F1.radial"). A setting PATH=VALUE replaces the value of that path before it is read,
+// so it passes the same checks as the file's own text; a `*` between dots stands for any one name. The document remembers which
+// paths were asked for, so that a setting that meets none can be refused with the nearest path that exists.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "boresight/mechanism/description.hpp"
+
+namespace boresight {
+
+// One `--set PATH=VALUE`.
+struct Setting {
+  std::string path, value;
+};
+
+// "PATH=VALUE" taken apart. Throws InputError if there is no "=" or no path.
+Setting parse_setting(const std::string& text);
+
+// One TOML value. Members keep the order of the file.
+struct Node {
+  enum class Kind { table, array, string, integer, number, boolean, date };
+  Kind kind = Kind::table;
+  std::string text;                                   // string: its characters; otherwise the value as it is shown
+  double number = 0.0;                                // integer and number
+  long long integer = 0;                              // integer
+  bool boolean = false;                               // boolean
+  std::vector<std::pair<std::string, Node>> members;  // table
+  std::vector<Node> items;                            // array
+  int line = 0;
+
+  const Node* member(const std::string& key) const;
+};
+
+// What a node is, for the "found ..." of an error: "the number 5", "a table", the text itself in quotation marks.
+std::string shown(const Node& node);
+
+class Document {
+ public:
+  // Throws InputError: file not there, larger than 16 MiB, not TOML (with the line).
+  static Document from_file(const std::string& path, std::vector<Setting> settings = {});
+  static Document from_text(std::string_view text, const std::string& filename, std::vector<Setting> settings = {});
+
+  const Node& root() const { return root_; }
+  const std::string& filename() const { return filename_; }
+  const std::string& content_hash() const { return content_hash_; }
+
+  // The last setting that applies to this path, or nullptr. Marks it, and any earlier ones, as used.
+  const Setting* setting_for(const std::string& path);
+  // True if a setting applies to this path or to one below it. Marks nothing.
+  bool has_setting_under(const std::string& path) const;
+
+  // Throws InputError for the first setting whose path nothing asked for.
+  void refuse_unused_settings() const;
+
+ private:
+  std::string filename_, content_hash_;
+  Node root_;
+  std::vector<Setting> settings_;
+  std::vector<bool> used_;
+  std::set<std::string> asked_;
+};
+
+// "--set PATH=VALUE", where an error in a setting is reported.
+Origin origin_of(const Setting& setting);
+
+}  // namespace boresight

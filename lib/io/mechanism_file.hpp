@@ -1,0 +1,24 @@
+// Reads a mechanism file (TOML) into a `MechanismDescription`.
+//
+//   const MechanismDescription scene = read_mechanism("3-rrcpr.toml", {parse_setting("clearance.F1.radial=0.2mm")});
+//
+// examples/3-rrcpr/3-rrcpr.toml documents the format. Whatever is wrong with the file or a setting is an InputError of one line:
+// file, line, key, what was found, what was expected, and the nearest known name.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "boresight/io/document.hpp"
+#include "boresight/mechanism/description.hpp"
+
+namespace boresight {
+
+MechanismDescription read_mechanism(const std::string& path, const std::vector<Setting>& settings = {});
+
+// The same from text in memory; `filename` is what errors name.
+MechanismDescription read_mechanism_text(std::string_view text, const std::string& filename,
+                                         const std::vector<Setting>& settings = {});
+
+}  // namespace boresight

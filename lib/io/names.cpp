@@ -1,0 +1,83 @@
+#include <algorithm>
+
+#include "boresight/io/mechanism_sections.hpp"
+#include "boresight/io/value_fault.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+template <typename Things>
+std::vector<std::string> names_of(const Things& things) {
+  std::vector<std::string> names;
+  for (const auto& thing : things) names.push_back(thing.name);
+  return names;
+}
+
+int place(const std::vector<std::string>& names, const std::string& name) {
+  const auto it = std::find(names.begin(), names.end(), name);
+  return it == names.end() ? -1 : static_cast<int>(it - names.begin());
+}
+
+}  // namespace
+
+std::string read_name(Cursor& cursor, const std::string& key) {
+  const std::string name = cursor.text(key);
+  bool good = !name.empty() && name.size() <= 100 && name.front() != ' ' && name.back() != ' ';
+  for (const char c : name) {
+    good = good && static_cast<unsigned char>(c) >= 0x20 && c != 0x7f && std::string_view(".*=,{}\"'[]").find(c) == std::string_view::npos;
+  }
+  if (!good) cursor.fail_found(key, in_quotes(name), "a name of up to 100 characters without . * = , { } [ ] and quotation marks");
+  return name;
+}
+
+int body_index(const MechanismDescription& mechanism, const Cursor& cursor, const std::string& key,
+               const std::string& name, bool ground_allowed) {
+  if (ground_allowed && name == "ground") return kGround;
+  std::vector<std::string> names = names_of(mechanism.bodies);
+  const int index = place(names, name);
+  if (index >= 0) return index;
+  if (ground_allowed) names.push_back("ground");
+  cursor.fail_found(key, in_quotes(name), ground_allowed ? "the name of a body, or \"ground\"" : "the name of a body",
+                    nearest_name(name, names));
+}
+
+int joint_index(const MechanismDescription& mechanism, const Cursor& cursor, const std::string& key,
+                const std::string& name) {
+  const std::vector<std::string> names = names_of(mechanism.joints);
+  const int index = place(names, name);
+  if (index >= 0) return index;
+  cursor.fail_found(key, in_quotes(name), "the name of a joint", nearest_name(name, names));
+}
+
+std::pair<int, int> read_connects(Cursor& cursor, const MechanismDescription& mechanism) {
+  const std::vector<std::string> names = cursor.texts("connects", {"first", "second"});
+  cursor.require(names.size() == 2, "connects", "two names of bodies");
+  const int first = body_index(mechanism, cursor, "connects", names[0], true);
+  const int second = body_index(mechanism, cursor, "connects", names[1], true);
+  if (first == second) cursor.fail_found("connects", in_quotes(names[0]) + " twice", "two different bodies");
+  return {first, second};
+}
+
+TimeFunctionPtr compile_expression(const Cursor& cursor, const std::string& key, const std::string& text,
+                                   double duration, const NamedExpressions& named, double scale) {
+  TimeFunctionPtr function;
+  try {
+    function = parse_expression(text, named, scale);
+  } catch (const ValueFault& fault) {
+    cursor.fail_found(key, fault.found, fault.expected, fault.nearest);
+  }
+  const double t = first_time_not_finite(*function, duration);
+  if (t >= 0.0) {
+    cursor.fail_found(key, in_quotes(text) + ", which is not finite or not smooth at t = " + std::to_string(t) + " s",
+                      "an expression that is finite with its first two derivatives during the motion");
+  }
+  return function;
+}
+
+TimeFunctionPtr read_expression(Cursor& cursor, const std::string& key, double duration, const NamedExpressions& named,
+                                double scale) {
+  return compile_expression(cursor, key, cursor.text(key), duration, named, scale);
+}
+
+}  // namespace boresight

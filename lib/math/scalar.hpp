@@ -1,0 +1,24 @@
+// What lets one line of physics serve double, SIMD lanes and automatic derivatives: choice without branching.
+//
+// Code templated on the scalar T writes select(condition, a, b) where plain code would write an if, and asks any(condition)
+// before work that no lane needs. For double a condition is a bool; a lane type brings its own mask and overloads.
+#pragma once
+
+#include <cmath>
+
+namespace boresight {
+
+inline bool any(bool condition) { return condition; }
+
+template <typename T>
+inline T select(bool condition, const T& when_true, const T& when_false) {
+  return condition ? when_true : when_false;
+}
+
+// max(x, 0) by value; the derivative of an inactive branch is zero.
+template <typename T>
+inline T positive_part(const T& x) {
+  return select(x > T(0.0), x, T(0.0));
+}
+
+}  // namespace boresight

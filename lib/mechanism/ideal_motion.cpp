@@ -1,0 +1,357 @@
+#include "boresight/mechanism/ideal_motion.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/rank_analysis.hpp"
+
+namespace boresight {
+namespace {
+
+Vec3 unit(int axis) { return Vec3::Unit(axis); }
+
+std::string time_text(double t) {
+  char text[40];
+  std::snprintf(text, sizeof text, "t = %.6g s", t);
+  return text;
+}
+
+// Newton's limits. Convergence is quadratic, so a guess that needs more steps than this lies outside the basin that the
+// continuation is meant to stay in, and a shorter step is taken instead.
+constexpr int kNewtonSteps = 10;
+constexpr double kConverged = 1e-12;  // of the characteristic length
+constexpr double kLargestCorrection = 0.3;  // [characteristic length or rad]: beyond it the branch could change
+
+}  // namespace
+
+PrescribedPose prescribed_pose(const MechanismDescription& mechanism, double t) {
+  const PoseMotionDescription& motion = *mechanism.motion.pose;
+  PrescribedPose pose;
+  for (int k = 0; k < 3; ++k) {
+    const TimeValue x = motion.position[k]->at(t);
+    pose.p[k] = x.value;
+    pose.v[k] = x.rate;
+    pose.a[k] = x.acceleration;
+  }
+  // R = R1 R2 R3 with elementary turns about fixed letters; each turn's axis is carried along by the turns before it, so
+  // w = sum of rate_k e_k and alpha = sum of acceleration_k e_k + rate_k (w of the turns before) x e_k.
+  Mat3 R = Mat3::Identity();
+  for (int k = 0; k < 3; ++k) {
+    const TimeValue turn = motion.angle[k]->at(t);
+    const Vec3 e = R * unit(motion.sequence[k]);
+    pose.alpha += turn.acceleration * e + turn.rate * pose.w.cross(e);
+    pose.w += turn.rate * e;
+    R = R * Eigen::AngleAxisd(turn.value, unit(motion.sequence[k])).toRotationMatrix();
+  }
+  pose.R = R * mechanism.bodies[motion.body].axes;
+  return pose;
+}
+
+std::vector<Mat6> kinematic_weight(const Mechanism& mechanism) {
+  Vec6 w = Vec6::Ones();
+  w.head<3>() *= mechanism.characteristic_length() * mechanism.characteristic_length();
+  return std::vector<Mat6>(mechanism.bodies(), Mat6(w.asDiagonal()));
+}
+
+IdealSolver::IdealSolver(const Mechanism& mechanism)
+    : mechanism_(mechanism),
+      system_(mechanism, {.clearance = ClearanceRows::closed,
+                          .drives = !mechanism.description().motion.pose,
+                          .prescribed_body = mechanism.description().motion.pose
+                                                 ? mechanism.description().motion.pose->body
+                                                 : kGround}),
+      weight_(kinematic_weight(mechanism)),
+      laws_(mechanism.joints()),
+      blocks_(system_.block_vector()),
+      motion_(system_.body_vector()) {}
+
+void IdealSolver::laws_at(double t, double scale) {
+  for (const auto& [joint, law] : mechanism_.description().motion.drives) {
+    laws_[joint] = law->at(t);
+    laws_[joint].value *= scale;
+  }
+  if (!mechanism_.description().motion.pose) return;
+  PrescribedPose pose = prescribed_pose(mechanism_.description(), t);
+  if (scale < 1.0) {
+    const BodyDescription& home = mechanism_.description().bodies[mechanism_.description().motion.pose->body];
+    pose.p = home.center_of_mass + scale * (pose.p - home.center_of_mass);
+    pose.R = Quat(home.axes).slerp(scale, Quat(pose.R)).toRotationMatrix();
+  }
+  system_.pose() = pose;
+}
+
+bool IdealSolver::newton(IdealState& state) {
+  const double length = mechanism_.characteristic_length();
+  const double scale = std::max(1.0, length);
+  double previous = 1e300, corrected = 0.0;
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    system_.evaluate(state.bodies, laws_);
+    const double violation = system_.violation() / scale;
+    if (!std::isfinite(violation)) return false;
+    // Converged; one more step is still worth its cost while it gains digits.
+    if (violation < 1e-15 || (violation < kConverged && violation > 0.3 * previous)) return true;
+    if (!system_.factor(weight_) && !system_.redundant()) {
+      if (analyse_rank(mechanism_, system_, false).rank == system_.row_count()) return false;
+      system_.set_redundant(true);
+      if (!system_.factor(weight_)) return false;
+    }
+    for (int k = 0; k < system_.blocks(); ++k) blocks_[k] = -system_.rows(k).value;
+    system_.least_motion(blocks_, motion_);
+    for (int b = 0; b < mechanism_.bodies(); ++b) {
+      corrected = std::max({corrected, motion_[b].head<3>().norm() / length, motion_[b].tail<3>().norm()});
+      displace(state.bodies[b], motion_[b]);
+    }
+    if (!(corrected < kLargestCorrection)) return false;
+    previous = violation;
+  }
+  return previous < kConverged;
+}
+
+bool IdealSolver::differentiate(IdealState& state) {
+  const int bodies = mechanism_.bodies();
+  // Velocities: J u = law's rate, which is minus the rate the rows have with all bodies at rest.
+  for (BodyMotion& b : state.bodies) b.v = b.w = Vec3::Zero();
+  system_.evaluate(state.bodies, laws_);
+  if (!system_.factor(weight_)) return false;
+  for (int k = 0; k < system_.blocks(); ++k) blocks_[k] = -system_.rows(k).rate;
+  system_.least_motion(blocks_, motion_);
+  for (int b = 0; b < bodies; ++b) {
+    state.bodies[b].v = motion_[b].head<3>();
+    state.bodies[b].w = motion_[b].tail<3>();
+  }
+  // One refinement: J W J^T squares the condition number, the residual of J u brings the digits back.
+  system_.evaluate(state.bodies, laws_);
+  for (int k = 0; k < system_.blocks(); ++k) blocks_[k] = -system_.rows(k).rate;
+  system_.least_motion(blocks_, motion_);
+  for (int b = 0; b < bodies; ++b) {
+    state.bodies[b].v += motion_[b].head<3>();
+    state.bodies[b].w += motion_[b].tail<3>();
+  }
+  system_.evaluate(state.bodies, laws_);
+  std::vector<Vec6>& acceleration = state.acceleration;
+  for (int k = 0; k < system_.blocks(); ++k) blocks_[k] = system_.rows(k).gamma;
+  system_.least_motion(blocks_, acceleration);
+  std::vector<Vec6> residual = system_.block_vector();
+  system_.multiply(acceleration, residual);
+  for (int k = 0; k < system_.blocks(); ++k) residual[k] = system_.rows(k).gamma - residual[k];
+  system_.least_motion(residual, motion_);
+  for (int b = 0; b < bodies; ++b) acceleration[b] += motion_[b];
+  return true;
+}
+
+void IdealSolver::start(IdealState& state) {
+  const MechanismDescription& m = mechanism_.description();
+  state.t = 0.0;
+  state.bodies.assign(m.bodies.size(), BodyMotion{});
+  state.acceleration.assign(m.bodies.size(), Vec6::Zero());
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    state.bodies[b].p = m.bodies[b].center_of_mass;
+    state.bodies[b].R = m.bodies[b].axes;
+  }
+  laws_at(0.0, 0.0);
+  system_.evaluate(state.bodies, laws_);
+  const RankAnalysis rank = analyse_rank(mechanism_, system_);
+  if (rank.rank < rank.columns) {
+    throw ComputationError("at home, with the prescribed motion held, " + std::to_string(rank.columns - rank.rank) +
+                           " freedom(s) remain: \"" + m.bodies[mechanism_.boresight_body()].name + "\" " +
+                           describe_motion(mechanism_, rank.least_resisted, mechanism_.boresight_body()) +
+                           "; drive them, or describe the motion by [initial] rates");
+  }
+  system_.set_redundant(rank.rank < rank.rows);
+
+  double done = 0.0, step = 1.0;
+  if (!newton(state)) throw ComputationError("the joints do not close at home: the drawing's points and axes disagree");
+  while (done < 1.0) {
+    IdealState trial = state;
+    const double next = std::min(1.0, done + step);
+    laws_at(0.0, next);
+    if (newton(trial)) {
+      state = trial;
+      done = next;
+      step = std::min(1.0, 2.0 * step);
+    } else if ((step *= 0.5) < 1e-4) {
+      throw ComputationError("the starting pose cannot be reached from home");
+    }
+  }
+  if (!differentiate(state)) throw ComputationError("the starting pose is singular");
+}
+
+bool IdealSolver::solve(double t, IdealState& state) {
+  IdealState trial = state;
+  const double dt = t - state.t;
+  for (int b = 0; b < mechanism_.bodies(); ++b) {
+    const BodyMotion& now = state.bodies[b];
+    Vec6 step;
+    step << now.v, now.w;
+    step = dt * step + 0.5 * dt * dt * state.acceleration[b];
+    displace(trial.bodies[b], step);
+  }
+  laws_at(t, 1.0);
+  if (!newton(trial) || !differentiate(trial)) return false;
+  trial.t = t;
+  state = std::move(trial);
+  return true;
+}
+
+namespace {
+
+// From state.t to t by continuation: the step is halved where Newton fails.
+void follow(IdealSolver& solver, double t, IdealState& state, const Mechanism& mechanism) {
+  const double shortest = 1e-7 * mechanism.duration();
+  double step = t - state.t;
+  while (state.t < t) {
+    const double next = t - state.t <= step * 1.0000001 ? t : state.t + step;
+    if (solver.solve(next, state)) {
+      step *= 2.0;
+    } else if ((step *= 0.5) < shortest) {
+      throw ComputationError("the ideal motion cannot be followed beyond " + time_text(state.t) +
+                             ": the prescribed motion leaves what the mechanism can reach, or passes a singular pose");
+    }
+  }
+}
+
+// Largest difference between the interpolated and an exact state, in characteristic lengths and radians.
+double interpolation_error(const IdealMotion& motion, const IdealState& exact, double length) {
+  double worst = 0.0;
+  for (std::size_t b = 0; b < exact.bodies.size(); ++b) {
+    const BodyMotion m = motion.body(exact.t, static_cast<int>(b));
+    worst = std::max({worst, (m.p - exact.bodies[b].p).norm() / length, (m.R - exact.bodies[b].R).norm()});
+  }
+  return worst;
+}
+
+}  // namespace
+
+IdealMotion IdealMotion::kinematic(const Mechanism& mechanism) {
+  constexpr double kTolerance = 1e-12;
+  constexpr int kMostIntervals = 1 << 15;
+  const double T = mechanism.duration();
+  const bool read_drives = mechanism.description().motion.pose.has_value();
+  for (int intervals = 128;; intervals *= 2) {
+    IdealSolver solver(mechanism);
+    IdealState state;
+    solver.start(state);
+    std::vector<IdealState> knots{state}, checks;
+    for (int k = 1; k <= intervals; ++k) {
+      // Every 16th gap is also solved at its middle, to see what interpolation loses there.
+      if (k % 16 == 0) {
+        follow(solver, (k - 0.5) * T / intervals, state, mechanism);
+        checks.push_back(state);
+      }
+      follow(solver, k * T / intervals, state, mechanism);
+      knots.push_back(state);
+    }
+    IdealMotion motion(mechanism, knots, read_drives);
+    double worst = 0.0;
+    for (const IdealState& exact : checks)
+      worst = std::max(worst, interpolation_error(motion, exact, mechanism.characteristic_length()));
+    if (worst < kTolerance || 2 * intervals > kMostIntervals) return motion;
+  }
+}
+
+IdealMotion::IdealMotion(const Mechanism& mechanism, const std::vector<IdealState>& knots)
+    : IdealMotion(mechanism, knots, false) {}
+
+IdealMotion::IdealMotion(const Mechanism& mechanism, const std::vector<IdealState>& knots, bool read_drives) {
+  fit(mechanism, knots, read_drives);
+}
+
+void IdealMotion::fit(const Mechanism& mechanism, const std::vector<IdealState>& knots, bool read_drives) {
+  bodies_ = mechanism.bodies();
+  knots_ = static_cast<int>(knots.size());
+  duration_ = knots.back().t - knots.front().t;
+  const double spacing = duration_ / (knots_ - 1);
+  const int width = 7 * bodies_;
+  std::vector<double> value, rate, acceleration;
+  value.reserve(static_cast<std::size_t>(width) * knots_);
+  std::vector<Quat> last(bodies_, Quat::Identity());
+  for (const IdealState& s : knots) {
+    for (int b = 0; b < bodies_; ++b) {
+      const BodyMotion& body = s.bodies[b];
+      Quat q(body.R);
+      if (q.dot(last[b]) < 0.0) q.coeffs() *= -1.0;  // the same rotation, on the side that continues the curve
+      last[b] = q;
+      // qdot = w q / 2 and qddot = alpha q / 2 - |w|^2 q / 4, with w, alpha as pure quaternions in world axes.
+      const Vec3 alpha = s.acceleration[b].tail<3>();
+      const Quat wq = Quat(0.0, body.w.x(), body.w.y(), body.w.z()) * q;
+      const Quat aq = Quat(0.0, alpha.x(), alpha.y(), alpha.z()) * q;
+      for (int k = 0; k < 3; ++k) {
+        value.push_back(body.p[k]);
+        rate.push_back(body.v[k]);
+        acceleration.push_back(s.acceleration[b][k]);
+      }
+      const Eigen::Vector4d q0(q.w(), q.x(), q.y(), q.z());
+      const Eigen::Vector4d q1 = 0.5 * Eigen::Vector4d(wq.w(), wq.x(), wq.y(), wq.z());
+      const Eigen::Vector4d q2 =
+          0.5 * Eigen::Vector4d(aq.w(), aq.x(), aq.y(), aq.z()) - 0.25 * body.w.squaredNorm() * q0;
+      for (int k = 0; k < 4; ++k) {
+        value.push_back(q0[k]);
+        rate.push_back(q1[k]);
+        acceleration.push_back(q2[k]);
+      }
+    }
+  }
+  bodies_spline_ = QuinticSpline(knots.front().t, spacing, width, value, rate, acceleration);
+
+  for (int j = 0; j < mechanism.joints(); ++j)
+    if (mechanism.description().joints[j].driven) driven_.push_back(j);
+  if (!read_drives) {
+    for (int j : driven_) {
+      const auto law = mechanism.description().motion.drives.find(j);
+      drive_law_.push_back(law == mechanism.description().motion.drives.end() ? std::make_shared<ConstantFunction>(0.0)
+                                                                               : law->second);
+    }
+    return;
+  }
+  const int drives = static_cast<int>(driven_.size());
+  value.clear(), rate.clear(), acceleration.clear();
+  for (const IdealState& s : knots) {
+    for (int k = 0; k < drives; ++k) {
+      TimeValue x = joint_coordinate(mechanism, driven_[k], s.bodies, &s.acceleration);
+      if (!value.empty() && static_cast<int>(value.size()) >= drives &&
+          mechanism.description().joints[driven_[k]].type == JointType::revolute) {
+        const double before = value[value.size() - drives];
+        x.value += 2.0 * std::numbers::pi * std::round((before - x.value) / (2.0 * std::numbers::pi));
+      }
+      value.push_back(x.value);
+      rate.push_back(x.rate);
+      acceleration.push_back(x.acceleration);
+    }
+  }
+  if (drives > 0) drive_spline_ = QuinticSpline(knots.front().t, spacing, drives, value, rate, acceleration);
+}
+
+void IdealMotion::drive_laws(double t, std::vector<TimeValue>& laws) const {
+  for (std::size_t k = 0; k < driven_.size(); ++k)
+    laws[driven_[k]] = drive_law_.empty() ? drive_spline_.at(t, static_cast<int>(k)) : drive_law_[k]->at(t);
+}
+
+BodyMotion IdealMotion::body(double t, int body, BodyAcceleration* acceleration) const {
+  TimeValue x[7];
+  bodies_spline_.at(t, 7 * body, 7, x);
+  BodyMotion m;
+  m.p = Vec3(x[0].value, x[1].value, x[2].value);
+  m.v = Vec3(x[0].rate, x[1].rate, x[2].rate);
+  const Quat q(x[3].value, x[4].value, x[5].value, x[6].value);
+  const Quat q1(x[3].rate, x[4].rate, x[5].rate, x[6].rate);
+  m.R = q.normalized().toRotationMatrix();
+  m.w = 2.0 * (q1 * q.conjugate()).vec();
+  if (acceleration) {
+    const Quat q2(x[3].acceleration, x[4].acceleration, x[5].acceleration, x[6].acceleration);
+    acceleration->head<3>() = Vec3(x[0].acceleration, x[1].acceleration, x[2].acceleration);
+    acceleration->tail<3>() = 2.0 * (q2 * q.conjugate()).vec();
+  }
+  return m;
+}
+
+void IdealMotion::state(double t, IdealState& state) const {
+  state.t = t;
+  state.bodies.resize(bodies_);
+  state.acceleration.resize(bodies_);
+  for (int b = 0; b < bodies_; ++b) state.bodies[b] = body(t, b, &state.acceleration[b]);
+}
+
+}  // namespace boresight

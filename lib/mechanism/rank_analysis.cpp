@@ -1,0 +1,64 @@
+#include "boresight/mechanism/rank_analysis.hpp"
+
+#include <Eigen/SVD>
+#include <cmath>
+#include <cstdio>
+
+namespace boresight {
+namespace {
+
+MatX scaled(MatX J, double length) {
+  for (int row = 0; row < J.rows(); ++row) {
+    bool distance = false;
+    for (int b = 0; b < J.cols() / 6; ++b) distance |= J.block(row, 6 * b, 1, 3).cwiseAbs().maxCoeff() > 0.0;
+    if (distance) J.row(row) /= length;
+  }
+  for (int b = 0; b < J.cols() / 6; ++b) J.middleCols(6 * b, 3) *= length;
+  return J;
+}
+
+std::string direction(Vec3 v) {
+  v.normalize();
+  // The sign of a direction means nothing here: let its largest component be positive.
+  Eigen::Index k;
+  v.cwiseAbs().maxCoeff(&k);
+  if (v[k] < 0.0) v = -v;
+  char text[80];
+  const auto clean = [](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; };
+  std::snprintf(text, sizeof text, "(%.3g, %.3g, %.3g)", clean(v.x()), clean(v.y()), clean(v.z()));
+  return text;
+}
+
+}  // namespace
+
+RankAnalysis analyse_rank(const Mechanism& mechanism, const ConstraintSystem& evaluated, bool with_motion) {
+  const double length = mechanism.characteristic_length();
+  const MatX J = scaled(evaluated.dense_jacobian(), length);
+  RankAnalysis result;
+  result.rows = static_cast<int>(J.rows());
+  result.columns = static_cast<int>(J.cols());
+  if (J.rows() == 0) return result;
+  const Eigen::BDCSVD<MatX> svd(J, with_motion ? Eigen::ComputeFullV : 0);
+  const VecX& sigma = svd.singularValues();
+  result.largest = sigma[0];
+  for (int i = 0; i < sigma.size(); ++i) result.rank += sigma[i] > kRankTolerance * result.largest;
+  result.weakest = J.rows() >= J.cols() ? sigma[J.cols() - 1] : 0.0;
+  if (with_motion) {
+    result.least_resisted = svd.matrixV().col(J.cols() - 1);
+    for (int b = 0; b < evaluated.bodies(); ++b) result.least_resisted.segment<3>(6 * b) *= length;
+  }
+  return result;
+}
+
+std::string describe_motion(const Mechanism& mechanism, const VecX& motion, int body) {
+  const Vec3 v = motion.segment<3>(6 * body), w = motion.segment<3>(6 * body + 3);
+  const double moves = v.norm() / mechanism.characteristic_length(), turns = w.norm();
+  const double whole = std::hypot(moves, turns);
+  if (whole < 1e-9) return "stands still";
+  std::string text;
+  if (turns > 0.05 * whole) text = "turns about " + direction(w);
+  if (moves > 0.05 * whole) text += (text.empty() ? "moves along " : " and moves along ") + direction(v);
+  return text;
+}
+
+}  // namespace boresight

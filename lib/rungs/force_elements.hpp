@@ -1,0 +1,51 @@
+// The forces between bodies that are not constraints: springs, loads, and the contacts of the clearance joints.
+// Shared by all multibody formulations: each hands over where the bodies are and takes back a wrench per body.
+#pragma once
+
+#include <vector>
+
+#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/mechanism/body_motion.hpp"
+#include "boresight/mechanism/mechanism.hpp"
+
+namespace boresight {
+
+class ForceElements {
+ public:
+  // with_clearance: false for the mechanism with ideal joints.
+  ForceElements(const Mechanism& mechanism, const Parameters& parameters, bool with_clearance);
+
+  // Adds to wrench, per body: force, then moment about the body's own centre of mass, world axes.
+  void apply(double t, const std::vector<BodyMotion>& bodies, const std::vector<ContactMemory>& memory,
+             std::vector<Vec6>& wrench);
+
+  // Elastic energy of springs and contacts [J].
+  double elastic_energy(const std::vector<BodyMotion>& bodies) const;
+
+  int clearances() const { return static_cast<int>(joints_.size()); }
+  const JournalInSleeve& joint(int clearance) const { return joints_[clearance].law; }
+  JournalMotion<double> journal_motion(int clearance, const std::vector<BodyMotion>& bodies) const;
+  // Of the last apply().
+  const JournalWrench<double>& contact(int clearance) const { return joints_[clearance].wrench; }
+  const JournalMotion<double>& motion(int clearance) const { return joints_[clearance].motion; }
+
+ private:
+  struct Joint {
+    JournalInSleeve law;
+    JointFrame sleeve, journal;
+    JournalMotion<double> motion;
+    JournalWrench<double> wrench;
+  };
+  struct Spring {
+    int first, second;
+    Vec3 p_first, p_second;  // in body axes from the centre of mass (world for the ground)
+    SpringParameters law;
+  };
+
+  const Mechanism& mechanism_;
+  std::vector<Joint> joints_;
+  std::vector<Spring> springs_;
+  std::vector<Vec3> load_point_;  // of the description's loads at a point, body axes
+};
+
+}  // namespace boresight

@@ -1,0 +1,286 @@
+// The paper's equations of motion: absolute coordinates, Lagrange multipliers, Baumgarte's stabilisation (Sun et al.,
+// section 3.3), with their block structure used.
+//
+//   [M  Phi^T] [vdot  ]   [Q     ]
+//   [Phi  0  ] [lambda] = [gamma'],   gamma' = gamma - 2 alpha Phidot - beta^2 Phi                       (Eq. 41, 43)
+//
+// is solved as  (Phi M^-1 Phi^T) lambda = Phi M^-1 Q - gamma',  vdot = M^-1 (Q - Phi^T lambda).
+// M is block-diagonal and Phi M^-1 Phi^T has one block per joint and per pair of joints that share a body (three of 78
+// rows' blocks a leg), which ConstraintSystem factors without fill beyond the platform.
+//
+// State, 13 numbers a body: p_WB (3), quaternion R_WB (w x y z), v_WB (3), w_WB (3).
+// The alternative to Baumgarte is projection: after each step positions and velocities return to the constraints along the
+// shortest way in the norm of the masses (Eich 1993, SIAM J. Numer. Anal. 30), with alpha = beta = 0.
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "boresight/mechanism/constraint_system.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/rank_analysis.hpp"
+#include "boresight/rungs/formulation.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr int kPerBody = 13;
+
+class PaperFormulation final : public Formulation {
+ public:
+  PaperFormulation(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion* drives,
+                   const PaperFormulationOptions& options)
+      : Formulation(mechanism, parameters, options.with_clearance),
+        mechanism_(mechanism),
+        drives_(drives),
+        options_(options),
+        mass_(mechanism.mass_properties(parameters)),
+        gravity_(parameters.gravity),
+        constraints_(mechanism, {.clearance = options.with_clearance ? ClearanceRows::open : ClearanceRows::closed}),
+        laws_(mechanism.joints()),
+        bodies_(mechanism.bodies()),
+        inverse_mass_(mechanism.bodies(), Mat6::Zero()),
+        force_(constraints_.body_vector()),
+        reaction_(constraints_.body_vector()),
+        acceleration_(constraints_.body_vector()),
+        lambda_(constraints_.block_vector()) {
+    for (const MassProperties& m : mass_) inverse_inertia_.push_back(m.inertia.inverse());
+    if (options_.stabilisation == Stabilisation::baumgarte) {
+      alpha_ = options_.alpha;
+      beta_ = options_.beta;
+    }
+  }
+
+  int state_size() const override { return kPerBody * mechanism_.bodies(); }
+
+  void start(const IdealState& ideal, VecX& y) override {
+    y.resize(state_size());
+    for (int b = 0; b < mechanism_.bodies(); ++b) {
+      const BodyMotion& body = ideal.bodies[b];
+      const Quat q(body.R);
+      y.segment<kPerBody>(kPerBody * b) << body.p, q.w(), q.x(), q.y(), q.z(), body.v, body.w;
+    }
+    unpack(y);
+    update_laws(ideal.t);
+    constraints_.evaluate(bodies_, laws_);
+    const RankAnalysis rank = analyse_rank(mechanism_, constraints_, false);
+    constraints_.set_redundant(rank.rank < rank.rows);
+  }
+
+  const std::vector<BodyMotion>& bodies(double, const VecX& y) override {
+    unpack(y);
+    return bodies_;
+  }
+
+  void derivative(double t, const VecX& y, const std::vector<ContactMemory>& memory, VecX& dy) override {
+    unpack(y);
+    evaluate_forces(t, memory);
+    update_laws(t);
+    constraints_.evaluate(bodies_, laws_);
+    if (!constraints_.factor(inverse_mass_)) throw_singular(t);
+
+    for (int b = 0; b < mechanism_.bodies(); ++b) acceleration_[b].noalias() = inverse_mass_[b] * force_[b];
+    constraints_.multiply(acceleration_, lambda_);
+    for (int k = 0; k < constraints_.blocks(); ++k) {
+      const JointRows& rows = constraints_.rows(k);
+      lambda_[k] -= rows.gamma - 2.0 * alpha_ * rows.rate - beta_ * beta_ * rows.value;
+    }
+    constraints_.solve(lambda_);
+    constraints_.multiply_transposed(lambda_, reaction_);
+    for (int b = 0; b < mechanism_.bodies(); ++b)
+      acceleration_[b].noalias() -= inverse_mass_[b] * reaction_[b];
+
+    for (int b = 0; b < mechanism_.bodies(); ++b) {
+      const BodyMotion& body = bodies_[b];
+      const auto q = y.segment<4>(kPerBody * b + 3);
+      auto rate = dy.segment<kPerBody>(kPerBody * b);
+      rate.head<3>() = body.v;
+      // qdot = (0, w) q / 2, w in world axes.
+      rate[3] = -0.5 * body.w.dot(q.tail<3>());
+      rate.segment<3>(4) = 0.5 * (q[0] * body.w + body.w.cross(q.tail<3>()));
+      rate.tail<6>() = acceleration_[b];
+    }
+  }
+
+  void settle(double t, VecX& y) override {
+    for (int b = 0; b < mechanism_.bodies(); ++b) y.segment<4>(kPerBody * b + 3).normalize();
+    if (options_.stabilisation == Stabilisation::projection) project(t, y);
+  }
+
+  const std::vector<BodyAcceleration>& acceleration() const override { return acceleration_; }
+  double violation() const override { return constraints_.violation(); }
+
+  MatX offset_compliance() override {
+    if (!released_) released_ = std::make_unique<ConstraintSystem>(
+        mechanism_, ConstraintSystem::Rows{.clearance = ClearanceRows::released, .drives = false});
+    released_->evaluate(bodies_, laws_);
+    const int n = 3 * forces_.clearances();
+    MatX A = MatX::Zero(n, n);
+    std::vector<Vec6> unit = released_->block_vector(), answer = released_->block_vector();
+    std::vector<Vec6> motion = released_->body_vector(), reaction = released_->body_vector();
+    std::vector<Vec6> lambda = constraints_.block_vector();
+    for (int c = 0; c < n / 3; ++c) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto [block, row] = released_row(c, axis);
+        if (row < 0) continue;
+        for (Vec6& u : unit) u.setZero();
+        unit[block][row] = 1.0;
+        released_->multiply_transposed(unit, motion);
+        for (int b = 0; b < mechanism_.bodies(); ++b) motion[b] = Vec6(inverse_mass_[b] * motion[b]);
+        constraints_.multiply(motion, lambda);
+        constraints_.solve(lambda);
+        constraints_.multiply_transposed(lambda, reaction);
+        for (int b = 0; b < mechanism_.bodies(); ++b) motion[b] -= inverse_mass_[b] * reaction[b];
+        released_->multiply(motion, answer);
+        for (int d = 0; d < n / 3; ++d)
+          for (int k = 0; k < 3; ++k)
+            if (const auto [at, i] = released_row(d, k); i >= 0) A(3 * d + k, 3 * c + axis) = answer[at][i];
+      }
+    }
+    return A;
+  }
+
+  double energy(double, const VecX& y) override {
+    unpack(y);
+    double sum = forces_.elastic_energy(bodies_);
+    for (int b = 0; b < mechanism_.bodies(); ++b) {
+      const BodyMotion& body = bodies_[b];
+      const Vec3 c = body.R * mass_[b].c;
+      const Vec3 v = body.v + body.w.cross(c), w = body.R.transpose() * body.w;
+      sum += 0.5 * mass_[b].mass * v.squaredNorm() + 0.5 * w.dot(mass_[b].inertia * w) -
+             mass_[b].mass * gravity_.dot(body.p + c);
+    }
+    return sum;
+  }
+
+ private:
+  void unpack(const VecX& y) {
+    for (int b = 0; b < mechanism_.bodies(); ++b) {
+      const auto s = y.segment<kPerBody>(kPerBody * b);
+      BodyMotion& body = bodies_[b];
+      body.p = s.head<3>();
+      body.R = Quat(s[3], s[4], s[5], s[6]).normalized().toRotationMatrix();
+      body.v = s.segment<3>(7);
+      body.w = s.tail<3>();
+    }
+  }
+
+  void update_laws(double t) {
+    if (drives_) drives_->drive_laws(t, laws_);
+  }
+
+  // M^-1 and Q of every body: gravity, the gyroscopic and centripetal terms, force elements. With c from the body's own
+  // centre of mass (the reference point) to the combined one, I_c about the latter:
+  //   m (vdot + wdot x c + w x (w x c)) = F,   I_c wdot + w x I_c w = moment about the combined centre.
+  void evaluate_forces(double t, const std::vector<ContactMemory>& memory) {
+    for (int b = 0; b < mechanism_.bodies(); ++b) {
+      const BodyMotion& body = bodies_[b];
+      const MassProperties& m = mass_[b];
+      const Mat3 inverse = body.R * inverse_inertia_[b] * body.R.transpose();
+      const Vec3 w_B = body.R.transpose() * body.w;
+      const Vec3 gyroscopic = body.R * w_B.cross(m.inertia * w_B);
+      Mat6& W = inverse_mass_[b];
+      W.bottomRightCorner<3, 3>() = inverse;
+      W.topLeftCorner<3, 3>() = Mat3::Identity() / m.mass;
+      force_[b].head<3>() = m.mass * gravity_;
+      force_[b].tail<3>() = -gyroscopic;
+      if (m.c.squaredNorm() > 0.0) {
+        const Vec3 c = body.R * m.c;
+        Mat3 cross;
+        cross << 0.0, -c.z(), c.y(), c.z(), 0.0, -c.x(), -c.y(), c.x(), 0.0;
+        // v = v_c + c x w, so M^-1 = T diag(1/m, I_c^-1) T^T with T = [1 [c]; 0 1].
+        W.topRightCorner<3, 3>() = cross * inverse;
+        W.bottomLeftCorner<3, 3>() = W.topRightCorner<3, 3>().transpose();
+        W.topLeftCorner<3, 3>() += cross * inverse * cross.transpose();
+        const Vec3 centripetal = m.mass * body.w.cross(body.w.cross(c));
+        force_[b].head<3>() -= centripetal;
+        force_[b].tail<3>() += c.cross(Vec3(m.mass * gravity_ - centripetal));
+      }
+    }
+    forces_.apply(t, bodies_, memory, force_);
+  }
+
+  // Positions (two Newton steps: the second one only where the first was large), then velocities.
+  void project(double t, VecX& y) {
+    update_laws(t);
+    for (int pass = 0; pass < 3; ++pass) {
+      unpack(y);
+      evaluate_inverse_mass();
+      constraints_.evaluate(bodies_, laws_);
+      if (!constraints_.factor(inverse_mass_)) throw_singular(t);
+      if (pass == 2 || constraints_.violation() < 1e-14) break;
+      for (int k = 0; k < constraints_.blocks(); ++k) lambda_[k] = -constraints_.rows(k).value;
+      constraints_.least_motion(lambda_, reaction_);
+      for (int b = 0; b < mechanism_.bodies(); ++b) {
+        displace(bodies_[b], reaction_[b]);
+        Quat q(bodies_[b].R);
+        auto s = y.segment<kPerBody>(kPerBody * b);
+        if (q.coeffs().dot(Eigen::Vector4d(s[4], s[5], s[6], s[3])) < 0.0) q.coeffs() *= -1.0;
+        s.head<3>() = bodies_[b].p;
+        s.segment<4>(3) << q.w(), q.x(), q.y(), q.z();
+      }
+    }
+    for (int k = 0; k < constraints_.blocks(); ++k) lambda_[k] = -constraints_.rows(k).rate;
+    constraints_.least_motion(lambda_, reaction_);
+    for (int b = 0; b < mechanism_.bodies(); ++b) y.segment<6>(kPerBody * b + 7) += reaction_[b];
+  }
+
+  void evaluate_inverse_mass() {
+    for (int b = 0; b < mechanism_.bodies(); ++b) {
+      const Mat3 inverse = bodies_[b].R * inverse_inertia_[b] * bodies_[b].R.transpose();
+      Mat6& W = inverse_mass_[b];
+      W.setZero();
+      W.topLeftCorner<3, 3>() = Mat3::Identity() / mass_[b].mass;
+      W.bottomRightCorner<3, 3>() = inverse;
+      if (mass_[b].c.squaredNorm() == 0.0) continue;
+      const Vec3 c = bodies_[b].R * mass_[b].c;
+      Mat3 cross;
+      cross << 0.0, -c.z(), c.y(), c.z(), 0.0, -c.x(), -c.y(), c.x(), 0.0;
+      W.topRightCorner<3, 3>() = cross * inverse;
+      W.bottomLeftCorner<3, 3>() = W.topRightCorner<3, 3>().transpose();
+      W.topLeftCorner<3, 3>() += cross * inverse * cross.transpose();
+    }
+  }
+
+  [[noreturn]] void throw_singular(double t) const {
+    const RankAnalysis rank = analyse_rank(mechanism_, constraints_);
+    throw ComputationError("singular pose at t = " + std::to_string(t) + " s: the constraints lose rank, \"" +
+                           mechanism_.description().bodies[mechanism_.boresight_body()].name + "\" " +
+                           describe_motion(mechanism_, rank.least_resisted, mechanism_.boresight_body()) +
+                           " while every drive stands still; `boresight check` shows where");
+  }
+
+  // Block and row of offset axis 0 x, 1 y, 2 z among the released rows; row -1 if it is not released.
+  std::pair<int, int> released_row(int clearance, int axis) const {
+    const bool revolute = mechanism_.description().joints[mechanism_.description().clearances[clearance].joint].type ==
+                          JointType::revolute;
+    const int row = revolute ? axis : (axis == 1 ? -1 : axis / 2);
+    for (int k = 0; k < released_->blocks(); ++k)
+      if (released_->joints()[k].joint() == mechanism_.description().clearances[clearance].joint) return {k, row};
+    return {0, -1};
+  }
+
+  const Mechanism& mechanism_;
+  const IdealMotion* drives_;
+  PaperFormulationOptions options_;
+  double alpha_ = 0.0, beta_ = 0.0;
+  std::vector<MassProperties> mass_;
+  std::vector<Mat3> inverse_inertia_;
+  Vec3 gravity_;
+  ConstraintSystem constraints_;
+  std::unique_ptr<ConstraintSystem> released_;
+  std::vector<TimeValue> laws_;
+  std::vector<BodyMotion> bodies_;
+  std::vector<Mat6> inverse_mass_;
+  std::vector<Vec6> force_, reaction_;
+  std::vector<BodyAcceleration> acceleration_;
+  std::vector<Vec6> lambda_;
+};
+
+}  // namespace
+
+std::unique_ptr<Formulation> make_paper_formulation(const Mechanism& mechanism, const Parameters& parameters,
+                                                    const IdealMotion* drives, const PaperFormulationOptions& options) {
+  return std::make_unique<PaperFormulation>(mechanism, parameters, drives, options);
+}
+
+}  // namespace boresight
