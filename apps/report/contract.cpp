@@ -1,0 +1,447 @@
+#include "report/contract.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boresight::report {
+namespace {
+
+using nlohmann::json;
+using Words = std::initializer_list<const char*>;
+
+// One value of the document and where it stands, so that every message can say so.
+struct Place {
+  const json& value;
+  std::string path;
+
+  [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
+    throw std::invalid_argument("report document: " + (path.empty() ? std::string("(root)") : path) + ": found " + found +
+                                ", expected " + expected);
+  }
+  // What stands here, short enough for one line of message.
+  std::string found() const {
+    std::string text = value.is_object()  ? "an object"
+                       : value.is_array() ? "an array of " + std::to_string(value.size())
+                                          : value.dump(-1, ' ', false, json::error_handler_t::replace);
+    return text.size() > 60 ? text.substr(0, 57) + "..." : text;
+  }
+  bool has(const char* key) const { return value.contains(key); }
+  Place at(const char* key) const { return {value.at(key), path.empty() ? key : path + "." + key}; }
+  Place at(std::size_t i) const { return {value.at(i), path + "[" + std::to_string(i) + "]"}; }
+};
+
+std::string listed(Words words) {
+  std::string text;
+  for (const char* word : words) text += (text.empty() ? "" : ", ") + std::string(word);
+  return text;
+}
+
+void object(const Place& place, Words required, Words optional) {
+  if (!place.value.is_object()) place.fail(place.found(), "an object with " + listed(required));
+  for (const char* key : required) {
+    if (!place.has(key)) place.fail("no key '" + std::string(key) + "'", "the keys " + listed(required));
+  }
+  const auto is = [](const std::string& name) { return [&name](const char* key) { return name == key; }; };
+  for (const auto& [name, value] : place.value.items()) {
+    if (std::none_of(required.begin(), required.end(), is(name)) &&
+        std::none_of(optional.begin(), optional.end(), is(name))) {
+      place.fail("unknown key '" + name + "'",
+                 listed(required) + (optional.size() ? "; or, where wanted, " + listed(optional) : ""));
+    }
+  }
+}
+
+void text(const Place& place, bool may_be_empty = true) {
+  if (!place.value.is_string()) place.fail(place.found(), "text");
+  if (!may_be_empty && place.value.get_ref<const std::string&>().empty()) place.fail("empty text", "some text");
+}
+void text_where_given(const Place& place, Words keys) {
+  for (const char* key : keys) if (place.has(key)) text(place.at(key));
+}
+
+void flag_where_given(const Place& place, Words keys) {
+  for (const char* key : keys) {
+    if (place.has(key) && !place.at(key).value.is_boolean()) place.at(key).fail(place.at(key).found(), "true or false");
+  }
+}
+
+void one_of(const Place& place, Words words) {
+  text(place);
+  const auto& word = place.value.get_ref<const std::string&>();
+  if (std::none_of(words.begin(), words.end(), [&](const char* w) { return word == w; })) {
+    place.fail("'" + word + "'", "one of " + listed(words));
+  }
+}
+
+void finite(const Place& place, double least = -std::numeric_limits<double>::infinity(),
+            double most = std::numeric_limits<double>::infinity()) {
+  if (!place.value.is_number() || !std::isfinite(place.value.get<double>())) place.fail(place.found(), "a finite number");
+  const double number = place.value.get<double>();
+  if (number < least || number > most) {
+    const auto end = [](double limit) { return std::isfinite(limit) ? json(limit).dump() : std::string("any"); };
+    place.fail(place.found(), "a number from " + end(least) + " to " + end(most));
+  }
+}
+
+void array(const Place& place) {
+  if (!place.value.is_array()) place.fail(place.found(), "an array");
+}
+
+void same_length(const Place& place, std::size_t length, const char* as_in) {
+  array(place);
+  if (place.value.size() != length) {
+    place.fail(std::to_string(place.value.size()) + " values", std::to_string(length) + ", as in " + as_in);
+  }
+}
+
+// null is a gap; NaN and infinity become null when written.
+void numbers(const Place& place) {
+  array(place);
+  for (std::size_t i = 0; i < place.value.size(); ++i) {
+    if (!place.value[i].is_number() && !place.value[i].is_null()) place.at(i).fail(place.at(i).found(), "a number or null");
+  }
+}
+void texts(const Place& place) {
+  array(place);
+  for (std::size_t i = 0; i < place.value.size(); ++i) text(place.at(i));
+}
+// Along an axis: all numbers, or all names of categories.
+void numbers_or_names(const Place& place) {
+  array(place);
+  if (!place.value.empty() && place.value[0].is_string()) texts(place);
+  else numbers(place);
+}
+
+void each(const Place& place, const char* key, void (*check_one)(const Place&)) {
+  if (!place.has(key)) return;
+  const Place list = place.at(key);
+  array(list);
+  for (std::size_t i = 0; i < list.value.size(); ++i) check_one(list.at(i));
+}
+
+void axis(const Place& place) {
+  object(place, {"label"}, {"unit", "log", "range"});
+  text(place.at("label"), false);
+  text_where_given(place, {"unit"});
+  flag_where_given(place, {"log"});
+  if (!place.has("range")) return;
+  const Place range = place.at("range");
+  if (!range.value.is_array() || range.value.size() != 2) range.fail(range.found(), "two numbers, [from, to]");
+  finite(range.at(std::size_t{0}));
+  finite(range.at(std::size_t{1}));
+  if (range.value[0].get<double>() >= range.value[1].get<double>()) range.fail(range.value.dump(), "from < to");
+  if (place.value.value("log", false) && range.value[0].get<double>() <= 0.0) {
+    range.fail(range.value.dump(), "positive ends, as the axis is logarithmic");
+  }
+}
+
+void series(const Place& place) {
+  object(place, {"name", "x"},
+         {"y", "y_low", "style", "muted", "hidden", "color", "error_low", "error_high", "text", "bins"});
+  text(place.at("name"), false);
+  if (place.has("style")) {
+    one_of(place.at("style"), {"line", "dash", "markers", "line+markers", "steps", "bars", "area", "histogram", "box"});
+  }
+  flag_where_given(place, {"muted", "hidden"});
+  const std::string style = place.value.value("style", "line");
+  const bool counts = style == "histogram";
+  numbers_or_names(place.at("x"));
+  if (counts && place.has("y")) place.at("y").fail("a key", "no y: a histogram counts the values of x");
+  if (!counts && !place.has("y")) place.fail("no key 'y'", "y, as the style is " + style);
+  const std::size_t length = place.at("x").value.size();
+  for (const char* key : {"y", "y_low", "error_low", "error_high"}) {
+    if (!place.has(key)) continue;
+    same_length(place.at(key), length, "x");
+    if (std::string_view(key) == "y") numbers_or_names(place.at(key));
+    else numbers(place.at(key));
+  }
+  for (const char* key : {"error_low", "error_high"}) {
+    if (!place.has(key)) continue;
+    const Place errors = place.at(key);
+    for (std::size_t i = 0; i < length; ++i) {
+      if (errors.value[i].is_number() && errors.value[i].get<double>() < 0.0) {
+        errors.at(i).fail(errors.at(i).found(), "the distance from y to its bound, not negative");
+      }
+    }
+  }
+  if (place.has("y_low") && style != "area") place.at("y_low").fail("a key", "style area, where a lower edge has a meaning");
+  if (place.has("text")) {
+    same_length(place.at("text"), length, "x");
+    texts(place.at("text"));
+  }
+  if (place.has("color")) finite(place.at("color"), 1, 8);
+  if (place.has("bins")) finite(place.at("bins"), 1, 1000);
+}
+
+void circle(const Place& place) {
+  object(place, {"x", "y", "r"}, {"label"});
+  finite(place.at("x"));
+  finite(place.at("y"));
+  finite(place.at("r"), 0);
+  text_where_given(place, {"label"});
+}
+
+void line(const Place& place) {
+  object(place, {"axis", "value"}, {"label"});
+  one_of(place.at("axis"), {"x", "y"});
+  finite(place.at("value"));
+  text_where_given(place, {"label"});
+}
+
+void heatmap(const Place& place) {
+  object(place, {"x", "y", "z", "label"}, {"unit", "log", "contours", "diverging"});
+  numbers_or_names(place.at("x"));
+  numbers_or_names(place.at("y"));
+  text(place.at("label"), false);
+  text_where_given(place, {"unit"});
+  flag_where_given(place, {"log", "diverging"});
+  const Place z = place.at("z");
+  same_length(z, place.at("y").value.size(), "y (one row per y)");
+  for (std::size_t i = 0; i < z.value.size(); ++i) {
+    same_length(z.at(i), place.at("x").value.size(), "x (one number per x)");
+    numbers(z.at(i));
+  }
+  if (place.has("contours")) {
+    numbers(place.at("contours"));
+    for (std::size_t i = 0; i < place.at("contours").value.size(); ++i) finite(place.at("contours").at(i));
+  }
+}
+
+void chart(const Place& place) {
+  object(place, {"kind", "title", "x", "y"},
+         {"caption", "equal_axes", "height", "series", "circles", "lines", "heatmap"});
+  text(place.at("title"), false);
+  text_where_given(place, {"caption"});
+  flag_where_given(place, {"equal_axes"});
+  axis(place.at("x"));
+  axis(place.at("y"));
+  if (place.has("height")) finite(place.at("height"), 120, 2000);
+  each(place, "series", series);
+  each(place, "circles", circle);
+  each(place, "lines", line);
+  if (place.has("heatmap")) heatmap(place.at("heatmap"));
+  const auto given = [&](const char* key) { return place.has(key) && !place.value.at(key).empty(); };
+  if (!given("series") && !given("heatmap") && !given("circles") && !given("lines")) {
+    place.fail("a chart with nothing to draw", "series, heatmap, circles or lines");
+  }
+  for (const char* key : {"x", "y"}) {
+    if (!place.has("lines") || !place.at(key).value.value("log", false)) continue;
+    const Place lines = place.at("lines");
+    for (std::size_t i = 0; i < lines.value.size(); ++i) {
+      if (lines.value[i]["axis"] == key && lines.value[i]["value"].get<double>() <= 0.0) {
+        lines.at(i).fail(lines.value[i]["value"].dump(), "a positive value, as the axis is logarithmic");
+      }
+    }
+  }
+}
+
+void panels(const Place& place) {
+  object(place, {"kind", "title", "panels"}, {"caption", "columns", "legend"});
+  text(place.at("title"), false);
+  text_where_given(place, {"caption"});
+  if (place.has("columns")) finite(place.at("columns"), 1, 6);
+  if (place.has("legend")) one_of(place.at("legend"), {"shared", "none"});
+  if (place.at("panels").value.empty()) place.at("panels").fail("no panel", "at least one chart");
+  each(place, "panels", [](const Place& panel) {
+    if (!panel.value.is_object() || panel.value.value("kind", json()) != "chart") panel.fail(panel.found(), "an item of kind chart");
+    chart(panel);
+  });
+}
+
+void table(const Place& place) {
+  object(place, {"kind", "title", "columns", "rows"}, {"caption"});
+  text(place.at("title"), false);
+  text_where_given(place, {"caption"});
+  each(place, "columns", [](const Place& column) {
+    object(column, {"label"}, {"unit", "align"});
+    text(column.at("label"));
+    text_where_given(column, {"unit"});
+    if (column.has("align")) one_of(column.at("align"), {"left", "right", "center"});
+  });
+  const Place rows = place.at("rows");
+  array(rows);
+  for (std::size_t i = 0; i < rows.value.size(); ++i) {
+    same_length(rows.at(i), place.at("columns").value.size(), "columns");
+    for (std::size_t k = 0; k < rows.value[i].size(); ++k) {
+      if (rows.value[i][k].is_structured()) rows.at(i).at(k).fail(rows.at(i).at(k).found(), "text, a number, true, false or null");
+    }
+  }
+}
+
+void findings(const Place& place) {
+  object(place, {"kind", "items"}, {"title", "caption"});
+  text_where_given(place, {"title", "caption"});
+  each(place, "items", [](const Place& finding) {
+    object(finding, {"claim", "status", "measured"}, {"why"});
+    text(finding.at("claim"), false);
+    one_of(finding.at("status"), {"agrees", "differs", "explained"});
+    text(finding.at("measured"));
+    text_where_given(finding, {"why"});
+  });
+}
+
+void strip(const Place& place) {
+  object(place, {"kind", "title", "x", "rows", "states"}, {"caption"});
+  text(place.at("title"), false);
+  text_where_given(place, {"caption"});
+  axis(place.at("x"));
+  each(place, "states", [](const Place& state) {
+    object(state, {"name"}, {"label", "muted"});
+    text(state.at("name"), false);
+    text_where_given(state, {"label"});
+    flag_where_given(state, {"muted"});
+  });
+  std::set<std::string> known;
+  std::string names;
+  for (const json& state : place.at("states").value) {
+    names += (names.empty() ? "" : ", ") + state["name"].get<std::string>();
+    if (!known.insert(state["name"]).second) place.at("states").fail("'" + state["name"].get<std::string>() + "' twice", "each state once");
+  }
+  const Place rows = place.at("rows");
+  array(rows);
+  for (std::size_t i = 0; i < rows.value.size(); ++i) {
+    const Place row = rows.at(i);
+    object(row, {"name", "start", "end", "state"}, {});
+    text(row.at("name"), false);
+    numbers(row.at("start"));
+    same_length(row.at("end"), row.at("start").value.size(), "start");
+    numbers(row.at("end"));
+    same_length(row.at("state"), row.at("start").value.size(), "start");
+    texts(row.at("state"));
+    for (std::size_t k = 0; k < row.value["start"].size(); ++k) {
+      finite(row.at("start").at(k));
+      finite(row.at("end").at(k), row.value["start"][k].get<double>());
+      if (!known.count(row.value["state"][k])) row.at("state").at(k).fail(row.at("state").at(k).found(), "one of " + names);
+    }
+  }
+}
+
+void item(const Place& place) {
+  if (!place.value.is_object() || !place.has("kind")) place.fail(place.found(), "an item with a kind");
+  one_of(place.at("kind"), {"text", "table", "findings", "chart", "panels", "strip"});
+  const auto& kind = place.value["kind"].get_ref<const std::string&>();
+  if (kind == "text") {
+    object(place, {"kind", "text"}, {});
+    text(place.at("text"));
+  }
+  if (kind == "table") table(place);
+  if (kind == "findings") findings(place);
+  if (kind == "chart") chart(place);
+  if (kind == "panels") panels(place);
+  if (kind == "strip") strip(place);
+}
+
+void fact(const Place& place) {
+  object(place, {"label", "value"}, {"unit", "note"});
+  text(place.at("label"), false);
+  if (!place.at("value").value.is_primitive()) place.at("value").fail(place.at("value").found(), "text or a number");
+  text_where_given(place, {"unit", "note"});
+}
+
+void provenance(const Place& place) {
+  object(place, {"label", "value"}, {});
+  text(place.at("label"), false);
+  if (!place.at("value").value.is_primitive()) place.at("value").fail(place.at("value").found(), "text or a number");
+}
+
+void section(const Place& place) {
+  object(place, {"id", "title", "items"}, {"intro"});
+  text(place.at("id"), false);
+  const auto& id = place.value["id"].get_ref<const std::string&>();
+  constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyz0123456789-";
+  if (id.find_first_not_of(allowed) != std::string::npos) place.at("id").fail("'" + id + "'", "small letters, digits and '-'");
+  text(place.at("title"), false);
+  text_where_given(place, {"intro"});
+  each(place, "items", item);
+}
+
+// ---- rounding
+
+double round_to(double value, int digits) {
+  char buffer[48];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific, digits - 1).ptr;
+  double result = value;
+  std::from_chars(buffer, end, result);
+  return result;
+}
+
+void round_numbers(json& list) {
+  double least = std::numeric_limits<double>::infinity(), most = -least, size = 0.0;
+  for (const json& entry : list) {
+    if (!entry.is_number()) continue;
+    const double number = entry.get<double>();
+    if (!std::isfinite(number)) continue;
+    least = std::min(least, number);
+    most = std::max(most, number);
+    size = std::max(size, std::abs(number));
+  }
+  int digits = 7;
+  const double span = most - least;
+  if (span > 0.0 && span < 1e-3 * size) digits = std::min(17, digits + static_cast<int>(std::ceil(std::log10(size / span))));
+  for (json& entry : list) {
+    if (!entry.is_number_float()) continue;
+    const double number = entry.get<double>();
+    if (!std::isfinite(number)) entry = nullptr;
+    else entry = round_to(number, digits);
+  }
+}
+
+void round_lists(json& object, Words keys) {
+  for (const char* key : keys) if (object.contains(key)) round_numbers(object[key]);
+}
+
+void round_item(json& item) {
+  if (item["kind"] == "panels") {
+    for (json& panel : item["panels"]) round_item(panel);
+  } else if (item["kind"] == "strip") {
+    for (json& row : item["rows"]) round_lists(row, {"start", "end"});
+  } else if (item["kind"] == "chart") {
+    if (item.contains("series")) {
+      for (json& one : item["series"]) round_lists(one, {"x", "y", "y_low", "error_low", "error_high"});
+    }
+    if (!item.contains("heatmap")) return;
+    round_lists(item["heatmap"], {"x", "y"});
+    for (json& row : item["heatmap"]["z"]) round_numbers(row);
+  }
+}
+
+}  // namespace
+
+void check(const json& document) {
+  const Place root{document, ""};
+  object(root, {"title", "sections"}, {"subtitle", "verb", "verdict", "facts", "warnings", "provenance"});
+  text(root.at("title"), false);
+  text_where_given(root, {"subtitle", "verb"});
+  if (root.has("verdict")) {
+    object(root.at("verdict"), {"status", "text"}, {});
+    one_of(root.at("verdict").at("status"), {"good", "bad", "neutral"});
+    text(root.at("verdict").at("text"), false);
+  }
+  each(root, "facts", fact);
+  if (root.has("warnings")) texts(root.at("warnings"));
+  each(root, "sections", section);
+  each(root, "provenance", provenance);
+  std::set<std::string> ids;
+  for (std::size_t i = 0; i < document["sections"].size(); ++i) {
+    const auto& id = document["sections"][i]["id"].get_ref<const std::string&>();
+    if (!ids.insert(id).second) root.at("sections").at(i).at("id").fail("'" + id + "' a second time", "an id of its own");
+  }
+}
+
+json rounded(const json& document) {
+  json result = document;
+  for (json& section : result["sections"]) {
+    for (json& item : section["items"]) round_item(item);
+  }
+  return result;
+}
+
+}  // namespace boresight::report

@@ -1,0 +1,253 @@
+// A chart of the contract as Plotly's data and layout. Pure: no element is touched here.
+import { look, symbols } from "./legend.js";
+import { number, withUnit } from "./numbers.js";
+import { ground, hue, theme } from "./theme.js";
+
+const font = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, "Liberation Sans", sans-serif';
+
+// Plotly reads a little markup in texts; ours are plain.
+export function plain(text) {
+  return String(text ?? "").replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;").replaceAll("%{", "%\u200b{");
+}
+
+export function wrapped(text, width) {
+  const most = Math.max(12, Math.floor(width / 6.6));
+  const lines = [""];
+  for (const word of String(text).split(" ")) {
+    const line = lines[lines.length - 1];
+    if (line && line.length + word.length + 1 > most) lines.push(word);
+    else lines[lines.length - 1] = line ? `${line} ${word}` : word;
+  }
+  return lines.map(plain);
+}
+
+function translucent(color, opacity) {
+  const part = (from) => parseInt(color.slice(from, from + 2), 16);
+  return `rgba(${part(1)},${part(3)},${part(5)},${opacity})`;
+}
+
+const isNames = (list) => list.length > 0 && typeof list[0] === "string";
+
+export function categories(chart) {
+  const along = (axis) => (chart.series ?? []).some((series) => isNames(series[axis] ?? [])) || isNames(chart.heatmap?.[axis] ?? []);
+  return { x: along("x"), y: along("y") };
+}
+
+function seriesTraces(chart, series, entry, themeName) {
+  const { color, dash, width } = look(entry.series, entry.index, themeName);
+  const style = series.style ?? "line";
+  const yUnit = chart.y.unit ? ` ${plain(chart.y.unit)}` : "";
+  const xUnit = chart.x.unit ? ` ${plain(chart.x.unit)}` : "";
+  const common = {
+    name: plain(series.name), x: series.x, y: series.y, showlegend: false, visible: entry.visible, meta: series.name,
+    hovertemplate: `%{x:.5~g}${xUnit}, %{y:.4~g}${yUnit}<extra>${plain(series.name)}</extra>`,
+  };
+  if (isNames(series.x)) common.hovertemplate = `%{x}: %{y:.4~g}${yUnit}<extra>${plain(series.name)}</extra>`;
+  if (series.y && isNames(series.y)) common.hovertemplate = `%{y}: %{x:.4~g}${xUnit}<extra>${plain(series.name)}</extra>`;
+  if (series.text) {
+    common.text = series.text.map(plain);
+    common.hovertemplate = common.hovertemplate.replace("<extra>", "<br>%{text}<extra>");
+  }
+  const lying = style === "bars" && series.y && isNames(series.y);
+  if (series.error_low || series.error_high) {
+    const zero = () => series.x.map(() => 0);
+    common[lying ? "error_x" : "error_y"] = {
+      type: "data", symmetric: false, array: series.error_high ?? zero(), arrayminus: series.error_low ?? zero(),
+      thickness: 1.4, width: 4, color: style === "bars" ? ground(themeName).ink : color,
+    };
+  }
+  const line = { color, width, dash };
+  switch (style) {
+    case "markers":
+    case "line+markers":
+      return [{ ...common, type: "scatter", mode: style === "markers" ? "markers" : "lines+markers", line,
+        marker: { color, size: series.x.length > 300 ? 4 : 7, symbol: symbols[entry.index % symbols.length], opacity: series.x.length > 300 ? 0.55 : 0.95 } }];
+    case "bars":
+      return [{ ...common, type: "bar", orientation: lying ? "h" : "v", marker: { color } }];
+    case "histogram":
+      return [{ ...common, type: "histogram", y: undefined, nbinsx: series.bins || undefined, marker: { color, opacity: 0.8, line: { color: ground(themeName).surface, width: 0.6 } },
+        hovertemplate: `%{x}${xUnit}: %{y}<extra>${plain(series.name)}</extra>` }];
+    case "box":
+      return [{ ...common, type: "box", hovertemplate: undefined, hoveron: "boxes", boxpoints: "outliers", line: { color, width: 1.4 }, fillcolor: translucent(color, 0.2), marker: { color, size: 3 } }];
+    case "area": {
+      const upper = { ...common, type: "scatter", mode: "lines", line: { ...line, width: series.y_low ? 0.6 : width }, fillcolor: translucent(color, 0.22), fill: series.y_low ? "tonexty" : "tozeroy" };
+      if (!series.y_low) return [upper];
+      return [{ ...common, type: "scatter", mode: "lines", y: series.y_low, line: { ...line, width: 0.6 }, error_y: undefined, hovertemplate: common.hovertemplate.replace("<extra>", " (lower)<extra>") }, upper];
+    }
+    default:
+      return [{ ...common, type: "scatter", mode: "lines", connectgaps: false, line: { ...line, shape: style === "steps" ? "hv" : "linear" } }];
+  }
+}
+
+function heatmapTraces(map, themeName, narrow) {
+  const logs = (value) => (value > 0 ? Math.log10(value) : null);
+  const z = map.log ? map.z.map((row) => row.map(logs)) : map.z;
+  const flat = z.flat().filter((value) => value !== null);
+  const colorbar = {
+    thickness: 12, outlinewidth: 0, tickfont: { size: 11 }, exponentformat: "power",
+    title: { text: plain(withUnit(map.label, map.unit)), side: narrow ? "top" : "right", font: { size: 12 } },
+    ...(narrow ? { orientation: "h", y: 1.02, yanchor: "bottom", x: 0.5, len: 1 } : { len: 1, ypad: 0 }),
+  };
+  if (map.log && flat.length) {
+    const least = Math.min(...flat), most = Math.max(...flat);
+    const steps = most - least > 3 ? [1] : most - least > 1 ? [1, 3] : [1, 2, 3, 5, 7];
+    const ticks = [];
+    for (let power = Math.floor(least); power <= Math.ceil(most); ++power) {
+      for (const step of steps) {
+        const at = power + Math.log10(step);
+        if (at >= least - 1e-9 && at <= most + 1e-9) ticks.push([at, number(step * 10 ** power)]);
+      }
+    }
+    colorbar.tickvals = ticks.map(([at]) => at);
+    colorbar.ticktext = ticks.map(([, text]) => text);
+  }
+  const unit = map.unit ? ` ${plain(map.unit)}` : "";
+  const traces = [{
+    type: "heatmap", x: map.x, y: map.y, z, customdata: map.z, colorbar, hoverongaps: false, meta: "\u0000heatmap",
+    colorscale: map.diverging ? [[0, "#0072B2"], [0.5, "#f4f4f2"], [1, "#D55E00"]] : "Viridis",
+    ...(map.diverging ? { zmid: 0 } : {}),
+    hovertemplate: `%{x}, %{y}<br>${plain(map.label)}: %{customdata:.4~g}${unit}<extra></extra>`,
+  }];
+  for (const [i, level] of (map.contours ?? []).entries()) {
+    traces.push({
+      type: "contour", x: map.x, y: map.y, z, showscale: false, showlegend: false, hoverinfo: "skip", name: number(level), meta: "\u0000contour",
+      contours: { type: "constraint", operation: "=", value: map.log ? logs(level) : level, coloring: "none", showlabels: false },
+      line: { color: "#ffffff", width: 2.2, dash: contourDashes[i % 4] },
+    });
+  }
+  return traces;
+}
+export const contourDashes = ["solid", "dash", "dot", "dashdot"];
+
+function extent(chart, axis) {
+  let least = Infinity, most = -Infinity;
+  const take = (value) => { if (typeof value === "number") { least = Math.min(least, value); most = Math.max(most, value); } };
+  for (const series of chart.series ?? []) for (const value of series[axis] ?? []) take(value);
+  for (const circle of chart.circles ?? []) { take(circle[axis] - circle.r); take(circle[axis] + circle.r); }
+  for (const line of chart.lines ?? []) if (line.axis === axis) take(line.value);
+  return [least, most];
+}
+
+// Lines and circles, with points that nobody sees so that the axes reach them.
+function marks(chart, colors, names) {
+  const shapes = [], annotations = [], reach = { x: [], y: [] };
+  const box = (chart.series ?? []).find((series) => series.x.length);
+  const middle = { x: box ? box.x[0] : 0, y: box?.y?.length ? box.y.find((value) => value !== null) ?? 0 : 0 };
+  const place = {};
+  for (const axis of ["x", "y"]) {
+    const [least, most] = extent(chart, axis);
+    let before = null, side = 0;
+    for (const line of [...(chart.lines ?? [])].filter((one) => one.axis === axis).sort((a, b) => a.value - b.value)) {
+      side = before !== null && line.value - before < 0.1 * (most - least) ? 1 - side : 0;
+      before = line.value;
+      const upright = axis === "x";
+      shapes.push({ type: "line", layer: "above", xref: upright ? "x" : "x domain", yref: upright ? "y domain" : "y",
+        x0: upright ? line.value : 0, x1: upright ? line.value : 1, y0: upright ? 0 : line.value, y1: upright ? 1 : line.value,
+        line: { color: colors.ink, width: 1.3, dash: "6px,3px" } });
+      reach.x.push(upright ? line.value : middle.x);
+      reach.y.push(upright ? middle.y : line.value);
+      if (!line.label) continue;
+      const log = chart[axis].log && line.value > 0;
+      const at = log ? Math.log10(line.value) : line.value;
+      const farRight = upright && most > least && (line.value - least) / (most - least) > 0.6;
+      annotations.push(upright
+        ? { xref: "x", yref: "y domain", x: at, y: side ? 0.84 : 0.98, xanchor: farRight ? "right" : "left", yanchor: "top", xshift: farRight ? -4 : 4, text: plain(line.label) }
+        : { xref: "x domain", yref: "y", x: side ? 0.01 : 0.99, y: at, xanchor: side ? "left" : "right", yanchor: "bottom", text: plain(line.label) });
+    }
+  }
+  for (const circle of chart.circles ?? []) {
+    shapes.push({ type: "circle", layer: "above", xref: "x", yref: "y", x0: circle.x - circle.r, x1: circle.x + circle.r, y0: circle.y - circle.r, y1: circle.y + circle.r,
+      line: { color: colors.soft, width: 1.3, dash: "5px,3px" } });
+    reach.x.push(circle.x - circle.r, circle.x + circle.r);
+    reach.y.push(circle.y - circle.r, circle.y + circle.r);
+    if (circle.label) annotations.push({ xref: "x", yref: "y", x: circle.x, y: circle.y + circle.r, xanchor: "center", yanchor: "bottom", text: plain(circle.label) });
+  }
+  const style = { showarrow: false, font: { size: 11, color: colors.ink }, bgcolor: translucent(colors.surface, 0.82), borderpad: 1 };
+  const traces = reach.x.length && !names ? [{ type: "scatter", mode: "markers", x: reach.x, y: reach.y, marker: { opacity: 0, size: 1 }, hoverinfo: "skip", showlegend: false, meta: "\u0000reach" }] : [];
+  return { shapes, annotations: annotations.map((one) => ({ ...one, ...style })), traces, place };
+}
+
+// Between two neighbouring powers of ten the decades alone would leave an axis without numbers.
+function axisLayout(axis, colors, isCategory, title, values) {
+  const layout = {
+    title: title ? { text: title, standoff: 8, font: { size: 12, color: colors.soft } } : undefined,
+    automargin: true, zeroline: false, showline: true, linecolor: colors.axis, linewidth: 1, gridcolor: colors.grid, gridwidth: 1,
+    ticks: "outside", ticklen: 4, tickcolor: colors.axis, tickfont: { size: 11, color: colors.soft }, exponentformat: "power", minexponent: 4,
+    type: isCategory ? "category" : axis.log ? "log" : "linear", hoverformat: ".5~g", separatethousands: true,
+  };
+  if (axis.log) {
+    const positive = values.filter((value) => value > 0);
+    const decades = positive.length ? Math.log10(values.reduce((a, b) => Math.max(a, b), 0) / positive.reduce((a, b) => Math.min(a, b), Infinity)) : 0;
+    if (axis.range ? Math.log10(axis.range[1] / axis.range[0]) >= 2 : decades >= 2) layout.dtick = 1;
+    layout.minor = { ticks: "outside", ticklen: 2, tickcolor: colors.axis, showgrid: false };
+  }
+  if (axis.range) layout.range = axis.log ? axis.range.map(Math.log10) : axis.range;
+  return layout;
+}
+
+// options: width, panel (small multiple), themeName, titled (for pictures: with title and legend)
+export function figure(chart, entries, { width, panel = false, themeName = theme(), titled = false }) {
+  const colors = ground(themeName);
+  const names = categories(chart);
+  const narrow = width < 520;
+  const map = chart.heatmap;
+  const data = map ? heatmapTraces(map, themeName, narrow) : [];
+  for (const series of chart.series ?? []) {
+    data.push(...seriesTraces(chart, series, entries.find((entry) => entry.name === series.name), themeName));
+  }
+  const { shapes, annotations, traces } = marks(chart, colors, names.x || names.y);
+  data.push(...traces);
+
+  const yTitle = wrapped(withUnit(chart.y.label, chart.y.unit), width - 70);
+  const xTitle = wrapped(withUnit(chart.x.label, chart.x.unit), width - 90);
+  const barAbove = map && narrow ? 58 : 0;
+  const top = 12 + 16 * yTitle.length + barAbove;
+  annotations.push({ xref: "x domain", yref: "y domain", x: 0, y: 1, xanchor: "left", yanchor: "bottom", xshift: -6, yshift: 5 + barAbove, align: "left", showarrow: false,
+    text: yTitle.join("<br>"), font: { size: 12, color: colors.soft }, name: "y-title" });
+
+  const types = new Set((chart.series ?? []).map((series) => series.style ?? "line"));
+  const lying = names.y && types.has("bars");
+  const lines = !map && !chart.equal_axes && !panel && [...types].every((type) => ["line", "dash", "steps", "area"].includes(type));
+  let height = chart.height || (panel ? 250 : map ? 420 : lying ? 0 : 340);
+  if (lying && !chart.height) height = top + 70 + Math.max(...chart.series.map((series) => series.y.length)) * (18 + 14 * chart.series.length);
+  if (chart.equal_axes && !chart.height) height = Math.min(width, panel ? 420 : 520);
+  if (narrow && !panel && !lying) height = Math.min(height, chart.equal_axes ? width : map ? 380 : 300);
+
+  const all = (axis) => (chart.series ?? []).flatMap((series) => series[axis] ?? []).filter((value) => typeof value === "number");
+  const values = (axis) => (chart[axis].log ? (all(axis).length ? all(axis) : (map?.[axis] ?? [])) : []);
+  const layout = {
+    width, height, autosize: false, margin: { l: 48, r: panel ? 14 : 20, t: top, b: 46 + 15 * (xTitle.length - 1), pad: 0 },
+    paper_bgcolor: colors.surface, plot_bgcolor: colors.surface, font: { family: font, color: colors.ink, size: 12 },
+    xaxis: { ...axisLayout(chart.x, colors, names.x, xTitle.join("<br>"), values("x")) },
+    yaxis: { ...axisLayout(chart.y, colors, names.y, "", values("y")) },
+    shapes, annotations, showlegend: false, barmode: types.has("histogram") ? "overlay" : "group", bargap: types.has("histogram") ? 0.02 : 0.3, boxmode: "group",
+    hovermode: lines ? "x unified" : "closest", hoverdistance: 40,
+    hoverlabel: { bgcolor: colors.surface, bordercolor: colors.axis, font: { color: colors.ink, size: 12, family: font }, namelength: -1 },
+    dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom",
+    colorway: [hue(0, themeName)],
+  };
+  if (lines) for (const trace of data) if (trace.hovertemplate) trace.hovertemplate = trace.hovertemplate.replace(/^%\{x[^}]*\}[^,]*, /, "");
+  if (lines) layout.xaxis.unifiedhovertitle = { text: `%{x}${chart.x.unit ? ` ${plain(chart.x.unit)}` : ""}` };
+  if (map) { layout.xaxis.showgrid = false; layout.yaxis.showgrid = false; layout.xaxis.constrain = "domain"; }
+  if (names.y) { layout.yaxis.autorange = "reversed"; layout.yaxis.showgrid = false; layout.yaxis.ticks = ""; }
+  if (names.x) { layout.xaxis.showgrid = false; layout.xaxis.ticks = ""; }
+  if (chart.equal_axes) {
+    layout.yaxis.scaleanchor = "x";
+    layout.xaxis.constrain = "domain";
+    layout.yaxis.constrain = "domain";
+  }
+  const bars = (chart.series ?? []).filter((series) => ["bars", "histogram"].includes(series.style));
+  if (bars.length && !chart.y.range && !chart.y.log && !names.y) layout.yaxis.rangemode = "tozero";
+  if (titled) {
+    layout.title = { text: plain(chart.title), font: { size: 17, color: colors.ink }, x: 0.02, xanchor: "left", y: 0.985, yanchor: "top" };
+    layout.margin.t += 40;
+    layout.showlegend = entries.length > 1;
+    layout.legend = { orientation: "h", y: -0.16, yanchor: "top", x: 0, font: { size: 12 } };
+    const seen = new Set();
+    for (const trace of data) {
+      trace.showlegend = !String(trace.meta).startsWith("\u0000") && trace.visible === true && !seen.has(trace.meta) && trace.fill !== "tonexty";
+      if (trace.showlegend) seen.add(trace.meta);
+    }
+  }
+  return { data, layout };
+}
