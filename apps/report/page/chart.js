@@ -1,8 +1,8 @@
 // Charts, small multiples and state strips as figures with legend, tools and caption.
-import { copy, csv, fileName, save } from "./csv.js";
+import { csv, fileName, save } from "./csv.js";
 import { element, icons, paragraphs, tool } from "./dom.js";
 import { contourDashes, figure } from "./figure.js";
-import { entriesOf, legend } from "./legend.js";
+import { entriesOf, legend, look } from "./legend.js";
 import { number, withUnit } from "./numbers.js";
 import { picture, plot } from "./plot.js";
 import { stripFigure } from "./strip.js";
@@ -58,6 +58,7 @@ export function chartItem(item) {
     saveCsv: () => save(fileName(item.title, "csv"), csv(rowHeader(item), chartRows(item)), "text/csv"),
     savePng: async () => save(fileName(item.title, "png"), await picturesOf(item, entries)),
   }, keys, contourKey(item), one.holder);
+  if (item.equal_axes) parts.figureElement.classList.add("squared");
   return parts.figureElement;
 }
 
@@ -65,15 +66,16 @@ function picturesOf(item, entries, width = 1100) {
   const made = figure(item, entries, { width: item.equal_axes ? 720 : width, themeName: "light", titled: true });
   const rows = Math.ceil(entries.length / 4);
   made.layout.margin.b += entries.length > 1 ? 24 + 20 * rows : 0;
-  const height = (item.equal_axes ? 700 : 560) + (entries.length > 1 ? 20 * rows : 0);
+  const height = (item.equal_axes ? 700 : Math.max(560, made.layout.height + 40)) + (entries.length > 1 ? 20 * rows : 0);
   return picture(made, item.equal_axes ? 720 : width, height);
 }
 
 // Several pictures as one: a title, the panels in their grid.
-async function composed(title, pictures, columns, width, height) {
+async function composed(title, entries, pictures, columns, width, height) {
   const rows = Math.ceil(pictures.length / columns);
+  const keys = entries.filter((entry) => entry.visible);
   const canvas = document.createElement("canvas");
-  const scale = 2, head = 44;
+  const scale = 2, head = keys.length > 1 ? 74 : 44;
   canvas.width = columns * width * scale;
   canvas.height = (rows * height + head) * scale;
   const context = canvas.getContext("2d");
@@ -83,6 +85,20 @@ async function composed(title, pictures, columns, width, height) {
   context.fillStyle = "#1b2430";
   context.font = "600 18px sans-serif";
   context.fillText(title, 14, 29);
+  let at = 14;
+  for (const entry of keys.length > 1 ? keys : []) {
+    const { color, dash, width: thickness } = look(entry.series, entry.index, "light");
+    context.strokeStyle = color;
+    context.lineWidth = entry.series.style === "bars" || entry.series.style === "area" ? 9 : thickness + 0.6;
+    context.setLineDash(dash === "solid" ? [] : dash.split(",").map(parseFloat));
+    context.beginPath();
+    context.moveTo(at, 55);
+    context.lineTo(at + 28, 55);
+    context.stroke();
+    context.font = "13px sans-serif";
+    context.fillText(entry.name, at + 34, 59);
+    at += 58 + context.measureText(entry.name).width;
+  }
   for (const [i, address] of pictures.entries()) {
     const image = new Image();
     image.src = address;
@@ -121,15 +137,14 @@ export function panelsItem(item) {
     reset: () => plots.forEach((one) => one.setZoom(null)),
     saveCsv: () => save(fileName(item.title, "csv"), csv(["panel", ...rowHeader(item.panels[0])], item.panels.flatMap((panel) => chartRows(panel).map((row) => [panel.title, ...row]))), "text/csv"),
     savePng: async () => {
-      const width = 520, height = 440;
+      const width = 520, height = item.panels.some((panel) => panel.equal_axes) ? 520 : 400;
       const pictures = [];
       for (const panel of item.panels) {
         const made = figure(panel, entries, { width, panel: true, themeName: "light", titled: true });
         made.layout.title.font.size = 14;
-        made.layout.margin.b += 44;
         pictures.push(await picture(made, width, height));
       }
-      save(fileName(item.title, "png"), await composed(item.title, pictures, columns, width, height));
+      save(fileName(item.title, "png"), await composed(item.title, entries, pictures, columns, width, height));
     },
   }, keys, element("div", { class: "panel-grid", style: `--columns: ${columns}` }, cells));
   return parts.figureElement;
@@ -149,5 +164,3 @@ export function stripItem(item) {
   }, legend(entries, one.redraw, "States"), one.holder);
   return parts.figureElement;
 }
-
-export { copy };

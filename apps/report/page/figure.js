@@ -13,12 +13,17 @@ export function plain(text) {
 export function wrapped(text, width) {
   const most = Math.max(12, Math.floor(width / 6.6));
   const lines = [""];
-  for (const word of String(text).split(" ")) {
+  const words = String(text).split(" ").flatMap((word) => word.match(new RegExp(`.{1,${most}}`, "gsu")) ?? [""]);
+  for (const word of words) {
     const line = lines[lines.length - 1];
     if (line && line.length + word.length + 1 > most) lines.push(word);
     else lines[lines.length - 1] = line ? `${line} ${word}` : word;
   }
   return lines.map(plain);
+}
+
+export function shortened(text, most) {
+  return text.length > most ? `${text.slice(0, most - 1)}\u2026` : text;
 }
 
 function translucent(color, opacity) {
@@ -56,7 +61,7 @@ function seriesTraces(chart, series, entry, themeName) {
       thickness: 1.4, width: 4, color: style === "bars" ? ground(themeName).ink : color,
     };
   }
-  const line = { color, width, dash };
+  const line = { color, width, dash, simplify: series.x.length > 5000 }; // simplified curves show corners in pictures
   switch (style) {
     case "markers":
     case "line+markers":
@@ -85,8 +90,8 @@ function heatmapTraces(map, themeName, narrow) {
   const flat = z.flat().filter((value) => value !== null);
   const colorbar = {
     thickness: 12, outlinewidth: 0, tickfont: { size: 11 }, exponentformat: "power",
-    title: { text: plain(withUnit(map.label, map.unit)), side: narrow ? "top" : "right", font: { size: 12 } },
-    ...(narrow ? { orientation: "h", y: 1.02, yanchor: "bottom", x: 0.5, len: 1 } : { len: 1, ypad: 0 }),
+    title: { text: plain(shortened(withUnit(map.label, map.unit), 60)), side: narrow ? "bottom" : "right", font: { size: 12 } },
+    ...(narrow ? { orientation: "h", yref: "container", y: 0, yanchor: "bottom", x: 0.5, xref: "paper", len: 1 } : { len: 1, ypad: 0 }),
   };
   if (map.log && flat.length) {
     const least = Math.min(...flat), most = Math.max(...flat);
@@ -129,17 +134,21 @@ function extent(chart, axis) {
 }
 
 // Lines and circles, with points that nobody sees so that the axes reach them.
-function marks(chart, colors, names) {
+function marks(chart, colors, names, width) {
   const shapes = [], annotations = [], reach = { x: [], y: [] };
   const box = (chart.series ?? []).find((series) => series.x.length);
   const middle = { x: box ? box.x[0] : 0, y: box?.y?.length ? box.y.find((value) => value !== null) ?? 0 : 0 };
-  const place = {};
+  const most = Math.max(10, Math.floor(width / 11));
+  let uprights = false;
   for (const axis of ["x", "y"]) {
-    const [least, most] = extent(chart, axis);
-    let before = null, side = 0;
-    for (const line of [...(chart.lines ?? [])].filter((one) => one.axis === axis).sort((a, b) => a.value - b.value)) {
-      side = before !== null && line.value - before < 0.1 * (most - least) ? 1 - side : 0;
-      before = line.value;
+    const [least, greatest] = extent(chart, axis);
+    const given = (chart.lines ?? []).filter((one) => one.axis === axis).sort((a, b) => a.value - b.value);
+    const scale = (value) => (chart[axis].log && value > 0 ? Math.log10(value) : value);
+    const share = (value) => (scale(value) - scale(least)) / (scale(greatest) - scale(least) || 1);
+    let side = 0;
+    for (const [i, line] of given.entries()) {
+      const close = (other) => other && Math.abs(share(other.value) - share(line.value)) < 0.12;
+      side = close(given[i - 1]) ? 1 - side : 0;
       const upright = axis === "x";
       shapes.push({ type: "line", layer: "above", xref: upright ? "x" : "x domain", yref: upright ? "y domain" : "y",
         x0: upright ? line.value : 0, x1: upright ? line.value : 1, y0: upright ? 0 : line.value, y1: upright ? 1 : line.value,
@@ -147,33 +156,44 @@ function marks(chart, colors, names) {
       reach.x.push(upright ? line.value : middle.x);
       reach.y.push(upright ? middle.y : line.value);
       if (!line.label) continue;
-      const log = chart[axis].log && line.value > 0;
-      const at = log ? Math.log10(line.value) : line.value;
-      const farRight = upright && most > least && (line.value - least) / (most - least) > 0.6;
+      const at = scale(line.value);
+      const label = plain(shortened(line.label, most));
+      // Labels of upright lines stand above the plot; of two neighbours one reaches left, one right.
+      const anchor = close(given[i + 1]) && !side ? "right" : side ? "left" : share(line.value) < 0.2 ? "left" : share(line.value) > 0.8 ? "right" : "center";
+      if (upright) uprights = true;
       annotations.push(upright
-        ? { xref: "x", yref: "y domain", x: at, y: side ? 0.84 : 0.98, xanchor: farRight ? "right" : "left", yanchor: "top", xshift: farRight ? -4 : 4, text: plain(line.label) }
-        : { xref: "x domain", yref: "y", x: side ? 0.01 : 0.99, y: at, xanchor: side ? "left" : "right", yanchor: "bottom", text: plain(line.label) });
+        ? { xref: "x", yref: "y domain", x: at, y: 1, xanchor: anchor, yanchor: "bottom", xshift: anchor === "right" ? 3 : anchor === "left" ? -3 : 0, yshift: 2, text: label }
+        : { xref: "x domain", yref: "y", x: side ? 0.01 : 0.99, y: at, xanchor: side ? "left" : "right", yanchor: "bottom", yshift: 2, text: label });
     }
   }
   for (const circle of chart.circles ?? []) {
     shapes.push({ type: "circle", layer: "above", xref: "x", yref: "y", x0: circle.x - circle.r, x1: circle.x + circle.r, y0: circle.y - circle.r, y1: circle.y + circle.r,
-      line: { color: colors.soft, width: 1.3, dash: "5px,3px" } });
+      line: { color: colors.ink, width: 1.3, dash: "5px,3px" } });
     reach.x.push(circle.x - circle.r, circle.x + circle.r);
     reach.y.push(circle.y - circle.r, circle.y + circle.r);
-    if (circle.label) annotations.push({ xref: "x", yref: "y", x: circle.x, y: circle.y + circle.r, xanchor: "center", yanchor: "bottom", text: plain(circle.label) });
+    if (circle.label) annotations.push({ xref: "x", yref: "y", x: circle.x, y: circle.y + circle.r, xanchor: "center", yanchor: "bottom", text: plain(shortened(circle.label, most)) });
   }
   const style = { showarrow: false, font: { size: 11, color: colors.ink }, bgcolor: translucent(colors.surface, 0.82), borderpad: 1 };
-  const traces = reach.x.length && !names ? [{ type: "scatter", mode: "markers", x: reach.x, y: reach.y, marker: { opacity: 0, size: 1 }, hoverinfo: "skip", showlegend: false, meta: "\u0000reach" }] : [];
-  return { shapes, annotations: annotations.map((one) => ({ ...one, ...style })), traces, place };
+  const traces = reach.x.length && !names ? [{ type: "scatter", mode: chart.circles?.length ? "markers" : "lines", x: reach.x, y: reach.y, line: { width: 0 }, marker: { size: 8 }, opacity: 0, hoverinfo: "skip", showlegend: false, meta: "\u0000reach" }] : [];
+  return { shapes, annotations: annotations.map((one) => ({ ...one, ...style })), traces, uprights };
 }
 
-// Between two neighbouring powers of ten the decades alone would leave an axis without numbers.
+// The unit never stands alone on a line.
+const joined = (axis) => (axis.unit ? `${axis.label}\u00a0(${axis.unit.replaceAll(" ", "\u00a0")})` : axis.label);
+
+// Names along an axis, shortened to a room of so many pixels.
+function named(chart, axis, room) {
+  const names = [...new Set([...(chart.heatmap?.[axis] ?? []), ...(chart.series ?? []).flatMap((series) => series[axis] ?? [])])];
+  return { categoryorder: "array", categoryarray: names, tickmode: "array", tickvals: names, ticktext: names.map((name) => plain(shortened(String(name), Math.max(8, Math.floor(room / 6.2))))) };
+}
+
+// Decades alone would leave an axis that spans less than two of them without numbers.
 function axisLayout(axis, colors, isCategory, title, values) {
   const layout = {
     title: title ? { text: title, standoff: 8, font: { size: 12, color: colors.soft } } : undefined,
     automargin: true, zeroline: false, showline: true, linecolor: colors.axis, linewidth: 1, gridcolor: colors.grid, gridwidth: 1,
     ticks: "outside", ticklen: 4, tickcolor: colors.axis, tickfont: { size: 11, color: colors.soft }, exponentformat: "power", minexponent: 4,
-    type: isCategory ? "category" : axis.log ? "log" : "linear", hoverformat: ".5~g", separatethousands: true,
+    type: isCategory ? "category" : axis.log ? "log" : "linear", hoverformat: ".5~g", separatethousands: true, spikethickness: 1, spikecolor: colors.axis, spikedash: "dot",
   };
   if (axis.log) {
     const positive = values.filter((value) => value > 0);
@@ -181,7 +201,8 @@ function axisLayout(axis, colors, isCategory, title, values) {
     if (axis.range ? Math.log10(axis.range[1] / axis.range[0]) >= 2 : decades >= 2) layout.dtick = 1;
     layout.minor = { ticks: "outside", ticklen: 2, tickcolor: colors.axis, showgrid: false };
   }
-  if (axis.range) layout.range = axis.log ? axis.range.map(Math.log10) : axis.range;
+  if (!axis.range) layout.autorange = true;
+  else layout.range = axis.log ? axis.range.map(Math.log10) : axis.range;
   return layout;
 }
 
@@ -192,17 +213,19 @@ export function figure(chart, entries, { width, panel = false, themeName = theme
   const narrow = width < 520;
   const map = chart.heatmap;
   const data = map ? heatmapTraces(map, themeName, narrow) : [];
-  for (const series of chart.series ?? []) {
+  // Areas lie under the lines.
+  const areasFirst = [...(chart.series ?? [])].sort((a, b) => (b.style === "area") - (a.style === "area"));
+  for (const series of areasFirst) {
     data.push(...seriesTraces(chart, series, entries.find((entry) => entry.name === series.name), themeName));
   }
-  const { shapes, annotations, traces } = marks(chart, colors, names.x || names.y);
+  const { shapes, annotations, traces, uprights } = marks(chart, colors, names.x || names.y, width);
   data.push(...traces);
 
-  const yTitle = wrapped(withUnit(chart.y.label, chart.y.unit), width - 70);
-  const xTitle = wrapped(withUnit(chart.x.label, chart.x.unit), width - 90);
-  const barAbove = map && narrow ? 58 : 0;
-  const top = 12 + 16 * yTitle.length + barAbove;
-  annotations.push({ xref: "x domain", yref: "y domain", x: 0, y: 1, xanchor: "left", yanchor: "bottom", xshift: -6, yshift: 5 + barAbove, align: "left", showarrow: false,
+  const yTitle = wrapped(joined(chart.y), width - 70);
+  const xTitle = wrapped(joined(chart.x), width - 90);
+  const above = uprights ? 17 : 0;
+  const top = 12 + 16 * yTitle.length + above;
+  annotations.push({ xref: "x domain", yref: "y domain", x: 0, y: 1, xanchor: "left", yanchor: "bottom", xshift: -6, yshift: 5 + above, align: "left", showarrow: false,
     text: yTitle.join("<br>"), font: { size: 12, color: colors.soft }, name: "y-title" });
 
   const types = new Set((chart.series ?? []).map((series) => series.style ?? "line"));
@@ -212,6 +235,8 @@ export function figure(chart, entries, { width, panel = false, themeName = theme
   if (lying && !chart.height) height = top + 70 + Math.max(...chart.series.map((series) => series.y.length)) * (18 + 14 * chart.series.length);
   if (chart.equal_axes && !chart.height) height = Math.min(width, panel ? 420 : 520);
   if (narrow && !panel && !lying) height = Math.min(height, chart.equal_axes ? width : map ? 380 : 300);
+
+  if (!chart.height) height += 15 * (xTitle.length - 1) + 16 * (yTitle.length - 1) + above;
 
   const all = (axis) => (chart.series ?? []).flatMap((series) => series[axis] ?? []).filter((value) => typeof value === "number");
   const values = (axis) => (chart[axis].log ? (all(axis).length ? all(axis) : (map?.[axis] ?? [])) : []);
@@ -229,8 +254,20 @@ export function figure(chart, entries, { width, panel = false, themeName = theme
   if (lines) for (const trace of data) if (trace.hovertemplate) trace.hovertemplate = trace.hovertemplate.replace(/^%\{x[^}]*\}[^,]*, /, "");
   if (lines) layout.xaxis.unifiedhovertitle = { text: `%{x}${chart.x.unit ? ` ${plain(chart.x.unit)}` : ""}` };
   if (map) { layout.xaxis.showgrid = false; layout.yaxis.showgrid = false; layout.xaxis.constrain = "domain"; }
-  if (names.y) { layout.yaxis.autorange = "reversed"; layout.yaxis.showgrid = false; layout.yaxis.ticks = ""; }
-  if (names.x) { layout.xaxis.showgrid = false; layout.xaxis.ticks = ""; }
+  if (names.y) Object.assign(layout.yaxis, { autorange: "reversed", showgrid: false, ticklen: 6, tickcolor: "rgba(0,0,0,0)" }, named(chart, "y", width * 0.42));
+  if (names.x) {
+    Object.assign(layout.xaxis, { showgrid: false, tickcolor: "rgba(0,0,0,0)" }, named(chart, "x", 190));
+    const longest = Math.max(...layout.xaxis.ticktext.map((text) => text.length));
+    if (longest * 6.4 > (width - 90) / layout.xaxis.ticktext.length) {
+      layout.xaxis.tickangle = -90;
+      layout.margin.b += Math.max(0, Math.round(6.2 * longest) - 22);
+      layout.height += chart.height ? 0 : Math.max(0, Math.round(6.2 * longest) - 22);
+    } else layout.xaxis.tickangle = 0;
+  }
+  if (map && narrow) {
+    layout.margin.b += 62;
+    layout.height += chart.height ? 0 : 62;
+  }
   if (chart.equal_axes) {
     layout.yaxis.scaleanchor = "x";
     layout.xaxis.constrain = "domain";
@@ -240,12 +277,12 @@ export function figure(chart, entries, { width, panel = false, themeName = theme
   if (bars.length && !chart.y.range && !chart.y.log && !names.y) layout.yaxis.rangemode = "tozero";
   if (titled) {
     layout.title = { text: plain(chart.title), font: { size: 17, color: colors.ink }, x: 0.02, xanchor: "left", y: 0.985, yanchor: "top" };
-    layout.margin.t += 40;
-    layout.showlegend = entries.length > 1;
-    layout.legend = { orientation: "h", y: -0.16, yanchor: "top", x: 0, font: { size: 12 } };
+    layout.margin.t += panel ? 24 : 40;
+    layout.showlegend = entries.length > 1 && !panel;
+    layout.legend = { orientation: "h", y: -0.16, yanchor: "top", x: 0, font: { size: 12 }, traceorder: "normal" };
     const seen = new Set();
-    for (const trace of data) {
-      trace.showlegend = !String(trace.meta).startsWith("\u0000") && trace.visible === true && !seen.has(trace.meta) && trace.fill !== "tonexty";
+    for (const trace of [...data].reverse()) {
+      trace.showlegend = !String(trace.meta).startsWith("\u0000") && trace.visible === true && !seen.has(trace.meta);
       if (trace.showlegend) seen.add(trace.meta);
     }
   }

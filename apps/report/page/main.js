@@ -26,7 +26,21 @@ function fact({ label, value, unit, note }) {
 
 function section({ id, title, intro, items }) {
   return element("section", { class: "chapter", id, "aria-labelledby": `${id}-title` }, element("h2", { id: `${id}-title`, tabindex: "-1" }, title),
-    intro ? element("div", { class: "prose" }, paragraphs(intro)) : null, items.map((item) => kinds[item.kind](item)));
+    intro ? element("div", { class: "prose" }, paragraphs(intro)) : null, sideBySide(items));
+}
+
+// Charts with equal axes are square: neighbours share a row.
+function sideBySide(items) {
+  const made = [];
+  for (const item of items) {
+    const one = kinds[item.kind](item);
+    const before = made[made.length - 1];
+    if (item.kind !== "chart" || !item.equal_axes) made.push(one);
+    else if (before?.className === "row") before.append(one);
+    else if (before?.classList.contains("squared")) made[made.length - 1] = element("div", { class: "row" }, before, one);
+    else made.push(one);
+  }
+  return made;
 }
 
 const links = report.sections.map(({ id, title }) => element("li", {}, element("a", { href: `#${id}` }, title)));

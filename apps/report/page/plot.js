@@ -3,7 +3,7 @@ import Plotly from "plotly.js-cartesian-dist-min";
 import { addPlot } from "./drawing.js";
 import { element } from "./dom.js";
 
-export { Plotly };
+let drawings = 0;
 
 // make(width) -> {data, layout}; zoomed(axes, plot): called when the reader zooms or pans.
 export function plot(label, make, zoomed = () => {}) {
@@ -14,6 +14,7 @@ export function plot(label, make, zoomed = () => {}) {
     const made = make(width);
     if (one.zoom) for (const [axis, range] of Object.entries(one.zoom)) Object.assign(made.layout[axis], { range, autorange: false });
     holder.style.minHeight = `${made.layout.height}px`;
+    made.layout.datarevision = ++drawings; // the arrays are the same, and what they are measured against is not
     const first = !area.classList.contains("js-plotly-plot");
     Plotly.react(area, made.data, made.layout, { displayModeBar: false, displaylogo: false, responsive: false, doubleClick: "reset+autosize", showTips: false, scrollZoom: false });
     if (first) listen();

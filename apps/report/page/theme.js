@@ -25,7 +25,7 @@ export function toggleTheme() {
 }
 export function printing(on) {
   forPrint = on;
-  document.documentElement.dataset.theme = theme();
+  changed();
 }
 
 document.documentElement.dataset.theme = theme();
