@@ -1,0 +1,27 @@
+// The report of `check`: what would go wrong before it does.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "boresight/mechanism/kinematic_report.hpp"
+#include "boresight/rungs/contact_report.hpp"
+#include "command.hpp"
+#include "report/document.hpp"
+
+namespace boresight::app {
+
+// Everything `check` found out.
+struct CheckResult {
+  KinematicReport kinematics;
+  std::vector<ContactFrequency> contacts;  // empty where the ideal motion cannot be followed
+  std::vector<std::string> findings;       // what stands in the way, most serious first; empty: nothing
+  std::vector<std::string> notes;          // worth knowing, but no obstacle
+};
+
+CheckResult check_mechanism(const Mechanism& mechanism);
+
+report::Document check_report(const Command& command, const Mechanism& mechanism, const CheckResult& result);
+
+}  // namespace boresight::app

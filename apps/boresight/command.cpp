@@ -1,0 +1,106 @@
+#include "command.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "boresight/io/value_fault.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight::app {
+namespace {
+
+const Origin kCommandLine{"command line", 0};
+
+std::string in_quotes(const std::string& text) { return "\"" + text + "\""; }
+
+}  // namespace
+
+double positive_quantity(const std::string& option, const std::string& text, const SiUnit& unit) {
+  double value = 0.0;
+  try {
+    value = parse_quantity(text, unit);
+  } catch (const ValueFault& fault) {
+    throw InputError(kCommandLine, option, fault.found, fault.expected, fault.nearest);
+  }
+  if (value <= 0.0) throw InputError(kCommandLine, option, in_quotes(text), "more than 0");
+  return value;
+}
+
+void CommandOptions::declare(CLI::App& app, const std::string& file_kind) {
+  app.add_option("FILE", file, "the " + file_kind + " file")->required()->type_name("");
+  app.add_option("--set", settings, "change a value of the mechanism: clearance.F1.radial=0.2mm (any number of times)")
+      ->type_name("PATH=VALUE")->allow_extra_args(false)->take_all();
+  app.add_option("--out", out, "where results go; otherwise results/FILE-VERB")->type_name("DIR");
+  app.add_option("--rung", rung, "auto, envelope, quasistatic, perturbation or multibody: how much physics")
+      ->type_name("NAME")->capture_default_str();
+  app.add_option("--accuracy", accuracy, "wanted of the index, e.g. \"1 %\"; chooses the rung")->type_name("SHARE");
+  app.add_option("--jobs", jobs, "threads; otherwise as many as there are cores")->type_name("N");
+  app.add_flag("--quiet", quiet, "no progress, no summary on the terminal");
+}
+
+Command CommandOptions::command(const std::string& verb) const {
+  Command command;
+  command.verb = verb;
+  command.file = file;
+  command.out = out;
+  command.rung = rung;
+  command.quiet = quiet;
+  for (const std::string& text : settings) command.settings.push_back(parse_setting(text));
+  if (!accuracy.empty()) command.accuracy = positive_quantity("--accuracy", accuracy, kRatio);
+  if (jobs < 0 || jobs > 4096) throw InputError(kCommandLine, "--jobs", std::to_string(jobs), "1 to 4096 threads");
+  command.jobs = jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return command;
+}
+
+void MotionOptions::declare(CLI::App& app, bool with_poses) {
+  app.add_option("--sample", sample, "spacing of the time series")->type_name("TIME")->capture_default_str();
+  app.add_option("--step", step, "step of the integration; otherwise the rung's own choice")->type_name("TIME");
+  app.add_option("--formulation", formulation, "of the equations of motion (multibody)")->type_name("NAME");
+  app.add_option("--stabilisation", stabilisation, "of the constraints (multibody): baumgarte or projection")
+      ->type_name("NAME")->capture_default_str();
+  if (with_poses)
+    app.add_option("--pose", poses, "keep the pose of this body too (any number of times)")
+        ->type_name("BODY")->allow_extra_args(false)->take_all();
+}
+
+RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
+  RunOptions options;
+  if (!step.empty()) options.step = positive_quantity("--step", step, kDuration);
+  options.sample_spacing = positive_quantity("--sample", sample, kDuration);
+  constexpr double kMostSamples = 2e6;
+  if (mechanism.duration() / options.sample_spacing > kMostSamples)
+    throw InputError(kCommandLine, "--sample", in_quotes(sample), "at most two million samples in all");
+  options.formulation = formulation;
+  const std::vector<std::string> known = {"baumgarte", "projection"};
+  if (std::find(known.begin(), known.end(), stabilisation) == known.end())
+    throw InputError(kCommandLine, "--stabilisation", in_quotes(stabilisation), "baumgarte or projection",
+                     nearest_name(stabilisation, known));
+  options.stabilisation = stabilisation;
+  for (const std::string& name : poses) {
+    const int body = mechanism.body_index(name);
+    if (body < 0) {
+      std::vector<std::string> names;
+      for (const BodyDescription& b : mechanism.description().bodies) names.push_back(b.name);
+      throw InputError(kCommandLine, "--pose", in_quotes(name), "a body of the mechanism", nearest_name(name, names));
+    }
+    options.pose_bodies.push_back(body);
+  }
+  return options;
+}
+
+nlohmann::json MotionOptions::identity() const {
+  return {{"step", step}, {"sample", sample}, {"formulation", formulation}, {"stabilisation", stabilisation}, {"pose", poses}};
+}
+
+nlohmann::json identity_of(const Command& command, const std::string& mechanism_hash, const std::string& study_hash,
+                           const nlohmann::json& options) {
+  nlohmann::json settings = nlohmann::json::array();
+  for (const Setting& setting : command.settings) settings.push_back(setting.path + "=" + setting.value);
+  nlohmann::json identity = {{"verb", command.verb}, {"mechanism", mechanism_hash}, {"settings", settings},
+                             {"rung", command.rung}, {"options", options}};
+  if (!study_hash.empty()) identity["study"] = study_hash;
+  if (command.accuracy) identity["accuracy"] = *command.accuracy;
+  return identity;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,58 @@
+// What every verb is asked with: the file, the settings, where results go, how much may be computed at once; and the
+// options of those verbs that follow a motion.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "boresight/io/document.hpp"
+#include "boresight/io/units.hpp"
+#include "boresight/mechanism/mechanism.hpp"
+#include "boresight/rungs/rung.hpp"
+
+namespace boresight::app {
+
+struct Command {
+  std::string verb;
+  std::string file;
+  std::vector<Setting> settings;   // --set, in the order given
+  std::string out;                 // "": chosen from file and verb
+  std::string rung = "auto";
+  std::optional<double> accuracy;  // --accuracy, relative, of the index
+  int jobs = 1;                    // threads
+  bool quiet = false;
+};
+
+// The options every verb has, as CLI11 fills them in; command() checks them and throws InputError.
+struct CommandOptions {
+  std::string file, out, rung = "auto", accuracy;
+  std::vector<std::string> settings;
+  int jobs = 0;
+  bool quiet = false;
+
+  void declare(CLI::App& app, const std::string& file_kind);
+  Command command(const std::string& verb) const;
+};
+
+// How a motion is followed and what of it is kept: the options of `run` and `sweep`.
+struct MotionOptions {
+  std::string step, sample = "1 ms", formulation, stabilisation = "baumgarte";
+  std::vector<std::string> poses;
+
+  void declare(CLI::App& app, bool with_poses);
+  // Throws InputError for a value that is no duration, an unknown body, an unknown word.
+  RunOptions run_options(const Mechanism& mechanism) const;
+  nlohmann::json identity() const;  // what of them changes results
+};
+
+// A positive value with its unit, given to an option. Throws InputError naming the option.
+double positive_quantity(const std::string& option, const std::string& text, const SiUnit& unit);
+
+// What tells this study's results from another's: verb, hashes, settings, options.
+nlohmann::json identity_of(const Command& command, const std::string& mechanism_hash, const std::string& study_hash,
+                           const nlohmann::json& options);
+
+}  // namespace boresight::app

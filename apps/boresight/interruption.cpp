@@ -1,0 +1,34 @@
+#include "interruption.hpp"
+
+#include <unistd.h>
+
+#include <csignal>
+
+#include "exit_status.hpp"
+
+namespace boresight::app {
+namespace {
+
+volatile std::sig_atomic_t arrived = 0;
+
+void note(int) {
+  if (arrived) ::_exit(kInterrupted);
+  arrived = 1;
+}
+
+}  // namespace
+
+void catch_interruptions() {
+  struct sigaction action = {};
+  action.sa_handler = note;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+  // A reader that went away is a write error, not a silent death in the middle of a file.
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+bool interrupted() { return arrived != 0; }
+
+}  // namespace boresight::app

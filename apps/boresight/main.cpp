@@ -1,0 +1,95 @@
+// boresight VERB FILE [options]: finds the verb, reads the command line, and turns faults into one line and an exit status.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "boresight/mechanism/error.hpp"
+#include "exit_status.hpp"
+#include "interruption.hpp"
+#include "output_directory.hpp"
+#include "verb.hpp"
+
+namespace {
+
+using namespace boresight;
+using namespace boresight::app;
+
+int fail(int status, const std::string& message) {
+  std::string line = message;
+  for (char& c : line)
+    if (c == '\n' || c == '\r') c = ' ';
+  std::cerr << "boresight: " << line << std::endl;
+  return status;
+}
+
+int unknown_verb(const std::string& word, const std::vector<std::unique_ptr<Verb>>& verbs) {
+  std::vector<std::string> names;
+  std::string listed;
+  for (const auto& verb : verbs) {
+    names.push_back(verb->name());
+    listed += (listed.empty() ? "" : ", ") + verb->name();
+  }
+  const std::string nearest = nearest_name(word, names);
+  return fail(kBadInput, "found \"" + word + "\", expected a verb: " + listed +
+                             (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+}
+
+int run_program(int argc, char** argv) {
+  const auto verbs = all_verbs();
+  std::vector<CommandOptions> options(verbs.size());
+  std::vector<CLI::App*> commands;
+
+  CLI::App app("Accuracy of pointing mechanisms whose joints have clearance.", "boresight");
+  app.set_version_flag("--version", std::string("boresight ") + BORESIGHT_VERSION);
+  app.require_subcommand(1);
+  app.footer("boresight VERB --help tells more. Exit status: 0 done, 1 the answer is no, 2 bad input, 3 failed, 130 interrupted.");
+  for (std::size_t i = 0; i < verbs.size(); ++i) {
+    CLI::App* command = app.add_subcommand(verbs[i]->name(), verbs[i]->summary());
+    options[i].declare(*command, verbs[i]->file_kind());
+    verbs[i]->declare_options(*command);
+    command->footer("Example:\n  " + verbs[i]->example());
+    commands.push_back(command);
+  }
+
+  if (argc < 2) return fail(kBadInput, "found no verb, expected boresight VERB FILE; boresight --help tells more");
+  const bool known = std::any_of(verbs.begin(), verbs.end(), [&](const auto& verb) { return verb->name() == argv[1]; });
+  if (argv[1][0] != '-' && !known) return unknown_verb(argv[1], verbs);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return fail(kBadInput, std::string(error.what()) + "; boresight " + (argv[1][0] == '-' ? "" : argv[1] + std::string(" ")) +
+                               "--help tells more");
+  }
+  for (std::size_t i = 0; i < verbs.size(); ++i)
+    if (commands[i]->parsed()) return verbs[i]->execute(options[i].command(verbs[i]->name()));
+  return kBadInput;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  catch_interruptions();
+  try {
+    const int status = run_program(argc, argv);
+    std::cout.flush();
+    if (!std::cout) return fail(kFailed, "cannot write to standard output");
+    return status;
+  } catch (const InputError& error) {
+    return fail(kBadInput, error.what());
+  } catch (const OutputDirectoryError& error) {
+    return fail(kBadInput, error.what());
+  } catch (const WriteError& error) {
+    return fail(kFailed, error.what());
+  } catch (const ComputationError& error) {
+    return fail(kFailed, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kFailed, "not enough memory");
+  } catch (const std::exception& error) {
+    return fail(kFailed, std::string("a fault in the program itself: ") + error.what());
+  }
+}

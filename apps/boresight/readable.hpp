@@ -1,0 +1,23 @@
+// Numbers as people read them: "0.231 mm", "22 µm", "478 arcsec". SI goes to files; this goes to terminals and reports.
+#pragma once
+
+#include <string>
+
+namespace boresight::app {
+
+// Three significant digits, in the unit in which the number is neither long nor full of zeros.
+// `si_unit` is what the value is in: "m", "rad", "N", "m/s", "s", "Pa", "kg", "m/s^2", "1", ...
+std::string readable(double value, const std::string& si_unit);
+
+std::string readable_arcsec(double radians);
+std::string readable_share(double share);  // 0.937 is "93.7 %"
+std::string readable_number(double value);
+
+// The unit in which an axis or a column up to `largest` (SI) is drawn, and how many of it make one SI unit.
+struct DisplayUnit {
+  std::string name;
+  double per_si = 1.0;
+};
+DisplayUnit display_unit(const std::string& si_unit, double largest);
+
+}  // namespace boresight::app

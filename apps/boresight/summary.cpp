@@ -1,0 +1,78 @@
+#include "summary.hpp"
+
+#include <ctime>
+#include <ostream>
+
+#include "boresight_analyses/study/index_choice.hpp"
+
+namespace boresight::app {
+namespace {
+
+double process_cpu_seconds() {
+  timespec time = {};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace
+
+Stopwatch::Stopwatch() : wall_(std::chrono::steady_clock::now()), cpu_(process_cpu_seconds()) {}
+double Stopwatch::wall_seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count();
+}
+double Stopwatch::cpu_seconds() const { return process_cpu_seconds() - cpu_; }
+
+Json common_summary(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const Stopwatch& watch,
+                    const std::vector<std::string>& warnings, bool interrupted, const OutputDirectory& out) {
+  Json json;
+  json["verb"] = command.verb;
+  json["mechanism"] = {{"name", mechanism.name()}, {"hash", mechanism.description().content_hash},
+                       {"file", mechanism.description().origin.file}};
+  json["version"] = BORESIGHT_VERSION;
+  json["rung"] = rung.name;
+  json["rung_why"] = rung.why;
+  json["seed"] = nullptr;  // nothing here is random
+  json["cpu_seconds"] = watch.cpu_seconds();
+  json["wall_seconds"] = watch.wall_seconds();
+  json["interrupted"] = interrupted;
+  json["warnings"] = warnings;
+  json["identity"] = Json::parse(out.identity().dump());
+  return json;
+}
+
+Json statistics_json(const Statistics& s) {
+  Json json;
+  for (const StatisticName& statistic : statistic_names()) json[statistic.name] = s.*statistic.value;
+  json["time_of_max"] = s.time_of_max;
+  return json;
+}
+
+Json index_json(const PointingIndices& index) {
+  Json json;
+  for (const QuantityName& quantity : quantity_names()) json[quantity.name] = statistics_json(index.*quantity.statistics);
+  return json;
+}
+
+Json contact_json(const std::vector<ContactSummary>& contact) {
+  Json json = Json::object();
+  for (const ContactSummary& c : contact) {
+    json[c.joint] = {{"contact_fraction", c.contact_fraction},
+                     {"impacts", c.impacts},
+                     {"max_penetration", c.max_penetration},
+                     {"max_force", c.max_force},
+                     {"max_impact_speed", c.max_impact_speed},
+                     {"validity_speed", c.validity_speed},
+                     {"impact_speed_above_validity", c.impact_speed_above_validity}};
+  }
+  return json;
+}
+
+Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+void write_json(const OutputDirectory& out, const std::string& name, const Json& json) {
+  out.write(name, [&](std::ostream& stream) {
+    stream << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  });
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,30 @@
+// What every verb of the command line is: a name, an example, its own options, and what it does.
+//
+// A verb is one file, VERB_verb.cpp, that defines `std::unique_ptr<Verb> make_VERB_verb()`, and one line in verbs.cpp.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+
+namespace boresight::app {
+
+class Verb {
+ public:
+  virtual ~Verb() = default;
+  virtual std::string name() const = 0;
+  virtual std::string file_kind() const = 0;  // what FILE is: "mechanism", "study"
+  virtual std::string summary() const = 0;    // one line for --help
+  virtual std::string example() const = 0;    // a command that works as it stands
+  virtual void declare_options(CLI::App&) {}  // beyond those every verb has
+  // Returns the exit status. Throws InputError, ComputationError, OutputDirectoryError, WriteError.
+  virtual int execute(const Command& command) = 0;
+};
+
+// Every verb, in the order of --help.
+std::vector<std::unique_ptr<Verb>> all_verbs();
+
+}  // namespace boresight::app

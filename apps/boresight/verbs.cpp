@@ -1,0 +1,23 @@
+#include "verb.hpp"
+
+namespace boresight::app {
+
+// A verb is registered by one line here.
+#define BORESIGHT_VERBS(VERB) \
+  VERB(check)                 \
+  VERB(run)                   \
+  VERB(sweep)
+
+#define DECLARE(name) std::unique_ptr<Verb> make_##name##_verb();
+BORESIGHT_VERBS(DECLARE)
+#undef DECLARE
+
+std::vector<std::unique_ptr<Verb>> all_verbs() {
+  std::vector<std::unique_ptr<Verb>> verbs;
+#define APPEND(name) verbs.push_back(make_##name##_verb());
+  BORESIGHT_VERBS(APPEND)
+#undef APPEND
+  return verbs;
+}
+
+}  // namespace boresight::app
