@@ -120,7 +120,7 @@ void JournalInSleeve::wrench(const JournalMotion<T>& m, const std::array<T, kCon
     out.moment.z() += T(bore_radius) * nx * f_along;
   }
   if (!has_faces) return;
-  for (const auto [place, side] : {std::pair{ContactPlace::axial_minus, -1.0}, std::pair{ContactPlace::axial_plus, 1.0}}) {
+  for (const auto& [place, side] : {std::pair{ContactPlace::axial_minus, -1.0}, std::pair{ContactPlace::axial_plus, 1.0}}) {
     ContactState<T>& face = out.contact[static_cast<int>(place)];
     if (!any(face.penetration > T(0.0))) continue;
     face.normal_force = T(face_stiffness) * positive_part(face.penetration);

@@ -45,14 +45,19 @@ Cursor Cursor::copy(int number, const Mat3& turn) const {
 
 std::string Cursor::path(const std::string& key) const { return joined(path_, key); }
 
+// The setting that is to blame for this value: on its path, or on an element of it where it is a list.
+const Setting* Cursor::blamed_setting(const std::string& key) const {
+  return is_table(key) ? setting(path(key)) : document_->setting_under(path(key));
+}
+
 Origin Cursor::origin(const std::string& key) const {
-  if (const Setting* set = setting(path(key))) return origin_of(*set);
+  if (const Setting* set = blamed_setting(key)) return origin_of(*set);
   const Node* node = node_->member(key);
   return {document_->filename(), node != nullptr ? node->line : line_};
 }
 
 std::string Cursor::found(const std::string& key) const {
-  if (const Setting* set = setting(path(key))) return in_quotes(set->value);
+  if (const Setting* set = blamed_setting(key)) return in_quotes(set->value);
   const Node* node = node_->member(key);
   return node != nullptr ? shown(*node) : "nothing";
 }
@@ -92,7 +97,7 @@ void Cursor::finish() const {
 }
 
 bool Cursor::has(const std::string& key) const {
-  return node_->member(key) != nullptr || document_->has_setting_under(path(key));
+  return node_->member(key) != nullptr || document_->setting_under(path(key)) != nullptr;
 }
 
 std::vector<std::string> Cursor::keys() const {

@@ -99,6 +99,7 @@ class Cursor {
   const Node& required(const std::string& key, const std::string& expected) const;
   std::string replaced(const std::string& text) const;  // {i}
   const Setting* setting(const std::string& path) const { return document_->setting_for(path); }
+  const Setting* blamed_setting(const std::string& key) const;
   Cursor child(const Node& node, std::string path) const;
   std::vector<double> list(const std::string& key, const SiUnit* unit, const std::vector<std::string>& names,
                            const std::vector<double>* otherwise);

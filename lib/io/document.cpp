@@ -2,8 +2,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
-#include <sstream>
 
 #include "boresight/io/content_hash.hpp"
 #include "boresight/io/toml_tree.hpp"
@@ -73,9 +71,19 @@ const Node* Node::member(const std::string& key) const {
 }
 
 std::string shown(const Node& node) {
+  constexpr std::size_t kLongestList = 80;
+  if (node.kind == Node::Kind::array && !node.items.empty()) {
+    std::string list;
+    for (const Node& item : node.items) {
+      if (item.kind == Node::Kind::table || list.size() > kLongestList) return "a list of " + std::to_string(node.items.size());
+      const bool is_number = item.kind == Node::Kind::integer || item.kind == Node::Kind::number;
+      list += (list.empty() ? "[" : ", ") + (is_number ? item.text : shown(item));
+    }
+    return list + "]";
+  }
   switch (node.kind) {
     case Node::Kind::table: return "a table";
-    case Node::Kind::array: return node.items.empty() ? "an empty list" : "a list of " + std::to_string(node.items.size());
+    case Node::Kind::array: return "an empty list";
     case Node::Kind::string: return in_quotes(node.text);
     case Node::Kind::integer:
     case Node::Kind::number: return "the number " + node.text;
@@ -122,11 +130,12 @@ const Setting* Document::setting_for(const std::string& path) {
   return last;
 }
 
-bool Document::has_setting_under(const std::string& path) const {
+const Setting* Document::setting_under(const std::string& path) const {
+  const Setting* last = nullptr;
   for (const Setting& setting : settings_) {
-    if (names(setting.path, path, false)) return true;
+    if (names(setting.path, path, false)) last = &setting;
   }
-  return false;
+  return last;
 }
 
 void Document::refuse_unused_settings() const {

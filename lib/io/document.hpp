@@ -53,8 +53,8 @@ class Document {
 
   // The last setting that applies to this path, or nullptr. Marks it, and any earlier ones, as used.
   const Setting* setting_for(const std::string& path);
-  // True if a setting applies to this path or to one below it. Marks nothing.
-  bool has_setting_under(const std::string& path) const;
+  // The last setting that applies to this path or to one below it, or nullptr. Marks nothing.
+  const Setting* setting_under(const std::string& path) const;
 
   // Throws InputError for the first setting whose path nothing asked for.
   void refuse_unused_settings() const;

@@ -32,23 +32,34 @@ constexpr double kLargestExponent = 64.0;
 constexpr std::size_t kMostFactors = 32;
 constexpr int kMostBits = 512;  // of an exact integer; beyond it numbers are doubles
 
+// `of_number` is used for doubles: CLN's own functions of very large doubles are wrong (exp(1e300) gives 1). Exact numbers stay
+// symbolic and are evaluated by the tape.
 struct FunctionEntry {
   const char* name;
-  ex (*one)(const ex&);
+  ex (*symbolic)(const ex&);
+  double (*of_number)(double);
 };
 
 const std::vector<FunctionEntry>& functions() {
   static const std::vector<FunctionEntry> table = {
-      {"sin", [](const ex& x) -> ex { return GiNaC::sin(x); }},   {"cos", [](const ex& x) -> ex { return GiNaC::cos(x); }},
-      {"tan", [](const ex& x) -> ex { return GiNaC::tan(x); }},   {"asin", [](const ex& x) -> ex { return GiNaC::asin(x); }},
-      {"acos", [](const ex& x) -> ex { return GiNaC::acos(x); }}, {"atan", [](const ex& x) -> ex { return GiNaC::atan(x); }},
-      {"sinh", [](const ex& x) -> ex { return GiNaC::sinh(x); }}, {"cosh", [](const ex& x) -> ex { return GiNaC::cosh(x); }},
-      {"tanh", [](const ex& x) -> ex { return GiNaC::tanh(x); }}, {"exp", [](const ex& x) -> ex { return GiNaC::exp(x); }},
-      {"log", [](const ex& x) -> ex { return GiNaC::log(x); }},   {"abs", [](const ex& x) -> ex { return magnitude(x); }},
-      {"sqrt", nullptr},
+      {"sin", [](const ex& x) -> ex { return GiNaC::sin(x); }, [](double x) { return std::sin(x); }},
+      {"cos", [](const ex& x) -> ex { return GiNaC::cos(x); }, [](double x) { return std::cos(x); }},
+      {"tan", [](const ex& x) -> ex { return GiNaC::tan(x); }, [](double x) { return std::tan(x); }},
+      {"asin", [](const ex& x) -> ex { return GiNaC::asin(x); }, [](double x) { return std::asin(x); }},
+      {"acos", [](const ex& x) -> ex { return GiNaC::acos(x); }, [](double x) { return std::acos(x); }},
+      {"atan", [](const ex& x) -> ex { return GiNaC::atan(x); }, [](double x) { return std::atan(x); }},
+      {"sinh", [](const ex& x) -> ex { return GiNaC::sinh(x); }, [](double x) { return std::sinh(x); }},
+      {"cosh", [](const ex& x) -> ex { return GiNaC::cosh(x); }, [](double x) { return std::cosh(x); }},
+      {"tanh", [](const ex& x) -> ex { return GiNaC::tanh(x); }, [](double x) { return std::tanh(x); }},
+      {"exp", [](const ex& x) -> ex { return GiNaC::exp(x); }, [](double x) { return std::exp(x); }},
+      {"log", [](const ex& x) -> ex { return GiNaC::log(x); }, [](double x) { return std::log(x); }},
+      {"abs", [](const ex& x) -> ex { return magnitude(x); }, [](double x) { return std::abs(x); }},
+      {"sqrt", nullptr, nullptr},
   };
   return table;
 }
+
+bool is_inexact(const ex& value) { return is_a<numeric>(value) && !GiNaC::ex_to<numeric>(value).is_rational(); }
 
 int bits(const ex& number) {
   const numeric& n = GiNaC::ex_to<numeric>(number);
@@ -99,6 +110,11 @@ class Parser {
     const double d = number.to_double();
     if (!std::isfinite(d)) fault("a number that is too large", "a finite expression of t");
     return bits(value) > kMostBits ? ex(numeric(d)) : value;
+  }
+
+  ex finite(double value) const {
+    if (!std::isfinite(value)) fault("a number that is not finite", "a finite expression of t");
+    return numeric(value);
   }
 
   ex sum() {
@@ -253,20 +269,27 @@ class Parser {
     if (word == "pi") return GiNaC::Pi;
     if (word == "pow" || word == "atan2") {
       const std::vector<ex> inside = arguments(word, 2);
-      return word == "pow" ? power(inside[0], inside[1]) : bounded(GiNaC::atan2(inside[0], inside[1]));
+      if (word == "pow") return power(inside[0], inside[1]);
+      if (is_a<numeric>(inside[0]) && is_a<numeric>(inside[1])) {
+        return numeric(std::atan2(as_double(inside[0]), as_double(inside[1])));
+      }
+      return bounded(GiNaC::atan2(inside[0], inside[1]));
     }
     for (const FunctionEntry& entry : functions()) {
       if (word != entry.name) continue;
       const ex inside = arguments(word, 1)[0];
-      return entry.one == nullptr ? power(inside, numeric(1, 2)) : bounded(entry.one(inside));
+      if (entry.symbolic == nullptr) return power(inside, numeric(1, 2));
+      if (is_inexact(inside)) return finite(entry.of_number(as_double(inside)));
+      return bounded(entry.symbolic(inside));
     }
-    std::vector<std::string> known = {"pi", "pow", "atan2"};
+    std::vector<std::string> known;
+    for (const FunctionEntry& entry : functions()) known.push_back(entry.name);
     std::string list;
     for (const auto& entry : names_) {
       known.push_back(entry.first);
       list += entry.first + ", ";
     }
-    for (const FunctionEntry& entry : functions()) known.push_back(entry.name);
+    known.insert(known.end(), {"pow", "atan2", "pi"});
     fault("the unknown name " + in_quotes(word), list + "pi or a function such as sin", nearest_name(word, known));
   }
 

@@ -75,7 +75,8 @@ FrictionParameters read_friction(Cursor& cursor, std::string& law) {
   p.static_speed = cursor.quantity("static_speed", kSpeed, p.static_speed);
   cursor.require(p.static_speed >= 0.0, "static_speed", "a speed of zero or more");
   p.dynamic_speed = cursor.quantity("dynamic_speed", kSpeed, p.dynamic_speed);
-  cursor.require(p.dynamic_speed > p.static_speed, "dynamic_speed", "a speed above static_speed");
+  cursor.require(p.dynamic_speed > p.static_speed, cursor.has("dynamic_speed") ? "dynamic_speed" : "static_speed",
+                 "dynamic_speed above static_speed");
   cursor.finish();
   return p;
 }

@@ -80,6 +80,9 @@ ut_system* unit_system() {
       throw ComputationError("UDUNITS-2 cannot read its table of units (udunits2.xml); install libudunits2-data or "
                              "set UDUNITS2_XML_PATH");
     }
+    // UDUNITS knows "degree" but not "deg".
+    const UnitPtr degree(ut_get_unit_by_name(read, "degree"));
+    if (degree != nullptr) ut_map_name_to_unit("deg", UT_ASCII, degree.get());
     return read;
   }();
   return system;

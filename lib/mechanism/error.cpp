@@ -38,18 +38,20 @@ InputError::InputError(const Origin& where, const std::string& which, const std:
       expected(what_was_expected),
       nearest(nearest_known) {}
 
-// Levenshtein's distance, one row at a time. Names longer than 200 characters are compared by their beginnings.
+// Optimal string alignment: characters inserted, removed or replaced, and neighbours swapped, one each; two rows are kept.
+// Names longer than 200 characters are compared by their beginnings.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   const std::size_t rows = std::min<std::size_t>(a.size(), 200), columns = std::min<std::size_t>(b.size(), 200);
-  std::vector<std::size_t> row(columns + 1);
+  std::vector<std::size_t> before(columns + 1), above(columns + 1), row(columns + 1);
   for (std::size_t j = 0; j <= columns; ++j) row[j] = j;
   for (std::size_t i = 1; i <= rows; ++i) {
-    std::size_t diagonal = row[0];
+    before.swap(above);
+    above.swap(row);
     row[0] = i;
     for (std::size_t j = 1; j <= columns; ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+      const std::size_t replaced = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({above[j] + 1, row[j - 1] + 1, replaced});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
   return row[columns];

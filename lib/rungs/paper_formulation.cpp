@@ -172,29 +172,18 @@ class PaperFormulation final : public Formulation {
   // centre of mass (the reference point) to the combined one, I_c about the latter:
   //   m (vdot + wdot x c + w x (w x c)) = F,   I_c wdot + w x I_c w = moment about the combined centre.
   void evaluate_forces(double t, const std::vector<ContactMemory>& memory) {
+    evaluate_inverse_mass();
     for (int b = 0; b < mechanism_.bodies(); ++b) {
       const BodyMotion& body = bodies_[b];
       const MassProperties& m = mass_[b];
-      const Mat3 inverse = body.R * inverse_inertia_[b] * body.R.transpose();
       const Vec3 w_B = body.R.transpose() * body.w;
-      const Vec3 gyroscopic = body.R * w_B.cross(m.inertia * w_B);
-      Mat6& W = inverse_mass_[b];
-      W.bottomRightCorner<3, 3>() = inverse;
-      W.topLeftCorner<3, 3>() = Mat3::Identity() / m.mass;
       force_[b].head<3>() = m.mass * gravity_;
-      force_[b].tail<3>() = -gyroscopic;
-      if (m.c.squaredNorm() > 0.0) {
-        const Vec3 c = body.R * m.c;
-        Mat3 cross;
-        cross << 0.0, -c.z(), c.y(), c.z(), 0.0, -c.x(), -c.y(), c.x(), 0.0;
-        // v = v_c + c x w, so M^-1 = T diag(1/m, I_c^-1) T^T with T = [1 [c]; 0 1].
-        W.topRightCorner<3, 3>() = cross * inverse;
-        W.bottomLeftCorner<3, 3>() = W.topRightCorner<3, 3>().transpose();
-        W.topLeftCorner<3, 3>() += cross * inverse * cross.transpose();
-        const Vec3 centripetal = m.mass * body.w.cross(body.w.cross(c));
-        force_[b].head<3>() -= centripetal;
-        force_[b].tail<3>() += c.cross(Vec3(m.mass * gravity_ - centripetal));
-      }
+      force_[b].tail<3>() = -(body.R * w_B.cross(m.inertia * w_B));
+      if (m.c.squaredNorm() == 0.0) continue;
+      const Vec3 c = body.R * m.c;
+      const Vec3 centripetal = m.mass * body.w.cross(body.w.cross(c));
+      force_[b].head<3>() -= centripetal;
+      force_[b].tail<3>() += c.cross(Vec3(m.mass * gravity_ - centripetal));
     }
     forces_.apply(t, bodies_, memory, force_);
   }
@@ -224,11 +213,11 @@ class PaperFormulation final : public Formulation {
     for (int b = 0; b < mechanism_.bodies(); ++b) y.segment<6>(kPerBody * b + 7) += reaction_[b];
   }
 
+  // v = v_c + c x w, so M^-1 = T diag(1/m, I_c^-1) T^T with T = [1 [c]; 0 1].
   void evaluate_inverse_mass() {
     for (int b = 0; b < mechanism_.bodies(); ++b) {
       const Mat3 inverse = bodies_[b].R * inverse_inertia_[b] * bodies_[b].R.transpose();
       Mat6& W = inverse_mass_[b];
-      W.setZero();
       W.topLeftCorner<3, 3>() = Mat3::Identity() / mass_[b].mass;
       W.bottomRightCorner<3, 3>() = inverse;
       if (mass_[b].c.squaredNorm() == 0.0) continue;

@@ -1,0 +1,84 @@
+#include "boresight/rungs/motion_recorder.hpp"
+
+#include <algorithm>
+
+namespace boresight {
+
+MotionRecorder::MotionRecorder(const Mechanism& mechanism, const IdealMotion& ideal, const RunOptions& options,
+                               double expected_steps)
+    : mechanism_(mechanism), ideal_(ideal), spacing_(options.sample_spacing) {
+  indices_.reserve(static_cast<std::size_t>(std::clamp(expected_steps, 16.0, 1e7)) + 2);
+  result_.boresight.body = mechanism.boresight_body();
+  result_.boresight.name = mechanism.description().bodies[mechanism.boresight_body()].name;
+  for (int body : options.pose_bodies) {
+    BodyHistory history;
+    history.body = body;
+    history.name = mechanism.description().bodies[body].name;
+    result_.others.push_back(std::move(history));
+  }
+  result_.clearances.resize(mechanism.clearances());
+}
+
+PoseSample MotionRecorder::pose_sample(int body, const BodyMotion& motion, const BodyAcceleration& acceleration) const {
+  BodyAcceleration ideal_acceleration;
+  const BodyMotion ideal = ideal_.body(t_, body, &ideal_acceleration);
+  PoseSample s;
+  s.pose = {motion.p, Quat(motion.R)};
+  s.ideal = {ideal.p, Quat(ideal.R)};
+  s.error = pose_error(s.pose, s.ideal, mechanism_.boresight_B());
+  s.v = motion.v;
+  s.w = motion.w;
+  s.a = acceleration.head<3>();
+  s.alpha = acceleration.tail<3>();
+  s.ideal_a = ideal_acceleration.head<3>();
+  s.ideal_alpha = ideal_acceleration.tail<3>();
+  return s;
+}
+
+const PoseError& MotionRecorder::accept(double t, const BodyMotion& body, const BodyAcceleration& acceleration) {
+  t_ = t;
+  const int index = mechanism_.boresight_body();
+  const BodyMotion ideal = ideal_.body(t, index);
+  error_ = pose_error({body.p, Quat(body.R)}, {ideal.p, Quat(ideal.R)}, mechanism_.boresight_B());
+  indices_.add(t, error_);
+  position_error_max_ = std::max(position_error_max_, error_.position);
+  result_.platform_acceleration_max = result_.platform_acceleration_max.cwiseMax(acceleration.head<3>().cwiseAbs());
+  result_.end_time = t;
+  // A thousandth of the spacing of slack, so that rounding of t does not shift a sample by a step.
+  sampling_ = spacing_ > 0.0 && t >= next_sample_ - 1e-3 * spacing_;
+  if (sampling_) {
+    while (next_sample_ <= t + 1e-3 * spacing_) next_sample_ += spacing_;
+    result_.time.push_back(t);
+    result_.boresight.samples.push_back(pose_sample(index, body, acceleration));
+  }
+  return error_;
+}
+
+void MotionRecorder::sample_body(int other, const BodyMotion& body, const BodyAcceleration& acceleration) {
+  BodyHistory& history = result_.others[other];
+  history.samples.push_back(pose_sample(history.body, body, acceleration));
+}
+
+void MotionRecorder::sample_clearance(int clearance, const JournalMotion<double>& motion,
+                                      const std::array<ContactState<double>, kContactPlaces>& contact) {
+  ClearanceSample s;
+  s.offset = motion.e;
+  s.penetration = -1e300;
+  bool radial = false, axial = false;
+  for (int k = 0; k < kContactPlaces; ++k) {
+    if (contact[k].penetration == -1.0) continue;  // a place this joint does not have
+    s.penetration = std::max(s.penetration, contact[k].penetration);
+    if (contact[k].penetration <= 0.0) continue;
+    s.normal_force += contact[k].normal_force;
+    (k < static_cast<int>(ContactPlace::axial_minus) ? radial : axial) = true;
+  }
+  s.contact = (radial ? 1 : 0) + (axial ? 2 : 0);
+  result_.clearances[clearance].push_back(s);
+}
+
+RunResult MotionRecorder::finish() {
+  result_.index = indices_.result();
+  return std::move(result_);
+}
+
+}  // namespace boresight

@@ -1,0 +1,39 @@
+// Turns accepted states into a RunResult: indices over every step, samples at the spacing asked for, peaks, clearances.
+// Shared by all rungs.
+#pragma once
+
+#include "boresight/mechanism/ideal_motion.hpp"
+#include "boresight/rungs/force_elements.hpp"
+#include "boresight/rungs/rung.hpp"
+
+namespace boresight {
+
+class MotionRecorder {
+ public:
+  // expected_steps: to reserve room for the indices.
+  MotionRecorder(const Mechanism& mechanism, const IdealMotion& ideal, const RunOptions& options, double expected_steps);
+
+  // One accepted state: motion and acceleration of the boresight body. Returns the pose error.
+  const PoseError& accept(double t, const BodyMotion& body, const BodyAcceleration& acceleration);
+  // True if the state accepted last is to be sampled: then call the two below, bodies first.
+  bool sampling() const { return sampling_; }
+  void sample_body(int other, const BodyMotion& body, const BodyAcceleration& acceleration);  // other: index in pose_bodies
+  void sample_clearance(int clearance, const JournalMotion<double>& motion,
+                        const std::array<ContactState<double>, kContactPlaces>& contact);
+
+  double position_error_max() const { return position_error_max_; }
+  RunResult finish();
+
+ private:
+  PoseSample pose_sample(int body, const BodyMotion& motion, const BodyAcceleration& acceleration) const;
+
+  const Mechanism& mechanism_;
+  const IdealMotion& ideal_;
+  double spacing_, next_sample_ = 0.0, t_ = 0.0, position_error_max_ = 0.0;
+  bool sampling_ = false;
+  IndicesOverTime indices_;
+  PoseError error_;
+  RunResult result_;
+};
+
+}  // namespace boresight
