@@ -23,8 +23,8 @@ struct Place {
   std::string path;
 
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
-    throw std::invalid_argument("report document: " + (path.empty() ? std::string("(root)") : path) + ": found " + found +
-                                ", expected " + expected);
+    throw std::invalid_argument("report document: " + (path.empty() ? std::string("(root)") : path) +
+                                ": found " + found + ", expected " + expected);
   }
   // What stands here, short enough for one line of message.
   std::string found() const {
@@ -61,15 +61,18 @@ void object(const Place& place, Words required, Words optional) {
 
 void text(const Place& place, bool may_be_empty = true) {
   if (!place.value.is_string()) place.fail(place.found(), "text");
-  if (!may_be_empty && place.value.get_ref<const std::string&>().empty()) place.fail("empty text", "some text");
+  if (!may_be_empty && place.value.get_ref<const std::string&>().empty())
+    place.fail("empty text", "some text");
 }
 void text_where_given(const Place& place, Words keys) {
-  for (const char* key : keys) if (place.has(key)) text(place.at(key));
+  for (const char* key : keys)
+    if (place.has(key)) text(place.at(key));
 }
 
 void flag_where_given(const Place& place, Words keys) {
   for (const char* key : keys) {
-    if (place.has(key) && !place.at(key).value.is_boolean()) place.at(key).fail(place.at(key).found(), "true or false");
+    if (place.has(key) && !place.at(key).value.is_boolean())
+      place.at(key).fail(place.at(key).found(), "true or false");
   }
 }
 
@@ -83,10 +86,13 @@ void one_of(const Place& place, Words words) {
 
 void finite(const Place& place, double least = -std::numeric_limits<double>::infinity(),
             double most = std::numeric_limits<double>::infinity()) {
-  if (!place.value.is_number() || !std::isfinite(place.value.get<double>())) place.fail(place.found(), "a finite number");
+  if (!place.value.is_number() || !std::isfinite(place.value.get<double>()))
+    place.fail(place.found(), "a finite number");
   const double number = place.value.get<double>();
   if (number < least || number > most) {
-    const auto end = [](double limit) { return std::isfinite(limit) ? json(limit).dump() : std::string("any"); };
+    const auto end = [](double limit) {
+      return std::isfinite(limit) ? json(limit).dump() : std::string("any");
+    };
     place.fail(place.found(), "a number from " + end(least) + " to " + end(most));
   }
 }
@@ -106,7 +112,8 @@ void same_length(const Place& place, std::size_t length, const char* as_in) {
 void numbers(const Place& place) {
   array(place);
   for (std::size_t i = 0; i < place.value.size(); ++i) {
-    if (!place.value[i].is_number() && !place.value[i].is_null()) place.at(i).fail(place.at(i).found(), "a number or null");
+    if (!place.value[i].is_number() && !place.value[i].is_null())
+      place.at(i).fail(place.at(i).found(), "a number or null");
   }
 }
 void texts(const Place& place) {
@@ -116,8 +123,10 @@ void texts(const Place& place) {
 // Along an axis: all numbers, or all names of categories.
 void numbers_or_names(const Place& place) {
   array(place);
-  if (!place.value.empty() && place.value[0].is_string()) texts(place);
-  else numbers(place);
+  if (!place.value.empty() && place.value[0].is_string())
+    texts(place);
+  else
+    numbers(place);
 }
 
 void each(const Place& place, const char* key, void (*check_one)(const Place&)) {
@@ -134,10 +143,12 @@ void axis(const Place& place) {
   flag_where_given(place, {"log"});
   if (!place.has("range")) return;
   const Place range = place.at("range");
-  if (!range.value.is_array() || range.value.size() != 2) range.fail(range.found(), "two numbers, [from, to]");
+  if (!range.value.is_array() || range.value.size() != 2)
+    range.fail(range.found(), "two numbers, [from, to]");
   finite(range.at(std::size_t{0}));
   finite(range.at(std::size_t{1}));
-  if (range.value[0].get<double>() >= range.value[1].get<double>()) range.fail(range.value.dump(), "from < to");
+  if (range.value[0].get<double>() >= range.value[1].get<double>())
+    range.fail(range.value.dump(), "from < to");
   if (place.value.value("log", false) && range.value[0].get<double>() <= 0.0) {
     range.fail(range.value.dump(), "positive ends, as the axis is logarithmic");
   }
@@ -148,7 +159,8 @@ void series(const Place& place) {
          {"y", "y_low", "style", "muted", "hidden", "color", "error_low", "error_high", "text", "bins"});
   text(place.at("name"), false);
   if (place.has("style")) {
-    one_of(place.at("style"), {"line", "dash", "markers", "line+markers", "steps", "bars", "area", "histogram", "box"});
+    one_of(place.at("style"),
+           {"line", "dash", "markers", "line+markers", "steps", "bars", "area", "histogram", "box"});
   }
   flag_where_given(place, {"muted", "hidden"});
   const std::string style = place.value.value("style", "line");
@@ -160,8 +172,10 @@ void series(const Place& place) {
   for (const char* key : {"y", "y_low", "error_low", "error_high"}) {
     if (!place.has(key)) continue;
     same_length(place.at(key), length, "x");
-    if (std::string_view(key) == "y") numbers_or_names(place.at(key));
-    else numbers(place.at(key));
+    if (std::string_view(key) == "y")
+      numbers_or_names(place.at(key));
+    else
+      numbers(place.at(key));
   }
   for (const char* key : {"error_low", "error_high"}) {
     if (!place.has(key)) continue;
@@ -172,7 +186,8 @@ void series(const Place& place) {
       }
     }
   }
-  if (place.has("y_low") && style != "area") place.at("y_low").fail("a key", "style area, where a lower edge has a meaning");
+  if (place.has("y_low") && style != "area")
+    place.at("y_low").fail("a key", "style area, where a lower edge has a meaning");
   if (place.has("text")) {
     same_length(place.at("text"), length, "x");
     texts(place.at("text"));
@@ -251,7 +266,8 @@ void panels(const Place& place) {
   if (place.has("legend")) one_of(place.at("legend"), {"shared", "none"});
   if (place.at("panels").value.empty()) place.at("panels").fail("no panel", "at least one chart");
   each(place, "panels", [](const Place& panel) {
-    if (!panel.value.is_object() || panel.value.value("kind", json()) != "chart") panel.fail(panel.found(), "an item of kind chart");
+    if (!panel.value.is_object() || panel.value.value("kind", json()) != "chart")
+      panel.fail(panel.found(), "an item of kind chart");
     chart(panel);
   });
 }
@@ -271,7 +287,8 @@ void table(const Place& place) {
   for (std::size_t i = 0; i < rows.value.size(); ++i) {
     same_length(rows.at(i), place.at("columns").value.size(), "columns");
     for (std::size_t k = 0; k < rows.value[i].size(); ++k) {
-      if (rows.value[i][k].is_structured()) rows.at(i).at(k).fail(rows.at(i).at(k).found(), "text, a number, true, false or null");
+      if (rows.value[i][k].is_structured())
+        rows.at(i).at(k).fail(rows.at(i).at(k).found(), "text, a number, true, false or null");
     }
   }
 }
@@ -303,7 +320,8 @@ void strip(const Place& place) {
   std::string names;
   for (const json& state : place.at("states").value) {
     names += (names.empty() ? "" : ", ") + state["name"].get<std::string>();
-    if (!known.insert(state["name"]).second) place.at("states").fail("'" + state["name"].get<std::string>() + "' twice", "each state once");
+    if (!known.insert(state["name"]).second)
+      place.at("states").fail("'" + state["name"].get<std::string>() + "' twice", "each state once");
   }
   const Place rows = place.at("rows");
   array(rows);
@@ -319,7 +337,8 @@ void strip(const Place& place) {
     for (std::size_t k = 0; k < row.value["start"].size(); ++k) {
       finite(row.at("start").at(k));
       finite(row.at("end").at(k), row.value["start"][k].get<double>());
-      if (!known.count(row.value["state"][k])) row.at("state").at(k).fail(row.at("state").at(k).found(), "one of " + names);
+      if (!known.count(row.value["state"][k]))
+        row.at("state").at(k).fail(row.at("state").at(k).found(), "one of " + names);
     }
   }
 }
@@ -342,14 +361,16 @@ void item(const Place& place) {
 void fact(const Place& place) {
   object(place, {"label", "value"}, {"unit", "note"});
   text(place.at("label"), false);
-  if (!place.at("value").value.is_primitive()) place.at("value").fail(place.at("value").found(), "text or a number");
+  if (!place.at("value").value.is_primitive())
+    place.at("value").fail(place.at("value").found(), "text or a number");
   text_where_given(place, {"unit", "note"});
 }
 
 void provenance(const Place& place) {
   object(place, {"label", "value"}, {});
   text(place.at("label"), false);
-  if (!place.at("value").value.is_primitive()) place.at("value").fail(place.at("value").found(), "text or a number");
+  if (!place.at("value").value.is_primitive())
+    place.at("value").fail(place.at("value").found(), "text or a number");
 }
 
 void section(const Place& place) {
@@ -357,7 +378,8 @@ void section(const Place& place) {
   text(place.at("id"), false);
   const auto& id = place.value["id"].get_ref<const std::string&>();
   constexpr std::string_view allowed = "abcdefghijklmnopqrstuvwxyz0123456789-";
-  if (id.find_first_not_of(allowed) != std::string::npos) place.at("id").fail("'" + id + "'", "small letters, digits and '-'");
+  if (id.find_first_not_of(allowed) != std::string::npos)
+    place.at("id").fail("'" + id + "'", "small letters, digits and '-'");
   text(place.at("title"), false);
   text_where_given(place, {"intro"});
   each(place, "items", item);
@@ -367,7 +389,8 @@ void section(const Place& place) {
 
 double round_to(double value, int digits) {
   char buffer[48];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific, digits - 1).ptr;
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific, digits - 1).ptr;
   double result = value;
   std::from_chars(buffer, end, result);
   return result;
@@ -385,17 +408,21 @@ void round_numbers(json& list) {
   }
   int digits = 7;
   const double span = most - least;
-  if (span > 0.0 && span < 1e-3 * size) digits = std::min(17, digits + static_cast<int>(std::ceil(std::log10(size / span))));
+  if (span > 0.0 && span < 1e-3 * size)
+    digits = std::min(17, digits + static_cast<int>(std::ceil(std::log10(size / span))));
   for (json& entry : list) {
     if (!entry.is_number_float()) continue;
     const double number = entry.get<double>();
-    if (!std::isfinite(number)) entry = nullptr;
-    else entry = round_to(number, digits);
+    if (!std::isfinite(number))
+      entry = nullptr;
+    else
+      entry = round_to(number, digits);
   }
 }
 
 void round_lists(json& object, Words keys) {
-  for (const char* key : keys) if (object.contains(key)) round_numbers(object[key]);
+  for (const char* key : keys)
+    if (object.contains(key)) round_numbers(object[key]);
 }
 
 void round_item(json& item) {
@@ -432,7 +459,8 @@ void check(const json& document) {
   std::set<std::string> ids;
   for (std::size_t i = 0; i < document["sections"].size(); ++i) {
     const auto& id = document["sections"][i]["id"].get_ref<const std::string&>();
-    if (!ids.insert(id).second) root.at("sections").at(i).at("id").fail("'" + id + "' a second time", "an id of its own");
+    if (!ids.insert(id).second)
+      root.at("sections").at(i).at("id").fail("'" + id + "' a second time", "an id of its own");
   }
 }
 

@@ -9,46 +9,73 @@ namespace {
 using nlohmann::json;
 
 // Optional keys are left out where they say nothing, so that documents stay small.
-void set(json& object, const char* key, const std::string& text) { if (!text.empty()) object[key] = text; }
-void set(json& object, const char* key, bool flag) { if (flag) object[key] = true; }
-void set(json& object, const char* key, int number) { if (number != 0) object[key] = number; }
+void set(json& object, const char* key, const std::string& text) {
+  if (!text.empty()) object[key] = text;
+}
+void set(json& object, const char* key, bool flag) {
+  if (flag) object[key] = true;
+}
+void set(json& object, const char* key, int number) {
+  if (number != 0) object[key] = number;
+}
 template <typename T>
-void set(json& object, const char* key, const std::vector<T>& list) { if (!list.empty()) object[key] = list; }
+void set(json& object, const char* key, const std::vector<T>& list) {
+  if (!list.empty()) object[key] = list;
+}
 
-json along(const Along& values) { return std::visit([](const auto& list) { return json(list); }, values); }
-bool empty(const Along& values) { return std::visit([](const auto& list) { return list.empty(); }, values); }
+json along(const Along& values) {
+  return std::visit([](const auto& list) { return json(list); }, values);
+}
+bool empty(const Along& values) {
+  return std::visit([](const auto& list) { return list.empty(); }, values);
+}
 
 }  // namespace
 
 const char* to_string(Style style) {
   switch (style) {
-    case Style::line: return "line";
-    case Style::dash: return "dash";
-    case Style::markers: return "markers";
-    case Style::line_markers: return "line+markers";
-    case Style::steps: return "steps";
-    case Style::bars: return "bars";
-    case Style::area: return "area";
-    case Style::histogram: return "histogram";
-    case Style::box: return "box";
+    case Style::line:
+      return "line";
+    case Style::dash:
+      return "dash";
+    case Style::markers:
+      return "markers";
+    case Style::line_markers:
+      return "line+markers";
+    case Style::steps:
+      return "steps";
+    case Style::bars:
+      return "bars";
+    case Style::area:
+      return "area";
+    case Style::histogram:
+      return "histogram";
+    case Style::box:
+      return "box";
   }
   return "line";
 }
 
 const char* to_string(Agreement agreement) {
   switch (agreement) {
-    case Agreement::agrees: return "agrees";
-    case Agreement::differs: return "differs";
-    case Agreement::explained: return "explained";
+    case Agreement::agrees:
+      return "agrees";
+    case Agreement::differs:
+      return "differs";
+    case Agreement::explained:
+      return "explained";
   }
   return "agrees";
 }
 
 const char* to_string(Standing standing) {
   switch (standing) {
-    case Standing::good: return "good";
-    case Standing::bad: return "bad";
-    case Standing::neutral: return "neutral";
+    case Standing::good:
+      return "good";
+    case Standing::bad:
+      return "bad";
+    case Standing::neutral:
+      return "neutral";
   }
   return "neutral";
 }
@@ -104,7 +131,10 @@ void to_json(json& json, const Chart& chart) {
 }
 
 void to_json(json& json, const Panels& panels) {
-  json = {{"kind", "panels"}, {"title", panels.title}, {"columns", panels.columns}, {"panels", panels.panels},
+  json = {{"kind", "panels"},
+          {"title", panels.title},
+          {"columns", panels.columns},
+          {"panels", panels.panels},
           {"legend", panels.shared_legend ? "shared" : "none"}};
   set(json, "caption", panels.caption);
 }
@@ -144,7 +174,11 @@ void to_json(json& json, const StripRow& row) {
 }
 
 void to_json(json& json, const Strip& strip) {
-  json = {{"kind", "strip"}, {"title", strip.title}, {"x", strip.x}, {"states", strip.states}, {"rows", strip.rows}};
+  json = {{"kind", "strip"},
+          {"title", strip.title},
+          {"x", strip.x},
+          {"states", strip.states},
+          {"rows", strip.rows}};
   set(json, "caption", strip.caption);
 }
 
@@ -202,8 +236,10 @@ std::pair<Numbers, Numbers> thinned(const Numbers& x, const Numbers& y, std::siz
         if (y[stop] < y[least]) least = stop;
         if (y[stop] > y[greatest]) greatest = stop;
       }
-      std::array<std::size_t, 4> points{begin, std::min(least, greatest), std::max(least, greatest), stop - 1};
-      for (std::size_t k = 0; k < points.size(); ++k) if (k == 0 || points[k] != points[k - 1]) keep(points[k]);
+      std::array<std::size_t, 4> points{begin, std::min(least, greatest), std::max(least, greatest),
+                                        stop - 1};
+      for (std::size_t k = 0; k < points.size(); ++k)
+        if (k == 0 || points[k] != points[k - 1]) keep(points[k]);
       begin = stop;
     }
   }

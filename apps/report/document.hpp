@@ -30,10 +30,12 @@ struct Axis {
   std::string label = {};
   std::string unit = {};  // empty: a pure number, or categories
   bool log = false;
-  std::optional<std::array<double, 2>> range = {};  // in the axis' unit, also where it is logarithmic; else what the data need
+  // In the axis' unit, also where it is logarithmic. None: what the data need.
+  std::optional<std::array<double, 2>> range = {};
 };
 
-// histogram counts x and has no y; box draws one box per distinct x from its y values; area fills from y_low (else zero) to y.
+// histogram counts x and has no y; box draws one box per distinct x from its y values; area fills from y_low
+// (else zero) to y.
 enum class Style { line, dash, markers, line_markers, steps, bars, area, histogram, box };
 const char* to_string(Style style);
 
@@ -42,14 +44,14 @@ struct Series {
   Along x = {};
   Along y = Numbers{};
   Style style = Style::line;
-  bool muted = false;    // thin, dashed, neutral: the ideal curve, a reference
-  bool hidden = false;   // present in the legend, drawn when asked for
-  Numbers y_low = {};         // area: its lower edge
-  Numbers error_low = {};     // distances from y, not negative
+  bool muted = false;      // thin, dashed, neutral: the ideal curve, a reference
+  bool hidden = false;     // present in the legend, drawn when asked for
+  Numbers y_low = {};      // area: its lower edge
+  Numbers error_low = {};  // distances from y, not negative
   Numbers error_high = {};
-  Names text = {};            // shown when hovering
-  int color = 0;         // 1..8 keeps a colour for this series across charts; 0: by order
-  int bins = 0;          // histogram; 0: chosen from the data
+  Names text = {};  // shown when hovering
+  int color = 0;    // 1..8 keeps a colour for this series across charts; 0: by order
+  int bins = 0;     // histogram; 0: chosen from the data
 };
 
 struct Circle {
@@ -211,8 +213,8 @@ void to_json(nlohmann::json& json, const Verdict& verdict);
 void to_json(nlohmann::json& json, const Provenance& provenance);
 void to_json(nlohmann::json& json, const Document& document);
 
-// At most about `most` points that draw the same curve: the first, last, least and greatest point of each stretch, so that no
-// spike (an impact) is lost. x must not decrease. Gaps (NaN) end stretches and stay.
+// At most about `most` points that draw the same curve: the first, last, least and greatest point of each
+// stretch, so that no spike (an impact) is lost. x must not decrease. Gaps (NaN) end stretches and stay.
 std::pair<Numbers, Numbers> thinned(const Numbers& x, const Numbers& y, std::size_t most = 4000);
 
 }  // namespace boresight::report

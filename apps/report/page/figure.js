@@ -244,7 +244,7 @@ export function figure(chart, entries, { width, panel = false, themeName = theme
     width, height, autosize: false, margin: { l: 48, r: panel ? 14 : 20, t: top, b: 46 + 15 * (xTitle.length - 1), pad: 0 },
     paper_bgcolor: colors.surface, plot_bgcolor: colors.surface, font: { family: font, color: colors.ink, size: 12 },
     xaxis: { ...axisLayout(chart.x, colors, names.x, xTitle.join("<br>"), values("x")) },
-    yaxis: { ...axisLayout(chart.y, colors, names.y, "", values("y")) },
+    yaxis: { ...axisLayout(chart.y, colors, names.y, "", values("y")), showspikes: false },
     shapes, annotations, showlegend: false, barmode: types.has("histogram") ? "overlay" : "group", bargap: types.has("histogram") ? 0.02 : 0.3, boxmode: "group",
     hovermode: lines ? "x unified" : "closest", hoverdistance: 40,
     hoverlabel: { bgcolor: colors.surface, bordercolor: colors.axis, font: { color: colors.ink, size: 12, family: font }, namelength: -1 },
@@ -252,7 +252,7 @@ export function figure(chart, entries, { width, panel = false, themeName = theme
     colorway: [hue(0, themeName)],
   };
   if (lines) for (const trace of data) if (trace.hovertemplate) trace.hovertemplate = trace.hovertemplate.replace(/^%\{x[^}]*\}[^,]*, /, "");
-  if (lines) layout.xaxis.unifiedhovertitle = { text: `%{x}${chart.x.unit ? ` ${plain(chart.x.unit)}` : ""}` };
+  if (lines) layout.xaxis.unifiedhovertitle = { text: `%{x:.5~g}${chart.x.unit ? ` ${plain(chart.x.unit)}` : ""}` };
   if (map) { layout.xaxis.showgrid = false; layout.yaxis.showgrid = false; layout.xaxis.constrain = "domain"; }
   if (names.y) Object.assign(layout.yaxis, { autorange: "reversed", showgrid: false, ticklen: 6, tickcolor: "rgba(0,0,0,0)" }, named(chart, "y", width * 0.42));
   if (names.x) {

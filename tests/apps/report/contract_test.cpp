@@ -15,7 +15,8 @@ namespace {
 using nlohmann::json;
 
 json with_item(const json& item) {
-  return {{"title", "T"}, {"sections", json::array({{{"id", "s"}, {"title", "S"}, {"items", json::array({item})}}})}};
+  return {{"title", "T"},
+          {"sections", json::array({{{"id", "s"}, {"title", "S"}, {"items", json::array({item})}}})}};
 }
 
 json small_chart() {
@@ -38,22 +39,27 @@ TEST(Contract, AcceptsEveryKindOfItem) {
   EXPECT_EQ(refusal(sample::hostile()), "accepted");
 }
 
-TEST(Contract, AcceptsTheSmallestDocument) { EXPECT_EQ(refusal({{"title", "T"}, {"sections", json::array()}}), "accepted"); }
+TEST(Contract, AcceptsTheSmallestDocument) {
+  EXPECT_EQ(refusal({{"title", "T"}, {"sections", json::array()}}), "accepted");
+}
 
 TEST(Contract, NamesThePlaceOfSeriesOfUnequalLength) {
   json chart = small_chart();
   chart["series"][0]["y"] = {1.0, 2.0, 3.0};
-  EXPECT_EQ(refusal(with_item(chart)), "report document: sections[0].items[0].series[0].y: found 3 values, expected 2, as in x");
+  EXPECT_EQ(refusal(with_item(chart)),
+            "report document: sections[0].items[0].series[0].y: found 3 values, expected 2, as in x");
 }
 
 TEST(Contract, NamesUnknownKeys) {
   json chart = small_chart();
   chart["serie"] = 1;
-  EXPECT_NE(refusal(with_item(chart)).find("sections[0].items[0]: found unknown key 'serie'"), std::string::npos);
+  EXPECT_NE(refusal(with_item(chart)).find("sections[0].items[0]: found unknown key 'serie'"),
+            std::string::npos);
 }
 
 TEST(Contract, NamesMissingKeys) {
-  EXPECT_EQ(refusal({{"sections", json::array()}}), "report document: (root): found no key 'title', expected the keys title, sections");
+  EXPECT_EQ(refusal({{"sections", json::array()}}),
+            "report document: (root): found no key 'title', expected the keys title, sections");
 }
 
 struct Refused {
@@ -63,15 +69,25 @@ struct Refused {
 };
 
 TEST(Contract, RefusesChartsThatCannotBeDrawnAsMeant) {
-  for (const Refused& one : {Refused{"/x/label", "", "some text"}, {"/x/range", {2, 1}, "from < to"}, {"/x/range", {1}, "two numbers"},
-                             {"/y/log", 1, "true or false"}, {"/series/0/style", "wavy", "one of line"}, {"/series/0/x", 3, "an array"},
-                             {"/series/0/y", {1, "two"}, "a number or null"}, {"/series/0/error_low", {1, -1}, "not negative"},
-                             {"/series/0/y_low", {1, 1}, "style area"}, {"/series/0/style", "histogram", "no y"},
-                             {"/series/0/text", {"one"}, "2, as in x"}, {"/series", json::array(), "series, heatmap"}, {"/height", 5, "from 120"},
-                             {"/lines", {{{"axis", "z"}, {"value", 1}}}, "one of x, y"}, {"/circles", {{{"x", 0}, {"y", 0}, {"r", -1}}}, "from 0"}}) {
+  for (const Refused& one : {Refused{"/x/label", "", "some text"},
+                             {"/x/range", {2, 1}, "from < to"},
+                             {"/x/range", {1}, "two numbers"},
+                             {"/y/log", 1, "true or false"},
+                             {"/series/0/style", "wavy", "one of line"},
+                             {"/series/0/x", 3, "an array"},
+                             {"/series/0/y", {1, "two"}, "a number or null"},
+                             {"/series/0/error_low", {1, -1}, "not negative"},
+                             {"/series/0/y_low", {1, 1}, "style area"},
+                             {"/series/0/style", "histogram", "no y"},
+                             {"/series/0/text", {"one"}, "2, as in x"},
+                             {"/series", json::array(), "series, heatmap"},
+                             {"/height", 5, "from 120"},
+                             {"/lines", {{{"axis", "z"}, {"value", 1}}}, "one of x, y"},
+                             {"/circles", {{{"x", 0}, {"y", 0}, {"r", -1}}}, "from 0"}}) {
     json chart = small_chart();
     chart[json::json_pointer(one.pointer)] = one.value;
-    EXPECT_NE(refusal(with_item(chart)).find(one.expected), std::string::npos) << one.pointer << ": " << refusal(with_item(chart));
+    EXPECT_NE(refusal(with_item(chart)).find(one.expected), std::string::npos)
+        << one.pointer << ": " << refusal(with_item(chart));
   }
 }
 
@@ -86,21 +102,27 @@ TEST(Contract, RefusesWhatLogarithmsCannotShow) {
 }
 
 TEST(Contract, RefusesHeatMapsThatAreNoGrid) {
-  Chart chart{.title = "C", .x = {"a"}, .y = {"b"}, .heatmap = Heatmap{.x = Numbers{1, 2}, .y = Numbers{1}, .z = {{1, 2, 3}}, .label = "z"}};
+  Chart chart{.title = "C",
+              .x = {"a"},
+              .y = {"b"},
+              .heatmap = Heatmap{.x = Numbers{1, 2}, .y = Numbers{1}, .z = {{1, 2, 3}}, .label = "z"}};
   EXPECT_NE(refusal(with_item(chart)).find("heatmap.z[0]: found 3 values, expected 2"), std::string::npos);
 }
 
 TEST(Contract, RefusesTablesWhoseRowsDoNotFit) {
-  EXPECT_NE(refusal(with_item(Table{.title = "T", .columns = {{"a"}, {"b"}}, .rows = {{1}}})).find("rows[0]: found 1 values, expected 2, as in columns"),
+  EXPECT_NE(refusal(with_item(Table{.title = "T", .columns = {{"a"}, {"b"}}, .rows = {{1}}}))
+                .find("rows[0]: found 1 values, expected 2, as in columns"),
             std::string::npos);
 }
 
 TEST(Contract, RefusesStripsWithUnknownStatesOrTimeRunningBack) {
   const auto strip = [](double end, const char* state) {
-    return json(Strip{.title = "S", .x = {"t", "s"}, .states = {{"free"}}, .rows = {{"F1", {1}, {end}, {state}}}});
+    return json(
+        Strip{.title = "S", .x = {"t", "s"}, .states = {{"free"}}, .rows = {{"F1", {1}, {end}, {state}}}});
   };
   EXPECT_EQ(refusal(with_item(strip(2, "free"))), "accepted");
-  EXPECT_NE(refusal(with_item(strip(2, "stuck"))).find("found \"stuck\", expected one of free"), std::string::npos);
+  EXPECT_NE(refusal(with_item(strip(2, "stuck"))).find("found \"stuck\", expected one of free"),
+            std::string::npos);
   EXPECT_NE(refusal(with_item(strip(0.5, "free"))).find("end[0]"), std::string::npos);
 }
 

@@ -17,11 +17,21 @@ TEST(Document, LeavesOutWhatSaysNothing) {
 }
 
 TEST(Document, WritesASeriesAsTheContractSays) {
-  const Series series{.name = "a", .x = Names{"F1"}, .y = Numbers{2}, .style = Style::bars, .muted = true, .error_high = {0.5}};
-  EXPECT_EQ(json(series), json::parse(R"({"name": "a", "x": ["F1"], "y": [2.0], "style": "bars", "muted": true, "error_high": [0.5]})"));
+  const Series series{.name = "a",
+                      .x = Names{"F1"},
+                      .y = Numbers{2},
+                      .style = Style::bars,
+                      .muted = true,
+                      .error_high = {0.5}};
+  EXPECT_EQ(
+      json(series),
+      json::parse(
+          R"({"name": "a", "x": ["F1"], "y": [2.0], "style": "bars", "muted": true, "error_high": [0.5]})"));
 }
 
-TEST(Document, WritesAHistogramWithoutY) { EXPECT_FALSE(json(Series{.name = "a", .x = Numbers{1}, .style = Style::histogram}).contains("y")); }
+TEST(Document, WritesAHistogramWithoutY) {
+  EXPECT_FALSE(json(Series{.name = "a", .x = Numbers{1}, .style = Style::histogram}).contains("y"));
+}
 
 TEST(Thinned, KeepsEverySpike) {
   Numbers x, y;
@@ -44,7 +54,9 @@ TEST(Thinned, KeepsGaps) {
   EXPECT_TRUE(std::any_of(kept.begin(), kept.end(), [](double one) { return std::isnan(one); }));
 }
 
-TEST(Thinned, LeavesShortSeriesAlone) { EXPECT_EQ(thinned({1, 2, 3}, {4, 5, 6}, 100).second, (Numbers{4, 5, 6})); }
+TEST(Thinned, LeavesShortSeriesAlone) {
+  EXPECT_EQ(thinned({1, 2, 3}, {4, 5, 6}, 100).second, (Numbers{4, 5, 6}));
+}
 
 }  // namespace
 }  // namespace boresight::report

@@ -33,7 +33,8 @@ TEST(Html, HoldsTheDocumentUnchanged) {
 
 TEST(Html, CannotBeBrokenOutOf) {
   const std::string page = html(sample::hostile());
-  EXPECT_EQ(count(page, "</script"), 2u);  // the data's and the page's own: none from the data, none inside the bundle
+  EXPECT_EQ(count(page, "</script"),
+            2u);  // the data's and the page's own: none from the data, none inside the bundle
   EXPECT_EQ(count(page, "<script>document.title"), 0u);
   EXPECT_EQ(count(page, "<b>bold"), 0u);
   EXPECT_NE(page.find("<title>&lt;/script&gt;&lt;script&gt;"), std::string::npos);

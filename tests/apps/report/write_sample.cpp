@@ -1,4 +1,5 @@
-// report_sample NAME FILE: writes one of the sample documents as HTML, for the browser test and for looking at.
+// report_sample NAME FILE: writes one of the sample documents as HTML, for the browser test and for looking
+// at.
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -14,6 +15,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::ofstream file(argv[2]);
-  write_html(file, name == "hostile" ? sample::hostile() : name == "many" ? sample::many_charts(30, 4000) : sample::every_kind());
+  write_html(file, name == "hostile" ? sample::hostile()
+                   : name == "many"  ? sample::many_charts(30, 4000)
+                                     : sample::every_kind());
   return file.good() ? 0 : 3;
 }
