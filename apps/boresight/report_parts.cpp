@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegrees = 180.0 / kPi;
+// Errors below this (m, rad) are rounding; a chart of them would show noise as if it were a result.
+constexpr double kRounding = 1e-9;
 
 using Value = std::function<double(const PoseSample&)>;
 
@@ -134,8 +136,9 @@ report::Panels difference_panels(const std::vector<Overlay>& overlays) {
   for (int k = 0; k < 3; ++k)
     panels.panels.push_back(panel(std::string("Displacement error ") + kAxisName[k], {std::string("d") + kAxisName[k], length.name},
                                   overlays, length.per_si, [k](const PoseSample& s) { return s.error.displacement[k]; }));
-  // Rotations below a nanoradian are rounding: three empty panels would say less than none.
-  if (rotation >= 1e-8)
+  if (rotation < kRounding)
+    panels.caption += " The rotation errors are zero to rounding and not drawn.";
+  else
     for (int k = 0; k < 3; ++k)
       panels.panels.push_back(panel(std::string("Rotation error ") + kAxisName[k], {std::string("r") + kAxisName[k], angle.name},
                                     overlays, angle.per_si, [k](const PoseSample& s) { return s.error.rotation[k]; }));
@@ -156,9 +159,15 @@ report::Panels error_panels(const std::vector<Overlay>& overlays) {
       {"Line-of-sight error", "rad", [](const PoseSample& s) { return s.error.line_of_sight; }},
   };
   for (const Entry& entry : entries) {
-    const DisplayUnit unit = display_unit(entry.si_unit, largest_over(overlays, entry.value));
+    const double most = largest_over(overlays, entry.value);
+    if (most < kRounding) {
+      panels.caption += (panels.caption.empty() ? "" : " ") + std::string(entry.title) + ": zero to rounding, not drawn.";
+      continue;
+    }
+    const DisplayUnit unit = display_unit(entry.si_unit, most);
     panels.panels.push_back(panel(entry.title, {"error", unit.name}, overlays, unit.per_si, entry.value));
   }
+  if (panels.panels.empty()) panels.panels.push_back(panel("Position error", {"error", "m"}, overlays, 1.0, entries[0].value));
   return panels;
 }
 
