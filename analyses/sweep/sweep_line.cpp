@@ -35,6 +35,27 @@ double free_flight_share(const RunResult& result) {
   return share;
 }
 
+std::optional<double> off_the_bore_share(const RunResult& result) {
+  if (result.events.empty() || result.end_time <= 0.0) return std::nullopt;
+  double touching = 0.0;
+  for (const ContactEvent& e : result.events)
+    if (e.clearance == 0 && e.place == ContactPlace::radial) touching += e.duration;
+  return std::max(0.0, 1.0 - touching / result.end_time);
+}
+
+std::optional<Vec3> acceleration_disturbance(const RunResult& result) {
+  if (result.boresight.samples.empty()) return std::nullopt;
+  Vec3 most = Vec3::Zero();
+  for (const PoseSample& s : result.boresight.samples) most = most.cwiseMax((s.a - s.ideal_a).cwiseAbs());
+  return most;
+}
+
+double largest_force(const RunResult& result) {
+  double force = 0.0;
+  for (const ContactSummary& c : result.contact) force = std::max(force, c.max_force);
+  return force;
+}
+
 double fastest_impact(const RunResult& result) {
   double speed = 0.0;
   for (const ContactSummary& c : result.contact) speed = std::max(speed, c.max_impact_speed);

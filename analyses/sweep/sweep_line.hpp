@@ -24,6 +24,11 @@ SweepLine line_along(const SweepPlan& plan, const SweepResult& result, std::size
 // Taken from one result.
 double peak_acceleration(const RunResult& result);       // largest of the three axes [m/s^2]
 double free_flight_share(const RunResult& result);       // of the joint that flies most
+// Share of the time in which the journal of the first clearance does not touch the bore, whatever the end faces do; from the events.
+std::optional<double> off_the_bore_share(const RunResult& result);
+// Largest difference between true and ideal acceleration, per world axis; from the histories.
+std::optional<Vec3> acceleration_disturbance(const RunResult& result);
+double largest_force(const RunResult& result);           // [N]
 double fastest_impact(const RunResult& result);          // [m/s]
 double impacts(const RunResult& result);
 // Largest difference between true and ideal angular acceleration over the largest ideal one; from the histories.

@@ -1,6 +1,7 @@
 #include "command.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 #include "boresight/io/value_fault.hpp"
@@ -86,6 +87,10 @@ RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
     options.pose_bodies.push_back(body);
   }
   return options;
+}
+
+std::size_t history_refinement(double duration, double sample_spacing) {
+  return static_cast<std::size_t>(std::clamp(std::floor(20000.0 * sample_spacing / duration), 1.0, 10.0));
 }
 
 nlohmann::json MotionOptions::identity() const {

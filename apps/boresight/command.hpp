@@ -5,11 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "boresight/io/document.hpp"
 #include "boresight/io/units.hpp"
+#include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight/rungs/rung.hpp"
 
@@ -47,6 +49,21 @@ struct MotionOptions {
   RunOptions run_options(const Mechanism& mechanism) const;
   nlohmann::json identity() const;  // what of them changes results
 };
+
+// Computes, and turns a rung's refusal of an option's word (std::invalid_argument) into an InputError.
+template <typename Compute>
+auto with_options_checked(const RunOptions& options, const Compute& compute) {
+  try {
+    return compute();
+  } catch (const std::invalid_argument& refusal) {
+    throw InputError({"command line", 0}, "--formulation", "\"" + options.formulation + "\"",
+                     std::string("one that the rung has: ") + refusal.what());
+  }
+}
+
+// Charts want the impacts, so histories are finer than the table of the user's --sample: how many history samples stand for one
+// of its rows. Up to ten, while the history stays below 20,000 samples.
+std::size_t history_refinement(double duration, double sample_spacing);
 
 // A positive value with its unit, given to an option. Throws InputError naming the option.
 double positive_quantity(const std::string& option, const std::string& text, const SiUnit& unit);

@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegrees = 180.0 / kPi;
-// Errors below this (m, rad) are rounding; a chart of them would show noise as if it were a result.
-constexpr double kRounding = 1e-9;
 
 using Value = std::function<double(const PoseSample&)>;
 

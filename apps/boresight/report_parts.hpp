@@ -22,6 +22,9 @@ struct Overlay {
 // Curves keep about this many points each; spikes are never lost (report::thinned).
 inline constexpr std::size_t kPointsPerCurve = 1500;
 
+// Errors below this (m, rad) are what the computation rounds or its constraints drift by; a chart would show noise as a result.
+inline constexpr double kRounding = 1e-8;
+
 // The twelve panels of Sun et al. Fig. 6: displacement, Z-Y-X Euler angles from home, acceleration and angular acceleration of
 // the boresight body, each against the ideal motion.
 report::Panels motion_panels(const Mechanism& mechanism, const std::vector<Overlay>& overlays, const std::string& caption);

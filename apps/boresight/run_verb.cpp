@@ -1,7 +1,6 @@
 // boresight run MECHANISM: one motion, its pointing error, its contacts.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iostream>
 
 #include "boresight/io/mechanism_file.hpp"
@@ -72,8 +71,7 @@ class RunVerb : public Verb {
         command.out, command.verb, command.file,
         identity_of(command, mechanism->description().content_hash, "", motion_.identity()));
 
-    // Charts want the impacts, so the histories are finer than the table of the user's choice.
-    const std::size_t finer = refinement(mechanism->duration(), options.sample_spacing);
+    const std::size_t finer = history_refinement(mechanism->duration(), options.sample_spacing);
     options.sample_spacing /= static_cast<double>(finer);
     Progress progress(command.quiet, mechanism->duration(), "s of motion");
     options.progress = [&](const RunProgress& p) {
@@ -81,7 +79,7 @@ class RunVerb : public Verb {
       return !interrupted();
     };
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
-    const RunResult result = rung->run(mechanism->parameters(), options);
+    const RunResult result = with_options_checked(options, [&] { return rung->run(mechanism->parameters(), options); });
 
     write_json(out, "summary.json", summary_of(command, *mechanism, choice, result, watch, out));
     out.write("timeseries.csv", [&](std::ostream& s) { write_timeseries(s, *mechanism, result, finer); });
@@ -95,12 +93,6 @@ class RunVerb : public Verb {
   }
 
  private:
-  // How many history samples stand for one row of the table: up to ten, while the history stays below 20,000 samples.
-  static std::size_t refinement(double duration, double spacing) {
-    const double rows = duration / spacing;
-    return static_cast<std::size_t>(std::clamp(std::floor(20000.0 / rows), 1.0, 10.0));
-  }
-
   MotionOptions motion_;
 };
 

@@ -70,18 +70,23 @@ report::Chart against_parameter(const std::string& title, const std::string& lab
   return chart;
 }
 
+// Why there is no panel of the boresight error, or "" where there is one.
+std::string rotations_note(const SweepResult& result) {
+  double rotation = 0.0;
+  for (const SweepPoint& p : result.points) rotation = std::max(rotation, p.result.index.boresight_error.max);
+  return rotation > kRounding ? "" : "The boresight error is zero to rounding and not drawn.";
+}
+
 report::Section index_section(const Study& study, const SweepPlan& plan, const SweepResult& result) {
   report::Section section{.id = "index", .title = "The index against the parameter",
                           .intro = "The study's index is the " + study.index.title() + "."};
-  report::Panels panels{.title = "Index", .caption = {}, .columns = 2};
+  report::Panels panels{.title = "Index", .caption = rotations_note(result), .columns = 2};
   const auto of = [](const char* quantity, const char* statistic) {
     return [choice = IndexChoice{quantity, statistic}](const RunResult& r) { return choice.of(r.index); };
   };
   panels.panels.push_back(against_parameter("Position error", "position error", "m", plan, result,
                                             {{"maximum", of("position_error", "max")}, {"RMS", of("position_error", "rms")}}));
-  double rotation = 0.0;
-  for (const SweepPoint& p : result.points) rotation = std::max(rotation, p.result.index.boresight_error.max);
-  if (rotation > 1e-8)
+  if (rotations_note(result).empty())
     panels.panels.push_back(against_parameter("Boresight error", "boresight error", "rad", plan, result,
                                               {{"maximum", of("boresight_error", "max")}, {"RMS", of("boresight_error", "rms")}}));
   panels.panels.push_back(against_parameter("Line-of-sight error", "line-of-sight error", "rad", plan, result,
@@ -92,11 +97,13 @@ report::Section index_section(const Study& study, const SweepPlan& plan, const S
 
 report::Section contact_section(const Mechanism& mechanism, const SweepPlan& plan, const SweepResult& result, const std::vector<Overlay>& overlays) {
   report::Section section{.id = "contact", .title = "Contacts and accelerations"};
-  report::Panels panels{.title = "What the joint goes through", .caption = {}, .columns = 2, .shared_legend = false};
-  panels.panels.push_back(against_parameter("Peak acceleration of the platform", "peak acceleration", "m/s^2", plan, result,
-                                            {{"x", [](const RunResult& r) { return r.platform_acceleration_max.x(); }},
-                                             {"y", [](const RunResult& r) { return r.platform_acceleration_max.y(); }},
-                                             {"z", [](const RunResult& r) { return r.platform_acceleration_max.z(); }}}));
+  report::Chart peaks = against_parameter("Peak acceleration of the platform", "peak acceleration", "m/s^2", plan, result,
+                                          {{"x", [](const RunResult& r) { return r.platform_acceleration_max.x(); }},
+                                           {"y", [](const RunResult& r) { return r.platform_acceleration_max.y(); }},
+                                           {"z", [](const RunResult& r) { return r.platform_acceleration_max.z(); }}});
+  peaks.caption = "Per world axis, the ideal motion's own acceleration included, from every accepted step.";
+  section.items.push_back(std::move(peaks));
+  report::Panels panels{.title = "What the joint goes through", .caption = {}, .columns = 3, .shared_legend = plan.axes.size() > 1};
   if (mechanism.clearances() > 0) {
     panels.panels.push_back(against_parameter("Free flight", "share of the time, %", "1", plan, result,
                                               {{"free flight", [](const RunResult& r) { return 100.0 * free_flight_share(r); }}}));
@@ -106,9 +113,9 @@ report::Section contact_section(const Mechanism& mechanism, const SweepPlan& pla
                                                 for (const ContactSummary& c : r.contact) most = std::max(most, c.max_penetration);
                                                 return most;
                                               }}}));
+    section.items.push_back(std::move(panels));
+    section.items.push_back(contact_table(overlays));
   }
-  section.items.push_back(std::move(panels));
-  if (mechanism.clearances() > 0) section.items.push_back(contact_table(overlays));
   return section;
 }
 

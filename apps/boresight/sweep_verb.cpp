@@ -118,8 +118,9 @@ class SweepVerb : public Verb {
     const OutputDirectory out = OutputDirectory::open(
         command.out, command.verb, command.file,
         identity_of(command, mechanism->description().content_hash, study.content_hash, motion_.identity()));
-    if (plan.points() > kMostPointsWithHistories) options.run.sample_spacing = 0.0;
-    options.run.events = plan.points() <= kMostPointsWithHistories;
+    const bool histories = plan.points() <= kMostPointsWithHistories;
+    options.run.sample_spacing = histories ? options.run.sample_spacing / static_cast<double>(history_refinement(mechanism->duration(), options.run.sample_spacing)) : 0.0;
+    options.run.events = histories;
 
     Progress progress(command.quiet, static_cast<double>(plan.points()), "points");
     options.progress = [&](const SweepProgress& p) {
@@ -127,7 +128,7 @@ class SweepVerb : public Verb {
       return !interrupted();
     };
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
-    const SweepResult result = run_sweep(*rung, *mechanism, plan, options);
+    const SweepResult result = with_options_checked(options.run, [&] { return run_sweep(*rung, *mechanism, plan, options); });
 
     write_json(out, "summary.json", summary_of(command, study, *mechanism, choice, plan, result, watch, out));
     out.write("sweep.csv", [&](std::ostream& s) { write_sweep(s, plan, *mechanism, result); });

@@ -1,0 +1,157 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "program.hpp"
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class ProgramTest : public Program {
+ protected:
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& words) {
+    const Ended ended = call(arguments);
+    EXPECT_EQ(ended.status, 2) << ended.err;
+    EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr(words));
+    EXPECT_EQ(ended.out, "");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));
+  }
+  void write(const std::string& name, const std::string& content) const { std::ofstream(folder_ / name) << content; }
+  // A motion of 50 ms, so that tests are quick.
+  std::vector<std::string> quick(std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {"run", mechanism_, "--set", "motion.duration=50ms", "--out", "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+};
+
+TEST_F(ProgramTest, HelpAndVersion) {
+  EXPECT_THAT(call({"--version"}).out, HasSubstr("boresight "));
+  EXPECT_THAT(call({"--help"}).out, AllOf(HasSubstr("check"), HasSubstr("run"), HasSubstr("sweep")));
+  for (const char* verb : {"check", "run", "sweep"}) {
+    const Ended ended = call({verb, "--help"});
+    EXPECT_EQ(ended.status, 0);
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("Example:"), HasSubstr("--set"), HasSubstr("--out"), HasSubstr("--quiet")));
+  }
+}
+
+TEST_F(ProgramTest, BadInputIsOneLineAndStatusTwo) {
+  expect_refused({}, "expected boresight VERB FILE");
+  expect_refused({"swep", "x.toml"}, "did you mean sweep?");
+  expect_refused({"run"}, "FILE");
+  expect_refused({"run", "nothing.toml"}, "nothing.toml");
+  expect_refused({"run", mechanism_, "--colour"}, "--colour");
+  expect_refused({"run", mechanism_, "--set", "clearance.F1.radiall=1mm"}, "did you mean clearance.F1.radial?");
+  expect_refused({"run", mechanism_, "--set", "clearance.F1.radial"}, "PATH=VALUE");
+  expect_refused({"run", mechanism_, "--set", "clearance.F1.radial=3kg"}, "clearance.F1.radial");
+  expect_refused({"run", mechanism_, "--step", "1 mm"}, "--step");
+  expect_refused({"run", mechanism_, "--sample", "1 ns"}, "--sample");
+  expect_refused({"run", mechanism_, "--pose", "rod9"}, "did you mean rod");
+  expect_refused({"run", mechanism_, "--rung", "multybody"}, "did you mean multibody?");
+  expect_refused({"run", mechanism_, "--stabilisation", "baumgart"}, "did you mean baumgarte?");
+  expect_refused({"run", mechanism_, "--jobs", "-1"}, "--jobs");
+  expect_refused({"sweep", mechanism_}, "expected a study file");
+}
+
+TEST_F(ProgramTest, AnUnknownFormulationIsBadInput) {
+  const Ended ended = call(quick({"--formulation", "newspaper"}));
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.err, HasSubstr("newspaper"));
+}
+
+TEST_F(ProgramTest, ARunLeavesWhatTheInterfacePromises) {
+  const Ended ended = call(quick({"--pose", "rod1"}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("position error"), HasSubstr("out/report.html")));
+  EXPECT_THAT(files("out"), ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
+  const auto summary = json("out/summary.json");
+  for (const char* key : {"verb", "mechanism", "version", "rung", "seed", "cpu_seconds", "wall_seconds", "warnings", "index", "contact",
+                          "platform_acceleration_max", "constraint_drift"})
+    EXPECT_TRUE(summary.contains(key)) << key;
+  EXPECT_EQ(summary["verb"], "run");
+  EXPECT_FALSE(summary["interrupted"].get<bool>());
+  for (const char* quantity : {"position_error", "orientation_error", "boresight_error", "line_of_sight_error"})
+    for (const char* statistic : {"max", "rms", "mean", "p99.73"}) EXPECT_TRUE(summary["index"][quantity][statistic].is_number()) << quantity;
+  for (const char* key : {"contact_fraction", "impacts", "max_penetration", "max_force", "impact_speed_above_validity"})
+    EXPECT_TRUE(summary["contact"]["F1"][key].is_number()) << key;
+  EXPECT_GT(summary["index"]["position_error"]["max"].get<double>(), 1e-5);
+  const std::string table = text("out/timeseries.csv");
+  EXPECT_EQ(table.substr(0, table.find('\n')).substr(0, 75), "t,dx,dy,dz,rx,ry,rz,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,F1.offset_");
+  EXPECT_NEAR(static_cast<double>(std::count(table.begin(), table.end(), '\n')), 52.0, 1.0);  // header, 0 to 50 ms
+}
+
+TEST_F(ProgramTest, TheSameRunAgainIsFineAndAnotherIsRefused) {
+  EXPECT_EQ(call(quick({"--quiet"})).status, 0);
+  EXPECT_EQ(call(quick({"--quiet"})).status, 0);
+  const Ended other = call(quick({"--quiet", "--set", "payload.mass=5kg"}));
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(is_one_line(other.err)) << other.err;
+  EXPECT_EQ(call(quick({"--quiet", "--step", "50 us"})).status, 2);
+}
+
+TEST_F(ProgramTest, QuietSaysNothing) {
+  const Ended ended = call(quick({"--quiet"}));
+  EXPECT_EQ(ended.out + ended.err, "");
+}
+
+TEST_F(ProgramTest, AStepTooLargeNamesContactFrequencyAndLargestStep) {
+  const Ended ended = call(quick({"--step", "1 ms"}));
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("F1"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/summary.json"));
+}
+
+TEST_F(ProgramTest, CheckPassesTheDefaultMechanism) {
+  const Ended ended = call({"check", mechanism_});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  const auto summary = json("results/3-rrcpr-check/summary.json");
+  EXPECT_EQ(summary["kinematics"]["mobility"], 6);
+  EXPECT_TRUE(summary["findings"].empty());
+  EXPECT_GT(summary["contacts"]["F1"]["largest_stable_step"].get<double>(), 1e-5);
+}
+
+TEST_F(ProgramTest, OtherMechanismsRun) {
+  for (const std::string name : {"crank-slider", "four-bar"}) {
+    const Ended ended = call({"run", BORESIGHT_EXAMPLES "/" + name + "/" + name + ".toml", "--quiet"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    EXPECT_GT(json("results/" + name + "-run/summary.json")["index"]["position_error"]["max"].get<double>(), 0.0);
+  }
+}
+
+TEST_F(ProgramTest, ASweepHasARowPerPointWhateverTheJobs) {
+  write("study.toml", "format = 1\nmechanism = \"" + mechanism_ + "\"\n[sweep]\nfindings = \"sun-3-rrcpr\"\n[[sweep.axis]]\n"
+                      "parameter = [\"clearance.F1.radial\", \"clearance.F1.axial\"]\nvalues = [\"0.1 mm\", \"0.2 mm\", \"0.3 mm\"]\n");
+  const Ended ended = call({"sweep", "study.toml", "--set", "motion.duration=50ms", "--jobs", "2"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(files("results/study-sweep"), ElementsAre("report.html", "summary.json", "sweep.csv"));
+  std::istringstream table(text("results/study-sweep/sweep.csv"));
+  std::vector<std::string> rows;
+  for (std::string row; std::getline(table, row);) rows.push_back(row);
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_THAT(rows[0], testing::StartsWith("point,clearance.F1.radial,clearance.F1.axial,position_error.max,"));
+  EXPECT_THAT(rows[3], testing::EndsWith(",done"));
+  const auto summary = json("results/study-sweep/summary.json");
+  EXPECT_EQ(summary["points"].size(), 3u);
+  EXPECT_EQ(summary["points"][1]["index"]["position_error"]["max"], summary["index"]["values"][1]);
+  EXPECT_THAT(text("results/study-sweep/report.html"), HasSubstr("What the paper found"));
+}
+
+TEST_F(ProgramTest, TwoStartsOfTheProgramGiveTheSameBytes) {
+  const auto started = [&](const std::string& out) {
+    EXPECT_EQ(call({"run", mechanism_, "--set", "motion.duration=50ms", "--out", out, "--quiet"}).status, 0);
+    return text(out + "/timeseries.csv") + text(out + "/events.csv");
+  };
+  const std::string first = started("first");
+  for (const char* again : {"second", "third", "fourth"}) EXPECT_TRUE(started(again) == first);
+}
+
+}  // namespace
+}  // namespace boresight::app

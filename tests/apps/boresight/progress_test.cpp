@@ -1,0 +1,37 @@
+#include "progress.hpp"
+
+#include <gmock/gmock.h>
+
+namespace boresight::app {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(ProgressLine, ShowsBarRateTimeLeftAndEstimate) {
+  EXPECT_EQ(progress_line(0.5, 2.0, "s of motion", 10.0, "error 0.2 mm"),
+            "[#####---------------]  25 %  0.5 of 2 s of motion, 0.05/s, 30 s left; error 0.2 mm");
+}
+
+TEST(ProgressLine, KnowsNothingYetAndSaysSo) { EXPECT_THAT(progress_line(0.0, 2.0, "points", 0.0, ""), HasSubstr("? left")); }
+
+TEST(ProgressLine, NeverLeavesTheBar) {
+  EXPECT_THAT(progress_line(3.0, 2.0, "points", 1.0, ""), HasSubstr("[####################] 100 %"));
+}
+
+TEST(ProgressLine, LongTimesAreInMinutesAndHours) {
+  EXPECT_THAT(progress_line(1.0, 11.0, "points", 60.0, ""), HasSubstr("10 min left"));
+  EXPECT_THAT(progress_line(1.0, 101.0, "points", 360.0, ""), HasSubstr("10.0 h left"));
+}
+
+TEST(Progress, IsSilentWhenQuiet) {
+  std::FILE* file = std::tmpfile();
+  {
+    Progress progress(Progress::Style::silent, 1.0, "points", file);
+    progress.update(1.0, "");
+  }
+  EXPECT_EQ(std::ftell(file), 0);
+  std::fclose(file);
+}
+
+}  // namespace
+}  // namespace boresight::app

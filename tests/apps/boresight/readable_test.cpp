@@ -1,0 +1,36 @@
+#include "readable.hpp"
+
+#include <gtest/gtest.h>
+
+namespace boresight::app {
+namespace {
+
+TEST(Readable, UsesTheUnitsPeopleRead) {
+  EXPECT_EQ(readable(2.3117787e-4, "m"), "0.231 mm");
+  EXPECT_EQ(readable(1e-4, "m"), "0.1 mm");
+  EXPECT_EQ(readable(2.19e-5, "m"), "21.9 µm");
+  EXPECT_EQ(readable(0.5, "m"), "500 mm");
+  EXPECT_EQ(readable(2.396e-3, "rad"), "2.4 mrad");
+  EXPECT_EQ(readable(5947.0, "N"), "5.95 kN");
+  EXPECT_EQ(readable(0.0477, "m/s"), "47.7 mm/s");
+  EXPECT_EQ(readable(72e9, "Pa"), "72 GPa");
+  EXPECT_EQ(readable(250.0, "kg"), "250 kg");
+  EXPECT_EQ(readable(0.9, "1"), "0.9");
+  EXPECT_EQ(readable(9.81, "m/s^2"), "9.81 m/s²");
+  EXPECT_EQ(readable(1.58e-4, "s"), "0.158 ms");
+  EXPECT_EQ(readable(1.0, "s"), "1 s");
+}
+
+TEST(Readable, ZeroAndRoundingAreSaidPlainly) {
+  EXPECT_EQ(readable(0.0, "m"), "0 mm");
+  EXPECT_EQ(readable(2.9e-12, "rad"), "below 0.1 nrad");
+  EXPECT_EQ(readable_arcsec(2.9e-12), "below 0.0001 arcsec");
+}
+
+TEST(Readable, ArcsecondsAndShares) {
+  EXPECT_EQ(readable_arcsec(2.396e-3), "494 arcsec");
+  EXPECT_EQ(readable_share(0.9786), "97.9 %");
+}
+
+}  // namespace
+}  // namespace boresight::app
