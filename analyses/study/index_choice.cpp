@@ -41,7 +41,8 @@ double IndexChoice::of(const PointingIndices& indices) const {
 std::string IndexChoice::si_unit() const { return named(quantity_names(), quantity).si_unit; }
 
 std::string IndexChoice::title() const {
-  return std::string(named(quantity_names(), quantity).title) + ", " + named(statistic_names(), statistic).title;
+  return std::string(named(quantity_names(), quantity).title) + ", " +
+         named(statistic_names(), statistic).title;
 }
 
 }  // namespace boresight

@@ -13,14 +13,15 @@ struct QuantityName {
   const char* name;
   const char* si_unit;
   const char* title;  // for people
-  Statistics PointingIndices::* statistics;
+  Statistics PointingIndices::*statistics;
 };
-const std::vector<QuantityName>& quantity_names();  // position_error, orientation_error, boresight_error, line_of_sight_error
+const std::vector<QuantityName>&
+quantity_names();  // position_error, orientation_error, boresight_error, line_of_sight_error
 
 struct StatisticName {
   const char* name;
   const char* title;
-  double Statistics::* value;
+  double Statistics::*value;
 };
 const std::vector<StatisticName>& statistic_names();  // max, rms, mean, p99.73
 

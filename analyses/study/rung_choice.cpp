@@ -27,7 +27,8 @@ RungChoice choose_rung(const std::string& asked, std::optional<double> accuracy)
   // Cheapest first, so the last one leaves out least. It serves any accuracy.
   const std::string& most_exact = names.back();
   if (names.size() == 1) return {most_exact, "the only rung there is"};
-  return {most_exact, accuracy ? "the rung that leaves out least; it meets any accuracy" : "the rung that leaves out least"};
+  return {most_exact, accuracy ? "the rung that leaves out least; it meets any accuracy"
+                               : "the rung that leaves out least"};
 }
 
 }  // namespace boresight

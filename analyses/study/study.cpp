@@ -17,9 +17,10 @@ std::vector<std::string> names_of(const Entries& entries) {
 
 Study read_study(Cursor& root, const std::string& content_hash) {
   if (!root.has("mechanism") && root.has("body"))
-    root.fail_found("body", "a mechanism file", "a study file, which names its mechanism: mechanism = \"FILE\"");
-  root.only({"format", "mechanism", "accuracy", "index", "random", "sweep", "montecarlo", "sensitivity", "match", "allocate",
-             "calibrate", "budget", "chart"});
+    root.fail_found("body", "a mechanism file",
+                    "a study file, which names its mechanism: mechanism = \"FILE\"");
+  root.only({"format", "mechanism", "accuracy", "index", "random", "sweep", "montecarlo", "sensitivity",
+             "match", "allocate", "calibrate", "budget", "chart"});
   const long long format = root.integer("format");
   root.require(format == 1, "format", "1");
 
@@ -27,12 +28,14 @@ Study read_study(Cursor& root, const std::string& content_hash) {
   study.file = root.origin().file;
   study.content_hash = content_hash;
   const std::filesystem::path mechanism = root.text("mechanism");
-  study.mechanism_file = mechanism.is_absolute()
-                             ? mechanism.string()
-                             : (std::filesystem::path(study.file).parent_path() / mechanism).lexically_normal().string();
+  study.mechanism_file =
+      mechanism.is_absolute()
+          ? mechanism.string()
+          : (std::filesystem::path(study.file).parent_path() / mechanism).lexically_normal().string();
   if (root.has("accuracy")) {
     study.accuracy = root.quantity("accuracy", kRatio);
-    root.require(*study.accuracy > 0.0 && *study.accuracy < 1.0, "accuracy", "more than 0 % and less than 100 %");
+    root.require(*study.accuracy > 0.0 && *study.accuracy < 1.0, "accuracy",
+                 "more than 0 % and less than 100 %");
   }
   if (root.has("index")) {
     Cursor index = root.table("index");

@@ -1,4 +1,5 @@
-// A study file: a question about a mechanism. Here is what every study says; what a verb asks stands in the verb's own table
+// A study file: a question about a mechanism. Here is what every study says; what a verb asks stands in the
+// verb's own table
 // ([sweep], [montecarlo], ...) and is read by the verb's analysis with the same `Cursor`.
 //
 //   Document document = Document::from_file("clearance-sweep.toml");
@@ -20,7 +21,7 @@ struct Study {
   std::string mechanism_file;      // relative names are taken from the study file's folder
   std::optional<double> accuracy;  // relative, of the index
   IndexChoice index;
-  std::string content_hash;        // of the study file
+  std::string content_hash;  // of the study file
 };
 
 // Throws InputError. Tables of other verbs may stand in the file and are left alone.

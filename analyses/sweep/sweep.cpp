@@ -15,7 +15,8 @@ namespace {
 // Gathers how far every point has come; tells the caller, one thread at a time, and remembers a wish to stop.
 class Watch {
  public:
-  Watch(std::size_t points, const std::function<bool(const SweepProgress&)>& tell) : share_(points, 0.0), tell_(tell) {}
+  Watch(std::size_t points, const std::function<bool(const SweepProgress&)>& tell)
+      : share_(points, 0.0), tell_(tell) {}
 
   bool stopped() const { return stopped_.load(std::memory_order_relaxed); }
   void stop() { stopped_ = true; }
@@ -37,8 +38,8 @@ class Watch {
   std::atomic<bool> stopped_{false};
 };
 
-void compute(SweepPoint& point, std::size_t k, const Rung& rung, const Mechanism& mechanism, const SweepPlan& plan,
-             RunOptions options, Watch& watch) {
+void compute(SweepPoint& point, std::size_t k, const Rung& rung, const Mechanism& mechanism,
+             const SweepPlan& plan, RunOptions options, Watch& watch) {
   options.progress = [&](const RunProgress& p) {
     const double share = p.duration > 0.0 ? std::clamp(p.t / p.duration, 0.0, 1.0) : 0.0;
     return watch.update(k, share, p.position_error_max_so_far);
@@ -50,22 +51,28 @@ void compute(SweepPoint& point, std::size_t k, const Rung& rung, const Mechanism
     point.status = SweepPoint::Status::failed;
     point.failure = error.what();
   }
-  if (point.status != SweepPoint::Status::interrupted) watch.update(k, 1.0, point.result.index.position_error.max);
+  if (point.status != SweepPoint::Status::interrupted)
+    watch.update(k, 1.0, point.result.index.position_error.max);
 }
 
 }  // namespace
 
 const char* to_string(SweepPoint::Status status) {
   switch (status) {
-    case SweepPoint::Status::not_reached: return "not reached";
-    case SweepPoint::Status::done: return "done";
-    case SweepPoint::Status::failed: return "failed";
-    case SweepPoint::Status::interrupted: return "interrupted";
+    case SweepPoint::Status::not_reached:
+      return "not reached";
+    case SweepPoint::Status::done:
+      return "done";
+    case SweepPoint::Status::failed:
+      return "failed";
+    case SweepPoint::Status::interrupted:
+      return "interrupted";
   }
   return "";
 }
 
-SweepResult run_sweep(const Rung& rung, const Mechanism& mechanism, const SweepPlan& plan, const SweepOptions& options) {
+SweepResult run_sweep(const Rung& rung, const Mechanism& mechanism, const SweepPlan& plan,
+                      const SweepOptions& options) {
   SweepResult result;
   result.points.resize(plan.points());
   for (std::size_t k = 0; k < result.points.size(); ++k) result.points[k].values = plan.values_at(k);
@@ -97,9 +104,9 @@ SweepResult run_sweep(const Rung& rung, const Mechanism& mechanism, const SweepP
   result.interrupted = std::any_of(result.points.begin(), result.points.end(), [](const SweepPoint& p) {
     return p.status == SweepPoint::Status::interrupted || p.status == SweepPoint::Status::not_reached;
   });
-  result.failed = static_cast<std::size_t>(std::count_if(result.points.begin(), result.points.end(), [](const SweepPoint& p) {
-    return p.status == SweepPoint::Status::failed;
-  }));
+  result.failed = static_cast<std::size_t>(
+      std::count_if(result.points.begin(), result.points.end(),
+                    [](const SweepPoint& p) { return p.status == SweepPoint::Status::failed; }));
   return result;
 }
 

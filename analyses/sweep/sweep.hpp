@@ -1,6 +1,7 @@
 // A sweep: the same motion at every point of a grid of parameters, on one rung, on several threads.
 //
-// A point's result depends on the point alone; threads only take turns at points. So results are the same for any `jobs`.
+// A point's result depends on the point alone; threads only take turns at points. So results are the same for
+// any `jobs`.
 #pragma once
 
 #include <functional>
@@ -41,6 +42,7 @@ struct SweepResult {
 };
 
 // A point that throws ComputationError is marked failed; the others go on.
-SweepResult run_sweep(const Rung& rung, const Mechanism& mechanism, const SweepPlan& plan, const SweepOptions& options);
+SweepResult run_sweep(const Rung& rung, const Mechanism& mechanism, const SweepPlan& plan,
+                      const SweepOptions& options);
 
 }  // namespace boresight

@@ -63,8 +63,9 @@ double fastest_impact(const RunResult& result) {
 }
 
 double impacts(const RunResult& result) {
-  return std::accumulate(result.contact.begin(), result.contact.end(), 0.0,
-                         [](double sum, const ContactSummary& c) { return sum + static_cast<double>(c.impacts); });
+  return std::accumulate(
+      result.contact.begin(), result.contact.end(), 0.0,
+      [](double sum, const ContactSummary& c) { return sum + static_cast<double>(c.impacts); });
 }
 
 std::optional<double> angular_acceleration_disturbance(const RunResult& result) {
@@ -79,7 +80,8 @@ std::optional<double> angular_acceleration_disturbance(const RunResult& result) 
 }
 
 std::optional<MeanContact> mean_contact(const RunResult& result, double hertz_stiffness) {
-  if (result.clearances.empty() || result.clearances.front().empty() || hertz_stiffness <= 0.0) return std::nullopt;
+  if (result.clearances.empty() || result.clearances.front().empty() || hertz_stiffness <= 0.0)
+    return std::nullopt;
   MeanContact mean;
   std::size_t touching = 0;
   for (const ClearanceSample& s : result.clearances.front()) {
@@ -96,7 +98,8 @@ std::optional<MeanContact> mean_contact(const RunResult& result, double hertz_st
 
 bool rises(const std::vector<double>& values, double tolerance) {
   for (std::size_t i = 1; i < values.size(); ++i)
-    if (!(values[i] - values[i - 1] > tolerance * std::max(std::abs(values[i]), std::abs(values[i - 1])))) return false;
+    if (!(values[i] - values[i - 1] > tolerance * std::max(std::abs(values[i]), std::abs(values[i - 1]))))
+      return false;
   return values.size() > 1;
 }
 
@@ -106,7 +109,8 @@ bool falls(const std::vector<double>& values, double tolerance) {
 
 double slope(const std::vector<double>& x, const std::vector<double>& y) {
   const double n = static_cast<double>(x.size());
-  const double mx = std::accumulate(x.begin(), x.end(), 0.0) / n, my = std::accumulate(y.begin(), y.end(), 0.0) / n;
+  const double mx = std::accumulate(x.begin(), x.end(), 0.0) / n,
+               my = std::accumulate(y.begin(), y.end(), 0.0) / n;
   double xy = 0.0, xx = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     xy += (x[i] - mx) * (y[i] - my);

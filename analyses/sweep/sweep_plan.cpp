@@ -12,7 +12,8 @@ namespace {
 
 // What a value of this SI unit is called in an error. The examples carry the unit that people would write.
 SiUnit unit_of(const std::string& si_unit) {
-  static const SiUnit known[] = {kLength, kMass, kAcceleration, kSpeed, kElasticModulus, kDensity, kStiffness, kDamping};
+  static const SiUnit known[] = {kLength,         kMass,    kAcceleration, kSpeed,
+                                 kElasticModulus, kDensity, kStiffness,    kDamping};
   for (const SiUnit& unit : known)
     if (si_unit == unit.unit) return unit;
   return {"a value", si_unit.c_str(), si_unit.c_str()};
@@ -53,13 +54,15 @@ void check_values(Cursor& axis, const SweepAxis& result, const std::function<voi
       try {
         accepts({path, result.si_unit == "1" ? std::string(text) : text + (" " + result.si_unit)});
       } catch (const InputError& error) {
-        throw InputError(axis.origin(axis.has("values") ? "values" : "from"), path, error.found, error.expected, error.nearest);
+        throw InputError(axis.origin(axis.has("values") ? "values" : "from"), path, error.found,
+                         error.expected, error.nearest);
       }
     }
   }
 }
 
-SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism, const std::function<void(const Setting&)>& accepts) {
+SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism,
+                    const std::function<void(const Setting&)>& accepts) {
   axis.only({"parameter", "values", "from", "to", "count", "scale"});
   SweepAxis result;
   if (is_list(axis, "parameter"))
@@ -108,7 +111,8 @@ std::size_t SweepPlan::points() const {
 
 std::vector<double> SweepPlan::values_at(std::size_t k) const {
   std::vector<double> values(axes.size());
-  for (std::size_t i = axes.size(); i-- > 0; k /= axes[i].values.size()) values[i] = axes[i].values[k % axes[i].values.size()];
+  for (std::size_t i = axes.size(); i-- > 0; k /= axes[i].values.size())
+    values[i] = axes[i].values[k % axes[i].values.size()];
   return values;
 }
 
@@ -136,7 +140,8 @@ SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism,
         axis.fail_found("parameter", "\"" + path + "\" a second time", "each parameter on one axis");
     points *= plan.axes.back().values.size();
     if (points > kMostSweepPoints)
-      axis.fail_found("values", std::to_string(points) + " points in all", "at most " + std::to_string(kMostSweepPoints));
+      axis.fail_found("values", std::to_string(points) + " points in all",
+                      "at most " + std::to_string(kMostSweepPoints));
   }
   if (plan.axes.empty()) sweep.fail("axis", "at least one [[sweep.axis]]");
   sweep.finish();

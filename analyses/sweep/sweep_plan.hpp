@@ -1,8 +1,8 @@
 // What a sweep varies, as the [sweep] table of a study file says it:
 //
 //   [[sweep.axis]]
-//   parameter = ["clearance.F1.radial", "clearance.F1.axial"]   # one path, or several that take the same value
-//   values = ["0.1 mm", "0.2 mm", "0.3 mm"]
+//   parameter = ["clearance.F1.radial", "clearance.F1.axial"]   # one path, or several that take the same
+//   value values = ["0.1 mm", "0.2 mm", "0.3 mm"]
 //
 //   [[sweep.axis]]
 //   parameter = "payload.mass"
@@ -44,8 +44,9 @@ struct SweepPlan {
 
 inline constexpr std::size_t kMostSweepPoints = 100'000;
 
-// Reads the [sweep] table. Throws InputError. `accepts` is asked of the smallest and the largest value of every axis, as a
-// setting of the mechanism, and throws what the mechanism's own reader throws, so that a sweep takes no value a file may not hold.
+// Reads the [sweep] table. Throws InputError. `accepts` is asked of the smallest and the largest value of
+// every axis, as a setting of the mechanism, and throws what the mechanism's own reader throws, so that a
+// sweep takes no value a file may not hold.
 SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism,
                           const std::function<void(const Setting&)>& accepts);
 

@@ -12,12 +12,18 @@ namespace {
 
 report::Table mobility_table(const KinematicReport& k) {
   report::Table table{.title = "Mobility",
-                      .caption = "Mobility is six per body less the rank of the constraints; a redundant row says what others already say.",
+                      .caption =
+                          "Mobility is six per body less the rank of the constraints; a redundant row says "
+                          "what others already say.",
                       .columns = {{"What"}, {"Number"}}};
-  table.rows = {{"Bodies", k.bodies},         {"Joints", k.joints},
-                {"Constraint rows", k.constraint_rows}, {"Rank", k.rank},
-                {"Redundant rows", k.redundant_rows},   {"Mobility", k.mobility},
-                {"Drives", k.drives},         {"Freedoms left free", k.free_freedoms}};
+  table.rows = {{"Bodies", k.bodies},
+                {"Joints", k.joints},
+                {"Constraint rows", k.constraint_rows},
+                {"Rank", k.rank},
+                {"Redundant rows", k.redundant_rows},
+                {"Mobility", k.mobility},
+                {"Drives", k.drives},
+                {"Freedoms left free", k.free_freedoms}};
   return table;
 }
 
@@ -29,28 +35,44 @@ report::Panels conditioning_panels(const KinematicReport& k) {
     position.push_back(s.position);
     singular.push_back(s.smallest_singular_value);
   }
-  report::Chart inverse{.title = "Inverse condition number",
-                        .caption = "1: as good as can be; 0: a singular pose, where the drives lose a motion.",
-                        .x = {"Time", "s"}, .y = {"inverse condition number", "", false, std::array{0.0, 1.05}}};
-  inverse.series = {{.name = "orientation", .x = t, .y = orientation}, {.name = "position", .x = t, .y = position}};
-  report::Chart smallest{.title = "Smallest singular value",
-                         .caption = "Of the Jacobian of all ideal rows, lengths scaled; it goes to zero at a singular pose.",
-                         .x = {"Time", "s"}, .y = {"smallest singular value", ""}};
+  report::Chart inverse{
+      .title = "Inverse condition number",
+      .caption = "1: as good as can be; 0: a singular pose, where the drives lose a motion.",
+      .x = {"Time", "s"},
+      .y = {"inverse condition number", "", false, std::array{0.0, 1.05}}};
+  inverse.series = {{.name = "orientation", .x = t, .y = orientation},
+                    {.name = "position", .x = t, .y = position}};
+  report::Chart smallest{
+      .title = "Smallest singular value",
+      .caption = "Of the Jacobian of all ideal rows, lengths scaled; it goes to zero at a singular pose.",
+      .x = {"Time", "s"},
+      .y = {"smallest singular value", ""}};
   smallest.series = {{.name = "smallest singular value", .x = t, .y = singular}};
   for (const LostMotion& lost : k.lost) smallest.lines.push_back({'x', lost.t, "singular"});
-  return {.title = "Distance from singular poses along the motion", .caption = {}, .columns = 2, .shared_legend = false,
+  return {.title = "Distance from singular poses along the motion",
+          .caption = {},
+          .columns = 2,
+          .shared_legend = false,
           .panels = {std::move(inverse), std::move(smallest)}};
 }
 
 report::Table contact_frequencies(const std::vector<ContactFrequency>& contacts) {
-  report::Table table{.title = "Contact frequencies",
-                      .caption = "An explicit integrator must resolve the stiffest contact: RK4 blows up above 2.785 / ω.",
-                      .columns = {{"Joint"}, {"Hertz stiffness", "N/m^1.5"}, {"Axial stiffness", "N/m"}, {"Effective mass", "kg"},
-                                  {"Reaction, RMS", "N"}, {"Rest penetration", "µm"}, {"Frequency", "Hz"}, {"Largest stable step", "µs"},
-                                  {"Flores valid up to", "mm/s"}}};
+  report::Table table{
+      .title = "Contact frequencies",
+      .caption = "An explicit integrator must resolve the stiffest contact: RK4 blows up above 2.785 / ω.",
+      .columns = {{"Joint"},
+                  {"Hertz stiffness", "N/m^1.5"},
+                  {"Axial stiffness", "N/m"},
+                  {"Effective mass", "kg"},
+                  {"Reaction, RMS", "N"},
+                  {"Rest penetration", "µm"},
+                  {"Frequency", "Hz"},
+                  {"Largest stable step", "µs"},
+                  {"Flores valid up to", "mm/s"}}};
   for (const ContactFrequency& c : contacts)
-    table.rows.push_back({c.joint, c.hertz_stiffness, c.axial_stiffness, c.effective_mass, c.typical_load, 1e6 * c.typical_penetration,
-                          c.angular_frequency / (2.0 * 3.14159265358979323846), 1e6 * c.largest_stable_step, 1e3 * c.validity_speed});
+    table.rows.push_back({c.joint, c.hertz_stiffness, c.axial_stiffness, c.effective_mass, c.typical_load,
+                          1e6 * c.typical_penetration, c.angular_frequency / (2.0 * 3.14159265358979323846),
+                          1e6 * c.largest_stable_step, 1e3 * c.validity_speed});
   return table;
 }
 
@@ -61,9 +83,12 @@ CheckResult check_mechanism(const Mechanism& mechanism) {
   result.kinematics = analyse_kinematics(mechanism);
   const KinematicReport& k = result.kinematics;
   const bool sound = k.feasible && k.lost.empty();
-  for (const LostMotion& lost : k.lost) result.findings.push_back(fmt::format("at t = {:.4g} s: {}", lost.t, lost.description));
-  (sound ? result.notes : result.findings).insert((sound ? result.notes : result.findings).end(), k.findings.begin(), k.findings.end());
-  if (!k.feasible && result.findings.empty()) result.findings.emplace_back("the ideal motion cannot be followed to its end");
+  for (const LostMotion& lost : k.lost)
+    result.findings.push_back(fmt::format("at t = {:.4g} s: {}", lost.t, lost.description));
+  (sound ? result.notes : result.findings)
+      .insert((sound ? result.notes : result.findings).end(), k.findings.begin(), k.findings.end());
+  if (!k.feasible && result.findings.empty())
+    result.findings.emplace_back("the ideal motion cannot be followed to its end");
   // The kinematic report may name a lost motion in its sentences as well.
   auto& findings = result.findings;
   for (auto it = findings.begin(); it != findings.end(); ++it)
@@ -80,36 +105,53 @@ CheckResult check_mechanism(const Mechanism& mechanism) {
 
 report::Document check_report(const Command& command, const Mechanism& mechanism, const CheckResult& result) {
   const KinematicReport& k = result.kinematics;
-  report::Document document{.title = mechanism.name(), .subtitle = "Checked before anything is integrated", .verb = "check"};
-  document.verdict = result.findings.empty()
-                         ? report::Verdict{report::Standing::good, "Nothing stands in the way of this motion."}
-                         : report::Verdict{report::Standing::bad, result.findings.front()};
-  document.facts = {{.label = "Mobility", .value = k.mobility, .note = fmt::format("{} drives, {} freedoms left free", k.drives, k.free_freedoms)},
+  report::Document document{
+      .title = mechanism.name(), .subtitle = "Checked before anything is integrated", .verb = "check"};
+  document.verdict =
+      result.findings.empty()
+          ? report::Verdict{report::Standing::good, "Nothing stands in the way of this motion."}
+          : report::Verdict{report::Standing::bad, result.findings.front()};
+  document.facts = {{.label = "Mobility",
+                     .value = k.mobility,
+                     .note = fmt::format("{} drives, {} freedoms left free", k.drives, k.free_freedoms)},
                     {.label = "Redundant rows", .value = k.redundant_rows}};
   if (!k.along.empty()) {
-    const auto worst = [&](double ConditioningSample::* value) {
-      return (*std::min_element(k.along.begin(), k.along.end(), [&](const auto& a, const auto& b) { return a.*value < b.*value; })).*value;
+    const auto worst = [&](double ConditioningSample::*value) {
+      return (*std::min_element(k.along.begin(), k.along.end(),
+                                [&](const auto& a, const auto& b) { return a.*value < b.*value; })).*
+             value;
     };
-    document.facts.push_back({.label = "Worst conditioning, orientation", .value = worst(&ConditioningSample::orientation), .note = "1 best, 0 singular"});
-    document.facts.push_back({.label = "Worst conditioning, position", .value = worst(&ConditioningSample::position), .note = "1 best, 0 singular"});
+    document.facts.push_back({.label = "Worst conditioning, orientation",
+                              .value = worst(&ConditioningSample::orientation),
+                              .note = "1 best, 0 singular"});
+    document.facts.push_back({.label = "Worst conditioning, position",
+                              .value = worst(&ConditioningSample::position),
+                              .note = "1 best, 0 singular"});
   }
   if (!result.contacts.empty()) {
-    const auto& stiffest = *std::min_element(result.contacts.begin(), result.contacts.end(), [](const auto& a, const auto& b) {
-      return a.largest_stable_step < b.largest_stable_step;
-    });
-    document.facts.push_back({.label = "Largest stable step of RK4", .value = readable(stiffest.largest_stable_step, "s"), .note = "set by " + stiffest.joint});
+    const auto& stiffest = *std::min_element(
+        result.contacts.begin(), result.contacts.end(),
+        [](const auto& a, const auto& b) { return a.largest_stable_step < b.largest_stable_step; });
+    document.facts.push_back({.label = "Largest stable step of RK4",
+                              .value = readable(stiffest.largest_stable_step, "s"),
+                              .note = "set by " + stiffest.joint});
   }
 
   report::Section findings{.id = "findings", .title = "Findings"};
   std::string text;
   for (const auto& list : {result.findings, result.notes})
     for (const std::string& sentence : list) text += (text.empty() ? "" : "\n\n") + sentence;
-  findings.items.push_back(report::Text{text.empty() ? "No singular pose, no redundancy worth a word, nothing infeasible." : text});
+  findings.items.push_back(report::Text{
+      text.empty() ? "No singular pose, no redundancy worth a word, nothing infeasible." : text});
   document.sections.push_back(std::move(findings));
-  document.sections.push_back({.id = "mobility", .title = "Mobility and redundancy", .items = {mobility_table(k)}});
-  if (!k.along.empty()) document.sections.push_back({.id = "conditioning", .title = "Conditioning", .items = {conditioning_panels(k)}});
+  document.sections.push_back(
+      {.id = "mobility", .title = "Mobility and redundancy", .items = {mobility_table(k)}});
+  if (!k.along.empty())
+    document.sections.push_back(
+        {.id = "conditioning", .title = "Conditioning", .items = {conditioning_panels(k)}});
   if (!result.contacts.empty())
-    document.sections.push_back({.id = "contacts", .title = "Contacts", .items = {contact_frequencies(result.contacts)}});
+    document.sections.push_back(
+        {.id = "contacts", .title = "Contacts", .items = {contact_frequencies(result.contacts)}});
   document.provenance = provenance_of(command, mechanism, {"none", "nothing is integrated"});
   return document;
 }

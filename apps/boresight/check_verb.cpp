@@ -1,4 +1,5 @@
-// boresight check MECHANISM: mobility, redundancy, singular poses, contact frequencies; exit 1 when something stands in the way.
+// boresight check MECHANISM: mobility, redundancy, singular poses, contact frequencies; exit 1 when something
+// stands in the way.
 #include <fmt/format.h>
 
 #include <ostream>
@@ -18,30 +19,38 @@ namespace {
 Json contacts_json(const std::vector<ContactFrequency>& contacts) {
   Json json = Json::object();
   for (const ContactFrequency& c : contacts)
-    json[c.joint] = {{"hertz_stiffness", c.hertz_stiffness},         {"axial_stiffness", c.axial_stiffness},
-                     {"effective_mass", c.effective_mass},           {"typical_load", c.typical_load},
-                     {"typical_penetration", c.typical_penetration}, {"angular_frequency", c.angular_frequency},
-                     {"largest_stable_step", c.largest_stable_step}, {"validity_speed", c.validity_speed}};
+    json[c.joint] = {
+        {"hertz_stiffness", c.hertz_stiffness},         {"axial_stiffness", c.axial_stiffness},
+        {"effective_mass", c.effective_mass},           {"typical_load", c.typical_load},
+        {"typical_penetration", c.typical_penetration}, {"angular_frequency", c.angular_frequency},
+        {"largest_stable_step", c.largest_stable_step}, {"validity_speed", c.validity_speed}};
   return json;
 }
 
 Json kinematics_json(const KinematicReport& k) {
   Json lost = Json::array();
-  for (const LostMotion& l : k.lost) lost.push_back({{"t", l.t}, {"description", l.description}, {"measure", l.measure}});
-  return {{"bodies", k.bodies},           {"joints", k.joints},
-          {"constraint_rows", k.constraint_rows}, {"rank", k.rank},
-          {"redundant_rows", k.redundant_rows},   {"mobility", k.mobility},
-          {"drives", k.drives},           {"free_freedoms", k.free_freedoms},
-          {"feasible", k.feasible},       {"lost", lost}};
+  for (const LostMotion& l : k.lost)
+    lost.push_back({{"t", l.t}, {"description", l.description}, {"measure", l.measure}});
+  return {{"bodies", k.bodies},
+          {"joints", k.joints},
+          {"constraint_rows", k.constraint_rows},
+          {"rank", k.rank},
+          {"redundant_rows", k.redundant_rows},
+          {"mobility", k.mobility},
+          {"drives", k.drives},
+          {"free_freedoms", k.free_freedoms},
+          {"feasible", k.feasible},
+          {"lost", lost}};
 }
 
 void print(const Mechanism& mechanism, const CheckResult& result, const OutputDirectory& out) {
   const KinematicReport& k = result.kinematics;
-  fmt::print("{}: {} bodies, {} joints, mobility {}, {} drives, {} redundant rows\n", mechanism.name(), k.bodies, k.joints, k.mobility, k.drives,
-             k.redundant_rows);
+  fmt::print("{}: {} bodies, {} joints, mobility {}, {} drives, {} redundant rows\n", mechanism.name(),
+             k.bodies, k.joints, k.mobility, k.drives, k.redundant_rows);
   for (const ContactFrequency& c : result.contacts)
-    fmt::print("  {}: largest stable step of RK4 {}, rest penetration {}, Flores' law valid up to {}\n", c.joint,
-               readable(c.largest_stable_step, "s"), readable(c.typical_penetration, "m"), readable(c.validity_speed, "m/s"));
+    fmt::print("  {}: largest stable step of RK4 {}, rest penetration {}, Flores' law valid up to {}\n",
+               c.joint, readable(c.largest_stable_step, "s"), readable(c.typical_penetration, "m"),
+               readable(c.validity_speed, "m/s"));
   for (const std::string& note : result.notes) fmt::print("  note: {}\n", note);
   for (const std::string& finding : result.findings) fmt::print("  problem: {}\n", finding);
   if (result.findings.empty()) fmt::print("  nothing stands in the way of this motion\n");
@@ -52,18 +61,22 @@ class CheckVerb : public Verb {
  public:
   std::string name() const override { return "check"; }
   std::string file_kind() const override { return "mechanism"; }
-  std::string summary() const override { return "mobility, redundancy, singular poses, contact frequencies: what would go wrong before it does"; }
+  std::string summary() const override {
+    return "mobility, redundancy, singular poses, contact frequencies: what would go wrong before it does";
+  }
   std::string example() const override { return "boresight check examples/3-rrcpr/3-rrcpr.toml"; }
 
   int execute(const Command& command) override {
     const Stopwatch watch;
     const Mechanism mechanism(read_mechanism(command.file, command.settings));
     choose_rung(command.rung, command.accuracy);  // a wrong name is refused here too
-    const OutputDirectory out = OutputDirectory::open(
-        command.out, command.verb, command.file, identity_of(command, mechanism.description().content_hash, "", Json::object()));
+    const OutputDirectory out =
+        OutputDirectory::open(command.out, command.verb, command.file,
+                              identity_of(command, mechanism.description().content_hash, "", Json::object()));
     const CheckResult result = check_mechanism(mechanism);
 
-    Json json = common_summary(command, mechanism, {"none", "nothing is integrated"}, watch, {}, interrupted(), out);
+    Json json =
+        common_summary(command, mechanism, {"none", "nothing is integrated"}, watch, {}, interrupted(), out);
     json["findings"] = result.findings;
     json["notes"] = result.notes;
     json["kinematics"] = kinematics_json(result.kinematics);
@@ -73,9 +86,11 @@ class CheckVerb : public Verb {
     out.write("conditioning.csv", [&](std::ostream& s) {
       s << "t,smallest_singular_value,orientation,position\n";
       for (const ConditioningSample& c : result.kinematics.along)
-        s << fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}\n", c.t, c.smallest_singular_value, c.orientation, c.position);
+        s << fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}\n", c.t, c.smallest_singular_value, c.orientation,
+                         c.position);
     });
-    out.write("report.html", [&](std::ostream& s) { report::write_html(s, check_report(command, mechanism, result)); });
+    out.write("report.html",
+              [&](std::ostream& s) { report::write_html(s, check_report(command, mechanism, result)); });
     if (!command.quiet) print(mechanism, result, out);
     if (interrupted()) return kInterrupted;
     return result.findings.empty() ? kDone : kAnswerIsNo;

@@ -29,12 +29,17 @@ double positive_quantity(const std::string& option, const std::string& text, con
 
 void CommandOptions::declare(CLI::App& app, const std::string& file_kind) {
   app.add_option("FILE", file, "the " + file_kind + " file")->required()->type_name("");
-  app.add_option("--set", settings, "change a value of the mechanism: clearance.F1.radial=0.2mm (any number of times)")
-      ->type_name("PATH=VALUE")->allow_extra_args(false)->take_all();
+  app.add_option("--set", settings,
+                 "change a value of the mechanism: clearance.F1.radial=0.2mm (any number of times)")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false)
+      ->take_all();
   app.add_option("--out", out, "where results go; otherwise results/FILE-VERB")->type_name("DIR");
   app.add_option("--rung", rung, "auto, envelope, quasistatic, perturbation or multibody: how much physics")
-      ->type_name("NAME")->capture_default_str();
-  app.add_option("--accuracy", accuracy, "wanted of the index, e.g. \"1 %\"; chooses the rung")->type_name("SHARE");
+      ->type_name("NAME")
+      ->capture_default_str();
+  app.add_option("--accuracy", accuracy, "wanted of the index, e.g. \"1 %\"; chooses the rung")
+      ->type_name("SHARE");
   app.add_option("--jobs", jobs, "threads; otherwise as many as there are cores")->type_name("N");
   app.add_flag("--quiet", quiet, "no progress, no summary on the terminal");
 }
@@ -48,20 +53,25 @@ Command CommandOptions::command(const std::string& verb) const {
   command.quiet = quiet;
   for (const std::string& text : settings) command.settings.push_back(parse_setting(text));
   if (!accuracy.empty()) command.accuracy = positive_quantity("--accuracy", accuracy, kRatio);
-  if (jobs < 0 || jobs > 4096) throw InputError(kCommandLine, "--jobs", std::to_string(jobs), "1 to 4096 threads");
+  if (jobs < 0 || jobs > 4096)
+    throw InputError(kCommandLine, "--jobs", std::to_string(jobs), "1 to 4096 threads");
   command.jobs = jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   return command;
 }
 
 void MotionOptions::declare(CLI::App& app, bool with_poses) {
   app.add_option("--sample", sample, "spacing of the time series")->type_name("TIME")->capture_default_str();
-  app.add_option("--step", step, "step of the integration; otherwise the rung's own choice")->type_name("TIME");
+  app.add_option("--step", step, "step of the integration; otherwise the rung's own choice")
+      ->type_name("TIME");
   app.add_option("--formulation", formulation, "of the equations of motion (multibody)")->type_name("NAME");
   app.add_option("--stabilisation", stabilisation, "of the constraints (multibody): baumgarte or projection")
-      ->type_name("NAME")->capture_default_str();
+      ->type_name("NAME")
+      ->capture_default_str();
   if (with_poses)
     app.add_option("--pose", poses, "keep the pose of this body too (any number of times)")
-        ->type_name("BODY")->allow_extra_args(false)->take_all();
+        ->type_name("BODY")
+        ->allow_extra_args(false)
+        ->take_all();
 }
 
 RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
@@ -82,7 +92,8 @@ RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
     if (body < 0) {
       std::vector<std::string> names;
       for (const BodyDescription& b : mechanism.description().bodies) names.push_back(b.name);
-      throw InputError(kCommandLine, "--pose", in_quotes(name), "a body of the mechanism", nearest_name(name, names));
+      throw InputError(kCommandLine, "--pose", in_quotes(name), "a body of the mechanism",
+                       nearest_name(name, names));
     }
     options.pose_bodies.push_back(body);
   }
@@ -94,15 +105,22 @@ std::size_t history_refinement(double duration, double sample_spacing) {
 }
 
 nlohmann::json MotionOptions::identity() const {
-  return {{"step", step}, {"sample", sample}, {"formulation", formulation}, {"stabilisation", stabilisation}, {"pose", poses}};
+  return {{"step", step},
+          {"sample", sample},
+          {"formulation", formulation},
+          {"stabilisation", stabilisation},
+          {"pose", poses}};
 }
 
-nlohmann::json identity_of(const Command& command, const std::string& mechanism_hash, const std::string& study_hash,
-                           const nlohmann::json& options) {
+nlohmann::json identity_of(const Command& command, const std::string& mechanism_hash,
+                           const std::string& study_hash, const nlohmann::json& options) {
   nlohmann::json settings = nlohmann::json::array();
   for (const Setting& setting : command.settings) settings.push_back(setting.path + "=" + setting.value);
-  nlohmann::json identity = {{"verb", command.verb}, {"mechanism", mechanism_hash}, {"settings", settings},
-                             {"rung", command.rung}, {"options", options}};
+  nlohmann::json identity = {{"verb", command.verb},
+                             {"mechanism", mechanism_hash},
+                             {"settings", settings},
+                             {"rung", command.rung},
+                             {"options", options}};
   if (!study_hash.empty()) identity["study"] = study_hash;
   if (command.accuracy) identity["accuracy"] = *command.accuracy;
   return identity;

@@ -1,5 +1,5 @@
-// What every verb is asked with: the file, the settings, where results go, how much may be computed at once; and the
-// options of those verbs that follow a motion.
+// What every verb is asked with: the file, the settings, where results go, how much may be computed at once;
+// and the options of those verbs that follow a motion.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -20,8 +20,8 @@ namespace boresight::app {
 struct Command {
   std::string verb;
   std::string file;
-  std::vector<Setting> settings;   // --set, in the order given
-  std::string out;                 // "": chosen from file and verb
+  std::vector<Setting> settings;  // --set, in the order given
+  std::string out;                // "": chosen from file and verb
   std::string rung = "auto";
   std::optional<double> accuracy;  // --accuracy, relative, of the index
   int jobs = 1;                    // threads
@@ -61,15 +61,15 @@ auto with_options_checked(const RunOptions& options, const Compute& compute) {
   }
 }
 
-// Charts want the impacts, so histories are finer than the table of the user's --sample: how many history samples stand for one
-// of its rows. Up to ten, while the history stays below 20,000 samples.
+// Charts want the impacts, so histories are finer than the table of the user's --sample: how many history
+// samples stand for one of its rows. Up to ten, while the history stays below 20,000 samples.
 std::size_t history_refinement(double duration, double sample_spacing);
 
 // A positive value with its unit, given to an option. Throws InputError naming the option.
 double positive_quantity(const std::string& option, const std::string& text, const SiUnit& unit);
 
 // What tells this study's results from another's: verb, hashes, settings, options.
-nlohmann::json identity_of(const Command& command, const std::string& mechanism_hash, const std::string& study_hash,
-                           const nlohmann::json& options);
+nlohmann::json identity_of(const Command& command, const std::string& mechanism_hash,
+                           const std::string& study_hash, const nlohmann::json& options);
 
 }  // namespace boresight::app

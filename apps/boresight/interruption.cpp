@@ -25,7 +25,8 @@ void catch_interruptions() {
   action.sa_flags = SA_RESTART;
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
-  // A reader that went away and a file grown beyond its limit are write errors, not silent deaths in the middle of a file.
+  // A reader that went away and a file grown beyond its limit are write errors, not silent deaths in the
+  // middle of a file.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }

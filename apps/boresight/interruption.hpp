@@ -1,5 +1,5 @@
-// Ctrl-C and a polite kill: the first one only raises a flag that long work looks at, so that what was computed is still
-// written as whole files; the second one ends the program at once.
+// Ctrl-C and a polite kill: the first one only raises a flag that long work looks at, so that what was
+// computed is still written as whole files; the second one ends the program at once.
 #pragma once
 
 namespace boresight::app {

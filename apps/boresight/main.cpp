@@ -1,7 +1,8 @@
-// boresight VERB FILE [options]: finds the verb, reads the command line, and turns faults into one line and an exit status.
-#include <CLI/CLI.hpp>
+// boresight VERB FILE [options]: finds the verb, reads the command line, and turns faults into one line and
+// an exit status.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
 #include <iostream>
@@ -46,7 +47,9 @@ int run_program(int argc, char** argv) {
   CLI::App app("Accuracy of pointing mechanisms whose joints have clearance.", "boresight");
   app.set_version_flag("--version", std::string("boresight ") + BORESIGHT_VERSION);
   app.require_subcommand(1);
-  app.footer("boresight VERB --help tells more. Exit status: 0 done, 1 the answer is no, 2 bad input, 3 failed, 130 interrupted.");
+  app.footer(
+      "boresight VERB --help tells more. Exit status: 0 done, 1 the answer is no, 2 bad input, 3 failed, 130 "
+      "interrupted.");
   for (std::size_t i = 0; i < verbs.size(); ++i) {
     CLI::App* command = app.add_subcommand(verbs[i]->name(), verbs[i]->summary());
     options[i].declare(*command, verbs[i]->file_kind());
@@ -55,15 +58,17 @@ int run_program(int argc, char** argv) {
     commands.push_back(command);
   }
 
-  if (argc < 2) return fail(kBadInput, "found no verb, expected boresight VERB FILE; boresight --help tells more");
-  const bool known = std::any_of(verbs.begin(), verbs.end(), [&](const auto& verb) { return verb->name() == argv[1]; });
+  if (argc < 2)
+    return fail(kBadInput, "found no verb, expected boresight VERB FILE; boresight --help tells more");
+  const bool known =
+      std::any_of(verbs.begin(), verbs.end(), [&](const auto& verb) { return verb->name() == argv[1]; });
   if (argv[1][0] != '-' && !known) return unknown_verb(argv[1], verbs);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return fail(kBadInput, std::string(error.what()) + "; boresight " + (argv[1][0] == '-' ? "" : argv[1] + std::string(" ")) +
-                               "--help tells more");
+    return fail(kBadInput, std::string(error.what()) + "; boresight " +
+                               (argv[1][0] == '-' ? "" : argv[1] + std::string(" ")) + "--help tells more");
   }
   for (std::size_t i = 0; i < verbs.size(); ++i)
     if (commands[i]->parsed()) return verbs[i]->execute(options[i].command(verbs[i]->name()));

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // The files by which a directory is known to hold results although its summary.json is missing.
-const std::vector<std::string> kResultFiles = {"report.html", "timeseries.csv", "events.csv", "sweep.csv", "samples.db"};
+const std::vector<std::string> kResultFiles = {"report.html", "timeseries.csv", "events.csv", "sweep.csv",
+                                               "samples.db"};
 
 enum class Owner { nobody, this_study, another_study, unknown };
 
@@ -96,8 +97,8 @@ void write_atomically(const fs::path& file, const std::string& content) {
 OutputDirectory::OutputDirectory(fs::path path, nlohmann::json identity)
     : path_(std::move(path)), identity_(std::move(identity)) {}
 
-OutputDirectory OutputDirectory::open(const std::string& asked, const std::string& verb, const std::string& file,
-                                      nlohmann::json identity) {
+OutputDirectory OutputDirectory::open(const std::string& asked, const std::string& verb,
+                                      const std::string& file, nlohmann::json identity) {
   fs::path path = asked;
   if (asked.empty()) {
     const std::string stem = fs::path(file).stem().string();
@@ -109,12 +110,14 @@ OutputDirectory OutputDirectory::open(const std::string& asked, const std::strin
   }
   std::error_code error;
   if (fs::exists(path, error) && !fs::is_directory(path, error))
-    throw OutputDirectoryError("--out " + path.string() + ": found a file, expected a directory or a new name");
+    throw OutputDirectoryError("--out " + path.string() +
+                               ": found a file, expected a directory or a new name");
   switch (owner_of(path, identity)) {
     case Owner::another_study:
-      throw OutputDirectoryError("--out " + path.string() +
-                                 ": holds the results of another study (other verb, file, settings or options); "
-                                 "give another --out, or remove it");
+      throw OutputDirectoryError(
+          "--out " + path.string() +
+          ": holds the results of another study (other verb, file, settings or options); "
+          "give another --out, or remove it");
     case Owner::unknown:
       throw OutputDirectoryError("--out " + path.string() +
                                  ": holds results without a readable summary.json to say whose they are; "
@@ -125,13 +128,15 @@ OutputDirectory OutputDirectory::open(const std::string& asked, const std::strin
   }
   fs::create_directories(path, error);
   if (error)
-    throw OutputDirectoryError("--out " + path.string() + ": cannot create the directory: " + error.message());
+    throw OutputDirectoryError("--out " + path.string() +
+                               ": cannot create the directory: " + error.message());
   if (::access(path.c_str(), W_OK | X_OK) != 0)
     throw OutputDirectoryError("--out " + path.string() + ": cannot write there: " + std::strerror(errno));
   return OutputDirectory(std::move(path), std::move(identity));
 }
 
-void OutputDirectory::write(const std::string& name, const std::function<void(std::ostream&)>& content) const {
+void OutputDirectory::write(const std::string& name,
+                            const std::function<void(std::ostream&)>& content) const {
   std::ostringstream text;
   content(text);
   write_atomically(path_ / name, std::move(text).str());

@@ -1,8 +1,9 @@
 // The directory of one study's results: whose it is, and files that are whole or not there.
 //
-// A directory belongs to the study whose identity its summary.json carries (verb, hashes, settings, options). The same
-// study may be run again in it; another study's results are never overwritten. Every file is written to a temporary name
-// beside its own, synced to the disk and renamed, so that a full disk or a kill leaves the old file or the new one.
+// A directory belongs to the study whose identity its summary.json carries (verb, hashes, settings, options).
+// The same study may be run again in it; another study's results are never overwritten. Every file is written
+// to a temporary name beside its own, synced to the disk and renamed, so that a full disk or a kill leaves
+// the old file or the new one.
 //
 //   OutputDirectory out = OutputDirectory::open(options.out, "run", "3-rrcpr.toml", identity);
 //   out.write("summary.json", [&](std::ostream& s) { s << summary.dump(2) << '\n'; });
@@ -31,8 +32,8 @@ class WriteError : public std::runtime_error {
 
 class OutputDirectory {
  public:
-  // `asked`: the --out of the user; "" means ./results/FILESTEM-VERB, or the same with -2, -3, ... where that holds
-  // another study's results. `identity` is compared with the "identity" of a summary.json found there.
+  // `asked`: the --out of the user; "" means ./results/FILESTEM-VERB, or the same with -2, -3, ... where that
+  // holds another study's results. `identity` is compared with the "identity" of a summary.json found there.
   // Creates the directory. Throws OutputDirectoryError.
   static OutputDirectory open(const std::string& asked, const std::string& verb, const std::string& file,
                               nlohmann::json identity);

@@ -40,8 +40,10 @@ std::string progress_line(double done, double total, const std::string& unit, do
 }
 
 Progress::Progress(bool quiet, double total, std::string unit)
-    : Progress(quiet ? Style::silent : ::isatty(STDERR_FILENO) ? Style::terminal : Style::plain, total, std::move(unit),
-               stderr) {}
+    : Progress(quiet                     ? Style::silent
+               : ::isatty(STDERR_FILENO) ? Style::terminal
+                                         : Style::plain,
+               total, std::move(unit), stderr) {}
 
 Progress::Progress(Style style, double total, std::string unit, std::FILE* stream)
     : style_(style), total_(total), unit_(std::move(unit)), stream_(stream) {

@@ -1,5 +1,5 @@
-// How far long work has come, on stderr: one line redrawn on a terminal, a plain line now and then elsewhere, nothing
-// with --quiet.
+// How far long work has come, on stderr: one line redrawn on a terminal, a plain line now and then elsewhere,
+// nothing with --quiet.
 //
 //   Progress progress(options.quiet);
 //   progress.update(0.4, "position error so far 0.21 mm");   // from any thread, as often as one likes
@@ -40,7 +40,8 @@ class Progress {
   bool drawn_ = false;
 };
 
-// "[#####-----]  50 %  0.5 of 1 s of motion, 0.32/s, 2 s left; ESTIMATE": what is drawn, without the terminal's codes.
+// "[#####-----]  50 %  0.5 of 1 s of motion, 0.32/s, 2 s left; ESTIMATE": what is drawn, without the
+// terminal's codes.
 std::string progress_line(double done, double total, const std::string& unit, double elapsed_seconds,
                           const std::string& estimate);
 

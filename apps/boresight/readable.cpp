@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// A unit, its size in SI, and the value from which on it is used (a tenth of a millimetre is still said in mm).
+// A unit, its size in SI, and the value from which on it is used (a tenth of a millimetre is still said in
+// mm).
 struct Scale {
   const char* name;
   double size;
@@ -25,7 +26,8 @@ const std::map<std::string, std::vector<Scale>> kScales = {
     {"rad", {{"rad", 1.0, 0.1}, {"mrad", 1e-3, 1e-4}, {"µrad", 1e-6, 1e-7}, {"nrad", 1e-9, 0.0}}},
     {"N", {{"kN", 1e3, 1e3}, {"N", 1.0, 1.0}, {"mN", 1e-3, 0.0}}},
     {"m/s", {{"m/s", 1.0, 0.5}, {"mm/s", 1e-3, 1e-4}, {"µm/s", 1e-6, 0.0}}},
-    {"s", {{"h", 3600.0, 5400.0}, {"min", 60.0, 90.0}, {"s", 1.0, 0.5}, {"ms", 1e-3, 1e-4}, {"µs", 1e-6, 0.0}}},
+    {"s",
+     {{"h", 3600.0, 5400.0}, {"min", 60.0, 90.0}, {"s", 1.0, 0.5}, {"ms", 1e-3, 1e-4}, {"µs", 1e-6, 0.0}}},
     {"Pa", {{"GPa", 1e9, 1e8}, {"MPa", 1e6, 1e5}, {"Pa", 1.0, 0.0}}},
 };
 
@@ -58,7 +60,8 @@ DisplayUnit display_unit(const std::string& si_unit, double largest) {
 std::string readable(double value, const std::string& si_unit) {
   const DisplayUnit unit = display_unit(si_unit, value);
   // A length or angle this small is the rounding of the computation.
-  if ((si_unit == "m" || si_unit == "rad") && value != 0.0 && std::abs(value) < 1e-10) return "below 0.1 " + unit.name;
+  if ((si_unit == "m" || si_unit == "rad") && value != 0.0 && std::abs(value) < 1e-10)
+    return "below 0.1 " + unit.name;
   return digits(value * unit.per_si) + (unit.name.empty() ? "" : " " + unit.name);
 }
 

@@ -1,4 +1,5 @@
-// Numbers as people read them: "0.231 mm", "22 µm", "478 arcsec". SI goes to files; this goes to terminals and reports.
+// Numbers as people read them: "0.231 mm", "22 µm", "478 arcsec". SI goes to files; this goes to terminals
+// and reports.
 #pragma once
 
 #include <string>

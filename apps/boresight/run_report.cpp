@@ -13,25 +13,31 @@ namespace {
 std::vector<report::Fact> headline(const RunResult& result) {
   const PointingIndices& index = result.index;
   std::vector<report::Fact> facts = {
-      {.label = "Position error, maximum", .value = readable(index.position_error.max, "m"),
+      {.label = "Position error, maximum",
+       .value = readable(index.position_error.max, "m"),
        .note = fmt::format("at {:.3f} s", index.position_error.time_of_max)},
       {.label = "Position error, RMS", .value = readable(index.position_error.rms, "m")},
-      {.label = "Boresight error, maximum", .value = readable(index.boresight_error.max, "rad"),
+      {.label = "Boresight error, maximum",
+       .value = readable(index.boresight_error.max, "rad"),
        .note = readable_arcsec(index.boresight_error.max)},
-      {.label = "Line-of-sight error, maximum", .value = readable(index.line_of_sight_error.max, "rad"),
+      {.label = "Line-of-sight error, maximum",
+       .value = readable(index.line_of_sight_error.max, "rad"),
        .note = readable_arcsec(index.line_of_sight_error.max)},
   };
   for (const ContactSummary& c : result.contact)
-    facts.push_back({.label = c.joint + ", in contact", .value = readable_share(c.contact_fraction),
+    facts.push_back({.label = c.joint + ", in contact",
+                     .value = readable_share(c.contact_fraction),
                      .note = fmt::format("{} impacts, {} at most", c.impacts, readable(c.max_force, "N"))});
-  facts.push_back({.label = "Peak acceleration", .value = readable(result.platform_acceleration_max.maxCoeff(), "m/s^2"),
+  facts.push_back({.label = "Peak acceleration",
+                   .value = readable(result.platform_acceleration_max.maxCoeff(), "m/s^2"),
                    .note = "largest of the three axes"});
   return facts;
 }
 
 // One quantity of a clearance joint over time.
-report::Chart joint_chart(const std::string& title, const std::string& label, const std::string& si_unit, const RunResult& result,
-                          std::size_t clearance, double (*value)(const ClearanceSample&)) {
+report::Chart joint_chart(const std::string& title, const std::string& label, const std::string& si_unit,
+                          const RunResult& result, std::size_t clearance,
+                          double (*value)(const ClearanceSample&)) {
   std::vector<double> values;
   for (const ClearanceSample& s : result.clearances[clearance]) values.push_back(value(s));
   double most = 0.0;
@@ -45,22 +51,32 @@ report::Chart joint_chart(const std::string& title, const std::string& label, co
 report::Section joint_section(const Mechanism& mechanism, const RunResult& result, std::size_t c) {
   const std::string joint = joint_of_clearance(mechanism, static_cast<int>(c));
   const ClearanceParameters& p = mechanism.parameters().clearance[c];
-  report::Section section{.id = fmt::format("joint-{}", c + 1), .title = "Joint " + joint,
-                          .intro = fmt::format("Radial clearance {}, axial clearance {} per side.", readable(p.radial, "m"),
-                                               readable(p.axial, "m"))};
+  report::Section section{.id = fmt::format("joint-{}", c + 1),
+                          .title = "Joint " + joint,
+                          .intro = fmt::format("Radial clearance {}, axial clearance {} per side.",
+                                               readable(p.radial, "m"), readable(p.axial, "m"))};
   section.items.push_back(orbit_chart(joint, p.radial, result, c));
 
-  report::Panels panels{.title = joint + " over time", .caption = "Penetration and force are drawn with their peaks kept.", .columns = 2,
+  report::Panels panels{.title = joint + " over time",
+                        .caption = "Penetration and force are drawn with their peaks kept.",
+                        .columns = 2,
                         .shared_legend = false};
-  report::Chart axial = joint_chart("Axial offset", "along the axis", "m", result, c, [](const ClearanceSample& s) { return s.offset.y(); });
-  const DisplayUnit axial_unit{axial.y.unit, axial.y.unit == "mm" ? 1e3 : axial.y.unit == "µm" ? 1e6 : axial.y.unit == "nm" ? 1e9 : 1.0};
-  axial.lines = {{'y', p.axial * axial_unit.per_si, "end face"}, {'y', -p.axial * axial_unit.per_si, "end face"}};
-  panels.panels = {joint_chart("Penetration", "penetration", "m", result, c,
-                               [](const ClearanceSample& s) { return std::max(0.0, s.penetration); }),
-                   joint_chart("Contact force", "normal force", "N", result, c, [](const ClearanceSample& s) { return s.normal_force; }),
-                   joint_chart("Radial offset", "distance of the centres", "m", result, c,
-                               [](const ClearanceSample& s) { return std::hypot(s.offset.x(), s.offset.z()); }),
-                   std::move(axial)};
+  report::Chart axial = joint_chart("Axial offset", "along the axis", "m", result, c,
+                                    [](const ClearanceSample& s) { return s.offset.y(); });
+  const DisplayUnit axial_unit{axial.y.unit, axial.y.unit == "mm"   ? 1e3
+                                             : axial.y.unit == "µm" ? 1e6
+                                             : axial.y.unit == "nm" ? 1e9
+                                                                    : 1.0};
+  axial.lines = {{'y', p.axial * axial_unit.per_si, "end face"},
+                 {'y', -p.axial * axial_unit.per_si, "end face"}};
+  panels.panels = {
+      joint_chart("Penetration", "penetration", "m", result, c,
+                  [](const ClearanceSample& s) { return std::max(0.0, s.penetration); }),
+      joint_chart("Contact force", "normal force", "N", result, c,
+                  [](const ClearanceSample& s) { return s.normal_force; }),
+      joint_chart("Radial offset", "distance of the centres", "m", result, c,
+                  [](const ClearanceSample& s) { return std::hypot(s.offset.x(), s.offset.z()); }),
+      std::move(axial)};
   section.items.push_back(std::move(panels));
   return section;
 }
@@ -72,14 +88,18 @@ report::Panels event_histograms(const RunResult& result) {
     duration.push_back(1e3 * e.duration);
     force.push_back(1e-3 * e.max_force);
   }
-  report::Panels panels{.title = "How the contacts are spread", .caption = "Every contact of the motion, whichever joint.", .columns = 3,
+  report::Panels panels{.title = "How the contacts are spread",
+                        .caption = "Every contact of the motion, whichever joint.",
+                        .columns = 3,
                         .shared_legend = false};
-  const auto histogram = [&](const char* title, const char* label, const char* unit, const std::vector<double>& values) {
+  const auto histogram = [&](const char* title, const char* label, const char* unit,
+                             const std::vector<double>& values) {
     report::Chart chart{.title = title, .caption = {}, .x = {label, unit}, .y = {"contacts", ""}};
     chart.series.push_back({.name = label, .x = values, .style = report::Style::histogram});
     return chart;
   };
-  panels.panels = {histogram("Approach speed", "speed", "mm/s", speed), histogram("Duration", "duration", "ms", duration),
+  panels.panels = {histogram("Approach speed", "speed", "mm/s", speed),
+                   histogram("Duration", "duration", "ms", duration),
                    histogram("Largest force", "force", "kN", force)};
   const double valid = result.contact.empty() ? 0.0 : 1e3 * result.contact.front().validity_speed;
   if (valid > 0.0 && !speed.empty() && valid < 1.5 * *std::max_element(speed.begin(), speed.end()))
@@ -96,12 +116,19 @@ report::Table hardest_contacts(const Mechanism& mechanism, const RunResult& resu
                     [](const ContactEvent* a, const ContactEvent* b) { return a->max_force > b->max_force; });
   report::Table table{.title = fmt::format("The {} hardest contacts", shown),
                       .caption = fmt::format("Of {}; all of them are in events.csv.", events.size()),
-                      .columns = {{"Joint"}, {"Where"}, {"Start", "s"}, {"Duration", "ms"}, {"Approach", "mm/s"}, {"Parting", "mm/s"},
-                                  {"Penetration", "µm"}, {"Force", "kN"}}};
+                      .columns = {{"Joint"},
+                                  {"Where"},
+                                  {"Start", "s"},
+                                  {"Duration", "ms"},
+                                  {"Approach", "mm/s"},
+                                  {"Parting", "mm/s"},
+                                  {"Penetration", "µm"},
+                                  {"Force", "kN"}}};
   for (std::size_t i = 0; i < shown; ++i) {
     const ContactEvent& e = *events[i];
-    table.rows.push_back({joint_of_clearance(mechanism, e.clearance), to_string(e.place), e.start, 1e3 * e.duration, 1e3 * e.start_speed,
-                          1e3 * e.end_speed, 1e6 * e.max_penetration, 1e-3 * e.max_force});
+    table.rows.push_back({joint_of_clearance(mechanism, e.clearance), to_string(e.place), e.start,
+                          1e3 * e.duration, 1e3 * e.start_speed, 1e3 * e.end_speed, 1e6 * e.max_penetration,
+                          1e-3 * e.max_force});
   }
   return table;
 }
@@ -109,14 +136,18 @@ report::Table hardest_contacts(const Mechanism& mechanism, const RunResult& resu
 report::Section cost_section(const RunResult& result) {
   const RunCost& cost = result.cost;
   report::Table table{.title = "What it cost", .caption = {}, .columns = {{"What"}, {"Value"}}};
-  table.rows = {{"Integrator", result.integrator},
-                {"Steps", cost.steps},
-                {"Rejected steps", cost.rejected_steps},
-                {"Right-hand sides", cost.evaluations},
-                {"CPU", readable(cost.cpu_seconds, "s")},
-                {"CPU per right-hand side", cost.evaluations > 0 ? readable(cost.cpu_seconds / static_cast<double>(cost.evaluations), "s") : "-"},
-                {"Largest constraint drift", fmt::format("{:.3g} m or rad", result.constraint_drift)}};
-  if (result.energy_error != 0.0) table.rows.push_back({"Energy balance, largest error", fmt::format("{:.3g} of the largest energy", result.energy_error)});
+  table.rows = {
+      {"Integrator", result.integrator},
+      {"Steps", cost.steps},
+      {"Rejected steps", cost.rejected_steps},
+      {"Right-hand sides", cost.evaluations},
+      {"CPU", readable(cost.cpu_seconds, "s")},
+      {"CPU per right-hand side",
+       cost.evaluations > 0 ? readable(cost.cpu_seconds / static_cast<double>(cost.evaluations), "s") : "-"},
+      {"Largest constraint drift", fmt::format("{:.3g} m or rad", result.constraint_drift)}};
+  if (result.energy_error != 0.0)
+    table.rows.push_back(
+        {"Energy balance, largest error", fmt::format("{:.3g} of the largest energy", result.energy_error)});
   return {.id = "cost", .title = "Cost and numerical quality", .items = {std::move(table)}};
 }
 
@@ -124,13 +155,17 @@ report::Section cost_section(const RunResult& result) {
 
 report::Document run_report(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
                             const std::string& leaves_out, const RunResult& result) {
-  report::Document document{.title = mechanism.name(),
-                            .subtitle = fmt::format("One motion of {} on the {} rung{}", readable(result.end_time, "s"), result.rung,
-                                                    result.formulation.empty() ? "" : ", " + result.formulation + " formulation"),
-                            .verb = "run"};
+  report::Document document{
+      .title = mechanism.name(),
+      .subtitle =
+          fmt::format("One motion of {} on the {} rung{}", readable(result.end_time, "s"), result.rung,
+                      result.formulation.empty() ? "" : ", " + result.formulation + " formulation"),
+      .verb = "run"};
   if (result.interrupted)
-    document.verdict = report::Verdict{report::Standing::bad, fmt::format("Interrupted at {} of {}: what follows is the part that was reached.",
-                                                                          readable(result.end_time, "s"), readable(mechanism.duration(), "s"))};
+    document.verdict =
+        report::Verdict{report::Standing::bad,
+                        fmt::format("Interrupted at {} of {}: what follows is the part that was reached.",
+                                    readable(result.end_time, "s"), readable(mechanism.duration(), "s"))};
   document.facts = headline(result);
   document.warnings = result.warnings;
   document.provenance = provenance_of(command, mechanism, rung);
@@ -143,8 +178,12 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
   }
   document.sections.push_back(std::move(errors));
   if (!result.time.empty())
-    document.sections.push_back({.id = "motion", .title = "Motion", .items = {motion_panels(mechanism, overlay,
-        "Displacement of the centre of mass, Z-Y-X Euler angles from home, and accelerations in world axes: the panels of Sun et al., Fig. 6.")}});
+    document.sections.push_back(
+        {.id = "motion",
+         .title = "Motion",
+         .items = {motion_panels(mechanism, overlay,
+                                 "Displacement of the centre of mass, Z-Y-X Euler angles from home, and "
+                                 "accelerations in world axes: the panels of Sun et al., Fig. 6.")}});
   if (mechanism.clearances() > 0) {
     report::Section contact{.id = "contact", .title = "Contact", .items = {contact_table(overlay)}};
     if (!result.time.empty()) contact.items.push_back(contact_strip(mechanism, result));
@@ -154,9 +193,11 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
     }
     document.sections.push_back(std::move(contact));
     if (!result.time.empty())
-      for (std::size_t c = 0; c < result.clearances.size(); ++c) document.sections.push_back(joint_section(mechanism, result, c));
+      for (std::size_t c = 0; c < result.clearances.size(); ++c)
+        document.sections.push_back(joint_section(mechanism, result, c));
   }
-  document.sections.push_back({.id = "model", .title = "What this model leaves out", .items = {report::Text{leaves_out}}});
+  document.sections.push_back(
+      {.id = "model", .title = "What this model leaves out", .items = {report::Text{leaves_out}}});
   document.sections.push_back(cost_section(result));
   return document;
 }

@@ -22,20 +22,24 @@ void print(const Mechanism& mechanism, const RunResult& result, const OutputDire
   fmt::print("{}: {} of motion, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.integrator,
              result.interrupted ? " (interrupted)" : "");
   const PointingIndices& index = result.index;
-  fmt::print("  position error       max {:>10}   RMS {:>10}\n", readable(index.position_error.max, "m"), readable(index.position_error.rms, "m"));
-  fmt::print("  boresight error      max {:>10}   RMS {:>10}   ({} max)\n", readable(index.boresight_error.max, "rad"),
-             readable(index.boresight_error.rms, "rad"), readable_arcsec(index.boresight_error.max));
-  fmt::print("  line-of-sight error  max {:>10}   RMS {:>10}   ({} max)\n", readable(index.line_of_sight_error.max, "rad"),
-             readable(index.line_of_sight_error.rms, "rad"), readable_arcsec(index.line_of_sight_error.max));
+  fmt::print("  position error       max {:>10}   RMS {:>10}\n", readable(index.position_error.max, "m"),
+             readable(index.position_error.rms, "m"));
+  fmt::print("  boresight error      max {:>10}   RMS {:>10}   ({} max)\n",
+             readable(index.boresight_error.max, "rad"), readable(index.boresight_error.rms, "rad"),
+             readable_arcsec(index.boresight_error.max));
+  fmt::print("  line-of-sight error  max {:>10}   RMS {:>10}   ({} max)\n",
+             readable(index.line_of_sight_error.max, "rad"), readable(index.line_of_sight_error.rms, "rad"),
+             readable_arcsec(index.line_of_sight_error.max));
   for (const ContactSummary& c : result.contact)
     fmt::print("  {}: in contact {} of the time, {} impacts, penetration up to {}, force up to {}\n", c.joint,
-               readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"), readable(c.max_force, "N"));
+               readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"),
+               readable(c.max_force, "N"));
   for (const std::string& warning : result.warnings) fmt::print("  warning: {}\n", warning);
   fmt::print("  report: {}\n", (out.path() / "report.html").string());
 }
 
-Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const RunResult& result,
-                const Stopwatch& watch, const OutputDirectory& out) {
+Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
+                const RunResult& result, const Stopwatch& watch, const OutputDirectory& out) {
   Json json = common_summary(command, mechanism, rung, watch, result.warnings, result.interrupted, out);
   json["formulation"] = result.formulation;
   json["integrator"] = result.integrator;
@@ -79,7 +83,8 @@ class RunVerb : public Verb {
       return !interrupted();
     };
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
-    const RunResult result = with_options_checked(options, [&] { return rung->run(mechanism->parameters(), options); });
+    const RunResult result =
+        with_options_checked(options, [&] { return rung->run(mechanism->parameters(), options); });
 
     write_json(out, "summary.json", summary_of(command, *mechanism, choice, result, watch, out));
     out.write("timeseries.csv", [&](std::ostream& s) { write_timeseries(s, *mechanism, result, finer); });

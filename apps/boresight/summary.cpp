@@ -22,11 +22,13 @@ double Stopwatch::wall_seconds() const {
 }
 double Stopwatch::cpu_seconds() const { return process_cpu_seconds() - cpu_; }
 
-Json common_summary(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const Stopwatch& watch,
-                    const std::vector<std::string>& warnings, bool interrupted, const OutputDirectory& out) {
+Json common_summary(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
+                    const Stopwatch& watch, const std::vector<std::string>& warnings, bool interrupted,
+                    const OutputDirectory& out) {
   Json json;
   json["verb"] = command.verb;
-  json["mechanism"] = {{"name", mechanism.name()}, {"hash", mechanism.description().content_hash},
+  json["mechanism"] = {{"name", mechanism.name()},
+                       {"hash", mechanism.description().content_hash},
                        {"file", mechanism.description().origin.file}};
   json["version"] = BORESIGHT_VERSION;
   json["rung"] = rung.name;
@@ -49,7 +51,8 @@ Json statistics_json(const Statistics& s) {
 
 Json index_json(const PointingIndices& index) {
   Json json;
-  for (const QuantityName& quantity : quantity_names()) json[quantity.name] = statistics_json(index.*quantity.statistics);
+  for (const QuantityName& quantity : quantity_names())
+    json[quantity.name] = statistics_json(index.*quantity.statistics);
   return json;
 }
 

@@ -27,13 +27,14 @@ class Stopwatch {
 };
 
 // verb, mechanism, version, rung and why, seed, cost, warnings, identity.
-Json common_summary(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const Stopwatch& watch,
-                    const std::vector<std::string>& warnings, bool interrupted, const OutputDirectory& out);
+Json common_summary(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
+                    const Stopwatch& watch, const std::vector<std::string>& warnings, bool interrupted,
+                    const OutputDirectory& out);
 
 Json statistics_json(const Statistics& statistics);
-Json index_json(const PointingIndices& index);                        // per quantity: max, rms, mean, p99.73
-Json contact_json(const std::vector<ContactSummary>& contact);        // per joint
-Json vector_json(const Vec3& vector);                                 // [x, y, z]
+Json index_json(const PointingIndices& index);                  // per quantity: max, rms, mean, p99.73
+Json contact_json(const std::vector<ContactSummary>& contact);  // per joint
+Json vector_json(const Vec3& vector);                           // [x, y, z]
 
 void write_json(const OutputDirectory& out, const std::string& name, const Json& json);
 

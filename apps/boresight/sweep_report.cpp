@@ -18,7 +18,8 @@ constexpr std::size_t kMostOverlaid = 8;
 std::vector<Overlay> overlays_of(const SweepPlan& plan, const SweepResult& result) {
   std::vector<Overlay> overlays;
   for (const SweepPoint& p : result.points)
-    if (p.status == SweepPoint::Status::done) overlays.push_back({point_name(plan, p, plan.axes.size() > 1), &p.result});
+    if (p.status == SweepPoint::Status::done)
+      overlays.push_back({point_name(plan, p, plan.axes.size() > 1), &p.result});
   return overlays;
 }
 
@@ -35,16 +36,19 @@ struct Measure {
   PointValue value;
 };
 
-report::Chart against_parameter(const std::string& title, const std::string& label, const std::string& si_unit, const SweepPlan& plan,
-                                const SweepResult& result, const std::vector<Measure>& measures) {
+report::Chart against_parameter(const std::string& title, const std::string& label,
+                                const std::string& si_unit, const SweepPlan& plan, const SweepResult& result,
+                                const std::vector<Measure>& measures) {
   const SweepAxis& axis = plan.axes.front();
-  const DisplayUnit x_unit = display_unit(axis.si_unit, *std::max_element(axis.values.begin(), axis.values.end()));
+  const DisplayUnit x_unit =
+      display_unit(axis.si_unit, *std::max_element(axis.values.begin(), axis.values.end()));
   double most = 0.0;
   for (const SweepPoint& p : result.points)
     if (p.status == SweepPoint::Status::done)
       for (const Measure& m : measures) most = std::max(most, std::abs(m.value(p.result)));
   const DisplayUnit y_unit = display_unit(si_unit, most);
-  report::Chart chart{.title = title, .caption = {}, .x = {axis.name(), x_unit.name}, .y = {label, y_unit.name}};
+  report::Chart chart{
+      .title = title, .caption = {}, .x = {axis.name(), x_unit.name}, .y = {label, y_unit.name}};
   const std::size_t runs = plan.points() / axis.values.size();  // combinations of the other axes
   for (std::size_t r = 0; r < std::min(runs, kMostOverlaid); ++r) {
     for (const Measure& m : measures) {
@@ -52,7 +56,8 @@ report::Chart against_parameter(const std::string& title, const std::string& lab
       std::vector<std::pair<double, double>> points;
       for (std::size_t i = 0; i < axis.values.size(); ++i) {
         const SweepPoint& p = result.points[i * runs + r];
-        if (p.status == SweepPoint::Status::done) points.emplace_back(p.values.front() * x_unit.per_si, m.value(p.result) * y_unit.per_si);
+        if (p.status == SweepPoint::Status::done)
+          points.emplace_back(p.values.front() * x_unit.per_si, m.value(p.result) * y_unit.per_si);
       }
       std::sort(points.begin(), points.end());
       for (const auto& [px, py] : points) {
@@ -62,7 +67,8 @@ report::Chart against_parameter(const std::string& title, const std::string& lab
       std::string name = m.name;
       if (runs > 1) {
         const SweepPoint& p = result.points[r];
-        for (std::size_t k = 1; k < plan.axes.size(); ++k) name += ", " + plan.axes[k].name() + " = " + readable(p.values[k], plan.axes[k].si_unit);
+        for (std::size_t k = 1; k < plan.axes.size(); ++k)
+          name += ", " + plan.axes[k].name() + " = " + readable(p.values[k], plan.axes[k].si_unit);
       }
       chart.series.push_back({.name = name, .x = x, .y = y, .style = report::Style::line_markers});
     }
@@ -78,41 +84,54 @@ std::string rotations_note(const SweepResult& result) {
 }
 
 report::Section index_section(const Study& study, const SweepPlan& plan, const SweepResult& result) {
-  report::Section section{.id = "index", .title = "The index against the parameter",
+  report::Section section{.id = "index",
+                          .title = "The index against the parameter",
                           .intro = "The study's index is the " + study.index.title() + "."};
   report::Panels panels{.title = "Index", .caption = rotations_note(result), .columns = 2};
   const auto of = [](const char* quantity, const char* statistic) {
     return [choice = IndexChoice{quantity, statistic}](const RunResult& r) { return choice.of(r.index); };
   };
-  panels.panels.push_back(against_parameter("Position error", "position error", "m", plan, result,
-                                            {{"maximum", of("position_error", "max")}, {"RMS", of("position_error", "rms")}}));
+  panels.panels.push_back(
+      against_parameter("Position error", "position error", "m", plan, result,
+                        {{"maximum", of("position_error", "max")}, {"RMS", of("position_error", "rms")}}));
   if (rotations_note(result).empty())
-    panels.panels.push_back(against_parameter("Boresight error", "boresight error", "rad", plan, result,
-                                              {{"maximum", of("boresight_error", "max")}, {"RMS", of("boresight_error", "rms")}}));
-  panels.panels.push_back(against_parameter("Line-of-sight error", "line-of-sight error", "rad", plan, result,
-                                            {{"maximum", of("line_of_sight_error", "max")}, {"RMS", of("line_of_sight_error", "rms")}}));
+    panels.panels.push_back(against_parameter(
+        "Boresight error", "boresight error", "rad", plan, result,
+        {{"maximum", of("boresight_error", "max")}, {"RMS", of("boresight_error", "rms")}}));
+  panels.panels.push_back(against_parameter(
+      "Line-of-sight error", "line-of-sight error", "rad", plan, result,
+      {{"maximum", of("line_of_sight_error", "max")}, {"RMS", of("line_of_sight_error", "rms")}}));
   section.items.push_back(std::move(panels));
   return section;
 }
 
-report::Section contact_section(const Mechanism& mechanism, const SweepPlan& plan, const SweepResult& result, const std::vector<Overlay>& overlays) {
+report::Section contact_section(const Mechanism& mechanism, const SweepPlan& plan, const SweepResult& result,
+                                const std::vector<Overlay>& overlays) {
   report::Section section{.id = "contact", .title = "Contacts and accelerations"};
-  report::Chart peaks = against_parameter("Peak acceleration of the platform", "peak acceleration", "m/s^2", plan, result,
-                                          {{"x", [](const RunResult& r) { return r.platform_acceleration_max.x(); }},
-                                           {"y", [](const RunResult& r) { return r.platform_acceleration_max.y(); }},
-                                           {"z", [](const RunResult& r) { return r.platform_acceleration_max.z(); }}});
+  report::Chart peaks =
+      against_parameter("Peak acceleration of the platform", "peak acceleration", "m/s^2", plan, result,
+                        {{"x", [](const RunResult& r) { return r.platform_acceleration_max.x(); }},
+                         {"y", [](const RunResult& r) { return r.platform_acceleration_max.y(); }},
+                         {"z", [](const RunResult& r) { return r.platform_acceleration_max.z(); }}});
   peaks.caption = "Per world axis, the ideal motion's own acceleration included, from every accepted step.";
   section.items.push_back(std::move(peaks));
-  report::Panels panels{.title = "What the joint goes through", .caption = {}, .columns = 3, .shared_legend = plan.axes.size() > 1};
+  report::Panels panels{.title = "What the joint goes through",
+                        .caption = {},
+                        .columns = 3,
+                        .shared_legend = plan.axes.size() > 1};
   if (mechanism.clearances() > 0) {
-    panels.panels.push_back(against_parameter("Free flight", "share of the time, %", "1", plan, result,
-                                              {{"free flight", [](const RunResult& r) { return 100.0 * free_flight_share(r); }}}));
-    panels.panels.push_back(against_parameter("Impacts", "contacts begun", "1", plan, result, {{"impacts", impacts}}));
-    panels.panels.push_back(against_parameter("Deepest penetration", "penetration", "m", plan, result, {{"deepest", [](const RunResult& r) {
-                                                double most = 0.0;
-                                                for (const ContactSummary& c : r.contact) most = std::max(most, c.max_penetration);
-                                                return most;
-                                              }}}));
+    panels.panels.push_back(against_parameter(
+        "Free flight", "share of the time, %", "1", plan, result,
+        {{"free flight", [](const RunResult& r) { return 100.0 * free_flight_share(r); }}}));
+    panels.panels.push_back(
+        against_parameter("Impacts", "contacts begun", "1", plan, result, {{"impacts", impacts}}));
+    panels.panels.push_back(against_parameter("Deepest penetration", "penetration", "m", plan, result,
+                                              {{"deepest", [](const RunResult& r) {
+                                                  double most = 0.0;
+                                                  for (const ContactSummary& c : r.contact)
+                                                    most = std::max(most, c.max_penetration);
+                                                  return most;
+                                                }}}));
     section.items.push_back(std::move(panels));
     section.items.push_back(contact_table(overlays));
   }
@@ -121,15 +140,21 @@ report::Section contact_section(const Mechanism& mechanism, const SweepPlan& pla
 
 report::Section findings_section(const std::vector<PublishedFinding>& published) {
   report::Findings findings{.title = "Statement by statement",
-                            .caption = "Every verdict is a comparison of this sweep's own numbers; the dimensions are ours, as the paper gives none."};
+                            .caption =
+                                "Every verdict is a comparison of this sweep's own numbers; the dimensions "
+                                "are ours, as the paper gives none."};
   for (const PublishedFinding& f : published) {
-    const report::Agreement status = f.verdict == PublishedFinding::Verdict::agrees    ? report::Agreement::agrees
-                                     : f.verdict == PublishedFinding::Verdict::differs ? report::Agreement::differs
-                                                                                       : report::Agreement::explained;
+    const report::Agreement status =
+        f.verdict == PublishedFinding::Verdict::agrees    ? report::Agreement::agrees
+        : f.verdict == PublishedFinding::Verdict::differs ? report::Agreement::differs
+                                                          : report::Agreement::explained;
     findings.items.push_back({f.statement, status, f.measured, f.why});
   }
-  return {.id = "findings", .title = "What the paper found, and what this sweep finds",
-          .intro = "Sun, Song, Wang: Dynamic modeling and analysis of 3-RRCP parallel pointing mechanism with clearance, sections 4 and 5.",
+  return {.id = "findings",
+          .title = "What the paper found, and what this sweep finds",
+          .intro =
+              "Sun, Song, Wang: Dynamic modeling and analysis of 3-RRCP parallel pointing mechanism with "
+              "clearance, sections 4 and 5.",
           .items = {std::move(findings)}};
 }
 
@@ -142,16 +167,21 @@ std::vector<report::Fact> headline(const Study& study, const SweepPlan& plan, co
   }
   std::vector<report::Fact> facts = {{.label = "Points", .value = result.points.size()}};
   if (!least) return facts;
-  const auto value = [&](const SweepPoint& p) { return readable(study.index.of(p.result.index), study.index.si_unit()); };
-  facts.push_back({.label = "Smallest index", .value = value(*least), .note = "at " + point_name(plan, *least, true)});
-  facts.push_back({.label = "Largest index", .value = value(*most), .note = "at " + point_name(plan, *most, true)});
+  const auto value = [&](const SweepPoint& p) {
+    return readable(study.index.of(p.result.index), study.index.si_unit());
+  };
+  facts.push_back(
+      {.label = "Smallest index", .value = value(*least), .note = "at " + point_name(plan, *least, true)});
+  facts.push_back(
+      {.label = "Largest index", .value = value(*most), .note = "at " + point_name(plan, *most, true)});
   return facts;
 }
 
 std::vector<std::string> warnings_of(const SweepPlan& plan, const SweepResult& result) {
   std::vector<std::string> warnings;
   for (const SweepPoint& p : result.points) {
-    if (p.status == SweepPoint::Status::failed) warnings.push_back(point_name(plan, p, true) + ": failed: " + p.failure);
+    if (p.status == SweepPoint::Status::failed)
+      warnings.push_back(point_name(plan, p, true) + ": failed: " + p.failure);
     for (const std::string& w : p.result.warnings) warnings.push_back(point_name(plan, p, true) + ": " + w);
   }
   constexpr std::size_t kShown = 12;
@@ -175,14 +205,19 @@ std::string point_name(const SweepPlan& plan, const SweepPoint& point, bool with
   return name;
 }
 
-report::Document sweep_report(const Command& command, const Study& study, const Mechanism& mechanism, const RungChoice& rung,
-                              const std::string& leaves_out, const SweepPlan& plan, const SweepResult& result) {
+report::Document sweep_report(const Command& command, const Study& study, const Mechanism& mechanism,
+                              const RungChoice& rung, const std::string& leaves_out, const SweepPlan& plan,
+                              const SweepResult& result) {
   std::string swept;
   for (const SweepAxis& axis : plan.axes) swept += (swept.empty() ? "" : " by ") + axis_label(axis);
   report::Document document{.title = mechanism.name(), .subtitle = "Sweep over " + swept, .verb = "sweep"};
-  if (result.interrupted) document.verdict = report::Verdict{report::Standing::bad, "Interrupted: only the points that were finished are shown."};
+  if (result.interrupted)
+    document.verdict =
+        report::Verdict{report::Standing::bad, "Interrupted: only the points that were finished are shown."};
   if (result.failed > 0 && !result.interrupted)
-    document.verdict = report::Verdict{report::Standing::bad, fmt::format("{} of {} points failed; see the warnings.", result.failed, result.points.size())};
+    document.verdict = report::Verdict{
+        report::Standing::bad,
+        fmt::format("{} of {} points failed; see the warnings.", result.failed, result.points.size())};
   document.facts = headline(study, plan, result);
   document.warnings = warnings_of(plan, result);
   document.provenance = provenance_of(command, mechanism, rung);
@@ -192,12 +227,18 @@ report::Document sweep_report(const Command& command, const Study& study, const 
   if (!overlays.empty()) {
     document.sections.push_back(index_section(study, plan, result));
     std::vector<Overlay> drawn = overlays;
-    drawn.erase(std::remove_if(drawn.begin(), drawn.end(), [](const Overlay& o) { return o.result->time.empty(); }), drawn.end());
+    drawn.erase(
+        std::remove_if(drawn.begin(), drawn.end(), [](const Overlay& o) { return o.result->time.empty(); }),
+        drawn.end());
     if (!drawn.empty() && drawn.size() <= kMostOverlaid)
-      document.sections.push_back({.id = "motion", .title = "Motion, point over point",
-                                   .items = {motion_panels(mechanism, drawn, "Displacement of the centre of mass, Z-Y-X Euler angles from home, accelerations in world axes: "
-                                                                             "the twelve panels of Sun et al., Fig. 6 and Fig. 7."),
-                                             difference_panels(drawn), error_panels(drawn)}});
+      document.sections.push_back(
+          {.id = "motion",
+           .title = "Motion, point over point",
+           .items = {motion_panels(mechanism, drawn,
+                                   "Displacement of the centre of mass, Z-Y-X Euler angles from home, "
+                                   "accelerations in world axes: "
+                                   "the twelve panels of Sun et al., Fig. 6 and Fig. 7."),
+                     difference_panels(drawn), error_panels(drawn)}});
     document.sections.push_back(contact_section(mechanism, plan, result, overlays));
     if (plan.findings == "sun-3-rrcpr") {
       const std::vector<PublishedFinding> published = published_findings(mechanism, plan, result);
@@ -205,7 +246,8 @@ report::Document sweep_report(const Command& command, const Study& study, const 
     }
     document.sections.push_back({.id = "table", .title = "Every point", .items = {index_table(overlays)}});
   }
-  document.sections.push_back({.id = "model", .title = "What this model leaves out", .items = {report::Text{leaves_out}}});
+  document.sections.push_back(
+      {.id = "model", .title = "What this model leaves out", .items = {report::Text{leaves_out}}});
   return document;
 }
 

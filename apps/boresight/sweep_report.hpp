@@ -9,8 +9,9 @@
 
 namespace boresight::app {
 
-report::Document sweep_report(const Command& command, const Study& study, const Mechanism& mechanism, const RungChoice& rung,
-                              const std::string& leaves_out, const SweepPlan& plan, const SweepResult& result);
+report::Document sweep_report(const Command& command, const Study& study, const Mechanism& mechanism,
+                              const RungChoice& rung, const std::string& leaves_out, const SweepPlan& plan,
+                              const SweepResult& result);
 
 // "clearance.F1.radial = 0.1 mm, payload.mass = 250 kg", or without names where there is one axis.
 std::string point_name(const SweepPlan& plan, const SweepPoint& point, bool with_parameters);

@@ -20,7 +20,8 @@
 namespace boresight::app {
 namespace {
 
-// Histories are for the overlaid charts; beyond this many points nobody could read them, and they would fill the memory.
+// Histories are for the overlaid charts; beyond this many points nobody could read them, and they would fill
+// the memory.
 constexpr std::size_t kMostPointsWithHistories = 8;
 
 Json point_json(const SweepPlan& plan, const SweepPoint& p) {
@@ -40,15 +41,18 @@ Json point_json(const SweepPlan& plan, const SweepPoint& p) {
   return json;
 }
 
-void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mechanism, const SweepResult& result) {
+void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mechanism,
+                 const SweepResult& result) {
   std::string header = "point";
   for (const SweepAxis& axis : plan.axes)
     for (const std::string& path : axis.parameters) header += "," + csv_field(path);
   for (const QuantityName& quantity : quantity_names())
-    for (const StatisticName& statistic : statistic_names()) header += fmt::format(",{}.{}", quantity.name, statistic.name);
+    for (const StatisticName& statistic : statistic_names())
+      header += fmt::format(",{}.{}", quantity.name, statistic.name);
   header += ",acceleration_max_x,acceleration_max_y,acceleration_max_z,constraint_drift";
   for (int c = 0; c < mechanism.clearances(); ++c)
-    for (const char* name : {"contact_fraction", "impacts", "max_penetration", "max_force", "max_impact_speed", "impact_speed_above_validity"})
+    for (const char* name : {"contact_fraction", "impacts", "max_penetration", "max_force",
+                             "max_impact_speed", "impact_speed_above_validity"})
       header += "," + csv_field(joint_of_clearance(mechanism, c) + "." + name);
   out << header << ",status\n";
 
@@ -61,7 +65,8 @@ void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mech
     for (std::size_t i = 0; i < plan.axes.size(); ++i)
       for (std::size_t n = 0; n < plan.axes[i].parameters.size(); ++n) row += "," + exact(p.values[i]);
     for (const QuantityName& quantity : quantity_names())
-      for (const StatisticName& statistic : statistic_names()) add(p.result.index.*quantity.statistics.*statistic.value);
+      for (const StatisticName& statistic : statistic_names())
+        add(p.result.index.*quantity.statistics.*statistic.value);
     for (int a = 0; a < 3; ++a) add(p.result.platform_acceleration_max[a]);
     add(p.result.constraint_drift);
     for (int c = 0; c < mechanism.clearances(); ++c) {
@@ -77,18 +82,24 @@ void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mech
   }
 }
 
-void print(const Study& study, const SweepPlan& plan, const Mechanism& mechanism, const SweepResult& result, const OutputDirectory& out) {
-  fmt::print("{}: {} points{}; index: {}\n", mechanism.name(), result.points.size(), result.interrupted ? " (interrupted)" : "", study.index.title());
+void print(const Study& study, const SweepPlan& plan, const Mechanism& mechanism, const SweepResult& result,
+           const OutputDirectory& out) {
+  fmt::print("{}: {} points{}; index: {}\n", mechanism.name(), result.points.size(),
+             result.interrupted ? " (interrupted)" : "", study.index.title());
   constexpr std::size_t kShown = 20;
   for (std::size_t k = 0; k < std::min(kShown, result.points.size()); ++k) {
     const SweepPoint& p = result.points[k];
     if (p.status == SweepPoint::Status::done)
-      fmt::print("  {}: index {}, position error max {}, RMS {}\n", point_name(plan, p, true), readable(study.index.of(p.result.index), study.index.si_unit()),
-                 readable(p.result.index.position_error.max, "m"), readable(p.result.index.position_error.rms, "m"));
+      fmt::print("  {}: index {}, position error max {}, RMS {}\n", point_name(plan, p, true),
+                 readable(study.index.of(p.result.index), study.index.si_unit()),
+                 readable(p.result.index.position_error.max, "m"),
+                 readable(p.result.index.position_error.rms, "m"));
     else
-      fmt::print("  {}: {}{}\n", point_name(plan, p, true), to_string(p.status), p.failure.empty() ? "" : ": " + p.failure);
+      fmt::print("  {}: {}{}\n", point_name(plan, p, true), to_string(p.status),
+                 p.failure.empty() ? "" : ": " + p.failure);
   }
-  if (result.points.size() > kShown) fmt::print("  and {} more in sweep.csv\n", result.points.size() - kShown);
+  if (result.points.size() > kShown)
+    fmt::print("  and {} more in sweep.csv\n", result.points.size() - kShown);
   fmt::print("  report: {}\n", (out.path() / "report.html").string());
 }
 
@@ -97,7 +108,9 @@ class SweepVerb : public Verb {
   std::string name() const override { return "sweep"; }
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "the index over a grid of parameters"; }
-  std::string example() const override { return "boresight sweep examples/3-rrcpr/clearance-sweep.toml --jobs 2"; }
+  std::string example() const override {
+    return "boresight sweep examples/3-rrcpr/clearance-sweep.toml --jobs 2";
+  }
   void declare_options(CLI::App& app) override { motion_.declare(app, false); }
 
   int execute(const Command& command) override {
@@ -105,7 +118,8 @@ class SweepVerb : public Verb {
     Document document = Document::from_file(command.file);
     Cursor root(document);
     const Study study = read_study(root, document.content_hash());
-    const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, command.settings));
+    const auto mechanism =
+        std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, command.settings));
     const SweepPlan plan = read_sweep_plan(root, mechanism->description(), [&](const Setting& setting) {
       std::vector<Setting> settings = command.settings;
       settings.push_back(setting);
@@ -119,7 +133,11 @@ class SweepVerb : public Verb {
         command.out, command.verb, command.file,
         identity_of(command, mechanism->description().content_hash, study.content_hash, motion_.identity()));
     const bool histories = plan.points() <= kMostPointsWithHistories;
-    options.run.sample_spacing = histories ? options.run.sample_spacing / static_cast<double>(history_refinement(mechanism->duration(), options.run.sample_spacing)) : 0.0;
+    options.run.sample_spacing =
+        histories
+            ? options.run.sample_spacing /
+                  static_cast<double>(history_refinement(mechanism->duration(), options.run.sample_spacing))
+            : 0.0;
     options.run.events = histories;
 
     Progress progress(command.quiet, static_cast<double>(plan.points()), "points");
@@ -128,12 +146,14 @@ class SweepVerb : public Verb {
       return !interrupted();
     };
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
-    const SweepResult result = with_options_checked(options.run, [&] { return run_sweep(*rung, *mechanism, plan, options); });
+    const SweepResult result =
+        with_options_checked(options.run, [&] { return run_sweep(*rung, *mechanism, plan, options); });
 
     write_json(out, "summary.json", summary_of(command, study, *mechanism, choice, plan, result, watch, out));
     out.write("sweep.csv", [&](std::ostream& s) { write_sweep(s, plan, *mechanism, result); });
     out.write("report.html", [&](std::ostream& s) {
-      report::write_html(s, sweep_report(command, study, *mechanism, choice, rung->leaves_out(), plan, result));
+      report::write_html(s,
+                         sweep_report(command, study, *mechanism, choice, rung->leaves_out(), plan, result));
     });
     progress.clear();
     if (!command.quiet) print(study, plan, *mechanism, result, out);
@@ -142,18 +162,22 @@ class SweepVerb : public Verb {
   }
 
  private:
-  static Json summary_of(const Command& command, const Study& study, const Mechanism& mechanism, const RungChoice& choice, const SweepPlan& plan,
-                         const SweepResult& result, const Stopwatch& watch, const OutputDirectory& out) {
+  static Json summary_of(const Command& command, const Study& study, const Mechanism& mechanism,
+                         const RungChoice& choice, const SweepPlan& plan, const SweepResult& result,
+                         const Stopwatch& watch, const OutputDirectory& out) {
     std::vector<std::string> warnings;
     for (const SweepPoint& p : result.points)
-      if (p.status == SweepPoint::Status::failed) warnings.push_back(point_name(plan, p, true) + ": " + p.failure);
+      if (p.status == SweepPoint::Status::failed)
+        warnings.push_back(point_name(plan, p, true) + ": " + p.failure);
     Json json = common_summary(command, mechanism, choice, watch, warnings, result.interrupted, out);
     json["study"] = {{"file", study.file}, {"hash", study.content_hash}};
-    json["index"] = {{"quantity", study.index.quantity}, {"statistic", study.index.statistic}, {"values", Json::array()}};
+    json["index"] = {
+        {"quantity", study.index.quantity}, {"statistic", study.index.statistic}, {"values", Json::array()}};
     json["points"] = Json::array();
     for (const SweepPoint& p : result.points) {
       json["points"].push_back(point_json(plan, p));
-      json["index"]["values"].push_back(p.status == SweepPoint::Status::done ? Json(study.index.of(p.result.index)) : Json());
+      json["index"]["values"].push_back(
+          p.status == SweepPoint::Status::done ? Json(study.index.of(p.result.index)) : Json());
     }
     json["failed"] = result.failed;
     json["files"] = {"summary.json", "sweep.csv", "report.html"};

@@ -13,7 +13,9 @@ const char* const kPoseColumns[] = {"dx", "dy", "dz", "rx", "ry", "rz", "x",  "y
 
 void append_pose(std::string& row, const PoseSample& s) {
   const auto add = [&row](double value) { row += "," + exact(value); };
-  const auto add3 = [&add](const Vec3& v) { for (int k = 0; k < 3; ++k) add(v[k]); };
+  const auto add3 = [&add](const Vec3& v) {
+    for (int k = 0; k < 3; ++k) add(v[k]);
+  };
   add3(s.error.displacement);
   add3(s.error.rotation);
   add3(s.pose.p);
@@ -39,7 +41,8 @@ const std::string& joint_of_clearance(const Mechanism& mechanism, int clearance)
   return d.joints[d.clearances[clearance].joint].name;
 }
 
-void write_timeseries(std::ostream& out, const Mechanism& mechanism, const RunResult& result, std::size_t every) {
+void write_timeseries(std::ostream& out, const Mechanism& mechanism, const RunResult& result,
+                      std::size_t every) {
   std::string row = "t";
   for (const char* name : kPoseColumns) row += std::string(",") + name;
   for (std::size_t c = 0; c < result.clearances.size(); ++c)
@@ -55,7 +58,8 @@ void write_timeseries(std::ostream& out, const Mechanism& mechanism, const RunRe
     append_pose(row, result.boresight.samples[i]);
     for (const auto& clearance : result.clearances) {
       const ClearanceSample& s = clearance[i];
-      for (const double value : {s.offset.x(), s.offset.y(), s.offset.z(), s.penetration, s.normal_force}) row += "," + exact(value);
+      for (const double value : {s.offset.x(), s.offset.y(), s.offset.z(), s.penetration, s.normal_force})
+        row += "," + exact(value);
       row += "," + std::to_string(s.contact);
     }
     for (const BodyHistory& body : result.others) append_pose(row, body.samples[i]);
@@ -67,7 +71,9 @@ void write_events(std::ostream& out, const Mechanism& mechanism, const RunResult
   out << "joint,contact,start,start_speed,duration,max_penetration,max_force,end_speed\n";
   for (const ContactEvent& e : result.events) {
     out << csv_field(joint_of_clearance(mechanism, e.clearance)) << ',' << to_string(e.place);
-    for (const double value : {e.start, e.start_speed, e.duration, e.max_penetration, e.max_force, e.end_speed}) out << ',' << exact(value);
+    for (const double value :
+         {e.start, e.start_speed, e.duration, e.max_penetration, e.max_force, e.end_speed})
+      out << ',' << exact(value);
     out << '\n';
   }
 }

@@ -17,7 +17,8 @@ std::string exact(double value);
 std::string csv_field(const std::string& text);
 
 // One row per `every`th sample, and the last one.
-void write_timeseries(std::ostream& out, const Mechanism& mechanism, const RunResult& result, std::size_t every = 1);
+void write_timeseries(std::ostream& out, const Mechanism& mechanism, const RunResult& result,
+                      std::size_t every = 1);
 
 // One row per contact.
 void write_events(std::ostream& out, const Mechanism& mechanism, const RunResult& result);

@@ -1,6 +1,7 @@
 // What every verb of the command line is: a name, an example, its own options, and what it does.
 //
-// A verb is one file, VERB_verb.cpp, that defines `std::unique_ptr<Verb> make_VERB_verb()`, and one line in verbs.cpp.
+// A verb is one file, VERB_verb.cpp, that defines `std::unique_ptr<Verb> make_VERB_verb()`, and one line in
+// verbs.cpp.
 #pragma once
 
 #include <CLI/CLI.hpp>

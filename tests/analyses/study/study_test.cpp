@@ -33,7 +33,9 @@ TEST(Study, TakesTheMechanismFromTheFolderOfTheStudy) {
 }
 
 TEST(Study, ReadsAccuracyAndIndex) {
-  const Study study = study_of("format = 1\nmechanism = \"m.toml\"\naccuracy = \"2 %\"\n[index]\nquantity = \"boresight_error\"\nstatistic = \"p99.73\"\n");
+  const Study study = study_of(
+      "format = 1\nmechanism = \"m.toml\"\naccuracy = \"2 %\"\n[index]\nquantity = "
+      "\"boresight_error\"\nstatistic = \"p99.73\"\n");
   EXPECT_DOUBLE_EQ(*study.accuracy, 0.02);
   EXPECT_EQ(study.index.quantity, "boresight_error");
   EXPECT_EQ(study.index.si_unit(), "rad");
@@ -43,19 +45,24 @@ TEST(Study, ReadsAccuracyAndIndex) {
 }
 
 TEST(Study, LeavesTheTablesOfOtherVerbsAlone) {
-  EXPECT_NO_THROW(study_of("format = 1\nmechanism = \"m.toml\"\n[montecarlo]\nsamples = 10\n[[random]]\nparameter = \"x\"\n"));
+  EXPECT_NO_THROW(study_of(
+      "format = 1\nmechanism = \"m.toml\"\n[montecarlo]\nsamples = 10\n[[random]]\nparameter = \"x\"\n"));
 }
 
 TEST(Study, NamesLineKeyAndNearestName) {
   EXPECT_THAT(fault_of("format = 1\nmechanism = \"m.toml\"\n[index]\nquantity = \"position_eror\"\n"),
-              testing::AllOf(HasSubstr("folder/study.toml:4: index.quantity"), HasSubstr("did you mean position_error?")));
-  EXPECT_THAT(fault_of("format = 1\nmechanism = \"m.toml\"\nacuracy = \"1 %\"\n"), HasSubstr("did you mean accuracy?"));
-  EXPECT_THAT(fault_of("format = 1\nmechanism = \"m.toml\"\naccuracy = \"-1 %\"\n"), HasSubstr("accuracy: found"));
+              testing::AllOf(HasSubstr("folder/study.toml:4: index.quantity"),
+                             HasSubstr("did you mean position_error?")));
+  EXPECT_THAT(fault_of("format = 1\nmechanism = \"m.toml\"\nacuracy = \"1 %\"\n"),
+              HasSubstr("did you mean accuracy?"));
+  EXPECT_THAT(fault_of("format = 1\nmechanism = \"m.toml\"\naccuracy = \"-1 %\"\n"),
+              HasSubstr("accuracy: found"));
   EXPECT_THAT(fault_of("format = 2\nmechanism = \"m.toml\"\n"), HasSubstr("format: found"));
 }
 
 TEST(Study, TellsAMechanismFileFromAStudy) {
-  EXPECT_THAT(fault_of("format = 1\nname = \"x\"\n[[body]]\nname = \"b\"\n"), HasSubstr("found a mechanism file, expected a study file"));
+  EXPECT_THAT(fault_of("format = 1\nname = \"x\"\n[[body]]\nname = \"b\"\n"),
+              HasSubstr("found a mechanism file, expected a study file"));
 }
 
 TEST(RungChoice, AutoTakesTheRungThatLeavesOutLeast) {

@@ -21,7 +21,8 @@ TEST(SweepLine, HoldsTheOtherAxesAtTheirFirstValueAndSkipsWhatIsNotDone) {
   SweepPlan plan;
   plan.axes = {{{"a"}, "m", {2.0, 1.0, 3.0}}, {{"b"}, "kg", {5.0, 6.0}}};
   SweepResult result;
-  for (std::size_t k = 0; k < plan.points(); ++k) result.points.push_back({SweepPoint::Status::done, plan.values_at(k), {}, {}});
+  for (std::size_t k = 0; k < plan.points(); ++k)
+    result.points.push_back({SweepPoint::Status::done, plan.values_at(k), {}, {}});
   result.points[4].status = SweepPoint::Status::failed;  // a = 3, b = 5
   const SweepLine line = line_along(plan, result, 0);
   EXPECT_EQ(line.values, (std::vector<double>{1.0, 2.0}));
@@ -32,7 +33,9 @@ TEST(SweepLine, MeanContactMeetsHertzWhereTheForceIsHertz) {
   RunResult result;
   constexpr double K = 1e11;
   result.clearances.resize(1);
-  for (const double depth : {1e-6, 4e-6, -1.0}) result.clearances[0].push_back({Vec3::Zero(), depth, depth > 0.0 ? K * std::pow(depth, 1.5) : 0.0, depth > 0.0 ? 1 : 0});
+  for (const double depth : {1e-6, 4e-6, -1.0})
+    result.clearances[0].push_back(
+        {Vec3::Zero(), depth, depth > 0.0 ? K * std::pow(depth, 1.5) : 0.0, depth > 0.0 ? 1 : 0});
   const auto mean = mean_contact(result, K);
   ASSERT_TRUE(mean);
   EXPECT_NEAR(mean->penetration, 2.5e-6, 1e-15);
@@ -42,7 +45,9 @@ TEST(SweepLine, MeanContactMeetsHertzWhereTheForceIsHertz) {
 TEST(SweepLine, AwayFromTheBoreIsTheTimeOutsideRadialContacts) {
   RunResult result;
   result.end_time = 2.0;
-  result.events = {{0, ContactPlace::radial, 0.1, 0, 1.0, 0, 0, 0}, {0, ContactPlace::axial_plus, 0.1, 0, 1.5, 0, 0, 0}, {0, ContactPlace::radial, 1.5, 0, 0.4, 0, 0, 0}};
+  result.events = {{0, ContactPlace::radial, 0.1, 0, 1.0, 0, 0, 0},
+                   {0, ContactPlace::axial_plus, 0.1, 0, 1.5, 0, 0, 0},
+                   {0, ContactPlace::radial, 1.5, 0, 0.4, 0, 0, 0}};
   EXPECT_NEAR(*off_the_bore_share(result), 0.3, 1e-12);
 }
 

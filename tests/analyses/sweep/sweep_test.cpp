@@ -8,12 +8,14 @@ namespace boresight {
 namespace {
 
 const char* const kGrid =
-    "[[sweep.axis]]\nparameter = [\"clearance.F1.radial\", \"clearance.F1.axial\"]\nvalues = [\"0.1 mm\", \"0.2 mm\"]\n"
+    "[[sweep.axis]]\nparameter = [\"clearance.F1.radial\", \"clearance.F1.axial\"]\nvalues = [\"0.1 mm\", "
+    "\"0.2 mm\"]\n"
     "[[sweep.axis]]\nparameter = \"payload.mass\"\nvalues = [\"0 kg\", \"250 kg\", \"500 kg\"]\n";
 
 class SweepTest : public testing::Test {
  protected:
-  SweepResult sweep(int jobs, const std::function<bool(const SweepProgress&)>& progress = {}, double step = 0.0) const {
+  SweepResult sweep(int jobs, const std::function<bool(const SweepProgress&)>& progress = {},
+                    double step = 0.0) const {
     SweepOptions options;
     options.jobs = jobs;
     options.run.step = step;
@@ -33,7 +35,8 @@ void expect_same(const RunResult& a, const RunResult& b) {
   EXPECT_EQ(a.contact[0].impacts, b.contact[0].impacts);
   EXPECT_EQ(a.contact[0].max_force, b.contact[0].max_force);
   ASSERT_EQ(a.time, b.time);
-  for (std::size_t i = 0; i < a.time.size(); ++i) EXPECT_EQ(a.boresight.samples[i].a, b.boresight.samples[i].a);
+  for (std::size_t i = 0; i < a.time.size(); ++i)
+    EXPECT_EQ(a.boresight.samples[i].a, b.boresight.samples[i].a);
 }
 
 TEST_F(SweepTest, APointIsTheSingleRunWithItsParameters) {
@@ -46,7 +49,8 @@ TEST_F(SweepTest, APointIsTheSingleRunWithItsParameters) {
     parameters.payload_mass = result.points[k].values[1];
     expect_same(result.points[k].result, rung_->run(parameters, {}));
   }
-  EXPECT_GT(result.points[3].result.index.position_error.max, result.points[0].result.index.position_error.max);
+  EXPECT_GT(result.points[3].result.index.position_error.max,
+            result.points[0].result.index.position_error.max);
 }
 
 TEST_F(SweepTest, GivesTheSameBitsForAnyNumberOfThreads) {

@@ -27,7 +27,8 @@ class InterruptionTest : public Program {
 TEST_F(InterruptionTest, CtrlCLeavesWholeFilesOfWhatWasReached) {
   const Ended ended = interrupted({"run", mechanism_, "--step", "0.2 us", "--out", "out"}, SIGINT);
   EXPECT_EQ(ended.status, 130) << ended.err;
-  EXPECT_THAT(files("out"), testing::ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
+  EXPECT_THAT(files("out"),
+              testing::ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
   const auto summary = json("out/summary.json");
   EXPECT_TRUE(summary["interrupted"].get<bool>());
   EXPECT_GT(summary["end_time"].get<double>(), 0.0);
@@ -37,13 +38,15 @@ TEST_F(InterruptionTest, CtrlCLeavesWholeFilesOfWhatWasReached) {
 }
 
 TEST_F(InterruptionTest, APoliteKillIsTheSame) {
-  EXPECT_EQ(interrupted({"run", mechanism_, "--step", "0.2 us", "--out", "out", "--quiet"}, SIGTERM).status, 130);
+  EXPECT_EQ(interrupted({"run", mechanism_, "--step", "0.2 us", "--out", "out", "--quiet"}, SIGTERM).status,
+            130);
   EXPECT_TRUE(json("out/summary.json")["interrupted"].get<bool>());
 }
 
 TEST_F(InterruptionTest, ASweepKeepsThePointsThatWereDone) {
-  std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << mechanism_ << "\"\n[[sweep.axis]]\nparameter = \"payload.mass\"\n"
-                                        << "from = \"0 kg\"\nto = \"500 kg\"\ncount = 500\n";
+  std::ofstream(folder_ / "study.toml")
+      << "format = 1\nmechanism = \"" << mechanism_ << "\"\n[[sweep.axis]]\nparameter = \"payload.mass\"\n"
+      << "from = \"0 kg\"\nto = \"500 kg\"\ncount = 500\n";
   const Ended ended = interrupted({"sweep", "study.toml", "--out", "out", "--jobs", "2"}, SIGINT);
   EXPECT_EQ(ended.status, 130) << ended.err;
   const auto summary = json("out/summary.json");

@@ -32,7 +32,8 @@ class OutputDirectoryTest : public testing::Test {
   }
 
   fs::path root_;
-  const Json mine_ = {{"verb", "run"}, {"mechanism", "abc"}}, other_ = {{"verb", "run"}, {"mechanism", "def"}};
+  const Json mine_ = {{"verb", "run"}, {"mechanism", "abc"}},
+             other_ = {{"verb", "run"}, {"mechanism", "def"}};
 };
 
 TEST_F(OutputDirectoryTest, TheSameStudyMayBeRunAgain) {
@@ -84,7 +85,8 @@ TEST_F(OutputDirectoryTest, TheDefaultGivesWayToAnotherStudy) {
   finish(second);
   EXPECT_EQ(second.path(), fs::path("results/m-run-2"));
   EXPECT_EQ(OutputDirectory::open("", "run", "some/m.toml", other_).path(), second.path());
-  EXPECT_EQ(OutputDirectory::open("", "sweep", "clearance-sweep.toml", mine_).path(), fs::path("results/clearance-sweep"));
+  EXPECT_EQ(OutputDirectory::open("", "sweep", "clearance-sweep.toml", mine_).path(),
+            fs::path("results/clearance-sweep"));
   fs::current_path(before);
 }
 
@@ -110,7 +112,8 @@ TEST_F(OutputDirectoryTest, ADirectoryThatWentAwayIsAWriteError) {
     out.write("a.csv", [](std::ostream& s) { s << "x"; });
     FAIL();
   } catch (const WriteError& error) {
-    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("a.csv"), testing::HasSubstr("No such file")));
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("a.csv"), testing::HasSubstr("No such file")));
   }
 }
 

@@ -21,10 +21,13 @@ class Program : public testing::Test {
   void SetUp() override;
   void TearDown() override;
 
-  // Starts it in the folder with its output going to files there. `limit`: the largest file it may write, 0 for any.
+  // Starts it in the folder with its output going to files there. `limit`: the largest file it may write, 0
+  // for any.
   pid_t start(const std::vector<std::string>& arguments, std::size_t limit = 0) const;
   Ended wait_for(pid_t child) const;
-  Ended call(const std::vector<std::string>& arguments, std::size_t limit = 0) const { return wait_for(start(arguments, limit)); }
+  Ended call(const std::vector<std::string>& arguments, std::size_t limit = 0) const {
+    return wait_for(start(arguments, limit));
+  }
 
   std::string text(const std::string& name) const;  // of a file in the folder
   nlohmann::json json(const std::string& name) const;

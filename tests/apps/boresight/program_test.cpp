@@ -1,9 +1,9 @@
+#include "program.hpp"
+
 #include <gmock/gmock.h>
 
 #include <fstream>
 #include <sstream>
-
-#include "program.hpp"
 
 namespace boresight::app {
 namespace {
@@ -22,7 +22,9 @@ class ProgramTest : public Program {
     EXPECT_EQ(ended.out, "");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));
   }
-  void write(const std::string& name, const std::string& content) const { std::ofstream(folder_ / name) << content; }
+  void write(const std::string& name, const std::string& content) const {
+    std::ofstream(folder_ / name) << content;
+  }
   // A motion of 50 ms, so that tests are quick.
   std::vector<std::string> quick(std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments = {"run", mechanism_, "--set", "motion.duration=50ms", "--out", "out"};
@@ -37,7 +39,8 @@ TEST_F(ProgramTest, HelpAndVersion) {
   for (const char* verb : {"check", "run", "sweep"}) {
     const Ended ended = call({verb, "--help"});
     EXPECT_EQ(ended.status, 0);
-    EXPECT_THAT(ended.out, AllOf(HasSubstr("Example:"), HasSubstr("--set"), HasSubstr("--out"), HasSubstr("--quiet")));
+    EXPECT_THAT(ended.out,
+                AllOf(HasSubstr("Example:"), HasSubstr("--set"), HasSubstr("--out"), HasSubstr("--quiet")));
   }
 }
 
@@ -47,7 +50,8 @@ TEST_F(ProgramTest, BadInputIsOneLineAndStatusTwo) {
   expect_refused({"run"}, "FILE");
   expect_refused({"run", "nothing.toml"}, "nothing.toml");
   expect_refused({"run", mechanism_, "--colour"}, "--colour");
-  expect_refused({"run", mechanism_, "--set", "clearance.F1.radiall=1mm"}, "did you mean clearance.F1.radial?");
+  expect_refused({"run", mechanism_, "--set", "clearance.F1.radiall=1mm"},
+                 "did you mean clearance.F1.radial?");
   expect_refused({"run", mechanism_, "--set", "clearance.F1.radial"}, "PATH=VALUE");
   expect_refused({"run", mechanism_, "--set", "clearance.F1.radial=3kg"}, "clearance.F1.radial");
   expect_refused({"run", mechanism_, "--step", "1 mm"}, "--step");
@@ -72,19 +76,24 @@ TEST_F(ProgramTest, ARunLeavesWhatTheInterfacePromises) {
   EXPECT_THAT(ended.out, AllOf(HasSubstr("position error"), HasSubstr("out/report.html")));
   EXPECT_THAT(files("out"), ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
   const auto summary = json("out/summary.json");
-  for (const char* key : {"verb", "mechanism", "version", "rung", "seed", "cpu_seconds", "wall_seconds", "warnings", "index", "contact",
-                          "platform_acceleration_max", "constraint_drift"})
+  for (const char* key : {"verb", "mechanism", "version", "rung", "seed", "cpu_seconds", "wall_seconds",
+                          "warnings", "index", "contact", "platform_acceleration_max", "constraint_drift"})
     EXPECT_TRUE(summary.contains(key)) << key;
   EXPECT_EQ(summary["verb"], "run");
   EXPECT_FALSE(summary["interrupted"].get<bool>());
-  for (const char* quantity : {"position_error", "orientation_error", "boresight_error", "line_of_sight_error"})
-    for (const char* statistic : {"max", "rms", "mean", "p99.73"}) EXPECT_TRUE(summary["index"][quantity][statistic].is_number()) << quantity;
-  for (const char* key : {"contact_fraction", "impacts", "max_penetration", "max_force", "impact_speed_above_validity"})
+  for (const char* quantity :
+       {"position_error", "orientation_error", "boresight_error", "line_of_sight_error"})
+    for (const char* statistic : {"max", "rms", "mean", "p99.73"})
+      EXPECT_TRUE(summary["index"][quantity][statistic].is_number()) << quantity;
+  for (const char* key :
+       {"contact_fraction", "impacts", "max_penetration", "max_force", "impact_speed_above_validity"})
     EXPECT_TRUE(summary["contact"]["F1"][key].is_number()) << key;
   EXPECT_GT(summary["index"]["position_error"]["max"].get<double>(), 1e-5);
   const std::string table = text("out/timeseries.csv");
-  EXPECT_EQ(table.substr(0, table.find('\n')).substr(0, 75), "t,dx,dy,dz,rx,ry,rz,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,F1.offset_");
-  EXPECT_NEAR(static_cast<double>(std::count(table.begin(), table.end(), '\n')), 52.0, 1.0);  // header, 0 to 50 ms
+  EXPECT_EQ(table.substr(0, table.find('\n')).substr(0, 75),
+            "t,dx,dy,dz,rx,ry,rz,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,F1.offset_");
+  EXPECT_NEAR(static_cast<double>(std::count(table.begin(), table.end(), '\n')), 52.0,
+              1.0);  // header, 0 to 50 ms
 }
 
 TEST_F(ProgramTest, TheSameRunAgainIsFineAndAnotherIsRefused) {
@@ -122,13 +131,16 @@ TEST_F(ProgramTest, OtherMechanismsRun) {
   for (const std::string name : {"crank-slider", "four-bar"}) {
     const Ended ended = call({"run", BORESIGHT_EXAMPLES "/" + name + "/" + name + ".toml", "--quiet"});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_GT(json("results/" + name + "-run/summary.json")["index"]["position_error"]["max"].get<double>(), 0.0);
+    EXPECT_GT(json("results/" + name + "-run/summary.json")["index"]["position_error"]["max"].get<double>(),
+              0.0);
   }
 }
 
 TEST_F(ProgramTest, ASweepHasARowPerPointWhateverTheJobs) {
-  write("study.toml", "format = 1\nmechanism = \"" + mechanism_ + "\"\n[sweep]\nfindings = \"sun-3-rrcpr\"\n[[sweep.axis]]\n"
-                      "parameter = [\"clearance.F1.radial\", \"clearance.F1.axial\"]\nvalues = [\"0.1 mm\", \"0.2 mm\", \"0.3 mm\"]\n");
+  write("study.toml", "format = 1\nmechanism = \"" + mechanism_ +
+                          "\"\n[sweep]\nfindings = \"sun-3-rrcpr\"\n[[sweep.axis]]\n"
+                          "parameter = [\"clearance.F1.radial\", \"clearance.F1.axial\"]\nvalues = [\"0.1 "
+                          "mm\", \"0.2 mm\", \"0.3 mm\"]\n");
   const Ended ended = call({"sweep", "study.toml", "--set", "motion.duration=50ms", "--jobs", "2"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_THAT(files("results/study-sweep"), ElementsAre("report.html", "summary.json", "sweep.csv"));
@@ -136,7 +148,8 @@ TEST_F(ProgramTest, ASweepHasARowPerPointWhateverTheJobs) {
   std::vector<std::string> rows;
   for (std::string row; std::getline(table, row);) rows.push_back(row);
   ASSERT_EQ(rows.size(), 4u);
-  EXPECT_THAT(rows[0], testing::StartsWith("point,clearance.F1.radial,clearance.F1.axial,position_error.max,"));
+  EXPECT_THAT(rows[0],
+              testing::StartsWith("point,clearance.F1.radial,clearance.F1.axial,position_error.max,"));
   EXPECT_THAT(rows[3], testing::EndsWith(",done"));
   const auto summary = json("results/study-sweep/summary.json");
   EXPECT_EQ(summary["points"].size(), 3u);

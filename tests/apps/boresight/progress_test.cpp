@@ -12,7 +12,9 @@ TEST(ProgressLine, ShowsBarRateTimeLeftAndEstimate) {
             "[#####---------------]  25 %  0.5 of 2 s of motion, 0.05/s, 30 s left; error 0.2 mm");
 }
 
-TEST(ProgressLine, KnowsNothingYetAndSaysSo) { EXPECT_THAT(progress_line(0.0, 2.0, "points", 0.0, ""), HasSubstr("? left")); }
+TEST(ProgressLine, KnowsNothingYetAndSaysSo) {
+  EXPECT_THAT(progress_line(0.0, 2.0, "points", 0.0, ""), HasSubstr("? left"));
+}
 
 TEST(ProgressLine, NeverLeavesTheBar) {
   EXPECT_THAT(progress_line(3.0, 2.0, "points", 1.0, ""), HasSubstr("[####################] 100 %"));

@@ -17,7 +17,8 @@ struct MadeUpSweep {
 
   MadeUpSweep(const std::string& parameter, const std::string& unit, const std::vector<double>& values) {
     plan.axes = {{{parameter}, unit, values}};
-    for (std::size_t k = 0; k < values.size(); ++k) result.points.push_back({SweepPoint::Status::done, plan.values_at(k), {}, {}});
+    for (std::size_t k = 0; k < values.size(); ++k)
+      result.points.push_back({SweepPoint::Status::done, plan.values_at(k), {}, {}});
     for (SweepPoint& p : result.points) p.result.contact = {{"F1", 0.9, 10, 1e-5, 100.0, 0.01, 0.04, 0}};
   }
   RunResult& at(std::size_t k) { return result.points[k].result; }
@@ -62,7 +63,8 @@ TEST(PublishedFindings, SaysWhichOfTheTwoSentencesOnLoadHolds) {
     sweep.at(k).platform_acceleration_max = Vec3(100.0 * static_cast<double>(k + 1), 0.0, 0.0);
   }
   EXPECT_THAT(sweep.finding("Section 5").measured, testing::HasSubstr("rises with load, as section 4"));
-  for (std::size_t k = 0; k < 3; ++k) sweep.at(k).platform_acceleration_max = Vec3(100.0 / static_cast<double>(k + 1), 0.0, 0.0);
+  for (std::size_t k = 0; k < 3; ++k)
+    sweep.at(k).platform_acceleration_max = Vec3(100.0 / static_cast<double>(k + 1), 0.0, 0.0);
   EXPECT_THAT(sweep.finding("Section 5").measured, testing::HasSubstr("falls with load, as section 5"));
   EXPECT_EQ(sweep.finding("Section 5").verdict, Verdict::explained);
 }

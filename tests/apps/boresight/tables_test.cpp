@@ -38,11 +38,12 @@ class TablesTest : public testing::Test {
 };
 
 TEST_F(TablesTest, TheTimeSeriesHasTheColumnsOfTheInterface) {
-  EXPECT_EQ(timeseries()[0],
-            "t,dx,dy,dz,rx,ry,rz,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,"
-            "F1.offset_x,F1.offset_y,F1.offset_z,F1.penetration,F1.normal_force,F1.contact,"
-            "rod1.dx,rod1.dy,rod1.dz,rod1.rx,rod1.ry,rod1.rz,rod1.x,rod1.y,rod1.z,rod1.qw,rod1.qx,rod1.qy,rod1.qz,"
-            "rod1.vx,rod1.vy,rod1.vz,rod1.wx,rod1.wy,rod1.wz,rod1.ax,rod1.ay,rod1.az");
+  EXPECT_EQ(
+      timeseries()[0],
+      "t,dx,dy,dz,rx,ry,rz,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,"
+      "F1.offset_x,F1.offset_y,F1.offset_z,F1.penetration,F1.normal_force,F1.contact,"
+      "rod1.dx,rod1.dy,rod1.dz,rod1.rx,rod1.ry,rod1.rz,rod1.x,rod1.y,rod1.z,rod1.qw,rod1.qx,rod1.qy,rod1.qz,"
+      "rod1.vx,rod1.vy,rod1.vz,rod1.wx,rod1.wy,rod1.wz,rod1.ax,rod1.ay,rod1.az");
 }
 
 TEST_F(TablesTest, EveryRowHasEveryColumn) {
@@ -73,7 +74,8 @@ TEST_F(TablesTest, EventsHaveTheColumnsOfTheInterface) {
   write_events(out, mechanism_, result());
   EXPECT_EQ(out.str(),
             "joint,contact,start,start_speed,duration,max_penetration,max_force,end_speed\n"
-            "F1,axial-,0.10000000000000001,0.20000000000000001,0.29999999999999999,0.40000000000000002,0.5,0.59999999999999998\n");
+            "F1,axial-,0.10000000000000001,0.20000000000000001,0.29999999999999999,0.40000000000000002,0.5,0."
+            "59999999999999998\n");
 }
 
 TEST(Exact, LeavesWhatIsNotANumberEmpty) { EXPECT_EQ(exact(std::nan("")), ""); }

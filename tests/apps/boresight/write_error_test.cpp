@@ -24,12 +24,16 @@ TEST_F(WriteErrorTest, AFileThatMayNotGrowIsOneLineAndLeavesWholeFilesOnly) {
 }
 
 TEST_F(WriteErrorTest, AFullDiskIsOneLineAndLeavesWholeFilesOnly) {
-  // A file system of 64 KiB, in a name space of the test's own; where that is not allowed, there is nothing to test with.
+  // A file system of 64 KiB, in a name space of the test's own; where that is not allowed, there is nothing
+  // to test with.
   std::filesystem::create_directory(folder_ / "disk");
-  const std::string in_name_space = "cd '" + folder_.string() + "' && unshare -rm sh -c 'mount -t tmpfs -o size=64k tmpfs disk && ";
-  if (std::system((in_name_space + "true' 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "cannot mount a small file system here";
+  const std::string in_name_space =
+      "cd '" + folder_.string() + "' && unshare -rm sh -c 'mount -t tmpfs -o size=64k tmpfs disk && ";
+  if (std::system((in_name_space + "true' 2>/dev/null").c_str()) != 0)
+    GTEST_SKIP() << "cannot mount a small file system here";
   const std::string command = in_name_space + BORESIGHT_PROGRAM + " run " + mechanism_ +
-                              " --set motion.duration=50ms --out disk/out 2>err >out; echo $? >status; ls -A disk/out >list; cp disk/out/summary.json .'";
+                              " --set motion.duration=50ms --out disk/out 2>err >out; echo $? >status; ls -A "
+                              "disk/out >list; cp disk/out/summary.json .'";
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(text("status"), "3\n");
   EXPECT_TRUE(is_one_line(text("err"))) << text("err");
@@ -53,8 +57,10 @@ TEST_F(WriteErrorTest, AFileInTheWayIsBadInput) {
 }
 
 TEST_F(WriteErrorTest, ATerminalThatWentAwayIsAFailure) {
-  const int status = std::system((std::string(BORESIGHT_PROGRAM) + " run " + mechanism_ + " --set motion.duration=20ms --out '" +
-                                  (folder_ / "out").string() + "' >/dev/full 2>'" + (folder_ / "err").string() + "'").c_str());
+  const int status = std::system((std::string(BORESIGHT_PROGRAM) + " run " + mechanism_ +
+                                  " --set motion.duration=20ms --out '" + (folder_ / "out").string() +
+                                  "' >/dev/full 2>'" + (folder_ / "err").string() + "'")
+                                     .c_str());
   EXPECT_EQ(WEXITSTATUS(status), 3);
   EXPECT_THAT(text("err"), HasSubstr("standard output"));
 }
