@@ -52,23 +52,27 @@ report::Panels conditioning_panels(const KinematicReport& k) {
   return {.title = "Distance from singular poses along the motion",
           .caption = {},
           .columns = 2,
-          .shared_legend = false,
           .panels = {std::move(inverse), std::move(smallest)}};
 }
 
 report::Table contact_frequencies(const std::vector<ContactFrequency>& contacts) {
   report::Table table{
       .title = "Contact frequencies",
-      .caption = "An explicit integrator must resolve the stiffest contact: RK4 blows up above 2.785 / ω.",
+      .caption =
+          "K: stiffness of the bore (Hertz) and of the end faces. Mass: the smallest that the offset moves. "
+          "Reaction: RMS along the "
+          "ideal motion, and the depth at which the journal rests under it. An explicit integrator must "
+          "resolve the contact's frequency ω: RK4 blows up "
+          "above a step of 2.785 / ω. Valid to: the impact speed up to which Flores' law holds.",
       .columns = {{"Joint"},
-                  {"Hertz stiffness", "N/m^1.5"},
-                  {"Axial stiffness", "N/m"},
-                  {"Effective mass", "kg"},
-                  {"Reaction, RMS", "N"},
-                  {"Rest penetration", "µm"},
+                  {"K, Hertz", "N/m^1.5"},
+                  {"K, axial", "N/m"},
+                  {"Mass", "kg"},
+                  {"Reaction", "N"},
+                  {"Rest depth", "µm"},
                   {"Frequency", "Hz"},
-                  {"Largest stable step", "µs"},
-                  {"Flores valid up to", "mm/s"}}};
+                  {"Stable step", "µs"},
+                  {"Valid to", "mm/s"}}};
   for (const ContactFrequency& c : contacts)
     table.rows.push_back({c.joint, c.hertz_stiffness, c.axial_stiffness, c.effective_mass, c.typical_load,
                           1e6 * c.typical_penetration, c.angular_frequency / (2.0 * 3.14159265358979323846),
@@ -83,16 +87,12 @@ CheckResult check_mechanism(const Mechanism& mechanism) {
   result.kinematics = analyse_kinematics(mechanism);
   const KinematicReport& k = result.kinematics;
   const bool sound = k.feasible && k.lost.empty();
-  for (const LostMotion& lost : k.lost)
-    result.findings.push_back(fmt::format("at t = {:.4g} s: {}", lost.t, lost.description));
-  (sound ? result.notes : result.findings)
-      .insert((sound ? result.notes : result.findings).end(), k.findings.begin(), k.findings.end());
-  if (!k.feasible && result.findings.empty())
-    result.findings.emplace_back("the ideal motion cannot be followed to its end");
-  // The kinematic report may name a lost motion in its sentences as well.
-  auto& findings = result.findings;
-  for (auto it = findings.begin(); it != findings.end(); ++it)
-    findings.erase(std::remove(it + 1, findings.end(), *it), findings.end());
+  (sound ? result.notes : result.findings) = k.findings;
+  if (!sound && k.findings.empty()) {
+    for (const LostMotion& lost : k.lost)
+      result.findings.push_back(fmt::format("at t = {:.4g} s: {}", lost.t, lost.description));
+    if (!k.feasible) result.findings.emplace_back("the ideal motion cannot be followed to its end");
+  }
   if (sound && mechanism.clearances() > 0) {
     try {
       result.contacts = analyse_contacts(mechanism, mechanism.parameters());

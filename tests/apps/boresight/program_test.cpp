@@ -127,6 +127,30 @@ TEST_F(ProgramTest, CheckPassesTheDefaultMechanism) {
   EXPECT_GT(summary["contacts"]["F1"]["largest_stable_step"].get<double>(), 1e-5);
 }
 
+TEST_F(ProgramTest, CheckNamesTheLostMotionOfASingularMechanismAndAnswersNo) {
+  // The A axes laid into one plane (eta = 0): at home nothing holds the platform's turn about z.
+  std::string file = [this] {
+    std::ifstream in(mechanism_);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  }();
+  const auto replace = [&](const std::string& what, const std::string& with) {
+    ASSERT_NE(file.find(what), std::string::npos) << what;
+    for (std::size_t at = 0; (at = file.find(what, at)) != std::string::npos; at += with.size())
+      file.replace(at, what.size(), with);
+  };
+  replace("axis = [0.816496580927726, 0, -0.5773502691896258]", "axis = [1, 0, 0]");
+  replace("axis = [0.5773502691896258, 0, 0.816496580927726]", "axis = [0, 0, 1]");
+  replace("point = [\"100 mm\", \"0 mm\", \"-70.71067811865476 mm\"]",
+          "point = [\"100 mm\", \"0 mm\", \"0 mm\"]");
+  replace("axis = [0.352643299482912, 0, 0.9357578230128805]", "axis = [200, 0, 460]");
+  write("flat.toml", file);
+  const Ended ended = call({"check", "flat.toml"});
+  EXPECT_EQ(ended.status, 1) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("\"platform\" turns about (0, 0, 1)"));
+  const auto summary = json("results/flat-check/summary.json");
+  EXPECT_THAT(summary["findings"][0].get<std::string>(), HasSubstr("turns about (0, 0, 1)"));
+}
+
 TEST_F(ProgramTest, OtherMechanismsRun) {
   for (const std::string name : {"crank-slider", "four-bar"}) {
     const Ended ended = call({"run", BORESIGHT_EXAMPLES "/" + name + "/" + name + ".toml", "--quiet"});
