@@ -1,8 +1,11 @@
 #include "boresight/io/expression.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <sstream>
 
 #include "boresight/io/expression_parser.hpp"
 #include "boresight/io/tape.hpp"
@@ -54,16 +57,43 @@ class Compiler {
     }
     if (is_a<GiNaC::add>(e) || is_a<GiNaC::mul>(e)) {
       const Operation operation = is_a<GiNaC::add>(e) ? Operation::add : Operation::multiply;
-      int result = slot_of(e.op(0));
-      for (std::size_t i = 1; i < e.nops(); ++i) {
-        const int next = slot_of(e.op(i));
-        result = push(operation, result, next);
+      int result = -1;
+      for (const ex& part : in_order(e)) {
+        const int next = slot_of(part);
+        result = result < 0 ? next : push(operation, result, next);
       }
       return result;
     }
     if (is_a<GiNaC::power>(e)) return compile_power(e.op(0), e.op(1));
     if (is_a<GiNaC::function>(e)) return compile_function(GiNaC::ex_to<GiNaC::function>(e).get_name(), e);
     throw ValueFault("something that has no value", "a real expression of t");
+  }
+
+  // GiNaC keeps the terms of a sum in an order that depends on where the program was loaded. Rounding would then differ from one
+  // start to the next, and a motion with impacts carries the last bit into its result: so the terms get an order of their own.
+  std::vector<ex> in_order(const ex& e) {
+    std::vector<ex> parts(e.begin(), e.end());
+    std::stable_sort(parts.begin(), parts.end(), [this](const ex& a, const ex& b) { return rank(a) < rank(b); });
+    return parts;
+  }
+
+  // A fingerprint of the expression's structure alone (FNV-1a).
+  std::uint64_t rank(const ex& e) {
+    if (const auto it = ranks_.find(e); it != ranks_.end()) return it->second;
+    std::ostringstream text;
+    if (e.nops() == 0) {
+      text << e;
+    } else {
+      text << (is_a<GiNaC::function>(e) ? GiNaC::ex_to<GiNaC::function>(e).get_name() : GiNaC::ex_to<GiNaC::basic>(e).class_name());
+      std::vector<std::uint64_t> parts;
+      for (std::size_t i = 0; i < e.nops(); ++i) parts.push_back(rank(e.op(i)));
+      if (is_a<GiNaC::add>(e) || is_a<GiNaC::mul>(e)) std::sort(parts.begin(), parts.end());
+      for (const std::uint64_t part : parts) text << ' ' << part;
+    }
+    std::uint64_t hash = 0xcbf29ce484222325ULL;
+    for (const char c : text.str()) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+    ranks_.emplace(e, hash);
+    return hash;
   }
 
   // Whole powers by repeated squaring, half ones through the square root.
@@ -115,6 +145,7 @@ class Compiler {
 
   ex time_;
   std::map<ex, int, GiNaC::ex_is_less> slots_;
+  std::map<ex, std::uint64_t, GiNaC::ex_is_less> ranks_;
 };
 
 // Counts the nodes of an expression, shared ones as often as they occur, up to a bound.

@@ -70,7 +70,7 @@ class Multibody final : public Rung {
 
     double step = options.step;
     std::vector<std::string> warnings;
-    if (step <= 0.0) step = own_step(parameters);
+    if (step <= 0.0) step = on_grid(own_step(parameters), options.sample_spacing);
     for (;;) {
       try {
         RunResult result = integrate(parameters, options, ideal, step);
@@ -80,7 +80,7 @@ class Multibody final : public Rung {
         return result;
       } catch (const UnstableStep& failure) {
         if (options.step > 0.0 || step < 1e-9) throw;  // the caller's step: the caller decides
-        step = std::min(0.5 * step, kShareOfStableStep * failure.largest_step);
+        step = on_grid(std::min(0.5 * step, kShareOfStableStep * failure.largest_step), options.sample_spacing);
         char text[120];
         std::snprintf(text, sizeof text, "the step was shortened to %.3g s: a contact was stiffer than foreseen", step);
         warnings.assign(1, text);
@@ -105,6 +105,9 @@ class Multibody final : public Rung {
       if (c.largest_stable_step > 0.0) step = std::min(step, kShareOfStableStep * c.largest_stable_step);
     return step;
   }
+
+  // Shortened so that whole steps make a sample spacing: samples then lie where they were asked for.
+  static double on_grid(double step, double spacing) { return spacing > step ? spacing / std::ceil(spacing / step) : step; }
 
   RunResult integrate(const Parameters& parameters, const RunOptions& options, const IdealMotion& ideal,
                       double wanted_step) const {
