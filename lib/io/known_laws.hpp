@@ -4,10 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "boresight/contact/normal_law.hpp"
+
 namespace boresight {
 
 inline const std::vector<std::string>& contact_law_names() {
-  static const std::vector<std::string> names = {"flores"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> result;
+    for (const NormalLawEntry& law : normal_laws()) result.push_back(law.name);
+    return result;
+  }();
   return names;
 }
 

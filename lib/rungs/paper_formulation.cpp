@@ -63,7 +63,7 @@ class PaperFormulation final : public Formulation {
     update_laws(ideal.t);
     constraints_.evaluate(bodies_, laws_);
     const RankAnalysis rank = analyse_rank(mechanism_, constraints_, false);
-    constraints_.set_redundant(rank.rank < rank.rows);
+    if (rank.rank < rank.rows) tell_redundant_from_singular(rank.rank, ideal.t);
   }
 
   const std::vector<BodyMotion>& bodies(double, const VecX& y) override {
@@ -162,6 +162,21 @@ class PaperFormulation final : public Formulation {
       body.v = s.segment<3>(7);
       body.w = s.tail<3>();
     }
+  }
+
+  // Rows that depend on each other here: everywhere along the motion (redundant, and harmless), or here only (singular)?
+  void tell_redundant_from_singular(int rank_here, double t) {
+    if (drives_) {
+      IdealState elsewhere;
+      drives_->state(t + 0.37 * (drives_->duration() - t), elsewhere);  // no special instant of the usual trajectories
+      drives_->drive_laws(elsewhere.t, laws_);
+      constraints_.evaluate(elsewhere.bodies, laws_);
+      const int rank_there = analyse_rank(mechanism_, constraints_, false).rank;
+      update_laws(t);
+      constraints_.evaluate(bodies_, laws_);
+      if (rank_there > rank_here) throw_singular(t);
+    }
+    constraints_.set_redundant(true);
   }
 
   void update_laws(double t) {

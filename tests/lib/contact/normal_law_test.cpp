@@ -1,0 +1,110 @@
+#include "boresight/contact/normal_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "boresight/contact/hertz.hpp"
+#include "boresight/contact/modified_coulomb.hpp"
+
+namespace boresight {
+namespace {
+
+// A mass on one contact, approaching at 1 m/s, followed until it parts: the effective restitution, and the deepest
+// penetration. RK4 with `steps` a contact; the start is exactly at contact, so the order is full but for the 3/2 power.
+struct Impact {
+  double restitution, deepest;
+};
+Impact impact(double e, const char* law_name, int steps = 20000) {
+  const NormalLaw law{1e9, normal_law(law_name).damping_factor(e)};
+  const double v0 = 1.0, m = 1.0;
+  const double d0 = std::pow(5.0 * m * v0 * v0 / (4.0 * law.stiffness), 0.4);
+  const double h = 2.9432751843 * d0 / v0 / steps;
+  double x = 0.0, v = v0, deepest = 0.0;
+  const auto a = [&](double d, double rate) { return -law.force(d, rate, v0) / m; };
+  double x_before = 0.0, v_before = v0;
+  for (int k = 0; k < 20 * steps && !(k > 0 && x <= 0.0); ++k) {
+    x_before = x, v_before = v;
+    const double k1 = a(x, v), l1 = v;
+    const double k2 = a(x + 0.5 * h * l1, v + 0.5 * h * k1), l2 = v + 0.5 * h * k1;
+    const double k3 = a(x + 0.5 * h * l2, v + 0.5 * h * k2), l3 = v + 0.5 * h * k2;
+    const double k4 = a(x + h * l3, v + h * k3), l4 = v + h * k3;
+    x += h / 6.0 * (l1 + 2 * l2 + 2 * l3 + l4);
+    v += h / 6.0 * (k1 + 2 * k2 + 2 * k3 + k4);
+    deepest = std::max(deepest, x);
+  }
+  const double share = x_before / (x_before - x);
+  return {-(v_before + share * (v - v_before)), deepest / d0};
+}
+
+// Effective restitution of Flores' law for asked ones: the relation h (1 + e) = ln[(1 + h) / (1 - h e)] that holds for the
+// whole Hunt-Crossley family (derived, and confirmed by integration to 1e-12).
+TEST(FloresLaw, GivesTheRestitutionThatTheoryForesees) {
+  const double asked[] = {0.1, 0.3, 0.5, 0.7, 0.9, 0.99};
+  const double effective[] = {0.06944, 0.25621, 0.47044, 0.68318, 0.89392, 0.98934};
+  for (int k = 0; k < 6; ++k) EXPECT_NEAR(impact(asked[k], "flores").restitution, effective[k], 2e-5) << asked[k];
+}
+
+TEST(FloresLaw, ReachesTheDepthThatTheoryForesees) {
+  // Relative to the undamped impact, e = 0.9, 0.7 and 0.3: K d^(n+1) / ((n+1) m v^2) = (1/h) (1 - ln(1 + h) / h).
+  EXPECT_NEAR(impact(0.9, "flores").deepest, 0.956737, 2e-6);
+  EXPECT_NEAR(impact(0.7, "flores").deepest, 0.864831, 2e-6);
+  EXPECT_NEAR(impact(0.3, "flores").deepest, 0.628078, 2e-6);
+}
+
+TEST(HertzElastic, GivesEverythingBack) {
+  EXPECT_NEAR(impact(0.5, "hertz").restitution, 1.0, 1e-8);
+  EXPECT_NEAR(impact(0.5, "hertz").deepest, 1.0, 1e-7);
+}
+
+TEST(NormalLaw, NeverPulls) {
+  const NormalLaw law{1e9, normal_law("flores").damping_factor(0.5)};
+  EXPECT_EQ(law.force(1e-5, -10.0, 1e-3), 0.0);  // parting far faster than it came
+  EXPECT_EQ(law.force(-1e-5, 1.0, 1.0), 0.0);
+  EXPECT_EQ(law.force(0.0, 1.0, 1.0), 0.0);
+}
+
+TEST(NormalLaw, StaysFiniteAtTheSmallestRestitutionAndImpactSpeed) {
+  const NormalLaw law{1e12, normal_law("flores").damping_factor(1e-6)};
+  EXPECT_TRUE(std::isfinite(law.force(1e-3, 10.0, 1e-3)));
+}
+
+TEST(Hertz, StiffnessOfTheLiterature) {
+  // Steel 207 GPa, 0.3, bearing radius 10 mm (Flores et al. 2006 quote 6.61e10 N/m^1.5 at 0.5 mm).
+  ClearanceParameters p;
+  p.contact.young = {207e9, 207e9};
+  p.contact.poisson = {0.3, 0.3};
+  const double clearance[] = {0.5e-3, 0.2e-3, 0.1e-3, 0.05e-3, 0.02e-3, 0.01e-3};
+  const double stiffness[] = {6.610198e10, 1.061538e11, 1.508882e11, 2.139263e11, 3.387568e11, 4.793144e11};
+  for (int k = 0; k < 6; ++k) {
+    p.radial = clearance[k];
+    p.journal_radius = 10e-3 - clearance[k];
+    EXPECT_NEAR(radial_hertz_stiffness(p) / stiffness[k], 1.0, 1e-6);
+  }
+}
+
+TEST(Hertz, ValiditySpeedOfTheDefaultPair) {
+  EXPECT_NEAR(validity_speed(ContactParameters{}), 0.0387, 0.00005);  // Eq. 26 for the default aluminium pair
+}
+
+TEST(ModifiedCoulomb, RampsBetweenItsTwoSpeeds) {
+  const ModifiedCoulomb law{0.03, 1e-4, 1e-3};
+  const auto force = [&](double v) { return v * law.force_per_velocity(v); };
+  EXPECT_EQ(force(0.0), 0.0);
+  EXPECT_EQ(force(0.99e-4), 0.0);
+  EXPECT_NEAR(force(5.5e-4), 0.015, 1e-15);
+  EXPECT_NEAR(force(1e-3), 0.03, 1e-15);
+  EXPECT_NEAR(force(7.0), 0.03, 1e-15);
+}
+
+// On an incline of 20 degrees with mu = 0.5 the law cannot hold: it creeps at v_s + (v_d - v_s) tan 20 / mu.
+TEST(ModifiedCoulomb, CreepsUnderAStaticLoadAtTheSpeedThatTheoryForesees) {
+  const ModifiedCoulomb law{0.5, 1e-4, 1e-3};
+  const double slope = 20.0 * M_PI / 180.0, g = 9.81, h = 1e-6;
+  double v = 0.0;
+  for (int k = 0; k < 20000; ++k) v += h * (g * std::sin(slope) - g * std::cos(slope) * v * law.force_per_velocity(v));
+  EXPECT_NEAR(v, 1e-4 + 0.727940469 * 0.9e-3, 1e-9);
+}
+
+}  // namespace
+}  // namespace boresight
