@@ -269,7 +269,7 @@ TEST(ErrorLine, NamesTheNearestName) {
       {"\"0.01*sin(t)\"", "\"0.01*sni(t)\"",
        R"~(f.toml:36: motion.drives.P: found the unknown name "sni" in "0.01*sni(t)", expected t, pi or a function such as sin; did you mean sin?)~"},
       {"restitution = 0.9", "law = \"florez\"",
-       R"~(f.toml:46: clearance.R.contact.law: found "florez", expected "flores"; did you mean flores?)~"},
+       R"~(f.toml:46: clearance.R.contact.law: found "florez", expected one of "flores", "hertz"; did you mean flores?)~"},
       {"coefficient = 0.03", "law = \"coulomb\"",
        R"~(f.toml:48: clearance.R.friction.law: found "coulomb", expected one of "none", "modified-coulomb")~"},
   });
