@@ -35,11 +35,12 @@ PoseSample MotionRecorder::pose_sample(int body, const BodyMotion& motion, const
   return s;
 }
 
-const PoseError& MotionRecorder::accept(double t, const BodyMotion& body, const BodyAcceleration& acceleration) {
+const PoseError& MotionRecorder::accept(double t, const BodyMotion& body, const BodyAcceleration& acceleration,
+                                        const PoseError* bound) {
   t_ = t;
   const int index = mechanism_.boresight_body();
   const BodyMotion ideal = ideal_.body(t, index);
-  error_ = pose_error({body.p, Quat(body.R)}, {ideal.p, Quat(ideal.R)}, mechanism_.boresight_B());
+  error_ = bound ? *bound : pose_error({body.p, Quat(body.R)}, {ideal.p, Quat(ideal.R)}, mechanism_.boresight_B());
   indices_.add(t, error_);
   position_error_max_ = std::max(position_error_max_, error_.position);
   result_.platform_acceleration_max = result_.platform_acceleration_max.cwiseMax(acceleration.head<3>().cwiseAbs());
@@ -50,6 +51,7 @@ const PoseError& MotionRecorder::accept(double t, const BodyMotion& body, const 
     while (next_sample_ <= t + 1e-3 * spacing_) next_sample_ += spacing_;
     result_.time.push_back(t);
     result_.boresight.samples.push_back(pose_sample(index, body, acceleration));
+    if (bound) result_.boresight.samples.back().error = error_;
   }
   return error_;
 }

@@ -13,8 +13,10 @@ class MotionRecorder {
   // expected_steps: to reserve room for the indices.
   MotionRecorder(const Mechanism& mechanism, const IdealMotion& ideal, const RunOptions& options, double expected_steps);
 
-  // One accepted state: motion and acceleration of the boresight body. Returns the pose error.
-  const PoseError& accept(double t, const BodyMotion& body, const BodyAcceleration& acceleration);
+  // One accepted state: motion and acceleration of the boresight body. Returns the pose error. bound: errors to count
+  // instead of those of this pose (a rung that bounds each index on its own).
+  const PoseError& accept(double t, const BodyMotion& body, const BodyAcceleration& acceleration,
+                          const PoseError* bound = nullptr);
   // True if the state accepted last is to be sampled: then call the two below, bodies first.
   bool sampling() const { return sampling_; }
   void sample_body(int other, const BodyMotion& body, const BodyAcceleration& acceleration);  // other: index in pose_bodies

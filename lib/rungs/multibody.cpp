@@ -1,7 +1,5 @@
 #include "boresight/rungs/multibody.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/contact_report.hpp"
 #include "boresight/rungs/contact_tracker.hpp"
+#include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/formulation.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
@@ -21,12 +20,6 @@
 
 namespace boresight {
 namespace {
-
-double cpu_now() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 // The step that the paper uses, and the most that this rung takes on its own.
 constexpr double kPaperStep = 1e-4;
@@ -64,7 +57,7 @@ class Multibody final : public Rung {
 
   RunResult run(const Parameters& parameters, const RunOptions& options) const override {
     const auto wall = std::chrono::steady_clock::now();
-    const double cpu = cpu_now();
+    const double cpu = thread_cpu_seconds();
     std::optional<IdealMotion> simulated;
     const IdealMotion& ideal = ideal_for(parameters, simulated);
 
@@ -75,7 +68,7 @@ class Multibody final : public Rung {
       try {
         RunResult result = integrate(parameters, options, ideal, step);
         result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
-        result.cost.cpu_seconds = cpu_now() - cpu;
+        result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
         result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
         return result;
       } catch (const UnstableStep& failure) {

@@ -2,7 +2,10 @@
 
 #include <stdexcept>
 
+#include "boresight/rungs/envelope.hpp"
 #include "boresight/rungs/multibody.hpp"
+#include "boresight/rungs/perturbation.hpp"
+#include "boresight/rungs/quasistatic.hpp"
 
 namespace boresight {
 namespace {
@@ -12,7 +15,10 @@ struct Entry {
   const char* name;
   std::unique_ptr<Rung> (*make)(std::shared_ptr<const Mechanism>);
 };
-constexpr Entry kRungs[] = {{"multibody", make_multibody}};
+constexpr Entry kRungs[] = {{"envelope", make_envelope},
+                            {"quasistatic", make_quasistatic},
+                            {"perturbation", make_perturbation},
+                            {"multibody", make_multibody}};
 
 }  // namespace
 
