@@ -16,35 +16,10 @@
 #include "boresight/rungs/formulation.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
-#include "boresight/rungs/stiffest_contact.hpp"
+#include "boresight/rungs/unstable_step.hpp"
 
 namespace boresight {
 namespace {
-
-// The step that the paper uses, and the most that this rung takes on its own.
-constexpr double kPaperStep = 1e-4;
-// Share of RK4's stable step taken when the rung chooses: 2.785 x 0.36 = 1 radian of the stiffest contact a step, about
-// three steps in a half wave of contact; at the default scene's settings the paper's own step is finer than that.
-constexpr double kShareOfStableStep = 0.36;
-
-// The step was too large for a contact. Carries the largest one that would have been stable there.
-class UnstableStep : public ComputationError {
- public:
-  UnstableStep(const std::string& what, double largest) : ComputationError(what), largest_step(largest) {}
-  double largest_step;
-};
-
-UnstableStep unstable(const Mechanism& mechanism, const StiffestContact& contact, double t, double h) {
-  const double largest = classical_rk4().real_limit / contact.angular_frequency;
-  const std::string joint =
-      mechanism.description().joints[mechanism.description().clearances[contact.clearance].joint].name;
-  char text[320];
-  std::snprintf(text, sizeof text,
-                "step too large: at t = %.6g s the %s contact of %s vibrates at %.4g rad/s, and RK4 with h = %.4g s is "
-                "unstable there; the largest stable step is %.3g s",
-                t, to_string(contact.place), joint.c_str(), contact.angular_frequency, h, largest);
-  return UnstableStep(text, largest);
-}
 
 class Multibody final : public Rung {
  public:
@@ -61,24 +36,11 @@ class Multibody final : public Rung {
     std::optional<IdealMotion> simulated;
     const IdealMotion& ideal = ideal_for(parameters, simulated);
 
-    double step = options.step;
-    std::vector<std::string> warnings;
-    if (step <= 0.0) step = on_grid(own_step(parameters), options.sample_spacing);
-    for (;;) {
-      try {
-        RunResult result = integrate(parameters, options, ideal, step);
-        result.warnings.insert(result.warnings.begin(), warnings.begin(), warnings.end());
-        result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
-        result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-        return result;
-      } catch (const UnstableStep& failure) {
-        if (options.step > 0.0 || step < 1e-9) throw;  // the caller's step: the caller decides
-        step = on_grid(std::min(0.5 * step, kShareOfStableStep * failure.largest_step), options.sample_spacing);
-        char text[120];
-        std::snprintf(text, sizeof text, "the step was shortened to %.3g s: a contact was stiffer than foreseen", step);
-        warnings.assign(1, text);
-      }
-    }
+    RunResult result = with_stable_step(options.step, own_step(parameters, options), options.sample_spacing,
+                                        [&](double step) { return integrate(parameters, options, ideal, step); });
+    result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
+    result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+    return result;
   }
 
  private:
@@ -92,15 +54,13 @@ class Multibody final : public Rung {
     return *simulated;
   }
 
-  double own_step(const Parameters& parameters) const {
+  double own_step(const Parameters& parameters, const RunOptions& options) const {
+    if (options.step > 0.0) return options.step;  // not asked: spare the analysis
     double step = std::min(kPaperStep, mechanism_->duration() / 100.0);
     for (const ContactFrequency& c : analyse_contacts(*mechanism_, parameters))
       if (c.largest_stable_step > 0.0) step = std::min(step, kShareOfStableStep * c.largest_stable_step);
     return step;
   }
-
-  // Shortened so that whole steps make a sample spacing: samples then lie where they were asked for.
-  static double on_grid(double step, double spacing) { return spacing > step ? spacing / std::ceil(spacing / step) : step; }
 
   RunResult integrate(const Parameters& parameters, const RunOptions& options, const IdealMotion& ideal,
                       double wanted_step) const {
@@ -111,6 +71,8 @@ class Multibody final : public Rung {
     const auto formulation = make_formulation(parameters, options, ideal);
     const ForceElements& forces = formulation->forces();
 
+    std::vector<JournalInSleeve> joints;
+    for (int c = 0; c < forces.clearances(); ++c) joints.push_back(forces.joint(c));
     std::vector<ContactTracker> trackers;
     for (int c = 0; c < mechanism.clearances(); ++c)
       trackers.emplace_back(c, mechanism.description().joints[mechanism.description().clearances[c].joint].name,
@@ -148,8 +110,8 @@ class Multibody final : public Rung {
           compliance = formulation->offset_compliance();
           compliance_age = i;
         }
-        const StiffestContact stiffest = stiffest_contact(forces, motion, compliance);
-        if (h * stiffest.angular_frequency > classical_rk4().real_limit) throw unstable(mechanism, stiffest, t, h);
+        const StiffestContact stiffest = stiffest_contact(joints, motion, compliance);
+        if (h * stiffest.angular_frequency > classical_rk4().real_limit) throw UnstableStep(mechanism, stiffest, t, h);
       }
       if (i == steps) break;
       if (options.progress && i % 256 == 0 && !options.progress({t, duration, recorder.position_error_max()})) {

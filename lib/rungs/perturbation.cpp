@@ -1,6 +1,7 @@
 #include "boresight/rungs/perturbation.hpp"
 
 #include <algorithm>
+#include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
 
@@ -9,12 +10,13 @@
 #include "boresight/rungs/contact_tracker.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/offset_dynamics.hpp"
+#include "boresight/rungs/reaction_table.hpp"
 #include "boresight/rungs/scene_rung.hpp"
+#include "boresight/rungs/unstable_step.hpp"
 
 namespace boresight {
 namespace {
 
-constexpr double kPaperStep = 1e-4;
 
 class Perturbation final : public SceneRung {
  public:
@@ -28,6 +30,37 @@ class Perturbation final : public SceneRung {
 
  private:
   RunResult follow(const Parameters& parameters, const RunOptions& options) const override {
+    const double own = options.step > 0.0 ? options.step : own_step(parameters);
+    return with_stable_step(options.step, own, options.sample_spacing,
+                            [&](double step) { return integrate(parameters, options, step); });
+  }
+
+  // Share of the stable step of the joints' contacts taken together, at twice the largest ideal reaction: what a load
+  // suddenly applied to an elastic contact reaches.
+  double own_step(const Parameters& parameters) const {
+    const ReactionTable reactions(mechanism(), scene(), parameters);
+    std::vector<JournalMotion<double>> deepest(reactions.joints().size());
+    for (int i = 0; i < reactions.instants(); ++i) {
+      const VecX r = reactions.at(i).reaction;
+      for (std::size_t c = 0; c < deepest.size(); ++c) {
+        const JournalInSleeve& joint = reactions.joints()[c];
+        const double force = 2.0 * r.segment<3>(3 * static_cast<int>(c)).norm();
+        const double reach = joint.radial_clearance + std::pow(force / joint.radial_law.stiffness, 2.0 / 3.0);
+        if (reach > deepest[c].e.x()) deepest[c].e = Vec3(reach, 2.0 * joint.axial_clearance + 1e-9, 0.0);
+      }
+    }
+    double fastest = 0.0;
+    MatX M, C;
+    VecX r;
+    for (int k = 0; k < scene().knots(); k += 8) {
+      scene().assemble(parameters, k, M, C, r);
+      fastest = std::max(fastest, stiffest_contact_bound(reactions.joints(), deepest, MatX(M.inverse())));
+    }
+    const double step = std::min(kPaperStep, mechanism().duration() / 100.0);
+    return fastest > 0.0 ? std::min(step, kShareOfStableStep * classical_rk4().real_limit / std::sqrt(fastest)) : step;
+  }
+
+  RunResult integrate(const Parameters& parameters, const RunOptions& options, double wanted) const {
     const Mechanism& mechanism = this->mechanism();
     const MechanismDescription& m = mechanism.description();
     const SceneTables tables = this->scene().tables(parameters);
@@ -68,12 +101,12 @@ class Perturbation final : public SceneRung {
       offset_acceleration(at, row.data(), rate, force.data(), dy.data() + n);
     };
 
-    const double wanted = options.step > 0.0 ? options.step : std::min(kPaperStep, duration / 100.0);
     const long steps = std::max(1L, static_cast<long>(std::ceil(duration / wanted - 1e-9)));
     const double h = duration / static_cast<double>(steps);
     MotionRecorder recorder(mechanism, ideal(), options, static_cast<double>(steps));
     VecX y = VecX::Zero(2 * n);
     ExplicitRungeKutta method(classical_rk4(), 2 * n);
+    const double limit = classical_rk4().real_limit;
     bool interrupted = false;
     std::array<ContactState<double>, kContactPlaces> contact;
     for (long i = 0;; ++i) {
@@ -89,6 +122,11 @@ class Perturbation final : public SceneRung {
       }
       derivative(t, y, method.first_slope());
       for (std::size_t c = 0; c < joints.size(); ++c) trackers[c].observe_forces(wrench[c].contact);
+      const Eigen::Map<const MatX> A(row.data() + at.A, n, n);  // symmetric: rows and columns read the same
+      if (h * h * stiffest_contact_bound(joints, motion, A) > limit * limit) {
+        const StiffestContact stiffest = stiffest_contact(joints, motion, A);
+        if (h * stiffest.angular_frequency > limit) throw UnstableStep(mechanism, stiffest, t, h);
+      }
       record(t, y, method.first_slope(), tables, gain, motion, wrench, recorder);
       if (i == steps) break;
       if (options.progress && i % 4096 == 0 && !options.progress({t, duration, recorder.position_error_max()})) {

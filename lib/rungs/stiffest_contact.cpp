@@ -5,7 +5,8 @@
 
 namespace boresight {
 
-StiffestContact stiffest_contact(const ForceElements& forces, const std::vector<JournalMotion<double>>& motion,
+StiffestContact stiffest_contact(const std::vector<JournalInSleeve>& joints,
+                                 const std::vector<JournalMotion<double>>& motion,
                                  const MatX& A) {
   struct Touch {
     int clearance;
@@ -13,8 +14,8 @@ StiffestContact stiffest_contact(const ForceElements& forces, const std::vector<
     Vec3 scaled_normal;  // sqrt(tangent stiffness) times the unit normal
   };
   std::vector<Touch> touches;
-  for (int c = 0; c < forces.clearances(); ++c) {
-    const JournalInSleeve& joint = forces.joint(c);
+  for (int c = 0; c < static_cast<int>(joints.size()); ++c) {
+    const JournalInSleeve& joint = joints[c];
     std::array<ContactState<double>, kContactPlaces> contact;
     joint.gaps(motion[c], contact);
     const double d = contact[static_cast<int>(ContactPlace::radial)].penetration;
@@ -38,6 +39,23 @@ StiffestContact stiffest_contact(const ForceElements& forces, const std::vector<
   Eigen::Index share;
   eigen.eigenvectors().col(n - 1).cwiseAbs().maxCoeff(&share);
   return {std::sqrt(std::max(0.0, eigen.eigenvalues()[n - 1])), touches[share].clearance, touches[share].place};
+}
+
+double stiffest_contact_bound(const std::vector<JournalInSleeve>& joints, const std::vector<JournalMotion<double>>& motion,
+                              const Eigen::Ref<const MatX>& A) {
+  double sum = 0.0;
+  for (int c = 0; c < static_cast<int>(joints.size()); ++c) {
+    const JournalInSleeve& joint = joints[c];
+    const Vec3& e = motion[c].e;
+    const double square = e.x() * e.x() + e.z() * e.z();
+    if (square > joint.radial_clearance * joint.radial_clearance) {
+      const double depth = std::sqrt(square) - joint.radial_clearance;
+      // n^T A n is at most the sum of the two diagonal entries across the axis.
+      sum += 1.5 * joint.radial_law.stiffness * std::sqrt(depth) * (A(3 * c, 3 * c) + A(3 * c + 2, 3 * c + 2));
+    }
+    if (joint.has_faces && std::abs(e.y()) > joint.axial_clearance) sum += joint.face_stiffness * A(3 * c + 1, 3 * c + 1);
+  }
+  return sum;
 }
 
 }  // namespace boresight

@@ -16,7 +16,12 @@ struct StiffestContact {
   ContactPlace place = ContactPlace::radial;
 };
 
-StiffestContact stiffest_contact(const ForceElements& forces, const std::vector<JournalMotion<double>>& motion,
+StiffestContact stiffest_contact(const std::vector<JournalInSleeve>& joints,
+                                 const std::vector<JournalMotion<double>>& motion,
                                  const MatX& offset_compliance);
+
+// An upper bound of the same angular frequency squared [1/s^2], without an eigenvalue: the trace.
+double stiffest_contact_bound(const std::vector<JournalInSleeve>& joints, const std::vector<JournalMotion<double>>& motion,
+                              const Eigen::Ref<const MatX>& offset_compliance);
 
 }  // namespace boresight

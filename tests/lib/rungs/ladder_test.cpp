@@ -81,6 +81,18 @@ TEST(Perturbation, APayloadSweepOnOneSceneEqualsAScenePerPayload) {
   }
 }
 
+TEST(Perturbation, ChoosesAStepThatItsContactsBear) {
+  // A light slider on a stiff pin asks for a far smaller step than the default scene does.
+  const auto mechanism =
+      scenes::build(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml"));
+  RunOptions coarse;
+  coarse.step = 1e-3;
+  EXPECT_THROW(make_rung("perturbation", mechanism)->run(mechanism->parameters(), coarse), ComputationError);
+  const double a = make_rung("perturbation", mechanism)->run(mechanism->parameters(), {}).index.position_error.rms;
+  const double b = make_rung("multibody", mechanism)->run(mechanism->parameters(), {}).index.position_error.rms;
+  EXPECT_NEAR(a / b, 1.0, 0.01);
+}
+
 TEST(Quasistatic, HasTheMeanErrorOfMultibody) {
   const auto mechanism = scenes::build(scenes::rrcpr());
   for (double payload : {0.0, 250.0, 500.0}) {
