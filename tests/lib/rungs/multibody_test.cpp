@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "boresight/mechanism/error.hpp"
 #include "scenes.hpp"
 
@@ -31,15 +34,27 @@ RunResult run(const Rung& rung, const Mechanism& mechanism, const Reference& r, 
   return rung.run(p, options);
 }
 
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+// At the paper's step a contact lasts a handful of steps and the maximum is set by single impacts, so that a change in the
+// last bit of a parameter moves it by up to 1.5 %: the median over neighbouring steps is what can be held against a figure.
 TEST(Multibody, GivesTheReferenceFiguresAtThePapersStep) {
   const auto mechanism = scenes::build(scenes::rrcpr());
   const auto rung = make_multibody(mechanism);
   for (const Reference& r : kReference) {
-    const RunResult result = run(*rung, *mechanism, r, 1e-4);
-    EXPECT_NEAR(result.index.position_error.max / r.max_coarse, 1.0, 0.015) << r.clearance << " m, " << r.payload << " kg";
-    EXPECT_NEAR(result.index.position_error.rms / r.rms_coarse, 1.0, 0.005) << r.clearance << " m, " << r.payload << " kg";
-    EXPECT_LT(result.index.orientation_error.max, 1e-7);
-    EXPECT_LT(result.index.boresight_error.max, 1e-7);
+    std::vector<double> max, rms;
+    for (double share : {1.0, 0.99, 0.98, 0.97, 0.96}) {
+      const RunResult result = run(*rung, *mechanism, r, share * 1e-4);
+      max.push_back(result.index.position_error.max);
+      rms.push_back(result.index.position_error.rms);
+      EXPECT_LT(result.index.orientation_error.max, 1e-7);
+      EXPECT_LT(result.index.boresight_error.max, 1e-7);
+    }
+    EXPECT_NEAR(median(max) / r.max_coarse, 1.0, 0.015) << r.clearance << " m, " << r.payload << " kg";
+    EXPECT_NEAR(median(rms) / r.rms_coarse, 1.0, 0.005) << r.clearance << " m, " << r.payload << " kg";
   }
 }
 
