@@ -56,4 +56,14 @@ struct PaperFormulationOptions {
 std::unique_ptr<Formulation> make_paper_formulation(const Mechanism& mechanism, const Parameters& parameters,
                                                     const IdealMotion* drives, const PaperFormulationOptions& options);
 
+struct TreeFormulationOptions {
+  bool with_clearance = true;
+  Stabilisation stabilisation = Stabilisation::projection;
+  double alpha = 40.0, beta = 50.0;  // Baumgarte's gains [1/s]
+};
+
+// Joint coordinates over a spanning tree, driven ones eliminated: see tree_formulation.cpp.
+std::unique_ptr<Formulation> make_tree_formulation(const Mechanism& mechanism, const Parameters& parameters,
+                                                   const IdealMotion* drives, const TreeFormulationOptions& options);
+
 }  // namespace boresight

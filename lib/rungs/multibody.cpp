@@ -141,8 +141,9 @@ class Multibody final : public Rung {
 
   std::unique_ptr<Formulation> make_formulation(const Parameters& parameters, const RunOptions& options,
                                                 const IdealMotion& ideal) const {
+    if (options.formulation == "tree") return make_tree_formulation(*mechanism_, parameters, &ideal, {});
     if (!options.formulation.empty() && options.formulation != "paper")
-      throw std::invalid_argument("no formulation \"" + options.formulation + "\"; there is: paper");
+      throw std::invalid_argument("no formulation \"" + options.formulation + "\"; there is: paper, tree");
     PaperFormulationOptions paper;
     paper.stabilisation = options.stabilisation == "projection" ? Stabilisation::projection : Stabilisation::baumgarte;
     paper.alpha = options.baumgarte_alpha;
