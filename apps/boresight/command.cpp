@@ -63,10 +63,11 @@ void MotionOptions::declare(CLI::App& app, bool with_poses) {
   app.add_option("--sample", sample, "spacing of the time series")->type_name("TIME")->capture_default_str();
   app.add_option("--step", step, "step of the integration; otherwise the rung's own choice")
       ->type_name("TIME");
-  app.add_option("--formulation", formulation, "of the equations of motion (multibody)")->type_name("NAME");
-  app.add_option("--stabilisation", stabilisation, "of the constraints (multibody): baumgarte or projection")
-      ->type_name("NAME")
-      ->capture_default_str();
+  app.add_option("--formulation", formulation, "of the equations of motion (multibody): tree or paper; otherwise tree")
+      ->type_name("NAME");
+  app.add_option("--stabilisation", stabilisation,
+                 "of the constraints (multibody): baumgarte or projection; otherwise the formulation's own")
+      ->type_name("NAME");
   if (with_poses)
     app.add_option("--pose", poses, "keep the pose of this body too (any number of times)")
         ->type_name("BODY")
@@ -83,7 +84,7 @@ RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
     throw InputError(kCommandLine, "--sample", in_quotes(sample), "at most two million samples in all");
   options.formulation = formulation;
   const std::vector<std::string> known = {"baumgarte", "projection"};
-  if (std::find(known.begin(), known.end(), stabilisation) == known.end())
+  if (!stabilisation.empty() && std::find(known.begin(), known.end(), stabilisation) == known.end())
     throw InputError(kCommandLine, "--stabilisation", in_quotes(stabilisation), "baumgarte or projection",
                      nearest_name(stabilisation, known));
   options.stabilisation = stabilisation;

@@ -41,7 +41,7 @@ struct CommandOptions {
 
 // How a motion is followed and what of it is kept: the options of `run` and `sweep`.
 struct MotionOptions {
-  std::string step, sample = "1 ms", formulation, stabilisation = "baumgarte";
+  std::string step, sample = "1 ms", formulation, stabilisation;
   std::vector<std::string> poses;
 
   void declare(CLI::App& app, bool with_poses);

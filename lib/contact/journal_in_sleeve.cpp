@@ -15,11 +15,40 @@ JournalInSleeve::JournalInSleeve(const ClearanceDescription& description, JointT
       friction{description.friction_law == "none" ? 0.0 : p.friction.coefficient, p.friction.static_speed,
                p.friction.dynamic_speed},
       minimum_impact_speed(p.contact.minimum_impact_speed),
-      validity_speed(boresight::validity_speed(p.contact)) {}
+      validity_speed(boresight::validity_speed(p.contact)),
+      tilts(description.axes == JournalAxes::free) {
+  tilted.radial_clearance = radial_clearance;
+  tilted.axial_clearance = axial_clearance;
+  tilted.bore_radius = bore_radius;
+  tilted.half_length = half_length;
+  tilted.ring_radius = 0.5 * (bore_radius + p.cap_radius);
+  tilted.has_faces = has_faces;
+  tilted.slides = joint == JointType::cylindrical;
+  tilted.end_law = {0.5 * radial_law.stiffness, radial_law.damping_factor};
+  tilted.face_stiffness = face_stiffness;
+  tilted.friction = friction;
+}
 
 std::vector<ContactPlace> JournalInSleeve::places() const {
+  if (tilts && !has_faces) return {ContactPlace::radial_minus, ContactPlace::radial_plus};
+  if (tilts)
+    return {ContactPlace::radial_minus, ContactPlace::radial_plus, ContactPlace::axial_minus, ContactPlace::axial_plus};
   if (!has_faces) return {ContactPlace::radial};
   return {ContactPlace::radial, ContactPlace::axial_minus, ContactPlace::axial_plus};
+}
+
+double JournalInSleeve::elastic_energy(const JournalMotion<double>& motion) const {
+  if (tilts) return tilted.elastic_energy(motion);
+  std::array<ContactState<double>, kContactPlaces> contact;
+  gaps(motion, contact);
+  double energy = 0.0;
+  const double radial = contact[static_cast<int>(ContactPlace::radial)].penetration;
+  if (radial > 0.0) energy += 0.4 * radial_law.stiffness * radial * radial * std::sqrt(radial);
+  for (ContactPlace place : {ContactPlace::axial_minus, ContactPlace::axial_plus}) {
+    const double d = contact[static_cast<int>(place)].penetration;
+    if (d > 0.0) energy += 0.5 * face_stiffness * d * d;
+  }
+  return energy;
 }
 
 }  // namespace boresight

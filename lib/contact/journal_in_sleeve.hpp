@@ -7,38 +7,16 @@
 //   sliding  v = edot + w x (Q - e), its part across the normal
 // Sun et al., Eq. 1-24, with the slips mended: e without its axial part, the spin kept in the sliding velocity, and force
 // and friction applied at one point on both bodies so that no angular momentum leaks.
-// The journal's axis stays parallel to the sleeve's here (axes = "parallel").
+// Here the journal's axis stays parallel to the sleeve's (axes = "parallel"); tilted_journal.hpp has the contacts of one
+// that may tilt.
 #pragma once
 
-#include <array>
+#include <vector>
 
-#include "boresight/contact/contact_memory.hpp"
-#include "boresight/contact/modified_coulomb.hpp"
-#include "boresight/contact/normal_law.hpp"
-#include "boresight/math/types.hpp"
+#include "boresight/contact/tilted_journal.hpp"
 #include "boresight/mechanism/description.hpp"
 
 namespace boresight {
-
-// How the journal sits and moves in the sleeve, sleeve frame.
-template <typename T>
-struct JournalMotion {
-  Vec3T<T> e, e_dot;  // centre offset [m] and its rate as seen from the sleeve [m/s]
-  Vec3T<T> w;         // angular velocity relative to the sleeve [rad/s]
-};
-
-// One possible contact.
-template <typename T>
-struct ContactState {
-  T penetration{}, rate{}, normal_force{};  // [m], [m/s], [N]; penetration < 0: a gap
-};
-
-// What the sleeve does to the journal: force, and moment about the sleeve's centre, sleeve frame.
-template <typename T>
-struct JournalWrench {
-  Vec3T<T> force, moment;
-  std::array<ContactState<T>, kContactPlaces> contact;  // by ContactPlace; unused places keep a gap of -1 m
-};
 
 // Numbers of one clearance joint that a motion does not change.
 struct JournalInSleeve {
@@ -52,6 +30,8 @@ struct JournalInSleeve {
   ModifiedCoulomb friction;
   double minimum_impact_speed = 1e-3;  // [m/s]
   double validity_speed = 0.0;         // Eq. 26 [m/s]
+  bool tilts = false;                  // axes = "free": the contacts are those of `tilted`
+  TiltedJournal tilted;
 
   JournalInSleeve() = default;
   JournalInSleeve(const ClearanceDescription& description, JointType joint, const ClearanceParameters& parameters);
@@ -67,6 +47,9 @@ struct JournalInSleeve {
   // Penetration of every place only; used to see where contacts stand without their forces.
   template <typename T>
   void gaps(const JournalMotion<T>& motion, std::array<ContactState<T>, kContactPlaces>& contact) const;
+
+  // Of all contacts [J].
+  double elastic_energy(const JournalMotion<double>& motion) const;
 };
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -74,6 +57,7 @@ struct JournalInSleeve {
 template <typename T>
 void JournalInSleeve::gaps(const JournalMotion<T>& m, std::array<ContactState<T>, kContactPlaces>& contact) const {
   using std::sqrt;
+  if (tilts) return tilted.gaps(m, contact);
   for (ContactState<T>& c : contact) c = {T(-1.0), T(0.0), T(0.0)};
   const T square = m.e.x() * m.e.x() + m.e.z() * m.e.z();
   // A concentric journal has no normal; it is far from the bore, so any divisor does.
@@ -94,6 +78,7 @@ template <typename T>
 void JournalInSleeve::wrench(const JournalMotion<T>& m, const std::array<T, kContactPlaces>& impact_speed,
                              JournalWrench<T>& out) const {
   using std::sqrt;
+  if (tilts) return tilted.wrench(m, impact_speed, out);
   gaps(m, out.contact);
   out.force.setConstant(T(0.0));
   out.moment.setConstant(T(0.0));

@@ -44,6 +44,10 @@ JointConstraint::JointConstraint(const Mechanism& mechanism, int joint, Clearanc
   };
 
   const JointType type = description.type;
+  if (clearance_rows == ClearanceRows::free) {
+    add_free_rows(type);
+    return;
+  }
   for (int axis = 0; axis < 3; ++axis) {
     const bool along = axis == 1;
     const bool held = has_points(type) || (slides_along_axis(type) && !along) || (type == JointType::planar && along);
@@ -59,6 +63,19 @@ JointConstraint::JointConstraint(const Mechanism& mechanism, int joint, Clearanc
     drive_row_ = static_cast<int>(rows_.size());
     rows_.push_back(type == JointType::revolute ? Row{Kind::twist} : Row{Kind::distance, 1});
   }
+}
+
+void JointConstraint::add_free_rows(JointType type) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool along = axis == 1;
+    if ((slides_along_axis(type) && along) || (type == JointType::planar && !along))
+      rows_.push_back({Kind::distance, axis});
+  }
+  if (type == JointType::spherical || type == JointType::universal) {
+    rows_.push_back({Kind::angle, 0, 1});
+    rows_.push_back({Kind::angle, 2, 1});
+  }
+  if (type != JointType::prismatic && type != JointType::fixed) rows_.push_back({Kind::twist});
 }
 
 void JointConstraint::evaluate(const std::vector<BodyMotion>& bodies, const TimeValue& law, JointRows& rows) const {

@@ -31,7 +31,8 @@ struct JointRows {
 enum class ClearanceRows {
   closed,  // as if the joint were ideal
   open,    // only those that clearance leaves in force
-  released  // only those that clearance releases, in the order x, y, z of the sleeve frame, then the two tilts (free axes)
+  released,  // only those that clearance releases, in the order x, y, z of the sleeve frame, then the two tilts (free axes)
+  free       // what the joint leaves free even without clearance: its turns and slides, as rows that would hold them
 };
 
 // The fixed part: which rows a joint has.
@@ -57,6 +58,7 @@ class JointConstraint {
     int b = 0;  // axis of the other frame; 3 the universal joint's second axis
     double home = 0.0;  // value at home: a universal joint keeps the angle between its axes that the drawing shows
   };
+  void add_free_rows(JointType type);
 
   int joint_;
   JointFrame reference_, other_;

@@ -65,8 +65,6 @@ void check_clearances(const MechanismDescription& m) {
     if (j.type != JointType::revolute && j.type != JointType::cylindrical)
       throw InputError(c.origin, key + ".joint", std::string("a ") + to_string(j.type) + " joint",
                        "a revolute or cylindrical joint");
-    if (c.axes == JournalAxes::free)
-      throw InputError(c.origin, key + ".axes", "\"free\"", "\"parallel\" (a tilting journal is not computed by this version)");
     if (c.journal != j.first && c.journal != j.second)
       throw InputError(c.origin, key + ".journal", "a body that the joint does not connect", "one of the joint's two bodies");
   }

@@ -1,19 +1,23 @@
 // The mechanism opened at its clearance joints, as smooth functions of time: what the cheap rungs compute with.
 //
-// Clearances are 1e-3 to 1e-4 of the link lengths, so the motion is the ideal one plus a deviation that is linear in the
-// joints' offsets xi (three a revolute, two a cylindrical joint; sleeve axes). With J the square Jacobian of all ideal rows,
-// T = J^-1 restricted to the released rows gives the velocities of all bodies per unit offset rate, and
+// Clearances are 1e-3 to 1e-4 of the link lengths, so the motion is the ideal one plus a deviation that is linear in a few
+// coordinates z, the joints' offsets as far as these are free (DeviationCoordinates). With T the velocities of all bodies
+// per unit rate of z,
 //
-//     M_r(t) xiddot + C(t) xidot = r(t) + f_contact(xi, xidot, w_rel),    pose error of the boresight body = E(t) xi
+//     M_r(t) zddot + C(t) zdot + K(t) z = r(t) + f_contact,    pose error of a body = E(t) z
 //
 //   M_r = T^T M T      C = T^T [M (2 Tdot - w x T) + gyroscopic]      r = T^T (Q - M vdot_ideal)      E = T's rows
 //
 // 2 Tdot is the Coriolis part (the offsets ride on moving bodies); - w x T stands in the turning rows only: with
 // R = exp(theta) R_ideal the angular acceleration is alpha_ideal + thetaddot + thetadot x w_ideal to first order in theta.
+// K, forces that change with the deviation itself, matters where the ideal mechanism has freedoms of its own (a pendulum):
+// there alone it is kept, by differences of the multibody formulation. Between offsets held by contact it is below a percent
+// of the contact forces and left out.
 // The generalised contact force of a joint is its whole wrench on the journal: the force along the offset, the moment
-// through what T does to the relative spin, w_rel = w_ideal + S xidot, and on a cylindrical joint the axial friction through
-// what it does to the slide, slide_ideal + Y xidot. No number of a contact changes any of this. Masses and gravity enter
-// M_r, C and r affinely, so a payload, body-mass or gravity sweep needs no new scene.
+// through what z does to the relative spin, w_rel = w_ideal + S zdot, and on a cylindrical joint the axial friction through
+// what it does to the slide, slide_ideal + Y zdot. No number of a contact changes any of this. Masses and gravity enter
+// M_r, C and r affinely, so a payload, body-mass or gravity sweep needs no new scene (unless the ideal motion itself hangs on
+// them).
 // Derived for this program; held against the multibody rung in a test.
 #pragma once
 
@@ -21,61 +25,72 @@
 #include <vector>
 
 #include "boresight/math/time_table.hpp"
-#include "boresight/mechanism/ideal_motion.hpp"
+#include "boresight/rungs/scene_layout.hpp"
 
 namespace boresight {
 
-// The scene for one set of masses and one gravity, ready to integrate. n = 3 offsets per clearance (sleeve axes); a
-// cylindrical joint's axial one is held at zero.
+// The scene for one set of masses and one gravity, ready to integrate.
 struct SceneTables {
-  int clearances = 0;
-  // Per time, row by row: A = M_r^-1 (n x n), A r (n), A C (n x n), then per clearance w_ideal (3), slide_ideal (1),
-  // S (3 x n), Y (1 x n).
+  SceneLayout layout;
+  // Per time, row by row: A = M_r^-1, A r, A C, (A K), then the joints' parts: see SceneLayout.
   TimeTable dynamics;
-  TimeTable pose;  // E: 6 x n, row by row
 };
 
 class ClearanceScene {
  public:
-  // The ideal motion must be kinematic. Throws ComputationError, naming time and joint, where T does not exist: near a
-  // singular pose, or where redundant rows hold an offset that the clearance would release.
-  ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal);
+  // accuracy: of the functions of time between the knots, relative to each group's largest value; the grid is refined until
+  // it holds. Throws ComputationError, naming the time, where T does not exist: near a singular pose.
+  // Where the ideal motion is simulated (freedoms that nothing drives) the scene holds for `parameters`' masses, gravity,
+  // springs and loads only.
+  ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
+                 double accuracy = kAccuracy);
+  static constexpr double kAccuracy = 1e-5;
 
-  int offsets() const { return n_; }
-  int knots() const { return static_cast<int>(state_.size()); }
+  const DeviationCoordinates& coordinates() const { return coordinates_; }
+  const OffsetLayout& offsets() const { return offsets_; }
+  const SceneLayout& layout() const { return layout_; }
+  int knots() const { return static_cast<int>(knots_.size()); }
   double spacing() const { return spacing_; }
 
   SceneTables tables(const Parameters& parameters) const;
+  // E of one body: 6 x n, row by row, over time.
+  TimeTable pose_gain(int body) const;
   // M_r, C and r of these parameters at a knot.
   void assemble(const Parameters& parameters, int knot, MatX& M, MatX& C, VecX& r) const;
-  // E at a knot, 6 x n.
-  const MatX& pose_gain(int knot) const { return pose_gain_[knot]; }
+  // E of the boresight body at a knot, 6 x n; offsets per coordinate there, B.
+  MatX pose_gain_at(int knot) const { return knots_[knot].T.middleRows<6>(6 * mechanism_.boresight_body()); }
+  const MatX& offsets_per_coordinate(int knot) const { return knots_[knot].B; }
 
  private:
-  // A mass that rides on a body: what one unit of it adds at each knot.
+  // A mass that rides on a body: what one unit of it adds.
   struct Element {
     int body = 0;
     Vec3 c = Vec3::Zero();        // from the body's own centre of mass, body axes [m]
     double mass = 0.0;            // [kg] per unit
     Mat3 inertia = Mat3::Zero();  // about its own centre, body axes [kg m^2] per unit
-    std::vector<MatX> M = {}, C = {};
-    std::vector<VecX> r = {};          // - T^T M vdot_ideal
-    std::vector<MatX> r_gravity = {};  // n x 3: per unit of gravity
   };
-  void solve_gain(double t, const IdealMotion& ideal, ConstraintSystem& system, const std::vector<Mat6>& weight,
-                  MatX& T) const;
-  void fill(Element& element) const;
-  void add(const Element& element, double units, const Vec3& gravity, int knot, MatX& M, MatX& C, VecX& r) const;
+  struct Knot {
+    IdealState state;
+    MatX T, B;
+    std::vector<double> joints;    // the joints' part of a row
+    std::vector<double> elements;  // per element group: M (n n), C (n n), r (n), r per unit of gravity (n 3)
+    MatX stiffness;                // A K, where kept
+  };
+  Knot knot_at(double t, const IdealMotion& ideal, const Parameters& parameters);
+  void add_joints(const MatX& T, const MatX& B_rate, Knot& knot) const;
+  void add_element(const Element& element, const MatX& T, const MatX& T_rate, const IdealState& state, double* out) const;
+  void assemble(const Parameters& parameters, const Knot& knot, MatX& M, MatX& C, VecX& r) const;
+  void append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row) const;
+  double interpolation_error(const std::vector<double>& rows) const;
+  int element_size() const { return 2 * layout_.n * layout_.n + 4 * layout_.n; }
 
   const Mechanism& mechanism_;
-  int n_ = 0;
+  OffsetLayout offsets_;
+  DeviationCoordinates coordinates_;
+  SceneLayout layout_;
+  std::vector<std::vector<Element>> groups_;  // what no parameter scales; one per body's mass; the payload
   double spacing_ = 0.0;
-  std::vector<IdealState> state_;
-  std::vector<MatX> T_, T_rate_;  // 6 bodies x n
-  std::vector<MatX> pose_gain_;
-  std::vector<std::vector<double>> joint_;  // per knot: the per-clearance part of SceneTables::dynamics
-  std::vector<Element> body_mass_, body_inertia_;
-  std::optional<Element> payload_;
+  std::vector<Knot> knots_;
 };
 
 }  // namespace boresight

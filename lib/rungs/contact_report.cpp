@@ -6,6 +6,7 @@
 #include "boresight/contact/hertz.hpp"
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/ideal_motion.hpp"
+#include "boresight/mechanism/offset_layout.hpp"
 #include "boresight/rungs/formulation.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
 
@@ -19,11 +20,20 @@ struct AlongMotion {
   std::vector<double> reaction_rms, reaction_max;  // per clearance [N]
 };
 
-AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, int samples) {
-  const IdealMotion ideal = ideal_motion(mechanism, parameters);
-  const auto formulation = make_paper_formulation(mechanism, parameters, &ideal, {});
+// The larger of the loads that a joint's contacts carry: the force, and on a tilting journal what its couple asks of the ends.
+double radial_load(const VecX& reaction, const OffsetLayout::Joint& at, const JournalInSleeve& joint) {
+  const double force = reaction.segment<3>(at.first).norm();
+  if (!at.tilts) return force;
+  return force + reaction.segment<2>(at.first + 3).norm() / joint.half_length;
+}
+
+AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal, int samples) {
+  const auto formulation = make_tree_formulation(mechanism, parameters, &ideal, {});
   const ForceElements& forces = formulation->forces();
+  const OffsetLayout layout(mechanism);
   const int n = forces.clearances();
+  std::vector<JournalInSleeve> joints;
+  for (int c = 0; c < n; ++c) joints.push_back(forces.joint(c));
   std::vector<ContactMemory> memory(n);
   AlongMotion along;
   along.reaction_rms.assign(n, 0.0);
@@ -37,28 +47,24 @@ AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, int
     formulation->derivative(state.t, y, memory, dy);
     const MatX A = formulation->offset_compliance();
     if (along.compliance_max.size() == 0 || A.trace() > along.compliance_max.trace()) along.compliance_max = A;
-    // Offset accelerations of the opened mechanism, seen from the sleeves.
-    VecX offset(3 * n);
+    // Offset accelerations of the opened mechanism, seen from the sleeves; slopes' likewise.
+    VecX offset = VecX::Zero(layout.size());
     const std::vector<BodyAcceleration>& a = formulation->acceleration();
     for (int c = 0; c < n; ++c) {
       const ClearanceDescription& d = mechanism.description().clearances[c];
-      const JointDescription& joint = mechanism.description().joints[d.joint];
-      const JointGeometry& g = mechanism.geometry(d.joint);
-      const bool journal_first = d.journal == joint.first;
-      const JointFrame &sleeve = journal_first ? g.second : g.first, &journal = journal_first ? g.first : g.second;
-      const auto point_acceleration = [&](const JointFrame& f) -> Vec3 {
-        if (f.body == kGround) return Vec3::Zero();
-        const BodyMotion& b = state.bodies[f.body];
-        const Vec3 r = b.R * f.p;
-        return a[f.body].head<3>() + a[f.body].tail<3>().cross(r) + b.w.cross(b.w.cross(r));
-      };
-      const Mat3 R_WS = sleeve.body == kGround ? sleeve.R : Mat3(state.bodies[sleeve.body].R * sleeve.R);
-      offset.segment<3>(3 * c) = R_WS.transpose() * (point_acceleration(journal) - point_acceleration(sleeve));
-      if (joint.type == JointType::cylindrical) offset[3 * c + 1] = 0.0;
+      const JointConstraint released(mechanism, d.joint, ClearanceRows::released, false);
+      JointRows rows;
+      released.evaluate(state.bodies, {}, rows);
+      Vec6 acceleration = -rows.gamma;
+      if (const int b = released.reference_body(); b != kGround) acceleration += rows.reference * a[b];
+      if (const int b = released.other_body(); b != kGround) acceleration += rows.other * a[b];
+      const OffsetLayout::Joint& at = layout.joint(c);
+      for (int k = 0; k < at.count(); ++k)
+        if (at.released(k)) offset[at.first + k] = acceleration[at.released_row(k)];
     }
     const VecX reaction = A.completeOrthogonalDecomposition().solve(offset);
     for (int c = 0; c < n; ++c) {
-      const double size = reaction.segment<3>(3 * c).norm();
+      const double size = radial_load(reaction, layout.joint(c), joints[c]);
       along.reaction_rms[c] += size * size / samples;
       along.reaction_max[c] = std::max(along.reaction_max[c], size);
     }
@@ -70,16 +76,24 @@ AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, int
 }  // namespace
 
 std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const Parameters& parameters) {
+  if (mechanism.clearances() == 0) return {};
+  return analyse_contacts(mechanism, parameters, ideal_motion(mechanism, parameters));
+}
+
+std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const Parameters& parameters,
+                                               const IdealMotion& ideal) {
   std::vector<ContactFrequency> result;
   if (mechanism.clearances() == 0) return result;
-  const AlongMotion along = follow(mechanism, parameters, 41);
+  const AlongMotion along = follow(mechanism, parameters, ideal, 41);
   const MechanismDescription& m = mechanism.description();
   const int n = mechanism.clearances();
 
   // Tangent stiffness of each joint at the deepest penetration foreseen: twice the largest ideal reaction, what a load
   // suddenly applied to an elastic contact reaches. All joints together bound the frequency of each.
-  VecX root_stiffness = VecX::Zero(3 * n);
+  const OffsetLayout layout(mechanism);
+  VecX root_stiffness = VecX::Zero(layout.size());
   for (int c = 0; c < n; ++c) {
+    const OffsetLayout::Joint& at = layout.joint(c);
     const JournalInSleeve law(m.clearances[c], m.joints[m.clearances[c].joint].type, parameters.clearance[c]);
     ContactFrequency f;
     f.joint = m.joints[m.clearances[c].joint].name;
@@ -88,21 +102,24 @@ std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const
     f.typical_load = along.reaction_rms[c];
     f.typical_penetration = std::pow(f.typical_load / f.hertz_stiffness, 2.0 / 3.0);
     f.validity_speed = law.validity_speed;
-    const Mat3 A = along.compliance_max.block<3, 3>(3 * c, 3 * c);
+    const Mat3 A = along.compliance_max.block<3, 3>(at.first, at.first);
     const double largest = Eigen::SelfAdjointEigenSolver<Mat3>(A).eigenvalues()[2];
     f.effective_mass = largest > 0.0 ? 1.0 / largest : 0.0;
     const double deepest = std::pow(2.0 * along.reaction_max[c] / f.hertz_stiffness, 2.0 / 3.0);
     const double radial = 1.5 * f.hertz_stiffness * std::sqrt(deepest);
-    root_stiffness.segment<3>(3 * c) << std::sqrt(radial), std::sqrt(law.face_stiffness), std::sqrt(radial);
+    root_stiffness.segment<3>(at.first) << std::sqrt(radial), std::sqrt(law.face_stiffness), std::sqrt(radial);
+    // Both ends of a tilting journal at half the stiffness each, half a sleeve's length from its centre.
+    if (at.tilts) root_stiffness.segment<2>(at.first + 3).setConstant(std::sqrt(radial) * law.half_length);
     result.push_back(f);
   }
   const MatX B = root_stiffness.asDiagonal() * along.compliance_max * root_stiffness.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatX> eigen(0.5 * (B + B.transpose()));
   for (int c = 0; c < n; ++c) {
+    const OffsetLayout::Joint& at = layout.joint(c);
     // The fastest vibration in which this joint has a part worth naming (a tenth of the largest).
-    for (Eigen::Index k = 3 * n - 1; k >= 0; --k) {
+    for (Eigen::Index k = layout.size() - 1; k >= 0; --k) {
       const VecX mode = eigen.eigenvectors().col(k).cwiseAbs();
-      if (mode.segment<3>(3 * c).maxCoeff() < 0.1 * mode.maxCoeff()) continue;
+      if (mode.segment(at.first, at.count()).maxCoeff() < 0.1 * mode.maxCoeff()) continue;
       result[c].angular_frequency = std::sqrt(std::max(0.0, eigen.eigenvalues()[k]));
       break;
     }

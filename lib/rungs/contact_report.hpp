@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "boresight/mechanism/mechanism.hpp"
+#include "boresight/mechanism/ideal_motion.hpp"
 
 namespace boresight {
 
@@ -21,5 +21,7 @@ struct ContactFrequency {
 };
 
 std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const Parameters& parameters);
+std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const Parameters& parameters,
+                                               const IdealMotion& ideal);
 
 }  // namespace boresight

@@ -36,6 +36,42 @@ Vec3 worst_offset(const Gain& G, double radial, double axial) {
   return {radial * std::cos(best), axial, radial * std::sin(best)};
 }
 
+// A joint's gap as independent parts, each with its own gain: a cylinder of centre offsets where axes are parallel; where the
+// journal tilts, a disc at each end of the sleeve and the axial play.
+struct GapParts {
+  struct Part {
+    Gain moves, turns;     // columns x y z of what the part offers
+    double radial, axial;  // its reach
+    Eigen::Matrix<double, 5, 3> offset;  // the joint's offsets per unit of it
+  };
+  std::vector<Part> parts;
+};
+
+GapParts parts_of(const JournalInSleeve& joint, const Rest& rest, double slide, const Eigen::Matrix<double, 6, 5>& gain) {
+  GapParts gap;
+  const auto add = [&](const Eigen::Matrix<double, 5, 3>& offset, double radial, double axial) {
+    gap.parts.push_back({gain.topRows<3>() * offset, gain.bottomRows<3>() * offset, radial, axial, offset});
+  };
+  Eigen::Matrix<double, 5, 3> offset = Eigen::Matrix<double, 5, 3>::Zero();
+  if (!joint.tilts) {
+    offset.topRows<3>().setIdentity();
+    add(offset, rest.radial_reach[0], rest.axial_reach);
+    return gap;
+  }
+  // Centre e = (rho+ + rho-) / 2 + e_y sigma, sigma = (rho+ - rho-) / L_b.
+  const double length = 2.0 * joint.half_length;
+  for (int side : {-1, 1}) {
+    offset.setZero();
+    offset(0, 0) = offset(2, 2) = 0.5 + side * slide / length;
+    offset(3, 0) = offset(4, 2) = side / length;
+    add(offset, rest.radial_reach[side < 0 ? 0 : 1], 0.0);
+  }
+  offset.setZero();
+  offset(1, 1) = 1.0;
+  add(offset, 0.0, rest.axial_reach);
+  return gap;
+}
+
 class Envelope final : public SceneRung {
  public:
   explicit Envelope(std::shared_ptr<const Mechanism> mechanism) : SceneRung(std::move(mechanism)) {}
@@ -47,48 +83,59 @@ class Envelope final : public SceneRung {
   }
 
  private:
-  RunResult follow(const Parameters& parameters, const RunOptions& options) const override {
-    const ReactionTable reactions(mechanism(), scene(), parameters);
+  RunResult follow(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options) const override {
+    const ReactionTable reactions(mechanism(), prepared.scene(), parameters);
     const std::vector<JournalInSleeve>& joints = reactions.joints();
-    MotionRecorder recorder(mechanism(), ideal(), options, reactions.instants());
+    MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<ContactSummary> summary = reactions.summaries();
+    std::vector<Rest> worst_rest(joints.size());
     for (int i = 0; i < reactions.instants(); ++i) {
       const ReactionTable::Instant now = reactions.at(i);
       BodyAcceleration acceleration;
-      BodyMotion body = ideal().body(now.t, mechanism().boresight_body(), &acceleration);
-      const Vec3 axis = body.R * mechanism().boresight_B();
-      const double range = body.p.norm();
+      const BodyMotion ideal = prepared.ideal().body(now.t, mechanism().boresight_body(), &acceleration);
+      const Vec3 axis = ideal.R * mechanism().boresight_B();
+      const double range = ideal.p.norm();
       Mat3 across, sideways = Mat3::Zero();
       across << 0.0, axis.z(), -axis.y(), -axis.z(), 0.0, axis.x(), axis.y(), -axis.x(), 0.0;  // turn -> change of axis
-      if (range > 0.0) sideways = (Mat3::Identity() - body.p * body.p.transpose() / (range * range)) / range;
+      if (range > 0.0) sideways = (Mat3::Identity() - ideal.p * ideal.p.transpose() / (range * range)) / range;
 
       PoseError bound;
-      std::vector<Vec3> offset(joints.size());
-      VecX xi(3 * static_cast<int>(joints.size()));
       for (std::size_t c = 0; c < joints.size(); ++c) {
-        const int at = 3 * static_cast<int>(c);
-        const Rest rest = rest_under(joints[c], now.reaction.segment<3>(at), {});
+        const Rest rest = rest_under(joints[c], now.load[c].force, now.load[c].slide, {});
         reactions.note(rest, summary[c]);
-        const Gain moves = now.pose_gain.block<3, 3>(0, at), turns = now.pose_gain.block<3, 3>(3, at);
-        const auto worst = [&](const Gain& G) { return (G * worst_offset(G, rest.radial_reach, rest.axial_reach)).norm(); };
-        offset[c] = worst_offset(moves, rest.radial_reach, rest.axial_reach);
-        xi.segment<3>(at) = offset[c];
-        bound.position += (moves * offset[c]).norm();
-        bound.orientation += worst(turns);
-        bound.boresight += worst(across * turns);
-        bound.line_of_sight += worst(sideways * moves);
+        const GapParts gap =
+            parts_of(joints[c], rest, now.load[c].slide, reactions.joint_gain(now, static_cast<int>(c)));
+        Eigen::Matrix<double, 5, 1> offset = Eigen::Matrix<double, 5, 1>::Zero();
+        for (const GapParts::Part& part : gap.parts) {
+          const auto worst = [&](const Gain& G) { return (G * worst_offset(G, part.radial, part.axial)).norm(); };
+          // The place that is worst for the position stands for the joint in the pictures; of the two signs, the one that
+          // adds to what is there already.
+          Vec3 place = worst_offset(part.moves, part.radial, part.axial);
+          const Eigen::Matrix<double, 6, 5> E = reactions.joint_gain(now, static_cast<int>(c));
+          if ((E.topRows<3>() * offset).dot(part.moves * place) < 0.0) place = -place;
+          offset += part.offset * place;
+          bound.position += (part.moves * place).norm();
+          bound.orientation += worst(part.turns);
+          bound.boresight += worst(across * part.turns);
+          bound.line_of_sight += worst(sideways * part.moves);
+        }
+        JournalMotion<double>& m = worst_rest[c].motion;
+        m.e = offset.head<3>();
+        m.slope = offset.tail<2>();
+        joints[c].gaps(m, worst_rest[c].contact);
       }
-      bound.displacement = now.pose_gain.topRows<3>() * xi;
-      bound.rotation = now.pose_gain.bottomRows<3>() * xi;
-      displace(body, now.pose_gain * xi);
-      recorder.accept(now.t, body, acceleration, &bound);
+      const VecX z = reactions.coordinates(worst_rest);
+      const DisplacedBodies displaced(prepared, now.t, z);
+      bound.displacement = now.pose_gain.topRows<3>() * z;
+      bound.rotation = now.pose_gain.bottomRows<3>() * z;
+      recorder.accept(now.t, displaced.at_rest(mechanism().boresight_body(), acceleration), acceleration, &bound);
       if (!recorder.sampling()) continue;
-      for (std::size_t c = 0; c < joints.size(); ++c) {
-        const JournalMotion<double> motion{offset[c], Vec3::Zero(), Vec3::Zero()};
-        std::array<ContactState<double>, kContactPlaces> contact;
-        joints[c].gaps(motion, contact);
-        recorder.sample_clearance(static_cast<int>(c), motion, contact);
+      for (std::size_t k = 0; k < options.pose_bodies.size(); ++k) {
+        const BodyMotion body = displaced.at_rest(options.pose_bodies[k], acceleration);
+        recorder.sample_body(static_cast<int>(k), body, acceleration);
       }
+      for (std::size_t c = 0; c < joints.size(); ++c)
+        recorder.sample_clearance(static_cast<int>(c), worst_rest[c].motion, worst_rest[c].contact);
     }
     RunResult result = recorder.finish();
     result.integrator = "none: the worst offset an instant";

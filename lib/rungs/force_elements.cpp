@@ -52,7 +52,13 @@ JournalMotion<double> ForceElements::journal_motion(int clearance, const std::ve
   const Vec3 rS = S.R * joint.sleeve.p, rJ = J.R * joint.journal.p;
   const Vec3 d = J.p + rJ - S.p - rS;
   const Vec3 d_dot = J.v + J.w.cross(rJ) - S.v - S.w.cross(rS) - S.w.cross(d);
-  return {R_WS.transpose() * d, R_WS.transpose() * d_dot, R_WS.transpose() * (J.w - S.w)};
+  JournalMotion<double> motion{R_WS.transpose() * d, R_WS.transpose() * d_dot, R_WS.transpose() * (J.w - S.w)};
+  if (joint.law.tilts) {
+    const Vec3 a = R_WS.transpose() * (J.R * joint.journal.R.col(1)), a_dot = motion.w.cross(a);
+    motion.slope << a.x() / a.y(), a.z() / a.y();
+    motion.slope_rate << (a_dot.x() - motion.slope[0] * a_dot.y()) / a.y(), (a_dot.z() - motion.slope[1] * a_dot.y()) / a.y();
+  }
+  return motion;
 }
 
 void ForceElements::apply(double t, const std::vector<BodyMotion>& bodies, const std::vector<ContactMemory>& memory,
@@ -108,16 +114,8 @@ void ForceElements::apply(double t, const std::vector<BodyMotion>& bodies, const
 
 double ForceElements::elastic_energy(const std::vector<BodyMotion>& bodies) const {
   double energy = 0.0;
-  for (std::size_t c = 0; c < joints_.size(); ++c) {
-    std::array<ContactState<double>, kContactPlaces> contact;
-    joints_[c].law.gaps(journal_motion(static_cast<int>(c), bodies), contact);
-    const double radial = contact[static_cast<int>(ContactPlace::radial)].penetration;
-    if (radial > 0.0) energy += 0.4 * joints_[c].law.radial_law.stiffness * std::pow(radial, 2.5);
-    for (ContactPlace face : {ContactPlace::axial_minus, ContactPlace::axial_plus}) {
-      const double d = contact[static_cast<int>(face)].penetration;
-      if (d > 0.0) energy += 0.5 * joints_[c].law.face_stiffness * d * d;
-    }
-  }
+  for (std::size_t c = 0; c < joints_.size(); ++c)
+    energy += joints_[c].law.elastic_energy(journal_motion(static_cast<int>(c), bodies));
   for (const Spring& s : springs_) {
     const BodyMotion& A = motion_of(bodies, s.first);
     const BodyMotion& B = motion_of(bodies, s.second);

@@ -30,8 +30,8 @@ class Formulation {
   // Of the last derivative(): accelerations of all bodies; largest violated position constraint [m or rad].
   virtual const std::vector<BodyAcceleration>& acceleration() const = 0;
   virtual double violation() const = 0;
-  // What unit forces on the journals (at the sleeves' centres, sleeve axes x y z, joint after joint) accelerate the offsets
-  // by, 3 clearances square [1/kg], symmetric, at the state of the last derivative().
+  // What unit forces on the journals (at their centres, and couples on their slopes) accelerate the offsets by, in the order
+  // of OffsetLayout, symmetric [1/kg; with slopes 1/(kg m), 1/(kg m^2)], at the state of the last derivative().
   virtual MatX offset_compliance() = 0;
   // Kinetic plus gravitational plus elastic energy at a state [J].
   virtual double energy(double t, const VecX& y) = 0;

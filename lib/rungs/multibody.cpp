@@ -36,7 +36,7 @@ class Multibody final : public Rung {
     std::optional<IdealMotion> simulated;
     const IdealMotion& ideal = ideal_for(parameters, simulated);
 
-    RunResult result = with_stable_step(options.step, own_step(parameters, options), options.sample_spacing,
+    RunResult result = with_stable_step(options.step, own_step(parameters, options, ideal), options.sample_spacing,
                                         [&](double step) { return integrate(parameters, options, ideal, step); });
     result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
     result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
@@ -54,10 +54,10 @@ class Multibody final : public Rung {
     return *simulated;
   }
 
-  double own_step(const Parameters& parameters, const RunOptions& options) const {
+  double own_step(const Parameters& parameters, const RunOptions& options, const IdealMotion& ideal) const {
     if (options.step > 0.0) return options.step;  // not asked: spare the analysis
     double step = std::min(kPaperStep, mechanism_->duration() / 100.0);
-    for (const ContactFrequency& c : analyse_contacts(*mechanism_, parameters))
+    for (const ContactFrequency& c : analyse_contacts(*mechanism_, parameters, ideal))
       if (c.largest_stable_step > 0.0) step = std::min(step, kShareOfStableStep * c.largest_stable_step);
     return step;
   }
@@ -71,6 +71,7 @@ class Multibody final : public Rung {
     const auto formulation = make_formulation(parameters, options, ideal);
     const ForceElements& forces = formulation->forces();
 
+    const OffsetLayout layout(mechanism);
     std::vector<JournalInSleeve> joints;
     for (int c = 0; c < forces.clearances(); ++c) joints.push_back(forces.joint(c));
     std::vector<ContactTracker> trackers;
@@ -110,7 +111,7 @@ class Multibody final : public Rung {
           compliance = formulation->offset_compliance();
           compliance_age = i;
         }
-        const StiffestContact stiffest = stiffest_contact(joints, motion, compliance);
+        const StiffestContact stiffest = stiffest_contact(layout, joints, motion, compliance);
         if (h * stiffest.angular_frequency > classical_rk4().real_limit) throw UnstableStep(mechanism, stiffest, t, h);
       }
       if (i == steps) break;
@@ -124,7 +125,7 @@ class Multibody final : public Rung {
 
     RunResult result = recorder.finish();
     result.rung = name();
-    result.formulation = options.formulation.empty() ? "paper" : options.formulation;
+    result.formulation = options.formulation.empty() ? "tree" : options.formulation;
     char text[60];
     std::snprintf(text, sizeof text, "RK4, h = %.6g s", h);
     result.integrator = text;
@@ -141,14 +142,17 @@ class Multibody final : public Rung {
 
   std::unique_ptr<Formulation> make_formulation(const Parameters& parameters, const RunOptions& options,
                                                 const IdealMotion& ideal) const {
-    if (options.formulation == "tree") return make_tree_formulation(*mechanism_, parameters, &ideal, {});
-    if (!options.formulation.empty() && options.formulation != "paper")
-      throw std::invalid_argument("no formulation \"" + options.formulation + "\"; there is: paper, tree");
-    PaperFormulationOptions paper;
-    paper.stabilisation = options.stabilisation == "projection" ? Stabilisation::projection : Stabilisation::baumgarte;
-    paper.alpha = options.baumgarte_alpha;
-    paper.beta = options.baumgarte_beta;
-    return make_paper_formulation(*mechanism_, parameters, &ideal, paper);
+    const bool paper = options.formulation == "paper";
+    if (!paper && !options.formulation.empty() && options.formulation != "tree")
+      throw std::invalid_argument("no formulation \"" + options.formulation + "\"; there is: tree, paper");
+    // Each formulation's own habit where nothing is asked for: the paper's is Baumgarte's, the tree's projection.
+    const bool project = options.stabilisation.empty() ? !paper : options.stabilisation == "projection";
+    const Stabilisation stabilisation = project ? Stabilisation::projection : Stabilisation::baumgarte;
+    if (paper)
+      return make_paper_formulation(*mechanism_, parameters, &ideal,
+                                    {true, stabilisation, options.baumgarte_alpha, options.baumgarte_beta});
+    return make_tree_formulation(*mechanism_, parameters, &ideal,
+                                 {true, stabilisation, options.baumgarte_alpha, options.baumgarte_beta});
   }
 
   static void accept_contacts(const std::vector<BodyMotion>& bodies, double t, const ForceElements& forces,

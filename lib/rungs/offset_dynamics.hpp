@@ -1,69 +1,92 @@
-// The right-hand side of the perturbation rung: xiddot = A (r + f_contact) - A C xidot, one template for every scalar.
+// The right-hand side of the perturbation rung: zddot = A (r + f_contact) - A C zdot - A K z, one template for every scalar.
 //
-// T is the scalar of the offsets and of the numbers that a sample varies; the scene's functions of time are plain doubles,
-// shared by all samples. State: xi (n), then xidot (n).
+// T is the scalar of the coordinates and of the numbers that a sample varies; the scene's functions of time are plain
+// doubles, shared by all samples. State: z (n), then zdot (n).
 #pragma once
 
-#include <array>
-#include <vector>
-
 #include "boresight/contact/journal_in_sleeve.hpp"
-#include "boresight/rungs/clearance_scene.hpp"
+#include "boresight/rungs/scene_layout.hpp"
 
 namespace boresight {
 
-// Where the parts of one row of SceneTables::dynamics lie.
-struct SceneRow {
-  explicit SceneRow(int clearances)
-      : n(3 * clearances), A(0), Ar(n * n), AC(Ar + n), joints(AC + n * n), per_joint(4 + 4 * n) {}
-  int spin(int c) const { return joints + c * per_joint; }
-  int slide(int c) const { return spin(c) + 3; }
-  int spin_gain(int c) const { return spin(c) + 4; }        // 3 x n
-  int slide_gain(int c) const { return spin(c) + 4 + 3 * n; }  // 1 x n
-  int n, A, Ar, AC, joints, per_joint;
-};
-
-// How the journal of clearance c moves, from the offsets and the scene at that time.
+// How a journal moves, from the coordinates and the scene (one row of its table) at that time.
 template <typename T>
-JournalMotion<T> journal_motion(const SceneRow& at, const double* scene, bool slides, int c, const T* xi, const T* rate) {
+JournalMotion<T> journal_motion(const SceneLayout& at, const SceneLayout::Joint& joint, const double* scene, const T* z,
+                                const T* rate) {
+  std::array<T, 5> offset, offset_rate;
+  for (int k = 0; k < joint.offsets; ++k) {
+    const int source = joint.source[k];
+    if (source >= 0) {
+      offset[k] = z[source];
+      offset_rate[k] = rate[source];
+    } else if (source == DeviationCoordinates::kDependent) {
+      const double *B = scene + joint.dependent + k * at.n, *B_rate = B + joint.offsets * at.n;
+      offset[k] = offset_rate[k] = T(0.0);
+      for (int j = 0; j < at.n; ++j) {
+        offset[k] += T(B[j]) * z[j];
+        offset_rate[k] += T(B[j]) * rate[j] + T(B_rate[j]) * z[j];
+      }
+    } else {
+      offset[k] = T(scene[joint.slide]);
+      offset_rate[k] = T(scene[joint.slide + 1]);
+      for (int j = 0; j < at.n; ++j) offset_rate[k] += T(scene[joint.slide_gain + j]) * rate[j];
+    }
+  }
   JournalMotion<T> m;
   for (int i = 0; i < 3; ++i) {
-    m.e[i] = xi[3 * c + i];
-    m.e_dot[i] = rate[3 * c + i];
-    T spin(scene[at.spin(c) + i]);
-    const double* gain = scene + at.spin_gain(c) + i * at.n;
-    for (int j = 0; j < at.n; ++j) spin += T(gain[j]) * rate[j];
-    m.w[i] = spin;
+    m.e[i] = offset[i];
+    m.e_dot[i] = offset_rate[i];
   }
-  if (slides) {
-    T slide(scene[at.slide(c)]);
-    for (int j = 0; j < at.n; ++j) slide += T(scene[at.slide_gain(c) + j]) * rate[j];
-    m.e_dot[1] = slide;
+  if (joint.tilts)
+    for (int i = 0; i < 2; ++i) {
+      m.slope[i] = offset[3 + i];
+      m.slope_rate[i] = offset_rate[3 + i];
+    }
+  m.w[0] = m.w[2] = T(0.0);
+  for (int i = 0; i < joint.spins; ++i) {
+    T spin(scene[joint.spin + i]);
+    const double* gain = scene + joint.spin_gain + i * at.n;
+    for (int j = 0; j < at.n; ++j) spin += T(gain[j]) * rate[j];
+    m.w[joint.tilts ? i : 1] = spin;
   }
   return m;
 }
 
 // Adds a joint's wrench to the generalised force (n numbers).
 template <typename T>
-void add_generalised_force(const SceneRow& at, const double* scene, bool slides, int c, const JournalWrench<T>& wrench,
-                           T* force) {
-  force[3 * c] += wrench.force[0];
-  if (!slides) force[3 * c + 1] += wrench.force[1];
-  force[3 * c + 2] += wrench.force[2];
-  for (int j = 0; j < at.n; ++j) {
-    const double* gain = scene + at.spin_gain(c) + j;
-    force[j] += T(gain[0]) * wrench.moment[0] + T(gain[at.n]) * wrench.moment[1] + T(gain[2 * at.n]) * wrench.moment[2];
-    if (slides) force[j] += T(scene[at.slide_gain(c) + j]) * wrench.force[1];
+void add_generalised_force(const SceneLayout& at, const SceneLayout::Joint& joint, const double* scene,
+                           const JournalMotion<T>& motion, const JournalWrench<T>& wrench, T* force) {
+  for (int k = 0; k < 3; ++k) {
+    const int source = joint.source[k];
+    if (source >= 0) {
+      force[source] += wrench.force[k];
+    } else {
+      const double* gain =
+          scene + (source == DeviationCoordinates::kDependent ? joint.dependent + k * at.n : joint.slide_gain);
+      for (int j = 0; j < at.n; ++j) force[j] += T(gain[j]) * wrench.force[k];
+    }
+  }
+  // The moment about the journal's centre works on the relative spin.
+  const Vec3T<T> moment = wrench.moment - motion.e.cross(wrench.force);
+  for (int i = 0; i < joint.spins; ++i) {
+    const double* gain = scene + joint.spin_gain + i * at.n;
+    const T& m = moment[joint.tilts ? i : 1];
+    for (int j = 0; j < at.n; ++j) force[j] += T(gain[j]) * m;
   }
 }
 
-// xiddot from the generalised contact force.
+// zddot from the generalised contact force.
 template <typename T>
-void offset_acceleration(const SceneRow& at, const double* scene, const T* rate, const T* force, T* acceleration) {
+void coordinate_acceleration(const SceneLayout& at, const double* scene, const T* z, const T* rate, const T* force,
+                             T* acceleration) {
   for (int i = 0; i < at.n; ++i) {
     T sum(scene[at.Ar + i]);
     const double *A = scene + at.A + i * at.n, *AC = scene + at.AC + i * at.n;
     for (int j = 0; j < at.n; ++j) sum += T(A[j]) * force[j] - T(AC[j]) * rate[j];
+    if (at.stiff) {
+      const double* AK = scene + at.AK + i * at.n;
+      for (int j = 0; j < at.n; ++j) sum -= T(AK[j]) * z[j];
+    }
     acceleration[i] = sum;
   }
 }

@@ -17,6 +17,7 @@
 
 #include "boresight/mechanism/constraint_system.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/offset_layout.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 #include "boresight/rungs/formulation.hpp"
 
@@ -110,32 +111,38 @@ class PaperFormulation final : public Formulation {
   double violation() const override { return constraints_.violation(); }
 
   MatX offset_compliance() override {
+    const OffsetLayout layout(mechanism_);
+    const int n = forces_.clearances() == 0 ? 0 : layout.size();
     if (!released_) released_ = std::make_unique<ConstraintSystem>(
         mechanism_, ConstraintSystem::Rows{.clearance = ClearanceRows::released, .drives = false});
     released_->evaluate(bodies_, laws_);
-    const int n = 3 * forces_.clearances();
     MatX A = MatX::Zero(n, n);
+    if (n == 0) return A;
     std::vector<Vec6> unit = released_->block_vector(), answer = released_->block_vector();
     std::vector<Vec6> motion = released_->body_vector(), reaction = released_->body_vector();
     std::vector<Vec6> lambda = constraints_.block_vector();
-    for (int c = 0; c < n / 3; ++c) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto [block, row] = released_row(c, axis);
-        if (row < 0) continue;
-        for (Vec6& u : unit) u.setZero();
-        unit[block][row] = 1.0;
-        released_->multiply_transposed(unit, motion);
-        for (int b = 0; b < mechanism_.bodies(); ++b) motion[b] = Vec6(inverse_mass_[b] * motion[b]);
-        constraints_.multiply(motion, lambda);
-        constraints_.solve(lambda);
-        constraints_.multiply_transposed(lambda, reaction);
-        for (int b = 0; b < mechanism_.bodies(); ++b) motion[b] -= inverse_mass_[b] * reaction[b];
-        released_->multiply(motion, answer);
-        for (int d = 0; d < n / 3; ++d)
-          for (int k = 0; k < 3; ++k)
-            if (const auto [at, i] = released_row(d, k); i >= 0) A(3 * d + k, 3 * c + axis) = answer[at][i];
+    std::vector<int> block(layout.clearances(), 0);
+    for (int k = 0; k < released_->blocks(); ++k)
+      if (const int c = mechanism_.clearance_of(released_->joints()[k].joint()); c >= 0) block[c] = k;
+    const auto each_offset = [&](const auto& visit) {
+      for (int c = 0; c < layout.clearances(); ++c) {
+        const OffsetLayout::Joint& joint = layout.joint(c);
+        for (int k = 0; k < joint.count(); ++k)
+          if (joint.released(k)) visit(joint.first + k, block[c], joint.released_row(k));
       }
-    }
+    };
+    each_offset([&](int column, int at, int row) {
+      for (Vec6& u : unit) u.setZero();
+      unit[at][row] = 1.0;
+      released_->multiply_transposed(unit, motion);
+      for (int b = 0; b < mechanism_.bodies(); ++b) motion[b] = Vec6(inverse_mass_[b] * motion[b]);
+      constraints_.multiply(motion, lambda);
+      constraints_.solve(lambda);
+      constraints_.multiply_transposed(lambda, reaction);
+      for (int b = 0; b < mechanism_.bodies(); ++b) motion[b] -= inverse_mass_[b] * reaction[b];
+      released_->multiply(motion, answer);
+      each_offset([&](int i, int other, int other_row) { A(i, column) = answer[other][other_row]; });
+    });
     return A;
   }
 
@@ -251,16 +258,6 @@ class PaperFormulation final : public Formulation {
                            mechanism_.description().bodies[mechanism_.boresight_body()].name + "\" " +
                            describe_motion(mechanism_, rank.least_resisted, mechanism_.boresight_body()) +
                            " while every drive stands still; `boresight check` shows where");
-  }
-
-  // Block and row of offset axis 0 x, 1 y, 2 z among the released rows; row -1 if it is not released.
-  std::pair<int, int> released_row(int clearance, int axis) const {
-    const bool revolute = mechanism_.description().joints[mechanism_.description().clearances[clearance].joint].type ==
-                          JointType::revolute;
-    const int row = revolute ? axis : (axis == 1 ? -1 : axis / 2);
-    for (int k = 0; k < released_->blocks(); ++k)
-      if (released_->joints()[k].joint() == mechanism_.description().clearances[clearance].joint) return {k, row};
-    return {0, -1};
   }
 
   const Mechanism& mechanism_;

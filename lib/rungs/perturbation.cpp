@@ -1,7 +1,6 @@
 #include "boresight/rungs/perturbation.hpp"
 
 #include <algorithm>
-#include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
 
@@ -10,13 +9,12 @@
 #include "boresight/rungs/contact_tracker.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/offset_dynamics.hpp"
-#include "boresight/rungs/reaction_table.hpp"
+#include "boresight/rungs/contact_report.hpp"
 #include "boresight/rungs/scene_rung.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
 namespace boresight {
 namespace {
-
 
 class Perturbation final : public SceneRung {
  public:
@@ -29,85 +27,70 @@ class Perturbation final : public SceneRung {
   }
 
  private:
-  RunResult follow(const Parameters& parameters, const RunOptions& options) const override {
-    const double own = options.step > 0.0 ? options.step : own_step(parameters);
+  RunResult follow(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options) const override {
+    const double own = options.step > 0.0 ? options.step : own_step(prepared, parameters);
     return with_stable_step(options.step, own, options.sample_spacing,
-                            [&](double step) { return integrate(parameters, options, step); });
+                            [&](double step) { return integrate(prepared, parameters, options, step); });
   }
 
   // Share of the stable step of the joints' contacts taken together, at twice the largest ideal reaction: what a load
   // suddenly applied to an elastic contact reaches.
-  double own_step(const Parameters& parameters) const {
-    const ReactionTable reactions(mechanism(), scene(), parameters);
-    std::vector<JournalMotion<double>> deepest(reactions.joints().size());
-    for (int i = 0; i < reactions.instants(); ++i) {
-      const VecX r = reactions.at(i).reaction;
-      for (std::size_t c = 0; c < deepest.size(); ++c) {
-        const JournalInSleeve& joint = reactions.joints()[c];
-        const double force = 2.0 * r.segment<3>(3 * static_cast<int>(c)).norm();
-        const double reach = joint.radial_clearance + std::pow(force / joint.radial_law.stiffness, 2.0 / 3.0);
-        if (reach > deepest[c].e.x()) deepest[c].e = Vec3(reach, 2.0 * joint.axial_clearance + 1e-9, 0.0);
-      }
-    }
-    double fastest = 0.0;
-    MatX M, C;
-    VecX r;
-    for (int k = 0; k < scene().knots(); k += 8) {
-      scene().assemble(parameters, k, M, C, r);
-      fastest = std::max(fastest, stiffest_contact_bound(reactions.joints(), deepest, MatX(M.inverse())));
-    }
-    const double step = std::min(kPaperStep, mechanism().duration() / 100.0);
-    return fastest > 0.0 ? std::min(step, kShareOfStableStep * classical_rk4().real_limit / std::sqrt(fastest)) : step;
+  double own_step(const PreparedScene& prepared, const Parameters& parameters) const {
+    double step = std::min(kPaperStep, mechanism().duration() / 100.0);
+    for (const ContactFrequency& c : analyse_contacts(mechanism(), parameters, prepared.ideal()))
+      if (c.largest_stable_step > 0.0) step = std::min(step, kShareOfStableStep * c.largest_stable_step);
+    return step;
   }
 
-  RunResult integrate(const Parameters& parameters, const RunOptions& options, double wanted) const {
+  RunResult integrate(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options,
+                      double wanted) const {
     const Mechanism& mechanism = this->mechanism();
     const MechanismDescription& m = mechanism.description();
-    const SceneTables tables = this->scene().tables(parameters);
-    const SceneRow at(tables.clearances);
+    const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters);
+    const SceneLayout& at = tables->layout;
+    const OffsetLayout& offsets = prepared.scene().offsets();
     const int n = at.n;
     const double duration = mechanism.duration();
 
     std::vector<JournalInSleeve> joints;
-    std::vector<bool> slides;
     std::vector<ContactTracker> trackers;
     for (int c = 0; c < mechanism.clearances(); ++c) {
       const JointDescription& joint = m.joints[m.clearances[c].joint];
       joints.emplace_back(m.clearances[c], joint.type, parameters.clearance[c]);
-      slides.push_back(joint.type == JointType::cylindrical);
       trackers.emplace_back(c, joint.name, joints.back(), options.events);
     }
     std::vector<ContactMemory> memory(joints.size());
     std::vector<JournalMotion<double>> motion(joints.size());
     std::vector<JournalWrench<double>> wrench(joints.size());
-    std::vector<double> row(tables.dynamics.width()), gain(tables.pose.width()), force(n);
+    std::vector<double> row(tables->dynamics.width());
+    VecX force(n);
     double scene_time = -1.0;
     const auto scene_at = [&](double t) {
       if (t == scene_time) return;  // two stages of a step share their time, and so do a step's end and the next one's start
-      tables.dynamics.at(t, row.data());
+      tables->dynamics.at(t, row.data());
       scene_time = t;
     };
     const auto derivative = [&](double t, const VecX& y, VecX& dy) {
       scene_at(t);
-      const double *xi = y.data(), *rate = xi + n;
-      std::fill(force.begin(), force.end(), 0.0);
+      const double *z = y.data(), *rate = z + n;
+      force.setZero();
       for (std::size_t c = 0; c < joints.size(); ++c) {
-        const int k = static_cast<int>(c);
-        motion[c] = journal_motion(at, row.data(), slides[c], k, xi, rate);
+        motion[c] = journal_motion(at, at.joints[c], row.data(), z, rate);
         joints[c].wrench(motion[c], memory[c].impact_speed, wrench[c]);
-        add_generalised_force(at, row.data(), slides[c], k, wrench[c], force.data());
+        add_generalised_force(at, at.joints[c], row.data(), motion[c], wrench[c], force.data());
       }
       std::copy(rate, rate + n, dy.data());
-      offset_acceleration(at, row.data(), rate, force.data(), dy.data() + n);
+      coordinate_acceleration(at, row.data(), z, rate, force.data(), dy.data() + n);
     };
 
     const long steps = std::max(1L, static_cast<long>(std::ceil(duration / wanted - 1e-9)));
     const double h = duration / static_cast<double>(steps);
-    MotionRecorder recorder(mechanism, ideal(), options, static_cast<double>(steps));
+    MotionRecorder recorder(mechanism, prepared.ideal(), options, static_cast<double>(steps));
     VecX y = VecX::Zero(2 * n);
     ExplicitRungeKutta method(classical_rk4(), 2 * n);
     const double limit = classical_rk4().real_limit;
     bool interrupted = false;
+    MatX compliance;
     std::array<ContactState<double>, kContactPlaces> contact;
     for (long i = 0;; ++i) {
       const double t = static_cast<double>(i) * h;
@@ -115,19 +98,21 @@ class Perturbation final : public SceneRung {
         throw ComputationError("the deviation grew without bound before t = " + std::to_string(t) + " s; take a smaller step");
       scene_at(t);
       for (std::size_t c = 0; c < joints.size(); ++c) {
-        motion[c] = journal_motion(at, row.data(), slides[c], static_cast<int>(c), y.data(), y.data() + n);
+        motion[c] = journal_motion(at, at.joints[c], row.data(), y.data(), y.data() + n);
         joints[c].gaps(motion[c], contact);
         trackers[c].accept(t, contact);
         memory[c] = trackers[c].memory();
       }
       derivative(t, y, method.first_slope());
       for (std::size_t c = 0; c < joints.size(); ++c) trackers[c].observe_forces(wrench[c].contact);
-      const Eigen::Map<const MatX> A(row.data() + at.A, n, n);  // symmetric: rows and columns read the same
-      if (h * h * stiffest_contact_bound(joints, motion, A) > limit * limit) {
-        const StiffestContact stiffest = stiffest_contact(joints, motion, A);
-        if (h * stiffest.angular_frequency > limit) throw UnstableStep(mechanism, stiffest, t, h);
+      if (std::any_of(trackers.begin(), trackers.end(), [](const ContactTracker& c) { return c.touching(); })) {
+        offset_compliance(at, offsets, row.data(), compliance);
+        if (h * h * stiffest_contact_bound(offsets, joints, motion, compliance) > limit * limit) {
+          const StiffestContact stiffest = stiffest_contact(offsets, joints, motion, compliance);
+          if (h * stiffest.angular_frequency > limit) throw UnstableStep(mechanism, stiffest, t, h);
+        }
       }
-      record(t, y, method.first_slope(), tables, gain, motion, wrench, recorder);
+      record(prepared, options, t, y, method.first_slope(), motion, wrench, recorder);
       if (i == steps) break;
       if (options.progress && i % 4096 == 0 && !options.progress({t, duration, recorder.position_error_max()})) {
         interrupted = true;
@@ -149,22 +134,46 @@ class Perturbation final : public SceneRung {
     return result;
   }
 
-  // The boresight body at an accepted state: the ideal motion displaced by E xi.
-  void record(double t, const VecX& y, const VecX& slope, const SceneTables& tables, std::vector<double>& gain,
+  // How forces on the offsets accelerate the offsets: B A B^T, with B picking coordinates where offsets are such.
+  static void offset_compliance(const SceneLayout& at, const OffsetLayout& offsets, const double* row, MatX& compliance) {
+    const Eigen::Map<const MatX> A(row + at.A, at.n, at.n);  // symmetric: rows and columns read the same
+    compliance.setZero(offsets.size(), offsets.size());
+    bool dependent = false;
+    for (int c = 0; c < offsets.clearances(); ++c) dependent = dependent || at.joints[c].has_dependent;
+    if (!dependent) {
+      for (int c = 0; c < offsets.clearances(); ++c)
+        for (int i = 0; i < at.joints[c].offsets; ++i)
+          for (int d = 0; d < offsets.clearances(); ++d)
+            for (int j = 0; j < at.joints[d].offsets; ++j)
+              if (at.joints[c].source[i] >= 0 && at.joints[d].source[j] >= 0)
+                compliance(offsets.joint(c).first + i, offsets.joint(d).first + j) =
+                    A(at.joints[c].source[i], at.joints[d].source[j]);
+      return;
+    }
+    MatX B = MatX::Zero(offsets.size(), at.n);
+    for (int c = 0; c < offsets.clearances(); ++c)
+      for (int i = 0; i < at.joints[c].offsets; ++i) {
+        const int source = at.joints[c].source[i], to = offsets.joint(c).first + i;
+        if (source >= 0) B(to, source) = 1.0;
+        if (source == DeviationCoordinates::kDependent)
+          B.row(to) = Eigen::Map<const Eigen::RowVectorXd>(row + at.joints[c].dependent + i * at.n, at.n);
+      }
+    compliance = B * A * B.transpose();
+  }
+
+  void record(const PreparedScene& prepared, const RunOptions& options, double t, const VecX& y, const VecX& slope,
               const std::vector<JournalMotion<double>>& motion, const std::vector<JournalWrench<double>>& wrench,
               MotionRecorder& recorder) const {
-    const int n = static_cast<int>(y.size()) / 2;
-    tables.pose.at(t, gain.data());
-    const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>> E(gain.data(), 6, n);
-    const Vec6 error = E * y.head(n), rate = E * y.tail(n), acceleration = E * slope.tail(n);
+    const Eigen::Index n = y.size() / 2;
+    const DisplacedBodies displaced(prepared, t, y.head(n));
     BodyAcceleration a;
-    BodyMotion body = ideal().body(t, mechanism().boresight_body(), &a);
-    displace(body, error);
-    body.v += rate.head<3>();
-    body.w += rate.tail<3>();
-    a += acceleration;
+    BodyMotion body = displaced.moving(mechanism().boresight_body(), y.tail(n), slope.tail(n), a);
     recorder.accept(t, body, a);
     if (!recorder.sampling()) return;
+    for (std::size_t k = 0; k < options.pose_bodies.size(); ++k) {
+      body = displaced.moving(options.pose_bodies[k], y.tail(n), slope.tail(n), a);
+      recorder.sample_body(static_cast<int>(k), body, a);
+    }
     for (std::size_t c = 0; c < motion.size(); ++c)
       recorder.sample_clearance(static_cast<int>(c), motion[c], wrench[c].contact);
   }

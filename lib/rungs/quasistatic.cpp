@@ -1,11 +1,7 @@
 #include "boresight/rungs/quasistatic.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/reaction_table.hpp"
-#include "boresight/rungs/resting_journal.hpp"
 #include "boresight/rungs/scene_rung.hpp"
 
 namespace boresight {
@@ -22,34 +18,30 @@ class Quasistatic final : public SceneRung {
   }
 
  private:
-  RunResult follow(const Parameters& parameters, const RunOptions& options) const override {
-    const ReactionTable reactions(mechanism(), scene(), parameters);
+  RunResult follow(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options) const override {
+    const ReactionTable reactions(mechanism(), prepared.scene(), parameters);
     const std::vector<JournalInSleeve>& joints = reactions.joints();
-    MotionRecorder recorder(mechanism(), ideal(), options, reactions.instants());
+    MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<Rest> rest(joints.size());
     std::vector<ContactSummary> summary = reactions.summaries();
     for (int i = 0; i < reactions.instants(); ++i) {
       const ReactionTable::Instant now = reactions.at(i);
-      VecX xi(3 * static_cast<int>(joints.size()));
       for (std::size_t c = 0; c < joints.size(); ++c) {
-        rest[c] = rest_under(joints[c], now.reaction.segment<3>(3 * static_cast<int>(c)), rest[c]);
-        xi.segment<3>(3 * static_cast<int>(c)) = rest[c].offset;
+        rest[c] = rest_under(joints[c], now.load[c].force, now.load[c].slide, rest[c]);
         reactions.note(rest[c], summary[c]);
       }
+      const VecX z = reactions.coordinates(rest);
+      const DisplacedBodies displaced(prepared, now.t, z);
       BodyAcceleration acceleration;
-      BodyMotion body = ideal().body(now.t, mechanism().boresight_body(), &acceleration);
-      displace(body, now.pose_gain * xi);
+      BodyMotion body = displaced.at_rest(mechanism().boresight_body(), acceleration);
       recorder.accept(now.t, body, acceleration);
       if (!recorder.sampling()) continue;
-      for (std::size_t c = 0; c < joints.size(); ++c) {
-        JournalMotion<double> motion{rest[c].offset, Vec3::Zero(), Vec3::Zero()};
-        std::array<ContactState<double>, kContactPlaces> contact;
-        joints[c].gaps(motion, contact);
-        contact[static_cast<int>(ContactPlace::radial)].normal_force = rest[c].radial_force;
-        contact[static_cast<int>(rest[c].offset.y() > 0.0 ? ContactPlace::axial_minus : ContactPlace::axial_plus)]
-            .normal_force = rest[c].axial_force;
-        recorder.sample_clearance(static_cast<int>(c), motion, contact);
+      for (std::size_t k = 0; k < options.pose_bodies.size(); ++k) {
+        body = displaced.at_rest(options.pose_bodies[k], acceleration);
+        recorder.sample_body(static_cast<int>(k), body, acceleration);
       }
+      for (std::size_t c = 0; c < joints.size(); ++c)
+        recorder.sample_clearance(static_cast<int>(c), rest[c].motion, rest[c].contact);
     }
     RunResult result = recorder.finish();
     result.integrator = "none: one static balance an instant";

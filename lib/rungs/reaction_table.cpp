@@ -3,29 +3,49 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/mechanism/error.hpp"
+
 namespace boresight {
 namespace {
 
-// Instants a knot spacing: the scene's knots are 2 ms apart, the reaction's direction may turn faster than that.
-constexpr int kInstantsPerKnot = 4;
+// Instants at most so far apart [s], and at least so many along the motion: the reaction's direction may turn fast.
+constexpr double kSpacing = 5e-4;
+constexpr int kFewestInstants = 400;
+// Share of the offsets that counts as none.
+constexpr double kNothing = 1e-6;
 
 }  // namespace
 
 ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& scene, const Parameters& parameters)
-    : mechanism_(mechanism),
-      n_(scene.offsets()),
-      instants_((scene.knots() - 1) * kInstantsPerKnot + 1),
-      spacing_(scene.spacing() / kInstantsPerKnot) {
-  std::vector<double> values;
+    : mechanism_(mechanism), layout_(scene.layout()) {
+  if (scene.coordinates().leftover() > 0)
+    throw ComputationError("journals come to rest only where every freedom of the ideal mechanism is driven; use perturbation");
+  const double wanted = std::max<double>(kFewestInstants, mechanism.duration() / kSpacing);
+  const int per_knot = std::max(1, static_cast<int>(std::ceil(wanted / (scene.knots() - 1))));
+  instants_ = (scene.knots() - 1) * per_knot + 1;
+  spacing_ = scene.spacing() / per_knot;
+  const SceneTables tables = scene.tables(parameters);
+  const int n = layout_.n, width = 7 * n + mechanism.clearances();
+  std::vector<double> values, row(layout_.width);
   MatX M, C;
   VecX r;
   for (int k = 0; k < scene.knots(); ++k) {
+    const MatX& B = scene.offsets_per_coordinate(k);
+    for (int c = 0; c < mechanism.clearances(); ++c)
+      for (int i = 0; i < layout_.joints[c].offsets; ++i)
+        if (layout_.joints[c].source[i] == DeviationCoordinates::kDependent &&
+            B.row(scene.offsets().joint(c).first + i).cwiseAbs().maxCoeff() > kNothing)
+          throw ComputationError("redundant joints tie the offsets of clearance joints together: none rests on its own; use "
+                                 "perturbation");
     scene.assemble(parameters, k, M, C, r);
-    values.insert(values.end(), r.data(), r.data() + n_);
+    values.insert(values.end(), r.data(), r.data() + n);
+    const MatX E = scene.pose_gain_at(k);
     for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < n_; ++j) values.push_back(scene.pose_gain(k)(i, j));
+      for (int j = 0; j < n; ++j) values.push_back(E(i, j));
+    tables.dynamics.at(k * scene.spacing(), row.data());
+    for (const SceneLayout::Joint& j : layout_.joints) values.push_back(j.slides ? row[j.slide] : 0.0);
   }
-  table_ = TimeTable(scene.spacing(), 7 * n_, values);
+  table_ = TimeTable(scene.spacing(), width, values);
   for (int c = 0; c < mechanism.clearances(); ++c) {
     const ClearanceDescription& d = mechanism.description().clearances[c];
     joints_.emplace_back(d, mechanism.description().joints[d.joint].type, parameters.clearance[c]);
@@ -33,11 +53,39 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& s
 }
 
 ReactionTable::Instant ReactionTable::at(int instant) const {
-  std::vector<double> row(7 * n_);
-  const double t = instant * spacing_;
-  table_.at(t, row.data());
-  return {t, Eigen::Map<const VecX>(row.data(), n_),
-          Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>>(row.data() + n_, 6, n_)};
+  const int n = layout_.n;
+  std::vector<double> row(7 * n + joints_.size());
+  Instant now;
+  now.t = instant * spacing_;
+  table_.at(now.t, row.data());
+  now.reaction = Eigen::Map<const VecX>(row.data(), n);
+  now.pose_gain = Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>>(row.data() + n, 6, n);
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    Load load{Eigen::Matrix<double, 5, 1>::Zero(), row[7 * n + c]};
+    for (int k = 0; k < layout_.joints[c].offsets; ++k)
+      if (const int source = layout_.joints[c].source[k]; source >= 0) load.force[k] = now.reaction[source];
+    now.load.push_back(load);
+  }
+  return now;
+}
+
+Eigen::Matrix<double, 6, 5> ReactionTable::joint_gain(const Instant& instant, int clearance) const {
+  Eigen::Matrix<double, 6, 5> gain = Eigen::Matrix<double, 6, 5>::Zero();
+  const SceneLayout::Joint& joint = layout_.joints[clearance];
+  for (int k = 0; k < joint.offsets; ++k)
+    if (joint.source[k] >= 0) gain.col(k) = instant.pose_gain.col(joint.source[k]);
+  return gain;
+}
+
+VecX ReactionTable::coordinates(const std::vector<Rest>& rest) const {
+  VecX z = VecX::Zero(layout_.n);
+  for (std::size_t c = 0; c < rest.size(); ++c) {
+    const JournalMotion<double>& m = rest[c].motion;
+    const std::array<double, 5> offset = {m.e.x(), m.e.y(), m.e.z(), m.slope[0], m.slope[1]};
+    for (int k = 0; k < layout_.joints[c].offsets; ++k)
+      if (const int source = layout_.joints[c].source[k]; source >= 0) z[source] = offset[k];
+  }
+  return z;
 }
 
 std::vector<ContactSummary> ReactionTable::summaries() const {
@@ -50,14 +98,9 @@ std::vector<ContactSummary> ReactionTable::summaries() const {
   return result;
 }
 
-void ReactionTable::note(const Rest& rest, ContactSummary& summary) const {
-  summary.max_force = std::max({summary.max_force, rest.radial_force, rest.axial_force});
-  for (std::size_t c = 0; c < joints_.size(); ++c)
-    if (mechanism_.description().joints[mechanism_.description().clearances[c].joint].name == summary.joint) {
-      summary.max_penetration = std::max(summary.max_penetration, rest.radial_reach - joints_[c].radial_clearance);
-      if (rest.axial_force > 0.0)
-        summary.max_penetration = std::max(summary.max_penetration, rest.axial_reach - joints_[c].axial_clearance);
-    }
+void ReactionTable::note(const Rest& rest, ContactSummary& summary) {
+  for (const ContactState<double>& c : rest.contact) summary.max_force = std::max(summary.max_force, c.normal_force);
+  summary.max_penetration = std::max(summary.max_penetration, rest.penetration());
 }
 
 }  // namespace boresight

@@ -12,27 +12,39 @@ namespace boresight {
 
 class ReactionTable {
  public:
+  // Throws ComputationError where offsets hang on each other (redundant joints), so that no joint rests on its own, or where
+  // the mechanism has freedoms that nothing drives, which do not rest at all.
   ReactionTable(const Mechanism& mechanism, const ClearanceScene& scene, const Parameters& parameters);
 
+  struct Load {
+    Eigen::Matrix<double, 5, 1> force;  // on the journal's offsets; zero where an offset is none [N, N m]
+    double slide = 0.0;                 // displacement of a cylindrical joint [m]
+  };
   struct Instant {
     double t;
-    VecX reaction;                                   // on the journals, sleeve axes, n numbers [N]
-    Eigen::Matrix<double, 6, Eigen::Dynamic> pose_gain;  // E
+    VecX reaction;                                       // on the coordinates
+    Eigen::Matrix<double, 6, Eigen::Dynamic> pose_gain;  // E of the boresight body, per coordinate
+    std::vector<Load> load;                              // per clearance
   };
   int instants() const { return instants_; }
   Instant at(int instant) const;
   const std::vector<JournalInSleeve>& joints() const { return joints_; }
+  // E of one joint's offsets: 6 x 5, zero columns where an offset is none.
+  Eigen::Matrix<double, 6, 5> joint_gain(const Instant& instant, int clearance) const;
+  // Coordinates of journals at rest.
+  VecX coordinates(const std::vector<Rest>& rest) const;
 
   // One per joint, named, in lasting contact.
   std::vector<ContactSummary> summaries() const;
   // Adds a rest's forces and deflections to a summary.
-  void note(const Rest& rest, ContactSummary& summary) const;
+  static void note(const Rest& rest, ContactSummary& summary);
 
  private:
   const Mechanism& mechanism_;
-  int n_, instants_;
+  SceneLayout layout_;
+  int instants_;
   double spacing_;
-  TimeTable table_;  // r (n), then E (6 x n)
+  TimeTable table_;  // r (n), E (6 x n), slides (one per clearance)
   std::vector<JournalInSleeve> joints_;
 };
 

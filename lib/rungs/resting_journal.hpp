@@ -1,25 +1,32 @@
-// Where journals rest under the ideal joints' reactions, over time: what the quasistatic and envelope rungs are made of.
+// Where a journal rests under a load on its offsets: what the quasistatic and envelope rungs are made of.
 //
-//   xi_rad = (c_r + (|r_rad| / K)^(2/3)) r_rad / |r_rad|           Hertz, pressed against the bore by the reaction r(t)
+// Parallel axes, load r = (r_x, r_y, r_z):
+//   xi_rad = (c_r + (|r_rad| / K)^(2/3)) r_rad / |r_rad|           Hertz, pressed against the bore
 //   xi_ax  = sign(r_ax) (c_a + |r_ax| / K_c)                        once |r_ax| exceeds what friction holds, mu |r_rad|;
 //                                                                   until then the journal stays where it was axially
+// A journal that may tilt also carries a couple g on its slopes. Its two ends are statically determined,
+//   R+ + R- = r_rad,   R+ - R- = 2 g / L_b   (a slide e_y adds e_y r_rad to g),
+// each rests at c_r + (|R| / (K/2))^(2/3) along its force, and where they rest gives centre and slope. The axial load on a
+// tilted face acts off the axis (ring_contact.hpp), which takes its share of g: iterated.
 #pragma once
 
-#include <vector>
+#include <array>
 
 #include "boresight/contact/journal_in_sleeve.hpp"
-#include "boresight/rungs/clearance_scene.hpp"
 
 namespace boresight {
 
 struct Rest {
-  Vec3 offset = Vec3::Zero();     // sleeve axes [m]
-  double radial_reach = 0.0;      // c_r plus the radial deflection [m]
-  double axial_reach = 0.0;       // c_a plus the axial deflection; 0 on a cylindrical joint [m]
-  double radial_force = 0.0, axial_force = 0.0;  // [N]; axial 0 while friction holds it
+  JournalMotion<double> motion{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  std::array<double, 2> radial_reach = {0.0, 0.0};  // c_r plus the radial deflection, of each end (equal where parallel) [m]
+  double axial_reach = 0.0;                         // c_a plus the axial deflection; 0 on a cylindrical joint [m]
+  std::array<ContactState<double>, kContactPlaces> contact{};
+  double normal_force() const;  // sum over the contacts [N]
+  double penetration() const;   // the deepest [m]
 };
 
-// One joint's rest under the reaction r (sleeve axes); `before`: its rest a moment ago, for the axial place it keeps.
-Rest rest_under(const JournalInSleeve& joint, const Vec3& reaction, const Rest& before);
+// load: on the five offsets, slopes' couples zero where parallel [N, N m]. slide: displacement along the axis of a
+// cylindrical joint [m]. before: its rest a moment ago, for the axial place it keeps.
+Rest rest_under(const JournalInSleeve& joint, const Eigen::Matrix<double, 5, 1>& load, double slide, const Rest& before);
 
 }  // namespace boresight

@@ -30,8 +30,8 @@ struct RunOptions {
   bool events = true;            // keep one ContactEvent per contact
 
   // Multibody only.
-  std::string formulation;              // "paper"; "" is the rung's default
-  std::string stabilisation = "baumgarte";  // or "projection"
+  std::string formulation;              // "tree" or "paper"; "" is the rung's default, the tree
+  std::string stabilisation;            // "baumgarte" or "projection"; "" is the formulation's own: paper baumgarte, tree projection
   double baumgarte_alpha = 40.0;        // [1/s], Sun et al. section 4
   double baumgarte_beta = 50.0;         // [1/s]
 

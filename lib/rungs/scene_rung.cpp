@@ -7,19 +7,76 @@
 #include "boresight/rungs/ideal_simulation.hpp"
 
 namespace boresight {
+namespace {
+
+// What of the parameters the tables hang on, and the ideal motion where it is simulated.
+bool same_scene(const Parameters& a, const Parameters& b) {
+  if (a.gravity != b.gravity || a.payload_mass != b.payload_mass || a.body_mass != b.body_mass) return false;
+  for (std::size_t s = 0; s < a.spring.size(); ++s)
+    if (a.spring[s].stiffness != b.spring[s].stiffness || a.spring[s].damping != b.spring[s].damping ||
+        a.spring[s].free_length != b.spring[s].free_length)
+      return false;
+  return true;
+}
+
+}  // namespace
+
+PreparedScene::PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motion, const Parameters& parameters)
+    : ideal_(std::move(ideal_motion)), scene_(mechanism, ideal_, parameters) {}
+
+std::shared_ptr<const SceneTables> PreparedScene::tables(const Parameters& parameters) const {
+  const std::lock_guard lock(mutex_);
+  if (!tables_ || !same_scene(tabled_, parameters)) {
+    tables_ = std::make_shared<const SceneTables>(scene_.tables(parameters));
+    tabled_ = parameters;
+  }
+  return tables_;
+}
+
+const TimeTable& PreparedScene::pose_gain(int body) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = pose_gain_.find(body);
+  return found != pose_gain_.end() ? found->second : pose_gain_.emplace(body, scene_.pose_gain(body)).first->second;
+}
+
+BodyMotion DisplacedBodies::at_rest(int body, BodyAcceleration& acceleration) const {
+  const Eigen::Index n = z_.size();
+  std::vector<double> row(6 * n);
+  prepared_.pose_gain(body).at(t_, row.data());
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>> E(row.data(), 6, n);
+  BodyMotion motion = prepared_.ideal().body(t_, body, &acceleration);
+  displace(motion, E * z_);
+  return motion;
+}
+
+BodyMotion DisplacedBodies::moving(int body, const Eigen::Ref<const VecX>& z_dot, const Eigen::Ref<const VecX>& z_ddot,
+                                   BodyAcceleration& acceleration) const {
+  const Eigen::Index n = z_.size();
+  std::vector<double> row(6 * n);
+  prepared_.pose_gain(body).at(t_, row.data());
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>> E(row.data(), 6, n);
+  BodyMotion motion = prepared_.ideal().body(t_, body, &acceleration);
+  displace(motion, E * z_);
+  const Vec6 rate = E * z_dot;
+  motion.v += rate.head<3>();
+  motion.w += rate.tail<3>();
+  acceleration += E * z_ddot;
+  return motion;
+}
+
+std::shared_ptr<const PreparedScene> SceneRung::prepared_for(const Parameters& parameters) const {
+  const std::lock_guard lock(mutex_);
+  if (!prepared_ || (!is_kinematic(*mechanism_) && !same_scene(prepared_parameters_, parameters))) {
+    prepared_ = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
+    prepared_parameters_ = parameters;
+  }
+  return prepared_;
+}
 
 RunResult SceneRung::run(const Parameters& parameters, const RunOptions& options) const {
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = thread_cpu_seconds();
-  if (!options.pose_bodies.empty())
-    throw ComputationError("the " + name() + " rung follows the boresight body only; poses of other bodies need multibody");
-  std::call_once(once_, [this] {
-    if (!is_kinematic(*mechanism_))
-      throw ComputationError("the " + name() + " rung needs a motion that is prescribed in all its freedoms; use multibody");
-    ideal_.emplace(IdealMotion::kinematic(*mechanism_));
-    scene_.emplace(*mechanism_, *ideal_);
-  });
-  RunResult result = follow(parameters, options);
+  RunResult result = follow(*prepared_for(parameters), parameters, options);
   result.rung = name();
   result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
   result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();

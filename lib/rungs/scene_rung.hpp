@@ -1,14 +1,53 @@
-// What the cheap rungs share: the ideal motion and the scene of a mechanism, computed on first use and kept.
+// What the cheap rungs share: the ideal motion and the scene of a mechanism, computed on first use and kept for all samples.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 
 #include "boresight/rungs/clearance_scene.hpp"
 #include "boresight/rungs/rung.hpp"
 
 namespace boresight {
+
+// A mechanism's ideal motion and scene, and what is read off them again and again. Safe to share between threads.
+class PreparedScene {
+ public:
+  PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motion, const Parameters& parameters);
+
+  const IdealMotion& ideal() const { return ideal_; }
+  const ClearanceScene& scene() const { return scene_; }
+  // Tables of these masses, gravity, springs; the last ones asked for are kept.
+  std::shared_ptr<const SceneTables> tables(const Parameters& parameters) const;
+  // E of a body over time: 6 x n, row by row.
+  const TimeTable& pose_gain(int body) const;
+
+ private:
+  IdealMotion ideal_;
+  ClearanceScene scene_;
+  mutable std::mutex mutex_;
+  mutable Parameters tabled_;
+  mutable std::shared_ptr<const SceneTables> tables_;
+  mutable std::map<int, TimeTable> pose_gain_;
+};
+
+// Bodies of the ideal motion displaced by the deviation E z, at one instant.
+class DisplacedBodies {
+ public:
+  DisplacedBodies(const PreparedScene& prepared, double t, const Eigen::Ref<const VecX>& z)
+      : prepared_(prepared), t_(t), z_(z) {}
+
+  // With the velocities and the acceleration of the ideal motion.
+  BodyMotion at_rest(int body, BodyAcceleration& acceleration) const;
+  // With those of the deviation added.
+  BodyMotion moving(int body, const Eigen::Ref<const VecX>& z_dot, const Eigen::Ref<const VecX>& z_ddot,
+                    BodyAcceleration& acceleration) const;
+
+ private:
+  const PreparedScene& prepared_;
+  double t_;
+  Eigen::Ref<const VecX> z_;
+};
 
 class SceneRung : public Rung {
  public:
@@ -17,17 +56,17 @@ class SceneRung : public Rung {
 
  protected:
   explicit SceneRung(std::shared_ptr<const Mechanism> mechanism) : mechanism_(std::move(mechanism)) {}
-  virtual RunResult follow(const Parameters& parameters, const RunOptions& options) const = 0;
-
+  virtual RunResult follow(const PreparedScene& prepared, const Parameters& parameters,
+                           const RunOptions& options) const = 0;
   const Mechanism& mechanism() const { return *mechanism_; }
-  const IdealMotion& ideal() const { return *ideal_; }
-  const ClearanceScene& scene() const { return *scene_; }
 
  private:
+  std::shared_ptr<const PreparedScene> prepared_for(const Parameters& parameters) const;
+
   std::shared_ptr<const Mechanism> mechanism_;
-  mutable std::once_flag once_;
-  mutable std::optional<IdealMotion> ideal_;
-  mutable std::optional<ClearanceScene> scene_;
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<const PreparedScene> prepared_;
+  mutable Parameters prepared_parameters_;
 };
 
 }  // namespace boresight

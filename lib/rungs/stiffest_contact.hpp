@@ -1,11 +1,14 @@
 // The fastest vibration of the contacts where they stand, which bounds the step of an explicit method.
 //
-//   omega^2 = largest eigenvalue of  D^(1/2) N^T A N D^(1/2)
-// with A the offset compliance [1/kg] (Formulation::offset_compliance), one column of N per touching contact (its normal, in
-// its joint's sleeve frame), D the tangent stiffnesses [N/m]: 1.5 K sqrt(d) radial, K_c axial. Joints that share a light
-// link are so taken together: two stiff contacts on one light body vibrate faster than either alone.
+//   omega^2 = largest eigenvalue of  N^T A N
+// with A the offset compliance (Formulation::offset_compliance) and one column of N per way in which a touching contact is
+// stiff: the gradient of its penetration with respect to the offsets, times the root of its tangent stiffness: 1.5 K sqrt(d)
+// radial (K / 2 at each end of a tilting journal), K_c axial, and of a tilted face three columns (derivatives of
+// ring_contact). Joints that share a light link are so taken together: two stiff contacts on one light body vibrate faster
+// than either alone.
 #pragma once
 
+#include "boresight/mechanism/offset_layout.hpp"
 #include "boresight/rungs/force_elements.hpp"
 
 namespace boresight {
@@ -16,12 +19,11 @@ struct StiffestContact {
   ContactPlace place = ContactPlace::radial;
 };
 
-StiffestContact stiffest_contact(const std::vector<JournalInSleeve>& joints,
-                                 const std::vector<JournalMotion<double>>& motion,
-                                 const MatX& offset_compliance);
+StiffestContact stiffest_contact(const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
+                                 const std::vector<JournalMotion<double>>& motion, const Eigen::Ref<const MatX>& compliance);
 
 // An upper bound of the same angular frequency squared [1/s^2], without an eigenvalue: the trace.
-double stiffest_contact_bound(const std::vector<JournalInSleeve>& joints, const std::vector<JournalMotion<double>>& motion,
-                              const Eigen::Ref<const MatX>& offset_compliance);
+double stiffest_contact_bound(const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
+                              const std::vector<JournalMotion<double>>& motion, const Eigen::Ref<const MatX>& compliance);
 
 }  // namespace boresight

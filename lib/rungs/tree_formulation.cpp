@@ -25,6 +25,7 @@
 #include <limits>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/offset_layout.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 #include "boresight/rungs/formulation.hpp"
 #include "boresight/rungs/tree_formulation_inertia.hpp"
@@ -221,25 +222,22 @@ class TreeFormulation final : public Formulation {
 
 MatX TreeFormulation::offset_compliance() {
   // Released rows of the joints with clearance in joint coordinates: R. The answer is R (what L^-1 makes of it) R^T.
-  const int clearances = forces_.clearances(), n = tree_.speeds();
-  MatX R = MatX::Zero(3 * clearances, n);
+  const OffsetLayout layout(mechanism_);
+  const int offsets = forces_.clearances() == 0 ? 0 : layout.size(), n = tree_.speeds();
+  MatX R = MatX::Zero(offsets, n);
   std::vector<Vec6> columns(n);
-  for (int c = 0; c < clearances; ++c) {
-    const int joint = mechanism_.description().clearances[c].joint;
-    LoopRows released(mechanism_, tree_, joint, ClearanceRows::released, false);
+  for (int c = 0; c < forces_.clearances(); ++c) {
+    LoopRows released(mechanism_, tree_, mechanism_.description().clearances[c].joint, ClearanceRows::released, false);
     released.evaluate(kinematics_.bodies(), laws_);
     for (Vec6& column : columns) column.setZero();
     released.jacobian(kinematics_, columns);
-    // A cylindrical joint slides along y anyway: x and z are its first two rows, and y stays zero.
-    const bool revolute = mechanism_.description().joints[joint].type == JointType::revolute;
-    for (int k = 0; k < n; ++k) {
-      R(3 * c, k) = columns[k][0];
-      if (revolute) R(3 * c + 1, k) = columns[k][1];
-      R(3 * c + 2, k) = columns[k][revolute ? 2 : 1];
-    }
+    const OffsetLayout::Joint& joint = layout.joint(c);
+    for (int i = 0; i < joint.count(); ++i)
+      if (joint.released(i))
+        for (int k = 0; k < n; ++k) R(joint.first + i, k) = columns[k][joint.released_row(i)];
   }
-  MatX compliance(3 * clearances, 3 * clearances);
-  for (int i = 0; i < 3 * clearances; ++i) {
+  MatX compliance(offsets, offsets);
+  for (int i = 0; i < offsets; ++i) {
     motion_ = R.row(i).transpose();
     inertia_.cholesky().solve_transposed(motion_.data());
     for (Vec6& d : demanded_) d.setZero();

@@ -1,0 +1,229 @@
+#include "boresight/rungs/deviation_coordinates.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+// Singular values and row remainders below this share of the largest count as zero: rows are of order one once scaled, and
+// rounding leaves 1e-13.
+constexpr double kRankTolerance = 1e-8;
+// Offsets of a ten-thousandth of the lengths, multiplied by more than this, are no small deviation any more.
+constexpr double kLargestGain = 1e3;
+
+// Rows of one joint as rows against the stacked velocities.
+MatX stacked(const JointConstraint& constraint, const std::vector<BodyMotion>& bodies) {
+  JointRows rows;
+  constraint.evaluate(bodies, {}, rows);
+  MatX J = MatX::Zero(constraint.count(), 6 * static_cast<Eigen::Index>(bodies.size()));
+  const Eigen::Index n = constraint.count();
+  if (const int b = constraint.reference_body(); b != kGround) J.middleCols<6>(6 * b) += rows.reference.topRows(n);
+  if (const int b = constraint.other_body(); b != kGround) J.middleCols<6>(6 * b) += rows.other.topRows(n);
+  return J;
+}
+
+}  // namespace
+
+DeviationCoordinates::DeviationCoordinates(const Mechanism& mechanism, const IdealMotion& ideal)
+    : mechanism_(mechanism),
+      ideal_(ideal),
+      layout_(mechanism),
+      closed_(mechanism, {.clearance = ClearanceRows::closed, .drives = true}),
+      open_(mechanism, {.clearance = ClearanceRows::open, .drives = true}),
+      weight_(kinematic_weight(mechanism)),
+      scale_(6 * mechanism.bodies()),
+      laws_(mechanism.joints()),
+      b_(closed_.block_vector()),
+      u_(closed_.body_vector()),
+      residual_(b_),
+      du_(u_) {
+  for (int b = 0; b < mechanism.bodies(); ++b) scale_.segment<6>(6 * b) = weight_[b].diagonal().cwiseSqrt();
+  for (int c = 0; c < mechanism.clearances(); ++c)
+    rows_.emplace_back(mechanism, mechanism.description().clearances[c].joint, ClearanceRows::released, false);
+  for (int j = 0; j < mechanism.joints(); ++j) rows_.emplace_back(mechanism, j, ClearanceRows::free, false);
+
+  // At an instant of no symmetry.
+  ideal_.state(0.37 * ideal_.duration(), state_);
+  ideal_.drive_laws(state_.t, laws_);
+  closed_.evaluate(state_.bodies, laws_);
+  sparse_ = closed_.row_count() == 6 * mechanism.bodies() && closed_.factor(weight_);
+  source_.assign(layout_.size(), kDependent);
+  if (sparse_) {
+    for (int c = 0; c < layout_.clearances(); ++c)
+      for (int k = 0; k < layout_.joint(c).count(); ++k)
+        if (layout_.joint(c).released(k)) {
+          source_[layout_.joint(c).first + k] = static_cast<int>(chosen_.size());
+          chosen_.push_back({c, layout_.joint(c).released_row(k)});
+        }
+  } else {
+    open_.evaluate(state_.bodies, laws_);
+    const MatX kept = open_.dense_jacobian() * scale_.asDiagonal();
+    const Eigen::BDCSVD<MatX> svd(kept, Eigen::ComputeFullV);
+    const Eigen::Index rank = (svd.singularValues().array() > kRankTolerance * svd.singularValues()[0]).count();
+    std::vector<MatX> rows;
+    for (const JointConstraint& c : rows_) rows.push_back(stacked(c, state_.bodies) * scale_.asDiagonal());
+    choose(rows, svd.matrixV().rightCols(kept.cols() - rank));
+  }
+  count_ = static_cast<int>(chosen_.size());
+  for (int c = 0; c < layout_.clearances(); ++c)
+    if (layout_.joint(c).slides) source_[layout_.joint(c).first + 1] = kSlides;
+  for (int s : source_) has_dependent_ = has_dependent_ || s == kDependent;
+}
+
+// Rows that tell the motions of the null space apart, the one that sees most of what is left first; offsets before joints.
+void DeviationCoordinates::choose(const std::vector<MatX>& rows, const MatX& null_space) {
+  struct Candidate {
+    int constraint, row;
+    VecX seen;  // the row's share in each motion left, less what chosen rows see already
+  };
+  const int freedoms = static_cast<int>(null_space.cols());
+  const auto take = [&](int first, int last) {
+    std::vector<Candidate> candidates;
+    for (int k = first; k < last; ++k)
+      for (Eigen::Index i = 0; i < rows[k].rows(); ++i)
+        candidates.push_back({k, static_cast<int>(i), null_space.transpose() * rows[k].row(i).transpose().normalized()});
+    return candidates;
+  };
+  MatX basis(freedoms, 0);
+  const int clearances = layout_.clearances();
+  std::vector<Chosen> offsets;
+  for (const auto& [first, last] : {std::pair{0, clearances}, std::pair{clearances, static_cast<int>(rows.size())}}) {
+    std::vector<Candidate> candidates = take(first, last);
+    while (basis.cols() < freedoms) {
+      const Candidate* best = nullptr;
+      double largest = kRankTolerance;
+      for (Candidate& c : candidates) {
+        VecX rest = c.seen - basis * (basis.transpose() * c.seen);
+        if (rest.norm() > largest) largest = rest.norm(), best = &c;
+      }
+      if (!best) break;
+      VecX rest = best->seen - basis * (basis.transpose() * best->seen);
+      rest -= basis * (basis.transpose() * rest);
+      basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
+      basis.rightCols(1) = rest.normalized();
+      chosen_.push_back({best->constraint, best->row});
+      if (first > 0) ++leftover_;
+    }
+  }
+  if (basis.cols() < freedoms)
+    throw ComputationError("the mechanism can move in " + std::to_string(freedoms - basis.cols()) +
+                           " way(s) that no coordinate of a joint describes; use the multibody rung");
+  // Offsets in the order of the layout.
+  std::stable_sort(chosen_.begin(), chosen_.end() - leftover_, [](const Chosen& a, const Chosen& b) {
+    return a.constraint != b.constraint ? a.constraint < b.constraint : a.row < b.row;
+  });
+  for (std::size_t z = 0; z + leftover_ < chosen_.size(); ++z) {
+    const OffsetLayout::Joint& joint = layout_.joint(chosen_[z].constraint);
+    for (int k = 0; k < joint.count(); ++k)
+      if (joint.released(k) && joint.released_row(k) == chosen_[z].row)
+        source_[joint.first + k] = static_cast<int>(z);
+  }
+}
+
+void DeviationCoordinates::throw_singular(double t) const {
+  throw ComputationError("the perturbation of the ideal motion does not exist at t = " + std::to_string(t) +
+                         " s: the pose is singular or near it; use the multibody rung");
+}
+
+void DeviationCoordinates::gain(double t, MatX& T) {
+  ideal_.state(t, state_);
+  ideal_.drive_laws(t, laws_);
+  T.setZero(6 * mechanism_.bodies(), count_);
+  if (sparse_) {
+    closed_.evaluate(state_.bodies, laws_);
+    if (!closed_.factor(weight_)) throw_singular(t);
+    sparse_gain(T);
+  } else {
+    dense_gain(t, T);
+  }
+  const double largest = (scale_.cwiseInverse().asDiagonal() * T).cwiseAbs().maxCoeff() * scale_.minCoeff();
+  if (count_ > 0 && !(largest < kLargestGain)) throw_singular(t);
+}
+
+void DeviationCoordinates::sparse_gain(MatX& T) {
+  for (int k = 0; k < closed_.blocks(); ++k) {
+    const int c = mechanism_.clearance_of(closed_.joints()[k].joint());
+    if (c < 0) continue;
+    const OffsetLayout::Joint& joint = layout_.joint(c);
+    for (int i = 0; i < joint.count(); ++i) {
+      if (!joint.released(i)) continue;
+      const int row = joint.released_row(i);  // a closed joint's rows: distances, then slopes, then the drive
+      for (Vec6& x : b_) x.setZero();
+      b_[k][row] = 1.0;
+      closed_.least_motion(b_, u_);
+      // One refinement: J W J^T squares the condition number.
+      closed_.multiply(u_, residual_);
+      for (Vec6& x : residual_) x = -x;
+      residual_[k][row] += 1.0;
+      closed_.least_motion(residual_, du_);
+      for (int body = 0; body < mechanism_.bodies(); ++body)
+        T.block<6, 1>(6 * body, source_[joint.first + i]) = u_[body] + du_[body];
+    }
+  }
+}
+
+void DeviationCoordinates::dense_gain(double t, MatX& T) {
+  open_.evaluate(state_.bodies, laws_);
+  const MatX kept = open_.dense_jacobian();
+  MatX all(kept.rows() + count_, kept.cols()), right = MatX::Zero(kept.rows() + count_, count_);
+  all.topRows(kept.rows()) = kept;
+  right.bottomRows(count_).setIdentity();
+  for (int z = 0; z < count_; ++z)
+    all.row(kept.rows() + z) = stacked(rows_[chosen_[z].constraint], state_.bodies).row(chosen_[z].row);
+  all = all * scale_.asDiagonal();
+  Eigen::ColPivHouseholderQR<MatX> qr(all);
+  qr.setThreshold(kRankTolerance);
+  if (qr.rank() < all.cols()) throw_singular(t);
+  MatX x = qr.solve(right);
+  x += qr.solve(MatX(right - all * x));
+  if ((right - all * x).cwiseAbs().maxCoeff() > 1e-9) throw_singular(t);
+  T = scale_.asDiagonal() * x;
+}
+
+MatX DeviationCoordinates::offsets_per_coordinate(const MatX& T) const {
+  MatX B = MatX::Zero(layout_.size(), count_);
+  for (int c = 0; c < layout_.clearances(); ++c) {
+    const OffsetLayout::Joint& joint = layout_.joint(c);
+    MatX released;
+    for (int k = 0; k < joint.count(); ++k) {
+      const int source = source_[joint.first + k];
+      if (source >= 0) B(joint.first + k, source) = 1.0;
+      if (source != kDependent) continue;
+      if (released.size() == 0) released = stacked(rows_[c], state_.bodies) * T;
+      B.row(joint.first + k) = released.row(joint.released_row(k));
+    }
+  }
+  return B;
+}
+
+void DeviationCoordinates::coordinate_accelerations(const std::vector<BodyMotion>& bodies,
+                                                    const std::vector<BodyAcceleration>& acceleration, VecX& z_ddot) const {
+  z_ddot.resize(count_);
+  JointRows rows;
+  for (int z = 0; z < count_; ++z) {
+    const JointConstraint& constraint = rows_[chosen_[z].constraint];
+    constraint.evaluate(bodies, {}, rows);
+    const int i = chosen_[z].row;
+    z_ddot[z] = -rows.gamma[i];
+    if (const int b = constraint.reference_body(); b != kGround) z_ddot[z] += rows.reference.row(i).dot(acceleration[b]);
+    if (const int b = constraint.other_body(); b != kGround) z_ddot[z] += rows.other.row(i).dot(acceleration[b]);
+  }
+}
+
+void DeviationCoordinates::coordinate_rates(const std::vector<BodyMotion>& bodies, VecX& z_dot, VecX& z) const {
+  z_dot.resize(count_);
+  z.resize(count_);
+  JointRows rows;
+  for (int k = 0; k < count_; ++k) {
+    rows_[chosen_[k].constraint].evaluate(bodies, {}, rows);
+    z_dot[k] = rows.rate[chosen_[k].row];
+    z[k] = rows.value[chosen_[k].row];
+  }
+}
+
+}  // namespace boresight
