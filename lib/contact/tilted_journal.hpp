@@ -104,6 +104,13 @@ struct TiltedJournal {
   static int radial_place(int side) { return static_cast<int>(side < 0 ? ContactPlace::radial_minus : ContactPlace::radial_plus); }
   static int axial_place(int side) { return static_cast<int>(side < 0 ? ContactPlace::axial_minus : ContactPlace::axial_plus); }
 
+  // Of the couple (gx, gz) on the slopes, about the journal's centre.
+  template <typename T>
+  static Vec3T<T> moment_of(const T& gx, const T& gz, const JournalMotion<T>& m) {
+    const Vec3T<T> along(m.slope[0], T(1.0), m.slope[1]);
+    return along.cross(Vec3T<T>(gx, -gx * m.slope[0] - gz * m.slope[1], gz));
+  }
+
  private:
   template <typename T>
   struct End {
@@ -147,13 +154,6 @@ struct TiltedJournal {
     on.swing = T(ring_radius) * tilt;
     on.rate = T(-side) * m.e_dot.y() + T(ring_radius) * (on.ux * m.slope_rate[0] + on.uz * m.slope_rate[1]);
     return on;
-  }
-
-  // Of the couple (gx, gz) on the slopes, about the journal's centre.
-  template <typename T>
-  static Vec3T<T> moment_of(const T& gx, const T& gz, const JournalMotion<T>& m) {
-    const Vec3T<T> along(m.slope[0], T(1.0), m.slope[1]);
-    return along.cross(Vec3T<T>(gx, -gx * m.slope[0] - gz * m.slope[1], gz));
   }
 
   template <typename T>

@@ -127,7 +127,7 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
     MatX M, C;
     VecX r;
     assemble(parameters, knot, M, C, r);
-    knot.stiffness = deviation_stiffness(mechanism_, ideal, parameters, coordinates_, knot.state, knot.T, M.llt().solve(C));
+    knot.stiffness = deviation_stiffness(mechanism_, ideal, parameters, coordinates_, knot.state, knot.T, M.llt().solve(C), r);
   }
   return knot;
 }

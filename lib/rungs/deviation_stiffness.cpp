@@ -1,7 +1,6 @@
 #include "boresight/rungs/deviation_stiffness.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -16,11 +15,14 @@ constexpr double kDisplacement = 1e-5;
 }  // namespace
 
 MatX deviation_stiffness(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
-                         DeviationCoordinates& coordinates, const IdealState& state, const MatX& T, const MatX& AC) {
-  // Journals float in gaps that no displacement here can close.
-  Parameters roomy = parameters;
-  for (ClearanceParameters& c : roomy.clearance) c.radial = c.axial = std::max({c.radial, c.axial, 100.0 * kDisplacement});
-  const auto formulation = make_tree_formulation(mechanism, roomy, &ideal, {});
+                         DeviationCoordinates& coordinates, const IdealState& state, const MatX& T, const MatX& AC, const VecX& r) {
+  const auto formulation = make_tree_formulation(mechanism, parameters, &ideal, {});
+  const OffsetLayout layout(mechanism);
+  std::vector<Eigen::Matrix<double, 5, 1>> reaction(mechanism.clearances(), Eigen::Matrix<double, 5, 1>::Zero());
+  for (int c = 0; c < mechanism.clearances(); ++c)
+    for (int k = 0; k < layout.joint(c).count(); ++k)
+      if (const int source = coordinates.source()[layout.joint(c).first + k]; source >= 0) reaction[c][k] = -r[source];
+  formulation->forces().replace_contact(std::move(reaction));
   const std::vector<ContactMemory> memory(mechanism.clearances());
   const int n = coordinates.count();
   MatX acceleration(n, n), rate(n, n), place(n, n);

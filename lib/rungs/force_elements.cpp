@@ -61,12 +61,21 @@ JournalMotion<double> ForceElements::journal_motion(int clearance, const std::ve
   return motion;
 }
 
+void ForceElements::load(Joint& joint, const Eigen::Matrix<double, 5, 1>& held) const {
+  joint.wrench.force = held.head<3>();
+  joint.wrench.moment = joint.motion.e.cross(joint.wrench.force) +
+                        TiltedJournal::moment_of(held[3], held[4], joint.motion);
+}
+
 void ForceElements::apply(double t, const std::vector<BodyMotion>& bodies, const std::vector<ContactMemory>& memory,
                           std::vector<Vec6>& wrench) {
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     Joint& joint = joints_[c];
     joint.motion = journal_motion(static_cast<int>(c), bodies);
-    joint.law.wrench(joint.motion, memory[c].impact_speed, joint.wrench);
+    if (held_.empty())
+      joint.law.wrench(joint.motion, memory[c].impact_speed, joint.wrench);
+    else
+      load(joint, held_[c]);
     const BodyMotion& S = motion_of(bodies, joint.sleeve.body);
     const BodyMotion& J = motion_of(bodies, joint.journal.body);
     const Mat3 R_WS = S.R * joint.sleeve.R;

@@ -19,6 +19,10 @@ class ForceElements {
   void apply(double t, const std::vector<BodyMotion>& bodies, const std::vector<ContactMemory>& memory,
              std::vector<Vec6>& wrench);
 
+  // In place of contact, from now on: constant loads on the journals' offsets (sleeve axes, in the order x y z of the centre,
+  // then couples on the slopes), one per clearance [N, N m].
+  void replace_contact(std::vector<Eigen::Matrix<double, 5, 1>> loads) { held_ = std::move(loads); }
+
   // Elastic energy of springs and contacts [J].
   double elastic_energy(const std::vector<BodyMotion>& bodies) const;
 
@@ -42,8 +46,11 @@ class ForceElements {
     SpringParameters law;
   };
 
+  void load(Joint& joint, const Eigen::Matrix<double, 5, 1>& held) const;
+
   const Mechanism& mechanism_;
   std::vector<Joint> joints_;
+  std::vector<Eigen::Matrix<double, 5, 1>> held_;
   std::vector<Spring> springs_;
   std::vector<Vec3> load_point_;  // of the description's loads at a point, body axes
 };

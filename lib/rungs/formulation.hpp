@@ -37,6 +37,7 @@ class Formulation {
   virtual double energy(double t, const VecX& y) = 0;
 
   const ForceElements& forces() const { return forces_; }
+  ForceElements& forces() { return forces_; }
 
  protected:
   Formulation(const Mechanism& mechanism, const Parameters& parameters, bool with_clearance)

@@ -1,0 +1,170 @@
+// The perturbation rung on any topology: many joints at once, driven ones, redundant ones, freedoms that nothing drives.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/contact_report.hpp"
+#include "boresight/rungs/deviation_coordinates.hpp"
+#include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/rungs/rung.hpp"
+#include "scenes.hpp"
+#include "tree_formulation_scenes.hpp"
+
+namespace boresight {
+namespace {
+
+// The default scene with F1's clearance on the joints chosen.
+template <typename Chosen>
+std::shared_ptr<const Mechanism> with_clearance_on(const Chosen& chosen, const char* duration) {
+  MechanismDescription d = scenes::rrcpr({{"motion.duration", duration}});
+  const ClearanceDescription pattern = d.clearances[0];
+  d.clearances.clear();
+  for (int j = 0; j < static_cast<int>(d.joints.size()); ++j) {
+    if (!chosen(d.joints[j])) continue;
+    ClearanceDescription c = pattern;
+    c.joint = j;
+    c.journal = d.joints[j].first == kGround ? d.joints[j].second : d.joints[j].first;
+    d.clearances.push_back(c);
+  }
+  return scenes::build(std::move(d));
+}
+
+bool takes_clearance(const JointDescription& j) {
+  return j.type == JointType::revolute || j.type == JointType::cylindrical;
+}
+
+// An example with nothing driven, started at a rate of its first joint.
+std::shared_ptr<const Mechanism> undriven(const std::string& example, const char* duration, double rate) {
+  MechanismDescription d = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/" + example + "/" + example + ".toml",
+                                          {{"motion.duration", duration}});
+  for (JointDescription& j : d.joints) j.driven = false;
+  d.motion.drives.clear();
+  d.initial_rates.push_back({0, InitialRateDescription::Freedom::angle, rate, {}});
+  return scenes::build(std::move(d));
+}
+
+RunResult run(const char* rung, const std::shared_ptr<const Mechanism>& mechanism, double step) {
+  RunOptions options;
+  options.step = step;
+  options.sample_spacing = 0.0;
+  return make_rung(rung, mechanism)->run(mechanism->parameters(), options);
+}
+
+void expect_close(const RunResult& a, const RunResult& b, double max, double rms, const std::string& what) {
+  ASSERT_GT(b.index.position_error.rms, 0.0) << what;
+  EXPECT_NEAR(a.index.position_error.max / b.index.position_error.max, 1.0, max) << what;
+  EXPECT_NEAR(a.index.position_error.rms / b.index.position_error.rms, 1.0, rms) << what;
+}
+
+TEST(Perturbation, FollowsMultibodyWithClearanceInAnyOneJoint) {
+  for (const char* name : {"A1", "B2", "C1", "C3", "F2"}) {
+    const auto mechanism = with_clearance_on([&](const JointDescription& j) { return j.name == name; }, "0.3 s");
+    // Single runs, which impacts scatter by a percent.
+    expect_close(run("perturbation", mechanism, 1e-5), run("multibody", mechanism, 1e-5), 0.03, 0.01, name);
+  }
+}
+
+// Impacts scatter the maximum: the scatter over five perturbed steps of each rung is part of the test's record.
+TEST(PerturbationLong, FollowsMultibodyWithClearanceInAllTwelveJoints) {
+  const auto mechanism = with_clearance_on(takes_clearance, "1 s");
+  ASSERT_EQ(mechanism->clearances(), 12);
+  double max[2], rms[2];
+  for (int k : {0, 1}) {
+    const auto rung = make_rung(k == 0 ? "perturbation" : "multibody", mechanism);
+    std::vector<double> maxima, means;
+    for (double share : {1.0, 0.99, 0.98, 0.97, 0.96}) {
+      RunOptions options;
+      options.step = share * 2e-5;
+      options.sample_spacing = 0.0;
+      const PointingIndices index = rung->run(mechanism->parameters(), options).index;
+      maxima.push_back(index.position_error.max);
+      means.push_back(index.position_error.rms);
+    }
+    std::sort(maxima.begin(), maxima.end());
+    std::sort(means.begin(), means.end());
+    std::printf("%s: maximum %.4f mm (%.4f to %.4f over five steps), RMS %.4f mm (%.4f to %.4f)\n", rung->name().c_str(),
+                1e3 * maxima[2], 1e3 * maxima[0], 1e3 * maxima[4], 1e3 * means[2], 1e3 * means[0], 1e3 * means[4]);
+    max[k] = maxima[2];
+    rms[k] = means[2];
+  }
+  EXPECT_NEAR(max[0] / max[1], 1.0, 0.06);
+  EXPECT_NEAR(rms[0] / rms[1], 1.0, 0.03);
+}
+
+TEST(ContactReport, AsksForSmallerStepsWhereTwoContactsShareALightLink) {
+  const auto one = with_clearance_on([](const JointDescription& j) { return j.name == "B1"; }, "0.3 s");
+  const auto all = with_clearance_on(takes_clearance, "0.3 s");
+  const double alone = analyse_contacts(*one, one->parameters())[0].largest_stable_step;
+  double together = 1.0;
+  for (const ContactFrequency& f : analyse_contacts(*all, all->parameters()))
+    if (f.joint == "B1") together = f.largest_stable_step;
+  EXPECT_LT(together, 0.6 * alone);
+  // The rungs know it: a step that serves one joint is refused, their own is not.
+  EXPECT_THROW(run("multibody", all, 1.6 * alone), ComputationError);
+  EXPECT_NO_THROW(run("multibody", all, 0.0));
+  EXPECT_NO_THROW(run("perturbation", all, 0.0));
+}
+
+// Planar loop in space: hinges elsewhere hold the pins' play along their axes, which is then no coordinate.
+TEST(Perturbation, BearsRedundantJoints) {
+  for (int opened : {1, 2}) {
+    MechanismDescription d = scenes::planar_four_bar();
+    d.bodies[0].boresight.reset();
+    d.bodies[1].boresight = Vec3::UnitZ();
+    d.joints[0].driven = true;
+    d.motion.drives[0] = scenes::sine(0.3, 6.0);
+    d.motion.duration = 0.4;
+    scenes::add_clearance(d, 1, true);
+    if (opened == 2) scenes::add_clearance(d, 2, true);
+    const auto mechanism = scenes::build(std::move(d));
+    const IdealMotion ideal = ideal_motion(*mechanism, mechanism->parameters());
+    const DeviationCoordinates coordinates(*mechanism, ideal);
+    EXPECT_EQ(coordinates.leftover(), 0);
+    EXPECT_EQ(coordinates.count(), opened == 1 ? 2 : 5);  // both pins' play moves the coupler along, together
+    EXPECT_TRUE(coordinates.has_dependent());
+    expect_close(run("perturbation", mechanism, 2e-5), run("multibody", mechanism, 2e-5), 0.04, 0.01,
+                 std::to_string(opened) + " joints opened");
+  }
+}
+
+// Free mechanisms drift off their ideal motion: the deviation is many times the clearance after a while.
+TEST(Perturbation, FollowsFreedomsThatNothingDrives) {
+  const std::shared_ptr<const Mechanism> free[] = {undriven("four-bar", "0.2 s", 6.0), undriven("crank-slider", "0.1 s", 30.0)};
+  for (const auto& mechanism : free) {
+    const RunResult exact = run("multibody", mechanism, 1e-5);
+    EXPECT_GT(exact.index.position_error.max, 4.0 * mechanism->parameters().clearance[0].radial);
+    expect_close(run("perturbation", mechanism, 1e-5), exact, 0.03, 0.03, mechanism->name());
+  }
+}
+
+TEST(SceneRungs, WithoutDynamicsRefuseFreedomsThatNothingDrives) {
+  const auto mechanism = undriven("crank-slider", "0.1 s", 30.0);
+  for (const char* name : {"envelope", "quasistatic"}) EXPECT_THROW(run(name, mechanism, 0.0), ComputationError) << name;
+}
+
+TEST(SceneRungs, KeepThePosesOfOtherBodies) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "0.01 s"}}));
+  RunOptions options;
+  options.step = 1e-5;
+  options.sample_spacing = 1e-3;
+  options.pose_bodies = {mechanism->body_index("rod1"), mechanism->body_index("tube2")};
+  const RunResult exact = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
+  const RunResult cheap = make_rung("perturbation", mechanism)->run(mechanism->parameters(), options);
+  ASSERT_EQ(cheap.others.size(), 2u);
+  for (std::size_t b = 0; b < 2; ++b) {
+    ASSERT_EQ(cheap.others[b].samples.size(), exact.others[b].samples.size());
+    double largest = 0.0, difference = 0.0;
+    for (std::size_t k = 0; k < exact.time.size(); ++k) {
+      const PoseSample &x = exact.others[b].samples[k], &y = cheap.others[b].samples[k];
+      largest = std::max(largest, x.error.displacement.norm());
+      difference = std::max(difference, (x.error.displacement - y.error.displacement).norm());
+    }
+    EXPECT_GT(largest, 1e-5);
+    EXPECT_LT(difference, 0.02 * largest);
+  }
+}
+
+}  // namespace
+}  // namespace boresight
