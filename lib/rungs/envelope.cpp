@@ -88,7 +88,8 @@ class Envelope final : public SceneRung {
     const std::vector<JournalInSleeve>& joints = reactions.joints();
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<ContactSummary> summary = reactions.summaries();
-    std::vector<Rest> worst_rest(joints.size());
+    std::vector<Rest> worst_rest(joints.size()), at_rest(joints.size());
+    double resting_max = 0.0, bound_max = 0.0;
     for (int i = 0; i < reactions.instants(); ++i) {
       const ReactionTable::Instant now = reactions.at(i);
       BodyAcceleration acceleration;
@@ -101,7 +102,8 @@ class Envelope final : public SceneRung {
 
       PoseError bound;
       for (std::size_t c = 0; c < joints.size(); ++c) {
-        const Rest rest = rest_under(joints[c], now.load[c].force, now.load[c].slide, {});
+        const Rest rest = rest_under(joints[c], now.load[c].force, now.load[c].slide, at_rest[c]);
+        at_rest[c] = rest;
         reactions.note(rest, summary[c]);
         const GapParts gap =
             parts_of(joints[c], rest, now.load[c].slide, reactions.joint_gain(now, static_cast<int>(c)));
@@ -124,6 +126,8 @@ class Envelope final : public SceneRung {
         m.slope = offset.tail<2>();
         joints[c].gaps(m, worst_rest[c].contact);
       }
+      resting_max = std::max(resting_max, (now.pose_gain.topRows<3>() * reactions.coordinates(at_rest)).norm());
+      bound_max = std::max(bound_max, bound.position);
       const VecX z = reactions.coordinates(worst_rest);
       const DisplacedBodies displaced(prepared, now.t, z);
       bound.displacement = now.pose_gain.topRows<3>() * z;
@@ -139,6 +143,8 @@ class Envelope final : public SceneRung {
     }
     RunResult result = recorder.finish();
     result.integrator = "none: the worst offset an instant";
+    result.error = {bound_max > 0.0 ? 1.0 - resting_max / bound_max : 0.0, 0.0,
+                    "excess of the bound over the journals' rest (quasistatic) in the largest position error"};
     result.contact = std::move(summary);
     result.cost.steps = result.cost.evaluations = reactions.instants();
     return result;

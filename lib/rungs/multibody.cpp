@@ -16,6 +16,7 @@
 #include "boresight/rungs/formulation.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
+#include "boresight/rungs/step_error.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
 namespace boresight {
@@ -91,7 +92,7 @@ class Multibody final : public Rung {
       formulation->derivative(t, state, memory, dy);
     };
 
-    double drift = 0.0;
+    double drift = 0.0, fastest = 0.0;
     MatX compliance;
     long compliance_age = 0;
     // The compliance changes with the pose only: fifty times along the motion is often enough.
@@ -112,6 +113,7 @@ class Multibody final : public Rung {
           compliance_age = i;
         }
         const StiffestContact stiffest = stiffest_contact(layout, joints, motion, compliance);
+        fastest = std::max(fastest, stiffest.angular_frequency);
         if (h * stiffest.angular_frequency > classical_rk4().real_limit) throw UnstableStep(mechanism, stiffest, t, h);
       }
       if (i == steps) break;
@@ -133,6 +135,7 @@ class Multibody final : public Rung {
     std::stable_sort(result.events.begin(), result.events.end(),
                      [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
     result.constraint_drift = drift;
+    result.error = {0.0, step_error(fastest, h), "the step against the stiffest contact met"};
     result.interrupted = interrupted;
     result.cost.steps = steps;
     result.cost.evaluations = 4 * steps + 1;

@@ -8,6 +8,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/contact_tracker.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
+#include "boresight/rungs/step_error.hpp"
 #include "boresight/rungs/offset_dynamics.hpp"
 #include "boresight/rungs/contact_report.hpp"
 #include "boresight/rungs/scene_rung.hpp"
@@ -15,6 +16,20 @@
 
 namespace boresight {
 namespace {
+
+// What is left out is of second order in the deviation: relative to what is kept, the deviation over the mechanism's size
+// (turns in rad, displacements over the characteristic length), times how much the mechanism magnifies its offsets.
+struct Nonlinearity {
+  double deviation = 0.0;  // largest, over the characteristic length or in rad
+  double offset = 0.0;     // largest, of any coordinate
+  void add(const PoseError& error, const Eigen::Ref<const VecX>& z, double length) {
+    deviation = std::max({deviation, error.position / length, error.orientation});
+    offset = std::max(offset, z.lpNorm<Eigen::Infinity>());
+  }
+  double share(double length) const {
+    return offset > 0.0 ? deviation * std::max(1.0, deviation * length / offset) : 0.0;
+  }
+};
 
 class Perturbation final : public SceneRung {
  public:
@@ -91,6 +106,8 @@ class Perturbation final : public SceneRung {
     const double limit = classical_rk4().real_limit;
     bool interrupted = false;
     MatX compliance;
+    Nonlinearity nonlinearity;
+    double fastest = 0.0;  // squared, a bound
     std::array<ContactState<double>, kContactPlaces> contact;
     for (long i = 0;; ++i) {
       const double t = static_cast<double>(i) * h;
@@ -107,12 +124,14 @@ class Perturbation final : public SceneRung {
       for (std::size_t c = 0; c < joints.size(); ++c) trackers[c].observe_forces(wrench[c].contact);
       if (std::any_of(trackers.begin(), trackers.end(), [](const ContactTracker& c) { return c.touching(); })) {
         offset_compliance(at, offsets, row.data(), compliance);
-        if (h * h * stiffest_contact_bound(offsets, joints, motion, compliance) > limit * limit) {
+        const double bound = stiffest_contact_bound(offsets, joints, motion, compliance);
+        fastest = std::max(fastest, bound);
+        if (h * h * bound > limit * limit) {
           const StiffestContact stiffest = stiffest_contact(offsets, joints, motion, compliance);
           if (h * stiffest.angular_frequency > limit) throw UnstableStep(mechanism, stiffest, t, h);
         }
       }
-      record(prepared, options, t, y, method.first_slope(), motion, wrench, recorder);
+      record(prepared, options, t, y, method.first_slope(), motion, wrench, recorder, nonlinearity);
       if (i == steps) break;
       if (options.progress && i % 4096 == 0 && !options.progress({t, duration, recorder.position_error_max()})) {
         interrupted = true;
@@ -129,6 +148,9 @@ class Perturbation final : public SceneRung {
     std::stable_sort(result.events.begin(), result.events.end(),
                      [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
     result.interrupted = interrupted;
+    result.error = {nonlinearity.share(mechanism.characteristic_length()), step_error(std::sqrt(fastest), h),
+                    "size of the deviation against the mechanism, times how much the mechanism magnifies offsets; the step "
+                    "against the stiffest contact met"};
     result.cost.steps = steps;
     result.cost.evaluations = 4 * steps + 1;
     return result;
@@ -163,12 +185,12 @@ class Perturbation final : public SceneRung {
 
   void record(const PreparedScene& prepared, const RunOptions& options, double t, const VecX& y, const VecX& slope,
               const std::vector<JournalMotion<double>>& motion, const std::vector<JournalWrench<double>>& wrench,
-              MotionRecorder& recorder) const {
+              MotionRecorder& recorder, Nonlinearity& nonlinearity) const {
     const Eigen::Index n = y.size() / 2;
     const DisplacedBodies displaced(prepared, t, y.head(n));
     BodyAcceleration a;
     BodyMotion body = displaced.moving(mechanism().boresight_body(), y.tail(n), slope.tail(n), a);
-    recorder.accept(t, body, a);
+    nonlinearity.add(recorder.accept(t, body, a), y.head(n), mechanism().characteristic_length());
     if (!recorder.sampling()) return;
     for (std::size_t k = 0; k < options.pose_bodies.size(); ++k) {
       body = displaced.moving(options.pose_bodies[k], y.tail(n), slope.tail(n), a);

@@ -61,6 +61,14 @@ struct RunCost {
   double cpu_seconds = 0.0, wall_seconds = 0.0;
 };
 
+// What a rung thinks its own indices are wrong by, relative, before anything else has checked it.
+struct ErrorEstimate {
+  double model = 0.0;           // by what the rung leaves out
+  double discretisation = 0.0;  // by its steps
+  std::string basis;            // in words
+  double total() const { return model + discretisation; }
+};
+
 struct RunResult {
   std::string rung;         // "multibody", ...
   std::string formulation;  // "paper", ... ; "" where a rung has one only
@@ -72,6 +80,8 @@ struct RunResult {
   double energy_error = 0.0;  // largest |energy balance| relative to the largest energy met; 0 where not tracked
   double end_time = 0.0;      // the motion was followed up to here [s]
   bool interrupted = false;   // stopped by the caller before the end
+
+  ErrorEstimate error;
 
   std::vector<double> time;                              // sample times [s]
   BodyHistory boresight;                                 // of the boresight body
