@@ -16,19 +16,30 @@ std::string listed(const std::vector<std::string>& names) {
 
 }  // namespace
 
-RungChoice choose_rung(const std::string& asked, std::optional<double> accuracy) {
+void check_rung_name(const std::string& asked) {
   const std::vector<std::string> names = rung_names();
-  if (asked != "auto") {
-    if (std::find(names.begin(), names.end(), asked) == names.end())
-      throw InputError({"command line", 0}, "--rung", "\"" + asked + "\"", "auto, " + listed(names),
-                       nearest_name(asked, names));
-    return {asked, "asked for by name"};
-  }
-  // Cheapest first, so the last one leaves out least. It serves any accuracy.
-  const std::string& most_exact = names.back();
-  if (names.size() == 1) return {most_exact, "the only rung there is"};
-  return {most_exact, accuracy ? "the rung that leaves out least; it meets any accuracy"
-                               : "the rung that leaves out least"};
+  if (asked != "auto" && std::find(names.begin(), names.end(), asked) == names.end())
+    throw InputError({"command line", 0}, "--rung", "\"" + asked + "\"", "auto, " + listed(names),
+                     nearest_name(asked, names));
+}
+
+RungChoice choose_rung(const RungQuestion& question, std::shared_ptr<const Mechanism> mechanism,
+                       const std::vector<Parameters>& samples) {
+  check_rung_name(question.asked);
+  if (question.asked != "auto") return {question.asked, "asked for by name"};
+  const std::string most_exact = rung_names().back();  // cheapest first, so the last one leaves out least
+  if (question.wants_multibody) return {most_exact, "the only rung that has the options given"};
+  if (mechanism->clearances() == 0) return {most_exact, "no joint has clearance: nothing to choose between"};
+  if (!question.accuracy)
+    return {most_exact, "the rung that leaves out least; give an accuracy to have the cheapest that meets it"};
+  PilotOptions options{*question.accuracy, question.index, question.step, question.progress};
+  RungChoice choice;
+  choice.pilot = run_pilot(std::move(mechanism), samples, options);
+  const PilotTrial& chosen = choice.pilot->trials[choice.pilot->chosen];
+  choice.name = chosen.rung;
+  choice.why = choice.pilot->why;
+  choice.step = chosen.step;
+  return choice;
 }
 
 }  // namespace boresight

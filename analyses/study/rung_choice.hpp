@@ -4,15 +4,30 @@
 #include <optional>
 #include <string>
 
+#include "boresight_analyses/study/pilot.hpp"
+
 namespace boresight {
 
 struct RungChoice {
   std::string name;
   std::string why;
+  double step = 0.0;                // that the pilot found [s]; 0: the rung's own, or the user's
+  std::optional<PilotResult> pilot = {};  // where one was flown
 };
 
-// `asked`: a rung's name, or "auto". `accuracy`: what the study wants of its index, if it says.
+struct RungQuestion {
+  std::string asked = "auto";       // a rung's name, or "auto"
+  std::optional<double> accuracy = {};  // what is wanted of the index, relative, if anything is
+  bool wants_multibody = false;     // an option was given that only multibody has
+  IndexChoice index = {};
+  double step = 0.0;                // given by the user [s]; 0: none
+  std::function<bool(int)> progress = {};  // of the pilot
+};
+
 // Throws InputError (key = --rung) for a name that no rung has.
-RungChoice choose_rung(const std::string& asked, std::optional<double> accuracy);
+void check_rung_name(const std::string& asked);
+// With "auto" and an accuracy a pilot is flown over the samples; without one the rung that leaves out least is taken.
+RungChoice choose_rung(const RungQuestion& question, std::shared_ptr<const Mechanism> mechanism,
+                       const std::vector<Parameters>& samples);
 
 }  // namespace boresight

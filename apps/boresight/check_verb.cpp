@@ -69,14 +69,14 @@ class CheckVerb : public Verb {
   int execute(const Command& command) override {
     const Stopwatch watch;
     const Mechanism mechanism(read_mechanism(command.file, command.settings));
-    choose_rung(command.rung, command.accuracy);  // a wrong name is refused here too
+    check_rung_name(command.rung);  // a wrong name is refused here too
     const OutputDirectory out =
         OutputDirectory::open(command.out, command.verb, command.file,
                               identity_of(command, mechanism.description().content_hash, "", Json::object()));
     const CheckResult result = check_mechanism(mechanism);
 
     Json json =
-        common_summary(command, mechanism, {"none", "nothing is integrated"}, watch, {}, interrupted(), out);
+        common_summary(command, mechanism, {.name = "none", .why = "nothing is integrated"}, watch, {}, interrupted(), out);
     json["findings"] = result.findings;
     json["notes"] = result.notes;
     json["kinematics"] = kinematics_json(result.kinematics);

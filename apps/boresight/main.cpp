@@ -8,6 +8,7 @@
 #include <iostream>
 #include <new>
 
+#include "boresight_analyses/study/pilot.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
@@ -86,6 +87,8 @@ int main(int argc, char** argv) {
     return status;
   } catch (const InputError& error) {
     return fail(kBadInput, error.what());
+  } catch (const PilotInterrupted&) {
+    return fail(kInterrupted, "interrupted while a rung was being chosen: nothing is lost, nothing was begun");
   } catch (const OutputDirectoryError& error) {
     return fail(kBadInput, error.what());
   } catch (const WriteError& error) {

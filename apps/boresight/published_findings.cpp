@@ -68,7 +68,7 @@ PublishedFinding orientation_untouched(const Mechanism& mechanism, const SweepLi
                 "sleeve axes are assumed parallel, "
                 "so F1 passes the torque of its drive whatever its offset: the angular error is zero by "
                 "assumption, not by measurement. "
-                "A journal that tilts (axes = \"free\", which this version does not compute yet) would turn the platform."
+                "A journal that tilts (axes = \"free\") turns the platform by milliradians."
               : "Here the journal may tilt in its sleeve (axes = \"free\"). F1 is the only path by which "
                 "drive A1 holds the orientation, so the tilt "
                 "turns the platform: the paper's finding follows from its assumption that the axes stay "

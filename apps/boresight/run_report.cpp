@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "pilot_parts.hpp"
 #include "report_parts.hpp"
 #include "tables.hpp"
 
@@ -151,10 +152,52 @@ report::Section cost_section(const RunResult& result) {
   return {.id = "cost", .title = "Cost and numerical quality", .items = {std::move(table)}};
 }
 
+// What the rung leaves out, by how much it thinks that matters, and what the other rungs say where they were asked.
+report::Section model_section(const std::string& leaves_out, const RunResult& result, const std::vector<Compared>& others,
+                              const std::optional<AxesComparison>& axes) {
+  report::Section section{.id = "model", .title = "What this model leaves out", .items = {report::Text{leaves_out}}};
+  const ErrorEstimate& error = result.error;
+  if (!error.basis.empty()) {
+    std::string text = "By its own estimate the indices are wrong by about " + readable_share(error.total());
+    if (error.model > 0.0 && error.discretisation > 0.0)
+      text += fmt::format(" ({} by what is left out, {} by the steps)", readable_share(error.model),
+                          readable_share(error.discretisation));
+    section.items.push_back(report::Text{text + ". Taken from: " + error.basis + "."});
+  }
+  if (axes) section.items.push_back(report::Text{axes->sentence});
+  if (others.empty()) {
+    section.items.push_back(report::Text{"Run with --compare to see the other rungs over this one."});
+    return section;
+  }
+  report::Table table{.title = "The other rungs on this scene",
+                      .caption = fmt::format("Differences against the {} rung above.", result.rung),
+                      .columns = {{"Rung"}, {"Position max", "%"}, {"Position RMS", "%"}, {"Boresight max", "%"},
+                                  {"Boresight RMS", "%"}, {"CPU", "ms"}, {"Own estimate of its error", "%"}, {"Remark"}}};
+  const auto change = [](double other, double own) -> nlohmann::json {
+    if (own <= kRounding && other <= kRounding) return nullptr;  // nothing on both
+    return 100.0 * (other / own - 1.0);
+  };
+  for (const Compared& other : others) {
+    if (!other.refusal.empty()) {
+      table.rows.push_back({other.rung, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, other.refusal});
+      continue;
+    }
+    const PointingIndices &a = other.result.index, &b = result.index;
+    table.rows.push_back({other.rung, change(a.position_error.max, b.position_error.max),
+                          change(a.position_error.rms, b.position_error.rms),
+                          change(a.boresight_error.max, b.boresight_error.max),
+                          change(a.boresight_error.rms, b.boresight_error.rms), 1e3 * other.result.cost.cpu_seconds,
+                          100.0 * other.result.error.total(), ""});
+  }
+  section.items.push_back(std::move(table));
+  return section;
+}
+
 }  // namespace
 
 report::Document run_report(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
-                            const std::string& leaves_out, const RunResult& result) {
+                            const std::string& leaves_out, const RunResult& result, const std::vector<Compared>& others,
+                            const std::optional<AxesComparison>& axes) {
   report::Document document{
       .title = mechanism.name(),
       .subtitle =
@@ -170,7 +213,9 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
   document.warnings = result.warnings;
   document.provenance = provenance_of(command, mechanism, rung);
 
-  const std::vector<Overlay> overlay = {{"with clearance", &result}};
+  std::vector<Overlay> overlay = {{others.empty() ? "with clearance" : result.rung, &result}};
+  for (const Compared& other : others)
+    if (other.refusal.empty()) overlay.push_back({other.rung, &other.result});
   report::Section errors{.id = "errors", .title = "Pointing error", .items = {index_table(overlay)}};
   if (!result.time.empty()) {
     errors.items.push_back(error_panels(overlay));
@@ -196,8 +241,8 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
       for (std::size_t c = 0; c < result.clearances.size(); ++c)
         document.sections.push_back(joint_section(mechanism, result, c));
   }
-  document.sections.push_back(
-      {.id = "model", .title = "What this model leaves out", .items = {report::Text{leaves_out}}});
+  document.sections.push_back(model_section(leaves_out, result, others, axes));
+  if (rung.pilot) document.sections.push_back(pilot_section(*rung.pilot));
   document.sections.push_back(cost_section(result));
   return document;
 }

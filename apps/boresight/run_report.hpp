@@ -4,12 +4,21 @@
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight/rungs/run_result.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
+#include "axes_section.hpp"
 #include "command.hpp"
 #include "report/document.hpp"
 
 namespace boresight::app {
 
+// Another rung on the same scene.
+struct Compared {
+  std::string rung;
+  RunResult result;
+  std::string refusal;  // why it could not follow the motion; "" if it did
+};
+
 report::Document run_report(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
-                            const std::string& leaves_out, const RunResult& result);
+                            const std::string& leaves_out, const RunResult& result, const std::vector<Compared>& others,
+                            const std::optional<AxesComparison>& axes);
 
 }  // namespace boresight::app

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/rung.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
@@ -18,9 +19,11 @@
 namespace boresight::app {
 namespace {
 
-void print(const Mechanism& mechanism, const RunResult& result, const OutputDirectory& out) {
-  fmt::print("{}: {} of motion, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.integrator,
-             result.interrupted ? " (interrupted)" : "");
+void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
+           const std::vector<Compared>& others, const std::optional<AxesComparison>& axes, const OutputDirectory& out) {
+  fmt::print("{}: {} of motion, {} rung, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.rung,
+             result.integrator, result.interrupted ? " (interrupted)" : "");
+  if (choice.pilot) fmt::print("  rung: {}\n", choice.why);
   const PointingIndices& index = result.index;
   fmt::print("  position error       max {:>10}   RMS {:>10}\n", readable(index.position_error.max, "m"),
              readable(index.position_error.rms, "m"));
@@ -34,12 +37,22 @@ void print(const Mechanism& mechanism, const RunResult& result, const OutputDire
     fmt::print("  {}: in contact {} of the time, {} impacts, penetration up to {}, force up to {}\n", c.joint,
                readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"),
                readable(c.max_force, "N"));
+  for (const Compared& other : others) {
+    if (!other.refusal.empty())
+      fmt::print("  {:<12} {}\n", other.rung, other.refusal);
+    else
+      fmt::print("  {:<12} position error max {:>10} RMS {:>10}, boresight max {:>10}, {} of CPU\n", other.rung,
+                 readable(other.result.index.position_error.max, "m"), readable(other.result.index.position_error.rms, "m"),
+                 readable(other.result.index.boresight_error.max, "rad"), readable(other.result.cost.cpu_seconds, "s"));
+  }
+  if (axes && !axes->free && axes->free_boresight > 1e-6) fmt::print("  note: {}\n", axes->sentence);
   for (const std::string& warning : result.warnings) fmt::print("  warning: {}\n", warning);
   fmt::print("  report: {}\n", (out.path() / "report.html").string());
 }
 
-Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
-                const RunResult& result, const Stopwatch& watch, const OutputDirectory& out) {
+Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const RunResult& result,
+                const std::vector<Compared>& others, const std::optional<AxesComparison>& axes, const Stopwatch& watch,
+                const OutputDirectory& out) {
   Json json = common_summary(command, mechanism, rung, watch, result.warnings, result.interrupted, out);
   json["formulation"] = result.formulation;
   json["integrator"] = result.integrator;
@@ -49,6 +62,20 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const RungCh
   json["platform_acceleration_max"] = vector_json(result.platform_acceleration_max);
   json["constraint_drift"] = result.constraint_drift;
   json["energy_error"] = result.energy_error;
+  json["error_estimate"] = {{"model", result.error.model},
+                            {"discretisation", result.error.discretisation},
+                            {"basis", result.error.basis}};
+  if (axes)
+    json["axes"] = {{"tilt_computed", axes->free},
+                    {"boresight_error_at_rest", {{"parallel", axes->parallel_boresight}, {"free", axes->free_boresight}}},
+                    {"position_error_at_rest", {{"parallel", axes->parallel_position}, {"free", axes->free_position}}}};
+  for (const Compared& other : others) {
+    Json& entry = json["compared"][other.rung];
+    if (other.refusal.empty())
+      entry = {{"index", index_json(other.result.index)}, {"cpu_seconds", other.result.cost.cpu_seconds}};
+    else
+      entry = {{"refused", other.refusal}};
+  }
   json["steps"] = result.cost.steps;
   json["rejected_steps"] = result.cost.rejected_steps;
   json["evaluations"] = result.cost.evaluations;
@@ -64,13 +91,20 @@ class RunVerb : public Verb {
   std::string example() const override {
     return "boresight run examples/3-rrcpr/3-rrcpr.toml --set clearance.F1.radial=0.2mm --out results/wide";
   }
-  void declare_options(CLI::App& app) override { motion_.declare(app, true); }
+  void declare_options(CLI::App& app) override {
+    motion_.declare(app, true);
+    app.add_flag("--compare", compare_, "run the other rungs too and lay them over this one");
+    app.add_option("--index", index_, "what --accuracy is about: position_error.max, boresight_error.rms, ...")
+        ->type_name("QUANTITY.STATISTIC")
+        ->capture_default_str();
+  }
 
   int execute(const Command& command) override {
     const Stopwatch watch;
     const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(command.file, command.settings));
-    const RungChoice choice = choose_rung(command.rung, command.accuracy);
+    check_rung_name(command.rung);
     RunOptions options = motion_.run_options(*mechanism);
+    const IndexChoice index = asked_index();
     const OutputDirectory out = OutputDirectory::open(
         command.out, command.verb, command.file,
         identity_of(command, mechanism->description().content_hash, "", motion_.identity()));
@@ -82,23 +116,73 @@ class RunVerb : public Verb {
       progress.update(p.t, "position error so far " + readable(p.position_error_max_so_far, "m"));
       return !interrupted();
     };
+    Progress pilot_progress(command.quiet, kPilotTrials, "trials of the pilot");
+    const RungChoice choice = choose_rung(
+        {.asked = command.rung,
+         .accuracy = command.accuracy,
+         .wants_multibody = !options.formulation.empty() || !options.stabilisation.empty(),
+         .index = index,
+         .step = options.step,
+         .progress = [&](int trial) {
+           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
+           return !interrupted();
+         }},
+        mechanism, {mechanism->parameters()});
+    pilot_progress.clear();
+    if (choice.step > 0.0) options.step = choice.step;
+
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
     const RunResult result =
         with_options_checked(options, [&] { return rung->run(mechanism->parameters(), options); });
+    std::vector<Compared> others;
+    if (compare_)
+      for (const std::string& name : rung_names())
+        if (name != choice.name) others.push_back(run_other(name, mechanism, options, motion_.run_options(*mechanism).step));
+    const std::optional<AxesComparison> axes = compare_axes(*mechanism);
 
-    write_json(out, "summary.json", summary_of(command, *mechanism, choice, result, watch, out));
+    write_json(out, "summary.json", summary_of(command, *mechanism, choice, result, others, axes, watch, out));
     out.write("timeseries.csv", [&](std::ostream& s) { write_timeseries(s, *mechanism, result, finer); });
     out.write("events.csv", [&](std::ostream& s) { write_events(s, *mechanism, result); });
     out.write("report.html", [&](std::ostream& s) {
-      report::write_html(s, run_report(command, *mechanism, choice, rung->leaves_out(), result));
+      report::write_html(s, run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes));
     });
     progress.clear();
-    if (!command.quiet) print(*mechanism, result, out);
+    if (!command.quiet) print(*mechanism, choice, result, others, axes, out);
     return result.interrupted ? kInterrupted : kDone;
   }
 
  private:
+  IndexChoice asked_index() const {
+    const std::size_t dot = index_.find('.');
+    IndexChoice index{index_.substr(0, dot), dot == std::string::npos ? "" : index_.substr(dot + 1)};
+    try {
+      index.of({});
+    } catch (const std::out_of_range&) {
+      throw InputError({"command line", 0}, "--index", "\"" + index_ + "\"",
+                       "a quantity and a statistic, like boresight_error.rms");
+    }
+    return index;
+  }
+
+  // A rung that cannot follow the motion says why, and the others go on.
+  static Compared run_other(const std::string& name, const std::shared_ptr<const Mechanism>& mechanism, RunOptions options,
+                            double step) {
+    Compared other{.rung = name, .result = {}, .refusal = ""};
+    options.step = step;
+    if (name != "multibody") options.formulation = options.stabilisation = "";
+    options.pose_bodies.clear();
+    try {
+      other.result = make_rung(name, mechanism)->run(mechanism->parameters(), options);
+    } catch (const ComputationError& failure) {
+      other.refusal = failure.what();
+    }
+    return other;
+  }
+
+  static constexpr double kPilotTrials = 24.0;  // about as many as it makes; it may need fewer
   MotionOptions motion_;
+  bool compare_ = false;
+  std::string index_ = "position_error.max";
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "boresight_analyses/study/index_choice.hpp"
+#include "pilot_parts.hpp"
 
 namespace boresight::app {
 namespace {
@@ -33,6 +34,7 @@ Json common_summary(const Command& command, const Mechanism& mechanism, const Ru
   json["version"] = BORESIGHT_VERSION;
   json["rung"] = rung.name;
   json["rung_why"] = rung.why;
+  if (rung.pilot) json["pilot"] = pilot_json(*rung.pilot);
   json["seed"] = nullptr;  // nothing here is random
   json["cpu_seconds"] = watch.cpu_seconds();
   json["wall_seconds"] = watch.wall_seconds();

@@ -7,6 +7,7 @@
 
 #include "boresight_analyses/sweep/sweep_line.hpp"
 #include "published_findings.hpp"
+#include "pilot_parts.hpp"
 #include "report_parts.hpp"
 
 namespace boresight::app {
@@ -248,6 +249,7 @@ report::Document sweep_report(const Command& command, const Study& study, const 
   }
   document.sections.push_back(
       {.id = "model", .title = "What this model leaves out", .items = {report::Text{leaves_out}}});
+  if (rung.pilot) document.sections.push_back(pilot_section(*rung.pilot));
   return document;
 }
 

@@ -125,7 +125,7 @@ class SweepVerb : public Verb {
       settings.push_back(setting);
       const Mechanism tried(read_mechanism(study.mechanism_file, settings));
     });
-    const RungChoice choice = choose_rung(command.rung, command.accuracy ? command.accuracy : study.accuracy);
+    check_rung_name(command.rung);
     SweepOptions options;
     options.run = motion_.run_options(*mechanism);
     options.jobs = command.jobs;
@@ -139,6 +139,23 @@ class SweepVerb : public Verb {
                   static_cast<double>(history_refinement(mechanism->duration(), options.run.sample_spacing))
             : 0.0;
     options.run.events = histories;
+
+    constexpr double kPilotTrials = 24.0;  // about as many as it makes; it may need fewer
+    Progress pilot_progress(command.quiet, kPilotTrials, "trials of the pilot");
+    // The grid's first and last corner: what is true of both is taken to be true between them.
+    const RungChoice choice = choose_rung(
+        {.asked = command.rung,
+         .accuracy = command.accuracy ? command.accuracy : study.accuracy,
+         .wants_multibody = !options.run.formulation.empty() || !options.run.stabilisation.empty(),
+         .index = study.index,
+         .step = options.run.step,
+         .progress = [&](int trial) {
+           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
+           return !interrupted();
+         }},
+        mechanism, {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
+    pilot_progress.clear();
+    if (choice.step > 0.0) options.run.step = choice.step;
 
     Progress progress(command.quiet, static_cast<double>(plan.points()), "points");
     options.progress = [&](const SweepProgress& p) {

@@ -1,0 +1,75 @@
+// The pilot on scenes that ask for different rungs.
+#include "boresight_analyses/study/pilot.hpp"
+
+#include <gtest/gtest.h>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/study/rung_choice.hpp"
+
+namespace boresight {
+namespace {
+
+std::shared_ptr<const Mechanism> rrcpr(std::vector<Setting> settings) {
+  return std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml", settings));
+}
+
+const PilotTrial& chosen(const PilotResult& result) { return result.trials[result.chosen]; }
+
+PilotResult fly(const std::shared_ptr<const Mechanism>& mechanism, double accuracy, const IndexChoice& index) {
+  PilotOptions options;
+  options.accuracy = accuracy;
+  options.index = index;
+  return run_pilot(mechanism, {mechanism->parameters()}, options);
+}
+
+TEST(Pilot, TakesTheCheapestRungThatMeetsTheAccuracy) {
+  const auto mechanism = rrcpr({{"motion.duration", "0.3 s"}});
+  const PilotResult rough = fly(mechanism, 0.10, {"position_error", "rms"});
+  EXPECT_TRUE(rough.met);
+  EXPECT_EQ(chosen(rough).rung, "quasistatic");
+  const PilotResult fine = fly(mechanism, 0.02, {"position_error", "rms"});
+  EXPECT_TRUE(fine.met);
+  EXPECT_EQ(chosen(fine).rung, "perturbation");
+  EXPECT_LE(chosen(fine).error, 0.02);
+  EXPECT_NE(fine.why.find("cheapest"), std::string::npos);
+}
+
+TEST(Pilot, ClimbsWhereClearanceIsLarge) {
+  // A gap of a hundredth of the lengths, and of small contact stiffness: the deviation is no longer small.
+  const auto mechanism = rrcpr({{"motion.duration", "0.15 s"}, {"clearance.F1.radial", "8 mm"}, {"clearance.F1.cap_radius", "25 mm"},
+                                {"clearance.F1.axial", "8 mm"}});
+  const PilotResult result = fly(mechanism, 0.005, {"position_error", "max"});
+  EXPECT_EQ(chosen(result).rung, "multibody");
+  bool perturbation_failed = false;
+  for (const PilotTrial& trial : result.trials)
+    perturbation_failed = perturbation_failed || (trial.rung == "perturbation" && !trial.accepted);
+  EXPECT_TRUE(perturbation_failed);
+}
+
+TEST(Pilot, PassesOverRungsThatCannotFollowTheMotion) {
+  // Nothing drives the crank: there is no rest, and the cheap rungs say so.
+  MechanismDescription d = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml",
+                                          {{"motion.duration", "0.03 s"}});
+  for (JointDescription& j : d.joints) j.driven = false;
+  d.motion.drives.clear();
+  d.initial_rates.push_back({0, InitialRateDescription::Freedom::angle, 30.0, {}});
+  const auto mechanism = std::make_shared<const Mechanism>(std::move(d));
+  const PilotResult result = fly(mechanism, 0.05, {"position_error", "rms"});
+  ASSERT_GE(result.trials.size(), 3u);
+  EXPECT_FALSE(result.trials[0].refusal.empty());
+  EXPECT_FALSE(result.trials[1].refusal.empty());
+  EXPECT_TRUE(chosen(result).rung == "perturbation" || chosen(result).rung == "multibody");
+}
+
+TEST(RungChoice, AsksNoPilotWhereThereIsNothingToChoose) {
+  const auto mechanism = rrcpr({{"motion.duration", "0.1 s"}});
+  EXPECT_EQ(choose_rung({.asked = "auto"}, mechanism, {mechanism->parameters()}).name, "multibody");
+  EXPECT_EQ(choose_rung({.asked = "envelope"}, mechanism, {mechanism->parameters()}).name, "envelope");
+  EXPECT_EQ(choose_rung({.asked = "auto", .accuracy = 0.01, .wants_multibody = true}, mechanism, {mechanism->parameters()}).name,
+            "multibody");
+}
+
+}  // namespace
+}  // namespace boresight
