@@ -69,7 +69,6 @@ class Pilot {
       const Runs own = runs(*rung, sample, options_.step);
       const Runs fine = runs(*rung, sample, 0.5 * own.step);
       reference_.push_back(fine.median);
-      own_step_.push_back(own.step);
       multibody_.push_back(own);
       // The finer median is wrong by less than the coarser one differs from it; spread of three, of which the median keeps
       // about half.
@@ -78,6 +77,18 @@ class Pilot {
       result_.reference_error = std::max(result_.reference_error, relative);
     }
     result_.reference = reference_[0];
+    PilotTrial own;
+    own.rung = "multibody";
+    own.step = multibody_[0].step;
+    own.value = multibody_[0].median;
+    own.cpu_seconds = multibody_[0].cpu_seconds;
+    own.reference = true;
+    for (std::size_t s = 0; s < samples_.size(); ++s) {
+      own.estimate = std::max(own.estimate, multibody_[s].estimate);
+      const double off = std::abs(multibody_[s].median - reference_[s]) + multibody_[s].half_spread;
+      if (reference_[s] != 0.0) own.error = std::max(own.error, off / std::abs(reference_[s]));
+    }
+    result_.trials.push_back(own);
   }
 
   // Returns true if one of its steps meets the accuracy.
@@ -135,7 +146,7 @@ class Pilot {
     result_.met = result_.chosen >= 0;
     if (!result_.met)
       for (std::size_t k = 0; k < result_.trials.size(); ++k)
-        if (result_.trials[k].refusal.empty() &&
+        if (result_.trials[k].refusal.empty() && !result_.trials[k].reference &&
             (result_.chosen < 0 || result_.trials[k].error < result_.trials[result_.chosen].error))
           result_.chosen = static_cast<int>(k);
     if (result_.chosen < 0) throw ComputationError("no rung can follow this motion: " + result_.trials.back().refusal);
@@ -154,7 +165,7 @@ class Pilot {
   std::shared_ptr<const Mechanism> mechanism_;
   const std::vector<Parameters>& samples_;
   const PilotOptions& options_;
-  std::vector<double> reference_, own_step_;
+  std::vector<double> reference_;
   std::vector<Runs> multibody_;
   PilotResult result_;
 };

@@ -28,6 +28,7 @@ struct PilotTrial {
   double cpu_seconds = 0.0;  // of one run
   std::string refusal;       // why it could not be tried; "" if it was
   bool accepted = false;     // meets the accuracy
+  bool reference = false;    // multibody at its own step, which the reference was made with
 };
 
 struct PilotResult {

@@ -72,6 +72,7 @@ report::Section pilot_section(const PilotResult& pilot) {
   for (std::size_t k = 0; k < pilot.trials.size(); ++k) {
     const PilotTrial& t = pilot.trials[k];
     const bool chosen = static_cast<int>(k) == pilot.chosen;
+    const char* missed = t.reference ? "the reference, at its own step" : "not accurate enough";
     if (!t.refusal.empty()) {
       table.rows.push_back({t.rung, t.step > 0.0 ? nlohmann::json(1e6 * t.step) : nlohmann::json(), nullptr, nullptr, nullptr,
                             "refused: " + t.refusal});
@@ -79,7 +80,7 @@ report::Section pilot_section(const PilotResult& pilot) {
     }
     table.rows.push_back({t.rung, t.step > 0.0 ? nlohmann::json(1e6 * t.step) : nlohmann::json(), 100.0 * t.error,
                           100.0 * t.estimate, 1e3 * t.cpu_seconds,
-                          chosen ? (pilot.met ? "taken" : "taken: the nearest there is") : "not accurate enough"});
+                          chosen ? (pilot.met ? "taken" : "taken: the nearest there is") : missed});
   }
   section.items.push_back(std::move(table));
   return section;

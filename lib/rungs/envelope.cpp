@@ -107,14 +107,15 @@ class Envelope final : public SceneRung {
         reactions.note(rest, summary[c]);
         const GapParts gap =
             parts_of(joints[c], rest, now.load[c].slide, reactions.joint_gain(now, static_cast<int>(c)));
-        Eigen::Matrix<double, 5, 1> offset = Eigen::Matrix<double, 5, 1>::Zero();
+        Eigen::Matrix<double, 5, 1> offset = Eigen::Matrix<double, 5, 1>::Zero(), rest_offset;
+        rest_offset << rest.motion.e, rest.motion.slope;
+        const Vec3 resting = reactions.joint_gain(now, static_cast<int>(c)).topRows<3>() * rest_offset;
         for (const GapParts::Part& part : gap.parts) {
           const auto worst = [&](const Gain& G) { return (G * worst_offset(G, part.radial, part.axial)).norm(); };
-          // The place that is worst for the position stands for the joint in the pictures; of the two signs, the one that
-          // adds to what is there already.
+          // The place that is worst for the position stands for the joint in the pictures: of the two opposite ones, the one
+          // on the side where the journal rests.
           Vec3 place = worst_offset(part.moves, part.radial, part.axial);
-          const Eigen::Matrix<double, 6, 5> E = reactions.joint_gain(now, static_cast<int>(c));
-          if ((E.topRows<3>() * offset).dot(part.moves * place) < 0.0) place = -place;
+          if (resting.dot(part.moves * place) < 0.0) place = -place;
           offset += part.offset * place;
           bound.position += (part.moves * place).norm();
           bound.orientation += worst(part.turns);
