@@ -4,19 +4,19 @@
 
 namespace boresight {
 
-JournalInSleeve::JournalInSleeve(const ClearanceDescription& description, JointType joint, const ClearanceParameters& p)
-    : radial_clearance(p.radial),
-      axial_clearance(p.axial),
-      bore_radius(p.journal_radius + p.radial),
-      half_length(0.5 * p.sleeve_length),
-      has_faces(joint == JointType::revolute),
-      radial_law{radial_hertz_stiffness(p), normal_law(description.contact_law).damping_factor(p.contact.restitution)},
-      face_stiffness(joint == JointType::revolute ? end_face_stiffness(p) : 0.0),
-      friction{description.friction_law == "none" ? 0.0 : p.friction.coefficient, p.friction.static_speed,
-               p.friction.dynamic_speed},
-      minimum_impact_speed(p.contact.minimum_impact_speed),
-      validity_speed(boresight::validity_speed(p.contact)),
-      tilts(description.axes == JournalAxes::free) {
+JournalInSleeve::JournalInSleeve(const ClearanceDescription& description, JointType joint, const ClearanceParameters& p) {
+  radial_clearance = p.radial;
+  axial_clearance = p.axial;
+  bore_radius = p.journal_radius + p.radial;
+  half_length = 0.5 * p.sleeve_length;
+  has_faces = joint == JointType::revolute;
+  radial_law = {radial_hertz_stiffness(p), normal_law(description.contact_law).damping_factor(p.contact.restitution)};
+  face_stiffness = has_faces ? end_face_stiffness(p) : 0.0;
+  friction = {description.friction_law == "none" ? 0.0 : p.friction.coefficient, p.friction.static_speed,
+              p.friction.dynamic_speed};
+  minimum_impact_speed = p.contact.minimum_impact_speed;
+  validity_speed = boresight::validity_speed(p.contact);
+  tilts = description.axes == JournalAxes::free;
   tilted.radial_clearance = radial_clearance;
   tilted.axial_clearance = axial_clearance;
   tilted.bore_radius = bore_radius;

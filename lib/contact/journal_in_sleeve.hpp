@@ -18,36 +18,36 @@
 
 namespace boresight {
 
-// Numbers of one clearance joint that a motion does not change.
-struct JournalInSleeve {
-  double radial_clearance = 0.0;  // c_r [m]
-  double axial_clearance = 0.0;   // c_a, per side [m]
-  double bore_radius = 0.0;       // R_b [m]
-  double half_length = 0.0;       // L_b / 2 [m]
-  bool has_faces = true;          // end faces that limit the axial play (not on a cylindrical joint)
-  NormalLaw radial_law;
-  double face_stiffness = 0.0;    // K_c [N/m]
-  ModifiedCoulomb friction;
+// Numbers of one clearance joint that a motion does not change. T: those that a sample varies may be lanes or jets.
+template <typename T>
+struct JournalInSleeveT {
+  T radial_clearance{};    // c_r [m]
+  T axial_clearance{};     // c_a, per side [m]
+  T bore_radius{};         // R_b [m]
+  T half_length{};         // L_b / 2 [m]
+  bool has_faces = true;   // end faces that limit the axial play (not on a cylindrical joint)
+  NormalLawT<T> radial_law;
+  T face_stiffness{};      // K_c [N/m]
+  ModifiedCoulombT<T> friction;
   double minimum_impact_speed = 1e-3;  // [m/s]
   double validity_speed = 0.0;         // Eq. 26 [m/s]
   bool tilts = false;                  // axes = "free": the contacts are those of `tilted`
-  TiltedJournal tilted;
+  TiltedJournalT<T> tilted;
 
+  // impact_speed: by ContactPlace [m/s].
+  void wrench(const JournalMotion<T>& motion, const std::array<T, kContactPlaces>& impact_speed,
+              JournalWrench<T>& out) const;
+
+  // Penetration of every place only; used to see where contacts stand without their forces.
+  void gaps(const JournalMotion<T>& motion, std::array<ContactState<T>, kContactPlaces>& contact) const;
+};
+
+struct JournalInSleeve : JournalInSleeveT<double> {
   JournalInSleeve() = default;
   JournalInSleeve(const ClearanceDescription& description, JointType joint, const ClearanceParameters& parameters);
 
   // The contacts this joint can have.
   std::vector<ContactPlace> places() const;
-
-  // impact_speed: by ContactPlace [m/s].
-  template <typename T>
-  void wrench(const JournalMotion<T>& motion, const std::array<T, kContactPlaces>& impact_speed,
-              JournalWrench<T>& out) const;
-
-  // Penetration of every place only; used to see where contacts stand without their forces.
-  template <typename T>
-  void gaps(const JournalMotion<T>& motion, std::array<ContactState<T>, kContactPlaces>& contact) const;
-
   // Of all contacts [J].
   double elastic_energy(const JournalMotion<double>& motion) const;
 };
@@ -55,7 +55,7 @@ struct JournalInSleeve {
 // ---------------------------------------------------------------------------------------------------------------------
 
 template <typename T>
-void JournalInSleeve::gaps(const JournalMotion<T>& m, std::array<ContactState<T>, kContactPlaces>& contact) const {
+void JournalInSleeveT<T>::gaps(const JournalMotion<T>& m, std::array<ContactState<T>, kContactPlaces>& contact) const {
   using std::sqrt;
   if (tilts) return tilted.gaps(m, contact);
   for (ContactState<T>& c : contact) c = {T(-1.0), T(0.0), T(0.0)};
@@ -63,19 +63,19 @@ void JournalInSleeve::gaps(const JournalMotion<T>& m, std::array<ContactState<T>
   // A concentric journal has no normal; it is far from the bore, so any divisor does.
   const T distance = sqrt(select(square > T(0.0), square, T(1e-60)));
   ContactState<T>& radial = contact[static_cast<int>(ContactPlace::radial)];
-  radial.penetration = distance - T(radial_clearance);
+  radial.penetration = distance - radial_clearance;
   radial.rate = (m.e_dot.x() * m.e.x() + m.e_dot.z() * m.e.z()) / distance;
   if (!has_faces) return;
   ContactState<T>& plus = contact[static_cast<int>(ContactPlace::axial_plus)];
-  plus.penetration = -m.e.y() - T(axial_clearance);
+  plus.penetration = -m.e.y() - axial_clearance;
   plus.rate = -m.e_dot.y();
   ContactState<T>& minus = contact[static_cast<int>(ContactPlace::axial_minus)];
-  minus.penetration = m.e.y() - T(axial_clearance);
+  minus.penetration = m.e.y() - axial_clearance;
   minus.rate = m.e_dot.y();
 }
 
 template <typename T>
-void JournalInSleeve::wrench(const JournalMotion<T>& m, const std::array<T, kContactPlaces>& impact_speed,
+void JournalInSleeveT<T>::wrench(const JournalMotion<T>& m, const std::array<T, kContactPlaces>& impact_speed,
                              JournalWrench<T>& out) const {
   using std::sqrt;
   if (tilts) return tilted.wrench(m, impact_speed, out);
@@ -85,13 +85,13 @@ void JournalInSleeve::wrench(const JournalMotion<T>& m, const std::array<T, kCon
 
   ContactState<T>& radial = out.contact[static_cast<int>(ContactPlace::radial)];
   if (any(radial.penetration > T(0.0))) {
-    const T inverse = T(1.0) / (radial.penetration + T(radial_clearance));
+    const T inverse = T(1.0) / (radial.penetration + radial_clearance);
     const T nx = m.e.x() * inverse, nz = m.e.z() * inverse;
     radial.normal_force =
         radial_law.force(radial.penetration, radial.rate, impact_speed[static_cast<int>(ContactPlace::radial)]);
     // Sliding: around the bore along (n_z, 0, -n_x), in which a positive spin about y carries the journal's surface, and
     // along the axis. The contact point lies R_b - |e| from the journal's centre.
-    const T arm = T(bore_radius - radial_clearance) - radial.penetration;
+    const T arm = bore_radius - radial_clearance - radial.penetration;
     const T around = m.e_dot.x() * nz - m.e_dot.z() * nx + m.w.y() * arm;
     const T along = m.e_dot.y() + (m.w.z() * nx - m.w.x() * nz) * arm;
     const T pull = radial.normal_force * friction.force_per_velocity(T(sqrt(around * around + along * along)));
@@ -100,17 +100,17 @@ void JournalInSleeve::wrench(const JournalMotion<T>& m, const std::array<T, kCon
     out.force.y() += f_along;
     out.force.z() += -radial.normal_force * nz - f_around * nx;
     // Q x F with Q = R_b n.
-    out.moment.x() += -T(bore_radius) * nz * f_along;
-    out.moment.y() += T(bore_radius) * f_around;
-    out.moment.z() += T(bore_radius) * nx * f_along;
+    out.moment.x() += -bore_radius * nz * f_along;
+    out.moment.y() += bore_radius * f_around;
+    out.moment.z() += bore_radius * nx * f_along;
   }
   if (!has_faces) return;
   for (const auto& [place, side] : {std::pair{ContactPlace::axial_minus, -1.0}, std::pair{ContactPlace::axial_plus, 1.0}}) {
     ContactState<T>& face = out.contact[static_cast<int>(place)];
     if (!any(face.penetration > T(0.0))) continue;
-    face.normal_force = T(face_stiffness) * positive_part(face.penetration);
+    face.normal_force = face_stiffness * positive_part(face.penetration);
     // At M = (0, side L_b/2, 0): edot + w x (M - e), its part across the axis.
-    const T lever = T(side * half_length) - m.e.y();
+    const T lever = T(side) * half_length - m.e.y();
     const T vx = m.e_dot.x() - m.w.y() * m.e.z() - m.w.z() * lever;
     const T vz = m.e_dot.z() + m.w.x() * lever + m.w.y() * m.e.x();
     const T pull = face.normal_force * friction.force_per_velocity(T(sqrt(vx * vx + vz * vz)));
@@ -118,8 +118,8 @@ void JournalInSleeve::wrench(const JournalMotion<T>& m, const std::array<T, kCon
     out.force.y() += T(side) * face.normal_force;
     out.force.z() -= pull * vz;
     // M x F.
-    out.moment.x() -= T(side * half_length) * pull * vz;
-    out.moment.z() += T(side * half_length) * pull * vx;
+    out.moment.x() -= T(side) * half_length * pull * vz;
+    out.moment.z() += T(side) * half_length * pull * vx;
   }
 }
 

@@ -8,21 +8,22 @@
 
 namespace boresight {
 
-struct ModifiedCoulomb {
-  double coefficient = 0.0;     // c_f [-]
-  double static_speed = 1e-4;   // v_s [m/s]
-  double dynamic_speed = 1e-3;  // v_d [m/s]
+template <typename T>
+struct ModifiedCoulombT {
+  T coefficient = T(0.0);     // c_f [-]
+  T static_speed = T(1e-4);   // v_s [m/s]
+  T dynamic_speed = T(1e-3);  // v_d [m/s]
 
   // Friction force over normal force over sliding speed [s/m]: multiply by F_n and the sliding velocity vector.
   // speed >= 0.
-  template <typename T>
   T force_per_velocity(const T& speed) const {
-    const T ramp = (speed - T(static_speed)) * T(1.0 / (dynamic_speed - static_speed));
+    const T ramp = (speed - static_speed) * (T(1.0) / (dynamic_speed - static_speed));
     const T factor = select(ramp > T(1.0), T(1.0), positive_part(ramp));
     // Where the factor is zero the speed may be too: divide by something harmless there.
-    const T divisor = select(speed > T(static_speed), speed, T(1.0));
-    return T(coefficient) * factor / divisor;
+    const T divisor = select(speed > static_speed, speed, T(1.0));
+    return coefficient * factor / divisor;
   }
 };
+using ModifiedCoulomb = ModifiedCoulombT<double>;
 
 }  // namespace boresight

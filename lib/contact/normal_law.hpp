@@ -12,21 +12,23 @@
 
 namespace boresight {
 
-struct NormalLaw {
-  double stiffness = 0.0;       // K [N/m^1.5]
-  double damping_factor = 0.0;  // h [-]
+// T: a sample's numbers may be lanes or jets.
+template <typename T>
+struct NormalLawT {
+  T stiffness{};       // K [N/m^1.5]
+  T damping_factor{};  // h [-]
 
   // Zero where penetration <= 0.
-  template <typename T>
   T force(const T& penetration, const T& rate, const T& impact_speed) const {
     using std::sqrt;
     // The root is taken of a positive number in every lane: at d = 0 its derivative would be infinite.
     const T depth = select(penetration > T(0.0), penetration, T(1.0));
-    const T elastic = T(stiffness) * depth * sqrt(depth);
-    const T whole = elastic * (T(1.0) + T(damping_factor) * rate / impact_speed);
+    const T elastic = stiffness * depth * sqrt(depth);
+    const T whole = elastic * (T(1.0) + damping_factor * rate / impact_speed);
     return select(penetration > T(0.0), positive_part(whole), T(0.0));
   }
 };
+using NormalLaw = NormalLawT<double>;
 
 // A law of the family, by its name in mechanism files.
 struct NormalLawEntry {

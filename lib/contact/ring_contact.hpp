@@ -26,7 +26,7 @@ struct RingForce {
 
 // stiffness: K_c [N/m]; depth: d0 [m]; swing: A >= 0 [m].
 template <typename T>
-RingForce<T> ring_contact(double stiffness, const T& depth, const T& swing) {
+RingForce<T> ring_contact(const T& stiffness, const T& depth, const T& swing) {
   using std::acos;
   using std::sqrt;
   const T zero(0.0), one(1.0);
@@ -36,10 +36,10 @@ RingForce<T> ring_contact(double stiffness, const T& depth, const T& swing) {
   const T ratio = select(partial, select(touches, -depth / select(partial, swing + T(1e-300), one), zero), zero);
   const T inside = select(ratio < one, select(ratio > T(-1.0), ratio, zero), zero);
   const T a = acos(inside), sine = sqrt(one - inside * inside);
-  const double per_pi = stiffness / std::numbers::pi;
-  const T force = select(partial, T(per_pi) * (depth * a + swing * sine), T(stiffness) * depth);
-  const T moment = select(partial, T(0.5 * per_pi) * (T(2.0) * depth * sine + swing * (a + sine * inside)),
-                          T(0.5 * stiffness) * swing);
+  const T per_pi = stiffness * T(1.0 / std::numbers::pi);
+  const T force = select(partial, per_pi * (depth * a + swing * sine), stiffness * depth);
+  const T moment = select(partial, T(0.5) * per_pi * (T(2.0) * depth * sine + swing * (a + sine * inside)),
+                          T(0.5) * stiffness * swing);
   RingForce<T> result;
   result.force = select(touches, positive_part(force), zero);
   const T divisor = select(result.force > zero, result.force, one);

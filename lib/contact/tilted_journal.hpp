@@ -16,44 +16,43 @@
 // Derived for this program from the geometry; held against the gradient of the energy in a test.
 #pragma once
 
+#include "boresight/contact/journal_motion.hpp"
 #include "boresight/contact/modified_coulomb.hpp"
 #include "boresight/contact/normal_law.hpp"
 #include "boresight/contact/ring_contact.hpp"
-#include "boresight/contact/journal_motion.hpp"
 
 namespace boresight {
 
-struct TiltedJournal {
-  double radial_clearance = 0.0, axial_clearance = 0.0;  // c_r, c_a [m]
-  double bore_radius = 0.0;                              // R_b [m]
-  double half_length = 0.0;                              // L_b / 2 [m]
-  double ring_radius = 0.0;                              // (R_b + R_s) / 2 [m]
+template <typename T>
+struct TiltedJournalT {
+  T radial_clearance{}, axial_clearance{};  // c_r, c_a [m]
+  T bore_radius{};                              // R_b [m]
+  T half_length{};                              // L_b / 2 [m]
+  T ring_radius{};                              // (R_b + R_s) / 2 [m]
   bool has_faces = true;
   bool slides = false;          // a cylindrical joint
-  NormalLaw end_law;            // of one end: K / 2
-  double face_stiffness = 0.0;  // K_c [N/m]
-  ModifiedCoulomb friction;
+  NormalLawT<T> end_law;            // of one end: K / 2
+  T face_stiffness{};  // K_c [N/m]
+  ModifiedCoulombT<T> friction;
 
-  template <typename T>
   void gaps(const JournalMotion<T>& motion, std::array<ContactState<T>, kContactPlaces>& contact) const {
     for (ContactState<T>& c : contact) c = {T(-1.0), T(0.0), T(0.0)};
     for (int side : {-1, 1}) {
-      const End<T> at = end(motion, side);
+      const End at = end(motion, side);
       contact[radial_place(side)] = {at.penetration, at.rate, T(0.0)};
       if (!has_faces) continue;
-      const Face<T> on = face(motion, side);
+      const Face on = face(motion, side);
       contact[axial_place(side)] = {on.depth + on.swing, on.rate, T(0.0)};
     }
   }
 
-  template <typename T>
   void wrench(const JournalMotion<T>& m, const std::array<T, kContactPlaces>& impact_speed, JournalWrench<T>& out) const {
     using std::sqrt;
     for (ContactState<T>& c : out.contact) c = {T(-1.0), T(0.0), T(0.0)};
     out.force.setConstant(T(0.0));
     out.moment.setConstant(T(0.0));
     for (int side : {-1, 1}) {
-      const End<T> at = end(m, side);
+      const End at = end(m, side);
       ContactState<T>& contact = out.contact[radial_place(side)];
       contact = {at.penetration, at.rate, T(0.0)};
       if (!any(at.penetration > T(0.0))) continue;
@@ -63,7 +62,7 @@ struct TiltedJournal {
       const Vec3T<T> push(-F * at.nx, slides ? T(F * tilted) : T(0.0), -F * at.nz);
       out.force += push;
       out.moment += m.e.cross(push) + moment_of(-F * at.reach * at.nx, -F * at.reach * at.nz, m);
-      const Vec3T<T> point(T(bore_radius) * at.nx, T(side * half_length), T(bore_radius) * at.nz);
+      const Vec3T<T> point(bore_radius * at.nx, T(side) * half_length, bore_radius * at.nz);
       const Vec3T<T> v = m.e_dot + m.w.cross(Vec3T<T>(point - m.e));
       const T around = v.x() * at.nz - v.z() * at.nx;
       const T pull = F * friction.force_per_velocity(T(sqrt(around * around + v.y() * v.y())));
@@ -71,7 +70,7 @@ struct TiltedJournal {
     }
     if (!has_faces) return;
     for (int side : {-1, 1}) {
-      const Face<T> on = face(m, side);
+      const Face on = face(m, side);
       ContactState<T>& contact = out.contact[axial_place(side)];
       contact = {on.depth + on.swing, on.rate, T(0.0)};
       if (!any(contact.penetration > T(0.0))) continue;
@@ -79,23 +78,24 @@ struct TiltedJournal {
       const T F = ring.force;
       contact.normal_force = F;
       const Vec3T<T> push(T(0.0), T(side) * F, T(0.0));
-      const T swing = T(ring_radius) * ring.moment_arm;
+      const T swing = ring_radius * ring.moment_arm;
       out.force += push;
       out.moment += m.e.cross(push) + moment_of(-F * swing * on.ux, -F * swing * on.uz, m);
-      const Vec3T<T> point(T(side) * swing * on.ux, T(side * half_length), T(side) * swing * on.uz);
+      const Vec3T<T> point(T(side) * swing * on.ux, T(side) * half_length, T(side) * swing * on.uz);
       const Vec3T<T> v = m.e_dot + m.w.cross(Vec3T<T>(point - m.e));
       const T pull = F * friction.force_per_velocity(T(sqrt(v.x() * v.x() + v.z() * v.z())));
       add(point, Vec3T<T>(-pull * v.x(), T(0.0), -pull * v.z()), out);
     }
   }
 
-  double elastic_energy(const JournalMotion<double>& m) const {
-    double energy = 0.0;
+  T elastic_energy(const JournalMotion<T>& m) const {
+    using std::sqrt;
+    T energy(0.0);
     for (int side : {-1, 1}) {
-      const double d = end(m, side).penetration;
-      if (d > 0.0) energy += 0.4 * end_law.stiffness * d * d * std::sqrt(d);
+      const T d = positive_part(end(m, side).penetration);
+      energy += T(0.4) * end_law.stiffness * d * d * sqrt(d);
       if (!has_faces) continue;
-      const Face<double> on = face(m, side);
+      const Face on = face(m, side);
       energy += ring_contact(face_stiffness, on.depth, on.swing).energy;
     }
     return energy;
@@ -105,34 +105,30 @@ struct TiltedJournal {
   static int axial_place(int side) { return static_cast<int>(side < 0 ? ContactPlace::axial_minus : ContactPlace::axial_plus); }
 
   // Of the couple (gx, gz) on the slopes, about the journal's centre.
-  template <typename T>
   static Vec3T<T> moment_of(const T& gx, const T& gz, const JournalMotion<T>& m) {
     const Vec3T<T> along(m.slope[0], T(1.0), m.slope[1]);
     return along.cross(Vec3T<T>(gx, -gx * m.slope[0] - gz * m.slope[1], gz));
   }
 
  private:
-  template <typename T>
   struct End {
     T reach, nx, nz, penetration, rate;
   };
-  template <typename T>
   struct Face {
     T depth, swing, rate, ux, uz;  // d0, A, rate of d0 + A, sigma / |sigma|
   };
 
-  template <typename T>
-  End<T> end(const JournalMotion<T>& m, int side) const {
+  End end(const JournalMotion<T>& m, int side) const {
     using std::sqrt;
-    End<T> at;
-    at.reach = slides ? T(T(side * half_length) - m.e.y()) : T(side * half_length);
+    End at;
+    at.reach = slides ? T(T(side) * half_length - m.e.y()) : T(T(side) * half_length);
     const T x = m.e.x() + at.reach * m.slope[0], z = m.e.z() + at.reach * m.slope[1];
     const T square = x * x + z * z;
     // A concentric journal has no normal; it is far from the bore, so any divisor does.
     const T distance = sqrt(select(square > T(0.0), square, T(1e-60)));
     at.nx = x / distance;
     at.nz = z / distance;
-    at.penetration = distance - T(radial_clearance);
+    at.penetration = distance - radial_clearance;
     T x_rate = m.e_dot.x() + at.reach * m.slope_rate[0], z_rate = m.e_dot.z() + at.reach * m.slope_rate[1];
     if (slides) {
       x_rate -= m.e_dot.y() * m.slope[0];
@@ -142,25 +138,24 @@ struct TiltedJournal {
     return at;
   }
 
-  template <typename T>
-  Face<T> face(const JournalMotion<T>& m, int side) const {
+  Face face(const JournalMotion<T>& m, int side) const {
     using std::sqrt;
-    Face<T> on;
+    Face on;
     const T square = m.slope[0] * m.slope[0] + m.slope[1] * m.slope[1];
     const T tilt = sqrt(select(square > T(0.0), square, T(1e-60)));
     on.ux = m.slope[0] / tilt;
     on.uz = m.slope[1] / tilt;
-    on.depth = T(-side) * m.e.y() - T(axial_clearance);
-    on.swing = T(ring_radius) * tilt;
-    on.rate = T(-side) * m.e_dot.y() + T(ring_radius) * (on.ux * m.slope_rate[0] + on.uz * m.slope_rate[1]);
+    on.depth = T(-side) * m.e.y() - axial_clearance;
+    on.swing = ring_radius * tilt;
+    on.rate = T(-side) * m.e_dot.y() + ring_radius * (on.ux * m.slope_rate[0] + on.uz * m.slope_rate[1]);
     return on;
   }
 
-  template <typename T>
   static void add(const Vec3T<T>& point, const Vec3T<T>& force, JournalWrench<T>& out) {
     out.force += force;
     out.moment += point.cross(force);
   }
 };
+using TiltedJournal = TiltedJournalT<double>;
 
 }  // namespace boresight
