@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdio>
+#include <type_traits>
 #include <utility>
 
 #include "boresight/integrate/gap_watch.hpp"
@@ -50,6 +51,7 @@ class Integrator {
         probe_slope_(state_) {}
 
   // From t0 to t_end > t0. y: the state at t0, replaced by that where the run stopped; always finite if it was at the start.
+  // observe(const AcceptedStep<M>&): returns nothing, or whether to go on.
   template <typename S, typename Observer>
     requires MethodFor<M, S>
   IntegrationSummary run(S& system, double t0, double t_end, VecX& y, const IntegrationOptions& options, Observer&& observe) {
@@ -106,10 +108,17 @@ class Integrator {
       const double length = cut ? share * h : h;
       if (cut && !retake(std::as_const(system), length, y)) return ended(StopReason::attempt_failed, "");
       state_ = method_.proposed();
-      observe(AcceptedStep<M>(method_, t_, length, end, std::as_const(state_)));
+      bool goes_on = true;
+      const AcceptedStep<M> step(method_, t_, length, end, std::as_const(state_));
+      if constexpr (std::is_same_v<decltype(observe(step)), bool>)
+        goes_on = observe(step);
+      else
+        observe(step);
       count_step(h, cut);
       y = state_;
       t_ = end;
+      if (!goes_on) return ended(StopReason::stopped_by_observer, "");
+      if constexpr (Settles<S>) system.settle(t_, y);
 
       // Let the problem change its memory, and start anew where it did.
       bool changed = false, stop = false;
