@@ -56,12 +56,9 @@ struct JournalInSleeve : JournalInSleeveT<double> {
 
 template <typename T>
 void JournalInSleeveT<T>::gaps(const JournalMotion<T>& m, std::array<ContactState<T>, kContactPlaces>& contact) const {
-  using std::sqrt;
   if (tilts) return tilted.gaps(m, contact);
   for (ContactState<T>& c : contact) c = {T(-1.0), T(0.0), T(0.0)};
-  const T square = m.e.x() * m.e.x() + m.e.z() * m.e.z();
-  // A concentric journal has no normal; it is far from the bore, so any divisor does.
-  const T distance = sqrt(select(square > T(0.0), square, T(1e-60)));
+  const T distance = length_from_square(T(m.e.x() * m.e.x() + m.e.z() * m.e.z()));
   ContactState<T>& radial = contact[static_cast<int>(ContactPlace::radial)];
   radial.penetration = distance - radial_clearance;
   radial.rate = (m.e_dot.x() * m.e.x() + m.e_dot.z() * m.e.z()) / distance;
@@ -77,7 +74,6 @@ void JournalInSleeveT<T>::gaps(const JournalMotion<T>& m, std::array<ContactStat
 template <typename T>
 void JournalInSleeveT<T>::wrench(const JournalMotion<T>& m, const std::array<T, kContactPlaces>& impact_speed,
                              JournalWrench<T>& out) const {
-  using std::sqrt;
   if (tilts) return tilted.wrench(m, impact_speed, out);
   gaps(m, out.contact);
   out.force.setConstant(T(0.0));
@@ -85,7 +81,8 @@ void JournalInSleeveT<T>::wrench(const JournalMotion<T>& m, const std::array<T, 
 
   ContactState<T>& radial = out.contact[static_cast<int>(ContactPlace::radial)];
   if (any(radial.penetration > T(0.0))) {
-    const T inverse = T(1.0) / (radial.penetration + radial_clearance);
+    // Where another sample is in contact and this one is concentric, any divisor does.
+    const T inverse = T(1.0) / select(radial.penetration > T(0.0), T(radial.penetration + radial_clearance), T(1.0));
     const T nx = m.e.x() * inverse, nz = m.e.z() * inverse;
     radial.normal_force =
         radial_law.force(radial.penetration, radial.rate, impact_speed[static_cast<int>(ContactPlace::radial)]);
@@ -94,7 +91,7 @@ void JournalInSleeveT<T>::wrench(const JournalMotion<T>& m, const std::array<T, 
     const T arm = bore_radius - radial_clearance - radial.penetration;
     const T around = m.e_dot.x() * nz - m.e_dot.z() * nx + m.w.y() * arm;
     const T along = m.e_dot.y() + (m.w.z() * nx - m.w.x() * nz) * arm;
-    const T pull = radial.normal_force * friction.force_per_velocity(T(sqrt(around * around + along * along)));
+    const T pull = radial.normal_force * friction.force_per_velocity(length_from_square(T(around * around + along * along)));
     const T f_around = -pull * around, f_along = -pull * along;
     out.force.x() += -radial.normal_force * nx + f_around * nz;
     out.force.y() += f_along;
@@ -113,7 +110,7 @@ void JournalInSleeveT<T>::wrench(const JournalMotion<T>& m, const std::array<T, 
     const T lever = T(side) * half_length - m.e.y();
     const T vx = m.e_dot.x() - m.w.y() * m.e.z() - m.w.z() * lever;
     const T vz = m.e_dot.z() + m.w.x() * lever + m.w.y() * m.e.x();
-    const T pull = face.normal_force * friction.force_per_velocity(T(sqrt(vx * vx + vz * vz)));
+    const T pull = face.normal_force * friction.force_per_velocity(length_from_square(T(vx * vx + vz * vz)));
     out.force.x() -= pull * vx;
     out.force.y() += T(side) * face.normal_force;
     out.force.z() -= pull * vz;

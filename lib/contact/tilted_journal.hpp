@@ -65,7 +65,7 @@ struct TiltedJournalT {
       const Vec3T<T> point(bore_radius * at.nx, T(side) * half_length, bore_radius * at.nz);
       const Vec3T<T> v = m.e_dot + m.w.cross(Vec3T<T>(point - m.e));
       const T around = v.x() * at.nz - v.z() * at.nx;
-      const T pull = F * friction.force_per_velocity(T(sqrt(around * around + v.y() * v.y())));
+      const T pull = F * friction.force_per_velocity(length_from_square(T(around * around + v.y() * v.y())));
       add(point, Vec3T<T>(-pull * around * at.nz, -pull * v.y(), pull * around * at.nx), out);
     }
     if (!has_faces) return;
@@ -83,7 +83,7 @@ struct TiltedJournalT {
       out.moment += m.e.cross(push) + moment_of(-F * swing * on.ux, -F * swing * on.uz, m);
       const Vec3T<T> point(T(side) * swing * on.ux, T(side) * half_length, T(side) * swing * on.uz);
       const Vec3T<T> v = m.e_dot + m.w.cross(Vec3T<T>(point - m.e));
-      const T pull = F * friction.force_per_velocity(T(sqrt(v.x() * v.x() + v.z() * v.z())));
+      const T pull = F * friction.force_per_velocity(length_from_square(T(v.x() * v.x() + v.z() * v.z())));
       add(point, Vec3T<T>(-pull * v.x(), T(0.0), -pull * v.z()), out);
     }
   }
@@ -123,9 +123,7 @@ struct TiltedJournalT {
     End at;
     at.reach = slides ? T(T(side) * half_length - m.e.y()) : T(T(side) * half_length);
     const T x = m.e.x() + at.reach * m.slope[0], z = m.e.z() + at.reach * m.slope[1];
-    const T square = x * x + z * z;
-    // A concentric journal has no normal; it is far from the bore, so any divisor does.
-    const T distance = sqrt(select(square > T(0.0), square, T(1e-60)));
+    const T distance = length_from_square(T(x * x + z * z));
     at.nx = x / distance;
     at.nz = z / distance;
     at.penetration = distance - radial_clearance;
@@ -141,8 +139,7 @@ struct TiltedJournalT {
   Face face(const JournalMotion<T>& m, int side) const {
     using std::sqrt;
     Face on;
-    const T square = m.slope[0] * m.slope[0] + m.slope[1] * m.slope[1];
-    const T tilt = sqrt(select(square > T(0.0), square, T(1e-60)));
+    const T tilt = length_from_square(T(m.slope[0] * m.slope[0] + m.slope[1] * m.slope[1]));
     on.ux = m.slope[0] / tilt;
     on.uz = m.slope[1] / tilt;
     on.depth = T(-side) * m.e.y() - axial_clearance;

@@ -21,4 +21,11 @@ inline T positive_part(const T& x) {
   return select(x > T(0.0), x, T(0.0));
 }
 
+// Length from its square, with a derivative everywhere: a vector of no length has some tiny one, and so a direction.
+template <typename T>
+inline T length_from_square(const T& square) {
+  using std::sqrt;
+  return sqrt(select(square > T(0.0), square, T(1e-60)));
+}
+
 }  // namespace boresight

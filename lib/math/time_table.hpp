@@ -49,6 +49,10 @@ class TimeTable {
   }
 
   int width() const { return width_; }
+  double spacing() const { return spacing_; }
+  int cells() const { return cells_; }
+  // Of one cell: the factors of s^0, s^1, s^2, s^3 with s from 0 to 1 across the cell, `width` numbers each.
+  const double* cell(int k) const { return &coefficients_[static_cast<std::size_t>(k) * 4 * width_]; }
 
   // out: `width` values at t.
   void at(double t, double* out) const {

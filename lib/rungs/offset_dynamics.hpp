@@ -1,7 +1,7 @@
 // The right-hand side of the perturbation rung: zddot = A (r + f_contact) - A C zdot - A K z, one template for every scalar.
 //
-// T is the scalar of the coordinates and of the numbers that a sample varies; the scene's functions of time are plain
-// doubles, shared by all samples. State: z (n), then zdot (n).
+// T is the scalar of the coordinates and of the numbers that a sample varies; S that of the scene's functions of time: plain
+// doubles where all samples share them, lanes where each sample is at its own time. State: z (n), then zdot (n).
 #pragma once
 
 #include "boresight/contact/journal_in_sleeve.hpp"
@@ -10,8 +10,8 @@
 namespace boresight {
 
 // How a journal moves, from the coordinates and the scene (one row of its table) at that time.
-template <typename T>
-JournalMotion<T> journal_motion(const SceneLayout& at, const SceneLayout::Joint& joint, const double* scene, const T* z,
+template <typename T, typename S>
+JournalMotion<T> journal_motion(const SceneLayout& at, const SceneLayout::Joint& joint, const S* scene, const T* z,
                                 const T* rate) {
   std::array<T, 5> offset, offset_rate;
   for (int k = 0; k < joint.offsets; ++k) {
@@ -20,7 +20,7 @@ JournalMotion<T> journal_motion(const SceneLayout& at, const SceneLayout::Joint&
       offset[k] = z[source];
       offset_rate[k] = rate[source];
     } else if (source == DeviationCoordinates::kDependent) {
-      const double *B = scene + joint.dependent + k * at.n, *B_rate = B + joint.offsets * at.n;
+      const S *B = scene + joint.dependent + k * at.n, *B_rate = B + joint.offsets * at.n;
       offset[k] = offset_rate[k] = T(0.0);
       for (int j = 0; j < at.n; ++j) {
         offset[k] += T(B[j]) * z[j];
@@ -45,7 +45,7 @@ JournalMotion<T> journal_motion(const SceneLayout& at, const SceneLayout::Joint&
   m.w[0] = m.w[2] = T(0.0);
   for (int i = 0; i < joint.spins; ++i) {
     T spin(scene[joint.spin + i]);
-    const double* gain = scene + joint.spin_gain + i * at.n;
+    const S* gain = scene + joint.spin_gain + i * at.n;
     for (int j = 0; j < at.n; ++j) spin += T(gain[j]) * rate[j];
     m.w[joint.tilts ? i : 1] = spin;
   }
@@ -53,15 +53,15 @@ JournalMotion<T> journal_motion(const SceneLayout& at, const SceneLayout::Joint&
 }
 
 // Adds a joint's wrench to the generalised force (n numbers).
-template <typename T>
-void add_generalised_force(const SceneLayout& at, const SceneLayout::Joint& joint, const double* scene,
+template <typename T, typename S>
+void add_generalised_force(const SceneLayout& at, const SceneLayout::Joint& joint, const S* scene,
                            const JournalMotion<T>& motion, const JournalWrench<T>& wrench, T* force) {
   for (int k = 0; k < 3; ++k) {
     const int source = joint.source[k];
     if (source >= 0) {
       force[source] += wrench.force[k];
     } else {
-      const double* gain =
+      const S* gain =
           scene + (source == DeviationCoordinates::kDependent ? joint.dependent + k * at.n : joint.slide_gain);
       for (int j = 0; j < at.n; ++j) force[j] += T(gain[j]) * wrench.force[k];
     }
@@ -69,22 +69,22 @@ void add_generalised_force(const SceneLayout& at, const SceneLayout::Joint& join
   // The moment about the journal's centre works on the relative spin.
   const Vec3T<T> moment = wrench.moment - motion.e.cross(wrench.force);
   for (int i = 0; i < joint.spins; ++i) {
-    const double* gain = scene + joint.spin_gain + i * at.n;
+    const S* gain = scene + joint.spin_gain + i * at.n;
     const T& m = moment[joint.tilts ? i : 1];
     for (int j = 0; j < at.n; ++j) force[j] += T(gain[j]) * m;
   }
 }
 
 // zddot from the generalised contact force.
-template <typename T>
-void coordinate_acceleration(const SceneLayout& at, const double* scene, const T* z, const T* rate, const T* force,
+template <typename T, typename S>
+void coordinate_acceleration(const SceneLayout& at, const S* scene, const T* z, const T* rate, const T* force,
                              T* acceleration) {
   for (int i = 0; i < at.n; ++i) {
     T sum(scene[at.Ar + i]);
-    const double *A = scene + at.A + i * at.n, *AC = scene + at.AC + i * at.n;
+    const S *A = scene + at.A + i * at.n, *AC = scene + at.AC + i * at.n;
     for (int j = 0; j < at.n; ++j) sum += T(A[j]) * force[j] - T(AC[j]) * rate[j];
     if (at.stiff) {
-      const double* AK = scene + at.AK + i * at.n;
+      const S* AK = scene + at.AK + i * at.n;
       for (int j = 0; j < at.n; ++j) sum -= T(AK[j]) * z[j];
     }
     acceleration[i] = sum;

@@ -1,0 +1,15 @@
+# Each kernel is compiled for its own processor and chosen when the program runs (lane_kernels.cpp). No fused multiply-add
+# and no reordering: all kernels give the same bits. Square roots need not set errno, which would keep them out of registers.
+set(kernels scalar sse2 avx2 avx512)
+foreach(kernel IN LISTS kernels)
+  list(APPEND kernel_files ${CMAKE_CURRENT_LIST_DIR}/lanes_${kernel}.cpp)
+endforeach()
+set_property(SOURCE ${kernel_files} TARGET_DIRECTORY lanes APPEND PROPERTY COMPILE_OPTIONS -ffp-contract=off -fno-math-errno -Wno-psabi)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lanes_avx2.cpp TARGET_DIRECTORY lanes APPEND PROPERTY COMPILE_OPTIONS -march=x86-64-v3)
+  set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lanes_avx512.cpp TARGET_DIRECTORY lanes
+               APPEND PROPERTY COMPILE_OPTIONS -march=x86-64-v4 -mprefer-vector-width=512)
+  target_compile_definitions(lanes PRIVATE BORESIGHT_X86_LANES)
+else()
+  # The generic vectors of the compiler serve; the wide kernels are built but not offered.
+endif()

@@ -1,0 +1,220 @@
+// Integrates many samples of the perturbation rung, W at a time: every lane at its own time with its own step, its error
+// estimate and its contacts; a lane whose sample is done takes the next one from the list. So a sample that needs small steps
+// holds nobody back, and no sample's result depends on what runs beside it.
+//
+// Per attempt and sample: one row of the scene, one right-hand side with derivatives, one decomposition, and the stages that
+// the method has besides. What all lanes do in common is counted in tests/benchmarks/README.md.
+// Control of the step: Hairer and Wanner (1996), section IV.8, with the exponent 1/4 of methods of order 4(3).
+#pragma once
+
+#include "boresight/lanes/lane_contacts.hpp"
+#include "boresight/lanes/lane_rosenbrock.hpp"
+#include "boresight/lanes/lane_rows.hpp"
+#include "boresight/lanes/lane_statistics.hpp"
+
+namespace boresight {
+
+template <int W, typename Target, int N>
+class LaneIntegrator {
+ public:
+  using T = Lanes<W, Target>;
+  using Mask = typename T::Mask;
+
+  LaneIntegrator(const LaneJob& first, const LaneSettings& settings)
+      : settings_(settings),
+        dynamics_(*first.scene->layout, first.joints),
+        width_(first.scene->width),
+        gain_(first.scene->gain),
+        contacts_(first.scene->layout->joints.size(), first.scene->places),
+        method_(*settings.method, dynamics_, width_),
+        row_(static_cast<std::size_t>(width_)),
+        new_row_(row_),
+        change_(row_) {
+    for (auto* numbers : {&z_, &v_, &new_z_, &new_v_, &middle_z_}) shape(*numbers, count());
+    shape(error_, 2 * count());
+    shape(tolerance_, 2 * count());
+    jobs_of_.fill(nullptr);
+  }
+
+  void run(const LaneJob* jobs, long total, LaneOutcome* outcomes) {
+    long next = 0;
+    for (int l = 0; l < W; ++l) {
+      scenes_[l] = jobs[0].scene;
+      if (next < total) {
+        begin(l, jobs[next], outcomes[next]);
+        ++next;
+      } else {
+        rest(l);
+      }
+    }
+    read_starts(Mask(true));
+    while (any(running_)) {
+      attempt();
+      if (!any(ends_)) continue;
+      Mask fresh(false);
+      for (int l = 0; l < W; ++l) {
+        if (!ends_.lane(l)) continue;
+        finish(l);
+        if (next < total) {
+          begin(l, jobs[next], outcomes[next]);
+          ++next;
+          fresh.set(l, true);
+        } else {
+          rest(l);
+        }
+      }
+      if (any(fresh)) read_starts(fresh);
+    }
+  }
+
+ private:
+  int count() const { return dynamics_.count(); }
+
+  void begin(int l, const LaneJob& job, LaneOutcome& outcome) {
+    jobs_of_[l] = &job;
+    outcomes_of_[l] = &outcome;
+    scenes_[l] = job.scene;
+    for (int k = 0; k < count(); ++k) {
+      z_[k].set(l, 0.0);
+      v_[k].set(l, 0.0);
+      tolerance_[k].set(l, 1.0 / job.tolerance[k]);
+      tolerance_[count() + k].set(l, 1.0 / job.tolerance[count() + k]);
+    }
+    for (std::size_t c = 0; c < dynamics_.laws.size(); ++c) {
+      set_lane(dynamics_.laws[c], l, job.joints[c]);
+      contacts_.tolerance[c].set(l, job.gap_tolerance[c]);
+      contacts_.slowest[c].set(l, job.joints[c].minimum_impact_speed);
+    }
+    t_.set(l, 0.0);
+    h_.set(l, settings_.first_step);
+    end_time_.set(l, job.scene->duration);
+    for (T* x : {&statistics_.value, &statistics_.max, &statistics_.time_of_max, &statistics_.integral, &statistics_.square,
+                 &touching_time_, &deepest_, &impacts_, &steps_, &rejected_})
+      x->set(l, 0.0);
+    entry_.set(l, settings_.longest_step);
+    running_.set(l, true);
+    rejected_before_.set(l, false);
+    entering_.set(l, false);
+  }
+
+  // A lane with nothing to do goes through the motions at rest.
+  void rest(int l) {
+    jobs_of_[l] = nullptr;
+    for (int k = 0; k < count(); ++k) {
+      z_[k].set(l, 0.0);
+      v_[k].set(l, 0.0);
+    }
+    t_.set(l, 0.0);
+    h_.set(l, settings_.first_step);
+    end_time_.set(l, 1.0);
+    running_.set(l, false);
+  }
+
+  // Rows and gaps of lanes that stand at the start of their motion.
+  void read_starts(const Mask& lanes) {
+    scene_rows(scenes_.data(), t_, width_, new_row_.data());
+    for (int k = 0; k < width_; ++k) row_[k] = select(lanes, new_row_[k], row_[k]);
+    dynamics_.contacts(new_row_.data(), z_.data(), v_.data(), contacts_.end.data());
+    for (int l = 0; l < W; ++l)
+      if (lanes.lane(l)) contacts_.restart(l, dynamics_.impact_speed);
+  }
+
+  void attempt() {
+    const int n = count();
+    const T left = end_time_ - t_;
+    const Mask last = !(h_ < left);
+    T h = select(last, left, h_);
+    const T new_t = select(last, end_time_, t_ + h);
+    scene_rows(scenes_.data(), new_t, width_, new_row_.data());
+    for (int k = 0; k < width_; ++k) change_[k] = new_row_[k] - row_[k];
+    method_.step(dynamics_, row_.data(), change_.data(), h, z_.data(), v_.data(), new_z_.data(), new_v_.data(), error_.data());
+    dynamics_.contacts(new_row_.data(), new_z_.data(), new_v_.data(), contacts_.end.data());
+
+    T error(0.0);
+    Mask finite(true);
+    for (int k = 0; k < 2 * n; ++k) {
+      const T scaled = abs(error_[k]) * tolerance_[k];
+      finite = finite & (scaled < T(1e100));
+      error = larger(scaled, error);
+    }
+    const T share = contacts_.first_beginning(h);
+    const Mask lands = finite & (share < T(1.0));
+    const Mask accepted = running_ & finite & !lands & (error <= T(1.0));
+    // The step that this error asks for.
+    T factor = T(kSafety) / sqrt(sqrt(larger(error, T(1e-8))));
+    factor = select(finite, larger(smaller(factor, select(rejected_before_, T(1.0), T(kLargestFactor))), T(kSmallestFactor)),
+                    T(kSmallestFactor));
+    T next = smaller(h * factor, T(settings_.longest_step));
+    next = select(lands, h * larger(share, T(1e-3)), next);
+
+    observe(accepted, h);
+    const Mask began = contacts_.accept(accepted, dynamics_.impact_speed, impacts_);
+    // The first step into a contact is much shorter than the flight's: remember how long the last one was.
+    entry_ = select(accepted & entering_, h, entry_);
+    next = select(began, smaller(next, T(kEntryFactor) * entry_), next);
+    entering_ = select(accepted, began, entering_);
+    // A step cut short by the end of the motion or a contact says nothing of the one after it.
+    steps_ = select(accepted, steps_ + T(1.0), steps_);
+    rejected_ = select(accepted, rejected_, rejected_ + T(1.0));
+    rejected_before_ = running_ & !accepted;
+    h_ = next;
+    for (int k = 0; k < n; ++k) {
+      z_[k] = select(accepted, new_z_[k], z_[k]);
+      v_[k] = select(accepted, new_v_[k], v_[k]);
+    }
+    for (int k = 0; k < width_; ++k) row_[k] = select(accepted, new_row_[k], row_[k]);
+    t_ = select(accepted, new_t, t_);
+    gave_up_ = running_ & ((h_ < T(settings_.smallest_step)) | (steps_ + rejected_ >= T(double(settings_.most_steps))));
+    ends_ = (accepted & last) | gave_up_;
+  }
+
+  void observe(const Mask& accepted, const T& h) {
+    const int n = count();
+    for (int k = 0; k < n; ++k)
+      middle_z_[k] = T(0.5) * (z_[k] + new_z_[k]) + T(0.125) * h * (v_[k] - new_v_[k]);
+    const T end = index_value(n, &new_row_[gain_], new_z_.data());
+    for (int k = gain_; k < gain_ + 3 * n; ++k) change_[k] = row_[k] + T(0.5) * change_[k];
+    const T middle = index_value(n, &change_[gain_], middle_z_.data());
+    statistics_.add(accepted, t_, h, middle, end);
+    touching_time_ = select(accepted & contacts_.touching(), touching_time_ + h, touching_time_);
+    deepest_ = select(accepted, larger(deepest_, contacts_.deepest(h)), deepest_);
+  }
+
+  void finish(int l) {
+    LaneOutcome& out = *outcomes_of_[l];
+    const double t = t_.lane(l), duration = end_time_.lane(l);
+    out.status = t >= duration ? LaneStatus::done
+                 : h_.lane(l) < settings_.smallest_step ? LaneStatus::step_too_small
+                                                        : LaneStatus::too_many_steps;
+    out.t = t;
+    out.max = statistics_.max.lane(l);
+    out.time_of_max = statistics_.time_of_max.lane(l);
+    out.mean = t > 0.0 ? statistics_.integral.lane(l) / t : 0.0;
+    out.mean_square = t > 0.0 ? statistics_.square.lane(l) / t : 0.0;
+    out.touching_time = touching_time_.lane(l);
+    out.max_penetration = deepest_.lane(l);
+    out.impacts = static_cast<long>(impacts_.lane(l));
+    out.steps = static_cast<long>(steps_.lane(l));
+    out.rejected = static_cast<long>(rejected_.lane(l));
+  }
+
+  static constexpr double kSafety = 0.9, kSmallestFactor = 0.2, kLargestFactor = 4.0, kEntryFactor = 1.5;
+
+  LaneSettings settings_;
+  LaneDynamics<T, N> dynamics_;
+  int width_, gain_;
+  LaneContacts<T> contacts_;
+  LaneRosenbrock<T, N> method_;
+  std::vector<T> row_, new_row_, change_;
+  LaneNumbers<T, N> z_, v_, new_z_, new_v_, middle_z_;
+  LaneNumbers<T, 2 * N> error_, tolerance_;
+  LaneStatistics<T> statistics_;
+  T t_{0.0}, h_{1.0}, end_time_{1.0}, entry_{1.0};
+  T touching_time_{0.0}, deepest_{0.0}, impacts_{0.0}, steps_{0.0}, rejected_{0.0};
+  Mask running_{false}, rejected_before_{false}, entering_{false}, gave_up_{false}, ends_{false};
+  std::array<const LaneJob*, W> jobs_of_;
+  std::array<LaneOutcome*, W> outcomes_of_;
+  std::array<const LaneScene*, W> scenes_;
+};
+
+}  // namespace boresight

@@ -1,0 +1,48 @@
+// Maximum, mean and mean square of the index |G z| over time, one sample a lane.
+//
+// A step gives the value at its middle (z by the cubic through both ends' z and zdot) and at its end; the integrals are
+// Simpson's, the maximum that of the parabola through three values.
+#pragma once
+
+#include "boresight/lanes/lane_numbers.hpp"
+#include "boresight/math/lanes.hpp"
+
+namespace boresight {
+
+template <typename T>
+struct LaneStatistics {
+  T value{0.0};  // at the last accepted time
+  T max{0.0}, time_of_max{0.0}, integral{0.0}, square{0.0};
+
+  template <typename Mask>
+  void add(const Mask& accepted, const T& t, const T& h, const T& middle, const T& end) {
+    const T sixth = h * T(1.0 / 6.0);
+    integral = select(accepted, integral + sixth * (value + T(4.0) * middle + end), integral);
+    square = select(accepted, square + sixth * (value * value + T(4.0) * middle * middle + end * end), square);
+    // Peak of the parabola, where it lies inside the step.
+    const T slope = end - value, bend = T(2.0) * middle - value - end;  // bend > 0: it has a peak
+    const T divisor = select(bend > T(0.0), bend, T(1.0));
+    const T shift = T(0.25) * slope / divisor;  // from the middle, in steps
+    const Mask inside = (bend > T(0.0)) & (abs(shift) < T(0.5));
+    const T peak = select(inside, middle + T(0.5) * slope * shift, larger(middle, end));
+    const T peak_time = t + h * select(inside, T(0.5) + shift, select(middle > end, T(0.5), T(1.0)));
+    const Mask higher = accepted & (peak > max);
+    max = select(higher, peak, max);
+    time_of_max = select(higher, peak_time, time_of_max);
+    value = select(accepted, end, value);
+  }
+};
+
+// |G z| for G = gain, 3 x n row by row.
+template <typename T>
+T index_value(int n, const T* gain, const T* z) {
+  T square(0.0);
+  for (int i = 0; i < 3; ++i) {
+    T x(0.0);
+    for (int j = 0; j < n; ++j) x += gain[i * n + j] * z[j];
+    square += x * x;
+  }
+  return sqrt(square);
+}
+
+}  // namespace boresight

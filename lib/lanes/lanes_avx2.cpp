@@ -1,0 +1,13 @@
+#include "boresight/lanes/lane_kernel.hpp"
+#include "boresight/lanes/lane_kernels.hpp"
+
+namespace boresight {
+namespace {
+struct Avx2;
+}  // namespace
+
+void run_lanes_avx2(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
+  lane_kernel<4, Avx2>(jobs, count, settings, outcomes);
+}
+
+}  // namespace boresight

@@ -1,0 +1,13 @@
+#include "boresight/lanes/lane_kernel.hpp"
+#include "boresight/lanes/lane_kernels.hpp"
+
+namespace boresight {
+namespace {
+struct Avx512;
+}  // namespace
+
+void run_lanes_avx512(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
+  lane_kernel<8, Avx512>(jobs, count, settings, outcomes);
+}
+
+}  // namespace boresight

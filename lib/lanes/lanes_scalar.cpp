@@ -1,0 +1,13 @@
+#include "boresight/lanes/lane_kernel.hpp"
+#include "boresight/lanes/lane_kernels.hpp"
+
+namespace boresight {
+namespace {
+struct Scalar;
+}  // namespace
+
+void run_lanes_scalar(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
+  lane_kernel<1, Scalar>(jobs, count, settings, outcomes);
+}
+
+}  // namespace boresight

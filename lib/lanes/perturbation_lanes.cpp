@@ -1,0 +1,183 @@
+#include "boresight/lanes/perturbation_lanes.hpp"
+
+#include <cmath>
+#include <list>
+#include <mutex>
+
+#include "boresight/rungs/ideal_simulation.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr int kPad = 8;  // lanes of the widest register
+// Times per cell at which a gain that is no entry of the scene's table is looked at.
+constexpr std::size_t kScenesKept = 64;
+
+bool same_scene(const Parameters& a, const Parameters& b) {
+  if (a.gravity != b.gravity || a.payload_mass != b.payload_mass || a.body_mass != b.body_mass) return false;
+  for (std::size_t s = 0; s < a.spring.size(); ++s)
+    if (a.spring[s].stiffness != b.spring[s].stiffness || a.spring[s].damping != b.spring[s].damping ||
+        a.spring[s].free_length != b.spring[s].free_length)
+      return false;
+  return true;
+}
+
+// G at t, 3 x n: the index to first order is |G z|.
+MatX index_gain(const Mechanism& mechanism, const PreparedScene& prepared, PointingQuantity quantity, double t) {
+  const TimeTable& table = prepared.pose_gain(mechanism.boresight_body());
+  std::vector<double> row(table.width());
+  table.at(t, row.data());
+  const Eigen::Index n = table.width() / 6;
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> E(row.data(), 6, n);
+  if (quantity == PointingQuantity::position_error) return E.topRows(3);
+  if (quantity == PointingQuantity::orientation_error) return E.bottomRows(3);
+  const auto across = [](const Vec3& d, const MatX& rows) {
+    MatX crossed(3, rows.cols());
+    for (Eigen::Index j = 0; j < rows.cols(); ++j) crossed.col(j) = d.cross(Vec3(rows.col(j)));
+    return crossed;
+  };
+  const BodyMotion ideal = prepared.ideal().body(t, mechanism.boresight_body());
+  if (quantity == PointingQuantity::boresight_error) return across(ideal.R * mechanism.boresight_B(), E.bottomRows(3));
+  return across(ideal.p / ideal.p.squaredNorm(), E.topRows(3));
+}
+
+}  // namespace
+
+struct PerturbationLanes::Prepared {
+  Parameters parameters;
+  std::shared_ptr<const PreparedScene> scene;
+  std::shared_ptr<const SceneTables> tables;
+  std::vector<double> storage;
+  std::vector<LanePlaces> places;
+  VecX acceleration;  // root mean square of the ideal reactions' accelerations of each coordinate
+  LaneScene lane;
+};
+
+struct PerturbationLanes::Cache {
+  std::mutex mutex;
+  std::shared_ptr<const PreparedScene> scene;
+  Parameters scene_parameters;
+  std::list<std::shared_ptr<const Prepared>> prepared;  // the latest first
+};
+
+PerturbationLanes::PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity)
+    : mechanism_(std::move(mechanism)), quantity_(quantity), cache_(std::make_unique<Cache>()) {
+  prepared_for(mechanism_->parameters());
+}
+PerturbationLanes::~PerturbationLanes() = default;
+
+std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_for(const Parameters& parameters) const {
+  const std::lock_guard lock(cache_->mutex);
+  for (auto it = cache_->prepared.begin(); it != cache_->prepared.end(); ++it)
+    if (same_scene((*it)->parameters, parameters)) {
+      cache_->prepared.splice(cache_->prepared.begin(), cache_->prepared, it);
+      return cache_->prepared.front();
+    }
+  if (!cache_->scene || (!is_kinematic(*mechanism_) && !same_scene(cache_->scene_parameters, parameters))) {
+    cache_->scene = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
+    cache_->scene_parameters = parameters;
+  }
+  auto p = std::make_shared<Prepared>();
+  p->parameters = parameters;
+  p->scene = cache_->scene;
+  p->tables = p->scene->tables(parameters);
+  const TimeTable& dynamics = p->tables->dynamics;
+  const int n = p->tables->layout.n, knots = dynamics.cells() + 1;
+
+  std::vector<double> gains;
+  for (int k = 0; k < knots; ++k) {
+    const MatX G = index_gain(*mechanism_, *p->scene, quantity_, std::min(k * dynamics.spacing(), mechanism_->duration()));
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < n; ++j) gains.push_back(G(i, j));
+  }
+  const TimeTable gain(dynamics.spacing(), 3 * n, gains);
+
+  LaneScene& lane = p->lane;
+  lane.gain = dynamics.width();
+  lane.width = (dynamics.width() + 3 * n + kPad - 1) / kPad * kPad;
+  lane.cells = dynamics.cells();
+  lane.spacing = dynamics.spacing();
+  lane.duration = mechanism_->duration();
+  lane.layout = &p->tables->layout;
+  p->storage.assign(static_cast<std::size_t>(lane.cells) * 4 * lane.width, 0.0);
+  for (int cell = 0; cell < lane.cells; ++cell)
+    for (int power = 0; power < 4; ++power) {
+      double* to = &p->storage[(static_cast<std::size_t>(cell) * 4 + power) * lane.width];
+      std::copy_n(dynamics.cell(cell) + power * dynamics.width(), dynamics.width(), to);
+      std::copy_n(gain.cell(cell) + power * gain.width(), gain.width(), to + lane.gain);
+    }
+  lane.coefficients = p->storage.data();
+
+  for (int c = 0; c < mechanism_->clearances(); ++c) {
+    const ClearanceDescription& clearance = mechanism_->description().clearances[c];
+    const JournalInSleeve law(clearance, mechanism_->description().joints[clearance.joint].type, parameters.clearance[c]);
+    LanePlaces places;
+    for (ContactPlace place : law.places()) places.place[places.count++] = place;
+    p->places.push_back(places);
+  }
+  lane.places = p->places.data();
+
+  p->acceleration = VecX::Zero(n);
+  for (int cell = 0; cell < lane.cells; ++cell)
+    for (int k = 0; k < n; ++k) {
+      const double a = dynamics.cell(cell)[p->tables->layout.Ar + k];
+      p->acceleration[k] += a * a / lane.cells;
+    }
+  p->acceleration = p->acceleration.cwiseSqrt();
+  cache_->prepared.push_front(p);
+  if (cache_->prepared.size() > kScenesKept) cache_->prepared.pop_back();
+  return p;
+}
+
+void PerturbationLanes::run(std::span<const Parameters> samples, std::span<LaneOutcome> outcomes, double tolerance) const {
+  run(lane_targets().front(), samples, outcomes, tolerance);
+}
+
+void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters> samples, std::span<LaneOutcome> outcomes,
+                            double tolerance) const {
+  const MechanismDescription& m = mechanism_->description();
+  std::vector<std::shared_ptr<const Prepared>> prepared;
+  std::vector<std::vector<JournalInSleeve>> joints;
+  std::vector<std::vector<double>> tolerances;
+  std::vector<LaneJob> jobs;
+  for (const Parameters& sample : samples) {
+    prepared.push_back(prepared_for(sample));
+    const Prepared& p = *prepared.back();
+    const SceneLayout& at = p.tables->layout;
+    auto& own = joints.emplace_back();
+    // Scale of each coordinate: of an offset its clearance, of a slope the slope that crosses it.
+    VecX scale = VecX::Zero(at.n);
+    std::vector<double> gap;
+    for (int c = 0; c < mechanism_->clearances(); ++c) {
+      own.emplace_back(m.clearances[c], m.joints[m.clearances[c].joint].type, sample.clearance[c]);
+      const JournalInSleeve& law = own.back();
+      const double clearance = law.has_faces ? std::min(law.radial_clearance, law.axial_clearance) : law.radial_clearance;
+      gap.push_back(1e-5 * clearance);
+      for (int k = 0; k < at.joints[c].offsets; ++k) {
+        const int source = at.joints[c].source[k];
+        if (source < 0) continue;
+        const double own_scale = k < 3 ? clearance : clearance / law.half_length;
+        scale[source] = scale[source] == 0.0 ? own_scale : std::min(scale[source], own_scale);
+      }
+    }
+    for (int k = 0; k < at.n; ++k)
+      if (scale[k] == 0.0) scale[k] = scale.maxCoeff() > 0.0 ? scale.maxCoeff() : 1e-4;
+    auto& errors = tolerances.emplace_back();
+    for (int k = 0; k < at.n; ++k) errors.push_back(tolerance * scale[k]);
+    for (int k = 0; k < at.n; ++k)
+      errors.push_back(tolerance * std::sqrt(scale[k] * std::max(p.acceleration[k], 1e-3 * p.acceleration.maxCoeff())));
+    errors.insert(errors.end(), gap.begin(), gap.end());
+    jobs.push_back({.scene = &p.lane, .joints = nullptr, .tolerance = nullptr, .gap_tolerance = nullptr});
+  }
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    jobs[i].joints = joints[i].data();
+    jobs[i].tolerance = tolerances[i].data();
+    jobs[i].gap_tolerance = tolerances[i].data() + 2 * jobs[i].scene->layout->n;
+  }
+  LaneSettings settings;
+  settings.method = method;
+  settings.longest_step = std::min(settings.longest_step, mechanism_->duration());
+  target.kernel(jobs.data(), static_cast<long>(jobs.size()), settings, outcomes.data());
+}
+
+}  // namespace boresight

@@ -1,0 +1,53 @@
+// The perturbation rung for many samples at once: one index of each, several samples a SIMD register.
+//
+//   PerturbationLanes lanes(mechanism, PointingQuantity::position_error);
+//   lanes.run(samples, outcomes);            // const: share it between threads
+//
+// Where the rung itself (make_rung("perturbation", ...)) gives a whole pointing history, this gives the statistics of one
+// index and a summary of the contacts. The index is |G(t) z|, first order in the deviation z: against the rung's own, which
+// displaces the bodies by finite turns, it differs by the deviation squared (1e-6 of the index where that is 1 mrad).
+// A sample's outcome is the same to the last bit whatever runs beside it, on every instruction set and for any split of the
+// samples into calls (with contacts on a tilted rim: on processors whose C library gives the same arc cosine).
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "boresight/lanes/lane_kernels.hpp"
+#include "boresight/rungs/scene_rung.hpp"
+
+namespace boresight {
+
+enum class PointingQuantity { position_error, orientation_error, boresight_error, line_of_sight_error };
+
+// The tolerance at which the default scene's index is converged to 1 % (maximum) and 0.5 % (RMS) at 0.1 to 0.3 mm and 0 to
+// 500 kg; measured in tests/lib/lanes.
+inline constexpr double kLaneTolerance = 1e-3;
+
+class PerturbationLanes {
+ public:
+  // Throws ComputationError near a singular pose, as the rung does.
+  PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity);
+  ~PerturbationLanes();
+
+  // tolerance: largest error of one step in an offset, relative to its clearance c, and in its rate, relative to the speed
+  // sqrt(c a) that a free flight across the clearance reaches under the scene's accelerations a.
+  // outcomes: as many as samples.
+  void run(std::span<const Parameters> samples, std::span<LaneOutcome> outcomes, double tolerance = kLaneTolerance) const;
+  // With one instruction set's kernel in particular.
+  void run(const LaneTarget& target, std::span<const Parameters> samples, std::span<LaneOutcome> outcomes,
+           double tolerance = kLaneTolerance) const;
+
+  const RosenbrockTable* method = &rodas4();
+
+ private:
+  struct Prepared;
+  std::shared_ptr<const Prepared> prepared_for(const Parameters& parameters) const;
+
+  std::shared_ptr<const Mechanism> mechanism_;
+  PointingQuantity quantity_;
+  struct Cache;
+  std::unique_ptr<Cache> cache_;
+};
+
+}  // namespace boresight

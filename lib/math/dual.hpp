@@ -1,0 +1,93 @@
+// A number and its derivatives with respect to N others, carried along exactly (forward automatic differentiation).
+//
+// T is double or lanes. Only what the contact laws use; where Ceres is at hand its Jet does the same for double, but not for
+// lanes, whose comparisons give masks.
+// Source: Griewank and Walther (2008), Evaluating Derivatives, chapter 3.
+#pragma once
+
+#include <concepts>
+
+#include "boresight/math/types.hpp"
+#include "boresight/math/scalar.hpp"
+
+namespace boresight {
+
+template <typename T, int N>
+struct Dual {
+  T a;     // value
+  T v[N];  // derivatives
+
+  Dual() = default;
+  Dual(double value) : Dual(T(value)) {}  // NOLINT: a constant
+  Dual(const T& value) : a(value) {       // NOLINT
+    for (T& d : v) d = T(0.0);
+  }
+  // The k-th of the N others.
+  Dual(const T& value, int k) : Dual(value) { v[k] = T(1.0); }
+
+  Dual& operator+=(const Dual& b) { return *this = *this + b; }
+  Dual& operator-=(const Dual& b) { return *this = *this - b; }
+  Dual& operator*=(const Dual& b) { return *this = *this * b; }
+
+  friend Dual operator+(const Dual& x, const Dual& y) {
+    return each(x.a + y.a, [&](int k) { return x.v[k] + y.v[k]; });
+  }
+  friend Dual operator-(const Dual& x, const Dual& y) {
+    return each(x.a - y.a, [&](int k) { return x.v[k] - y.v[k]; });
+  }
+  friend Dual operator-(const Dual& x) {
+    return each(-x.a, [&](int k) { return -x.v[k]; });
+  }
+  friend Dual operator*(const Dual& x, const Dual& y) {
+    return each(x.a * y.a, [&](int k) { return x.v[k] * y.a + x.a * y.v[k]; });
+  }
+  friend Dual operator/(const Dual& x, const Dual& y) {
+    const T inverse = T(1.0) / y.a, q = x.a / y.a;
+    return each(q, [&](int k) { return (x.v[k] - q * y.v[k]) * inverse; });
+  }
+  friend auto operator>(const Dual& x, const Dual& y) { return x.a > y.a; }
+  friend auto operator<(const Dual& x, const Dual& y) { return x.a < y.a; }
+
+  friend Dual sqrt(const Dual& x) {
+    using std::sqrt;
+    const T root = sqrt(x.a), slope = T(0.5) / root;
+    return each(root, [&](int k) { return slope * x.v[k]; });
+  }
+  friend Dual acos(const Dual& x) {
+    using std::acos;
+    using std::sqrt;
+    const T slope = T(-1.0) / sqrt(T(1.0) - x.a * x.a);
+    return each(acos(x.a), [&](int k) { return slope * x.v[k]; });
+  }
+  template <typename Condition>
+    requires(!std::same_as<Condition, bool>)  // one bool for the whole is scalar.hpp's
+  friend Dual select(const Condition& where, const Dual& x, const Dual& y) {
+    return each(choose(where, x.a, y.a), [&](int k) { return choose(where, x.v[k], y.v[k]); });
+  }
+
+ private:
+  template <typename Condition>
+  static T choose(const Condition& where, const T& x, const T& y) {
+    return select(where, x, y);
+  }
+  template <typename F>
+  static Dual each(const T& value, F derivative) {
+    Dual result;
+    result.a = value;
+    for (int k = 0; k < N; ++k) result.v[k] = derivative(k);
+    return result;
+  }
+};
+
+}  // namespace boresight
+
+namespace Eigen {
+template <typename T, int N>
+struct NumTraits<boresight::Dual<T, N>> : NumTraits<double> {
+  using Real = boresight::Dual<T, N>;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = double;
+  enum { RequireInitialization = 1 };
+};
+}  // namespace Eigen

@@ -1,0 +1,153 @@
+// Several samples side by side in one SIMD register: a scalar for the templates of the contact laws and the dynamics.
+//
+// Lanes<W, Target> behaves like double; comparisons give a LaneMask, to be used through select() and any() (scalar.hpp).
+// W is the number of doubles of a register, Target a tag of the instruction set that the translation unit is compiled for:
+// it makes every template instance a different type, so that code made for one processor is never linked into another's.
+// Sums and products are rounded one by one (no fused multiply-add, see lib/lanes/CMakeLists.txt), square roots and quotients
+// exactly: a lane gives the same bits as plain double does, on every instruction set.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#if defined(__AVX512F__) || defined(__AVX__) || defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "boresight/math/types.hpp"
+#include "boresight/math/scalar.hpp"
+
+namespace boresight {
+
+// The doubles of one register, and the integers that a comparison of them gives.
+template <int W>
+struct Register {
+  using Doubles [[gnu::vector_size(W * 8)]] = double;
+  using Integers [[gnu::vector_size(W * 8)]] = std::int64_t;
+  static double get(const Doubles& v, int i) { return v[i]; }
+  static void set(Doubles& v, int i, double x) { v[i] = x; }
+  static std::int64_t get(const Integers& m, int i) { return m[i]; }
+  static void set(Integers& m, int i, std::int64_t x) { m[i] = x; }
+  static Integers mask(const Integers& compared) { return compared; }
+};
+// One lane: plain numbers.
+template <>
+struct Register<1> {
+  using Doubles = double;
+  using Integers = std::int64_t;
+  static double get(double v, int) { return v; }
+  static void set(double& v, int, double x) { v = x; }
+  static std::int64_t get(std::int64_t m, int) { return m; }
+  static void set(std::int64_t& m, int, std::int64_t x) { m = x; }
+  static std::int64_t mask(bool compared) { return compared ? -1 : 0; }
+};
+
+template <int W, typename Target>
+struct LaneMask {
+  using Vector = typename Register<W>::Integers;
+
+  LaneMask() = default;
+  explicit LaneMask(Vector wanted) : m(wanted) {}
+  explicit LaneMask(bool all) : m(Vector{} - (all ? 1 : 0)) {}
+  bool lane(int i) const { return Register<W>::get(m, i) != 0; }
+  void set(int i, bool on) { Register<W>::set(m, i, on ? -1 : 0); }
+
+  friend LaneMask operator&(const LaneMask& a, const LaneMask& b) { return LaneMask(a.m & b.m); }
+  friend LaneMask operator|(const LaneMask& a, const LaneMask& b) { return LaneMask(a.m | b.m); }
+  friend LaneMask operator!(const LaneMask& a) { return LaneMask(~a.m); }
+  friend LaneMask select(const LaneMask& where, const LaneMask& a, const LaneMask& b) {
+    return LaneMask((where.m & a.m) | (~where.m & b.m));
+  }
+
+  Vector m;
+};
+
+template <int W, typename Target>
+inline bool any(const LaneMask<W, Target>& mask) {
+#if defined(__AVX512F__)
+  if constexpr (W == 8) return _mm512_test_epi64_mask((__m512i)mask.m, (__m512i)mask.m) != 0;
+#endif
+#if defined(__AVX__)
+  if constexpr (W == 4) return _mm256_movemask_pd((__m256d)mask.m) != 0;
+#endif
+#if defined(__SSE2__)
+  if constexpr (W == 2) return _mm_movemask_pd((__m128d)mask.m) != 0;
+#endif
+  std::int64_t found = 0;
+  for (int i = 0; i < W; ++i) found |= Register<W>::get(mask.m, i);
+  return found != 0;
+}
+
+template <int W, typename Target>
+struct Lanes {
+  using Vector = typename Register<W>::Doubles;
+  using Mask = LaneMask<W, Target>;
+  static constexpr int kWidth = W;
+
+  Lanes() = default;
+  Lanes(double all) : v(all - Vector{}) {}  // NOLINT: a number is the same number in every lane
+  explicit Lanes(Vector wanted) : v(wanted) {}
+  double lane(int i) const { return Register<W>::get(v, i); }
+  void set(int i, double x) { Register<W>::set(v, i, x); }
+
+  Lanes& operator+=(const Lanes& b) { return v += b.v, *this; }
+  Lanes& operator-=(const Lanes& b) { return v -= b.v, *this; }
+  Lanes& operator*=(const Lanes& b) { return v *= b.v, *this; }
+  Lanes& operator/=(const Lanes& b) { return v /= b.v, *this; }
+  friend Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes(a.v + b.v); }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes(a.v - b.v); }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.v * b.v); }
+  friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.v / b.v); }
+  friend Lanes operator-(const Lanes& a) { return Lanes(-a.v); }
+  friend Mask operator>(const Lanes& a, const Lanes& b) { return Mask(Register<W>::mask(a.v > b.v)); }
+  friend Mask operator<(const Lanes& a, const Lanes& b) { return Mask(Register<W>::mask(a.v < b.v)); }
+  friend Mask operator>=(const Lanes& a, const Lanes& b) { return Mask(Register<W>::mask(a.v >= b.v)); }
+  friend Mask operator<=(const Lanes& a, const Lanes& b) { return Mask(Register<W>::mask(a.v <= b.v)); }
+
+  friend Lanes select(const Mask& where, const Lanes& a, const Lanes& b) { return Lanes(where.m ? a.v : b.v); }
+  friend Lanes sqrt(const Lanes& a) {
+#if defined(__AVX512F__)
+    if constexpr (W == 8) return Lanes((Vector)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v));  // GCC warns of the plain one
+#endif
+#if defined(__AVX__)
+    if constexpr (W == 4) return Lanes((Vector)_mm256_sqrt_pd((__m256d)a.v));
+#endif
+#if defined(__SSE2__)
+    if constexpr (W == 2) return Lanes((Vector)_mm_sqrt_pd((__m128d)a.v));
+#endif
+    Lanes root;
+    for (int i = 0; i < W; ++i) root.set(i, __builtin_sqrt(a.lane(i)));
+    return root;
+  }
+  friend Lanes abs(const Lanes& a) { return Lanes(a.v < 0.0 ? -a.v : a.v); }
+  // One lane after the other: met on the rim of a tilted cap only.
+  friend Lanes acos(const Lanes& a) {
+    Lanes angle;
+    for (int i = 0; i < W; ++i) angle.set(i, std::acos(a.lane(i)));
+    return angle;
+  }
+
+  Vector v;
+};
+
+template <int W, typename Target>
+inline Lanes<W, Target> larger(const Lanes<W, Target>& a, const Lanes<W, Target>& b) {
+  return select(a > b, a, b);
+}
+template <int W, typename Target>
+inline Lanes<W, Target> smaller(const Lanes<W, Target>& a, const Lanes<W, Target>& b) {
+  return select(a < b, a, b);
+}
+
+}  // namespace boresight
+
+namespace Eigen {
+template <int W, typename Target>
+struct NumTraits<boresight::Lanes<W, Target>> : NumTraits<double> {
+  using Real = boresight::Lanes<W, Target>;
+  using NonInteger = Real;
+  using Nested = Real;
+  using Literal = double;
+  enum { RequireInitialization = 0 };
+};
+}  // namespace Eigen
