@@ -34,12 +34,14 @@ struct JournalInSleeveT {
   bool tilts = false;                  // axes = "free": the contacts are those of `tilted`
   TiltedJournalT<T> tilted;
 
-  // impact_speed: by ContactPlace [m/s].
-  void wrench(const JournalMotion<T>& motion, const std::array<T, kContactPlaces>& impact_speed,
-              JournalWrench<T>& out) const;
+  // impact_speed: by ContactPlace [m/s]. M: the scalar of the motion, T itself or one that carries derivatives besides.
+  template <typename M>
+  void wrench(const JournalMotion<M>& motion, const std::array<T, kContactPlaces>& impact_speed,
+              JournalWrench<M>& out) const;
 
   // Penetration of every place only; used to see where contacts stand without their forces.
-  void gaps(const JournalMotion<T>& motion, std::array<ContactState<T>, kContactPlaces>& contact) const;
+  template <typename M>
+  void gaps(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const;
 };
 
 struct JournalInSleeve : JournalInSleeveT<double> {
@@ -55,44 +57,46 @@ struct JournalInSleeve : JournalInSleeveT<double> {
 // ---------------------------------------------------------------------------------------------------------------------
 
 template <typename T>
-void JournalInSleeveT<T>::gaps(const JournalMotion<T>& m, std::array<ContactState<T>, kContactPlaces>& contact) const {
+template <typename M>
+void JournalInSleeveT<T>::gaps(const JournalMotion<M>& m, std::array<ContactState<M>, kContactPlaces>& contact) const {
   if (tilts) return tilted.gaps(m, contact);
-  for (ContactState<T>& c : contact) c = {T(-1.0), T(0.0), T(0.0)};
-  const T distance = length_from_square(T(m.e.x() * m.e.x() + m.e.z() * m.e.z()));
-  ContactState<T>& radial = contact[static_cast<int>(ContactPlace::radial)];
+  for (ContactState<M>& c : contact) c = {M(-1.0), M(0.0), M(0.0)};
+  const M distance = length_from_square(M(m.e.x() * m.e.x() + m.e.z() * m.e.z()));
+  ContactState<M>& radial = contact[static_cast<int>(ContactPlace::radial)];
   radial.penetration = distance - radial_clearance;
   radial.rate = (m.e_dot.x() * m.e.x() + m.e_dot.z() * m.e.z()) / distance;
   if (!has_faces) return;
-  ContactState<T>& plus = contact[static_cast<int>(ContactPlace::axial_plus)];
+  ContactState<M>& plus = contact[static_cast<int>(ContactPlace::axial_plus)];
   plus.penetration = -m.e.y() - axial_clearance;
   plus.rate = -m.e_dot.y();
-  ContactState<T>& minus = contact[static_cast<int>(ContactPlace::axial_minus)];
+  ContactState<M>& minus = contact[static_cast<int>(ContactPlace::axial_minus)];
   minus.penetration = m.e.y() - axial_clearance;
   minus.rate = m.e_dot.y();
 }
 
 template <typename T>
-void JournalInSleeveT<T>::wrench(const JournalMotion<T>& m, const std::array<T, kContactPlaces>& impact_speed,
-                             JournalWrench<T>& out) const {
+template <typename M>
+void JournalInSleeveT<T>::wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed,
+                                 JournalWrench<M>& out) const {
   if (tilts) return tilted.wrench(m, impact_speed, out);
   gaps(m, out.contact);
-  out.force.setConstant(T(0.0));
-  out.moment.setConstant(T(0.0));
+  out.force.setConstant(M(0.0));
+  out.moment.setConstant(M(0.0));
 
-  ContactState<T>& radial = out.contact[static_cast<int>(ContactPlace::radial)];
+  ContactState<M>& radial = out.contact[static_cast<int>(ContactPlace::radial)];
   if (any(radial.penetration > T(0.0))) {
     // Where another sample is in contact and this one is concentric, any divisor does.
-    const T inverse = T(1.0) / select(radial.penetration > T(0.0), T(radial.penetration + radial_clearance), T(1.0));
-    const T nx = m.e.x() * inverse, nz = m.e.z() * inverse;
+    const M inverse = T(1.0) / select(radial.penetration > T(0.0), M(radial.penetration + radial_clearance), M(1.0));
+    const M nx = m.e.x() * inverse, nz = m.e.z() * inverse;
     radial.normal_force =
         radial_law.force(radial.penetration, radial.rate, impact_speed[static_cast<int>(ContactPlace::radial)]);
     // Sliding: around the bore along (n_z, 0, -n_x), in which a positive spin about y carries the journal's surface, and
     // along the axis. The contact point lies R_b - |e| from the journal's centre.
-    const T arm = bore_radius - radial_clearance - radial.penetration;
-    const T around = m.e_dot.x() * nz - m.e_dot.z() * nx + m.w.y() * arm;
-    const T along = m.e_dot.y() + (m.w.z() * nx - m.w.x() * nz) * arm;
-    const T pull = radial.normal_force * friction.force_per_velocity(length_from_square(T(around * around + along * along)));
-    const T f_around = -pull * around, f_along = -pull * along;
+    const M arm = bore_radius - radial_clearance - radial.penetration;
+    const M around = m.e_dot.x() * nz - m.e_dot.z() * nx + m.w.y() * arm;
+    const M along = m.e_dot.y() + (m.w.z() * nx - m.w.x() * nz) * arm;
+    const M pull = radial.normal_force * friction.force_per_velocity(length_from_square(M(around * around + along * along)));
+    const M f_around = -pull * around, f_along = -pull * along;
     out.force.x() += -radial.normal_force * nx + f_around * nz;
     out.force.y() += f_along;
     out.force.z() += -radial.normal_force * nz - f_around * nx;
@@ -103,14 +107,14 @@ void JournalInSleeveT<T>::wrench(const JournalMotion<T>& m, const std::array<T, 
   }
   if (!has_faces) return;
   for (const auto& [place, side] : {std::pair{ContactPlace::axial_minus, -1.0}, std::pair{ContactPlace::axial_plus, 1.0}}) {
-    ContactState<T>& face = out.contact[static_cast<int>(place)];
+    ContactState<M>& face = out.contact[static_cast<int>(place)];
     if (!any(face.penetration > T(0.0))) continue;
     face.normal_force = face_stiffness * positive_part(face.penetration);
     // At M = (0, side L_b/2, 0): edot + w x (M - e), its part across the axis.
-    const T lever = T(side) * half_length - m.e.y();
-    const T vx = m.e_dot.x() - m.w.y() * m.e.z() - m.w.z() * lever;
-    const T vz = m.e_dot.z() + m.w.x() * lever + m.w.y() * m.e.x();
-    const T pull = face.normal_force * friction.force_per_velocity(length_from_square(T(vx * vx + vz * vz)));
+    const M lever = T(side) * half_length - m.e.y();
+    const M vx = m.e_dot.x() - m.w.y() * m.e.z() - m.w.z() * lever;
+    const M vz = m.e_dot.z() + m.w.x() * lever + m.w.y() * m.e.x();
+    const M pull = face.normal_force * friction.force_per_velocity(length_from_square(M(vx * vx + vz * vz)));
     out.force.x() -= pull * vx;
     out.force.y() += T(side) * face.normal_force;
     out.force.z() -= pull * vz;

@@ -15,12 +15,13 @@ struct ModifiedCoulombT {
   T dynamic_speed = T(1e-3);  // v_d [m/s]
 
   // Friction force over normal force over sliding speed [s/m]: multiply by F_n and the sliding velocity vector.
-  // speed >= 0.
-  T force_per_velocity(const T& speed) const {
-    const T ramp = (speed - static_speed) * (T(1.0) / (dynamic_speed - static_speed));
-    const T factor = select(ramp > T(1.0), T(1.0), positive_part(ramp));
+  // speed >= 0. M: the scalar of the motion.
+  template <typename M>
+  M force_per_velocity(const M& speed) const {
+    const M ramp = (speed - static_speed) * (T(1.0) / (dynamic_speed - static_speed));
+    const M factor = select(ramp > T(1.0), M(1.0), positive_part(ramp));
     // Where the factor is zero the speed may be too: divide by something harmless there.
-    const T divisor = select(speed > static_speed, speed, T(1.0));
+    const M divisor = select(speed > static_speed, speed, M(1.0));
     return coefficient * factor / divisor;
   }
 };

@@ -18,14 +18,15 @@ struct NormalLawT {
   T stiffness{};       // K [N/m^1.5]
   T damping_factor{};  // h [-]
 
-  // Zero where penetration <= 0.
-  T force(const T& penetration, const T& rate, const T& impact_speed) const {
+  // Zero where penetration <= 0. M: the scalar of the motion, T itself or one that carries derivatives besides.
+  template <typename M>
+  M force(const M& penetration, const M& rate, const T& impact_speed) const {
     using std::sqrt;
     // The root is taken of a positive number in every lane: at d = 0 its derivative would be infinite.
-    const T depth = select(penetration > T(0.0), penetration, T(1.0));
-    const T elastic = stiffness * depth * sqrt(depth);
-    const T whole = elastic * (T(1.0) + damping_factor * rate / impact_speed);
-    return select(penetration > T(0.0), positive_part(whole), T(0.0));
+    const M depth = select(penetration > T(0.0), penetration, M(1.0));
+    const M elastic = stiffness * depth * sqrt(depth);
+    const M whole = elastic * (T(1.0) + damping_factor * rate / impact_speed);
+    return select(penetration > T(0.0), positive_part(whole), M(0.0));
   }
 };
 using NormalLaw = NormalLawT<double>;

@@ -24,27 +24,27 @@ struct RingForce {
   T energy{};       // [J]
 };
 
-// stiffness: K_c [N/m]; depth: d0 [m]; swing: A >= 0 [m].
-template <typename T>
-RingForce<T> ring_contact(const T& stiffness, const T& depth, const T& swing) {
+// stiffness: K_c [N/m]; depth: d0 [m]; swing: A >= 0 [m]. T: the scalar of the motion, S of the stiffness.
+template <typename S, typename T>
+RingForce<T> ring_contact(const S& stiffness, const T& depth, const T& swing) {
   using std::acos;
   using std::sqrt;
   const T zero(0.0), one(1.0);
   const auto partial = swing > depth;         // part of the ring is free
   const auto touches = swing + depth > zero;  // some of it is not
   // The ratio is only looked at where contact is partial; elsewhere any value inside (-1, 1) does.
-  const T ratio = select(partial, select(touches, -depth / select(partial, swing + T(1e-300), one), zero), zero);
+  const T ratio = select(partial, select(touches, -depth / select(partial, T(swing + S(1e-300)), one), zero), zero);
   const T inside = select(ratio < one, select(ratio > T(-1.0), ratio, zero), zero);
   const T a = acos(inside), sine = sqrt(one - inside * inside);
-  const T per_pi = stiffness * T(1.0 / std::numbers::pi);
+  const S per_pi = stiffness * S(1.0 / std::numbers::pi);
   const T force = select(partial, per_pi * (depth * a + swing * sine), stiffness * depth);
-  const T moment = select(partial, T(0.5) * per_pi * (T(2.0) * depth * sine + swing * (a + sine * inside)),
-                          T(0.5) * stiffness * swing);
+  const T moment = select(partial, S(0.5) * per_pi * (S(2.0) * depth * sine + swing * (a + sine * inside)),
+                          S(0.5) * stiffness * swing);
   RingForce<T> result;
   result.force = select(touches, positive_part(force), zero);
   const T divisor = select(result.force > zero, result.force, one);
   result.moment_arm = select(result.force > zero, moment / divisor, zero);
-  result.energy = select(touches, T(0.5) * (force * depth + moment * swing), zero);
+  result.energy = select(touches, S(0.5) * (force * depth + moment * swing), zero);
   return result;
 }
 

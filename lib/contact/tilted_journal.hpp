@@ -35,56 +35,58 @@ struct TiltedJournalT {
   T face_stiffness{};  // K_c [N/m]
   ModifiedCoulombT<T> friction;
 
-  void gaps(const JournalMotion<T>& motion, std::array<ContactState<T>, kContactPlaces>& contact) const {
-    for (ContactState<T>& c : contact) c = {T(-1.0), T(0.0), T(0.0)};
+  // M: the scalar of the motion, T itself or one that carries derivatives besides.
+  template <typename M>
+  void gaps(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const {
+    for (ContactState<M>& c : contact) c = {M(-1.0), M(0.0), M(0.0)};
     for (int side : {-1, 1}) {
-      const End at = end(motion, side);
-      contact[radial_place(side)] = {at.penetration, at.rate, T(0.0)};
+      const End<M> at = end(motion, side);
+      contact[radial_place(side)] = {at.penetration, at.rate, M(0.0)};
       if (!has_faces) continue;
-      const Face on = face(motion, side);
-      contact[axial_place(side)] = {on.depth + on.swing, on.rate, T(0.0)};
+      const Face<M> on = face(motion, side);
+      contact[axial_place(side)] = {on.depth + on.swing, on.rate, M(0.0)};
     }
   }
 
-  void wrench(const JournalMotion<T>& m, const std::array<T, kContactPlaces>& impact_speed, JournalWrench<T>& out) const {
-    using std::sqrt;
-    for (ContactState<T>& c : out.contact) c = {T(-1.0), T(0.0), T(0.0)};
-    out.force.setConstant(T(0.0));
-    out.moment.setConstant(T(0.0));
+  template <typename M>
+  void wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed, JournalWrench<M>& out) const {
+    for (ContactState<M>& c : out.contact) c = {M(-1.0), M(0.0), M(0.0)};
+    out.force.setConstant(M(0.0));
+    out.moment.setConstant(M(0.0));
     for (int side : {-1, 1}) {
-      const End at = end(m, side);
-      ContactState<T>& contact = out.contact[radial_place(side)];
-      contact = {at.penetration, at.rate, T(0.0)};
+      const End<M> at = end(m, side);
+      ContactState<M>& contact = out.contact[radial_place(side)];
+      contact = {at.penetration, at.rate, M(0.0)};
       if (!any(at.penetration > T(0.0))) continue;
-      const T F = end_law.force(at.penetration, at.rate, impact_speed[radial_place(side)]);
+      const M F = end_law.force(at.penetration, at.rate, impact_speed[radial_place(side)]);
       contact.normal_force = F;
-      const T tilted = at.nx * m.slope[0] + at.nz * m.slope[1];
-      const Vec3T<T> push(-F * at.nx, slides ? T(F * tilted) : T(0.0), -F * at.nz);
+      const M tilted = at.nx * m.slope[0] + at.nz * m.slope[1];
+      const Vec3T<M> push(-F * at.nx, slides ? M(F * tilted) : M(0.0), -F * at.nz);
       out.force += push;
       out.moment += m.e.cross(push) + moment_of(-F * at.reach * at.nx, -F * at.reach * at.nz, m);
-      const Vec3T<T> point(bore_radius * at.nx, T(side) * half_length, bore_radius * at.nz);
-      const Vec3T<T> v = m.e_dot + m.w.cross(Vec3T<T>(point - m.e));
-      const T around = v.x() * at.nz - v.z() * at.nx;
-      const T pull = F * friction.force_per_velocity(length_from_square(T(around * around + v.y() * v.y())));
-      add(point, Vec3T<T>(-pull * around * at.nz, -pull * v.y(), pull * around * at.nx), out);
+      const Vec3T<M> point(bore_radius * at.nx, M(T(side) * half_length), bore_radius * at.nz);
+      const Vec3T<M> v = m.e_dot + m.w.cross(Vec3T<M>(point - m.e));
+      const M around = v.x() * at.nz - v.z() * at.nx;
+      const M pull = F * friction.force_per_velocity(length_from_square(M(around * around + v.y() * v.y())));
+      add(point, Vec3T<M>(-pull * around * at.nz, -pull * v.y(), pull * around * at.nx), out);
     }
     if (!has_faces) return;
     for (int side : {-1, 1}) {
-      const Face on = face(m, side);
-      ContactState<T>& contact = out.contact[axial_place(side)];
-      contact = {on.depth + on.swing, on.rate, T(0.0)};
+      const Face<M> on = face(m, side);
+      ContactState<M>& contact = out.contact[axial_place(side)];
+      contact = {on.depth + on.swing, on.rate, M(0.0)};
       if (!any(contact.penetration > T(0.0))) continue;
-      const RingForce<T> ring = ring_contact(face_stiffness, on.depth, on.swing);
-      const T F = ring.force;
+      const RingForce<M> ring = ring_contact(face_stiffness, on.depth, on.swing);
+      const M F = ring.force;
       contact.normal_force = F;
-      const Vec3T<T> push(T(0.0), T(side) * F, T(0.0));
-      const T swing = ring_radius * ring.moment_arm;
+      const Vec3T<M> push(M(0.0), T(side) * F, M(0.0));
+      const M swing = ring_radius * ring.moment_arm;
       out.force += push;
       out.moment += m.e.cross(push) + moment_of(-F * swing * on.ux, -F * swing * on.uz, m);
-      const Vec3T<T> point(T(side) * swing * on.ux, T(side) * half_length, T(side) * swing * on.uz);
-      const Vec3T<T> v = m.e_dot + m.w.cross(Vec3T<T>(point - m.e));
-      const T pull = F * friction.force_per_velocity(length_from_square(T(v.x() * v.x() + v.z() * v.z())));
-      add(point, Vec3T<T>(-pull * v.x(), T(0.0), -pull * v.z()), out);
+      const Vec3T<M> point(T(side) * swing * on.ux, M(T(side) * half_length), T(side) * swing * on.uz);
+      const Vec3T<M> v = m.e_dot + m.w.cross(Vec3T<M>(point - m.e));
+      const M pull = F * friction.force_per_velocity(length_from_square(M(v.x() * v.x() + v.z() * v.z())));
+      add(point, Vec3T<M>(-pull * v.x(), M(0.0), -pull * v.z()), out);
     }
   }
 
@@ -95,7 +97,7 @@ struct TiltedJournalT {
       const T d = positive_part(end(m, side).penetration);
       energy += T(0.4) * end_law.stiffness * d * d * sqrt(d);
       if (!has_faces) continue;
-      const Face on = face(m, side);
+      const Face<T> on = face(m, side);
       energy += ring_contact(face_stiffness, on.depth, on.swing).energy;
     }
     return energy;
@@ -105,29 +107,32 @@ struct TiltedJournalT {
   static int axial_place(int side) { return static_cast<int>(side < 0 ? ContactPlace::axial_minus : ContactPlace::axial_plus); }
 
   // Of the couple (gx, gz) on the slopes, about the journal's centre.
-  static Vec3T<T> moment_of(const T& gx, const T& gz, const JournalMotion<T>& m) {
-    const Vec3T<T> along(m.slope[0], T(1.0), m.slope[1]);
-    return along.cross(Vec3T<T>(gx, -gx * m.slope[0] - gz * m.slope[1], gz));
+  template <typename M>
+  static Vec3T<M> moment_of(const M& gx, const M& gz, const JournalMotion<M>& m) {
+    const Vec3T<M> along(m.slope[0], M(1.0), m.slope[1]);
+    return along.cross(Vec3T<M>(gx, -gx * m.slope[0] - gz * m.slope[1], gz));
   }
 
  private:
+  template <typename M>
   struct End {
-    T reach, nx, nz, penetration, rate;
+    M reach, nx, nz, penetration, rate;
   };
+  template <typename M>
   struct Face {
-    T depth, swing, rate, ux, uz;  // d0, A, rate of d0 + A, sigma / |sigma|
+    M depth, swing, rate, ux, uz;  // d0, A, rate of d0 + A, sigma / |sigma|
   };
 
-  End end(const JournalMotion<T>& m, int side) const {
-    using std::sqrt;
-    End at;
-    at.reach = slides ? T(T(side) * half_length - m.e.y()) : T(T(side) * half_length);
-    const T x = m.e.x() + at.reach * m.slope[0], z = m.e.z() + at.reach * m.slope[1];
-    const T distance = length_from_square(T(x * x + z * z));
+  template <typename M>
+  End<M> end(const JournalMotion<M>& m, int side) const {
+    End<M> at;
+    at.reach = slides ? M(T(side) * half_length - m.e.y()) : M(T(side) * half_length);
+    const M x = m.e.x() + at.reach * m.slope[0], z = m.e.z() + at.reach * m.slope[1];
+    const M distance = length_from_square(M(x * x + z * z));
     at.nx = x / distance;
     at.nz = z / distance;
     at.penetration = distance - radial_clearance;
-    T x_rate = m.e_dot.x() + at.reach * m.slope_rate[0], z_rate = m.e_dot.z() + at.reach * m.slope_rate[1];
+    M x_rate = m.e_dot.x() + at.reach * m.slope_rate[0], z_rate = m.e_dot.z() + at.reach * m.slope_rate[1];
     if (slides) {
       x_rate -= m.e_dot.y() * m.slope[0];
       z_rate -= m.e_dot.y() * m.slope[1];
@@ -136,10 +141,10 @@ struct TiltedJournalT {
     return at;
   }
 
-  Face face(const JournalMotion<T>& m, int side) const {
-    using std::sqrt;
-    Face on;
-    const T tilt = length_from_square(T(m.slope[0] * m.slope[0] + m.slope[1] * m.slope[1]));
+  template <typename M>
+  Face<M> face(const JournalMotion<M>& m, int side) const {
+    Face<M> on;
+    const M tilt = length_from_square(M(m.slope[0] * m.slope[0] + m.slope[1] * m.slope[1]));
     on.ux = m.slope[0] / tilt;
     on.uz = m.slope[1] / tilt;
     on.depth = T(-side) * m.e.y() - axial_clearance;
@@ -148,7 +153,8 @@ struct TiltedJournalT {
     return on;
   }
 
-  static void add(const Vec3T<T>& point, const Vec3T<T>& force, JournalWrench<T>& out) {
+  template <typename M>
+  static void add(const Vec3T<M>& point, const Vec3T<M>& force, JournalWrench<M>& out) {
     out.force += force;
     out.moment += point.cross(force);
   }

@@ -102,10 +102,8 @@ class LaneDynamics {
         motion.slope_rate[k] = D(m.slope_rate[k], offsets + 3 + k);
       }
     for (int k = 0; k < spins; ++k) motion.w[tilts ? k : 1] = D(m.w[tilts ? k : 1], 2 * offsets + k);
-    std::array<D, kContactPlaces> speeds;
-    for (int k = 0; k < kContactPlaces; ++k) speeds[k] = D(impact_speed[c][k]);
     JournalWrench<D> wrench;
-    as_constants<D>(laws[c]).wrench(motion, speeds, wrench);
+    laws[c].wrench(motion, impact_speed[c], wrench);
 
     // The wrench as the coordinates see it: its force, and its moment about the journal's centre.
     const Vec3T<D> moment = wrench.moment - motion.e.cross(wrench.force);

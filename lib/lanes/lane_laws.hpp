@@ -42,19 +42,4 @@ void set_lane(JournalInSleeveT<T>& out, int lane, JournalInSleeve law) {
   out.tilted.friction = out.friction;
 }
 
-// The law with its numbers as constants of a differentiation.
-template <typename D, typename T>
-JournalInSleeveT<D> as_constants(JournalInSleeveT<T> law) {
-  JournalInSleeveT<D> out;
-  out.has_faces = law.has_faces;
-  out.tilts = law.tilts;
-  out.tilted.has_faces = law.tilted.has_faces;
-  out.tilted.slides = law.tilted.slides;
-  const auto from = law_numbers<T>(law);
-  const auto to = law_numbers<D>(out);
-  for (std::size_t i = 0; i < to.size(); ++i) *to[i] = D(*from[i]);
-  out.tilted.friction = out.friction;
-  return out;
-}
-
 }  // namespace boresight

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #if defined(__AVX512F__) || defined(__AVX__) || defined(__SSE2__)
 #include <immintrin.h>
@@ -24,23 +25,36 @@ template <int W>
 struct Register {
   using Doubles [[gnu::vector_size(W * 8)]] = double;
   using Integers [[gnu::vector_size(W * 8)]] = std::int64_t;
-  static double get(const Doubles& v, int i) { return v[i]; }
-  static void set(Doubles& v, int i, double x) { v[i] = x; }
-  static std::int64_t get(const Integers& m, int i) { return m[i]; }
-  static void set(Integers& m, int i, std::int64_t x) { m[i] = x; }
-  static Integers mask(const Integers& compared) { return compared; }
 };
 // One lane: plain numbers.
 template <>
 struct Register<1> {
   using Doubles = double;
   using Integers = std::int64_t;
-  static double get(double v, int) { return v; }
-  static void set(double& v, int, double x) { v = x; }
-  static std::int64_t get(std::int64_t m, int) { return m; }
-  static void set(std::int64_t& m, int, std::int64_t x) { m = x; }
-  static std::int64_t mask(bool compared) { return compared ? -1 : 0; }
 };
+
+// Element i of a register, and a comparison as a mask of integers.
+template <typename V>
+auto element(const V& v, int i) {
+  if constexpr (std::is_arithmetic_v<V>)
+    return v;
+  else
+    return v[i];
+}
+template <typename V, typename X>
+void set_element(V& v, int i, X x) {
+  if constexpr (std::is_arithmetic_v<V>)
+    v = x;
+  else
+    v[i] = x;
+}
+template <typename M>
+auto as_mask(const M& compared) {
+  if constexpr (std::is_same_v<M, bool>)
+    return static_cast<std::int64_t>(compared ? -1 : 0);
+  else
+    return compared;
+}
 
 template <int W, typename Target>
 struct LaneMask {
@@ -49,8 +63,8 @@ struct LaneMask {
   LaneMask() = default;
   explicit LaneMask(Vector wanted) : m(wanted) {}
   explicit LaneMask(bool all) : m(Vector{} - (all ? 1 : 0)) {}
-  bool lane(int i) const { return Register<W>::get(m, i) != 0; }
-  void set(int i, bool on) { Register<W>::set(m, i, on ? -1 : 0); }
+  bool lane(int i) const { return element(m, i) != 0; }
+  void set(int i, bool on) { set_element(m, i, std::int64_t{on ? -1 : 0}); }
 
   friend LaneMask operator&(const LaneMask& a, const LaneMask& b) { return LaneMask(a.m & b.m); }
   friend LaneMask operator|(const LaneMask& a, const LaneMask& b) { return LaneMask(a.m | b.m); }
@@ -74,7 +88,7 @@ inline bool any(const LaneMask<W, Target>& mask) {
   if constexpr (W == 2) return _mm_movemask_pd((__m128d)mask.m) != 0;
 #endif
   std::int64_t found = 0;
-  for (int i = 0; i < W; ++i) found |= Register<W>::get(mask.m, i);
+  for (int i = 0; i < W; ++i) found |= element(mask.m, i);
   return found != 0;
 }
 
@@ -86,9 +100,11 @@ struct Lanes {
 
   Lanes() = default;
   Lanes(double all) : v(all - Vector{}) {}  // NOLINT: a number is the same number in every lane
-  explicit Lanes(Vector wanted) : v(wanted) {}
-  double lane(int i) const { return Register<W>::get(v, i); }
-  void set(int i, double x) { Register<W>::set(v, i, x); }
+  explicit Lanes(Vector wanted)
+    requires(W > 1)
+      : v(wanted) {}
+  double lane(int i) const { return element(v, i); }
+  void set(int i, double x) { set_element(v, i, x); }
 
   Lanes& operator+=(const Lanes& b) { return v += b.v, *this; }
   Lanes& operator-=(const Lanes& b) { return v -= b.v, *this; }
@@ -99,10 +115,10 @@ struct Lanes {
   friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.v * b.v); }
   friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.v / b.v); }
   friend Lanes operator-(const Lanes& a) { return Lanes(-a.v); }
-  friend Mask operator>(const Lanes& a, const Lanes& b) { return Mask(Register<W>::mask(a.v > b.v)); }
-  friend Mask operator<(const Lanes& a, const Lanes& b) { return Mask(Register<W>::mask(a.v < b.v)); }
-  friend Mask operator>=(const Lanes& a, const Lanes& b) { return Mask(Register<W>::mask(a.v >= b.v)); }
-  friend Mask operator<=(const Lanes& a, const Lanes& b) { return Mask(Register<W>::mask(a.v <= b.v)); }
+  friend Mask operator>(const Lanes& a, const Lanes& b) { return Mask(as_mask(a.v > b.v)); }
+  friend Mask operator<(const Lanes& a, const Lanes& b) { return Mask(as_mask(a.v < b.v)); }
+  friend Mask operator>=(const Lanes& a, const Lanes& b) { return Mask(as_mask(a.v >= b.v)); }
+  friend Mask operator<=(const Lanes& a, const Lanes& b) { return Mask(as_mask(a.v <= b.v)); }
 
   friend Lanes select(const Mask& where, const Lanes& a, const Lanes& b) { return Lanes(where.m ? a.v : b.v); }
   friend Lanes sqrt(const Lanes& a) {
