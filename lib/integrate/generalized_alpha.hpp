@@ -95,6 +95,13 @@ class GeneralizedAlpha {
     hermite(share, h_, start_, start_slope_, proposed_, end_slope_, out);
   }
 
+  // The state moved a little after the step was taken.
+  template <System S>
+  void refresh(const S& system, double t, const VecX& y) {
+    system.derivative(t, y, start_slope_);
+    ++cost_.evaluations;
+  }
+
   void advance() {
     start_slope_.swap(end_slope_);
     accepted_ = algorithmic_end_;

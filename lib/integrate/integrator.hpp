@@ -134,6 +134,9 @@ class Integrator {
         h_before = 0.0;
       } else {
         method_.advance();
+        // A settled state has moved away from where the end slope belongs: too far for a Jacobian by differences from it.
+        if constexpr (Settles<S> && requires { method_.refresh(std::as_const(system), t_, y); })
+          method_.refresh(std::as_const(system), t_, y);
         if constexpr (HasGaps<S>) watch_.advance();
         h *= factor;
       }

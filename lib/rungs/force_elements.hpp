@@ -28,6 +28,8 @@ class ForceElements {
 
   int clearances() const { return static_cast<int>(joints_.size()); }
   const JournalInSleeve& joint(int clearance) const { return joints_[clearance].law; }
+  // The law that acts from now on: that of the contacts that are closed (located_contacts.hpp).
+  void act(int clearance, const JournalInSleeve& law) { joints_[clearance].law = law; }
   JournalMotion<double> journal_motion(int clearance, const std::vector<BodyMotion>& bodies) const;
   // Of the last apply().
   const JournalWrench<double>& contact(int clearance) const { return joints_[clearance].wrench; }

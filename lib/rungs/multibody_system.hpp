@@ -1,0 +1,48 @@
+// The multibody rung's motion as an initial value problem for an Integrator: a formulation's state and right-hand side, the gaps of
+// the clearance joints, and their memory, which changes at located events alone.
+// Serves one run.
+#pragma once
+
+#include "boresight/rungs/formulation.hpp"
+#include "boresight/rungs/located_contacts.hpp"
+
+namespace boresight {
+
+class MultibodySystem {
+ public:
+  // trackers: one per clearance, the caller's.
+  MultibodySystem(Formulation& formulation, std::vector<ContactTracker>& trackers);
+
+  void start(double t, const VecX& y);
+
+  // Not a number where the formulation cannot follow (a trial step into a singular pose): the step is then rejected.
+  void derivative(double t, const VecX& y, VecX& dy) const;
+  int gap_count() const { return contacts_.gap_count(); }
+  void gaps(double t, const VecX& y, VecX& g) const;
+  AfterEvent on_event(const GapEvent& event, VecX& y);
+  void settle(double t, VecX& y) { formulation_.settle(t, y); }
+
+  // Makes sure that accelerations and forces are those of (t, y), for whoever reads them from the formulation.
+  void evaluate(double t, const VecX& y);
+  // Shows the trackers a state; with forces only if evaluate() was called there.
+  void observe(double t, const VecX& y, bool with_forces);
+
+  const std::vector<JournalInSleeve>& joints() const { return joints_; }
+  // Why a trial step failed last; empty if none did.
+  const std::string& fault() const { return fault_; }
+
+ private:
+  void read(int clearance, double t, const VecX& y) const;
+
+  Formulation& formulation_;
+  std::vector<ContactTracker>& trackers_;
+  std::vector<JournalInSleeve> joints_;
+  LocatedContacts contacts_;
+  mutable std::vector<ContactMemory> memory_;
+  mutable std::array<ContactState<double>, kContactPlaces> contact_;
+  mutable double evaluated_time_ = -1.0;
+  mutable VecX evaluated_, slope_;
+  mutable std::string fault_;
+};
+
+}  // namespace boresight
