@@ -34,7 +34,7 @@ JournalInSleeveT<T> with_scalar(const JournalInSleeve& d) {
 // column: of each input, among the numbers of the motion.
 template <int inputs>
 void differentiate(const JournalInSleeve& law, const JournalMotion<double>& m, const std::array<int, inputs>& column,
-                   const std::array<double, kContactPlaces>& impact_speed, ContactJacobian& out) {
+                   const std::array<double, kContactPlaces>& impact_speed, MomentAbout about, ContactJacobian& out) {
   using Jet = ceres::Jet<double, inputs>;
   JournalMotion<Jet> motion;
   const auto number = [](auto& of, int k) -> auto& {
@@ -46,7 +46,8 @@ void differentiate(const JournalInSleeve& law, const JournalMotion<double>& m, c
   for (int k = 0; k < kContactPlaces; ++k) speed[k] = Jet(impact_speed[k]);
   JournalWrench<Jet> wrench;
   with_scalar<Jet>(law).wrench(motion, speed, wrench);
-  const Vec3T<Jet> moment = wrench.moment - motion.e.cross(wrench.force);
+  Vec3T<Jet> moment = wrench.moment;
+  if (about == MomentAbout::journal) moment -= motion.e.cross(wrench.force);
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < inputs; ++i) {
       out(k, column[i]) = wrench.force[k].v[i];
@@ -57,12 +58,12 @@ void differentiate(const JournalInSleeve& law, const JournalMotion<double>& m, c
 }  // namespace
 
 void contact_jacobian(const JournalInSleeve& law, const JournalMotion<double>& motion,
-                      const std::array<double, kContactPlaces>& impact_speed, ContactJacobian& out) {
+                      const std::array<double, kContactPlaces>& impact_speed, MomentAbout about, ContactJacobian& out) {
   out.setZero();
   if (law.tilts)
-    differentiate<kMotionNumbers>(law, motion, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, impact_speed, out);
+    differentiate<kMotionNumbers>(law, motion, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, impact_speed, about, out);
   else
-    differentiate<7>(law, motion, {0, 1, 2, 3, 4, 5, 7}, impact_speed, out);
+    differentiate<7>(law, motion, {0, 1, 2, 3, 4, 5, 7}, impact_speed, about, out);
 }
 
 }  // namespace boresight

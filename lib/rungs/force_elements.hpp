@@ -23,6 +23,10 @@ class ForceElements {
   // then couples on the slopes), one per clearance [N, N m].
   void replace_contact(std::vector<Eigen::Matrix<double, 5, 1>> loads) { held_ = std::move(loads); }
 
+  // The contacts' wrenches as they stand, whatever the motion: for derivatives of everything but the contact laws.
+  void hold_contact(bool hold) { hold_ = hold; }
+  JournalWrench<double>& contact(int clearance) { return joints_[clearance].wrench; }
+
   // Elastic energy of springs and contacts [J].
   double elastic_energy(const std::vector<BodyMotion>& bodies) const;
 
@@ -51,6 +55,7 @@ class ForceElements {
   void load(Joint& joint, const Eigen::Matrix<double, 5, 1>& held) const;
 
   const Mechanism& mechanism_;
+  bool hold_ = false;
   std::vector<Joint> joints_;
   std::vector<Eigen::Matrix<double, 5, 1>> held_;
   std::vector<Spring> springs_;

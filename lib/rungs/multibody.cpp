@@ -181,6 +181,7 @@ class Multibody final : public Rung {
     RunResult result = recorder.finish();
     complete(result, options, trackers);
     report_integration(options, integrator, summary, result);
+    result.cost.evaluations += system.evaluations();
     result.constraint_drift = drift;
     result.error = {0.0, tolerance_error(options.tolerance > 0.0 ? options.tolerance : kTolerance), "the tolerance of the steps"};
     result.interrupted = interrupted;

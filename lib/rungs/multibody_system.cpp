@@ -1,5 +1,7 @@
 #include "boresight/rungs/multibody_system.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "boresight/mechanism/error.hpp"
@@ -13,7 +15,16 @@ std::vector<JournalInSleeve> joints_of(const ForceElements& forces) {
   return joints;
 }
 
+// Of differences, in turns, slides and their speeds: what they differentiate is smooth.
+constexpr double kIncrement = 1e-7;
+
 }  // namespace
+
+struct MultibodySystem::Held {
+  explicit Held(ForceElements& of) : forces(of) { forces.hold_contact(true); }
+  ~Held() { forces.hold_contact(false); }
+  ForceElements& forces;
+};
 
 MultibodySystem::MultibodySystem(Formulation& formulation, std::vector<ContactTracker>& trackers)
     : formulation_(formulation),
@@ -21,7 +32,13 @@ MultibodySystem::MultibodySystem(Formulation& formulation, std::vector<ContactTr
       joints_(joints_of(formulation.forces())),
       contacts_(joints_, trackers_),
       memory_(trackers.size()),
-      slope_(VecX::Zero(formulation.state_size())) {}
+      slope_(VecX::Zero(formulation.state_size())),
+      slow_(formulation.state_size(), formulation.state_size()),
+      shifted_(slope_),
+      base_(slope_),
+      response_(slope_),
+      here_(trackers.size()),
+      of_motion_(trackers.size(), MatX::Zero(formulation.state_size(), kMotionNumbers)) {}
 
 void MultibodySystem::read(int clearance, double t, const VecX& y) const {
   joints_[clearance].gaps(formulation_.forces().journal_motion(clearance, formulation_.bodies(t, y)), contact_);
@@ -46,6 +63,84 @@ void MultibodySystem::derivative(double t, const VecX& y, VecX& dy) const {
     dy.setConstant(std::numeric_limits<double>::quiet_NaN());
     evaluated_time_ = -1.0;
   }
+}
+
+// Fills base_ (the rate at (t, y)) and of_motion_.
+void MultibodySystem::respond(double t, const VecX& y) const {
+  ForceElements& forces = formulation_.forces();
+  derivative(t, y, base_);
+  ++evaluations_;
+  evaluated_time_ = -1.0;  // what follows leaves the formulation elsewhere
+  const Held held(forces);
+  ContactJacobian law;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> unit(y.size(), 6);
+  for (int c = 0; c < static_cast<int>(joints_.size()); ++c) {
+    if (!contacts_.touches(c)) continue;
+    const JournalMotion<double> motion = forces.motion(c);
+    contact_jacobian(contacts_.acting(c), motion, memory_[c].impact_speed, MomentAbout::sleeve, law);
+    const JournalWrench<double> wrench = forces.contact(c);
+    // Linear in the wrench: a difference of any size is exact. One as large as the wrench itself loses no digits.
+    const double size = std::max(1.0, wrench.force.norm());
+    for (int k = 0; k < 6; ++k) {
+      const Vec3 axis = Vec3::Unit(k % 3) * size;
+      JournalWrench<double>& changed = forces.contact(c);
+      (k < 3 ? changed.force : changed.moment) += axis;
+      formulation_.derivative(t, y, memory_, response_);
+      unit.col(k) = (response_ - base_) / size;
+      changed = wrench;
+    }
+    evaluations_ += 6;
+    of_motion_[c].noalias() = unit * law;
+  }
+}
+
+void MultibodySystem::remember_motion(double t, const VecX& y) const {
+  const std::vector<BodyMotion>& bodies = formulation_.bodies(t, y);
+  for (int c = 0; c < static_cast<int>(joints_.size()); ++c) here_[c] = numbers(formulation_.forces().journal_motion(c, bodies));
+}
+
+void MultibodySystem::jacobian(double t, const VecX& y, MatX& J) const {
+  ForceElements& forces = formulation_.forces();
+  respond(t, y);
+  const int size = static_cast<int>(y.size());
+  if (slow_time_ < 0.0 || std::abs(t - slow_time_) > kSlowTime) {
+    const Held held(forces);
+    for (int k = 0; k < size; ++k) {
+      shifted_ = y;
+      shifted_[k] += kIncrement;
+      formulation_.derivative(t, shifted_, memory_, response_);
+      slow_.col(k) = (response_ - base_) / (shifted_[k] - y[k]);
+    }
+    evaluations_ += size;
+    slow_time_ = t;
+  }
+  J = slow_;
+  remember_motion(t, y);
+  const bool touching = std::any_of(trackers_.begin(), trackers_.end(), [](const ContactTracker& c) { return c.touching(); });
+  for (int k = 0; k < size && touching; ++k) {
+    shifted_ = y;
+    shifted_[k] += kIncrement;
+    const std::vector<BodyMotion>& bodies = formulation_.bodies(t, shifted_);
+    for (int c = 0; c < static_cast<int>(joints_.size()); ++c)
+      if (contacts_.touches(c))
+        J.col(k).noalias() += of_motion_[c] * ((numbers(forces.journal_motion(c, bodies)) - here_[c]) / (shifted_[k] - y[k]));
+  }
+}
+
+void MultibodySystem::time_derivative(double t, const VecX& y, VecX& ft) const {
+  ForceElements& forces = formulation_.forces();
+  remember_motion(t, y);
+  const double later = t + kIncrement;
+  {
+    const Held held(forces);
+    formulation_.derivative(later, y, memory_, response_);
+    ++evaluations_;
+  }
+  ft = (response_ - base_) / (later - t);
+  const std::vector<BodyMotion>& bodies = formulation_.bodies(later, y);
+  for (int c = 0; c < static_cast<int>(joints_.size()); ++c)
+    if (contacts_.touches(c))
+      ft.noalias() += of_motion_[c] * ((numbers(forces.journal_motion(c, bodies)) - here_[c]) / (later - t));
 }
 
 void MultibodySystem::gaps(double t, const VecX& y, VecX& g) const {

@@ -106,7 +106,7 @@ void PerturbationSystem::jacobian(double t, const VecX& y, MatX& J) const {
     const SceneLayout::Joint& joint = at.joints[c];
     const JournalMotion<double> motion = journal_motion(at, joint, scene, y.data(), y.data() + n);
     const JournalInSleeve& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
-    contact_jacobian(law, motion, trackers_[c].memory().impact_speed, of_motion);
+    contact_jacobian(law, motion, trackers_[c].memory().impact_speed, MomentAbout::journal, of_motion);
     motion_gain(at, joint, scene, gain_);
     // A wrench works on e_dot and w: it acts on the coordinates as these follow their rates.
     virtual_gain_.topRows<3>() = gain_.block(3, n, 3, n);
