@@ -104,9 +104,9 @@ class Integrator {
         summary_.crossings_below_floor += watch_.follow_lasting(std::as_const(system), method_, t_, h, share);
       }
       const bool cut = share < 1.0;
-      const double end = cut ? t_ + share * h : (remaining <= h * (1.0 + 1e-12) ? t_end : t_ + h);
-      const double length = cut ? share * h : h;
-      if (cut && !retake(std::as_const(system), length, y)) return ended(StopReason::attempt_failed, "");
+      double length = cut ? share * h : h;
+      if (cut && !stop_at_event(std::as_const(system), y, options, length)) return ended(StopReason::attempt_failed, "");
+      const double end = cut ? t_ + length : (remaining <= h * (1.0 + 1e-12) ? t_end : t_ + h);
       state_ = method_.proposed();
       bool goes_on = true;
       const AcceptedStep<M> step(method_, t_, length, end, std::as_const(state_));
@@ -206,13 +206,21 @@ class Integrator {
     summary_.last_step = h;
   }
 
-  // The step up to an event is taken anew: its dense output found the event, but may have bent where the force ends behind it.
+  // The step up to an event is taken anew: its dense output found the event, but may have bent where the force ends behind it, and is of
+  // lower order than the step. Where the gap is not yet zero, or no longer, the length is mended: a contact whose memory and gap disagree
+  // by more than rounding would open and close once more at once.
   template <typename S>
-  bool retake(const S& system, double h, const VecX& y) {
-    if (method_.attempt(system, t_, h, y) != Attempt::done || !method_.proposed().allFinite()) return false;
-    method_.finish(system, t_ + h);
-    return true;
+  bool stop_at_event(const S& system, const VecX& y, const IntegrationOptions& options, double& length) {
+    for (int attempt = 0;; ++attempt) {
+      if (method_.attempt(system, t_, length, y) != Attempt::done || !method_.proposed().allFinite()) return false;
+      method_.finish(system, t_ + length);
+      double missing = 0.0;
+      if constexpr (HasGaps<S>) missing = watch_.missing_time(system, method_, t_, length, options);
+      if (missing == 0.0 || attempt == kMendings) return true;
+      length += missing;
+    }
   }
+  static constexpr int kMendings = 3;
 
   // Whole steps to the end, all alike; shorter beside a rough point.
   double fixed_step(double t_end, double h_before, const IntegrationOptions& options) {

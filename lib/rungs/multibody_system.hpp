@@ -9,8 +9,8 @@
 
 namespace boresight {
 
-// How long the slow part of a Jacobian is kept [s]: that of a motion of about a second changes by some thousandths.
-inline constexpr double kSlowTime = 2e-3;
+// How long the slow part of a Jacobian is kept [s]: that of a motion of about a second changes by about a hundredth.
+inline constexpr double kSlowTime = 1e-2;
 
 class MultibodySystem {
  public:
