@@ -18,7 +18,7 @@ namespace boresight {
 class GapWatch {
  public:
   GapWatch(int gaps, Eigen::Index size, int looks_inside)
-      : gap_(gaps), looks_(looks_inside + 2), values_(gaps, looks_), now_(VecX::Zero(gaps)), state_(VecX::Zero(size)) {
+      : gap_(gaps), saved_(gap_), looks_(looks_inside + 2), values_(gaps, looks_), now_(VecX::Zero(gaps)), state_(VecX::Zero(size)) {
     due_.reserve(static_cast<std::size_t>(gaps));
   }
 
@@ -134,6 +134,10 @@ class GapWatch {
     return seen;
   }
 
+  // The sides of all gaps, should the step not be taken after all.
+  void save() { saved_ = gap_; }
+  void restore() { gap_ = saved_; }
+
   // The next gap that was lasting and has been open for longer than the floor; -1 if none. It is released by this.
   int release(double t, double floor) {
     for (int k = 0; k < static_cast<int>(gap_.size()); ++k) {
@@ -232,7 +236,7 @@ class GapWatch {
     return far;
   }
 
-  std::vector<Gap> gap_;
+  std::vector<Gap> gap_, saved_;
   int looks_;
   MatX values_;  // gaps x looks: at the step's start, inside it, at its end
   VecX now_, state_;

@@ -98,14 +98,26 @@ class Integrator {
       method_.finish(std::as_const(system), t_ + h);
       double share = 1.0;
       bool events = false;
+      long below_floor = 0;
       if constexpr (HasGaps<S>) {
         share = watch_.first_event(std::as_const(system), method_, t_, h, options);
         events = !watch_.due().empty();
-        summary_.crossings_below_floor += watch_.follow_lasting(std::as_const(system), method_, t_, h, share);
+        watch_.save();
+        below_floor = watch_.follow_lasting(std::as_const(system), method_, t_, h, share);
       }
       const bool cut = share < 1.0;
       double length = cut ? share * h : h;
-      if (cut && !stop_at_event(std::as_const(system), y, options, length)) return ended(StopReason::attempt_failed, "");
+      if (cut) {
+        const Attempt shorter = stop_at_event(std::as_const(system), y, options, length);
+        if (shorter != Attempt::done) {
+          count_failure(shorter);
+          if (fixed) return ended(StopReason::attempt_failed, "");
+          if constexpr (HasGaps<S>) watch_.restore();
+          h = length * control.reject(std::numeric_limits<double>::infinity());
+          continue;
+        }
+      }
+      summary_.crossings_below_floor += below_floor;
       const double end = cut ? t_ + length : (remaining <= h * (1.0 + 1e-12) ? t_end : t_ + h);
       state_ = method_.proposed();
       bool goes_on = true;
@@ -210,13 +222,15 @@ class Integrator {
   // lower order than the step. Where the gap is not yet zero, or no longer, the length is mended: a contact whose memory and gap disagree
   // by more than rounding would open and close once more at once.
   template <typename S>
-  bool stop_at_event(const S& system, const VecX& y, const IntegrationOptions& options, double& length) {
+  Attempt stop_at_event(const S& system, const VecX& y, const IntegrationOptions& options, double& length) {
     for (int attempt = 0;; ++attempt) {
-      if (method_.attempt(system, t_, length, y) != Attempt::done || !method_.proposed().allFinite()) return false;
+      const Attempt done = method_.attempt(system, t_, length, y);
+      if (done != Attempt::done) return done;
+      if (!method_.proposed().allFinite()) return Attempt::no_convergence;
       method_.finish(system, t_ + length);
       double missing = 0.0;
       if constexpr (HasGaps<S>) missing = watch_.missing_time(system, method_, t_, length, options);
-      if (missing == 0.0 || attempt == kMendings) return true;
+      if (missing == 0.0 || attempt == kMendings) return Attempt::done;
       length += missing;
     }
   }

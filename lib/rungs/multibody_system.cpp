@@ -37,6 +37,8 @@ MultibodySystem::MultibodySystem(Formulation& formulation, std::vector<ContactTr
       shifted_(slope_),
       base_(slope_),
       response_(slope_),
+      unit_time_(trackers.size(), -1.0),
+      unit_(trackers.size(), MatX::Zero(formulation.state_size(), 6)),
       here_(trackers.size()),
       of_motion_(trackers.size(), MatX::Zero(formulation.state_size(), kMotionNumbers)) {}
 
@@ -73,12 +75,16 @@ void MultibodySystem::respond(double t, const VecX& y) const {
   evaluated_time_ = -1.0;  // what follows leaves the formulation elsewhere
   const Held held(forces);
   ContactJacobian law;
-  Eigen::Matrix<double, Eigen::Dynamic, 6> unit(y.size(), 6);
   for (int c = 0; c < static_cast<int>(joints_.size()); ++c) {
     if (!contacts_.touches(c)) continue;
     const JournalMotion<double> motion = forces.motion(c);
     contact_jacobian(contacts_.acting(c), motion, memory_[c].impact_speed, MomentAbout::sleeve, law);
     const JournalWrench<double> wrench = forces.contact(c);
+    if (std::abs(t - unit_time_[c]) <= kUnitTime) {
+      of_motion_[c].noalias() = unit_[c] * law;
+      continue;
+    }
+    unit_time_[c] = t;
     // Linear in the wrench: a difference of any size is exact. One as large as the wrench itself loses no digits.
     const double size = std::max(1.0, wrench.force.norm());
     for (int k = 0; k < 6; ++k) {
@@ -86,11 +92,11 @@ void MultibodySystem::respond(double t, const VecX& y) const {
       JournalWrench<double>& changed = forces.contact(c);
       (k < 3 ? changed.force : changed.moment) += axis;
       formulation_.derivative(t, y, memory_, response_);
-      unit.col(k) = (response_ - base_) / size;
+      unit_[c].col(k) = (response_ - base_) / size;
       changed = wrench;
     }
     evaluations_ += 6;
-    of_motion_[c].noalias() = unit * law;
+    of_motion_[c].noalias() = unit_[c] * law;
   }
 }
 

@@ -12,6 +12,9 @@ namespace boresight {
 // How long the slow part of a Jacobian is kept [s]: that of a motion of about a second changes by about a hundredth.
 inline constexpr double kSlowTime = 1e-2;
 
+// And what unit wrenches on the journals accelerate, which multiplies the stiffness of the contacts [s].
+inline constexpr double kUnitTime = 1e-3;
+
 class MultibodySystem {
  public:
   // trackers: one per clearance, the caller's.
@@ -61,6 +64,8 @@ class MultibodySystem {
   mutable MatX slow_;
   mutable double slow_time_ = -1.0;
   mutable VecX shifted_, base_, response_;
+  mutable std::vector<double> unit_time_;
+  mutable std::vector<MatX> unit_;
   mutable std::vector<Eigen::Matrix<double, kMotionNumbers, 1>> here_;
   // Per joint with a closed contact: what its wrench makes of the state's rate (size x 6), times the wrench's derivatives by the
   // journal's motion (6 x kMotionNumbers).
