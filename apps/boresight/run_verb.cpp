@@ -56,7 +56,8 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
 
 Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const RunResult& result,
                 const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
-                const std::optional<Predictability>& predictability, const Stopwatch& watch, const OutputDirectory& out) {
+                const std::optional<Predictability>& predictability, const Stopwatch& watch,
+                const OutputDirectory& out) {
   Json json = common_summary(command, mechanism, rung, watch, result.warnings, result.interrupted, out);
   json["formulation"] = result.formulation;
   json["integrator"] = result.integrator;
@@ -123,17 +124,18 @@ class RunVerb : public Verb {
       return !interrupted();
     };
     Progress pilot_progress(command.quiet, kPilotTrials, "trials of the pilot");
-    const RungChoice choice = choose_rung(
-        {.asked = command.rung,
-         .accuracy = command.accuracy,
-         .wants_multibody = motion_.asks_for_multibody(),
-         .index = index,
-         .step = options.step,
-         .progress = [&](int trial) {
-           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
-           return !interrupted();
-         }},
-        mechanism, {mechanism->parameters()});
+    const RungChoice choice =
+        choose_rung({.asked = command.rung,
+                     .accuracy = command.accuracy,
+                     .wants_multibody = motion_.asks_for_multibody(),
+                     .index = index,
+                     .step = options.step,
+                     .progress =
+                         [&](int trial) {
+                           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
+                           return !interrupted();
+                         }},
+                    mechanism, {mechanism->parameters()});
     pilot_progress.clear();
     if (choice.step > 0.0) options.step = choice.step;
 
@@ -156,7 +158,8 @@ class RunVerb : public Verb {
     out.write("timeseries.csv", [&](std::ostream& s) { write_timeseries(s, *mechanism, result, finer); });
     out.write("events.csv", [&](std::ostream& s) { write_events(s, *mechanism, result); });
     out.write("report.html", [&](std::ostream& s) {
-      report::write_html(s, run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability));
+      report::write_html(
+          s, run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability));
     });
     progress.clear();
     if (!command.quiet) print(*mechanism, choice, result, others, axes, predictability, out);
