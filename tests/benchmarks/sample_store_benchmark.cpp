@@ -28,7 +28,8 @@ class ThirdModel final : public SampleModel {
 MonteCarloPlan plan_of(std::uint64_t samples) {
   MonteCarloPlan plan;
   plan.samples = samples;
-  for (const char* name : {"clearance.F1.radial", "clearance.F1.contact.restitution", "clearance.F1.friction.coefficient"}) {
+  for (const char* name :
+       {"clearance.F1.radial", "clearance.F1.contact.restitution", "clearance.F1.friction.coefficient"}) {
     RandomParameter p;
     p.paths = {name};
     p.si_unit = "1";
@@ -51,8 +52,9 @@ void compute_and_store(benchmark::State& state) {
       SampleStore store(folder / "samples.db", {{"study", "benchmark"}}, names);
       store.use_rung("third", 0.0);
       const std::unique_ptr<Ranks> alone = Ranks::join();
-      run_montecarlo(ThirdModel(), plan, &store, *alone,
-                     {.folder = folder, .facts = {{"study", "benchmark"}}, .jobs = 1, .progress = {}, .interrupted = {}});
+      run_montecarlo(
+          ThirdModel(), plan, &store, *alone,
+          {.folder = folder, .facts = {{"study", "benchmark"}}, .jobs = 1, .progress = {}, .interrupted = {}});
     }
     bytes = static_cast<double>(std::filesystem::file_size(folder / "samples.db"));
   }

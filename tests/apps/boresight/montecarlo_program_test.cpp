@@ -34,13 +34,14 @@ distribution = { uniform = { min = 0.7, max = 0.95 } }
 parameter = "clearance.F1.friction.coefficient"
 distribution = { lognormal = { median = 0.03, factor = 1.3 } }
 [montecarlo]
-samples = )" << samples << "\n"
-                                  << more << "\n";
+samples = )" << samples << "\n" << more
+                                  << "\n";
   }
   // A motion of 20 ms on the cheapest rung with impacts.
-  std::vector<std::string> quick(const std::string& name, const std::string& out, std::vector<std::string> more = {}) const {
-    std::vector<std::string> arguments = {"montecarlo", name,    "--set", "motion.duration=20ms", "--rung", "perturbation",
-                                          "--out",      out, "--quiet"};
+  std::vector<std::string> quick(const std::string& name, const std::string& out,
+                                 std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {
+        "montecarlo", name, "--set", "motion.duration=20ms", "--rung", "perturbation", "--out", out, "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
@@ -78,12 +79,12 @@ TEST_F(MonteCarloProgram, AnyNumberOfThreadsGivesTheSameTable) {
 }
 
 TEST_F(MonteCarloProgram, KilledAndResumedThreeTimesItGivesTheTableOfOneRun) {
-  study("long.toml", 3000);
+  study("long.toml", 1500);
   const std::string whole = csv_of("long.toml", "whole", {"--jobs", "2"});
   int killed = 0;
   for (int k = 0; k < 3; ++k) {
     const pid_t child = start(quick("long.toml", "cut", {"--jobs", "2", "--resume"}));
-    std::this_thread::sleep_for(std::chrono::milliseconds(450));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
     ::kill(child, SIGKILL);
     killed += wait_for(child).status == 128 + SIGKILL;
   }
@@ -133,8 +134,9 @@ TEST_F(MonteCarloProgram, ASampleIsReplayedToTheSameBits) {
 
   const std::string replay = json("out/summary.json")["replay"];
   const std::size_t step = replay.find("--step \"") + 8;
-  const Ended ended = call({"run", "study.toml", "--set", "motion.duration=20ms", "--rung", "perturbation", "--step",
-                            replay.substr(step, replay.find('"', step) - step), "--sample-number", "7", "--out", "seven"});
+  const Ended ended =
+      call({"run", "study.toml", "--set", "motion.duration=20ms", "--rung", "perturbation", "--step",
+            replay.substr(step, replay.find('"', step) - step), "--sample-number", "7", "--out", "seven"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(json("seven/summary.json")["index"]["position_error"]["max"].get<double>(), stored);
   EXPECT_EQ(call({"run", "study.toml", "--sample-number", "-1"}).status, 2);
@@ -196,12 +198,12 @@ TEST_F(MonteCarloRanks, TwoRanksGiveTheTableOfOneProcess) {
 }
 
 TEST_F(MonteCarloRanks, ARankThatIsKilledCostsOnlyWhatItHadNotStored) {
-  study("long.toml", 3000);
+  study("long.toml", 1500);
   const std::string whole = csv_of("long.toml", "whole");
   // The shell of rank 1 kills its program from outside after a while.
   const std::string script = (folder_ / "rank.sh").string();
   std::ofstream(script) << "if [ \"$OMPI_COMM_WORLD_RANK\" = 1 ]; then '" BORESIGHT_PROGRAM
-                           "' \"$@\" & child=$!; sleep 0.8; kill -9 $child; wait $child; else exec '" BORESIGHT_PROGRAM
+                           "' \"$@\" & child=$!; sleep 0.6; kill -9 $child; wait $child; else exec '" BORESIGHT_PROGRAM
                            "' \"$@\"; fi\n";
   std::string command = "cd '" + folder_.string() +
                         "' && OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" BORESIGHT_MPIEXEC
