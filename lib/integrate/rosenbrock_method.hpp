@@ -1,6 +1,6 @@
-// Rosenbrock methods for the Integrator: any table of rosenbrock_tables.hpp. One Jacobian an accepted step, one decomposition an
-// attempt, no iteration that could fail. Meant for contacts that rest: their vibration is stepped over once it is below the
-// tolerance, where an explicit method goes on following it.
+// Rosenbrock methods for the Integrator: any table of rosenbrock_tables.hpp. One Jacobian an accepted step, one
+// decomposition an attempt, no iteration that could fail. Meant for contacts that rest: their vibration is stepped over
+// once it is below the tolerance, where an explicit method goes on following it.
 #pragma once
 
 #include <Eigen/LU>
@@ -90,6 +90,13 @@ class RosenbrockMethod {
     out.noalias() = rest * start_ + share * proposed_;
     for (int i = 0; i < table_.stages; ++i)
       add(out, share * rest * (table_.p[i] + (table_.q.empty() ? 0.0 : share * table_.q[i])), u_[i]);
+  }
+
+  // The state moved a little after the step was taken.
+  template <System S>
+  void refresh(const S& system, double t, const VecX& y) {
+    system.derivative(t, y, start_slope_);
+    ++cost_.evaluations;
   }
 
   void advance() {

@@ -16,7 +16,8 @@ std::vector<JournalInSleeve> joints_of(const Mechanism& mechanism, const Paramet
   return joints;
 }
 
-std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::vector<JournalInSleeve>& joints, bool keep_events) {
+std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::vector<JournalInSleeve>& joints,
+                                        bool keep_events) {
   std::vector<ContactTracker> trackers;
   const MechanismDescription& m = mechanism.description();
   for (int c = 0; c < mechanism.clearances(); ++c)
@@ -24,7 +25,8 @@ std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::v
   return trackers;
 }
 
-// How the numbers of a joint's motion follow the state: kMotionNumbers x 2n; what journal_motion() computes, without its constants.
+// How the numbers of a joint's motion follow the state: kMotionNumbers x 2n; what journal_motion() computes, without
+// its constants.
 void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const double* scene, MatX& gain) {
   const int n = at.n;
   gain.setZero();
@@ -106,7 +108,7 @@ void PerturbationSystem::jacobian(double t, const VecX& y, MatX& J) const {
     const SceneLayout::Joint& joint = at.joints[c];
     const JournalMotion<double> motion = journal_motion(at, joint, scene, y.data(), y.data() + n);
     const JournalInSleeve& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
-    contact_jacobian(law, motion, trackers_[c].memory().impact_speed, of_motion);
+    contact_jacobian(law, motion, trackers_[c].memory().impact_speed, MomentAbout::journal, of_motion);
     motion_gain(at, joint, scene, gain_);
     // A wrench works on e_dot and w: it acts on the coordinates as these follow their rates.
     virtual_gain_.topRows<3>() = gain_.block(3, n, 3, n);
