@@ -18,7 +18,7 @@ class LaneContacts {
 
   LaneContacts(std::size_t joints, const LanePlaces* places)
       : start(joints), end(joints), tolerance(joints, T(0.0)), slowest(joints, T(1e-3)), touching_(joints), places_(places) {
-    for (auto& joint : touching_) joint.fill(Mask(false));
+    for (auto& joint : touching_) joint.fill(Mask::all(false));
   }
 
   // Share of the step after which the first contact begins that the step must not run into; 1 where there is none.
@@ -37,7 +37,7 @@ class LaneContacts {
 
   // Takes the step's end for the start of the next one in these lanes. Returns where a contact has begun.
   Mask accept(const Mask& accepted, std::vector<std::array<T, kContactPlaces>>& impact_speed, T& impacts) {
-    Mask began(false);
+    Mask began = Mask::all(false);
     for (std::size_t c = 0; c < start.size(); ++c)
       for (ContactPlace place : places_[c]) {
         const int k = static_cast<int>(place);
@@ -56,7 +56,7 @@ class LaneContacts {
   }
 
   Mask touching() const {
-    Mask some(false);
+    Mask some = Mask::all(false);
     for (std::size_t c = 0; c < touching_.size(); ++c)
       for (ContactPlace place : places_[c]) some = some | touching_[c][static_cast<int>(place)];
     return some;

