@@ -103,6 +103,7 @@ class RunVerb : public Verb {
     const Stopwatch watch;
     const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(command.file, command.settings));
     check_rung_name(command.rung);
+    motion_.check_rung(command.rung);
     RunOptions options = motion_.run_options(*mechanism);
     const IndexChoice index = asked_index();
     const OutputDirectory out = OutputDirectory::open(
@@ -120,7 +121,7 @@ class RunVerb : public Verb {
     const RungChoice choice = choose_rung(
         {.asked = command.rung,
          .accuracy = command.accuracy,
-         .wants_multibody = !options.formulation.empty() || !options.stabilisation.empty(),
+         .wants_multibody = motion_.asks_for_multibody(),
          .index = index,
          .step = options.step,
          .progress = [&](int trial) {
@@ -170,6 +171,8 @@ class RunVerb : public Verb {
     Compared other{.rung = name, .result = {}, .refusal = ""};
     options.step = step;
     if (name != "multibody") options.formulation = options.stabilisation = "";
+    options.integrator = "";
+    options.tolerance = 0.0;
     options.pose_bodies.clear();
     try {
       other.result = make_rung(name, mechanism)->run(mechanism->parameters(), options);

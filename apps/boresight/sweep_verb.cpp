@@ -126,6 +126,7 @@ class SweepVerb : public Verb {
       const Mechanism tried(read_mechanism(study.mechanism_file, settings));
     });
     check_rung_name(command.rung);
+    motion_.check_rung(command.rung);
     SweepOptions options;
     options.run = motion_.run_options(*mechanism);
     options.jobs = command.jobs;
@@ -146,7 +147,7 @@ class SweepVerb : public Verb {
     const RungChoice choice = choose_rung(
         {.asked = command.rung,
          .accuracy = command.accuracy ? command.accuracy : study.accuracy,
-         .wants_multibody = !options.run.formulation.empty() || !options.run.stabilisation.empty(),
+         .wants_multibody = motion_.asks_for_multibody(),
          .index = study.index,
          .step = options.run.step,
          .progress = [&](int trial) {

@@ -36,6 +36,14 @@ struct BouncingMass {
     dy[0] = y[1];
     dy[1] = force(y) / mass - gravity;
   }
+  void jacobian(double, const VecX& y, MatX& j) const {
+    const double d = -y[0];
+    j << 0.0, 1.0, 0.0, 0.0;
+    if (force(y) <= 0.0) return;
+    const double elastic = stiffness * std::pow(d, power), damped = 1.0 - damping * y[1] / impact_speed;
+    j(1, 0) = -power * elastic / d * damped / mass;
+    j(1, 1) = -elastic * damping / impact_speed / mass;
+  }
   AfterEvent on_event(const GapEvent& event, VecX& y) {
     touching = event.crossing == Crossing::closing || event.crossing == Crossing::lasting;
     if (touching) impact_speed = std::max(minimum_speed, -y[1]);

@@ -117,9 +117,10 @@ TEST(Contact, StillHoldsUniformStepsToOrderTwoAndAHalfWhenTheyStopAtIt) {
 }
 
 TEST(Contact, LetsStepsThatStopAtItAndAreGradedHaveTheirFullOrder) {
+  // Down to where the rounding of the event's time begins to show.
   EXPECT_NEAR(observed_order(rk4, scene(), {.grading_time = 1e-4}, 1.6e-5), 4.0, 0.3);
   EXPECT_NEAR(observed_order(loose_pair, scene(), {.grading_time = 1e-4}, 1.6e-5), 3.0, 0.3);
-  EXPECT_NEAR(observed_order(pair, scene(), {.grading_time = 1e-4, .grading_power = 3.0}, 1.6e-5), 5.0, 0.35);
+  EXPECT_GT(observed_order(pair, scene(), {.grading_time = 1e-4, .grading_power = 3.0}, 3.2e-5), 4.7);
   EXPECT_NEAR(observed_order(rosenbrock, scene(), {.grading_time = 1e-4}, 1.6e-5), 4.0, 0.3);
   EXPECT_NEAR(observed_order(loose_rosenbrock, scene(), {.grading_time = 1e-4}, 1.6e-5), 3.0, 0.3);
 }
@@ -142,7 +143,13 @@ TEST(Contact, OfLinearStiffnessNeedsNothingButStoppingAtIt) {
     }
     return std::sqrt(sum / 24);
   };
-  EXPECT_NEAR(std::log(error(across, 8e-6, false) / error(across, 1e-6, false)) / std::log(8.0), 2.0, 0.2);
+  // Where a step meets the end of the contact depends on where one met its start, so that single steps scatter: a fit over ten.
+  double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+  for (double h = 8e-6; n < 10.0; h *= 0.67, ++n) {
+    const double x = std::log(h), y = std::log(error(across, h, false));
+    sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  EXPECT_NEAR((n * sxy - sx * sy) / (n * sxx - sx * sx), 2.0, 0.2);
   EXPECT_NEAR(std::log(error(mass, 1.6e-5, true) / error(mass, 2e-6, true)) / std::log(8.0), 4.0, 0.2);
 }
 

@@ -1,0 +1,31 @@
+// The integrators that a run may ask for by name, and what they are told about a scene.
+//
+//   rk4                fixed steps that do not stop at contact: impact speeds by carrying the free flight on (contact_tracker.hpp)
+//   dopri5             Dormand-Prince 5(4) under error control, contacts located: for contacts that come and go
+//   rosenbrock         RODAS4, L-stable, under error control, contacts located: for contacts that rest, whose vibration it steps over
+//   generalized-alpha  implicit and of second order, fast modes damped; multibody only
+//
+// Those that locate contacts change a contact's memory at the event alone. With RunOptions::step they take fixed steps from event to
+// event instead; rk4 has no error estimate, so it takes no tolerance.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "boresight/rungs/rung.hpp"
+
+namespace boresight {
+
+// Of a rung; empty where it takes no steps.
+std::vector<std::string> integrator_names(const std::string& rung);
+// Of any rung.
+std::vector<std::string> integrator_names();
+
+// Error of one step over the smallest clearance, where RunOptions::tolerance asks for nothing.
+inline constexpr double kTolerance = 1e-3;
+
+// The name that the options ask for. Throws std::invalid_argument for one that the rung does not have, and for a tolerance given to
+// rk4 or along with a step.
+std::string integrator_of(const RunOptions& options, const std::string& rung);
+
+}  // namespace boresight
