@@ -29,9 +29,11 @@ double measured_growth(const std::vector<double>& signal) {
   if (equations < 2) return kNothing;
   Eigen::Matrix<double, Eigen::Dynamic, 2> A(equations, 2);
   VecX b(equations);
+  double size = 0.0;
   for (Eigen::Index n = 0; n < equations; ++n) {
-    const double size = std::hypot(signal[n], signal[n + 1], signal[n + 2]);
-    if (!std::isfinite(size)) return kNothing;
+    const double here = std::hypot(signal[n], signal[n + 1], signal[n + 2]);
+    if (!std::isfinite(here)) return kNothing;
+    size = std::max(size, here);
     if (size == 0.0) return kNothing;
     A.row(n) << signal[n + 1] / size, -signal[n] / size;
     b[n] = signal[n + 2] / size;
@@ -43,8 +45,8 @@ double measured_growth(const std::vector<double>& signal) {
 
 double measured_limit(const std::function<double(double)>& growth, double guess) {
   const double stride = 0.02 * guess;
-  for (double low = 0.7 * guess; low < 1.3 * guess; low += stride) {
-    if (growth(low) > 1.0) return low == 0.7 * guess ? kNothing : low;
+  for (double low = 0.89 * guess; low < 1.2 * guess; low += stride) {
+    if (growth(low) > 1.0) return low == 0.89 * guess ? kNothing : low;
     double a = low, b = low + stride;
     if (!(growth(b) > 1.0)) continue;
     while (b - a > 1e-5 * guess) {

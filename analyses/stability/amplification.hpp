@@ -22,12 +22,13 @@ double theoretical_growth(const MethodCoefficients& method, double alpha_h, doub
 double theoretical_limit(const MethodCoefficients& method, double zeta);
 
 // The growth per step that a signal shows, whatever made it: a sum of two powers obeys x_{n+2} = p x_{n+1} - q x_n, whose p
-// and q are fitted by least squares, each equation weighed alike; the larger root of r^2 - p r + q is the growth.
+// and q are fitted by least squares; the larger root of r^2 - p r + q is the growth. Equations weigh by the largest value so
+// far: those of a growing signal alike, those of a dying one less and less, as its roundings gain on it.
 // signal: four values or more, one per step. NaN if the signal says nothing (all zero, not finite).
 double measured_growth(const std::vector<double>& signal);
 
-// Where a growth, measured as a function of a step, crosses 1 for the first time above `low`: in strides of 2 % of `guess`,
-// then by bisection to 1e-5 of it. growth: of one argument. NaN if it does not cross below 1.3 guess.
+// Where a growth, measured as a function of a step, crosses 1 for the first time within 0.89 and 1.2 of `guess`: in strides of
+// 2 %, then by bisection to 1e-5. NaN if it does not, or is above 1 at the start already.
 double measured_limit(const std::function<double(double)>& growth, double guess);
 
 }  // namespace boresight

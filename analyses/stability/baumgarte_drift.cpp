@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "boresight/integrate/explicit_runge_kutta.hpp"
+#include "boresight/mechanism/constraint_system.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/rank_analysis.hpp"
 #include "boresight/rungs/formulation.hpp"
 #include "boresight_analyses/stability/amplification.hpp"
 
@@ -12,14 +14,22 @@ namespace boresight {
 namespace {
 
 constexpr int kPerBody = 13;        // of the paper formulation's state: p, q, v, w
-constexpr double kInjected = 1e-8;  // of the characteristic length
+constexpr double kInjected = 1e-7;  // of the characteristic length
 constexpr int kSteps = 14;
+constexpr double kFaint = 1e-4;        // of the largest violation: roundings are a ten-thousandth of that
 
 }  // namespace
 
 BaumgarteDrift::BaumgarteDrift(const Mechanism& mechanism, const IdealMotion& ideal) : mechanism_(mechanism), ideal_(ideal) {
   ideal.state(0.0, start_);
+  make_paper_formulation(mechanism_, mechanism_.parameters(), &ideal_, {})->start(start_, on_the_constraints_);
   h_ = 1e-6 * mechanism.duration();
+  std::vector<TimeValue> laws(mechanism.joints());
+  ideal.drive_laws(0.0, laws);
+  ConstraintSystem rows(mechanism, {.clearance = ClearanceRows::open});
+  rows.evaluate(start_.bodies, laws);
+  const RankAnalysis rank = analyse_rank(mechanism, rows, false);
+  redundant_ = rank.rank < rank.rows;
   // The displacement of one body along one axis that violates one row most, over all of them. Rows of driven freedoms and of
   // clearances are left out: the first move by their law, the second are open.
   double most = 0.0;
@@ -28,12 +38,12 @@ BaumgarteDrift::BaumgarteDrift(const Mechanism& mechanism, const IdealMotion& id
     if (joint.count() == 0) continue;
     const int body = joint.other_body() != kGround ? joint.other_body() : joint.reference_body();
     for (int axis = 0; axis < 3; ++axis) {
-      JointRows rows;
+      JointRows at;
       std::vector<BodyMotion> moved = start_.bodies;
       moved[body].p[axis] += kInjected * mechanism.characteristic_length();
-      joint.evaluate(moved, {}, rows);
+      joint.evaluate(moved, {}, at);
       Eigen::Index row;
-      const double violated = rows.value.head(joint.count()).cwiseAbs().maxCoeff(&row);
+      const double violated = at.value.head(joint.count()).cwiseAbs().maxCoeff(&row);
       if (violated <= 1.01 * most) continue;
       most = violated;
       watched_ = std::make_unique<JointConstraint>(joint);
@@ -57,7 +67,7 @@ std::vector<double> BaumgarteDrift::follow(const VecX& start, double alpha, doub
                                                   {true, Stabilisation::baumgarte, alpha, beta});
   std::vector<ContactMemory> memory(mechanism_.clearances());
   VecX y;
-  formulation->start(start_, y);  // finds out about redundant rows
+  if (redundant_) formulation->start(start_, y);  // finds that out for itself, by a rank analysis
   y = start;
   ExplicitRungeKutta method(classical_rk4(), y.size());
   const auto derivative = [&](double t, const VecX& s, VecX& ds) { formulation->derivative(t, s, memory, ds); };
@@ -76,8 +86,7 @@ std::vector<double> BaumgarteDrift::follow(const VecX& start, double alpha, doub
 }
 
 std::vector<double> BaumgarteDrift::violation(double alpha_h, double beta_h, int steps) const {
-  VecX y;
-  make_paper_formulation(mechanism_, mechanism_.parameters(), &ideal_, {})->start(start_, y);
+  VecX y = on_the_constraints_;
   const double size = kInjected * mechanism_.characteristic_length();
   y.segment<3>(kPerBody * body_) += size * direction_;
   // Some velocity too, so that both roots have a part.
@@ -87,18 +96,18 @@ std::vector<double> BaumgarteDrift::violation(double alpha_h, double beta_h, int
 
 double BaumgarteDrift::growth(double alpha_h, double beta_h) const {
   std::vector<double> signal = violation(alpha_h, beta_h, kSteps);
-  // What has died away to the roundings of the positions says nothing more.
-  const double rounding = 3e-15 * mechanism_.characteristic_length();
-  while (signal.size() > 4 && std::abs(signal.back()) < rounding && std::abs(signal[signal.size() - 2]) < rounding)
-    signal.pop_back();
+  // What has died away towards the roundings of the positions says nothing more.
+  double most = 0.0;
+  for (double v : signal) most = std::max(most, std::abs(v));
+  const auto faint = [&](std::size_t n) { return std::hypot(signal[n], signal[n - 1]) < kFaint * most; };
+  while (signal.size() > 4 && faint(signal.size() - 1)) signal.pop_back();
   return measured_growth(signal);
 }
 
 std::vector<double> BaumgarteDrift::after_a_wrong_velocity(double alpha, double beta, double h, int steps,
                                                            double& start_rate) const {
-  VecX y;
   const auto formulation = make_paper_formulation(mechanism_, mechanism_.parameters(), &ideal_, {});
-  formulation->start(start_, y);
+  VecX y = on_the_constraints_;
   y.segment<3>(kPerBody * body_ + 7) += 1e-5 * mechanism_.characteristic_length() / mechanism_.duration() * direction_;
   start_rate = rows_at(formulation->bodies(0.0, y)).rate[row_];
   return follow(y, alpha, beta, h, steps);

@@ -1,7 +1,7 @@
 // What Baumgarte's stabilisation does to the constraints of a real mechanism, step by step.
 //
 // The mechanism's own equations of motion (paper_formulation.cpp) are stepped by RK4 from a state whose constraints are
-// violated by a displacement of one body of 1e-8 of the mechanism's length. The violation of one joint's row over the steps
+// violated by a displacement of one body of 1e-7 of the mechanism's length. The violation of one joint's row over the steps
 // is the signal whose growth per step is measured. In theory it obeys Phi'' + 2 alpha Phi' + beta^2 Phi = 0 exactly.
 #pragma once
 
@@ -39,6 +39,8 @@ class BaumgarteDrift {
   const Mechanism& mechanism_;
   const IdealMotion& ideal_;
   IdealState start_;
+  VecX on_the_constraints_;
+  bool redundant_ = false;
   double h_ = 1e-6;
   std::unique_ptr<JointConstraint> watched_;
   int row_ = 0, body_ = 0;

@@ -115,10 +115,11 @@ FailureCase case_of_chatter(const Scene& scene, const Settling& pair, const Sett
   };
   c.measured = "a journal of " + scene.contacts[scene.stiffest()].joint + " dropped under its typical load: " + sentence(pair) + "; " +
                sentence(l_stable);
-  const auto recovered = [&](const Settling& s) {
-    return s.completed && s.settled_at >= 0.0 && s.largest_step_settled > 10.0 * s.smallest_step * omega;
+  const auto recovered = [](const Settling& s, double least) {
+    return s.completed && s.settled_at >= 0.0 && s.largest_step_settled > least;
   };
-  c.standing = recovered(pair) && recovered(l_stable) ? FailureCase::Standing::behaves : FailureCase::Standing::differs;
+  // The explicit pair recovers up to what its stability allows, the L-stable method steps over the vibration.
+  c.standing = recovered(pair, 0.5) && recovered(l_stable, 10.0) ? FailureCase::Standing::behaves : FailureCase::Standing::differs;
   return c;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "boresight/mechanism/error.hpp"
@@ -13,8 +14,9 @@ namespace boresight {
 namespace {
 
 constexpr double kZetas[] = {0.05, 0.1, 0.2, 0.3, 0.5, 0.7071, 0.8, 0.9, 1.0, 1.25, 1.5, 2.0, 3.0, 5.0};
-constexpr int kBaumgarteCells = 28, kGrowthCells = 33;
-// The settled vibration's frequency against the mechanism's own; dropped from four rest depths, followed for 150 periods.
+constexpr int kGrowthCells = 33;
+// The settled vibration's frequency against the mechanism's own; dropped from four rest depths, followed for 150 periods of
+// the mechanism's own vibration.
 constexpr double kSettledFactors[] = {0.25, 0.5, 1.0, 2.0, 4.0};
 constexpr double kDropHeight = 4.0, kSettledPeriods = 150.0, kSettledTolerance = 1e-4;
 
@@ -115,11 +117,13 @@ class Computation {
     next(0.08, "contacts coming to rest");
     const int joint = scene_.stiffest();
     if (joint < 0) return;
+    const SettlingContact own = SettlingContact::of(*mechanism_, mechanism_->parameters(), joint, scene_.contacts[joint]);
+    const double duration = kSettledPeriods * 2.0 * std::numbers::pi / own.angular_frequency();
     for (double factor : kSettledFactors) {
-      SettlingContact contact = SettlingContact::of(*mechanism_, mechanism_->parameters(), joint, scene_.contacts[joint]);
+      SettlingContact contact = own;
       contact.law.stiffness *= factor * factor * factor;  // omega goes with its cube root
       SettledStep step{.frequency = contact.angular_frequency(), .pair = {}, .l_stable = {}};
-      const double height = kDropHeight * contact.rest_depth(), duration = kSettledPeriods * 2.0 * 3.14159265358979 / step.frequency;
+      const double height = kDropHeight * contact.rest_depth();
       step.pair = settle(contact, height, duration, kSettledTolerance, true);
       step.l_stable = settle(contact, height, duration, kSettledTolerance, false);
       result_.settled.push_back(std::move(step));
@@ -136,7 +140,7 @@ class Computation {
     if (!scene_.ideal) return;
     try {
       const BaumgarteDrift drift(*mechanism_, *ideal_);
-      result_.baumgarte = map_baumgarte(drift, kBaumgarteCells, advancing(0.4, 0.5, kBaumgarteCells, "Baumgarte's gains"));
+      result_.baumgarte = map_baumgarte(drift, options_.cells, advancing(0.4, 0.5, options_.cells, "Baumgarte's gains"));
       next(0.5, "Baumgarte's limits");
       for (double zeta : kZetas) result_.baumgarte.limits.push_back(baumgarte_limit(drift, zeta));
     } catch (const ComputationError& failure) {

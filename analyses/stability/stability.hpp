@@ -11,9 +11,10 @@ namespace boresight {
 
 struct StabilityOptions {
   IndexChoice index{"position_error", "rms"};  // whose error the map of steps shows: statistics hold where trajectories part
-  std::function<void(const Setting&)> reread;  // see Scene
+  int cells = 28;                              // of the map of Baumgarte's gains, along each axis
+  std::function<void(const Setting&)> reread = {};  // see Scene
   // Called with the share done and what comes next; return false to stop: the result is then marked interrupted.
-  std::function<bool(double, const std::string&)> progress;
+  std::function<bool(double, const std::string&)> progress = {};
 };
 
 // One explicit method on one axis.

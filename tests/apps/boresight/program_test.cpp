@@ -36,7 +36,7 @@ class ProgramTest : public Program {
 TEST_F(ProgramTest, HelpAndVersion) {
   EXPECT_THAT(call({"--version"}).out, HasSubstr("boresight "));
   EXPECT_THAT(call({"--help"}).out, AllOf(HasSubstr("check"), HasSubstr("run"), HasSubstr("sweep")));
-  for (const char* verb : {"check", "run", "sweep"}) {
+  for (const char* verb : {"check", "run", "sweep", "stability"}) {
     const Ended ended = call({verb, "--help"});
     EXPECT_EQ(ended.status, 0);
     EXPECT_THAT(ended.out,
@@ -66,6 +66,7 @@ TEST_F(ProgramTest, BadInputIsOneLineAndStatusTwo) {
   expect_refused({"run", mechanism_, "--integrator", "dopri5", "--tolerance", "1 mm"}, "--tolerance");
   expect_refused({"run", mechanism_, "--jobs", "-1"}, "--jobs");
   expect_refused({"sweep", mechanism_}, "expected a study file");
+  expect_refused({"stability", mechanism_, "--rung", "multybody"}, "did you mean multibody?");
 }
 
 TEST_F(ProgramTest, AnUnknownFormulationIsBadInput) {
@@ -184,6 +185,21 @@ TEST_F(ProgramTest, ASweepHasARowPerPointWhateverTheJobs) {
   EXPECT_EQ(summary["points"].size(), 3u);
   EXPECT_EQ(summary["points"][1]["index"]["position_error"]["max"], summary["index"]["values"][1]);
   EXPECT_THAT(text("results/study-sweep/report.html"), HasSubstr("What the paper found"));
+}
+
+TEST_F(ProgramTest, StabilityLeavesMapsAndCasesWithTheLimitsOfTheory) {
+  const Ended ended = call({"stability", mechanism_, "--set", "motion.duration=50ms", "--out", "out"});
+  ASSERT_EQ(ended.status, 0) << ended.err << ended.out;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("step limit 2.8284 measured"), HasSubstr("Grazing and chatter"), HasSubstr("out/report.html")));
+  EXPECT_THAT(files("out"), ElementsAre("baumgarte.csv", "cases.csv", "growth.csv", "horizon.csv", "limits.csv", "report.html",
+                                        "steps.csv", "summary.json"));
+  const auto summary = json("out/summary.json");
+  EXPECT_EQ(summary["cases"].size(), 11u);
+  EXPECT_LT(summary["largest_difference_from_theory"].get<double>(), 0.02);
+  EXPECT_EQ(summary["baumgarte"]["limits"].size(), 14u);
+  // The reader's own refusal of a restitution of zero stands in the case.
+  EXPECT_THAT(text("out/cases.csv"), HasSubstr("expected a number above 0, at most 1"));
+  EXPECT_THAT(text("out/report.html"), HasSubstr("Where methods and models fail"));
 }
 
 TEST_F(ProgramTest, TwoStartsOfTheProgramGiveTheSameBytes) {
