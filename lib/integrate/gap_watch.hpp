@@ -18,7 +18,7 @@ namespace boresight {
 class GapWatch {
  public:
   GapWatch(int gaps, Eigen::Index size, int looks_inside)
-      : gap_(gaps), looks_(looks_inside + 2), values_(gaps, looks_), now_(VecX::Zero(gaps)), state_(VecX::Zero(size)) {
+      : gap_(gaps), saved_(gap_), looks_(looks_inside + 2), values_(gaps, looks_), now_(VecX::Zero(gaps)), state_(VecX::Zero(size)) {
     due_.reserve(static_cast<std::size_t>(gaps));
   }
 
@@ -77,6 +77,23 @@ class GapWatch {
   // Gaps whose events fall together at the share that first_event returned.
   const std::vector<int>& due() const { return due_; }
 
+  // After a step of h up to the event that is due: by how much it should have been longer for the gap to be zero; 0 if that is less than
+  // the tolerance of its time.
+  template <HasGaps S, typename M>
+  double missing_time(const S& system, const M& method, double t, double h, const IntegrationOptions& options) {
+    const int k = due_.front();
+    constexpr double kBack = 0.1;
+    method.interpolate(1.0 - kBack, state_);
+    evaluate(system, t + (1.0 - kBack) * h, state_);
+    const double before = now_[k];
+    state_ = method.proposed();
+    evaluate(system, t + h, state_);
+    const double rate = (now_[k] - before) / (kBack * h);
+    const double missing = rate != 0.0 ? std::clamp(-now_[k] / rate, -kBack * h, kBack * h) : 0.0;
+    const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(t + h);
+    return std::abs(missing) > std::max(options.event_tolerance, rounding) ? missing : 0.0;
+  }
+
   // What the crossing of gap k at t is. The gap goes to the other side unless `reflect` follows.
   Crossing cross(int k, double t, double floor) {
     Gap& gap = gap_[k];
@@ -116,6 +133,10 @@ class GapWatch {
     }
     return seen;
   }
+
+  // The sides of all gaps, should the step not be taken after all.
+  void save() { saved_ = gap_; }
+  void restore() { gap_ = saved_; }
 
   // The next gap that was lasting and has been open for longer than the floor; -1 if none. It is released by this.
   int release(double t, double floor) {
@@ -215,7 +236,7 @@ class GapWatch {
     return far;
   }
 
-  std::vector<Gap> gap_;
+  std::vector<Gap> gap_, saved_;
   int looks_;
   MatX values_;  // gaps x looks: at the step's start, inside it, at its end
   VecX now_, state_;

@@ -53,6 +53,7 @@ const char* to_string(StopReason reason) {
   switch (reason) {
     case StopReason::reached_end: return "reached the end";
     case StopReason::stopped_by_event: return "stopped by an event";
+    case StopReason::stopped_by_observer: return "stopped by the observer";
     case StopReason::invalid_options: return "invalid options";
     case StopReason::too_many_steps: return "too many steps";
     case StopReason::step_too_small: return "step too small";

@@ -53,6 +53,7 @@ std::ostream& operator<<(std::ostream& out, const IntegrationOptions& options);
 enum class StopReason {
   reached_end,
   stopped_by_event,
+  stopped_by_observer,
   invalid_options,
   too_many_steps,
   step_too_small,  // the error estimate, or attempts that failed, asked for less than smallest_step
@@ -79,7 +80,10 @@ struct IntegrationSummary {
   double smallest_step = 0.0, largest_step = 0.0, last_step = 0.0;  // accepted and not cut short [s]
 
   long rejected() const { return rejected_by_error + rejected_not_finite + rejected_singular + rejected_no_convergence; }
-  bool completed() const { return stop == StopReason::reached_end || stop == StopReason::stopped_by_event; }
+  bool completed() const {
+    return stop == StopReason::reached_end || stop == StopReason::stopped_by_event ||
+           stop == StopReason::stopped_by_observer;
+  }
 };
 std::ostream& operator<<(std::ostream& out, const IntegrationSummary& summary);
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdio>
+#include <type_traits>
 #include <utility>
 
 #include "boresight/integrate/gap_watch.hpp"
@@ -50,6 +51,7 @@ class Integrator {
         probe_slope_(state_) {}
 
   // From t0 to t_end > t0. y: the state at t0, replaced by that where the run stopped; always finite if it was at the start.
+  // observe(const AcceptedStep<M>&): returns nothing, or whether to go on.
   template <typename S, typename Observer>
     requires MethodFor<M, S>
   IntegrationSummary run(S& system, double t0, double t_end, VecX& y, const IntegrationOptions& options, Observer&& observe) {
@@ -96,20 +98,39 @@ class Integrator {
       method_.finish(std::as_const(system), t_ + h);
       double share = 1.0;
       bool events = false;
+      long below_floor = 0;
       if constexpr (HasGaps<S>) {
         share = watch_.first_event(std::as_const(system), method_, t_, h, options);
         events = !watch_.due().empty();
-        summary_.crossings_below_floor += watch_.follow_lasting(std::as_const(system), method_, t_, h, share);
+        watch_.save();
+        below_floor = watch_.follow_lasting(std::as_const(system), method_, t_, h, share);
       }
       const bool cut = share < 1.0;
-      const double end = cut ? t_ + share * h : (remaining <= h * (1.0 + 1e-12) ? t_end : t_ + h);
-      const double length = cut ? share * h : h;
-      if (cut && !retake(std::as_const(system), length, y)) return ended(StopReason::attempt_failed, "");
+      double length = cut ? share * h : h;
+      if (cut) {
+        const Attempt shorter = stop_at_event(std::as_const(system), y, options, length);
+        if (shorter != Attempt::done) {
+          count_failure(shorter);
+          if (fixed) return ended(StopReason::attempt_failed, "");
+          if constexpr (HasGaps<S>) watch_.restore();
+          h = length * control.reject(std::numeric_limits<double>::infinity());
+          continue;
+        }
+      }
+      summary_.crossings_below_floor += below_floor;
+      const double end = cut ? t_ + length : (remaining <= h * (1.0 + 1e-12) ? t_end : t_ + h);
       state_ = method_.proposed();
-      observe(AcceptedStep<M>(method_, t_, length, end, std::as_const(state_)));
+      bool goes_on = true;
+      const AcceptedStep<M> step(method_, t_, length, end, std::as_const(state_));
+      if constexpr (std::is_same_v<decltype(observe(step)), bool>)
+        goes_on = observe(step);
+      else
+        observe(step);
       count_step(h, cut);
       y = state_;
       t_ = end;
+      if (!goes_on) return ended(StopReason::stopped_by_observer, "");
+      if constexpr (Settles<S>) system.settle(t_, y);
 
       // Let the problem change its memory, and start anew where it did.
       bool changed = false, stop = false;
@@ -125,6 +146,9 @@ class Integrator {
         h_before = 0.0;
       } else {
         method_.advance();
+        // A settled state has moved away from where the end slope belongs: too far for a Jacobian by differences from it.
+        if constexpr (Settles<S> && requires { method_.refresh(std::as_const(system), t_, y); })
+          method_.refresh(std::as_const(system), t_, y);
         if constexpr (HasGaps<S>) watch_.advance();
         h *= factor;
       }
@@ -194,13 +218,23 @@ class Integrator {
     summary_.last_step = h;
   }
 
-  // The step up to an event is taken anew: its dense output found the event, but may have bent where the force ends behind it.
+  // The step up to an event is taken anew: its dense output found the event, but may have bent where the force ends behind it, and is of
+  // lower order than the step. Where the gap is not yet zero, or no longer, the length is mended: a contact whose memory and gap disagree
+  // by more than rounding would open and close once more at once.
   template <typename S>
-  bool retake(const S& system, double h, const VecX& y) {
-    if (method_.attempt(system, t_, h, y) != Attempt::done || !method_.proposed().allFinite()) return false;
-    method_.finish(system, t_ + h);
-    return true;
+  Attempt stop_at_event(const S& system, const VecX& y, const IntegrationOptions& options, double& length) {
+    for (int attempt = 0;; ++attempt) {
+      const Attempt done = method_.attempt(system, t_, length, y);
+      if (done != Attempt::done) return done;
+      if (!method_.proposed().allFinite()) return Attempt::no_convergence;
+      method_.finish(system, t_ + length);
+      double missing = 0.0;
+      if constexpr (HasGaps<S>) missing = watch_.missing_time(system, method_, t_, length, options);
+      if (missing == 0.0 || attempt == kMendings) return Attempt::done;
+      length += missing;
+    }
   }
+  static constexpr int kMendings = 3;
 
   // Whole steps to the end, all alike; shorter beside a rough point.
   double fixed_step(double t_end, double h_before, const IntegrationOptions& options) {

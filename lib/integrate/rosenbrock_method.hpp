@@ -92,6 +92,13 @@ class RosenbrockMethod {
       add(out, share * rest * (table_.p[i] + (table_.q.empty() ? 0.0 : share * table_.q[i])), u_[i]);
   }
 
+  // The state moved a little after the step was taken.
+  template <System S>
+  void refresh(const S& system, double t, const VecX& y) {
+    system.derivative(t, y, start_slope_);
+    ++cost_.evaluations;
+  }
+
   void advance() {
     start_slope_.swap(end_slope_);
     partial_known_ = false;

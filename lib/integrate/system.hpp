@@ -10,6 +10,7 @@
 //     int gap_count() const;                                         // events, where there are any:
 //     void gaps(double t, const VecX& y, VecX& g) const;             // open while g > 0
 //     AfterEvent on_event(const GapEvent& event, VecX& y);           // the only place where the memory may change
+//     void settle(double t, VecX& y);                                // after an accepted step, where there are constraints to keep
 //   };
 //
 // Integrators see the problem as const while they try a step, so a rejected step cannot leave a trace in it.
@@ -59,6 +60,10 @@ concept GivesJacobian = requires(const S& s, double t, const VecX& y, MatX& jaco
 
 template <typename S>
 concept GivesTimeDerivative = requires(const S& s, double t, const VecX& y, VecX& ft) { s.time_derivative(t, y, ft); };
+
+// What keeps an accepted state on its constraints, by a change far below the tolerance of a step.
+template <typename S>
+concept Settles = requires(S& s, double t, VecX& y) { s.settle(t, y); };
 
 template <typename S>
 concept Autonomous = requires { requires S::autonomous; };

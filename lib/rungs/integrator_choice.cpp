@@ -1,6 +1,8 @@
 #include "boresight/rungs/integrator_choice.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace boresight {
@@ -26,6 +28,14 @@ std::string integrator_of(const RunOptions& options, const std::string& rung) {
   if (options.tolerance > 0.0 && options.step > 0.0)
     throw std::invalid_argument("a step and a tolerance: steps are fixed or under error control, not both");
   return name;
+}
+
+double smallest_clearance(const Parameters& parameters) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const ClearanceParameters& c : parameters.clearance)
+    for (double clearance : {c.radial, c.axial})
+      if (clearance > 0.0) smallest = std::min(smallest, clearance);
+  return std::isfinite(smallest) ? smallest : 0.0;
 }
 
 }  // namespace boresight

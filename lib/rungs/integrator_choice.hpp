@@ -24,8 +24,16 @@ std::vector<std::string> integrator_names();
 // Error of one step over the smallest clearance, where RunOptions::tolerance asks for nothing.
 inline constexpr double kTolerance = 1e-3;
 
+// Of generalized-alpha at infinite frequency: fast modes lose four fifths of their amplitude in a step.
+inline constexpr double kSpectralRadius = 0.2;
+// Speeds are held to the tolerance over this time: that of the flights between contacts [s].
+inline constexpr double kFlightTime = 1e-3;
+
 // The name that the options ask for. Throws std::invalid_argument for one that the rung does not have, and for a tolerance given to
 // rk4 or along with a step.
 std::string integrator_of(const RunOptions& options, const std::string& rung);
+
+// Smallest clearance that the parameters give any joint, radial or axial, leaving out those that are zero [m]; 0 if all are.
+double smallest_clearance(const Parameters& parameters);
 
 }  // namespace boresight

@@ -46,7 +46,7 @@ const PoseError& MotionRecorder::accept(double t, const BodyMotion& body, const 
   result_.platform_acceleration_max = result_.platform_acceleration_max.cwiseMax(acceleration.head<3>().cwiseAbs());
   result_.end_time = t;
   // A thousandth of the spacing of slack, so that rounding of t does not shift a sample by a step.
-  sampling_ = spacing_ > 0.0 && t >= next_sample_ - 1e-3 * spacing_;
+  sampling_ = wants_sample(t);
   if (sampling_) {
     while (next_sample_ <= t + 1e-3 * spacing_) next_sample_ += spacing_;
     result_.time.push_back(t);
