@@ -148,6 +148,17 @@ nlohmann::json MotionOptions::identity() const {
           {"pose", poses}};
 }
 
+IndexChoice index_named(const std::string& option, const std::string& text) {
+  const std::size_t dot = text.find('.');
+  IndexChoice index{text.substr(0, dot), dot == std::string::npos ? "" : text.substr(dot + 1)};
+  try {
+    index.of({});
+  } catch (const std::out_of_range&) {
+    throw InputError(kCommandLine, option, in_quotes(text), "a quantity and a statistic, like boresight_error.rms");
+  }
+  return index;
+}
+
 nlohmann::json identity_of(const Command& command, const std::string& mechanism_hash,
                            const std::string& study_hash, const nlohmann::json& options) {
   nlohmann::json settings = nlohmann::json::array();

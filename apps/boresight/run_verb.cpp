@@ -105,7 +105,7 @@ class RunVerb : public Verb {
     check_rung_name(command.rung);
     motion_.check_rung(command.rung);
     RunOptions options = motion_.run_options(*mechanism);
-    const IndexChoice index = asked_index();
+    const IndexChoice index = index_named("--index", index_);
     const OutputDirectory out = OutputDirectory::open(
         command.out, command.verb, command.file,
         identity_of(command, mechanism->description().content_hash, "", motion_.identity()));
@@ -153,18 +153,6 @@ class RunVerb : public Verb {
   }
 
  private:
-  IndexChoice asked_index() const {
-    const std::size_t dot = index_.find('.');
-    IndexChoice index{index_.substr(0, dot), dot == std::string::npos ? "" : index_.substr(dot + 1)};
-    try {
-      index.of({});
-    } catch (const std::out_of_range&) {
-      throw InputError({"command line", 0}, "--index", "\"" + index_ + "\"",
-                       "a quantity and a statistic, like boresight_error.rms");
-    }
-    return index;
-  }
-
   // A rung that cannot follow the motion says why, and the others go on.
   static Compared run_other(const std::string& name, const std::shared_ptr<const Mechanism>& mechanism, RunOptions options,
                             double step) {

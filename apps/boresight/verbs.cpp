@@ -7,6 +7,7 @@ namespace boresight::app {
   VERB(check)                 \
   VERB(run)                   \
   VERB(sweep)                 \
+  VERB(chart)                 \
   VERB(stability)
 
 #define DECLARE(name) std::unique_ptr<Verb> make_##name##_verb();
