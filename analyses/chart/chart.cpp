@@ -35,7 +35,7 @@ class Chart {
         done_before_ = 0.85;
         runs_left_ = 200;
         runs_ = 0;
-        result_.flight = fly(*mechanism_, parameters_, result_.reference.own_step, [this] { return advance(); });
+        result_.flight = fly(*mechanism_, parameters_, result_.reference.own_step, 0.2 * options_.total_seconds, [this] { return advance(); });
       }
     } catch (const MeasurementInterrupted&) {
       result_.interrupted = true;

@@ -14,9 +14,9 @@ namespace boresight {
 struct ChartOptions {
   IndexChoice index;
   double most_seconds = 3.0;        // of CPU for one run, beyond which it is given up
-  double total_seconds = 90.0;      // of CPU for all, beyond which no further way is begun
+  double total_seconds = 60.0;      // of CPU for all, beyond which no further way is begun
   double reference_target = 1e-5;   // relative uncertainty of the reference that is good enough
-  double reference_seconds = 15.0;  // of CPU for the reference
+  double reference_seconds = 9.0;   // of CPU for the reference
   bool flight = true;               // also the trajectory error before the first impact
   // Called with the share done (of an estimate) and what comes next; return false to stop.
   std::function<bool(double, const std::string&)> progress = {};

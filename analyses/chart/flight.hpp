@@ -21,10 +21,12 @@ struct Flight {
   double end = 0.0;            // of the motion compared [s]
   double rounding = 0.0;       // how far the two finest references are apart, over the clearance
   std::vector<FlightPoint> points;
+  std::vector<std::string> left_out;  // families for which there was no time
   std::string why_not;         // why there is nothing to compare; "" where there is
 };
 
-// advance: called before every run; return false to stop (throws MeasurementInterrupted).
-Flight fly(const Mechanism& mechanism, const Parameters& parameters, double own_step, const std::function<bool()>& advance);
+// most_seconds: of CPU, beyond which no further family is begun. advance: called before every run; return false to stop (throws MeasurementInterrupted).
+Flight fly(const Mechanism& mechanism, const Parameters& parameters, double own_step, double most_seconds,
+           const std::function<bool()>& advance);
 
 }  // namespace boresight

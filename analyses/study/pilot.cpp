@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
 #include "boresight_analyses/study/measurement.hpp"
 
 namespace boresight {
@@ -12,6 +13,8 @@ namespace {
 
 // Steps of a dynamic rung that are tried, against its own choice.
 constexpr double kShares[] = {4.0, 2.0, 1.0, 0.5, 0.25};
+// Of error control.
+constexpr double kTolerances[] = {1e-2, 1e-3, 1e-4};
 
 class Pilot {
  public:
@@ -32,12 +35,12 @@ class Pilot {
   }
 
  private:
-  Measurement measured(const Rung& rung, const Parameters& parameters, double step) {
+  Measurement measured(const Rung& rung, const Parameters& parameters, double step, const std::string& integrator = "",
+                       double tolerance = 0.0) {
     MeasureOptions options;
     options.index = options_.index;
     options.advance = [this] { return !options_.progress || options_.progress(static_cast<int>(result_.trials.size())); };
-    Way way{.rung = rung.name()};
-    way.step = step;
+    const Way way{.rung = rung.name(), .integrator = integrator, .step = step, .tolerance = tolerance};
     try {
       const Measurement m = measure(rung, parameters, way, options);
       result_.cpu_seconds += m.spent_seconds;
@@ -96,17 +99,39 @@ class Pilot {
       result_.trials.push_back(refused);
       return false;
     }
+    bool met = false;
     for (double share : kShares)
-      if (attempt(*rung, share * own)) return true;
-    return false;
+      if ((met = attempt(*rung, share * own))) break;
+    return try_integrators(*rung) || met;
   }
 
-  bool attempt(const Rung& rung, double step) {
+  // Those with error control, from loose to tight, as long as they may come out cheaper than what is chosen already.
+  bool try_integrators(const Rung& rung) {
+    bool met = false;
+    if (!options_.integrators) return false;
+    for (const std::string& integrator : integrator_names(rung.name())) {
+      if (integrator == "rk4") continue;
+      for (double tolerance : kTolerances) {
+        if (attempt(rung, 0.0, integrator, tolerance)) {
+          met = true;
+          break;
+        }
+        const PilotTrial& last = result_.trials.back();
+        if (!last.refusal.empty()) break;
+        if (result_.chosen >= 0 && last.cpu_seconds > result_.trials[result_.chosen].cpu_seconds) break;
+      }
+    }
+    return met;
+  }
+
+  bool attempt(const Rung& rung, double step, const std::string& integrator = "", double tolerance = 0.0) {
     PilotTrial trial;
     trial.rung = rung.name();
     trial.step = step;
+    trial.integrator = integrator;
+    trial.tolerance = tolerance;
     for (std::size_t s = 0; s < samples_.size() && trial.refusal.empty(); ++s) {
-      const Measurement m = measured(rung, samples_[s], step);
+      const Measurement m = measured(rung, samples_[s], step, integrator, tolerance);
       trial.refusal = m.refusal;
       if (s == 0) trial.value = m.value, trial.cpu_seconds = m.cpu_seconds;
       trial.estimate = std::max(trial.estimate, m.estimate);

@@ -56,13 +56,15 @@ report::Chart index_chart(const ChartResult& result, std::optional<double> accur
   front.x = fx;
   front.y = fy;
   if (!fx.empty()) chart.series.push_back(std::move(front));
-  if (const ChartPoint* papers = result.papers())
+  if (const ChartPoint* papers = result.papers()) {
+    chart.lines.push_back({'x', 1e3 * papers->measured.cpu_seconds, "the paper's own setting"});
     chart.series.push_back({.name = "the paper's own setting",
                             .x = report::Numbers{1e3 * papers->measured.cpu_seconds},
                             .y = report::Numbers{100.0 * drawn(papers->error)},
                             .style = report::Style::markers,
                             .text = {papers->family + ", " + fineness(papers->way)},
                             .color = kPapersColor});
+  }
   report::Series failed{.name = "failed", .style = report::Style::markers, .color = kFailedColor};
   report::Numbers bx, by;
   for (const ChartPoint& p : result.points) {
@@ -195,6 +197,8 @@ report::Document chart_report(const Command& command, const Mechanism& mechanism
                            : std::string())};
   else
     document.verdict = report::Verdict{report::Standing::bad, fmt::format("No way comes within {}.", readable_share(wanted))};
+  for (const std::string& name : result.flight.left_out)
+    document.warnings.push_back("no time was left for the flight before the first impact of " + name);
   document.facts.push_back({.label = "Reference",
                             .value = readable(result.reference.value, result.unit),
                             .note = "known to " + readable_share(result.reference.uncertainty)});

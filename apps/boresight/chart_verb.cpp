@@ -63,6 +63,8 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const ChartR
                 const Stopwatch& watch, const OutputDirectory& out) {
   std::vector<std::string> warnings;
   for (const std::string& name : result.left_out) warnings.push_back("no time was left for " + name);
+  for (const std::string& name : result.flight.left_out)
+    warnings.push_back("no time was left for the flight before the first impact of " + name);
   Json json = common_summary(command, mechanism, {.name = "all", .why = "the chart compares them"}, watch, warnings, result.interrupted, out);
   json["index"] = result.index;
   json["reference"] = {{"value", result.reference.value}, {"uncertainty", result.reference.uncertainty}, {"refinements", Json::array()}};
@@ -159,7 +161,7 @@ class ChartVerb : public Verb {
   }
 
  private:
-  std::string index_ = "position_error.max", time_ = "90 s";
+  std::string index_ = "position_error.max", time_ = "60 s";
 };
 
 }  // namespace

@@ -124,13 +124,14 @@ class RunVerb : public Verb {
          .wants_multibody = motion_.asks_for_multibody(),
          .index = index,
          .step = options.step,
+         .integrators = true,
          .progress = [&](int trial) {
            pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
            return !interrupted();
          }},
         mechanism, {mechanism->parameters()});
     pilot_progress.clear();
-    if (choice.step > 0.0) options.step = choice.step;
+    apply(choice, options);
 
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
     const RunResult result =

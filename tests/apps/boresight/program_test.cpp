@@ -36,7 +36,7 @@ class ProgramTest : public Program {
 TEST_F(ProgramTest, HelpAndVersion) {
   EXPECT_THAT(call({"--version"}).out, HasSubstr("boresight "));
   EXPECT_THAT(call({"--help"}).out, AllOf(HasSubstr("check"), HasSubstr("run"), HasSubstr("sweep")));
-  for (const char* verb : {"check", "run", "sweep", "stability"}) {
+  for (const char* verb : {"check", "run", "sweep", "chart", "stability"}) {
     const Ended ended = call({verb, "--help"});
     EXPECT_EQ(ended.status, 0);
     EXPECT_THAT(ended.out,
@@ -66,6 +66,8 @@ TEST_F(ProgramTest, BadInputIsOneLineAndStatusTwo) {
   expect_refused({"run", mechanism_, "--integrator", "dopri5", "--tolerance", "1 mm"}, "--tolerance");
   expect_refused({"run", mechanism_, "--jobs", "-1"}, "--jobs");
   expect_refused({"sweep", mechanism_}, "expected a study file");
+  expect_refused({"chart", mechanism_, "--index", "position_error.biggest"}, "--index");
+  expect_refused({"chart", mechanism_, "--time", "3 kg"}, "--time");
   expect_refused({"stability", mechanism_, "--rung", "multybody"}, "did you mean multibody?");
 }
 
@@ -200,6 +202,22 @@ TEST_F(ProgramTest, StabilityLeavesMapsAndCasesWithTheLimitsOfTheory) {
   // The reader's own refusal of a restitution of zero stands in the case.
   EXPECT_THAT(text("out/cases.csv"), HasSubstr("expected a number above 0, at most 1"));
   EXPECT_THAT(text("out/report.html"), HasSubstr("Where methods and models fail"));
+}
+
+TEST_F(ProgramTest, AChartOfAStudyTakesItsIndexAndItsAccuracy) {
+  write("study.toml", "format = 1\nmechanism = \"" + mechanism_ +
+                          "\"\naccuracy = \"20 %\"\n[index]\nquantity = \"position_error\"\nstatistic = \"rms\"\n");
+  const Ended ended = call({"chart", "study.toml", "--set", "motion.duration=50ms", "--time", "1 s", "--out", "out"});
+  ASSERT_EQ(ended.status, 0) << ended.err << ended.out;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("position error, RMS"), HasSubstr("Pareto front"), HasSubstr("the paper's own setting"),
+                               HasSubstr("cheapest within 20 %")));
+  EXPECT_THAT(files("out"), ElementsAre("chart.csv", "flight.csv", "report.html", "summary.json"));
+  const auto summary = json("out/summary.json");
+  EXPECT_EQ(summary["papers"]["way"], "multibody, paper, baumgarte, rk4");
+  EXPECT_GT(summary["reference"]["uncertainty"].get<double>(), 0.0);
+  EXPECT_FALSE(summary["machine"]["processor"].get<std::string>().empty());
+  EXPECT_FALSE(summary["cheapest_within_accuracy"].is_null());
+  EXPECT_THAT(text("out/report.html"), HasSubstr("Trajectory error before the first impact"));
 }
 
 TEST_F(ProgramTest, TwoStartsOfTheProgramGiveTheSameBytes) {
