@@ -68,7 +68,7 @@ void MotionOptions::declare(CLI::App& app, bool with_poses) {
                  "rk4, dopri5, rosenbrock or (multibody) generalized-alpha; otherwise the rung's own, rk4")
       ->type_name("NAME");
   app.add_option("--tolerance", tolerance,
-                 "of error control (any but rk4): error of one step over the smallest clearance; otherwise 0.001")
+                 "of error control (any but rk4): error of one step over the smallest clearance; otherwise the rung's own")
       ->type_name("NUMBER");
   app.add_option("--formulation", formulation, "of the equations of motion (multibody): tree or paper; otherwise tree")
       ->type_name("NAME");

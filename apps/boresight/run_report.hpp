@@ -2,6 +2,7 @@
 #pragma once
 
 #include "boresight/mechanism/mechanism.hpp"
+#include "boresight/rungs/predictability.hpp"
 #include "boresight/rungs/run_result.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 #include "axes_section.hpp"
@@ -19,6 +20,10 @@ struct Compared {
 
 report::Document run_report(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
                             const std::string& leaves_out, const RunResult& result, const std::vector<Compared>& others,
-                            const std::optional<AxesComparison>& axes);
+                            const std::optional<AxesComparison>& axes,
+                            const std::optional<Predictability>& predictability);
+// "trajectories are predictable up to ..."
+std::string predictability_sentence(const Predictability& found);
+nlohmann::ordered_json predictability_json(const Predictability& found);
 
 }  // namespace boresight::app

@@ -5,6 +5,8 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/rungs/predictability.hpp"
 #include "boresight/rungs/rung.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
@@ -20,7 +22,8 @@ namespace boresight::app {
 namespace {
 
 void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
-           const std::vector<Compared>& others, const std::optional<AxesComparison>& axes, const OutputDirectory& out) {
+           const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
+           const std::optional<Predictability>& predictability, const OutputDirectory& out) {
   fmt::print("{}: {} of motion, {} rung, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.rung,
              result.integrator, result.interrupted ? " (interrupted)" : "");
   if (choice.pilot) fmt::print("  rung: {}\n", choice.why);
@@ -37,6 +40,7 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
     fmt::print("  {}: in contact {} of the time, {} impacts, penetration up to {}, force up to {}\n", c.joint,
                readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"),
                readable(c.max_force, "N"));
+  if (predictability && predictability->parted) fmt::print("  {}\n", predictability_sentence(*predictability));
   for (const Compared& other : others) {
     if (!other.refusal.empty())
       fmt::print("  {:<12} {}\n", other.rung, other.refusal);
@@ -51,8 +55,8 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
 }
 
 Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const RunResult& result,
-                const std::vector<Compared>& others, const std::optional<AxesComparison>& axes, const Stopwatch& watch,
-                const OutputDirectory& out) {
+                const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
+                const std::optional<Predictability>& predictability, const Stopwatch& watch, const OutputDirectory& out) {
   Json json = common_summary(command, mechanism, rung, watch, result.warnings, result.interrupted, out);
   json["formulation"] = result.formulation;
   json["integrator"] = result.integrator;
@@ -76,6 +80,7 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const RungCh
     else
       entry = {{"refused", other.refusal}};
   }
+  if (predictability) json["predictability"] = predictability_json(*predictability);
   json["steps"] = result.cost.steps;
   json["rejected_steps"] = result.cost.rejected_steps;
   json["evaluations"] = result.cost.evaluations;
@@ -142,14 +147,20 @@ class RunVerb : public Verb {
         if (name != choice.name) others.push_back(run_other(name, mechanism, options, motion_.run_options(*mechanism).step));
     const std::optional<AxesComparison> axes = compare_axes(*mechanism);
 
-    write_json(out, "summary.json", summary_of(command, *mechanism, choice, result, others, axes, watch, out));
+    // Rungs without steps have no trajectory to lose.
+    std::optional<Predictability> predictability;
+    if (!integrator_names(choice.name).empty() && mechanism->clearances() > 0 && !result.interrupted)
+      predictability = measure_predictability(mechanism, mechanism->parameters());
+
+    write_json(out, "summary.json",
+               summary_of(command, *mechanism, choice, result, others, axes, predictability, watch, out));
     out.write("timeseries.csv", [&](std::ostream& s) { write_timeseries(s, *mechanism, result, finer); });
     out.write("events.csv", [&](std::ostream& s) { write_events(s, *mechanism, result); });
     out.write("report.html", [&](std::ostream& s) {
-      report::write_html(s, run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes));
+      report::write_html(s, run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability));
     });
     progress.clear();
-    if (!command.quiet) print(*mechanism, choice, result, others, axes, out);
+    if (!command.quiet) print(*mechanism, choice, result, others, axes, predictability, out);
     return result.interrupted ? kInterrupted : kDone;
   }
 

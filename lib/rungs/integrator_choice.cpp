@@ -30,6 +30,11 @@ std::string integrator_of(const RunOptions& options, const std::string& rung) {
   return name;
 }
 
+double tolerance_of(const RunOptions& options, const std::string& rung) {
+  if (options.tolerance > 0.0) return options.tolerance;
+  return rung == "multibody" ? kMultibodyTolerance : kPerturbationTolerance;
+}
+
 double smallest_clearance(const Parameters& parameters) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const ClearanceParameters& c : parameters.clearance)

@@ -4,13 +4,14 @@
 
 namespace boresight {
 
-void report_integration(const RunOptions& run, const std::string& integrator, const IntegrationSummary& summary, RunResult& result) {
+void report_integration(const RunOptions& run, const std::string& rung, const std::string& integrator,
+                        const IntegrationSummary& summary, RunResult& result) {
   const char* name = integrator == "dopri5" ? "Dormand-Prince 5(4)" : integrator == "rosenbrock" ? "RODAS4" : "generalized-alpha";
   char text[160];
   if (run.step > 0.0)
     std::snprintf(text, sizeof text, "%s, h = %.6g s, contacts located", name, run.step);
   else
-    std::snprintf(text, sizeof text, "%s, tolerance %.3g, contacts located", name, run.tolerance > 0.0 ? run.tolerance : kTolerance);
+    std::snprintf(text, sizeof text, "%s, tolerance %.3g, contacts located", name, tolerance_of(run, rung));
   result.integrator = text;
   result.cost.steps = summary.steps;
   result.cost.rejected_steps = summary.rejected();

@@ -50,6 +50,7 @@ IntegrationSummary follow_located(const std::string& integrator, S& system, doub
 }
 
 // For RunResult: the method with its setting, and its counts.
-void report_integration(const RunOptions& run, const std::string& integrator, const IntegrationSummary& summary, RunResult& result);
+void report_integration(const RunOptions& run, const std::string& rung, const std::string& integrator,
+                        const IntegrationSummary& summary, RunResult& result);
 
 }  // namespace boresight

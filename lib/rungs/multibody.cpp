@@ -176,14 +176,14 @@ class Multibody final : public Rung {
       summary = follow_located(integrator, system, duration, options.sample_spacing, y,
                                integration_options(*formulation, parameters, options), show);
     } catch (const ComputationError& failure) {
-      throw ComputationError(system.fault().empty() ? failure.what() : system.fault());
+      throw ComputationError(failure.what() + (system.fault().empty() ? "" : "; refused last: " + system.fault()));
     }
     RunResult result = recorder.finish();
     complete(result, options, trackers);
-    report_integration(options, integrator, summary, result);
+    report_integration(options, name(), integrator, summary, result);
     result.cost.evaluations += system.evaluations();
     result.constraint_drift = drift;
-    result.error = {0.0, tolerance_error(options.tolerance > 0.0 ? options.tolerance : kTolerance), "the tolerance of the steps"};
+    result.error = {0.0, tolerance_error(tolerance_of(options, name())), "the tolerance of the steps"};
     result.interrupted = interrupted;
     return result;
   }
@@ -192,7 +192,7 @@ class Multibody final : public Rung {
   IntegrationOptions integration_options(const Formulation& formulation, const Parameters& parameters,
                                          const RunOptions& options) const {
     const double clearance = smallest_clearance(parameters), size = mechanism_->characteristic_length();
-    const double asked = options.tolerance > 0.0 ? options.tolerance : kTolerance;
+    const double asked = tolerance_of(options, name());
     const double tolerance = asked * (clearance > 0.0 ? clearance : 1e-6 * size) / std::max(1.0, size);
     IntegrationOptions integration;
     integration.step = options.step;

@@ -72,6 +72,7 @@ class Perturbation final : public SceneRung {
     const double h = duration / static_cast<double>(steps);
     MotionRecorder recorder(mechanism, prepared.ideal(), options, static_cast<double>(steps));
     VecX y = VecX::Zero(system.size());
+    y.head(y.size() / 2).setConstant(options.start_offset);
     ExplicitRungeKutta method(classical_rk4(), system.size());
     const double limit = classical_rk4().real_limit;
     bool interrupted = false;
@@ -124,6 +125,7 @@ class Perturbation final : public SceneRung {
     PerturbationSystem system(mechanism(), parameters, prepared.tables(parameters), options.events);
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, 2.0 * duration / kPaperStep);
     VecX y = VecX::Zero(system.size()), slope = y;
+    y.head(y.size() / 2).setConstant(options.start_offset);
     Nonlinearity nonlinearity;
     bool interrupted = false;
     long points = 0;
@@ -138,10 +140,10 @@ class Perturbation final : public SceneRung {
           return !interrupted;
         });
     RunResult result = recorder.finish();
-    report_integration(options, integrator, summary, result);
+    report_integration(options, name(), integrator, summary, result);
     finish_contacts(system, result);
     result.interrupted = interrupted;
-    result.error = {nonlinearity.share(mechanism().characteristic_length()), tolerance_error(options.tolerance > 0.0 ? options.tolerance : kTolerance),
+    result.error = {nonlinearity.share(mechanism().characteristic_length()), tolerance_error(tolerance_of(options, name())),
                     "size of the deviation against the mechanism, times how much the mechanism magnifies offsets; the tolerance "
                     "of the steps"};
     return result;
@@ -157,7 +159,7 @@ class Perturbation final : public SceneRung {
   IntegrationOptions integration_options(const PerturbationSystem& system, const Parameters& parameters,
                                          const RunOptions& options) const {
     const SceneLayout& at = system.layout();
-    const double asked = options.tolerance > 0.0 ? options.tolerance : kTolerance;
+    const double asked = tolerance_of(options, name());
     const double clearance = smallest_clearance(parameters);
     const double length = clearance > 0.0 ? clearance : 1e-6 * mechanism().characteristic_length();
     VecX tolerance = VecX::Constant(at.n, asked * length);
