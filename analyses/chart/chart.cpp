@@ -10,7 +10,8 @@ namespace {
 
 class Chart {
  public:
-  Chart(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters, const ChartOptions& options)
+  Chart(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters,
+        const ChartOptions& options)
       : mechanism_(mechanism), parameters_(parameters), options_(options) {}
 
   ChartResult run() {
@@ -19,7 +20,9 @@ class Chart {
     result_.machine = this_machine();
     try {
       now_ = "the reference";
-      ReferenceOptions reference{.target = options_.reference_target, .most_seconds = options_.reference_seconds, .measure = measuring(0.0)};
+      ReferenceOptions reference{.target = options_.reference_target,
+                                 .most_seconds = options_.reference_seconds,
+                                 .measure = measuring(0.0)};
       const auto multibody = make_rung("multibody", mechanism_);
       result_.reference = find_reference(*multibody, parameters_, reference);
       const std::vector<WayFamily> families = chart_ways(result_.reference.own_step);
@@ -35,7 +38,8 @@ class Chart {
         done_before_ = 0.85;
         runs_left_ = 200;
         runs_ = 0;
-        result_.flight = fly(*mechanism_, parameters_, result_.reference.own_step, 0.2 * options_.total_seconds, [this] { return advance(); });
+        result_.flight = fly(*mechanism_, parameters_, result_.reference.own_step,
+                             0.2 * options_.total_seconds, [this] { return advance(); });
       }
     } catch (const MeasurementInterrupted&) {
       result_.interrupted = true;
@@ -47,7 +51,8 @@ class Chart {
  private:
   bool advance() {
     const double width = done_before_ == 0.0 ? 0.15 : done_before_ < 0.5 ? 0.7 : 0.15;
-    const double share = done_before_ + width * std::min(1.0, static_cast<double>(runs_++) / std::max<std::size_t>(1, runs_left_));
+    const double share = done_before_ + width * std::min(1.0, static_cast<double>(runs_++) /
+                                                                  std::max<std::size_t>(1, runs_left_));
     return !options_.progress || options_.progress(share, now_);
   }
   MeasureOptions measuring(double most_seconds) {
@@ -66,14 +71,18 @@ class Chart {
     int below = 0;
     for (const Way& way : family.ways) {
       const ChartPoint& point = add(way, family.name, *rung, false);
-      const bool too_long = !point.measured.refusal.empty() && point.measured.spent_seconds > options_.most_seconds;
+      const bool too_long =
+          !point.measured.refusal.empty() && point.measured.spent_seconds > options_.most_seconds;
       below = point.measured.refusal.empty() && point.error <= result_.reference.uncertainty ? below + 1 : 0;
       if (too_long || below == 2 || spent_ > options_.total_seconds) break;
     }
   }
 
   const ChartPoint& add(const Way& way, const std::string& family, const Rung& rung, bool papers) {
-    ChartPoint point{.way = way, .family = family, .measured = measure(rung, parameters_, way, measuring(options_.most_seconds)), .papers = papers};
+    ChartPoint point{.way = way,
+                     .family = family,
+                     .measured = measure(rung, parameters_, way, measuring(options_.most_seconds)),
+                     .papers = papers};
     spent_ += point.measured.spent_seconds;
     if (point.measured.refusal.empty()) point.error = relative_error(point.measured, result_.reference.value);
     result_.points.push_back(std::move(point));
@@ -100,14 +109,18 @@ const ChartPoint* ChartResult::papers() const {
 const ChartPoint* ChartResult::cheapest_within(double accuracy) const {
   const ChartPoint* best = nullptr;
   for (const ChartPoint& p : points)
-    if (p.measured.refusal.empty() && p.error <= accuracy && (!best || p.measured.cpu_seconds < best->measured.cpu_seconds)) best = &p;
+    if (p.measured.refusal.empty() && p.error <= accuracy &&
+        (!best || p.measured.cpu_seconds < best->measured.cpu_seconds))
+      best = &p;
   return best;
 }
 
 std::vector<std::size_t> pareto_front(const std::vector<ChartPoint>& points, double floor) {
   std::vector<std::size_t> order(points.size()), front;
   std::iota(order.begin(), order.end(), 0);
-  order.erase(std::remove_if(order.begin(), order.end(), [&](std::size_t k) { return !points[k].measured.refusal.empty(); }), order.end());
+  order.erase(std::remove_if(order.begin(), order.end(),
+                             [&](std::size_t k) { return !points[k].measured.refusal.empty(); }),
+              order.end());
   const auto error = [&](std::size_t k) { return std::max(points[k].error, floor); };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const double ta = points[a].measured.cpu_seconds, tb = points[b].measured.cpu_seconds;
@@ -118,7 +131,8 @@ std::vector<std::size_t> pareto_front(const std::vector<ChartPoint>& points, dou
   return front;
 }
 
-ChartResult make_chart(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters, const ChartOptions& options) {
+ChartResult make_chart(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters,
+                       const ChartOptions& options) {
   return Chart(mechanism, parameters, options).run();
 }
 

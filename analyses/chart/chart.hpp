@@ -1,4 +1,5 @@
-// boresight chart: accuracy against speed, every way of computing the motion of one mechanism, measured now, on this machine.
+// boresight chart: accuracy against speed, every way of computing the motion of one mechanism, measured now,
+// on this machine.
 //
 //   ChartResult result = make_chart(mechanism, mechanism->parameters(), {});
 //   result.points[result.front.back()]  // the most accurate of the Pareto front
@@ -13,11 +14,11 @@ namespace boresight {
 
 struct ChartOptions {
   IndexChoice index;
-  double most_seconds = 3.0;        // of CPU for one run, beyond which it is given up
-  double total_seconds = 60.0;      // of CPU for all, beyond which no further way is begun
-  double reference_target = 1e-5;   // relative uncertainty of the reference that is good enough
-  double reference_seconds = 9.0;   // of CPU for the reference
-  bool flight = true;               // also the trajectory error before the first impact
+  double most_seconds = 3.0;       // of CPU for one run, beyond which it is given up
+  double total_seconds = 60.0;     // of CPU for all, beyond which no further way is begun
+  double reference_target = 1e-5;  // relative uncertainty of the reference that is good enough
+  double reference_seconds = 9.0;  // of CPU for the reference
+  bool flight = true;              // also the trajectory error before the first impact
   // Called with the share done (of an estimate) and what comes next; return false to stop.
   std::function<bool(double, const std::string&)> progress = {};
 };
@@ -45,11 +46,12 @@ struct ChartResult {
   const ChartPoint* cheapest_within(double accuracy) const;
 };
 
-// Indices of the points that no other beats in both error and CPU time. Errors below `floor` count as equal to it: what the
-// reference cannot tell apart is no progress.
+// Indices of the points that no other beats in both error and CPU time. Errors below `floor` count as equal
+// to it: what the reference cannot tell apart is no progress.
 std::vector<std::size_t> pareto_front(const std::vector<ChartPoint>& points, double floor);
 
 // Throws ComputationError where not even multibody can follow the motion.
-ChartResult make_chart(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters, const ChartOptions& options);
+ChartResult make_chart(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters,
+                       const ChartOptions& options);
 
 }  // namespace boresight

@@ -16,7 +16,8 @@ constexpr double kBeforeContact = 0.9;  // share of the time to the first contac
 constexpr int kRepeats = 3;
 constexpr int kCoarsest = 4, kFinest = 512;  // steps in the flight
 
-double first_contact(const Rung& multibody, const Mechanism& mechanism, const Parameters& parameters, double own_step) {
+double first_contact(const Rung& multibody, const Mechanism& mechanism, const Parameters& parameters,
+                     double own_step) {
   RunOptions options;
   options.step = own_step;
   options.sample_spacing = 0.0;
@@ -27,7 +28,9 @@ double first_contact(const Rung& multibody, const Mechanism& mechanism, const Pa
 }
 
 // The position error of the boresight body at the end.
-Vec3 displacement_at_end(const RunResult& result) { return result.boresight.samples.back().error.displacement; }
+Vec3 displacement_at_end(const RunResult& result) {
+  return result.boresight.samples.back().error.displacement;
+}
 
 }  // namespace
 
@@ -43,7 +46,8 @@ Flight fly(const Mechanism& mechanism, const Parameters& parameters, double own_
   flight.first_contact = first_contact(*make_rung("multibody", whole), mechanism, parameters, own_step);
   flight.end = kBeforeContact * flight.first_contact;
   double clearance = 0.0;
-  for (const ClearanceParameters& c : parameters.clearance) clearance = std::max({clearance, c.radial, c.axial});
+  for (const ClearanceParameters& c : parameters.clearance)
+    clearance = std::max({clearance, c.radial, c.axial});
   if (!(flight.end > 0.0) || clearance == 0.0) {
     flight.why_not = clearance == 0.0 ? "no joint has clearance" : "the motion begins in contact";
     return flight;
@@ -53,7 +57,8 @@ Flight fly(const Mechanism& mechanism, const Parameters& parameters, double own_
   const auto shortened = std::make_shared<const Mechanism>(std::move(description));
   const auto run = [&](const Rung& rung, const Way& way) {
     RunOptions options = way.options();
-    options.sample_spacing = flight.end / 16.0;  // samples may lie a thousandth of this early: less than the finest step
+    options.sample_spacing =
+        flight.end / 16.0;  // samples may lie a thousandth of this early: less than the finest step
     return rung.run(parameters, options);
   };
 
@@ -81,7 +86,11 @@ Flight fly(const Mechanism& mechanism, const Parameters& parameters, double own_
     else
       ways = family.ways;
     for (const Way& w : ways) {
-      FlightPoint point{.way = w, .family = family.name, .error = 0.0, .cpu_seconds = std::numeric_limits<double>::infinity(), .refusal = ""};
+      FlightPoint point{.way = w,
+                        .family = family.name,
+                        .error = 0.0,
+                        .cpu_seconds = std::numeric_limits<double>::infinity(),
+                        .refusal = ""};
       try {
         for (int k = 0; k < kRepeats; ++k) {
           ask();

@@ -1,7 +1,8 @@
 // Trajectory error before the first impact: what the ways' own orders show where nothing scatters.
 //
-// The motion is cut short a little before the reference's first contact, so that its end is an accepted step of every way; the
-// error is the distance of the boresight body's position error there from the finest one's, over the clearance.
+// The motion is cut short a little before the reference's first contact, so that its end is an accepted step
+// of every way; the error is the distance of the boresight body's position error there from the finest one's,
+// over the clearance.
 #pragma once
 
 #include "boresight_analyses/chart/ways.hpp"
@@ -22,10 +23,11 @@ struct Flight {
   double rounding = 0.0;       // how far the two finest references are apart, over the clearance
   std::vector<FlightPoint> points;
   std::vector<std::string> left_out;  // families for which there was no time
-  std::string why_not;         // why there is nothing to compare; "" where there is
+  std::string why_not;                // why there is nothing to compare; "" where there is
 };
 
-// most_seconds: of CPU, beyond which no further family is begun. advance: called before every run; return false to stop (throws MeasurementInterrupted).
+// most_seconds: of CPU, beyond which no further family is begun. advance: called before every run; return
+// false to stop (throws MeasurementInterrupted).
 Flight fly(const Mechanism& mechanism, const Parameters& parameters, double own_step, double most_seconds,
            const std::function<bool()>& advance);
 

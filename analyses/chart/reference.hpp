@@ -1,9 +1,10 @@
 // The reference that errors are measured against, refined until its own uncertainty is known.
 //
-// Multibody in joint coordinates, RK4, at half its own step, a quarter, an eighth, ...: each the median over neighbouring steps.
-// A refinement is wrong by about what the one before it differs from it, and by what chance leaves in a median of three (half of
-// the half spread). Refined until that falls below a target, or until the time given is spent; where impacts scatter the
-// index, no refinement brings it lower, and that is the floor that the chart draws.
+// Multibody in joint coordinates, RK4, at half its own step, a quarter, an eighth, ...: each the median over
+// neighbouring steps. A refinement is wrong by about what the one before it differs from it, and by what
+// chance leaves in a median of three (half of the half spread). Refined until that falls below a target, or
+// until the time given is spent; where impacts scatter the index, no refinement brings it lower, and that is
+// the floor that the chart draws.
 #pragma once
 
 #include <memory>
@@ -27,12 +28,13 @@ struct Reference {
 };
 
 struct ReferenceOptions {
-  double target = 1e-5;         // relative uncertainty that is good enough
-  double most_seconds = 20.0;   // of CPU, beyond which no finer step is begun
+  double target = 1e-5;        // relative uncertainty that is good enough
+  double most_seconds = 20.0;  // of CPU, beyond which no finer step is begun
   MeasureOptions measure = {};
 };
 
 // Throws ComputationError where multibody cannot follow the motion, MeasurementInterrupted.
-Reference find_reference(const Rung& multibody, const Parameters& parameters, const ReferenceOptions& options);
+Reference find_reference(const Rung& multibody, const Parameters& parameters,
+                         const ReferenceOptions& options);
 
 }  // namespace boresight

@@ -54,7 +54,11 @@ std::vector<WayFamily> chart_ways(double own_step) {
 }
 
 Way papers_way() {
-  return {.rung = "multibody", .formulation = "paper", .stabilisation = "baumgarte", .integrator = "rk4", .step = kPaperStep};
+  return {.rung = "multibody",
+          .formulation = "paper",
+          .stabilisation = "baumgarte",
+          .integrator = "rk4",
+          .step = kPaperStep};
 }
 
 std::string fineness(const Way& way) {

@@ -16,13 +16,15 @@ namespace {
 constexpr int kPerBody = 13;        // of the paper formulation's state: p, q, v, w
 constexpr double kInjected = 1e-7;  // of the characteristic length
 constexpr int kSteps = 14;
-constexpr double kFaint = 1e-4;        // of the largest violation: roundings are a ten-thousandth of that
+constexpr double kFaint = 1e-4;  // of the largest violation: roundings are a ten-thousandth of that
 
 }  // namespace
 
-BaumgarteDrift::BaumgarteDrift(const Mechanism& mechanism, const IdealMotion& ideal) : mechanism_(mechanism), ideal_(ideal) {
+BaumgarteDrift::BaumgarteDrift(const Mechanism& mechanism, const IdealMotion& ideal)
+    : mechanism_(mechanism), ideal_(ideal) {
   ideal.state(0.0, start_);
-  make_paper_formulation(mechanism_, mechanism_.parameters(), &ideal_, {})->start(start_, on_the_constraints_);
+  make_paper_formulation(mechanism_, mechanism_.parameters(), &ideal_, {})
+      ->start(start_, on_the_constraints_);
   h_ = 1e-6 * mechanism.duration();
   std::vector<TimeValue> laws(mechanism.joints());
   ideal.drive_laws(0.0, laws);
@@ -30,8 +32,8 @@ BaumgarteDrift::BaumgarteDrift(const Mechanism& mechanism, const IdealMotion& id
   rows.evaluate(start_.bodies, laws);
   const RankAnalysis rank = analyse_rank(mechanism, rows, false);
   redundant_ = rank.rank < rank.rows;
-  // The displacement of one body along one axis that violates one row most, over all of them. Rows of driven freedoms and of
-  // clearances are left out: the first move by their law, the second are open.
+  // The displacement of one body along one axis that violates one row most, over all of them. Rows of driven
+  // freedoms and of clearances are left out: the first move by their law, the second are open.
   double most = 0.0;
   for (int j = 0; j < mechanism.joints(); ++j) {
     JointConstraint joint(mechanism, j, ClearanceRows::open, false);
@@ -62,7 +64,8 @@ JointRows BaumgarteDrift::rows_at(const std::vector<BodyMotion>& bodies) const {
   return rows;
 }
 
-std::vector<double> BaumgarteDrift::follow(const VecX& start, double alpha, double beta, double h, int steps) const {
+std::vector<double> BaumgarteDrift::follow(const VecX& start, double alpha, double beta, double h,
+                                           int steps) const {
   const auto formulation = make_paper_formulation(mechanism_, mechanism_.parameters(), &ideal_,
                                                   {true, Stabilisation::baumgarte, alpha, beta});
   std::vector<ContactMemory> memory(mechanism_.clearances());
@@ -70,7 +73,9 @@ std::vector<double> BaumgarteDrift::follow(const VecX& start, double alpha, doub
   if (redundant_) formulation->start(start_, y);  // finds that out for itself, by a rank analysis
   y = start;
   ExplicitRungeKutta method(classical_rk4(), y.size());
-  const auto derivative = [&](double t, const VecX& s, VecX& ds) { formulation->derivative(t, s, memory, ds); };
+  const auto derivative = [&](double t, const VecX& s, VecX& ds) {
+    formulation->derivative(t, s, memory, ds);
+  };
   std::vector<double> violation;
   for (int n = 0;; ++n) {
     violation.push_back(rows_at(formulation->bodies(n * h, y)).value[row_]);
@@ -108,14 +113,16 @@ std::vector<double> BaumgarteDrift::after_a_wrong_velocity(double alpha, double 
                                                            double& start_rate) const {
   const auto formulation = make_paper_formulation(mechanism_, mechanism_.parameters(), &ideal_, {});
   VecX y = on_the_constraints_;
-  y.segment<3>(kPerBody * body_ + 7) += 1e-5 * mechanism_.characteristic_length() / mechanism_.duration() * direction_;
+  y.segment<3>(kPerBody * body_ + 7) +=
+      1e-5 * mechanism_.characteristic_length() / mechanism_.duration() * direction_;
   start_rate = rows_at(formulation->bodies(0.0, y)).rate[row_];
   return follow(y, alpha, beta, h, steps);
 }
 
 BaumgarteLimit baumgarte_limit(const BaumgarteDrift& drift, double zeta) {
   BaumgarteLimit limit{zeta, theoretical_limit(coefficients(classical_rk4()), zeta), 0.0};
-  limit.measured = measured_limit([&](double beta_h) { return drift.growth(zeta * beta_h, beta_h); }, limit.theory);
+  limit.measured =
+      measured_limit([&](double beta_h) { return drift.growth(zeta * beta_h, beta_h); }, limit.theory);
   return limit;
 }
 
@@ -130,7 +137,8 @@ BaumgarteMap map_baumgarte(const BaumgarteDrift& drift, int count, const std::fu
     map.measured.emplace_back();
     map.theory.emplace_back();
     for (double alpha_h : map.alpha_h) {
-      const double theory = theoretical_growth(rk4, alpha_h, beta_h), measured = drift.growth(alpha_h, beta_h);
+      const double theory = theoretical_growth(rk4, alpha_h, beta_h),
+                   measured = drift.growth(alpha_h, beta_h);
       map.theory.back().push_back(theory);
       map.measured.back().push_back(measured);
       if (theory > 0.1 && theory < 2.0)

@@ -26,9 +26,9 @@ FailureCase case_of_a_singular_pose(const Scene& scene) {
   }
   c.measured = "none on this motion";
   if (!report.along.empty()) {
-    const auto nearest = std::min_element(report.along.begin(), report.along.end(), [](const auto& a, const auto& b) {
-      return a.smallest_singular_value < b.smallest_singular_value;
-    });
+    const auto nearest = std::min_element(
+        report.along.begin(), report.along.end(),
+        [](const auto& a, const auto& b) { return a.smallest_singular_value < b.smallest_singular_value; });
     c.measured += text("; nearest at t = %.3g s, where the smallest singular value is %.3g", nearest->t,
                        nearest->smallest_singular_value);
   }

@@ -38,7 +38,8 @@ FailureCase case_of_vanishing_clearance(const Scene& scene) {
     return c;
   }
   double radial = 0.0;
-  for (const ClearanceParameters& p : scene.mechanism->parameters().clearance) radial = std::max(radial, p.radial);
+  for (const ClearanceParameters& p : scene.mechanism->parameters().clearance)
+    radial = std::max(radial, p.radial);
   const auto measure = [&](const Rung& rung) {
     double lever = 0.0, least = 1e300;
     bool tends = true;
@@ -94,12 +95,14 @@ FailureCase case_of_vanishing_restitution(const Scene& scene) {
     }
   }
   // A law that takes zero may be the mechanism's own.
-  c.standing = std::isfinite(force) ? (refused ? FailureCase::Standing::behaves : FailureCase::Standing::not_here)
-                                    : FailureCase::Standing::differs;
+  c.standing = std::isfinite(force)
+                   ? (refused ? FailureCase::Standing::behaves : FailureCase::Standing::not_here)
+                   : FailureCase::Standing::differs;
   return c;
 }
 
-FailureCase case_of_chatter(const Scene& scene, const Settling& pair, const Settling& l_stable, double omega) {
+FailureCase case_of_chatter(const Scene& scene, const Settling& pair, const Settling& l_stable,
+                            double omega) {
   FailureCase c{.name = "Grazing and chatter",
                 .happens = "approach speeds go to zero, events pile up",
                 .program = "ends in lasting contact, and the step size recovers",
@@ -110,16 +113,19 @@ FailureCase case_of_chatter(const Scene& scene, const Settling& pair, const Sett
   }
   const auto sentence = [&](const Settling& s) {
     if (!s.completed) return s.method + ": " + s.why_not;
-    return text("%s: %ld contacts, then lasting contact from %.3g s on; smallest step %.2g s, up to %.3g s afterwards (%ld steps)",
-                s.method.c_str(), s.contacts, s.settled_at, s.smallest_step, s.largest_step_settled / omega, s.steps);
+    return text(
+        "%s: %ld contacts, then lasting contact from %.3g s on; smallest step %.2g s, up to %.3g s "
+        "afterwards (%ld steps)",
+        s.method.c_str(), s.contacts, s.settled_at, s.smallest_step, s.largest_step_settled / omega, s.steps);
   };
-  c.measured = "a journal of " + scene.contacts[scene.stiffest()].joint + " dropped under its typical load: " + sentence(pair) + "; " +
-               sentence(l_stable);
+  c.measured = "a journal of " + scene.contacts[scene.stiffest()].joint +
+               " dropped under its typical load: " + sentence(pair) + "; " + sentence(l_stable);
   const auto recovered = [](const Settling& s, double least) {
     return s.completed && s.settled_at >= 0.0 && s.largest_step_settled > least;
   };
   // The explicit pair recovers up to what its stability allows, the L-stable method steps over the vibration.
-  c.standing = recovered(pair, 0.5) && recovered(l_stable, 10.0) ? FailureCase::Standing::behaves : FailureCase::Standing::differs;
+  c.standing = recovered(pair, 0.5) && recovered(l_stable, 10.0) ? FailureCase::Standing::behaves
+                                                                 : FailureCase::Standing::differs;
   return c;
 }
 
@@ -129,27 +135,32 @@ FailureCase case_of_creep(const Scene& scene) {
                 .program = "creeps at the speed that theory foresees, v_s + (v_d - v_s) F / (mu N)",
                 .measured = {}};
   const auto& clearances = scene.mechanism->parameters().clearance;
-  const auto rubbing =
-      std::find_if(clearances.begin(), clearances.end(), [](const auto& p) { return p.friction.coefficient > 0.0; });
+  const auto rubbing = std::find_if(clearances.begin(), clearances.end(),
+                                    [](const auto& p) { return p.friction.coefficient > 0.0; });
   if (rubbing == clearances.end()) {
     c.measured = "no joint with clearance has friction";
     return c;
   }
   const FrictionParameters& f = rubbing->friction;
   const ModifiedCoulomb law{f.coefficient, f.static_speed, f.dynamic_speed};
-  // A unit mass under a unit normal force, pulled with half of what friction can hold; ten time constants of the ramp.
+  // A unit mass under a unit normal force, pulled with half of what friction can hold; ten time constants of
+  // the ramp.
   const double pull = 0.5 * f.coefficient, rate = f.coefficient / (f.dynamic_speed - f.static_speed);
   ExplicitRungeKutta method(classical_rk4(), 1);
   VecX v = VecX::Zero(1);
-  const auto derivative = [&](double, const VecX& y, VecX& dy) { dy[0] = pull - y[0] * law.force_per_velocity(std::abs(y[0])); };
+  const auto derivative = [&](double, const VecX& y, VecX& dy) {
+    dy[0] = pull - y[0] * law.force_per_velocity(std::abs(y[0]));
+  };
   const double h = 0.05 / rate;
   for (int n = 0; n < 1000; ++n) {
     derivative(n * h, v, method.first_slope());
     method.step(n * h, h, v, derivative);
   }
   const double theory = f.static_speed + 0.5 * (f.dynamic_speed - f.static_speed);
-  c.measured = text("under half the load that friction can hold it creeps at %.4g m/s, theory %.4g m/s", v[0], theory);
-  c.standing = std::abs(v[0] / theory - 1.0) < 1e-3 ? FailureCase::Standing::behaves : FailureCase::Standing::differs;
+  c.measured =
+      text("under half the load that friction can hold it creeps at %.4g m/s, theory %.4g m/s", v[0], theory);
+  c.standing =
+      std::abs(v[0] / theory - 1.0) < 1e-3 ? FailureCase::Standing::behaves : FailureCase::Standing::differs;
   return c;
 }
 

@@ -9,10 +9,11 @@
 namespace boresight {
 
 FailureCase case_of_chaos(const Scene& scene, const std::vector<Separation>& separations) {
-  FailureCase c{.name = "Impacts are chaotic",
-                .happens = "trajectories part, statistics hold",
-                .program = "reports how far ahead this motion can be foretold; judges convergence on the index",
-                .measured = {}};
+  FailureCase c{
+      .name = "Impacts are chaotic",
+      .happens = "trajectories part, statistics hold",
+      .program = "reports how far ahead this motion can be foretold; judges convergence on the index",
+      .measured = {}};
   if (!scene.followed || separations.empty()) {
     c.measured = "no joint has clearance, or no rung follows the motion";
     return c;
@@ -23,12 +24,14 @@ FailureCase case_of_chaos(const Scene& scene, const std::vector<Separation>& sep
     worst = std::max(worst, s.rms_difference);
     parts = parts || s.horizon >= 0.0;
     if (s.horizon >= 0.0)
-      c.measured += text("a difference of %.0e in the clearance parts the trajectories by a tenth of it after %.3g s; ", s.start, s.horizon);
+      c.measured +=
+          text("a difference of %.0e in the clearance parts the trajectories by a tenth of it after %.3g s; ",
+               s.start, s.horizon);
     else
       c.measured += text("a difference of %.0e never parts them by a tenth of the clearance; ", s.start);
   }
   c.measured += text("the RMS error over the run differs by at most %.2g %%", 100.0 * worst);
-  c.standing = !parts ? FailureCase::Standing::not_here
+  c.standing = !parts        ? FailureCase::Standing::not_here
                : worst < 0.1 ? FailureCase::Standing::behaves
                              : FailureCase::Standing::differs;
   return c;
@@ -55,16 +58,18 @@ FailureCase case_of_large_clearance(const Scene& scene) {
     }
     try {
       const RunResult result = perturbation->run(parameters, scene.followed->options(0.0));
-      c.measured += text("%s%g times the clearance: perturbation's own estimate of its model error %.2g %%", before > 0.0 ? "; " : "",
-                         factor, 100.0 * result.error.model);
+      c.measured += text("%s%g times the clearance: perturbation's own estimate of its model error %.2g %%",
+                         before > 0.0 ? "; " : "", factor, 100.0 * result.error.model);
       grows = grows && result.error.model > before;
       before = result.error.model;
       if (factor == 1.0) continue;
-      const RunResult exact = make_rung("multibody", scene.mechanism)->run(parameters, scene.followed->options(0.0));
+      const RunResult exact =
+          make_rung("multibody", scene.mechanism)->run(parameters, scene.followed->options(0.0));
       const double off = std::abs(result.index.position_error.rms / exact.index.position_error.rms - 1.0);
       c.measured += text(", its RMS error off by %.2g %% from multibody's", 100.0 * off);
     } catch (const ComputationError& stop) {
-      c.measured += text("%s%g times the clearance: refused: ", before > 0.0 ? "; " : "", factor) + stop.what();
+      c.measured +=
+          text("%s%g times the clearance: refused: ", before > 0.0 ? "; " : "", factor) + stop.what();
     }
   }
   c.standing = before == 0.0 ? FailureCase::Standing::not_here

@@ -1,5 +1,5 @@
-// The cases in which a method or a model fails, each with what happens, what the program does, and what was measured of it
-// just now on the mechanism at hand.
+// The cases in which a method or a model fails, each with what happens, what the program does, and what was
+// measured of it just now on the mechanism at hand.
 #pragma once
 
 #include <functional>
@@ -41,7 +41,8 @@ struct Scene {
   int stiffest() const;  // index among the contacts; -1 if there are none
 };
 
-// ---- one function a case; each runs alone -----------------------------------------------------------------------------------
+// ---- one function a case; each runs alone
+// -----------------------------------------------------------------------------------
 FailureCase case_of_a_large_step(const Scene& scene);
 FailureCase case_of_no_stabilisation(const Scene& scene);
 FailureCase case_of_baumgarte_gains(const BaumgarteMap& map);

@@ -41,7 +41,8 @@ Followed follow(const std::shared_ptr<const Mechanism>& mechanism) {
     followed.result = run(*followed.rung, *mechanism, until);
   }
   // The steps counted are those of the whole motion.
-  followed.step = mechanism->duration() / static_cast<double>(std::max<std::int64_t>(1, followed.result.cost.steps));
+  followed.step =
+      mechanism->duration() / static_cast<double>(std::max<std::int64_t>(1, followed.result.cost.steps));
   followed.until = std::min(mechanism->duration(), kMostSteps * followed.step);
   return followed;
 }

@@ -10,7 +10,8 @@ double relative(double a, double b) { return b != 0.0 ? std::abs(a / b - 1.0) : 
 
 }  // namespace
 
-std::vector<Separation> separations(const Mechanism& mechanism, const Followed& followed, const std::vector<double>& starts) {
+std::vector<Separation> separations(const Mechanism& mechanism, const Followed& followed,
+                                    const std::vector<double>& starts) {
   const Parameters parameters = mechanism.parameters();
   RunOptions options = followed.options(followed.step);
   options.sample_spacing = followed.until / 2000.0;
@@ -26,7 +27,8 @@ std::vector<Separation> separations(const Mechanism& mechanism, const Followed& 
     Separation s{.start = start, .time = {}, .distance = {}, .horizon = -1.0};
     const std::size_t samples = std::min(first.time.size(), second.time.size());
     for (std::size_t k = 0; k < samples; ++k) {
-      const double apart = (first.boresight.samples[k].pose.p - second.boresight.samples[k].pose.p).norm() / clearance;
+      const double apart =
+          (first.boresight.samples[k].pose.p - second.boresight.samples[k].pose.p).norm() / clearance;
       s.time.push_back(first.time[k]);
       s.distance.push_back(apart);
       if (s.horizon < 0.0 && apart > kApart) s.horizon = first.time[k];

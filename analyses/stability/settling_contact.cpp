@@ -24,13 +24,14 @@ Settling follow(Method method, SettlingContact& contact, double height, double d
   result.method = integrator.method().name();
   double settled_time = 0.0;
   long settled_steps = 0;
-  const IntegrationSummary summary = integrator.run(contact, 0.0, duration, y, options, [&](const auto& step) {
-    if (contact.settled_at < 0.0) return;
-    const double h = step.end() - step.start();
-    settled_time += h;
-    ++settled_steps;
-    result.largest_step_settled = std::max(result.largest_step_settled, h * omega);
-  });
+  const IntegrationSummary summary =
+      integrator.run(contact, 0.0, duration, y, options, [&](const auto& step) {
+        if (contact.settled_at < 0.0) return;
+        const double h = step.end() - step.start();
+        settled_time += h;
+        ++settled_steps;
+        result.largest_step_settled = std::max(result.largest_step_settled, h * omega);
+      });
   result.completed = summary.completed();
   result.why_not = summary.message;
   result.steps = summary.steps;
@@ -61,7 +62,9 @@ SettlingContact SettlingContact::of(const Mechanism& mechanism, const Parameters
 
 double SettlingContact::rest_depth() const { return std::pow(load / law.stiffness, 2.0 / 3.0); }
 
-double SettlingContact::angular_frequency() const { return std::sqrt(1.5 * law.stiffness * std::sqrt(rest_depth()) / mass); }
+double SettlingContact::angular_frequency() const {
+  return std::sqrt(1.5 * law.stiffness * std::sqrt(rest_depth()) / mass);
+}
 
 void SettlingContact::derivative(double, const VecX& y, VecX& dy) const {
   dy[0] = y[1];
@@ -76,8 +79,10 @@ AfterEvent SettlingContact::on_event(const GapEvent& event, VecX& y) {
   return AfterEvent::crossed;
 }
 
-Settling settle(SettlingContact contact, double height, double duration, double tolerance, bool explicit_pair) {
-  if (explicit_pair) return follow(ExplicitMethod(dormand_prince54(), 2), contact, height, duration, tolerance);
+Settling settle(SettlingContact contact, double height, double duration, double tolerance,
+                bool explicit_pair) {
+  if (explicit_pair)
+    return follow(ExplicitMethod(dormand_prince54(), 2), contact, height, duration, tolerance);
   return follow(RosenbrockMethod(rodas4(), 2), contact, height, duration, tolerance);
 }
 

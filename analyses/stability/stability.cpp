@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kZetas[] = {0.05, 0.1, 0.2, 0.3, 0.5, 0.7071, 0.8, 0.9, 1.0, 1.25, 1.5, 2.0, 3.0, 5.0};
 constexpr int kGrowthCells = 33;
-// The settled vibration's frequency against the mechanism's own; dropped from four rest depths, followed for 150 periods of
-// the mechanism's own vibration.
+// The settled vibration's frequency against the mechanism's own; dropped from four rest depths, followed for
+// 150 periods of the mechanism's own vibration.
 constexpr double kSettledFactors[] = {0.25, 0.5, 1.0, 2.0, 4.0};
 constexpr double kDropHeight = 4.0, kSettledPeriods = 150.0, kSettledTolerance = 1e-4;
 
@@ -77,16 +77,19 @@ class Computation {
 
   double own_frequency() const { return scene_.contacts[scene_.stiffest()].angular_frequency; }
 
-  // Mass and frequency are the mechanism's stiffest contact's; where no joint has clearance, of one kilogram at 1e4 rad/s:
-  // limits are the same for all.
+  // Mass and frequency are the mechanism's stiffest contact's; where no joint has clearance, of one kilogram
+  // at 1e4 rad/s: limits are the same for all.
   void linear_contacts() {
     next(0.05, "linear contacts");
     const bool own = scene_.stiffest() >= 0;
-    const double mass = own ? scene_.contacts[scene_.stiffest()].effective_mass : 1.0, omega = own ? own_frequency() : 1e4;
+    const double mass = own ? scene_.contacts[scene_.stiffest()].effective_mass : 1.0,
+                 omega = own ? own_frequency() : 1e4;
     for (const ExplicitTable* table : {&classical_rk4(), &dormand_prince54(), &bogacki_shampine32()}) {
       const MethodCoefficients method = coefficients(*table);
       // z: step times omega, step times c / m.
-      const auto vibration = [&](double z) { return measured_growth(*table, ContactOscillator::of(mass, omega, 0.0), z / omega); };
+      const auto vibration = [&](double z) {
+        return measured_growth(*table, ContactOscillator::of(mass, omega, 0.0), z / omega);
+      };
       const auto damping = [&](double z) {
         return measured_growth(*table, {mass, 1e-9 * mass * omega * omega, mass * omega}, z / omega);
       };
@@ -117,7 +120,8 @@ class Computation {
     next(0.08, "contacts coming to rest");
     const int joint = scene_.stiffest();
     if (joint < 0) return;
-    const SettlingContact own = SettlingContact::of(*mechanism_, mechanism_->parameters(), joint, scene_.contacts[joint]);
+    const SettlingContact own =
+        SettlingContact::of(*mechanism_, mechanism_->parameters(), joint, scene_.contacts[joint]);
     const double duration = kSettledPeriods * 2.0 * std::numbers::pi / own.angular_frequency();
     for (double factor : kSettledFactors) {
       SettlingContact contact = own;
@@ -132,7 +136,8 @@ class Computation {
 
   void steps() {
     if (!scene_.followed || scene_.contacts.empty()) return;
-    result_.steps = map_steps(mechanism_, *followed_, options_.index, advancing(0.1, 0.4, kStepMapColumns, "steps over contact frequencies"));
+    result_.steps = map_steps(mechanism_, *followed_, options_.index,
+                              advancing(0.1, 0.4, kStepMapColumns, "steps over contact frequencies"));
   }
 
   void baumgarte() {
@@ -140,7 +145,8 @@ class Computation {
     if (!scene_.ideal) return;
     try {
       const BaumgarteDrift drift(*mechanism_, *ideal_);
-      result_.baumgarte = map_baumgarte(drift, options_.cells, advancing(0.4, 0.5, options_.cells, "Baumgarte's gains"));
+      result_.baumgarte =
+          map_baumgarte(drift, options_.cells, advancing(0.4, 0.5, options_.cells, "Baumgarte's gains"));
       next(0.5, "Baumgarte's limits");
       for (double zeta : kZetas) result_.baumgarte.limits.push_back(baumgarte_limit(drift, zeta));
     } catch (const ComputationError& failure) {
@@ -166,7 +172,9 @@ class Computation {
     add(0.85, "redundant rows", [&] { return case_of_redundant_rows(scene_); });
     add(0.87, "clearance towards zero", [&] { return case_of_vanishing_clearance(scene_); });
     add(0.9, "restitution towards zero", [&] { return case_of_vanishing_restitution(scene_); });
-    add(0.9, "chatter", [&] { return case_of_chatter(scene_, pair ? *pair : Settling{}, l_stable ? *l_stable : Settling{}, omega); });
+    add(0.9, "chatter", [&] {
+      return case_of_chatter(scene_, pair ? *pair : Settling{}, l_stable ? *l_stable : Settling{}, omega);
+    });
     add(0.9, "friction's creep", [&] { return case_of_creep(scene_); });
     add(0.9, "chaos", [&] { return case_of_chaos(scene_, result_.separations); });
     add(0.92, "large clearance", [&] { return case_of_large_clearance(scene_); });
@@ -184,9 +192,12 @@ class Computation {
 
 const char* to_string(FailureCase::Standing standing) {
   switch (standing) {
-    case FailureCase::Standing::behaves: return "behaves";
-    case FailureCase::Standing::differs: return "differs";
-    case FailureCase::Standing::not_here: return "not here";
+    case FailureCase::Standing::behaves:
+      return "behaves";
+    case FailureCase::Standing::differs:
+      return "differs";
+    case FailureCase::Standing::not_here:
+      return "not here";
   }
   return "";
 }
@@ -201,11 +212,13 @@ int Scene::stiffest() const {
 double StabilityResult::largest_difference() const {
   double worst = 0.0;
   for (const AxisLimit& l : limits) worst = std::max(worst, std::abs(l.measured / l.theory - 1.0));
-  for (const BaumgarteLimit& l : baumgarte.limits) worst = std::max(worst, std::abs(l.measured / l.theory - 1.0));
+  for (const BaumgarteLimit& l : baumgarte.limits)
+    worst = std::max(worst, std::abs(l.measured / l.theory - 1.0));
   return worst;
 }
 
-StabilityResult find_stability(const std::shared_ptr<const Mechanism>& mechanism, const StabilityOptions& options) {
+StabilityResult find_stability(const std::shared_ptr<const Mechanism>& mechanism,
+                               const StabilityOptions& options) {
   return Computation(mechanism, options).run();
 }
 

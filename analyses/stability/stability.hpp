@@ -1,5 +1,6 @@
-// boresight stability: where the methods fail, on one mechanism. Maps over step and contact frequency and over Baumgarte's
-// gains, theory beside measurement; every case in which a method or a model gives up; how long the motion can be foretold.
+// boresight stability: where the methods fail, on one mechanism. Maps over step and contact frequency and
+// over Baumgarte's gains, theory beside measurement; every case in which a method or a model gives up; how
+// long the motion can be foretold.
 //
 //   StabilityResult result = find_stability(mechanism, {});
 #pragma once
@@ -10,10 +11,12 @@
 namespace boresight {
 
 struct StabilityOptions {
-  IndexChoice index{"position_error", "rms"};  // whose error the map of steps shows: statistics hold where trajectories part
-  int cells = 28;                              // of the map of Baumgarte's gains, along each axis
+  IndexChoice index{"position_error",
+                    "rms"};  // whose error the map of steps shows: statistics hold where trajectories part
+  int cells = 28;            // of the map of Baumgarte's gains, along each axis
   std::function<void(const Setting&)> reread = {};  // see Scene
-  // Called with the share done and what comes next; return false to stop: the result is then marked interrupted.
+  // Called with the share done and what comes next; return false to stop: the result is then marked
+  // interrupted.
   std::function<bool(double, const std::string&)> progress = {};
 };
 
@@ -26,8 +29,8 @@ struct AxisLimit {
 // Growth per step of an undamped contact over frequency and step: rows along the step.
 struct GrowthMap {
   std::string method;
-  double limit = 0.0;                    // step times frequency, theory [-]
-  std::vector<double> frequency, step;   // [rad/s], [s]
+  double limit = 0.0;                   // step times frequency, theory [-]
+  std::vector<double> frequency, step;  // [rad/s], [s]
   std::vector<std::vector<double>> growth;
 };
 
@@ -53,6 +56,7 @@ struct StabilityResult {
 };
 
 // Never throws for what a mechanism does: what cannot be computed is named in the warnings and the cases.
-StabilityResult find_stability(const std::shared_ptr<const Mechanism>& mechanism, const StabilityOptions& options);
+StabilityResult find_stability(const std::shared_ptr<const Mechanism>& mechanism,
+                               const StabilityOptions& options);
 
 }  // namespace boresight

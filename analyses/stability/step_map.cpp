@@ -16,14 +16,15 @@ constexpr double kNotTried = std::numeric_limits<double>::quiet_NaN();
 
 double stiffest(const Mechanism& mechanism, const Parameters& parameters) {
   double omega = 0.0;
-  for (const ContactFrequency& c : analyse_contacts(mechanism, parameters)) omega = std::max(omega, c.angular_frequency);
+  for (const ContactFrequency& c : analyse_contacts(mechanism, parameters))
+    omega = std::max(omega, c.angular_frequency);
   return omega;
 }
 
 }  // namespace
 
-StepMap map_steps(const std::shared_ptr<const Mechanism>& mechanism, const Followed& followed, const IndexChoice& index,
-                  const std::function<bool()>& advance) {
+StepMap map_steps(const std::shared_ptr<const Mechanism>& mechanism, const Followed& followed,
+                  const IndexChoice& index, const std::function<bool()>& advance) {
   StepMap map;
   map.rung = followed.rung->name();
   map.index = index.title();
@@ -56,8 +57,9 @@ StepMap map_steps(const std::shared_ptr<const Mechanism>& mechanism, const Follo
       if (std::isfinite(v) && finest.size() < 3) finest.push_back(v);
     std::sort(finest.begin(), finest.end());
     const double reference = finest.empty() ? kNotTried : finest[finest.size() / 2];
-    map.scatter.push_back(finest.size() < 2 || reference == 0.0 ? kNotTried
-                                                                : 0.5 * (finest.back() - finest.front()) / std::abs(reference));
+    map.scatter.push_back(finest.size() < 2 || reference == 0.0
+                              ? kNotTried
+                              : 0.5 * (finest.back() - finest.front()) / std::abs(reference));
     for (int i = 0; i < kRows; ++i)
       map.error[i].push_back(std::isfinite(value[i]) ? std::abs(value[i] / reference - 1.0) : value[i]);
   }

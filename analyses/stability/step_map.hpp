@@ -1,7 +1,9 @@
-// Steps against contact frequencies on the mechanism's own motion: how far off the index is, and where the run is stopped.
+// Steps against contact frequencies on the mechanism's own motion: how far off the index is, and where the
+// run is stopped.
 //
-// The contacts' stiffness is scaled, which moves their frequency (as its cube root: a softer contact is also deeper); each
-// column is one stiffness, each row one step of the rung. Against each column's own smallest steps.
+// The contacts' stiffness is scaled, which moves their frequency (as its cube root: a softer contact is also
+// deeper); each column is one stiffness, each row one step of the rung. Against each column's own smallest
+// steps.
 #pragma once
 
 #include <functional>
@@ -19,13 +21,13 @@ struct StepMap {
   std::vector<double> step;       // [s], ascending
   // [step][frequency], relative; infinite where the run was stopped, NaN where it was not tried.
   std::vector<std::vector<double>> error;
-  std::vector<double> scatter;         // of the column's smallest steps, relative: what the errors are uncertain by
-  std::vector<double> refused_above;   // per frequency: smallest step that was stopped [s]; 0: none was
-  std::string first_stop;              // what the rung said the first time
+  std::vector<double> scatter;  // of the column's smallest steps, relative: what the errors are uncertain by
+  std::vector<double> refused_above;  // per frequency: smallest step that was stopped [s]; 0: none was
+  std::string first_stop;             // what the rung said the first time
 };
 
-StepMap map_steps(const std::shared_ptr<const Mechanism>& mechanism, const Followed& followed, const IndexChoice& index,
-                  const std::function<bool()>& advance);
+StepMap map_steps(const std::shared_ptr<const Mechanism>& mechanism, const Followed& followed,
+                  const IndexChoice& index, const std::function<bool()>& advance);
 inline constexpr int kStepMapColumns = 9;
 
 }  // namespace boresight

@@ -41,10 +41,12 @@ std::string Way::family() const {
 
 double relative_error(const Measurement& measured, double reference) {
   if (std::abs(reference) <= kNothing && std::abs(measured.value) <= kNothing) return 0.0;
-  return (std::abs(measured.value - reference) + measured.half_spread) / std::max(std::abs(reference), 1e-300);
+  return (std::abs(measured.value - reference) + measured.half_spread) /
+         std::max(std::abs(reference), 1e-300);
 }
 
-Measurement measure(const Rung& rung, const Parameters& parameters, const Way& way, const MeasureOptions& options) {
+Measurement measure(const Rung& rung, const Parameters& parameters, const Way& way,
+                    const MeasureOptions& options) {
   Measurement out;
   std::vector<double> values;
   try {
@@ -60,13 +62,15 @@ Measurement measure(const Rung& rung, const Parameters& parameters, const Way& w
       const double start = thread_cpu_seconds();
       bool too_long = false;
       if (options.most_seconds > 0.0)
-        run.progress = [&](const RunProgress&) { return !(too_long = thread_cpu_seconds() - start > options.most_seconds); };
+        run.progress = [&](const RunProgress&) {
+          return !(too_long = thread_cpu_seconds() - start > options.most_seconds);
+        };
       const RunResult result = rung.run(parameters, run);
       out.spent_seconds += thread_cpu_seconds() - start;
       if (too_long) {
         char text[120];
-        std::snprintf(text, sizeof text, "given up after %.3g s of CPU at t = %.3g s of the motion", options.most_seconds,
-                      result.end_time);
+        std::snprintf(text, sizeof text, "given up after %.3g s of CPU at t = %.3g s of the motion",
+                      options.most_seconds, result.end_time);
         out.refusal = text;
         return out;
       }

@@ -8,7 +8,8 @@
 
 namespace boresight::app {
 
-report::Document stability_report(const Command& command, const Mechanism& mechanism, const StabilityResult& result);
+report::Document stability_report(const Command& command, const Mechanism& mechanism,
+                                  const StabilityResult& result);
 
 // Whether measurement meets theory and every case shows what is said of it.
 bool as_foreseen(const StabilityResult& result);

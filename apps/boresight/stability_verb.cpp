@@ -25,7 +25,8 @@ Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); 
 void write_limits(std::ostream& out, const StabilityResult& result) {
   out << "method,motion,alpha_over_beta,theory,measured\n";
   for (const AxisLimit& l : result.limits)
-    out << csv_field(l.method) << ',' << l.axis << ",," << exact(l.theory) << ',' << exact(l.measured) << '\n';
+    out << csv_field(l.method) << ',' << l.axis << ",," << exact(l.theory) << ',' << exact(l.measured)
+        << '\n';
   for (const BaumgarteLimit& l : result.baumgarte.limits)
     out << "RK4,Baumgarte," << exact(l.zeta) << ',' << exact(l.theory) << ',' << exact(l.measured) << '\n';
 }
@@ -52,16 +53,20 @@ void write_steps(std::ostream& out, const StepMap& map) {
   for (std::size_t i = 0; i < map.step.size(); ++i)
     for (std::size_t k = 0; k < map.frequency.size(); ++k) {
       const double error = map.error[i][k];
-      out << exact(map.frequency[k]) << ',' << exact(map.step[i]) << ',' << (std::isfinite(error) ? exact(error) : "") << ','
-          << (std::isinf(error) ? "stopped" : std::isnan(error) ? "not tried" : "done") << '\n';
+      out << exact(map.frequency[k]) << ',' << exact(map.step[i]) << ','
+          << (std::isfinite(error) ? exact(error) : "") << ','
+          << (std::isinf(error)   ? "stopped"
+              : std::isnan(error) ? "not tried"
+                                  : "done")
+          << '\n';
     }
 }
 
 void write_cases(std::ostream& out, const StabilityResult& result) {
   out << "case,happens,program,standing,measured\n";
   for (const FailureCase& c : result.cases)
-    out << csv_field(c.name) << ',' << csv_field(c.happens) << ',' << csv_field(c.program) << ',' << to_string(c.standing) << ','
-        << csv_field(c.measured) << '\n';
+    out << csv_field(c.name) << ',' << csv_field(c.happens) << ',' << csv_field(c.program) << ','
+        << to_string(c.standing) << ',' << csv_field(c.measured) << '\n';
 }
 
 void write_horizon(std::ostream& out, const StabilityResult& result) {
@@ -83,28 +88,32 @@ Json settling_json(const Settling& s) {
           {"largest_step_times_frequency", s.largest_step_settled}};
 }
 
-Json summary_of(const Command& command, const Mechanism& mechanism, const StabilityResult& result, const Stopwatch& watch,
-                const OutputDirectory& out) {
-  Json json = common_summary(command, mechanism, {.name = "several", .why = "each part says which"}, watch, result.warnings,
-                             result.interrupted, out);
+Json summary_of(const Command& command, const Mechanism& mechanism, const StabilityResult& result,
+                const Stopwatch& watch, const OutputDirectory& out) {
+  Json json = common_summary(command, mechanism, {.name = "several", .why = "each part says which"}, watch,
+                             result.warnings, result.interrupted, out);
   json["largest_difference_from_theory"] = result.largest_difference();
   json["limits"] = Json::array();
   for (const AxisLimit& l : result.limits)
-    json["limits"].push_back({{"method", l.method}, {"motion", l.axis}, {"theory", l.theory}, {"measured", finite(l.measured)}});
+    json["limits"].push_back(
+        {{"method", l.method}, {"motion", l.axis}, {"theory", l.theory}, {"measured", finite(l.measured)}});
   json["baumgarte"] = {{"joint", result.baumgarte.joint},
                        {"map_largest_difference", result.baumgarte.largest_difference},
                        {"limits", Json::array()}};
   for (const BaumgarteLimit& l : result.baumgarte.limits)
-    json["baumgarte"]["limits"].push_back({{"alpha_over_beta", l.zeta}, {"theory", l.theory}, {"measured", finite(l.measured)}});
+    json["baumgarte"]["limits"].push_back(
+        {{"alpha_over_beta", l.zeta}, {"theory", l.theory}, {"measured", finite(l.measured)}});
   json["settled"] = Json::array();
   for (const SettledStep& s : result.settled)
-    json["settled"].push_back(
-        {{"frequency", s.frequency}, {"explicit", settling_json(s.pair)}, {"l_stable", settling_json(s.l_stable)}});
+    json["settled"].push_back({{"frequency", s.frequency},
+                               {"explicit", settling_json(s.pair)},
+                               {"l_stable", settling_json(s.l_stable)}});
   json["steps"] = {{"rung", result.steps.rung}, {"index", result.steps.index}, {"columns", Json::array()}};
   for (std::size_t k = 0; k < result.steps.frequency.size(); ++k)
     json["steps"]["columns"].push_back(
         {{"frequency", result.steps.frequency[k]},
-         {"smallest_step_stopped", result.steps.refused_above[k] > 0.0 ? Json(result.steps.refused_above[k]) : Json()},
+         {"smallest_step_stopped",
+          result.steps.refused_above[k] > 0.0 ? Json(result.steps.refused_above[k]) : Json()},
          {"scatter", finite(result.steps.scatter[k])}});
   json["horizon"] = Json::array();
   for (const Separation& s : result.separations)
@@ -119,7 +128,8 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const Stabil
                              {"program", c.program},
                              {"standing", to_string(c.standing)},
                              {"measured", c.measured}});
-  json["files"] = {"summary.json", "limits.csv", "growth.csv", "steps.csv", "baumgarte.csv", "horizon.csv", "cases.csv", "report.html"};
+  json["files"] = {"summary.json",  "limits.csv",  "growth.csv", "steps.csv",
+                   "baumgarte.csv", "horizon.csv", "cases.csv",  "report.html"};
   return json;
 }
 
@@ -127,10 +137,11 @@ void print(const Mechanism& mechanism, const StabilityResult& result, const Outp
   fmt::print("{}: where the methods fail{}\n", mechanism.name(), result.interrupted ? " (interrupted)" : "");
   for (const AxisLimit& l : result.limits)
     if (l.method == "RK4")
-      fmt::print("  RK4, {:<10} step limit {:.5g} measured, {:.5g} in theory\n", l.axis + ":", l.measured, l.theory);
+      fmt::print("  RK4, {:<10} step limit {:.5g} measured, {:.5g} in theory\n", l.axis + ":", l.measured,
+                 l.theory);
   if (!result.baumgarte.limits.empty())
-    fmt::print("  Baumgarte: {} limits on the drift of {}; all limits within {:.2g} % of theory\n", result.baumgarte.limits.size(),
-               result.baumgarte.joint, 100.0 * result.largest_difference());
+    fmt::print("  Baumgarte: {} limits on the drift of {}; all limits within {:.2g} % of theory\n",
+               result.baumgarte.limits.size(), result.baumgarte.joint, 100.0 * result.largest_difference());
   for (const FailureCase& c : result.cases)
     fmt::print("  {:<8} {}: {}\n", to_string(c.standing), c.name, c.measured);
   for (const std::string& warning : result.warnings) fmt::print("  warning: {}\n", warning);
@@ -141,16 +152,18 @@ class StabilityVerb : public Verb {
  public:
   std::string name() const override { return "stability"; }
   std::string file_kind() const override { return "mechanism"; }
-  std::string summary() const override { return "where the methods fail: maps over step, contact frequency and gains, and every known case"; }
+  std::string summary() const override {
+    return "where the methods fail: maps over step, contact frequency and gains, and every known case";
+  }
   std::string example() const override { return "boresight stability examples/3-rrcpr/3-rrcpr.toml"; }
 
   int execute(const Command& command) override {
     const Stopwatch watch;
     const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(command.file, command.settings));
     check_rung_name(command.rung);  // a wrong name is refused here too
-    const OutputDirectory out =
-        OutputDirectory::open(command.out, command.verb, command.file,
-                              identity_of(command, mechanism->description().content_hash, "", Json::object()));
+    const OutputDirectory out = OutputDirectory::open(
+        command.out, command.verb, command.file,
+        identity_of(command, mechanism->description().content_hash, "", Json::object()));
     Progress progress(command.quiet, 100.0, "%");
     StabilityOptions options;
     options.progress = [&](double share, const std::string& what) {
@@ -171,7 +184,8 @@ class StabilityVerb : public Verb {
     out.write("baumgarte.csv", [&](std::ostream& s) { write_baumgarte(s, result.baumgarte); });
     out.write("horizon.csv", [&](std::ostream& s) { write_horizon(s, result); });
     out.write("cases.csv", [&](std::ostream& s) { write_cases(s, result); });
-    out.write("report.html", [&](std::ostream& s) { report::write_html(s, stability_report(command, *mechanism, result)); });
+    out.write("report.html",
+              [&](std::ostream& s) { report::write_html(s, stability_report(command, *mechanism, result)); });
     progress.clear();
     if (!command.quiet) print(*mechanism, result, out);
     if (result.interrupted) return kInterrupted;

@@ -22,7 +22,8 @@ ChartPoint point(double cpu, double error, const std::string& refusal = "") {
 }
 
 TEST(ParetoFront, HoldsThePointsThatNoOtherBeats) {
-  const std::vector<ChartPoint> points = {point(3.0, 0.01), point(1.0, 0.1), point(2.0, 0.2), point(4.0, 0.001), point(0.1, 1e-9, "failed")};
+  const std::vector<ChartPoint> points = {point(3.0, 0.01), point(1.0, 0.1), point(2.0, 0.2),
+                                          point(4.0, 0.001), point(0.1, 1e-9, "failed")};
   EXPECT_EQ(pareto_front(points, 0.0), (std::vector<std::size_t>{1, 0, 3}));
 }
 
@@ -44,8 +45,10 @@ TEST(ChartWays, CoverEveryRungFormulationAndIntegratorFromCoarseToFine) {
     }
   }
   EXPECT_EQ(rungs.size(), rung_names().size());
-  for (const char* name : {"rk4", "dopri5", "rosenbrock", "generalized-alpha"}) EXPECT_TRUE(integrators.count(name)) << name;
-  for (const char* name : {"multibody, tree, projection, rk4", "multibody, paper, baumgarte, rk4", "multibody, paper, projection, rk4"})
+  for (const char* name : {"rk4", "dopri5", "rosenbrock", "generalized-alpha"})
+    EXPECT_TRUE(integrators.count(name)) << name;
+  for (const char* name : {"multibody, tree, projection, rk4", "multibody, paper, baumgarte, rk4",
+                           "multibody, paper, projection, rk4"})
     EXPECT_TRUE(names.count(name)) << name;
 }
 
@@ -95,7 +98,10 @@ TEST_F(MeasureTest, TheReferenceKnowsItsOwnUncertainty) {
   ASSERT_GE(reference.refinements.size(), 2u);
   EXPECT_LT(reference.uncertainty, 1e-3);
   // A way of another formulation, fine, lands within a few of the uncertainties.
-  const Way paper{.rung = "multibody", .formulation = "paper", .stabilisation = "projection", .integrator = "rk4",
+  const Way paper{.rung = "multibody",
+                  .formulation = "paper",
+                  .stabilisation = "projection",
+                  .integrator = "rk4",
                   .step = reference.refinements.back().step};
   const Measurement m = measure(*rung, mechanism_->parameters(), paper, options.measure);
   EXPECT_LT(relative_error(m, reference.value), 5.0 * std::max(reference.uncertainty, 1e-4));
@@ -112,7 +118,8 @@ TEST_F(MeasureTest, BeforeTheFirstImpactEachMethodShowsItsOrder) {
     if (p.family == "perturbation, rk4") perturbation.push_back(p.error);
   }
   ASSERT_GE(rk4.size(), 6u);
-  // Order four while above the roundings, so that two halvings gain two decades or more; in the end no error worth a word.
+  // Order four while above the roundings, so that two halvings gain two decades or more; in the end no error
+  // worth a word.
   if (rk4[0] > 1e-6) {
     EXPECT_GT(rk4[0] / rk4[2], 100.0);
   }
@@ -135,7 +142,8 @@ TEST_F(MeasureTest, AChartMarksThePapersSettingAndItsFront) {
   EXPECT_EQ(result.papers()->way.step, 1e-4);
   ASSERT_GE(result.front.size(), 2u);
   for (std::size_t k = 1; k < result.front.size(); ++k) {
-    EXPECT_GT(result.points[result.front[k]].measured.cpu_seconds, result.points[result.front[k - 1]].measured.cpu_seconds);
+    EXPECT_GT(result.points[result.front[k]].measured.cpu_seconds,
+              result.points[result.front[k - 1]].measured.cpu_seconds);
     EXPECT_LT(result.points[result.front[k]].error, result.points[result.front[k - 1]].error);
   }
   // What there was no time for is named, not left out in silence.

@@ -1,6 +1,6 @@
-// The cases in which methods and models fail, each shown to happen and to be borne as the program promises. Rows that other
-// rooms' tests hold: tests/lib/rungs (steps, singular starts, redundancy, clearance), tests/lib/contact (restitution, friction),
-// tests/analyses/study (large clearance).
+// The cases in which methods and models fail, each shown to happen and to be borne as the program promises.
+// Rows that other rooms' tests hold: tests/lib/rungs (steps, singular starts, redundancy, clearance),
+// tests/lib/contact (restitution, friction), tests/analyses/study (large clearance).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,8 +17,8 @@
 namespace boresight {
 namespace {
 
-// A planar four-bar in space in the x-z plane, pivots at `points`, first bar driven. Redundant: revolutes everywhere; else one
-// spherical and one cylindrical joint give the same motion with independent rows.
+// A planar four-bar in space in the x-z plane, pivots at `points`, first bar driven. Redundant: revolutes
+// everywhere; else one spherical and one cylindrical joint give the same motion with independent rows.
 MechanismDescription four_bar(const std::vector<Vec3>& points, bool redundant, const std::string& law) {
   MechanismDescription m;
   m.name = "four-bar";
@@ -55,12 +55,14 @@ TEST(SingularPose, OfAFourBarAtItsChangePointIsNamedWithItsTime) {
   const KinematicReport report = analyse_kinematics(*mechanism);
   ASSERT_FALSE(report.lost.empty());
   EXPECT_NEAR(report.lost.front().t, 0.25, 0.005);
-  EXPECT_NE(report.lost.front().description.find("bar1"), std::string::npos) << report.lost.front().description;
+  EXPECT_NE(report.lost.front().description.find("bar1"), std::string::npos)
+      << report.lost.front().description;
   EXPECT_NE(report.lost.front().description.find("while every drive stands still"), std::string::npos);
 }
 
 TEST(RedundantRows, ThatContradictEachOtherAreRefused) {
-  // Bars of 1, 0.6 and 1 m cannot close over a ground of 2 m with the crank turned away from it by more than some 50 degrees.
+  // Bars of 1, 0.6 and 1 m cannot close over a ground of 2 m with the crank turned away from it by more than
+  // some 50 degrees.
   MechanismDescription m = four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, true, "0.4*sin(3*t)");
   // Both bars on the ground driven, by laws that do not go together.
   m.joints[3].driven = true;
@@ -73,7 +75,8 @@ TEST(RedundantRows, ThatContradictEachOtherAreRefused) {
 }
 
 TEST(RedundantRows, ThatAgreeAreBorneAndCounted) {
-  const auto mechanism = scenes::build(four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, true, "0.4*sin(3*t)"));
+  const auto mechanism =
+      scenes::build(four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, true, "0.4*sin(3*t)"));
   Scene scene;
   scene.mechanism = mechanism;
   const Followed followed = follow(mechanism);
@@ -83,8 +86,9 @@ TEST(RedundantRows, ThatAgreeAreBorneAndCounted) {
   EXPECT_NE(c.measured.find("3 of"), std::string::npos) << c.measured;
 }
 
-// A constant error in a constraint's acceleration (of what solves the equations, of a law) gives Phi'' = const: the velocity
-// drifts with t, the position with its square. Baumgarte's gains hold it at error / beta^2.
+// A constant error in a constraint's acceleration (of what solves the equations, of a law) gives Phi'' =
+// const: the velocity drifts with t, the position with its square. Baumgarte's gains hold it at error /
+// beta^2.
 TEST(NoStabilisation, LetsTheDriftGrowAsTheSquareOfTime) {
   const auto mechanism = scenes::build(scenes::rrcpr());
   const IdealMotion ideal = ideal_motion(*mechanism, mechanism->parameters());
@@ -93,7 +97,8 @@ TEST(NoStabilisation, LetsTheDriftGrowAsTheSquareOfTime) {
   const std::vector<ContactMemory> memory(1);
   const double error = 1.0, h = 1e-5;  // [m/s^2], of the velocity of one body along x
   const auto drift_at = [&](int steps, double gain) {
-    const auto formulation = make_paper_formulation(*mechanism, mechanism->parameters(), &ideal, {true, Stabilisation::baumgarte, gain, gain});
+    const auto formulation = make_paper_formulation(*mechanism, mechanism->parameters(), &ideal,
+                                                    {true, Stabilisation::baumgarte, gain, gain});
     VecX y;
     formulation->start(start, y);
     ExplicitRungeKutta method(classical_rk4(), y.size());
@@ -123,7 +128,8 @@ TEST(Chatter, EndsInLastingContactAndTheStepRecovers) {
   contact.load = 9.81;
   contact.law = {1e10, normal_law("flores").damping_factor(0.5)};
   const double omega = contact.angular_frequency(), height = 1e-4, duration = 0.2;
-  const Settling pair = settle(contact, height, duration, 1e-5, true), l_stable = settle(contact, height, duration, 1e-5, false);
+  const Settling pair = settle(contact, height, duration, 1e-5, true),
+                 l_stable = settle(contact, height, duration, 1e-5, false);
   for (const Settling& s : {pair, l_stable}) {
     EXPECT_TRUE(s.completed) << s.why_not;
     EXPECT_GE(s.contacts, 3) << s.method;
@@ -150,7 +156,8 @@ TEST(Impacts, PartNeighbouringTrajectoriesAndKeepTheirStatistics) {
     EXPECT_GT(s.horizon, 0.0) << s.start;
     EXPECT_LT(s.rms_difference, 0.1) << s.start;
   }
-  // The better the start is known, the farther ahead the motion can be foretold: by a little, for errors grow by powers.
+  // The better the start is known, the farther ahead the motion can be foretold: by a little, for errors grow
+  // by powers.
   EXPECT_GT(apart[0].horizon, apart[1].horizon);
   EXPECT_GT(apart[1].horizon, apart[2].horizon);
 }
@@ -187,7 +194,8 @@ TEST_F(StabilityOfTheDefaultScene, CoversEveryCaseAndFindsNoneThatFailsUnannounc
       EXPECT_GT(result.steps.refused_above[k] * result.steps.frequency[k], 1.4);
     }
   }
-  const auto softest = std::find_if(result.steps.refused_above.begin(), result.steps.refused_above.end(), [](double h) { return h > 0.0; });
+  const auto softest = std::find_if(result.steps.refused_above.begin(), result.steps.refused_above.end(),
+                                    [](double h) { return h > 0.0; });
   ASSERT_NE(softest, result.steps.refused_above.end());
   EXPECT_GT(*softest, 2.0 * result.steps.refused_above.back());
   EXPECT_NE(result.steps.first_stop.find("largest stable step"), std::string::npos);
@@ -209,7 +217,8 @@ TEST(Stability, OfAMechanismWithoutClearanceSaysSoAndKeepsTheRest) {
   EXPECT_EQ(result.cases.size(), 11u);
   EXPECT_EQ(result.limits.size(), 6u);
   EXPECT_FALSE(result.baumgarte.limits.empty());
-  for (const FailureCase& c : result.cases) EXPECT_NE(c.standing, FailureCase::Standing::differs) << c.name << ": " << c.measured;
+  for (const FailureCase& c : result.cases)
+    EXPECT_NE(c.standing, FailureCase::Standing::differs) << c.name << ": " << c.measured;
 }
 
 }  // namespace
