@@ -56,7 +56,7 @@ Measurement measure(const Rung& rung, const Parameters& parameters, const Way& w
       const bool fixed = way.integrator.empty() || way.integrator == "rk4";
       // Once the rung has chosen its own step, the neighbours are neighbours of that.
       if (fixed && run.step == 0.0) run.step = out.step;
-      if (!fixed && !way.stepless() && run.step == 0.0 && run.tolerance == 0.0) run.tolerance = kTolerance;
+      if (!fixed && !way.stepless() && run.step == 0.0 && run.tolerance == 0.0) run.tolerance = tolerance_of(run, way.rung);
       run.step *= share;
       run.tolerance *= share;
       const double start = thread_cpu_seconds();
