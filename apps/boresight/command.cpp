@@ -62,24 +62,29 @@ Command CommandOptions::command(const std::string& verb) const {
 
 void MotionOptions::declare(CLI::App& app, bool with_poses) {
   app.add_option("--sample", sample, "spacing of the time series")->type_name("TIME")->capture_default_str();
+  declare_model(app);
+  if (with_poses)
+    app.add_option("--pose", poses, "keep the pose of this body too (any number of times)")
+        ->type_name("BODY")
+        ->allow_extra_args(false)
+        ->take_all();
+}
+
+void MotionOptions::declare_model(CLI::App& app) {
   app.add_option("--step", step, "step of the integration; otherwise the rung's own choice")
       ->type_name("TIME");
   app.add_option("--integrator", integrator,
                  "rk4, dopri5, rosenbrock or (multibody) generalized-alpha; otherwise the rung's own, rk4")
       ->type_name("NAME");
-  app.add_option("--tolerance", tolerance,
-                 "of error control (any but rk4): error of one step over the smallest clearance; otherwise the rung's own")
+  app.add_option(
+         "--tolerance", tolerance,
+         "of error control (any but rk4): error of one step over the smallest clearance; otherwise the rung's own")
       ->type_name("NUMBER");
   app.add_option("--formulation", formulation, "of the equations of motion (multibody): tree or paper; otherwise tree")
       ->type_name("NAME");
   app.add_option("--stabilisation", stabilisation,
                  "of the constraints (multibody): baumgarte or projection; otherwise the formulation's own")
       ->type_name("NAME");
-  if (with_poses)
-    app.add_option("--pose", poses, "keep the pose of this body too (any number of times)")
-        ->type_name("BODY")
-        ->allow_extra_args(false)
-        ->take_all();
 }
 
 RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
@@ -91,16 +96,15 @@ RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
     throw InputError(kCommandLine, "--sample", in_quotes(sample), "at most two million samples in all");
   const std::vector<std::string> integrators = integrator_names();
   if (!integrator.empty() && std::find(integrators.begin(), integrators.end(), integrator) == integrators.end())
-    throw InputError(kCommandLine, "--integrator", in_quotes(integrator), "rk4, dopri5, rosenbrock or generalized-alpha",
-                     nearest_name(integrator, integrators));
+    throw InputError(kCommandLine, "--integrator", in_quotes(integrator),
+                     "rk4, dopri5, rosenbrock or generalized-alpha", nearest_name(integrator, integrators));
   options.integrator = integrator;
   if (!tolerance.empty()) {
     options.tolerance = positive_quantity("--tolerance", tolerance, kRatio);
     if (integrator.empty() || integrator == "rk4")
       throw InputError(kCommandLine, "--tolerance", in_quotes(tolerance),
                        "an --integrator with an error estimate: dopri5, rosenbrock or generalized-alpha");
-    if (!step.empty())
-      throw InputError(kCommandLine, "--tolerance", in_quotes(tolerance), "this or --step, not both");
+    if (!step.empty()) throw InputError(kCommandLine, "--tolerance", in_quotes(tolerance), "this or --step, not both");
   }
   options.formulation = formulation;
   const std::vector<std::string> known = {"baumgarte", "projection"};
@@ -125,9 +129,10 @@ void MotionOptions::check_rung(const std::string& rung) const {
   if (integrator.empty() || rung == "auto") return;
   const std::vector<std::string> known = integrator_names(rung);
   if (std::find(known.begin(), known.end(), integrator) == known.end())
-    throw InputError(kCommandLine, "--integrator", in_quotes(integrator),
-                     known.empty() ? "none: the " + rung + " rung takes no steps" : "one that the " + rung + " rung has",
-                     nearest_name(integrator, known));
+    throw InputError(
+        kCommandLine, "--integrator", in_quotes(integrator),
+        known.empty() ? "none: the " + rung + " rung takes no steps" : "one that the " + rung + " rung has",
+        nearest_name(integrator, known));
 }
 
 bool MotionOptions::asks_for_multibody() const {
@@ -138,13 +143,13 @@ std::size_t history_refinement(double duration, double sample_spacing) {
   return static_cast<std::size_t>(std::clamp(std::floor(20000.0 * sample_spacing / duration), 1.0, 10.0));
 }
 
+nlohmann::json MotionOptions::model_identity() const {
+  return {{"step", step}, {"formulation", formulation}, {"stabilisation", stabilisation}};
+}
+
 nlohmann::json MotionOptions::identity() const {
-  return {{"step", step},
-          {"sample", sample},
-          {"integrator", integrator},
-          {"tolerance", tolerance},
-          {"formulation", formulation},
-          {"stabilisation", stabilisation},
+  return {{"step", step},           {"sample", sample},           {"integrator", integrator},
+          {"tolerance", tolerance}, {"formulation", formulation}, {"stabilisation", stabilisation},
           {"pose", poses}};
 }
 

@@ -151,8 +151,9 @@ report::Section cost_section(const RunResult& result, const std::optional<Predic
         {"Energy balance, largest error", fmt::format("{:.3g} of the largest energy", result.energy_error)});
   report::Section section{.id = "cost", .title = "Cost and numerical quality", .items = {std::move(table)}};
   if (predictability)
-    section.items.push_back(report::Text{predictability->measured ? "Predictability: " + predictability_sentence(*predictability) + "."
-                                                                  : "Predictability was not measured: " + predictability->refusal});
+    section.items.push_back(report::Text{predictability->measured
+                                             ? "Predictability: " + predictability_sentence(*predictability) + "."
+                                             : "Predictability was not measured: " + predictability->refusal});
   return section;
 }
 
@@ -203,10 +204,11 @@ std::string predictability_sentence(const Predictability& found) {
   const std::string twin = fmt::format("a start {} off", readable(kStartOffset, "m"));
   if (!found.parted)
     return fmt::format("{} stays within {} of the clearance over the whole motion", twin, readable_share(kPartedShare));
-  return fmt::format("the trajectory is predictable up to {}, where {} parts by {} of the clearance; past it judge the indices, which "
-                     "differ by {} (max) and {} (RMS) between the two",
-                     readable(found.horizon, "s"), twin, readable_share(kPartedShare), readable_share(found.max_difference),
-                     readable_share(found.rms_difference));
+  return fmt::format(
+      "the trajectory is predictable up to {}, where {} parts by {} of the clearance; past it judge the indices, which "
+      "differ by {} (max) and {} (RMS) between the two",
+      readable(found.horizon, "s"), twin, readable_share(kPartedShare), readable_share(found.max_difference),
+      readable_share(found.rms_difference));
 }
 
 nlohmann::ordered_json predictability_json(const Predictability& found) {

@@ -1,11 +1,11 @@
 // The report of `run`: how far off the mechanism points, when, and what happens in its joints.
 #pragma once
 
+#include "axes_section.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight/rungs/predictability.hpp"
 #include "boresight/rungs/run_result.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
-#include "axes_section.hpp"
 #include "command.hpp"
 #include "report/document.hpp"
 

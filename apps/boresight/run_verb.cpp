@@ -1,6 +1,8 @@
 // boresight run MECHANISM: one motion, its pointing error, its contacts.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <filesystem>
 #include <iostream>
 
 #include "boresight/io/mechanism_file.hpp"
@@ -10,6 +12,7 @@
 #include "boresight/rungs/rung.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
+#include "montecarlo_study.hpp"
 #include "progress.hpp"
 #include "readable.hpp"
 #include "report/report.hpp"
@@ -56,7 +59,8 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
 
 Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const RunResult& result,
                 const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
-                const std::optional<Predictability>& predictability, const Stopwatch& watch, const OutputDirectory& out) {
+                const std::optional<Predictability>& predictability, const Stopwatch& watch,
+                const OutputDirectory& out) {
   Json json = common_summary(command, mechanism, rung, watch, result.warnings, result.interrupted, out);
   json["formulation"] = result.formulation;
   json["integrator"] = result.integrator;
@@ -99,13 +103,17 @@ class RunVerb : public Verb {
   void declare_options(CLI::App& app) override {
     motion_.declare(app, true);
     app.add_flag("--compare", compare_, "run the other rungs too and lay them over this one");
+    app.add_option("--sample-number", sample_number_,
+                   "FILE is a Monte Carlo study: run this one of its samples (from 0) and report on it")
+        ->type_name("K");
     app.add_option("--index", index_, "what --accuracy is about: position_error.max, boresight_error.rms, ...")
         ->type_name("QUANTITY.STATISTIC")
         ->capture_default_str();
   }
 
-  int execute(const Command& command) override {
+  int execute(const Command& asked) override {
     const Stopwatch watch;
+    const Command command = sample_number_.empty() ? asked : replay_of(asked);
     const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(command.file, command.settings));
     check_rung_name(command.rung);
     motion_.check_rung(command.rung);
@@ -123,18 +131,19 @@ class RunVerb : public Verb {
       return !interrupted();
     };
     Progress pilot_progress(command.quiet, kPilotTrials, "trials of the pilot");
-    const RungChoice choice = choose_rung(
-        {.asked = command.rung,
-         .accuracy = command.accuracy,
-         .wants_multibody = motion_.asks_for_multibody(),
-         .index = index,
-         .step = options.step,
-         .integrators = true,
-         .progress = [&](int trial) {
-           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
-           return !interrupted();
-         }},
-        mechanism, {mechanism->parameters()});
+    const RungChoice choice =
+        choose_rung({.asked = command.rung,
+                     .accuracy = command.accuracy,
+                     .wants_multibody = motion_.asks_for_multibody(),
+                     .index = index,
+                     .step = options.step,
+                     .integrators = true,
+                     .progress =
+                         [&](int trial) {
+                           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
+                           return !interrupted();
+                         }},
+                    mechanism, {mechanism->parameters()});
     pilot_progress.clear();
     apply(choice, options);
 
@@ -157,7 +166,8 @@ class RunVerb : public Verb {
     out.write("timeseries.csv", [&](std::ostream& s) { write_timeseries(s, *mechanism, result, finer); });
     out.write("events.csv", [&](std::ostream& s) { write_events(s, *mechanism, result); });
     out.write("report.html", [&](std::ostream& s) {
-      report::write_html(s, run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability));
+      report::write_html(
+          s, run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability));
     });
     progress.clear();
     if (!command.quiet) print(*mechanism, choice, result, others, axes, predictability, out);
@@ -165,6 +175,23 @@ class RunVerb : public Verb {
   }
 
  private:
+  // One sample of a Monte Carlo study is its mechanism with the sample's values set.
+  Command replay_of(const Command& asked) {
+    double number = 0.0;
+    if (!parse_number(sample_number_, number) || number < 0.0 || number != std::floor(number) || number > 1e15)
+      throw InputError({"command line", 0}, "--sample-number", in_quotes(sample_number_), "a sample's number, from 0");
+    const MonteCarloQuestion question = read_montecarlo_question(asked.file, asked.settings);
+    Command command = asked;
+    command.file = question.study.mechanism_file;
+    if (command.out.empty())
+      command.out = "results/" + std::filesystem::path(asked.file).stem().string() + "-sample-" + sample_number_;
+    for (const Setting& setting : question.settings_of_sample(static_cast<std::uint64_t>(number)))
+      command.settings.push_back(setting);
+    if (!command.accuracy && asked.rung == "auto") command.accuracy = question.study.accuracy;
+    index_ = question.study.index.quantity + "." + question.study.index.statistic;
+    return command;
+  }
+
   // A rung that cannot follow the motion says why, and the others go on.
   static Compared run_other(const std::string& name, const std::shared_ptr<const Mechanism>& mechanism, RunOptions options,
                             double step) {
@@ -186,6 +213,7 @@ class RunVerb : public Verb {
   MotionOptions motion_;
   bool compare_ = false;
   std::string index_ = "position_error.max";
+  std::string sample_number_;
 };
 
 }  // namespace

@@ -144,18 +144,19 @@ class SweepVerb : public Verb {
     constexpr double kPilotTrials = 24.0;  // about as many as it makes; it may need fewer
     Progress pilot_progress(command.quiet, kPilotTrials, "trials of the pilot");
     // The grid's first and last corner: what is true of both is taken to be true between them.
-    const RungChoice choice = choose_rung(
-        {.asked = command.rung,
-         .accuracy = command.accuracy ? command.accuracy : study.accuracy,
-         .wants_multibody = motion_.asks_for_multibody(),
-         .index = study.index,
-         .step = options.run.step,
-         .integrators = true,
-         .progress = [&](int trial) {
-           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
-           return !interrupted();
-         }},
-        mechanism, {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
+    const RungChoice choice =
+        choose_rung({.asked = command.rung,
+                     .accuracy = command.accuracy ? command.accuracy : study.accuracy,
+                     .wants_multibody = motion_.asks_for_multibody(),
+                     .index = study.index,
+                     .step = options.run.step,
+                     .integrators = true,
+                     .progress =
+                         [&](int trial) {
+                           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
+                           return !interrupted();
+                         }},
+                    mechanism, {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
     pilot_progress.clear();
     apply(choice, options.run);
 

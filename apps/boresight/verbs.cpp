@@ -8,7 +8,9 @@ namespace boresight::app {
   VERB(run)                   \
   VERB(sweep)                 \
   VERB(chart)                 \
-  VERB(stability)
+  VERB(stability)             \
+  VERB(montecarlo)            \
+  VERB(export)
 
 #define DECLARE(name) std::unique_ptr<Verb> make_##name##_verb();
 BORESIGHT_VERBS(DECLARE)

@@ -1,4 +1,5 @@
-// Explicit Runge-Kutta methods for the Integrator: any table of explicit_tables.hpp, with its error estimate and dense output.
+// Explicit Runge-Kutta methods for the Integrator: any table of explicit_tables.hpp, with its error estimate and dense
+// output.
 #pragma once
 
 #include <algorithm>

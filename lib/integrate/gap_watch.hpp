@@ -1,11 +1,12 @@
 // Follows the signs of the gaps over accepted steps and finds where they change.
 //
-// The side that a gap is on is discrete and kept here: at an event it changes by definition, not by the sign of a gap that is zero but
-// for rounding. A crossing is bracketed between two looks at the step's dense output and closed in on by the Illinois variant of false
-// position (Dowell and Jarratt 1971, BIT 11, 168-174), which evaluates gaps, never the right-hand side.
+// The side that a gap is on is discrete and kept here: at an event it changes by definition, not by the sign of a gap
+// that is zero but for rounding. A crossing is bracketed between two looks at the step's dense output and closed in on
+// by the Illinois variant of false position (Dowell and Jarratt 1971, BIT 11, 168-174), which evaluates gaps, never the
+// right-hand side.
 //
-// A gap that closes sooner than the event floor after it opened is lasting. Its crossings are found on the dense output only to know how
-// long it has been open: longer than the floor, and it is released.
+// A gap that closes sooner than the event floor after it opened is lasting. Its crossings are found on the dense output
+// only to know how long it has been open: longer than the floor, and it is released.
 #pragma once
 
 #include <limits>
@@ -18,7 +19,12 @@ namespace boresight {
 class GapWatch {
  public:
   GapWatch(int gaps, Eigen::Index size, int looks_inside)
-      : gap_(gaps), saved_(gap_), looks_(looks_inside + 2), values_(gaps, looks_), now_(VecX::Zero(gaps)), state_(VecX::Zero(size)) {
+      : gap_(gaps),
+        saved_(gap_),
+        looks_(looks_inside + 2),
+        values_(gaps, looks_),
+        now_(VecX::Zero(gaps)),
+        state_(VecX::Zero(size)) {
     due_.reserve(static_cast<std::size_t>(gaps));
   }
 
@@ -64,7 +70,8 @@ class GapWatch {
       if (look == looks_ || (gap.lasting && !gap.chatters_open)) continue;
       double share = 1.0;
       if (options.locate_events) share = locate(system, method, t, h, k, look, tolerance);
-      // A lasting contact that was open for long before it closes again is a new contact, even if no step ended in between.
+      // A lasting contact that was open for long before it closes again is a new contact, even if no step ended in
+      // between.
       if (gap.lasting && t + share * h - gap.opened < options.event_floor) continue;
       gap.share = share;
       first = std::min(first, share);
@@ -77,8 +84,8 @@ class GapWatch {
   // Gaps whose events fall together at the share that first_event returned.
   const std::vector<int>& due() const { return due_; }
 
-  // After a step of h up to the event that is due: by how much it should have been longer for the gap to be zero; 0 if that is less than
-  // the tolerance of its time.
+  // After a step of h up to the event that is due: by how much it should have been longer for the gap to be zero; 0 if
+  // that is less than the tolerance of its time.
   template <HasGaps S, typename M>
   double missing_time(const S& system, const M& method, double t, double h, const IntegrationOptions& options) {
     const int k = due_.front();
@@ -117,7 +124,8 @@ class GapWatch {
     gap.opened = t;
   }
 
-  // Follows lasting contacts over an accepted step from t to t + share h without cutting it. Returns the crossings seen.
+  // Follows lasting contacts over an accepted step from t to t + share h without cutting it. Returns the crossings
+  // seen.
   template <HasGaps S, typename M>
   long follow_lasting(const S& system, const M& method, double t, double h, double share) {
     long seen = 0;
@@ -149,8 +157,8 @@ class GapWatch {
     return -1;
   }
 
-  // The step from t that grading allows (IntegrationOptions::grading_time), at most `step`; h_before: the step just taken from
-  // the state before, 0 after an event.
+  // The step from t that grading allows (IntegrationOptions::grading_time), at most `step`; h_before: the step just
+  // taken from the state before, 0 after an event.
   double graded_step(double t, double step, double h_before, const IntegrationOptions& options) {
     const double power = options.grading_power, time = options.grading_time, stride = step / (power * time);
     double h = step;
@@ -166,7 +174,8 @@ class GapWatch {
       if (h_before > 0.0 && now < 0.0 && now > before) {
         const double left = h_before * now / (before - now);
         const double from = std::pow(left / time, 1.0 / power);
-        if (left < time && from > stride) h = std::min(h, time * (std::pow(from, power) - std::pow(from - stride, power)));
+        if (left < time && from > stride)
+          h = std::min(h, time * (std::pow(from, power) - std::pow(from - stride, power)));
         if (left < time && from <= stride) h = std::min(h, time * std::pow(stride, power));
       }
     }

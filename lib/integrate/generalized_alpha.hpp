@@ -1,21 +1,23 @@
-// Generalized-alpha for second-order systems, y = (q, v), q' = v, v' = a(t, q, v): second order, with a spectral radius at
-// infinity that the user chooses, for multibody systems whose fast modes should die instead of ring.
+// Generalized-alpha for second-order systems, y = (q, v), q' = v, v' = a(t, q, v): second order, with a spectral radius
+// at infinity that the user chooses, for multibody systems whose fast modes should die instead of ring.
 //
 //   q1 = q0 + h v0 + h^2 ((1/2 - beta) A0 + beta A1)                     v1 = v0 + h ((1 - gamma) A0 + gamma A1)
-//   (1 - alpha_m) A1 + alpha_m A0 = a(t + (1 - alpha_f) h, (1 - alpha_f) q1 + alpha_f q0, (1 - alpha_f) v1 + alpha_f v0)
-//   alpha_m = (2 rho - 1)/(rho + 1),  alpha_f = rho/(rho + 1),  gamma = 1/2 - alpha_m + alpha_f,  beta = (1 - alpha_m + alpha_f)^2 / 4
+//   (1 - alpha_m) A1 + alpha_m A0 = a(t + (1 - alpha_f) h, (1 - alpha_f) q1 + alpha_f q0, (1 - alpha_f) v1 + alpha_f
+//   v0) alpha_m = (2 rho - 1)/(rho + 1),  alpha_f = rho/(rho + 1),  gamma = 1/2 - alpha_m + alpha_f,  beta = (1 -
+//   alpha_m + alpha_f)^2 / 4
 //
-// Chung and Hulbert (1993), A time integration algorithm for structural dynamics with improved numerical dissipation: the
-// generalized-alpha method, Journal of Applied Mechanics 60, 371-375: equations 2-5, 17, 20, 25. A is an algorithmic acceleration, not a(t1, q1, v1)
-// but, to the second order, a at t1 + (alpha_m - alpha_f) h; so it starts, and so it is moved where the step changes, or the method would
-// lose its order there (Jay and Negrut 2007, equation 13, for the start).
-// Solved for A1 by Newton's method with dense partial derivatives of a, half the size of y, which are kept over steps as long as four
-// iterations suffice.
+// Chung and Hulbert (1993), A time integration algorithm for structural dynamics with improved numerical dissipation:
+// the generalized-alpha method, Journal of Applied Mechanics 60, 371-375: equations 2-5, 17, 20, 25. A is an
+// algorithmic acceleration, not a(t1, q1, v1) but, to the second order, a at t1 + (alpha_m - alpha_f) h; so it starts,
+// and so it is moved where the step changes, or the method would lose its order there (Jay and Negrut 2007, equation
+// 13, for the start). Solved for A1 by Newton's method with dense partial derivatives of a, half the size of y, which
+// are kept over steps as long as four iterations suffice.
 //
 // Error estimate (ours): against Simpson's rule over the true accelerations at both ends and in the middle,
 //   v* = v0 + h (a0 + 4 am + a1)/6,   q* = q0 + h v0 + h^2 (a0 + 2 am)/6,
-// each an order better than v1 and q1, and filtered by the iteration matrix so that what is stiff does not count (Shampine's filter, Hairer
-// and Wanner 1996, equation IV.8.20). It costs two evaluations, one of which the next step uses.
+// each an order better than v1 and q1, and filtered by the iteration matrix so that what is stiff does not count
+// (Shampine's filter, Hairer and Wanner 1996, equation IV.8.20). It costs two evaluations, one of which the next step
+// uses.
 #pragma once
 
 #include <Eigen/LU>
@@ -134,8 +136,7 @@ class GeneralizedAlpha {
   // y1 from A1, into proposed_.
   void place() {
     const auto q0 = start_.head(half_), v0 = start_.tail(half_);
-    proposed_.head(half_) =
-        q0 + h_ * v0 + h_ * h_ * ((0.5 - beta_) * algorithmic_ + beta_ * algorithmic_end_);
+    proposed_.head(half_) = q0 + h_ * v0 + h_ * h_ * ((0.5 - beta_) * algorithmic_ + beta_ * algorithmic_end_);
     proposed_.tail(half_) = v0 + h_ * ((1.0 - gamma_) * algorithmic_ + gamma_ * algorithmic_end_);
   }
 
@@ -171,8 +172,8 @@ class GeneralizedAlpha {
     interpolate(0.5, state_);
     evaluate(system, t + 0.5 * h_, state_, slope_);
     const auto a0 = start_slope_.tail(half_), am = slope_.tail(half_), a1 = end_slope_.tail(half_);
-    error_.head(half_) = proposed_.head(half_) - start_.head(half_) - h_ * start_.tail(half_) -
-                         (h_ * h_ / 6.0) * (a0 + 2.0 * am);
+    error_.head(half_) =
+        proposed_.head(half_) - start_.head(half_) - h_ * start_.tail(half_) - (h_ * h_ / 6.0) * (a0 + 2.0 * am);
     error_.tail(half_) = proposed_.tail(half_) - start_.tail(half_) - (h_ / 6.0) * (a0 + 4.0 * am + a1);
     for (Eigen::Index first : {Eigen::Index{0}, half_}) {
       residual_ = (1.0 - alpha_m_) * error_.segment(first, half_);

@@ -1,14 +1,15 @@
-// Integrates y' = f(t, y, memory) from event to event with any method of method.hpp: fixed steps or error control, events located inside
-// accepted steps, memory changed at events only.
+// Integrates y' = f(t, y, memory) from event to event with any method of method.hpp: fixed steps or error control,
+// events located inside accepted steps, memory changed at events only.
 //
 //   Integrator<RosenbrockMethod> integrator({rodas4(), y.size()}, problem.gap_count());
-//   IntegrationSummary summary = integrator.run(problem, 0.0, 1.0, y, {.relative_tolerance = 1e-5}, [&](const auto& step) {
+//   IntegrationSummary summary = integrator.run(problem, 0.0, 1.0, y, {.relative_tolerance = 1e-5}, [&](const auto&
+//   step) {
 //     for (; sample < step.end(); sample += 1e-3) { step.at(sample, state); ... }
 //   });
 //
-// One loop: try a step; reject it if its error is too large; else look for events on its dense output; cut it at the first one, let the
-// problem change its memory there, start anew; tell the observer. Room is taken at construction and in the first lines of run(), none in
-// a step.
+// One loop: try a step; reject it if its error is too large; else look for events on its dense output; cut it at the
+// first one, let the problem change its memory there, start anew; tell the observer. Room is taken at construction and
+// in the first lines of run(), none in a step.
 #pragma once
 
 #include <cstdio>
@@ -50,11 +51,11 @@ class Integrator {
         probe_(state_),
         probe_slope_(state_) {}
 
-  // From t0 to t_end > t0. y: the state at t0, replaced by that where the run stopped; always finite if it was at the start.
-  // observe(const AcceptedStep<M>&): returns nothing, or whether to go on.
+  // From t0 to t_end > t0. y: the state at t0, replaced by that where the run stopped; always finite if it was at the
+  // start. observe(const AcceptedStep<M>&): returns nothing, or whether to go on.
   template <typename S, typename Observer>
-    requires MethodFor<M, S>
-  IntegrationSummary run(S& system, double t0, double t_end, VecX& y, const IntegrationOptions& options, Observer&& observe) {
+  requires MethodFor<M, S> IntegrationSummary run(S& system, double t0, double t_end, VecX& y,
+                                                  const IntegrationOptions& options, Observer&& observe) {
     start_run(t0);
     std::string fault;
     if (!options.is_valid(y.size(), fault) || !fits(system, y, t0, t_end, options, fault))
@@ -72,9 +73,12 @@ class Integrator {
       const double remaining = t_end - t_;
       double wanted = std::min(h, options.largest_step);
       // A last step that would leave a crumb is stretched or halved.
-      if (!fixed && wanted > 0.99 * remaining) wanted = remaining;
-      else if (!fixed && wanted > 0.5 * remaining) wanted = 0.5 * remaining;
-      const double smallest = std::max(options.smallest_step, 8.0 * std::numeric_limits<double>::epsilon() * std::abs(t_));
+      if (!fixed && wanted > 0.99 * remaining)
+        wanted = remaining;
+      else if (!fixed && wanted > 0.5 * remaining)
+        wanted = 0.5 * remaining;
+      const double smallest =
+          std::max(options.smallest_step, 8.0 * std::numeric_limits<double>::epsilon() * std::abs(t_));
       if (wanted < std::min(smallest, remaining)) return ended(StopReason::step_too_small, "");
       h = wanted;
 
@@ -146,7 +150,8 @@ class Integrator {
         h_before = 0.0;
       } else {
         method_.advance();
-        // A settled state has moved away from where the end slope belongs: too far for a Jacobian by differences from it.
+        // A settled state has moved away from where the end slope belongs: too far for a Jacobian by differences from
+        // it.
         if constexpr (Settles<S> && requires { method_.refresh(std::as_const(system), t_, y); })
           method_.refresh(std::as_const(system), t_, y);
         if constexpr (HasGaps<S>) watch_.advance();
@@ -173,7 +178,8 @@ class Integrator {
   }
 
   template <typename S>
-  bool fits(const S& system, const VecX& y, double t0, double t_end, const IntegrationOptions& options, std::string& fault) const {
+  bool fits(const S& system, const VecX& y, double t0, double t_end, const IntegrationOptions& options,
+            std::string& fault) const {
     if (y.size() != method_.size()) fault = "y: its size is not that of the method";
     if (!y.allFinite()) fault = "y: not finite at the start";
     if (!(t_end >= t0)) fault = "t_end: before t0";
@@ -218,9 +224,9 @@ class Integrator {
     summary_.last_step = h;
   }
 
-  // The step up to an event is taken anew: its dense output found the event, but may have bent where the force ends behind it, and is of
-  // lower order than the step. Where the gap is not yet zero, or no longer, the length is mended: a contact whose memory and gap disagree
-  // by more than rounding would open and close once more at once.
+  // The step up to an event is taken anew: its dense output found the event, but may have bent where the force ends
+  // behind it, and is of lower order than the step. Where the gap is not yet zero, or no longer, the length is mended:
+  // a contact whose memory and gap disagree by more than rounding would open and close once more at once.
   template <typename S>
   Attempt stop_at_event(const S& system, const VecX& y, const IntegrationOptions& options, double& length) {
     for (int attempt = 0;; ++attempt) {
@@ -244,7 +250,8 @@ class Integrator {
     return std::min(step, watch_.graded_step(t_, options.step, h_before, options));
   }
 
-  // Hairer, Norsett, Wanner (1993), section II.4: a step whose explicit Euler would err by 1 % of the tolerance's scale.
+  // Hairer, Norsett, Wanner (1993), section II.4: a step whose explicit Euler would err by 1 % of the tolerance's
+  // scale.
   template <typename S>
   double first_step(const S& system, double t, const VecX& y, const IntegrationOptions& options, double longest) {
     const VecX& slope = method_.start_slope();
@@ -256,7 +263,8 @@ class Integrator {
   // After an event: the step that was going to follow, unless the slope at its end says that it is too long.
   template <typename S>
   double restart_step(const S& system, double t, const VecX& y, const IntegrationOptions& options, double h) {
-    return std::min(h, std::max(step_by_curvature(system, t, y, options, h), options.smallest_factor * options.smallest_factor * h));
+    return std::min(h, std::max(step_by_curvature(system, t, y, options, h),
+                                options.smallest_factor * options.smallest_factor * h));
   }
 
   template <typename S>
@@ -280,10 +288,18 @@ class Integrator {
     const auto tell = [&](int k, Crossing crossing) {
       told = true;
       switch (crossing) {
-        case Crossing::closing: ++summary_.closings; break;
-        case Crossing::opening: ++summary_.openings; break;
-        case Crossing::lasting: ++summary_.lastings; break;
-        case Crossing::released: ++summary_.releases; break;
+        case Crossing::closing:
+          ++summary_.closings;
+          break;
+        case Crossing::opening:
+          ++summary_.openings;
+          break;
+        case Crossing::lasting:
+          ++summary_.lastings;
+          break;
+        case Crossing::released:
+          ++summary_.releases;
+          break;
       }
       const AfterEvent after = system.on_event({k, t_, crossing}, y);
       stop = stop || after == AfterEvent::stop;

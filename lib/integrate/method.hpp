@@ -1,7 +1,7 @@
 // What makes a one-step method interchangeable in the Integrator, and what it counts.
 //
-// One step: begin() once after a start or an event; then attempt(), as often as it takes with other h; finish() on the attempt that
-// is taken; interpolate() within it; advance(), or begin() again where an event cut the step short.
+// One step: begin() once after a start or an event; then attempt(), as often as it takes with other h; finish() on the
+// attempt that is taken; interpolate() within it; advance(), or begin() again where an event cut the step short.
 #pragma once
 
 #include <concepts>
@@ -13,7 +13,7 @@ namespace boresight {
 enum class Attempt { done, singular_matrix, no_convergence };
 
 struct MethodCost {
-  long evaluations = 0;     // of the right-hand side, those for finite differences among them
+  long evaluations = 0;  // of the right-hand side, those for finite differences among them
   long jacobians = 0;
   long decompositions = 0;  // of the iteration matrix
   long iterations = 0;      // of Newton's method
@@ -29,12 +29,14 @@ concept MethodFor = System<S> && requires(M& m, const M& c, const S& system, dou
   { m.attempt(system, t, t, y) } -> std::same_as<Attempt>;  // (system, t, h, y)
   { c.proposed() } -> std::convertible_to<const VecX&>;     // y1
   { c.error() } -> std::convertible_to<const VecX&>;        // estimate of the local error of y1
-  m.finish(system, t);                                      // at the end of the step: what dense output and the next step need
-  c.interpolate(t, out);                                    // y at a share of the step in [0, 1]
+  m.finish(system, t);    // at the end of the step: what dense output and the next step need
+  c.interpolate(t, out);  // y at a share of the step in [0, 1]
   { c.start_slope() } -> std::convertible_to<const VecX&>;
   m.advance();
-  { c.step_stiffness() } -> std::convertible_to<double>;    // the fastest rate met in the step [1/s]; 0: not measured
-  { c.stability_limit() } -> std::convertible_to<double>;   // of h times a rate, decay or vibration; infinite if A-stable
+  { c.step_stiffness() } -> std::convertible_to<double>;  // the fastest rate met in the step [1/s]; 0: not measured
+  {
+    c.stability_limit()
+    } -> std::convertible_to<double>;  // of h times a rate, decay or vibration; infinite if A-stable
   { m.cost() } -> std::same_as<MethodCost&>;
 };
 

@@ -44,8 +44,7 @@ MatX triangle(const std::vector<double>& entries, int stages) {
 
 // Gamma of the textbook's form, u = Gamma k: its inverse is I/gamma - C.
 MatX rosenbrock_gamma(const RosenbrockTable& table) {
-  return (MatX::Identity(table.stages, table.stages) / table.gamma - triangle(table.c, table.stages))
-      .inverse();
+  return (MatX::Identity(table.stages, table.stages) / table.gamma - triangle(table.c, table.stages)).inverse();
 }
 
 }  // namespace
@@ -106,8 +105,7 @@ DenseWeights dense_weights(const RosenbrockTable& table, double theta) {
           rosenbrock_gamma(table).transpose() * (theta * (vector_of(table.m) + (1.0 - theta) * inner))};
 }
 
-std::vector<OrderResidual> order_residuals(const MethodCoefficients& method, const VecX& b, int order,
-                                           double theta) {
+std::vector<OrderResidual> order_residuals(const MethodCoefficients& method, const VecX& b, int order, double theta) {
   const std::vector<RootedTree> trees = rooted_trees(order);
   const VecX sums = elementary_weights(method, trees).transpose() * b;
   std::vector<OrderResidual> residuals;
@@ -117,8 +115,7 @@ std::vector<OrderResidual> order_residuals(const MethodCoefficients& method, con
   return residuals;
 }
 
-int attained_order(const MethodCoefficients& method, const VecX& b, int highest, double tolerance,
-                   double theta) {
+int attained_order(const MethodCoefficients& method, const VecX& b, int highest, double tolerance, double theta) {
   int order = highest;
   for (const OrderResidual& r : order_residuals(method, b, highest, theta))
     if (!(std::abs(r.residual) < tolerance)) order = std::min(order, r.tree.nodes - 1);
@@ -128,17 +125,14 @@ int attained_order(const MethodCoefficients& method, const VecX& b, int highest,
 std::complex<double> stability_function(const MethodCoefficients& method, std::complex<double> z) {
   using Complex = Eigen::MatrixXcd;
   const Eigen::Index s = method.b.size();
-  const Complex matrix =
-      Complex::Identity(s, s) - z * (method.alpha + method.gamma).cast<std::complex<double>>();
+  const Complex matrix = Complex::Identity(s, s) - z * (method.alpha + method.gamma).cast<std::complex<double>>();
   const Eigen::VectorXcd stages = matrix.partialPivLu().solve(Eigen::VectorXcd::Ones(s));
   return 1.0 + z * method.b.cast<std::complex<double>>().dot(stages);
 }
 
 double stability_limit(const MethodCoefficients& method, std::complex<double> direction, double farthest) {
   // Rounding aside: on the imaginary axis |R| stays within 1e-16 of 1 near the origin.
-  const auto stable = [&](double x) {
-    return std::abs(stability_function(method, x * direction)) <= 1.0 + 1e-13;
-  };
+  const auto stable = [&](double x) { return std::abs(stability_function(method, x * direction)) <= 1.0 + 1e-13; };
   const double stride = 1e-3;
   double low = 0.0;
   while (low < farthest && stable(low + stride)) low += stride;

@@ -64,7 +64,6 @@ int attained_order(const MethodCoefficients& method, const VecX& b, int highest,
 
 std::complex<double> stability_function(const MethodCoefficients& method, std::complex<double> z);
 // Where |R| first exceeds 1 on the way out from 0 along -1 or i; `farthest` if it never does before that.
-double stability_limit(const MethodCoefficients& method, std::complex<double> direction,
-                       double farthest = 50.0);
+double stability_limit(const MethodCoefficients& method, std::complex<double> direction, double farthest = 50.0);
 
 }  // namespace boresight

@@ -1,7 +1,8 @@
 // df/dy and df/dt of a problem: its own where it gives them, else by forward differences.
 //
-// The increment of y_i is sqrt(eps max(1e-5, |y_i|)), that of RADAU5 and RODAS (Hairer and Wanner 1996, section IV.8): at a joint
-// with a tenth of a millimetre of clearance it is 1e-10 m, a thousandth of the penetration under a load of 10 N.
+// The increment of y_i is sqrt(eps max(1e-5, |y_i|)), that of RADAU5 and RODAS (Hairer and Wanner 1996, section IV.8):
+// at a joint with a tenth of a millimetre of clearance it is 1e-10 m, a thousandth of the penetration under a load of
+// 10 N.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// Rosenbrock methods for the Integrator: any table of rosenbrock_tables.hpp. One Jacobian an accepted step, one decomposition an
-// attempt, no iteration that could fail. Meant for contacts that rest: their vibration is stepped over once it is below the
-// tolerance, where an explicit method goes on following it.
+// Rosenbrock methods for the Integrator: any table of rosenbrock_tables.hpp. One Jacobian an accepted step, one
+// decomposition an attempt, no iteration that could fail. Meant for contacts that rest: their vibration is stepped over
+// once it is below the tolerance, where an explicit method goes on following it.
 #pragma once
 
 #include <Eigen/LU>

@@ -8,7 +8,8 @@
 
 namespace boresight {
 
-// Root mean square of error_i / (absolute_i + relative max(|y0_i|, |y1_i|)): Hairer, Norsett, Wanner (1993), equation II.4.11.
+// Root mean square of error_i / (absolute_i + relative max(|y0_i|, |y1_i|)): Hairer, Norsett, Wanner (1993), equation
+// II.4.11.
 inline double error_norm(const VecX& error, const VecX& y0, const VecX& y1, const IntegrationOptions& options) {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < error.size(); ++i) {
@@ -21,8 +22,8 @@ inline double error_norm(const VecX& error, const VecX& y0, const VecX& y1, cons
   return std::sqrt(sum / static_cast<double>(error.size()));
 }
 
-// Proportional-integral control. Gustafsson (1991), ACM Transactions on Mathematical Software 17, 533-554; in the form of Hairer and
-// Wanner (1996), section IV.2.
+// Proportional-integral control. Gustafsson (1991), ACM Transactions on Mathematical Software 17, 533-554; in the form
+// of Hairer and Wanner (1996), section IV.2.
 class StepControl {
  public:
   StepControl(const IntegrationOptions& options, int error_order) : options_(options), k_(error_order + 1.0) {}
@@ -33,7 +34,8 @@ class StepControl {
   // Factor for the next step.
   double accept(double error) {
     const double e = std::max(error, 1e-10);
-    double factor = options_.safety * std::pow(e, -(1.0 / k_ - 0.75 * options_.gain)) * std::pow(before_, options_.gain);
+    double factor =
+        options_.safety * std::pow(e, -(1.0 / k_ - 0.75 * options_.gain)) * std::pow(before_, options_.gain);
     factor = std::clamp(factor, options_.smallest_factor, rejected_ ? 1.0 : options_.largest_factor);
     before_ = std::max(error, 1e-4);
     rejected_ = false;

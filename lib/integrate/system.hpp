@@ -1,5 +1,5 @@
-// What the integrators ask of a problem y' = f(t, y, memory): an initial value problem whose right-hand side also depends on a
-// discrete memory (which contacts are closed, at what speed each began) that changes at events only.
+// What the integrators ask of a problem y' = f(t, y, memory): an initial value problem whose right-hand side also
+// depends on a discrete memory (which contacts are closed, at what speed each began) that changes at events only.
 //
 //   class BouncingMass {
 //    public:
@@ -10,13 +10,14 @@
 //     int gap_count() const;                                         // events, where there are any:
 //     void gaps(double t, const VecX& y, VecX& g) const;             // open while g > 0
 //     AfterEvent on_event(const GapEvent& event, VecX& y);           // the only place where the memory may change
-//     void settle(double t, VecX& y);                                // after an accepted step, where there are constraints to keep
+//     void settle(double t, VecX& y);                                // after an accepted step, where there are
+//     constraints to keep
 //   };
 //
 // Integrators see the problem as const while they try a step, so a rejected step cannot leave a trace in it.
-// A right-hand side that changes its form at a gap should follow the memory and not the sign of the gap: a contact that the
-// memory calls open gives no force, even where a trial step dips below zero. The step is then smooth up to the event and the
-// event is found on the free flight itself.
+// A right-hand side that changes its form at a gap should follow the memory and not the sign of the gap: a contact that
+// the memory calls open gives no force, even where a trial step dips below zero. The step is then smooth up to the
+// event and the event is found on the free flight itself.
 #pragma once
 
 #include <concepts>
@@ -26,10 +27,10 @@
 namespace boresight {
 
 enum class Crossing {
-  closing,   // from g > 0 to g <= 0: a contact begins
-  opening,   // back
-  lasting,   // closed again sooner than the event floor after it opened: from here on the gap chatters, and crossings of it are
-             // neither located nor reported, until it is
+  closing,  // from g > 0 to g <= 0: a contact begins
+  opening,  // back
+  lasting,  // closed again sooner than the event floor after it opened: from here on the gap chatters, and crossings of
+            // it are neither located nor reported, until it is
   released,  // open for longer than the event floor
 };
 
@@ -46,7 +47,9 @@ enum class AfterEvent {
 };
 
 template <typename S>
-concept System = requires(const S& s, double t, const VecX& y, VecX& dy) { s.derivative(t, y, dy); };
+concept System = requires(const S& s, double t, const VecX& y, VecX& dy) {
+  s.derivative(t, y, dy);
+};
 
 template <typename S>
 concept HasGaps = System<S> && requires(S& s, const S& c, const GapEvent& event, double t, VecX& y) {
@@ -56,16 +59,24 @@ concept HasGaps = System<S> && requires(S& s, const S& c, const GapEvent& event,
 };
 
 template <typename S>
-concept GivesJacobian = requires(const S& s, double t, const VecX& y, MatX& jacobian) { s.jacobian(t, y, jacobian); };
+concept GivesJacobian = requires(const S& s, double t, const VecX& y, MatX& jacobian) {
+  s.jacobian(t, y, jacobian);
+};
 
 template <typename S>
-concept GivesTimeDerivative = requires(const S& s, double t, const VecX& y, VecX& ft) { s.time_derivative(t, y, ft); };
+concept GivesTimeDerivative = requires(const S& s, double t, const VecX& y, VecX& ft) {
+  s.time_derivative(t, y, ft);
+};
 
 // What keeps an accepted state on its constraints, by a change far below the tolerance of a step.
 template <typename S>
-concept Settles = requires(S& s, double t, VecX& y) { s.settle(t, y); };
+concept Settles = requires(S& s, double t, VecX& y) {
+  s.settle(t, y);
+};
 
 template <typename S>
-concept Autonomous = requires { requires S::autonomous; };
+concept Autonomous = requires {
+  requires S::autonomous;
+};
 
 }  // namespace boresight

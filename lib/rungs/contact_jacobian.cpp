@@ -38,7 +38,11 @@ void differentiate(const JournalInSleeve& law, const JournalMotion<double>& m, c
   using Jet = ceres::Jet<double, inputs>;
   JournalMotion<Jet> motion;
   const auto number = [](auto& of, int k) -> auto& {
-    return k < 3 ? of.e[k] : k < 6 ? of.e_dot[k - 3] : k < 9 ? of.w[k - 6] : k < 11 ? of.slope[k - 9] : of.slope_rate[k - 11];
+    return k < 3    ? of.e[k]
+           : k < 6  ? of.e_dot[k - 3]
+           : k < 9  ? of.w[k - 6]
+           : k < 11 ? of.slope[k - 9]
+                    : of.slope_rate[k - 11];
   };
   for (int k = 0; k < kMotionNumbers; ++k) number(motion, k) = Jet(number(m, k));
   for (int i = 0; i < inputs; ++i) number(motion, column[i]).v[i] = 1.0;

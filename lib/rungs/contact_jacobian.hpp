@@ -1,4 +1,5 @@
-// Derivatives of a clearance joint's wrench with respect to how its journal moves, exact, by automatic differentiation of the law itself.
+// Derivatives of a clearance joint's wrench with respect to how its journal moves, exact, by automatic differentiation
+// of the law itself.
 #pragma once
 
 #include "boresight/contact/journal_in_sleeve.hpp"
@@ -10,8 +11,8 @@ inline constexpr int kMotionNumbers = 13;
 
 enum class MomentAbout { journal, sleeve };  // the centre of
 
-// Rows: the force on the journal, then its moment. Columns: the numbers of the motion; of a parallel journal those of w_x, w_z and the
-// slopes are left zero.
+// Rows: the force on the journal, then its moment. Columns: the numbers of the motion; of a parallel journal those of
+// w_x, w_z and the slopes are left zero.
 using ContactJacobian = Eigen::Matrix<double, 6, kMotionNumbers>;
 void contact_jacobian(const JournalInSleeve& law, const JournalMotion<double>& motion,
                       const std::array<double, kContactPlaces>& impact_speed, MomentAbout about, ContactJacobian& out);

@@ -25,8 +25,9 @@ class ContactTracker {
   // Forces at the state accepted last (normal_force of each place).
   void observe_forces(const std::array<ContactState<double>, kContactPlaces>& contact);
 
-  // Where the integrator locates the contacts itself, in place of accept(): observe() at the end of every step and wherever else a
-  // state is at hand, then begin() and end() of what changes there. speed: of approach, of separation [m/s].
+  // Where the integrator locates the contacts itself, in place of accept(): observe() at the end of every step and
+  // wherever else a state is at hand, then begin() and end() of what changes there. speed: of approach, of separation
+  // [m/s].
   void observe(double t, const std::array<ContactState<double>, kContactPlaces>& contact);
   void begin(ContactPlace place, double t, double speed);
   void end(ContactPlace place, double t, double speed);

@@ -19,7 +19,8 @@ LocatedContacts::LocatedContacts(const std::vector<JournalInSleeve>& joints, std
   first_.push_back(gap_count());
 }
 
-void LocatedContacts::read(int clearance, const std::array<ContactState<double>, kContactPlaces>& contact, VecX& gaps) const {
+void LocatedContacts::read(int clearance, const std::array<ContactState<double>, kContactPlaces>& contact,
+                           VecX& gaps) const {
   for (int g = first_[clearance]; g < first_[clearance + 1]; ++g)
     gaps[g] = -contact[static_cast<int>(gaps_[g].place)].penetration;
 }

@@ -1,8 +1,9 @@
-// The contacts of all clearance joints as the gaps that an integrator watches: one gap for each place at which a joint can touch.
+// The contacts of all clearance joints as the gaps that an integrator watches: one gap for each place at which a joint
+// can touch.
 //
-// A contact that the memory calls open must give no force, even where a trial step dips below zero: the step is then smooth up to its
-// event. So the laws that act() differ from the joints' own: a direction (radial, axial) in which no contact is closed has a clearance
-// that nothing reaches.
+// A contact that the memory calls open must give no force, even where a trial step dips below zero: the step is then
+// smooth up to its event. So the laws that act() differ from the joints' own: a direction (radial, axial) in which no
+// contact is closed has a clearance that nothing reaches.
 #pragma once
 
 #include "boresight/integrate/system.hpp"

@@ -1,8 +1,9 @@
-// Follows a motion with an integrator that locates its contacts, and shows it to a recorder often enough for its statistics.
+// Follows a motion with an integrator that locates its contacts, and shows it to a recorder often enough for its
+// statistics.
 //
-// Steps under error control are long where little happens. Maxima and means are taken over the ends of all steps and, between them, over
-// the method's dense output on a fixed grid of at most kPaperStep, which also holds the times of the samples; so they do not depend on
-// how long the steps are.
+// Steps under error control are long where little happens. Maxima and means are taken over the ends of all steps and,
+// between them, over the method's dense output on a fixed grid of at most kPaperStep, which also holds the times of the
+// samples; so they do not depend on how long the steps are.
 #pragma once
 
 #include "boresight/integrate/explicit_method.hpp"
@@ -15,7 +16,8 @@
 
 namespace boresight {
 
-// record(t, y, at_end): shows a state, at the end of a step or inside it; returns whether to go on. Called at the start too.
+// record(t, y, at_end): shows a state, at the end of a step or inside it; returns whether to go on. Called at the start
+// too.
 template <typename M, typename S, typename Record>
 IntegrationSummary follow_located(M method, S& system, double duration, double sample_spacing, VecX& y,
                                   const IntegrationOptions& options, Record&& record) {
@@ -39,8 +41,8 @@ IntegrationSummary follow_located(M method, S& system, double duration, double s
 }
 
 template <typename S, typename Record>
-IntegrationSummary follow_located(const std::string& integrator, S& system, double duration, double sample_spacing, VecX& y,
-                                  const IntegrationOptions& options, Record&& record) {
+IntegrationSummary follow_located(const std::string& integrator, S& system, double duration, double sample_spacing,
+                                  VecX& y, const IntegrationOptions& options, Record&& record) {
   const auto go = [&](auto method) {
     return follow_located(std::move(method), system, duration, sample_spacing, y, options, record);
   };

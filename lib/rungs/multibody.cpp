@@ -44,7 +44,7 @@ class Multibody final : public Rung {
         integrator != "rk4"
             ? integrate_located(parameters, options, ideal, integrator)
             : with_stable_step(options.step, own_step(parameters, options, ideal), options.sample_spacing,
-                                        [&](double step) { return integrate(parameters, options, ideal, step); });
+                               [&](double step) { return integrate(parameters, options, ideal, step); });
     result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
     result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
     return result;
@@ -146,8 +146,9 @@ class Multibody final : public Rung {
     const double duration = mechanism_->duration();
     const auto formulation = make_formulation(parameters, options, ideal);
     if (integrator == "generalized-alpha" && !formulation->positions_follow_speeds())
-      throw ComputationError("generalized-alpha needs coordinates whose rates are the speeds, and this state holds quaternions; "
-                             "rosenbrock is implicit too");
+      throw ComputationError(
+          "generalized-alpha needs coordinates whose rates are the speeds, and this state holds quaternions; "
+          "rosenbrock is implicit too");
     std::vector<ContactTracker> trackers = make_trackers(formulation->forces(), options);
     MotionRecorder recorder(*mechanism_, ideal, options, 2.0 * duration / kPaperStep);
     IdealState start;
@@ -168,7 +169,8 @@ class Multibody final : public Rung {
       }
       system.observe(t, state, whole);
       record_motion(*formulation, state, t, recorder, options);
-      interrupted = ++points % 1024 == 0 && options.progress && !options.progress({t, duration, recorder.position_error_max()});
+      interrupted =
+          ++points % 1024 == 0 && options.progress && !options.progress({t, duration, recorder.position_error_max()});
       return !interrupted;
     };
     IntegrationSummary summary;
@@ -188,7 +190,8 @@ class Multibody final : public Rung {
     return result;
   }
 
-  // Positions are turns and slides: both are held as if a turn worked on the mechanism's size, or on a metre where that is smaller.
+  // Positions are turns and slides: both are held as if a turn worked on the mechanism's size, or on a metre where that
+  // is smaller.
   IntegrationOptions integration_options(const Formulation& formulation, const Parameters& parameters,
                                          const RunOptions& options) const {
     const double clearance = smallest_clearance(parameters), size = mechanism_->characteristic_length();

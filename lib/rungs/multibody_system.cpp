@@ -102,7 +102,8 @@ void MultibodySystem::respond(double t, const VecX& y) const {
 
 void MultibodySystem::remember_motion(double t, const VecX& y) const {
   const std::vector<BodyMotion>& bodies = formulation_.bodies(t, y);
-  for (int c = 0; c < static_cast<int>(joints_.size()); ++c) here_[c] = numbers(formulation_.forces().journal_motion(c, bodies));
+  for (int c = 0; c < static_cast<int>(joints_.size()); ++c)
+    here_[c] = numbers(formulation_.forces().journal_motion(c, bodies));
 }
 
 void MultibodySystem::jacobian(double t, const VecX& y, MatX& J) const {
@@ -122,14 +123,16 @@ void MultibodySystem::jacobian(double t, const VecX& y, MatX& J) const {
   }
   J = slow_;
   remember_motion(t, y);
-  const bool touching = std::any_of(trackers_.begin(), trackers_.end(), [](const ContactTracker& c) { return c.touching(); });
+  const bool touching =
+      std::any_of(trackers_.begin(), trackers_.end(), [](const ContactTracker& c) { return c.touching(); });
   for (int k = 0; k < size && touching; ++k) {
     shifted_ = y;
     shifted_[k] += kIncrement;
     const std::vector<BodyMotion>& bodies = formulation_.bodies(t, shifted_);
     for (int c = 0; c < static_cast<int>(joints_.size()); ++c)
       if (contacts_.touches(c))
-        J.col(k).noalias() += of_motion_[c] * ((numbers(forces.journal_motion(c, bodies)) - here_[c]) / (shifted_[k] - y[k]));
+        J.col(k).noalias() +=
+            of_motion_[c] * ((numbers(forces.journal_motion(c, bodies)) - here_[c]) / (shifted_[k] - y[k]));
   }
 }
 

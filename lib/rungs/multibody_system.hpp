@@ -1,6 +1,5 @@
-// The multibody rung's motion as an initial value problem for an Integrator: a formulation's state and right-hand side, the gaps of
-// the clearance joints, and their memory, which changes at located events alone.
-// Serves one run.
+// The multibody rung's motion as an initial value problem for an Integrator: a formulation's state and right-hand side,
+// the gaps of the clearance joints, and their memory, which changes at located events alone. Serves one run.
 #pragma once
 
 #include "boresight/rungs/contact_jacobian.hpp"
@@ -24,8 +23,8 @@ class MultibodySystem {
 
   // Not a number where the formulation cannot follow (a trial step into a singular pose): the step is then rejected.
   void derivative(double t, const VecX& y, VecX& dy) const;
-  // The contacts' part exactly, from the laws' own derivatives; the rest, which is slow, by differences with the contacts' wrenches held,
-  // and kept for kSlowTime.
+  // The contacts' part exactly, from the laws' own derivatives; the rest, which is slow, by differences with the
+  // contacts' wrenches held, and kept for kSlowTime.
   void jacobian(double t, const VecX& y, MatX& J) const;
   // Where jacobian() was called last.
   void time_derivative(double t, const VecX& y, VecX& ft) const;
@@ -67,8 +66,8 @@ class MultibodySystem {
   mutable std::vector<double> unit_time_;
   mutable std::vector<MatX> unit_;
   mutable std::vector<Eigen::Matrix<double, kMotionNumbers, 1>> here_;
-  // Per joint with a closed contact: what its wrench makes of the state's rate (size x 6), times the wrench's derivatives by the
-  // journal's motion (6 x kMotionNumbers).
+  // Per joint with a closed contact: what its wrench makes of the state's rate (size x 6), times the wrench's
+  // derivatives by the journal's motion (6 x kMotionNumbers).
   mutable std::vector<MatX> of_motion_;
 };
 

@@ -6,12 +6,12 @@
 
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/contact_report.hpp"
 #include "boresight/rungs/located_motion.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
-#include "boresight/rungs/step_error.hpp"
 #include "boresight/rungs/perturbation_system.hpp"
-#include "boresight/rungs/contact_report.hpp"
 #include "boresight/rungs/scene_rung.hpp"
+#include "boresight/rungs/step_error.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
 namespace boresight {
@@ -130,27 +130,30 @@ class Perturbation final : public SceneRung {
     bool interrupted = false;
     long points = 0;
     system.start_located(0.0, y);
-    const IntegrationSummary summary = follow_located(
-        integrator, system, duration, options.sample_spacing, y, integration_options(system, parameters, options),
-        [&](double t, const VecX& state, bool) {
-          system.derivative(t, state, slope);
-          system.observe(t);
-          record(prepared, options, t, state, slope, system, recorder, nonlinearity);
-          interrupted = ++points % 4096 == 0 && options.progress && !options.progress({t, duration, recorder.position_error_max()});
-          return !interrupted;
-        });
+    const IntegrationSummary summary =
+        follow_located(integrator, system, duration, options.sample_spacing, y,
+                       integration_options(system, parameters, options), [&](double t, const VecX& state, bool) {
+                         system.derivative(t, state, slope);
+                         system.observe(t);
+                         record(prepared, options, t, state, slope, system, recorder, nonlinearity);
+                         interrupted = ++points % 4096 == 0 && options.progress &&
+                                       !options.progress({t, duration, recorder.position_error_max()});
+                         return !interrupted;
+                       });
     RunResult result = recorder.finish();
     report_integration(options, name(), integrator, summary, result);
     finish_contacts(system, result);
     result.interrupted = interrupted;
-    result.error = {nonlinearity.share(mechanism().characteristic_length()), tolerance_error(tolerance_of(options, name())),
-                    "size of the deviation against the mechanism, times how much the mechanism magnifies offsets; the tolerance "
-                    "of the steps"};
+    result.error = {
+        nonlinearity.share(mechanism().characteristic_length()), tolerance_error(tolerance_of(options, name())),
+        "size of the deviation against the mechanism, times how much the mechanism magnifies offsets; the tolerance "
+        "of the steps"};
     return result;
   }
 
   static void finish_contacts(PerturbationSystem& system, RunResult& result) {
-    for (ContactTracker& tracker : system.trackers()) result.contact.push_back(tracker.finish(result.end_time, result.events));
+    for (ContactTracker& tracker : system.trackers())
+      result.contact.push_back(tracker.finish(result.end_time, result.events));
     std::stable_sort(result.events.begin(), result.events.end(),
                      [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
   }
@@ -165,7 +168,8 @@ class Perturbation final : public SceneRung {
     VecX tolerance = VecX::Constant(at.n, asked * length);
     for (std::size_t c = 0; c < at.joints.size(); ++c)
       for (int k = 3; k < at.joints[c].offsets; ++k)
-        if (at.joints[c].source[k] >= 0) tolerance[at.joints[c].source[k]] = asked * length / system.joints()[c].half_length;
+        if (at.joints[c].source[k] >= 0)
+          tolerance[at.joints[c].source[k]] = asked * length / system.joints()[c].half_length;
     IntegrationOptions integration;
     integration.step = options.step;
     integration.relative_tolerance = 0.0;

@@ -16,7 +16,8 @@ std::vector<JournalInSleeve> joints_of(const Mechanism& mechanism, const Paramet
   return joints;
 }
 
-std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::vector<JournalInSleeve>& joints, bool keep_events) {
+std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::vector<JournalInSleeve>& joints,
+                                        bool keep_events) {
   std::vector<ContactTracker> trackers;
   const MechanismDescription& m = mechanism.description();
   for (int c = 0; c < mechanism.clearances(); ++c)
@@ -24,7 +25,8 @@ std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::v
   return trackers;
 }
 
-// How the numbers of a joint's motion follow the state: kMotionNumbers x 2n; what journal_motion() computes, without its constants.
+// How the numbers of a joint's motion follow the state: kMotionNumbers x 2n; what journal_motion() computes, without
+// its constants.
 void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const double* scene, MatX& gain) {
   const int n = at.n;
   gain.setZero();

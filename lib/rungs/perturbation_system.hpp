@@ -1,8 +1,8 @@
-// The perturbation rung's motion as an initial value problem: y = (z, zdot), its right-hand side, its Jacobian, its gaps and the memory
-// of its contacts. The equations themselves are in offset_dynamics.hpp.
+// The perturbation rung's motion as an initial value problem: y = (z, zdot), its right-hand side, its Jacobian, its
+// gaps and the memory of its contacts. The equations themselves are in offset_dynamics.hpp.
 //
-// Two ways to go: accept() after every step that did not stop at contact, or start_located() and then the events of an Integrator.
-// Serves one run: holds work space.
+// Two ways to go: accept() after every step that did not stop at contact, or start_located() and then the events of an
+// Integrator. Serves one run: holds work space.
 #pragma once
 
 #include <memory>
@@ -14,8 +14,8 @@ namespace boresight {
 
 class PerturbationSystem {
  public:
-  PerturbationSystem(const Mechanism& mechanism, const Parameters& parameters, std::shared_ptr<const SceneTables> tables,
-                     bool keep_events);
+  PerturbationSystem(const Mechanism& mechanism, const Parameters& parameters,
+                     std::shared_ptr<const SceneTables> tables, bool keep_events);
 
   int size() const { return 2 * tables_->layout.n; }
   void derivative(double t, const VecX& y, VecX& dy) const;

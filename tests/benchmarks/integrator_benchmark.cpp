@@ -1,7 +1,7 @@
-// Integrators on one right-hand side, that of the perturbation rung on the default scene at 0 and at 500 kg: ours, and CVODE and ARKODE of
-// SUNDIALS where they are installed. All locate the contacts, all are asked for the same tolerance per step, and all are looked at on the
-// same grid of 0.1 ms. Counters: right-hand sides; error of the largest position error, in percent of
-// RODAS4 at a tolerance of 1e-7. CPU is the benchmark's own.
+// Integrators on one right-hand side, that of the perturbation rung on the default scene at 0 and at 500 kg: ours, and
+// CVODE and ARKODE of SUNDIALS where they are installed. All locate the contacts, all are asked for the same tolerance
+// per step, and all are looked at on the same grid of 0.1 ms. Counters: right-hand sides; error of the largest position
+// error, in percent of RODAS4 at a tolerance of 1e-7. CPU is the benchmark's own.
 //   boresight_benchmarks --benchmark_filter=integrator
 #include <benchmark/benchmark.h>
 
@@ -79,12 +79,13 @@ Outcome ours(const Scene& s, M method, double tolerance) {
   options.largest_step = 0.01;
   Outcome outcome;
   long point = 1;
-  const IntegrationSummary summary = integrator.run(system, 0.0, s.mechanism->duration(), y, options, [&](const auto& step) {
-    for (; kGrid * point <= step.end(); ++point) {
-      step.at(kGrid * point, inside);
-      outcome.largest = std::max(outcome.largest, s.position_error(kGrid * point, inside.data()));
-    }
-  });
+  const IntegrationSummary summary =
+      integrator.run(system, 0.0, s.mechanism->duration(), y, options, [&](const auto& step) {
+        for (; kGrid * point <= step.end(); ++point) {
+          step.at(kGrid * point, inside);
+          outcome.largest = std::max(outcome.largest, s.position_error(kGrid * point, inside.data()));
+        }
+      });
   outcome.evaluations = summary.cost.evaluations;
   return outcome;
 }
@@ -92,7 +93,9 @@ Outcome ours(const Scene& s, M method, double tolerance) {
 Outcome dopri5(const Scene& s, double tolerance) {
   return ours(s, ExplicitMethod(dormand_prince54(), 2 * s.tables->layout.n), tolerance);
 }
-Outcome rosenbrock(const Scene& s, double tolerance) { return ours(s, RosenbrockMethod(rodas4(), 2 * s.tables->layout.n), tolerance); }
+Outcome rosenbrock(const Scene& s, double tolerance) {
+  return ours(s, RosenbrockMethod(rodas4(), 2 * s.tables->layout.n), tolerance);
+}
 
 // Fixed steps of the paper's size that do not stop at contact: no tolerance.
 Outcome rk4(const Scene& s, double) {
@@ -117,8 +120,11 @@ Outcome rk4(const Scene& s, double) {
 // What SUNDIALS is handed: the same system, copied in and out of its vectors.
 struct Peer {
   explicit Peer(const Scene& s)
-      : system(*s.mechanism, s.mechanism->parameters(), s.tables, false), y(VecX::Zero(system.size())), dy(y),
-        g(VecX::Zero(system.gap_count())), J(system.size(), system.size()) {
+      : system(*s.mechanism, s.mechanism->parameters(), s.tables, false),
+        y(VecX::Zero(system.size())),
+        dy(y),
+        g(VecX::Zero(system.gap_count())),
+        J(system.size(), system.size()) {
     system.start_located(0.0, y);
   }
   PerturbationSystem system;
@@ -151,7 +157,8 @@ struct Peer {
   }
 };
 
-// evolve(tout, state, t) returns whether it stopped at a root; roots(found) and restart(t, state) are those of the package.
+// evolve(tout, state, t) returns whether it stopped at a root; roots(found) and restart(t, state) are those of the
+// package.
 template <typename Evolve, typename Roots, typename Restart>
 Outcome drive(const Scene& s, Peer& peer, N_Vector state, Evolve&& evolve, Roots&& roots, Restart&& restart) {
   Outcome outcome;
@@ -212,7 +219,8 @@ Outcome cvode_bdf(const Scene& s, double tolerance) {
   CVodeSetNoInactiveRootWarn(memory);
   CVodeSetMaxNumSteps(memory, 1000000);
   const Outcome outcome = drive(
-      s, peer, v.state, [&](double to, N_Vector y, realtype& t) { return CVode(memory, to, y, &t, CV_NORMAL) == CV_ROOT_RETURN; },
+      s, peer, v.state,
+      [&](double to, N_Vector y, realtype& t) { return CVode(memory, to, y, &t, CV_NORMAL) == CV_ROOT_RETURN; },
       [&](int* found) { CVodeGetRootInfo(memory, found); }, [&](double t, N_Vector y) { CVodeReInit(memory, t, y); });
   CVodeFree(&memory);
   return outcome;
@@ -229,8 +237,12 @@ Outcome arkode_erk(const Scene& s, double tolerance) {
   ERKStepSetNoInactiveRootWarn(memory);
   ERKStepSetMaxNumSteps(memory, 1000000);
   const Outcome outcome = drive(
-      s, peer, v.state, [&](double to, N_Vector y, realtype& t) { return ERKStepEvolve(memory, to, y, &t, ARK_NORMAL) == ARK_ROOT_RETURN; },
-      [&](int* found) { ERKStepGetRootInfo(memory, found); }, [&](double t, N_Vector y) { ERKStepReInit(memory, Peer::rate, t, y); });
+      s, peer, v.state,
+      [&](double to, N_Vector y, realtype& t) {
+        return ERKStepEvolve(memory, to, y, &t, ARK_NORMAL) == ARK_ROOT_RETURN;
+      },
+      [&](int* found) { ERKStepGetRootInfo(memory, found); },
+      [&](double t, N_Vector y) { ERKStepReInit(memory, Peer::rate, t, y); });
   ERKStepFree(&memory);
   return outcome;
 }
@@ -249,7 +261,10 @@ Outcome arkode_dirk(const Scene& s, double tolerance) {
   ARKStepSetNoInactiveRootWarn(memory);
   ARKStepSetMaxNumSteps(memory, 1000000);
   const Outcome outcome = drive(
-      s, peer, v.state, [&](double to, N_Vector y, realtype& t) { return ARKStepEvolve(memory, to, y, &t, ARK_NORMAL) == ARK_ROOT_RETURN; },
+      s, peer, v.state,
+      [&](double to, N_Vector y, realtype& t) {
+        return ARKStepEvolve(memory, to, y, &t, ARK_NORMAL) == ARK_ROOT_RETURN;
+      },
       [&](int* found) { ARKStepGetRootInfo(memory, found); },
       [&](double t, N_Vector y) { ARKStepReInit(memory, nullptr, Peer::rate, t, y); });
   ARKStepFree(&memory);

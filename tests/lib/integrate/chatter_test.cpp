@@ -1,5 +1,5 @@
-// What a contact does to the memory of the problem: changed at accepted, located events only; chatter ends in lasting contact, and the
-// steps go on.
+// What a contact does to the memory of the problem: changed at accepted, located events only; chatter ends in lasting
+// contact, and the steps go on.
 #include <gtest/gtest.h>
 
 #include "boresight/integrate/explicit_method.hpp"
@@ -13,7 +13,8 @@ namespace {
 using testing_scenes::BouncingMass;
 using testing_scenes::state_of;
 
-// A ball dropped on a hard floor that loses half its speed at each impact, x' = -e x': infinitely many impacts in a finite time.
+// A ball dropped on a hard floor that loses half its speed at each impact, x' = -e x': infinitely many impacts in a
+// finite time.
 struct HardFloor {
   double gravity = 10.0, restitution = 0.5;
   bool resting = false;
@@ -84,16 +85,17 @@ TEST(Chatter, OfASoftFloorSettlesAndIsSteppedOverByTheImplicitMethod) {
   expect_settled(ExplicitMethod(dormand_prince54(), 2), 2000.0);
 }
 
-// Exact memory: the ball under gravity g dropped from h arrives at sqrt(2 g h), whatever the steps; and every impact is told once,
-// however many trial steps crossed it.
+// Exact memory: the ball under gravity g dropped from h arrives at sqrt(2 g h), whatever the steps; and every impact is
+// told once, however many trial steps crossed it.
 TEST(ImpactMemory, TakesTheSpeedAtTheEventAndNeverThatOfARejectedStep) {
   for (double tolerance : {1e-3, 1e-5, 1e-7}) {
     BouncingMass mass{.gravity = 10.0, .stiffness = 1e9};
     mass.flores(0.9);
     VecX y = state_of(1e-3, 0.0);
     Integrator<ExplicitMethod> integrator(ExplicitMethod(dormand_prince54(), 2), 1);
-    const IntegrationSummary summary = integrator.run(
-        mass, 0.0, 0.02, y, {.relative_tolerance = tolerance, .absolute_tolerance = 1e-3 * tolerance, .first_step = 1e-2});
+    const IntegrationSummary summary =
+        integrator.run(mass, 0.0, 0.02, y,
+                       {.relative_tolerance = tolerance, .absolute_tolerance = 1e-3 * tolerance, .first_step = 1e-2});
     ASSERT_TRUE(summary.completed()) << summary;
     ASSERT_EQ(mass.closing_times.size(), 1u) << summary;
     EXPECT_NEAR(mass.closing_times[0], std::sqrt(2.0 * 1e-3 / 10.0), 1e-12) << tolerance;

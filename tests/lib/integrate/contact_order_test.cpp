@@ -1,5 +1,5 @@
-// Orders through one contact, y'' = F/m - g with F = K d^1.5 (1 + h d'/d'0): what steps that do not stop at contact lose, what stopping at
-// it gives back, and what the rough start of the force itself takes.
+// Orders through one contact, y'' = F/m - g with F = K d^1.5 (1 + h d'/d'0): what steps that do not stop at contact
+// lose, what stopping at it gives back, and what the rough start of the force itself takes.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -14,8 +14,8 @@ namespace {
 using testing_scenes::BouncingMass;
 using testing_scenes::state_of;
 
-// A mass thrown at the floor at 1 m/s under a load of 2000 m/s^2 (strong, so that a speed latched late differs), damped: one contact of
-// about 0.3 ms.
+// A mass thrown at the floor at 1 m/s under a load of 2000 m/s^2 (strong, so that a speed latched late differs),
+// damped: one contact of about 0.3 ms.
 BouncingMass scene() {
   BouncingMass mass{.gravity = 2000.0, .stiffness = 1e10};
   mass.flores(0.7);
@@ -92,10 +92,12 @@ TEST(Contact, HoldsStepsThatDoNotStopAtItToOrderTwoAndAHalf) {
   const KeepsItsSpeed mass{scene_with_known_speed()};
   const auto order = [&](const auto& method) {
     const auto error = [&](double step) {
-      return error_over_phases([&](double phase) { return with_steps(method, mass, step, phase, {.locate_events = false}); });
+      return error_over_phases(
+          [&](double phase) { return with_steps(method, mass, step, phase, {.locate_events = false}); });
     };
     const double coarse = error(8e-6), fine = error(1e-6);
-    std::printf("    %-22s %.2e, %.2e, order %.2f\n", method.name(), coarse, fine, std::log(coarse / fine) / std::log(8.0));
+    std::printf("    %-22s %.2e, %.2e, order %.2f\n", method.name(), coarse, fine,
+                std::log(coarse / fine) / std::log(8.0));
     return std::log(coarse / fine) / std::log(8.0);
   };
   EXPECT_NEAR(order(rk4), 2.5, 0.2);
@@ -110,8 +112,8 @@ TEST(Contact, HoldsALateLatchedSpeedToOrderOne) {
   EXPECT_NEAR(observed_order(rk4, mass, {.locate_events = false}, 4e-6), 1.0, 0.15);
 }
 
-// Stopping at the event is not enough: the force grows as the 1.5th power of the time since, so that the solution has no fourth derivative
-// where the step begins.
+// Stopping at the event is not enough: the force grows as the 1.5th power of the time since, so that the solution has
+// no fourth derivative where the step begins.
 TEST(Contact, StillHoldsUniformStepsToOrderTwoAndAHalfWhenTheyStopAtIt) {
   EXPECT_NEAR(observed_order(rk4, scene(), {}, 8e-6), 2.5, 0.2);
 }
@@ -134,7 +136,8 @@ TEST(Contact, OfLinearStiffnessNeedsNothingButStoppingAtIt) {
   const auto error = [&](const BouncingMass& system, double h, bool locate) {
     VecX reference = state_of(kHeight, -kSpeed);
     BouncingMass copy = mass;
-    Integrator<ExplicitMethod>(pair, 1).run(copy, 0.0, kEnd, reference, {.relative_tolerance = 1e-13, .absolute_tolerance = 1e-17});
+    Integrator<ExplicitMethod>(pair, 1).run(copy, 0.0, kEnd, reference,
+                                            {.relative_tolerance = 1e-13, .absolute_tolerance = 1e-17});
     double sum = 0.0;
     for (int k = 0; k < 24; ++k) {
       VecX difference = with_steps(rk4, system, h, (k + 0.5) / 24, {.locate_events = locate}) - reference;
@@ -143,7 +146,8 @@ TEST(Contact, OfLinearStiffnessNeedsNothingButStoppingAtIt) {
     }
     return std::sqrt(sum / 24);
   };
-  // Where a step meets the end of the contact depends on where one met its start, so that single steps scatter: a fit over ten.
+  // Where a step meets the end of the contact depends on where one met its start, so that single steps scatter: a fit
+  // over ten.
   double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
   for (double h = 8e-6; n < 10.0; h *= 0.67, ++n) {
     const double x = std::log(h), y = std::log(error(across, h, false));

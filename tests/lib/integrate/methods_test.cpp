@@ -12,8 +12,8 @@
 namespace boresight {
 namespace {
 
-// A driven, damped, hardening spring: not linear, not autonomous, second order, and exact because the drive is made for it.
-// q = sin t + 0.3 cos 2t;  q'' = -q - q^3 - 0.2 q' + drive(t).
+// A driven, damped, hardening spring: not linear, not autonomous, second order, and exact because the drive is made for
+// it. q = sin t + 0.3 cos 2t;  q'' = -q - q^3 - 0.2 q' + drive(t).
 struct DrivenSpring {
   static double q(double t) { return std::sin(t) + 0.3 * std::cos(2.0 * t); }
   static double v(double t) { return std::cos(t) - 0.6 * std::sin(2.0 * t); }
@@ -105,8 +105,8 @@ TEST(EveryErrorEstimate, ShrinksWithItsOrder) {
   expect_error_order(GeneralizedAlpha(0.8, 2));
 }
 
-// The tolerance bounds the error of one step. That of the run is in proportion to it where the better of two solutions is carried on
-// (local extrapolation); where the estimated one is, to the power order/(order + 1) of it.
+// The tolerance bounds the error of one step. That of the run is in proportion to it where the better of two solutions
+// is carried on (local extrapolation); where the estimated one is, to the power order/(order + 1) of it.
 template <typename M>
 void expect_tolerance_met(M method, double power = 1.0) {
   Integrator<M> integrator(std::move(method));

@@ -1,5 +1,5 @@
-// How long a step may be, measured on runs and not on the table: the limit of RK4 against theory (2.785 on the real axis, 2 sqrt 2 on
-// the imaginary; Hairer and Wanner 1996, section IV.2).
+// How long a step may be, measured on runs and not on the table: the limit of RK4 against theory (2.785 on the real
+// axis, 2 sqrt 2 on the imaginary; Hairer and Wanner 1996, section IV.2).
 #include <gtest/gtest.h>
 
 #include <cmath>

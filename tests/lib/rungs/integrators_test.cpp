@@ -1,5 +1,5 @@
-// Every integrator on the rungs that follow the motion: same indices, contacts latched where they are, statistics that do not depend on
-// how long the steps are.
+// Every integrator on the rungs that follow the motion: same indices, contacts latched where they are, statistics that
+// do not depend on how long the steps are.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -14,7 +14,8 @@
 namespace boresight {
 namespace {
 
-std::shared_ptr<const Mechanism> scene(const std::vector<Setting>& more = {}, JournalAxes axes = JournalAxes::parallel) {
+std::shared_ptr<const Mechanism> scene(const std::vector<Setting>& more = {},
+                                       JournalAxes axes = JournalAxes::parallel) {
   std::vector<Setting> settings = {{"motion.duration", "0.1 s"}};
   settings.insert(settings.end(), more.begin(), more.end());
   MechanismDescription d = scenes::rrcpr(settings);
@@ -22,8 +23,8 @@ std::shared_ptr<const Mechanism> scene(const std::vector<Setting>& more = {}, Jo
   return scenes::build(std::move(d));
 }
 
-RunResult run(const char* rung, const std::shared_ptr<const Mechanism>& mechanism, const std::string& integrator, double tolerance = 0.0,
-              double step = 0.0) {
+RunResult run(const char* rung, const std::shared_ptr<const Mechanism>& mechanism, const std::string& integrator,
+              double tolerance = 0.0, double step = 0.0) {
   RunOptions options;
   options.integrator = integrator;
   options.tolerance = tolerance;
@@ -45,7 +46,8 @@ TEST(Integrators, AgreeOnThePerturbationRung) {
     EXPECT_GT(result.cost.steps, 0);
     EXPECT_GT(result.cost.evaluations, 5 * result.cost.steps);
     EXPECT_EQ(result.time.size(), reference.time.size());
-    for (std::size_t k = 0; k < result.time.size(); ++k) EXPECT_NEAR(result.time[k], 1e-3 * static_cast<double>(k), 1e-9);
+    for (std::size_t k = 0; k < result.time.size(); ++k)
+      EXPECT_NEAR(result.time[k], 1e-3 * static_cast<double>(k), 1e-9);
     // The first impact, before anything could have parted.
     ASSERT_FALSE(result.events.empty());
     EXPECT_NEAR(result.events[0].start, reference.events[0].start, 1e-8);
@@ -67,16 +69,19 @@ TEST(Integrators, AgreeOnTheMultibodyRung) {
 }
 
 TEST(Integrators, FollowJournalsThatTilt) {
-  const auto mechanism = scene({{"clearance.F1.sleeve_length", "120 mm"}, {"motion.duration", "0.03 s"}}, JournalAxes::free);
+  const auto mechanism =
+      scene({{"clearance.F1.sleeve_length", "120 mm"}, {"motion.duration", "0.03 s"}}, JournalAxes::free);
   const RunResult reference = run("perturbation", mechanism, "rk4", 0.0, 2e-6);
   expect_same_index(run("perturbation", mechanism, "rosenbrock", 1e-5), reference, 5e-3);
   expect_same_index(run("perturbation", mechanism, "dopri5", 1e-5), reference, 5e-3);
 }
 
-// At half a ton the friction of the resting journal is stiff: the explicit pair is held by stability, the implicit method is not.
+// At half a ton the friction of the resting journal is stiff: the explicit pair is held by stability, the implicit
+// method is not.
 TEST(Integrators, StepOverStickingContactWhereTheyAreImplicit) {
   const auto mechanism = scene({{"payload.mass", "500 kg"}});
-  const RunResult pair = run("perturbation", mechanism, "dopri5", 1e-4), implicit = run("perturbation", mechanism, "rosenbrock", 1e-4);
+  const RunResult pair = run("perturbation", mechanism, "dopri5", 1e-4),
+                  implicit = run("perturbation", mechanism, "rosenbrock", 1e-4);
   EXPECT_LT(10 * implicit.cost.evaluations, pair.cost.evaluations);
   expect_same_index(implicit, pair, 5e-3);
 }

@@ -1,0 +1,117 @@
+#include "boresight_analyses/study/rung_sample_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/unstable_step.hpp"
+
+namespace boresight {
+
+const char* to_string(Outcome::Status status) {
+  switch (status) {
+    case Outcome::Status::done:
+      return "done";
+    case Outcome::Status::failed:
+      return "failed";
+    case Outcome::Status::not_reached:
+      return "not reached";
+  }
+  return "";
+}
+
+RungSampleModel::RungSampleModel(std::string rung, std::shared_ptr<const Mechanism> mechanism,
+                                 ParametersOf parameters_of, IndexChoice index, RunOptions options, bool scene_varies)
+    : rung_(std::move(rung)),
+      mechanism_(std::move(mechanism)),
+      parameters_of_(std::move(parameters_of)),
+      index_(std::move(index)),
+      options_(std::move(options)),
+      scene_varies_(scene_varies),
+      shared_(make_rung(rung_, mechanism_)) {
+  options_.sample_spacing = 0.0;  // the index is all that is kept
+  options_.events = false;
+}
+
+void RungSampleModel::evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                               const std::atomic<bool>& stop) const {
+  std::unique_ptr<Rung> own;
+  if (scene_varies_) {
+    const std::scoped_lock lock(mutex_);
+    if (!idle_.empty()) {
+      own = std::move(idle_.back());
+      idle_.pop_back();
+    }
+  }
+  if (scene_varies_ && !own) own = make_rung(rung_, mechanism_);
+  for (std::size_t k = 0; k < samples.size() && !stop; ++k)
+    evaluate_one(scene_varies_ ? *own : *shared_, samples[k], outcomes[k], stop);
+  if (own) {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(std::move(own));
+  }
+}
+
+RunResult RungSampleModel::run(const Rung& rung, const Parameters& parameters, RunOptions options,
+                               std::string& message) const {
+  constexpr double kSmallestShare = 1e-3;
+  for (;;) {
+    try {
+      return rung.run(parameters, options);
+    } catch (const UnstableStep&) {
+      if (options.step < kSmallestShare * options_.step || options.step == 0.0) throw;
+      options.step *= 0.5;
+      char text[60];
+      std::snprintf(text, sizeof text, "the step was shortened to %.6g s", options.step);
+      message = text;
+    }
+  }
+}
+
+void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outcome& outcome,
+                                   const std::atomic<bool>& stop) const {
+  RunOptions options = options_;
+  options.progress = [&stop](const RunProgress&) { return !stop.load(std::memory_order_relaxed); };
+  try {
+    const RunResult result = run(rung, parameters_of_(sample.values), options, outcome.message);
+    outcome.cpu_seconds = result.cost.cpu_seconds;
+    if (result.interrupted) return;
+    outcome.value = index_.of(result.index);
+    outcome.model_error = result.error.model;
+    outcome.discretisation_error = result.error.discretisation;
+    outcome.status = Outcome::Status::done;
+    if (!std::isfinite(outcome.value)) {
+      outcome.status = Outcome::Status::failed;
+      outcome.value = std::numeric_limits<double>::quiet_NaN();
+      outcome.message = "the index is not a finite number";
+    }
+  } catch (const ComputationError& failure) {
+    outcome.status = Outcome::Status::failed;
+    outcome.message = failure.what();
+  }
+}
+
+double common_step(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism,
+                   const std::vector<Parameters>& samples, RunOptions options) {
+  const std::unique_ptr<Rung> model = make_rung(rung, mechanism);
+  options.sample_spacing = 0.0;
+  options.events = false;
+  double step = 0.0;
+  std::optional<ComputationError> refusal;
+  for (const Parameters& sample : samples) {
+    try {
+      const RunResult result = model->run(sample, options);
+      if (result.cost.steps == 0) continue;
+      const double own = mechanism->duration() / static_cast<double>(result.cost.steps);
+      step = step == 0.0 ? own : std::min(step, own);
+    } catch (const ComputationError& failure) {
+      refusal = failure;
+    }
+  }
+  if (step == 0.0 && refusal) throw *refusal;
+  return step;
+}
+
+}  // namespace boresight

@@ -1,0 +1,102 @@
+#include "boresight_analyses/statistics/replicated_samples.hpp"
+
+#include <gmock/gmock.h>
+#include <gsl/gsl_cdf.h>
+
+#include "repetition.hpp"
+
+namespace boresight {
+namespace {
+
+using repetition::coverage;
+using repetition::Points;
+
+// exp of the sum of three normals with sd 0.4, 0.3, 0.2: lognormal in closed form, monotone, three dimensions.
+const double kLogSd = std::sqrt(0.16 + 0.09 + 0.04);
+double value(const std::vector<double>& u) {
+  return std::exp(0.4 * gsl_cdf_ugaussian_Pinv(u[0]) + 0.3 * gsl_cdf_ugaussian_Pinv(u[1]) + 0.2 * gsl_cdf_ugaussian_Pinv(u[2]));
+}
+template <typename Design>
+ReplicatedSamples replicates(std::mt19937_64& engine, Design&& design, int count, int size) {
+  std::vector<std::vector<double>> values(count);
+  for (auto& r : values)
+    for (const auto& u : design(engine, size, 3)) r.push_back(value(u));
+  return ReplicatedSamples(std::move(values));
+}
+double true_quantile(double p) { return std::exp(kLogSd * gsl_cdf_ugaussian_Pinv(p)); }
+
+using Lists = std::vector<std::vector<double>>;
+
+TEST(ReplicatedSamples, MeanIsStudentsOverReplicates) {
+  const ReplicatedInterval mean = ReplicatedSamples(Lists{{1, 2, 3}, {2, 3, 4}, {4, 4, 4}}).mean(0.95);
+  EXPECT_DOUBLE_EQ(mean.value, 3.0);
+  EXPECT_NEAR(mean.high - 3.0, 4.302652730 * 1.0 / std::sqrt(3.0), 1e-8);
+}
+
+TEST(ReplicatedSamples, AreRefusedWhereTheyGiveNoInterval) {
+  EXPECT_THROW(ReplicatedSamples(Lists{{1.0, 2.0}}), std::invalid_argument);
+  EXPECT_THROW(ReplicatedSamples(Lists{{1.0, 2.0}, {1.0}}), std::invalid_argument);
+  EXPECT_NO_THROW(ReplicatedSamples(Lists{{1.0, 2.0}, {1.0}}, {0, 1}));
+  EXPECT_THROW(ReplicatedSamples(Lists{{1.0}, {std::nan("")}}), std::invalid_argument);
+}
+
+TEST(ReplicatedSamples, WithoutABadSampleAreBoundedByMarkov) {
+  const ReplicatedInterval p = ReplicatedSamples(Lists{{1, 2}, {1, 2}, {1, 2}, {1, 2}}).probability_below(3.0, 0.95);
+  EXPECT_EQ(p.value, 1.0);
+  EXPECT_NEAR(p.low, std::pow(0.025, 0.25), 1e-14);
+  EXPECT_EQ(p.high, 1.0);
+}
+
+TEST(ReplicatedSamples, LeaveATailWithFewSamplesUnbounded) {
+  std::mt19937_64 engine(7);
+  const ReplicatedSamples s = replicates(engine, repetition::latin_hypercube, 4, 100);
+  EXPECT_EQ(s.quantile(0.9973, 0.95).high, std::numeric_limits<double>::infinity());
+  EXPECT_LT(s.quantile(0.95, 0.95).high, std::numeric_limits<double>::infinity());
+}
+
+TEST(ReplicatedSamples, OfALatinHypercubeAreFarNarrowerThanIndependentOnes) {
+  std::mt19937_64 engine(8);
+  const ReplicatedInterval mean = replicates(engine, repetition::latin_hypercube, 16, 256).mean(0.95);
+  const double independent = 1.96 * std::exp(0.5 * kLogSd * kLogSd) * std::sqrt(std::expm1(kLogSd * kLogSd) / 4096.0);
+  EXPECT_LT(mean.high - mean.low, independent);
+}
+
+struct Case {
+  const char* name;
+  Points (*design)(std::mt19937_64&, int, int);
+};
+class ReplicatedDesigns : public testing::TestWithParam<Case> {
+ protected:
+  template <typename F>
+  void expect_covered(double truth, F&& interval, int size) {
+    const double held =
+        coverage(truth, [&](auto& e) { return interval(replicates(e, GetParam().design, 16, size)); }, 11);
+    RecordProperty("coverage", std::to_string(held));
+    EXPECT_GE(held, 0.93);
+  }
+};
+
+TEST_P(ReplicatedDesigns, CoverTheMean) {
+  expect_covered(std::exp(0.5 * kLogSd * kLogSd), [](const ReplicatedSamples& s) { return s.mean(0.95); }, 32);
+}
+TEST_P(ReplicatedDesigns, CoverTheSd) {
+  expect_covered(std::exp(0.5 * kLogSd * kLogSd) * std::sqrt(std::expm1(kLogSd * kLogSd)),
+                 [](const ReplicatedSamples& s) { return s.sd(0.95); }, 128);
+}
+TEST_P(ReplicatedDesigns, CoverTheMedian) {
+  expect_covered(1.0, [](const ReplicatedSamples& s) { return s.quantile(0.5, 0.95); }, 32);
+}
+TEST_P(ReplicatedDesigns, CoverThe9973Percentile) {
+  expect_covered(true_quantile(0.9973), [](const ReplicatedSamples& s) { return s.quantile(0.9973, 0.95); }, 128);
+}
+TEST_P(ReplicatedDesigns, CoverTheProbability) {
+  expect_covered(0.99, [](const ReplicatedSamples& s) { return s.probability_below(true_quantile(0.99), 0.95); }, 32);
+}
+
+INSTANTIATE_TEST_SUITE_P(Designs, ReplicatedDesigns,
+                         testing::Values(Case{"LatinHypercube", repetition::latin_hypercube},
+                                         Case{"ScrambledSobol", repetition::scrambled_sobol}),
+                         [](const auto& one) { return one.param.name; });
+
+}  // namespace
+}  // namespace boresight
