@@ -19,7 +19,7 @@ Study read_study(Cursor& root, const std::string& content_hash) {
   if (!root.has("mechanism") && root.has("body"))
     root.fail_found("body", "a mechanism file",
                     "a study file, which names its mechanism: mechanism = \"FILE\"");
-  root.only({"format", "mechanism", "accuracy", "index", "random", "sweep", "montecarlo", "sensitivity",
+  root.only({"format", "mechanism", "accuracy", "index", "random", "correlation", "sweep", "montecarlo", "sensitivity",
              "match", "allocate", "calibrate", "budget", "chart"});
   const long long format = root.integer("format");
   root.require(format == 1, "format", "1");

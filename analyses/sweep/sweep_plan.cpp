@@ -10,24 +10,6 @@
 namespace boresight {
 namespace {
 
-// What a value of this SI unit is called in an error. The examples carry the unit that people would write.
-SiUnit unit_of(const std::string& si_unit) {
-  static const SiUnit known[] = {kLength,         kMass,    kAcceleration, kSpeed,
-                                 kElasticModulus, kDensity, kStiffness,    kDamping};
-  for (const SiUnit& unit : known)
-    if (si_unit == unit.unit) return unit;
-  return {"a value", si_unit.c_str(), si_unit.c_str()};
-}
-
-bool is_list(Cursor& cursor, const std::string& key) {
-  try {
-    cursor.text(key);
-    return false;
-  } catch (const InputError&) {
-    return true;
-  }
-}
-
 std::vector<double> spaced(Cursor& axis, double from, double to) {
   const long long count = axis.integer("count");
   axis.require(count >= 2 && count <= static_cast<long long>(kMostSweepPoints), "count", "2 to 100000");
@@ -65,7 +47,7 @@ SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism,
                     const std::function<void(const Setting&)>& accepts) {
   axis.only({"parameter", "values", "from", "to", "count", "scale"});
   SweepAxis result;
-  if (is_list(axis, "parameter"))
+  if (axis.is_list("parameter"))
     result.parameters = axis.texts("parameter");
   else
     result.parameters = {axis.text("parameter")};
@@ -80,7 +62,7 @@ SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism,
   }
 
   const bool pure = result.si_unit == "1";
-  const SiUnit unit = unit_of(result.si_unit);
+  const SiUnit unit = unit_called(result.si_unit);
   if (axis.has("values")) {
     for (const char* key : {"from", "to", "count", "scale"})
       if (axis.has(key)) axis.fail(key, "either values, or from, to and count");

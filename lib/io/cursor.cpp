@@ -341,6 +341,11 @@ bool Cursor::is_table(const std::string& key) const {
   return node != nullptr && node->kind == Node::Kind::table;
 }
 
+bool Cursor::is_list(const std::string& key) const {
+  const Node* node = node_->member(key);
+  return node != nullptr && node->kind == Node::Kind::array;
+}
+
 Cursor Cursor::table(const std::string& key) {
   const Node& node = required(key, "a table [" + path(key) + "]");
   require(node.kind == Node::Kind::table, key, "a table [" + path(key) + "]");

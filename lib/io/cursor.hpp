@@ -70,6 +70,7 @@ class Cursor {
   Vec3 direction(const std::string& key);
 
   bool is_table(const std::string& key) const;
+  bool is_list(const std::string& key) const;
   Cursor table(const std::string& key);               // must be there
   Cursor table_or_empty(const std::string& key);      // an empty one if it is not there
   std::vector<Cursor> tables(const std::string& key);  // [[key]]: any number of them

@@ -192,4 +192,11 @@ double parse_quantity(std::string_view text, const SiUnit& expected) {
   return value;
 }
 
+SiUnit unit_called(const std::string& si_unit) {
+  static const SiUnit known[] = {kLength, kMass, kAcceleration, kSpeed, kElasticModulus, kDensity, kStiffness, kDamping, kRatio};
+  for (const SiUnit& unit : known)
+    if (si_unit == unit.unit) return unit;
+  return {"a value", si_unit.c_str(), si_unit.c_str()};
+}
+
 }  // namespace boresight

@@ -37,6 +37,9 @@ inline constexpr SiUnit kDensity{"a density", "kg/m^3", "2700 kg/m^3"};
 inline constexpr SiUnit kFrequency{"a frequency", "Hz", "50 Hz"};
 inline constexpr SiUnit kRatio{"a ratio", "1", "1 %"};
 
+// The one whose SI unit this is ("m", "kg", "m/s^2", ...), for values of a parameter. The result may point into `si_unit`.
+SiUnit unit_called(const std::string& si_unit);
+
 // "a length such as "0.1 mm"": the expectation in an error's text.
 std::string expectation(const SiUnit& unit);
 

@@ -1,0 +1,12 @@
+# What the room `montecarlo` needs beyond the other rooms: oneTBB, SQLite, and MPI where it is there.
+option(BORESIGHT_MPI "Spread montecarlo over ranks under mpirun, where MPI is found" ON)
+find_package(TBB REQUIRED)
+find_package(SQLite3 REQUIRED)
+target_link_libraries(montecarlo PRIVATE TBB::tbb SQLite::SQLite3)
+if(BORESIGHT_MPI)
+  find_package(MPI COMPONENTS C)
+endif()
+if(MPI_C_FOUND)
+  target_link_libraries(montecarlo PRIVATE MPI::MPI_C)
+  target_compile_definitions(montecarlo PRIVATE BORESIGHT_MPI)
+endif()

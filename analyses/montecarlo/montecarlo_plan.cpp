@@ -1,0 +1,104 @@
+#include "boresight_analyses/montecarlo/montecarlo_plan.hpp"
+
+#include "boresight/io/units.hpp"
+
+namespace boresight {
+namespace {
+
+double share(Cursor& table, const std::string& key, double otherwise) {
+  const double value = table.number(key, otherwise);
+  table.require(value > 0.0 && value < 1.0, key, "more than 0 and less than 1");
+  return value;
+}
+
+SiUnit unit_of_index(const std::string& si_unit) { return si_unit == "rad" ? kAngle : kLength; }
+
+std::uint64_t count(Cursor& table, const std::string& key, long long least, long long otherwise) {
+  const long long value = table.integer(key, otherwise);
+  table.require(value >= least && value <= 1'000'000, key, std::to_string(least) + " to 1000000");
+  return static_cast<std::uint64_t>(value);
+}
+
+Requirement read_requirement(Cursor table, const Study& study) {
+  table.only({"limit", "probability", "confidence"});
+  Requirement r;
+  r.limit = table.quantity("limit", unit_of_index(study.index.si_unit()));
+  table.require(r.limit > 0.0, "limit", "more than 0");
+  r.probability = share(table, "probability", r.probability);
+  r.confidence = share(table, "confidence", r.confidence);
+  table.require(r.confidence > 0.5, "confidence", "more than 0.5 and less than 1");
+  table.finish();
+  return r;
+}
+
+StopRule read_stop(Cursor table) {
+  table.only({"width", "of", "time"});
+  StopRule stop;
+  if (table.has("width")) {
+    stop.width = table.quantity("width", kRatio);
+    table.require(stop.width > 0.0 && stop.width < 1.0, "width", "more than 0 % and less than 100 %");
+  }
+  std::vector<std::string> names;
+  for (const Headline& h : headlines()) names.emplace_back(h.name);
+  stop.of = table.choice("of", names, stop.of);
+  if (table.has("time")) {
+    stop.seconds = table.quantity("time", kDuration);
+    table.require(stop.seconds > 0.0, "time", "more than 0");
+  }
+  table.require(stop.width > 0.0 || stop.seconds > 0.0, "width", "width, or time, or both");
+  table.finish();
+  return stop;
+}
+
+}  // namespace
+
+const std::vector<Headline>& headlines() {
+  static const std::vector<Headline> all = {{"mean", 0.0}, {"sd", 0.0},   {"p50", 0.5},
+                                            {"p95", 0.95}, {"p99", 0.99}, {"p99.73", 0.9973}};
+  return all;
+}
+
+std::string MonteCarloPlan::sample_text(const Study& study) const {
+  return inputs.text + design.text() + "\nindex " + study.index.quantity + "." + study.index.statistic + "\n";
+}
+
+MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
+                                    const std::function<void(const Setting&)>& accepts) {
+  Cursor table = root.table("montecarlo");
+  table.only({"samples", "seed", "design", "strata", "replicates", "confidence", "requirement", "stop"});
+  MonteCarloPlan plan;
+  const long long samples = table.integer("samples");
+  table.require(samples >= 1 && static_cast<std::uint64_t>(samples) <= kMostMonteCarloSamples, "samples",
+                "1 to " + std::to_string(kMostMonteCarloSamples));
+  plan.samples = static_cast<std::uint64_t>(samples);
+  const long long seed = table.integer("seed", 1);
+  table.require(seed >= 0, "seed", "a whole number, 0 or more");
+  plan.design.seed = static_cast<std::uint64_t>(seed);
+
+  const std::string design = table.choice("design", {"random", "lhs", "sobol"}, "random");
+  for (const DesignKind kind : {DesignKind::random, DesignKind::lhs, DesignKind::sobol})
+    if (design == to_string(kind)) plan.design.kind = kind;
+  if (table.has("strata") && plan.design.kind != DesignKind::lhs) table.fail("strata", "strata with design = \"lhs\" only");
+  if (table.has("replicates") && plan.design.kind != DesignKind::sobol)
+    table.fail("replicates", "replicates with design = \"sobol\" only");
+  plan.design.strata = count(table, "strata", 2, static_cast<long long>(plan.design.strata));
+  plan.design.replicates = count(table, "replicates", 2, static_cast<long long>(plan.design.replicates));
+  const std::uint64_t unit = plan.design.kind == DesignKind::lhs     ? plan.design.strata
+                             : plan.design.kind == DesignKind::sobol ? plan.design.replicates
+                                                                     : 1;
+  if (plan.samples % unit != 0 || (unit > 1 && plan.samples < 2 * unit))
+    table.fail("samples", std::string("a multiple of ") +
+                              (plan.design.kind == DesignKind::lhs ? "strata" : "replicates") + " (" + std::to_string(unit) +
+                              "), at least twice: " + std::to_string(std::max<std::uint64_t>(2, (plan.samples + unit - 1) / unit) * unit));
+
+  plan.confidence = share(table, "confidence", plan.confidence);
+  if (table.has("requirement")) plan.requirement = read_requirement(table.table("requirement"), study);
+  if (table.has("stop")) plan.stop = read_stop(table.table("stop"));
+  table.finish();
+  plan.inputs = read_random_inputs(root, mechanism, accepts);
+  if (plan.design.kind == DesignKind::sobol && plan.inputs.size() > static_cast<std::size_t>(SobolNet::kMostDimensions))
+    table.fail("design", "at most " + std::to_string(SobolNet::kMostDimensions) + " random parameters with \"sobol\"");
+  return plan;
+}
+
+}  // namespace boresight

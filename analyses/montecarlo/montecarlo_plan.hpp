@@ -1,0 +1,63 @@
+// What a Monte Carlo study is to do, as the [montecarlo] table of a study file says it:
+//
+//   [montecarlo]
+//   samples = 10000
+//   seed = 1
+//   design = "random"            # lhs, sobol
+//   strata = 100                 # lhs: points per hypercube; replicates = 16 # sobol: nets (see random/design.hpp)
+//   confidence = 0.95            # of all intervals
+//   requirement = { limit = "0.25 mm", probability = 0.9973, confidence = 0.95 }
+//   stop = { width = "2 %", of = "p99.73", time = "10 min" }    # or earlier: half-width of an interval, or wall time
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "boresight_analyses/random/design.hpp"
+#include "boresight_analyses/random/random_inputs.hpp"
+#include "boresight_analyses/study/study.hpp"
+
+namespace boresight {
+
+struct Requirement {
+  double limit = 0.0;         // of the index, SI
+  double probability = 0.95;  // with which the index is to stay at or below the limit
+  double confidence = 0.95;   // one-sided, that it does
+};
+
+struct StopRule {
+  double width = 0.0;          // half-width of the interval over the estimate; 0: no such rule
+  std::string of = "p99.73";   // among headline_names()
+  double seconds = 0.0;        // wall time; 0: no such rule
+};
+
+struct MonteCarloPlan {
+  std::uint64_t samples = 0;
+  DesignOptions design;
+  double confidence = 0.95;
+  std::optional<Requirement> requirement;
+  StopRule stop;
+  RandomInputs inputs;
+
+  // What decides the value of sample k, but for mechanism and rung: how many samples there are, what is asked of them and
+  // when to stop are not part of it, so that a study may be continued with more.
+  std::string sample_text(const Study& study) const;
+};
+
+inline constexpr std::uint64_t kMostMonteCarloSamples = 4'000'000'000;
+
+// The estimates that every study reports: mean, sd, p50, p95, p99, p99.73.
+struct Headline {
+  const char* name;
+  double probability;  // of a quantile; 0 for mean and sd
+};
+const std::vector<Headline>& headlines();
+
+// Throws InputError. `accepts`: see read_random_inputs.
+MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
+                                    const std::function<void(const Setting&)>& accepts);
+
+}  // namespace boresight

@@ -1,0 +1,94 @@
+// The store of samples: one SQLite file, to which samples are added as they finish.
+//
+// A sample is in the file once it is committed (every quarter of a second or so) and stays in it: a kill -9 loses what was
+// computed since, a full disk leaves what was there (write-ahead log). A number is stored once: adding it again changes
+// nothing. The file belongs to one study, named by a text; another study's samples are refused. One process has it open at a
+// time; ranks write a file each, which are then merged.
+//
+//   tables: study(key, value)    rung(id, name, step)
+//           sample(number, status, value, one column per random parameter, cpu_seconds, model_error, discretisation_error,
+//                  rung, message)
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "boresight_analyses/study/sample_model.hpp"
+
+namespace boresight {
+
+// The file is another study's, in use by another run, or no store at all.
+class StoreRefused : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+// Writing or reading failed: disk full, input/output error. What was committed is intact.
+class StoreFailed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct SampleRecord {
+  std::uint64_t number = 0;
+  std::vector<double> inputs;  // SI
+  Outcome outcome;
+};
+
+struct NumberRange {
+  std::uint64_t first = 0, end = 0;  // first <= number < end
+  std::uint64_t size() const { return end - first; }
+};
+
+class SampleStore {
+ public:
+  // Opens or makes it. `facts` name the study; those found in a file must be equal. Throws StoreRefused, StoreFailed.
+  SampleStore(const std::filesystem::path& file, const std::map<std::string, std::string>& facts,
+              const std::vector<std::string>& parameters);
+  // Opens what is there. Throws StoreRefused if nothing is.
+  explicit SampleStore(const std::filesystem::path& file);
+  ~SampleStore();  // commits what it can, and closes
+  SampleStore(const SampleStore&) = delete;
+  SampleStore& operator=(const SampleStore&) = delete;
+
+  const std::filesystem::path& file() const { return file_; }
+  const std::vector<std::string>& parameters() const { return parameters_; }
+  std::string fact(const std::string& key) const;  // "" if there is none
+
+  // The rung that samples from now on were computed with.
+  void use_rung(const std::string& name, double step);
+  struct StoredRung {
+    std::string name;
+    double step = 0.0;
+  };
+  std::vector<StoredRung> rungs() const;
+
+  void add(const SampleRecord& record);
+  void commit();
+  // All samples of another store of the same study; its file is then closed, and removed by the caller. Commits.
+  void merge(const std::filesystem::path& other);
+
+  std::uint64_t count() const;
+  // Numbers below `end` that are not stored, in ascending ranges.
+  std::vector<NumberRange> missing(std::uint64_t end) const;
+  // In ascending order of number, those below `end`.
+  void read(std::uint64_t end, const std::function<void(const SampleRecord&)>& each) const;
+
+ private:
+  struct Database;
+  void open();
+  void make_tables(const std::map<std::string, std::string>& facts);
+  void read_layout();
+
+  std::filesystem::path file_;
+  std::vector<std::string> parameters_;
+  std::unique_ptr<Database> db_;
+  int rung_ = 0;
+};
+
+}  // namespace boresight

@@ -1,0 +1,30 @@
+// Computes the samples of some ranges of numbers, on several threads (oneTBB).
+//
+// Threads take the next few numbers in ascending order, as many as the model likes at once, so that at any time the samples
+// not yet done are the last ones begun. A sample's values and outcome depend on its number alone.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "boresight_analyses/montecarlo/montecarlo_plan.hpp"
+#include "boresight_analyses/montecarlo/sample_store.hpp"
+
+namespace boresight {
+
+struct SamplingOptions {
+  int jobs = 1;
+  // Called with what one batch gave, one thread at a time, in the order in which batches finish; samples that were not
+  // reached are left out. Return false to take no further batch.
+  std::function<bool(std::span<const SampleRecord>)> landed;
+  // Set from outside: batches under way are cut short.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+// Returns true if every sample was reached. What `landed` throws ends the sampling and is thrown on.
+bool compute_samples(const SampleModel& model, const RandomInputs& inputs, const Design& design,
+                     const std::vector<NumberRange>& ranges, const SamplingOptions& options);
+
+}  // namespace boresight

@@ -1,0 +1,69 @@
+#include "boresight_analyses/random/csv_column.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "boresight/io/units.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> out(1);
+  bool quoted = false;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (line[k] == '"') {
+      if (quoted && k + 1 < line.size() && line[k + 1] == '"')
+        out.back() += line[k++];
+      else
+        quoted = !quoted;
+    } else if (line[k] == ',' && !quoted) {
+      out.emplace_back();
+    } else {
+      out.back() += line[k];
+    }
+  }
+  for (std::string& field : out) field = trimmed(field);
+  return out;
+}
+
+}  // namespace
+
+std::string beside(const std::string& file, const std::string& name) {
+  const std::filesystem::path path = name;
+  return path.is_absolute() ? name : (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
+}
+
+std::vector<double> read_csv_column(const std::string& file, const std::string& column) {
+  std::ifstream in(file);
+  std::string line;
+  if (!in || !std::getline(in, line)) throw ColumnFault{true, "no readable file " + in_quotes(file), "a CSV file", ""};
+  const std::vector<std::string> names = fields(line);
+  const auto place = std::find(names.begin(), names.end(), column);
+  if (place == names.end())
+    throw ColumnFault{false, in_quotes(column), "a column of " + in_quotes(file), nearest_name(column, names)};
+  const auto index = static_cast<std::size_t>(place - names.begin());
+  std::vector<double> values;
+  for (int number = 2; std::getline(in, line); ++number) {
+    if (trimmed(line).empty()) continue;
+    const std::vector<std::string> row = fields(line);
+    double value = 0.0;
+    if (index >= row.size() || !parse_number(row[index], value))
+      throw ColumnFault{false,
+                        (index < row.size() ? in_quotes(row[index]) : std::string("nothing")) + " in line " +
+                            std::to_string(number) + " of " + in_quotes(file),
+                        "a finite number", ""};
+    values.push_back(value);
+  }
+  if (values.empty()) throw ColumnFault{false, "no values in " + in_quotes(file), "at least one", ""};
+  return values;
+}
+
+}  // namespace boresight

@@ -1,0 +1,45 @@
+// The plainest sample model: every sample is one run of a rung. The rung, and with it the scene that it prepares for the
+// mechanism, is shared by all samples and threads where no parameter changes the scene; where masses, gravity or springs
+// scatter, each thread has a rung of its own, so that none waits for another's scene.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "boresight/rungs/rung.hpp"
+#include "boresight_analyses/study/index_choice.hpp"
+#include "boresight_analyses/study/sample_model.hpp"
+
+namespace boresight {
+
+class RungSampleModel final : public SampleModel {
+ public:
+  using ParametersOf = std::function<Parameters(std::span<const double>)>;
+
+  RungSampleModel(std::string rung, std::shared_ptr<const Mechanism> mechanism, ParametersOf parameters_of,
+                  IndexChoice index, RunOptions options, bool scene_varies);
+
+  std::string rung() const override { return rung_; }
+  double step() const override { return options_.step; }
+  std::string leaves_out() const override { return shared_->leaves_out(); }
+  std::size_t batch() const override { return 1; }
+  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                const std::atomic<bool>& stop) const override;
+
+ private:
+  void evaluate_one(const Rung& rung, const Sample& sample, Outcome& outcome, const std::atomic<bool>& stop) const;
+
+  std::string rung_;
+  std::shared_ptr<const Mechanism> mechanism_;
+  ParametersOf parameters_of_;
+  IndexChoice index_;
+  RunOptions options_;
+  bool scene_varies_;
+  std::unique_ptr<Rung> shared_;
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<Rung>> idle_;  // where the scene varies
+};
+
+}  // namespace boresight
