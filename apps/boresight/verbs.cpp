@@ -6,7 +6,8 @@ namespace boresight::app {
 #define BORESIGHT_VERBS(VERB) \
   VERB(check)                 \
   VERB(run)                   \
-  VERB(sweep)
+  VERB(sweep)                 \
+  VERB(sensitivity)
 
 #define DECLARE(name) std::unique_ptr<Verb> make_##name##_verb();
 BORESIGHT_VERBS(DECLARE)
