@@ -176,6 +176,14 @@ std::string SampleStore::fact(const std::string& key) const {
   return get.step() ? get.text(0) : "";
 }
 
+void SampleStore::note(const std::string& key, const std::string& value) {
+  commit();
+  Statement put(db_->handle, file_, "INSERT OR REPLACE INTO study VALUES (?, ?)");
+  put.bind(1, key);
+  put.bind(2, value);
+  put.step();
+}
+
 void SampleStore::use_rung(const std::string& name, double step) {
   commit();
   const std::vector<StoredRung> known = rungs();

@@ -59,6 +59,8 @@ class SampleStore {
   const std::filesystem::path& file() const { return file_; }
   const std::vector<std::string>& parameters() const { return parameters_; }
   std::string fact(const std::string& key) const;  // "" if there is none
+  // Kept beside the facts, and no part of what names the study.
+  void note(const std::string& key, const std::string& value);
 
   // The rung that samples from now on were computed with.
   void use_rung(const std::string& name, double step);

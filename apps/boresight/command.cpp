@@ -61,6 +61,15 @@ Command CommandOptions::command(const std::string& verb) const {
 
 void MotionOptions::declare(CLI::App& app, bool with_poses) {
   app.add_option("--sample", sample, "spacing of the time series")->type_name("TIME")->capture_default_str();
+  declare_model(app);
+  if (with_poses)
+    app.add_option("--pose", poses, "keep the pose of this body too (any number of times)")
+        ->type_name("BODY")
+        ->allow_extra_args(false)
+        ->take_all();
+}
+
+void MotionOptions::declare_model(CLI::App& app) {
   app.add_option("--step", step, "step of the integration; otherwise the rung's own choice")
       ->type_name("TIME");
   app.add_option("--formulation", formulation, "of the equations of motion (multibody): tree or paper; otherwise tree")
@@ -68,11 +77,6 @@ void MotionOptions::declare(CLI::App& app, bool with_poses) {
   app.add_option("--stabilisation", stabilisation,
                  "of the constraints (multibody): baumgarte or projection; otherwise the formulation's own")
       ->type_name("NAME");
-  if (with_poses)
-    app.add_option("--pose", poses, "keep the pose of this body too (any number of times)")
-        ->type_name("BODY")
-        ->allow_extra_args(false)
-        ->take_all();
 }
 
 RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
@@ -103,6 +107,10 @@ RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
 
 std::size_t history_refinement(double duration, double sample_spacing) {
   return static_cast<std::size_t>(std::clamp(std::floor(20000.0 * sample_spacing / duration), 1.0, 10.0));
+}
+
+nlohmann::json MotionOptions::model_identity() const {
+  return {{"step", step}, {"formulation", formulation}, {"stabilisation", stabilisation}};
 }
 
 nlohmann::json MotionOptions::identity() const {

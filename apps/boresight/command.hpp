@@ -45,9 +45,11 @@ struct MotionOptions {
   std::vector<std::string> poses;
 
   void declare(CLI::App& app, bool with_poses);
+  void declare_model(CLI::App& app);  // step, formulation, stabilisation alone: for verbs that keep no histories
   // Throws InputError for a value that is no duration, an unknown body, an unknown word.
   RunOptions run_options(const Mechanism& mechanism) const;
   nlohmann::json identity() const;  // what of them changes results
+  nlohmann::json model_identity() const;
 };
 
 // Computes, and turns a rung's refusal of an option's word (std::invalid_argument) into an InputError.

@@ -8,10 +8,12 @@
 #include <iostream>
 #include <new>
 
+#include "boresight_analyses/montecarlo/sample_store.hpp"
 #include "boresight_analyses/study/pilot.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
+#include "montecarlo_study.hpp"
 #include "output_directory.hpp"
 #include "verb.hpp"
 
@@ -91,6 +93,12 @@ int main(int argc, char** argv) {
     return fail(kInterrupted, "interrupted while a rung was being chosen: nothing is lost, nothing was begun");
   } catch (const OutputDirectoryError& error) {
     return fail(kBadInput, error.what());
+  } catch (const SilentExit& exit) {
+    return exit.status;
+  } catch (const StoreRefused& error) {
+    return fail(kBadInput, error.what());
+  } catch (const StoreFailed& error) {
+    return fail(kFailed, error.what());
   } catch (const WriteError& error) {
     return fail(kFailed, error.what());
   } catch (const ComputationError& error) {

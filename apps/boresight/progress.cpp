@@ -28,11 +28,11 @@ std::size_t terminal_width(std::FILE* stream) {
 }  // namespace
 
 std::string progress_line(double done, double total, const std::string& unit, double elapsed_seconds,
-                          const std::string& estimate) {
+                          const std::string& estimate, double before) {
   constexpr int kBar = 20;
   const double share = total > 0.0 ? std::clamp(done / total, 0.0, 1.0) : 0.0;
   const int filled = static_cast<int>(share * kBar);
-  const double rate = elapsed_seconds > 0.0 ? done / elapsed_seconds : 0.0;
+  const double rate = elapsed_seconds > 0.0 ? (done - before) / elapsed_seconds : 0.0;
   const double left = rate > 0.0 ? (total - done) / rate : INFINITY;
   return fmt::format("[{}{}] {:3.0f} %  {:.3g} of {:.3g} {}, {:.3g}/s, {}{}{}", std::string(filled, '#'),
                      std::string(kBar - filled, '-'), 100.0 * share, done, total, unit, rate, time_left(left),
@@ -62,13 +62,15 @@ void Progress::clear() {
   drawn_ = false;
 }
 
-void Progress::update(double done, const std::string& estimate) {
+void Progress::update(double done, const std::string& estimate) { update_from(0.0, done, estimate); }
+
+void Progress::update_from(double before, double done, const std::string& estimate) {
   if (style_ == Style::silent) return;
   const std::scoped_lock lock(mutex_);
   const Clock::time_point now = Clock::now();
   if (now < next_) return;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  std::string line = progress_line(done, total_, unit_, elapsed, estimate);
+  std::string line = progress_line(done, total_, unit_, elapsed, estimate, before);
   if (style_ == Style::terminal) {
     line.resize(std::min(line.size(), terminal_width(stream_) - 1));
     fmt::print(stream_, "\r\033[K{}", line);

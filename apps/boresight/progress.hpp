@@ -24,6 +24,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(double done, const std::string& estimate);
+  // The same where `before` of what is done was done in an earlier run: rate and time left are of this one.
+  void update_from(double before, double done, const std::string& estimate);
   // Takes the line off the terminal, before something else is printed.
   void clear();
 
@@ -43,6 +45,6 @@ class Progress {
 // "[#####-----]  50 %  0.5 of 1 s of motion, 0.32/s, 2 s left; ESTIMATE": what is drawn, without the
 // terminal's codes.
 std::string progress_line(double done, double total, const std::string& unit, double elapsed_seconds,
-                          const std::string& estimate);
+                          const std::string& estimate, double before = 0.0);
 
 }  // namespace boresight::app

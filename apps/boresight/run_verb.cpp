@@ -1,6 +1,8 @@
 // boresight run MECHANISM: one motion, its pointing error, its contacts.
 #include <fmt/format.h>
 
+#include <cmath>
+#include <filesystem>
 #include <iostream>
 
 #include "boresight/io/mechanism_file.hpp"
@@ -8,6 +10,7 @@
 #include "boresight/rungs/rung.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
+#include "montecarlo_study.hpp"
 #include "progress.hpp"
 #include "readable.hpp"
 #include "report/report.hpp"
@@ -94,13 +97,17 @@ class RunVerb : public Verb {
   void declare_options(CLI::App& app) override {
     motion_.declare(app, true);
     app.add_flag("--compare", compare_, "run the other rungs too and lay them over this one");
+    app.add_option("--sample-number", sample_number_,
+                   "FILE is a Monte Carlo study: run this one of its samples (from 0) and report on it")
+        ->type_name("K");
     app.add_option("--index", index_, "what --accuracy is about: position_error.max, boresight_error.rms, ...")
         ->type_name("QUANTITY.STATISTIC")
         ->capture_default_str();
   }
 
-  int execute(const Command& command) override {
+  int execute(const Command& asked) override {
     const Stopwatch watch;
+    const Command command = sample_number_.empty() ? asked : replay_of(asked);
     const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(command.file, command.settings));
     check_rung_name(command.rung);
     RunOptions options = motion_.run_options(*mechanism);
@@ -152,6 +159,23 @@ class RunVerb : public Verb {
   }
 
  private:
+  // One sample of a Monte Carlo study is its mechanism with the sample's values set.
+  Command replay_of(const Command& asked) {
+    double number = 0.0;
+    if (!parse_number(sample_number_, number) || number < 0.0 || number != std::floor(number) || number > 1e15)
+      throw InputError({"command line", 0}, "--sample-number", "\"" + sample_number_ + "\"", "a sample's number, from 0");
+    const MonteCarloQuestion question = read_montecarlo_question(asked.file, asked.settings);
+    Command command = asked;
+    command.file = question.study.mechanism_file;
+    if (command.out.empty())
+      command.out = "results/" + std::filesystem::path(asked.file).stem().string() + "-sample-" + sample_number_;
+    for (const Setting& setting : question.settings_of_sample(static_cast<std::uint64_t>(number)))
+      command.settings.push_back(setting);
+    if (!command.accuracy && asked.rung == "auto") command.accuracy = question.study.accuracy;
+    index_ = question.study.index.quantity + "." + question.study.index.statistic;
+    return command;
+  }
+
   IndexChoice asked_index() const {
     const std::size_t dot = index_.find('.');
     IndexChoice index{index_.substr(0, dot), dot == std::string::npos ? "" : index_.substr(dot + 1)};
@@ -183,6 +207,7 @@ class RunVerb : public Verb {
   MotionOptions motion_;
   bool compare_ = false;
   std::string index_ = "position_error.max";
+  std::string sample_number_;
 };
 
 }  // namespace

@@ -7,7 +7,9 @@ namespace boresight::app {
   VERB(check)                 \
   VERB(run)                   \
   VERB(sweep)                 \
-  VERB(sensitivity)
+  VERB(montecarlo)            \
+  VERB(sensitivity)           \
+  VERB(export)
 
 #define DECLARE(name) std::unique_ptr<Verb> make_##name##_verb();
 BORESIGHT_VERBS(DECLARE)

@@ -1,0 +1,56 @@
+#include "montecarlo_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "boresight/io/mechanism_file.hpp"
+
+namespace boresight::app {
+
+std::function<Parameters(std::span<const double>)> MonteCarloQuestion::parameters_of() const {
+  return [mechanism = mechanism, inputs = plan.inputs](std::span<const double> values) {
+    return inputs.parameters_with(*mechanism, values);
+  };
+}
+
+std::vector<double> MonteCarloQuestion::values_of_sample(std::uint64_t number) const {
+  std::vector<double> values(plan.inputs.size());
+  Design(plan.design, static_cast<int>(values.size())).point(number, values);
+  plan.inputs.values(values);
+  return values;
+}
+
+std::vector<Setting> MonteCarloQuestion::settings_of_sample(std::uint64_t number) const {
+  const std::vector<double> values = values_of_sample(number);
+  std::vector<Setting> settings;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (const std::string& path : plan.inputs.parameters[i].paths) {
+      const std::string& unit = plan.inputs.parameters[i].si_unit;
+      settings.push_back({path, fmt::format("{:.17g}{}", values[i], unit == "1" ? "" : " " + unit)});
+    }
+  return settings;
+}
+
+bool MonteCarloQuestion::scene_varies() const {
+  return std::any_of(plan.inputs.parameters.begin(), plan.inputs.parameters.end(), [](const RandomParameter& p) {
+    return std::any_of(p.paths.begin(), p.paths.end(), [](const std::string& path) { return !path.starts_with("clearance."); });
+  });
+}
+
+MonteCarloQuestion read_montecarlo_question(const std::string& file, const std::vector<Setting>& settings) {
+  Document document = Document::from_file(file);
+  Cursor root(document);
+  MonteCarloQuestion question;
+  question.study = read_study(root, document.content_hash());
+  question.mechanism = std::make_shared<const Mechanism>(read_mechanism(question.study.mechanism_file, settings));
+  question.plan =
+      read_montecarlo_plan(root, question.study, question.mechanism->description(), [&](const Setting& setting) {
+        std::vector<Setting> all = settings;
+        all.push_back(setting);
+        const Mechanism tried(read_mechanism(question.study.mechanism_file, all));
+      });
+  return question;
+}
+
+}  // namespace boresight::app

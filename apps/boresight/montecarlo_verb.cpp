@@ -1,0 +1,385 @@
+// boresight montecarlo STUDY: the distribution of the index over parameters that scatter.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <ostream>
+
+#include "boresight/io/content_hash.hpp"
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight_analyses/montecarlo/montecarlo.hpp"
+#include "boresight_analyses/statistics/binomial.hpp"
+#include "boresight_analyses/study/rung_sample_model.hpp"
+#include "exit_status.hpp"
+#include "interruption.hpp"
+#include "montecarlo_report.hpp"
+#include "montecarlo_study.hpp"
+#include "progress.hpp"
+#include "readable.hpp"
+#include "report/report.hpp"
+#include "summary.hpp"
+#include "verb.hpp"
+
+namespace boresight::app {
+namespace {
+
+// NaN and infinity, which JSON has not, are null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json interval_json(const ReportedInterval& i) {
+  return {{"value", number(i.value)}, {"low", number(i.low)},         {"high", number(i.high)},
+          {"confidence", i.confidence}, {"coverage", number(i.coverage)}, {"basis", i.basis}};
+}
+
+Json part_json(const ErrorPart& part) {
+  return {{"value", number(part.value)}, {"relative", number(part.relative)}, {"why", part.why}};
+}
+
+Json error_json(const ErrorStatement& e) {
+  return {{"of", e.of},
+          {"sampling", part_json(e.sampling)},
+          {"discretisation", part_json(e.discretisation)},
+          {"rung", part_json(e.rung)},
+          {"dominant", e.dominant}};
+}
+
+std::vector<std::string> names_of(const RandomInputs& inputs) {
+  std::vector<std::string> names;
+  for (const RandomParameter& p : inputs.parameters) names.push_back(p.name());
+  return names;
+}
+
+// The scatter's middle and two corners: what holds there is taken to hold between them.
+std::vector<Parameters> pilot_samples(const MonteCarloPlan& plan, const Mechanism& mechanism) {
+  std::vector<Parameters> samples;
+  for (const double level : {0.5, 0.05, 0.95}) {
+    std::vector<double> values;
+    for (const RandomParameter& p : plan.inputs.parameters) values.push_back(p.distribution->quantile(level));
+    samples.push_back(plan.inputs.parameters_with(mechanism, values));
+  }
+  return samples;
+}
+
+class MonteCarloVerb : public Verb {
+ public:
+  std::string name() const override { return "montecarlo"; }
+  std::string file_kind() const override { return "study"; }
+  std::string summary() const override { return "the index's distribution, with confidence intervals"; }
+  std::string example() const override { return "boresight montecarlo examples/3-rrcpr/montecarlo.toml --rung perturbation"; }
+  void declare_options(CLI::App& app) override {
+    motion_.declare_model(app);
+    app.add_flag("--resume", resume_, "go on where an earlier run of this study stopped, or with more samples");
+  }
+
+  int execute(const Command& command) override {
+    const std::unique_ptr<Ranks> ranks = Ranks::join();
+    const bool first = ranks->rank() == 0;
+    const Stopwatch watch;
+    MonteCarloQuestion question;
+    try {
+      question = read_montecarlo_question(command.file, command.settings);
+      check_rung_name(command.rung);
+    } catch (const InputError&) {
+      if (first) throw;
+      throw SilentExit{kBadInput};  // rank 0 says it
+    }
+    const RunOptions run = motion_.run_options(*question.mechanism);
+    const nlohmann::json identity = identity_for(command, question);
+
+    // Rank 0 owns the folder, finds the rung, and tells the others both.
+    std::string told;
+    std::unique_ptr<OutputDirectory> out;
+    std::unique_ptr<SampleStore> store;
+    RungChoice choice;
+    if (first) {
+      out = std::make_unique<OutputDirectory>(OutputDirectory::open(command.out, command.verb, command.file, identity));
+      store = open_store(*out, question);
+      choice = rung_for(command, question, run, *store);
+      told = nlohmann::json{{"folder", out->path().string()}, {"rung", choice.name}, {"step", choice.step}}.dump();
+    }
+    ranks->broadcast(told);
+    const nlohmann::json heard = nlohmann::json::parse(told);
+
+    RunOptions model_options = run;
+    if (heard["step"].get<double>() > 0.0) model_options.step = heard["step"];
+    const RungSampleModel model(heard["rung"], question.mechanism, question.parameters_of(), question.study.index, model_options,
+                                question.scene_varies());
+    MonteCarloOptions options{.folder = heard["folder"].get<std::string>(),
+                              .facts = {{"study", hash_of(identity)}},
+                              .jobs = command.jobs,
+                              .progress = {},
+                              .interrupted = [] { return interrupted(); }};
+    if (!first) {
+      run_montecarlo(model, question.plan, nullptr, *ranks, options);
+      return kDone;
+    }
+    store->use_rung(model.rung(), model.step());
+    if (!command.quiet) announce(question, store->count(), ranks->size());
+    Progress progress(command.quiet, static_cast<double>(question.plan.samples), "samples");
+    options.progress = [&](const MonteCarloProgress& p) { show(progress, p, question); };
+    const MonteCarloResult result = with_options_checked(
+        model_options, [&] { return run_montecarlo(model, question.plan, store.get(), *ranks, options); });
+    progress.clear();
+    return write_results(command, question, choice, model, *store, result, watch, *out);
+  }
+
+ private:
+  nlohmann::json identity_for(const Command& command, const MonteCarloQuestion& question) const {
+    ContentHash samples;
+    samples.add(question.plan.sample_text(question.study));
+    nlohmann::json options = motion_.model_identity();
+    if (question.study.accuracy) options["study_accuracy"] = *question.study.accuracy;
+    return identity_of(command, question.mechanism->description().content_hash, samples.hexadecimal(), options);
+  }
+  static std::string hash_of(const nlohmann::json& identity) {
+    ContentHash hash;
+    hash.add(identity.dump());
+    return hash.hexadecimal();
+  }
+
+  std::unique_ptr<SampleStore> open_store(const OutputDirectory& out, const MonteCarloQuestion& question) const {
+    const std::filesystem::path file = out.path() / "samples.db";
+    const bool there = std::filesystem::exists(file);
+    if (there && !resume_)
+      throw OutputDirectoryError("--out " + out.path().string() +
+                                 ": holds samples of this study already; --resume goes on with them, another --out begins anew");
+    // Whose folder this is has to be known before the first sample is, or a kill would leave an orphan.
+    if (!std::filesystem::exists(out.path() / "summary.json"))
+      write_json(out, "summary.json",
+                 {{"verb", "montecarlo"},
+                  {"version", BORESIGHT_VERSION},
+                  {"interrupted", true},
+                  {"warnings", {"begun and not yet ended: samples.db holds what there is; go on with --resume"}},
+                  {"identity", Json::parse(out.identity().dump())}});
+    auto store = std::make_unique<SampleStore>(file, std::map<std::string, std::string>{{"study", hash_of(out.identity())}},
+                                               names_of(question.plan.inputs));
+    if (!there) {
+      store->note("mechanism", question.mechanism->name());
+      store->note("mechanism_hash", question.mechanism->description().content_hash);
+      store->note("index", question.study.index.quantity + "." + question.study.index.statistic);
+      store->note("unit", question.study.index.si_unit());
+      store->note("seed", std::to_string(question.plan.design.seed));
+      store->note("inputs", question.plan.inputs.text);
+      store->note("design", question.plan.design.text());
+      store->note("version", BORESIGHT_VERSION);
+    }
+    merge_shards(*store, out.path());
+    return store;
+  }
+
+  // A study keeps its rung: the one it was begun with is the one it goes on with.
+  static RungChoice rung_for(const Command& command, const MonteCarloQuestion& question, const RunOptions& run,
+                             SampleStore& store) {
+    const std::vector<SampleStore::StoredRung> stored = store.rungs();
+    if (!stored.empty()) return {stored.front().name, store.fact("rung_why"), stored.front().step};
+    constexpr double kPilotTrials = 72.0;  // about as many as it makes; it may need fewer
+    Progress progress(command.quiet, kPilotTrials, "trials of the pilot");
+    RungChoice choice = choose_rung({.asked = command.rung,
+                                     .accuracy = command.accuracy ? command.accuracy : question.study.accuracy,
+                                     .wants_multibody = !run.formulation.empty() || !run.stabilisation.empty(),
+                                     .index = question.study.index,
+                                     .step = run.step,
+                                     .progress = [&](int trial) {
+                                       progress.update(trial, "finding the cheapest rung that meets the accuracy");
+                                       return !interrupted();
+                                     }},
+                                    question.mechanism, pilot_samples(question.plan, *question.mechanism));
+    store.note("rung_why", choice.why);
+    if (choice.pilot) {
+      store.note("pilot_error", fmt::format("{:.17g}", choice.pilot->trials[choice.pilot->chosen].error));
+      store.note("pilot_reference_error", fmt::format("{:.17g}", choice.pilot->reference_error));
+    }
+    return choice;
+  }
+
+  static void announce(const MonteCarloQuestion& question, std::uint64_t stored, int ranks) {
+    const MonteCarloPlan& plan = question.plan;
+    fmt::print("{}: {} samples ({}), {} random parameters{}{}\n", question.mechanism->name(), plan.samples, plan.design.text(),
+               plan.inputs.size(), stored > 0 ? fmt::format(", {} of them stored already", stored) : "",
+               ranks > 1 ? fmt::format(", on {} ranks", ranks) : "");
+    if (plan.requirement) {
+      const auto fewest = [&](std::int64_t above) {
+        return wilks_one_sided(plan.requirement->probability, plan.requirement->confidence, above);
+      };
+      fmt::print("  to show {:g} % with {:g} % confidence takes {} independent samples if none is above the limit, {} if one is, "
+                 "{} if two are (Wilks)\n",
+                 100.0 * plan.requirement->probability, 100.0 * plan.requirement->confidence, fewest(0), fewest(1), fewest(2));
+    }
+    std::fflush(stdout);
+  }
+
+  static void show(Progress& progress, const MonteCarloProgress& p, const MonteCarloQuestion& question) {
+    const std::string& unit = question.study.index.si_unit();
+    std::string estimate;
+    const std::string name = headline_of(question.plan);
+    for (const Headline& h : headlines())
+      if (name == h.name && p.done > p.failed) {
+        try {
+          const IndependentInterval i = p.running->quantile(h.probability, question.plan.confidence);
+          estimate = name + " " + readable(i.value, unit);
+          // Order statistics are for independent samples only.
+          if (question.plan.design.kind == DesignKind::random) estimate += " (" + readable_interval(reported(i), unit) + ")";
+        } catch (const std::invalid_argument&) {
+        }
+      }
+    if (p.failed > 0) estimate += fmt::format(", {} failed", p.failed);
+    progress.update_from(static_cast<double>(p.begun_with), static_cast<double>(p.done), estimate);
+  }
+
+  int write_results(const Command& command, const MonteCarloQuestion& question, const RungChoice& choice, const SampleModel& model,
+                    const SampleStore& store, const MonteCarloResult& result, const Stopwatch& watch,
+                    const OutputDirectory& out) const {
+    ModelError error;
+    const ShownSamples shown = shown_samples(store, result, error);
+    const std::string pilot_error = store.fact("pilot_error");
+    if (!pilot_error.empty()) {
+      error.rung = std::stod(pilot_error);
+      error.rung_why = "measured by the pilot against multibody at half its step, the step's own error included";
+    }
+    const Estimates estimates = estimate(result.values, question.plan, error);
+    MonteCarloStudy study{.command = command,
+                          .study = question.study,
+                          .mechanism = *question.mechanism,
+                          .rung = choice,
+                          .plan = question.plan,
+                          .result = result,
+                          .estimates = estimates,
+                          .shown = shown,
+                          .warnings = warnings_of(question, result, estimates),
+                          .leaves_out = model.leaves_out(),
+                          .replay = replay_command(command, model)};
+    write_json(out, "summary.json", summary_of(study, watch, out, store));
+    out.write("report.html", [&](std::ostream& s) { report::write_html(s, montecarlo_report(study)); });
+    if (!command.quiet) print(study, out);
+    if (result.ended == Ended::interrupted) return kInterrupted;
+    if (estimates.failed == estimates.samples && estimates.samples > 0) return kFailed;
+    return estimates.requirement && !estimates.requirement->met ? kAnswerIsNo : kDone;
+  }
+
+  // Failed ones first, the others spread evenly; and what the rung thinks of its own error, on average.
+  static ShownSamples shown_samples(const SampleStore& store, const MonteCarloResult& result, ModelError& error) {
+    ShownSamples shown;
+    const std::uint64_t n = result.values.size();
+    const std::uint64_t every = n / kMostShown + 1;
+    double done = 0.0;
+    store.read(n, [&](const SampleRecord& record) {
+      if (record.outcome.status == Outcome::Status::failed) {
+        if (shown.failed.size() < kMostFailedShown) shown.failed.push_back(record);
+        return;
+      }
+      done += 1.0;
+      error.rung += record.outcome.model_error;
+      error.discretisation += record.outcome.discretisation_error;
+      if (record.number % every == 0) shown.done.push_back(record);
+    });
+    if (done > 0.0) {
+      error.rung /= done;
+      error.discretisation /= done;
+    }
+    error.discretisation_why = "the rung's own estimate of its steps, mean over the samples";
+    error.rung_why = "the rung's own estimate of what it leaves out, mean over the samples";
+    return shown;
+  }
+
+  static std::vector<std::string> warnings_of(const MonteCarloQuestion& question, const MonteCarloResult& result,
+                                              const Estimates& estimates) {
+    std::vector<std::string> warnings;
+    const MonteCarloPlan& plan = question.plan;
+    const Design design(plan.design, static_cast<int>(plan.inputs.size()));
+    if (const std::string warning = design.warning(result.values.size()); !warning.empty() && !result.values.empty())
+      warnings.push_back(warning);
+    if (result.ended == Ended::time)
+      warnings.push_back(fmt::format("stopped after {} with {} of {} samples; --resume goes on", readable(plan.stop.seconds, "s"),
+                                     result.values.size(), plan.samples));
+    if (result.ended == Ended::width)
+      warnings.push_back(fmt::format("stopped at {} samples as the interval of {} was narrow enough: looking at it several times "
+                                     "makes its true confidence a little less than stated",
+                                     result.values.size(), plan.stop.of));
+    if (estimates.failed > 0)
+      warnings.push_back(fmt::format("{} of {} samples failed; they count as bad in every bound, and mean and standard deviation "
+                                     "leave them out",
+                                     estimates.failed, estimates.samples));
+    if (plan.requirement && plan.design.kind == DesignKind::random &&
+        static_cast<std::int64_t>(result.values.size()) < estimates.requirement->fewest_samples)
+      warnings.push_back(fmt::format("the requirement cannot be shown with {} samples, whatever they give: it takes {}",
+                                     result.values.size(), estimates.requirement->fewest_samples));
+    return warnings;
+  }
+
+  std::string replay_command(const Command& command, const SampleModel& model) const {
+    std::string text = "boresight run " + command.file;
+    for (const Setting& setting : command.settings) text += " --set " + setting.path + "=" + setting.value;
+    text += " --rung " + model.rung();
+    if (model.step() > 0.0) text += fmt::format(" --step \"{:.17g} s\"", model.step());
+    return text + " --sample-number";
+  }
+
+  static Json summary_of(const MonteCarloStudy& s, const Stopwatch& watch, const OutputDirectory& out, const SampleStore& store) {
+    Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, s.result.ended == Ended::interrupted, out);
+    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    json["seed"] = s.plan.design.seed;
+    json["design"] = s.plan.design.text();
+    json["step"] = store.rungs().front().step;
+    json["samples"] = s.estimates.samples;
+    json["samples_asked"] = s.plan.samples;
+    json["samples_stored"] = s.result.stored;
+    json["ended"] = to_string(s.result.ended);
+    json["failed"] = s.estimates.failed;
+    Json& index = json["index"] = {{"quantity", s.study.index.quantity},
+                                   {"statistic", s.study.index.statistic},
+                                   {"unit", s.study.index.si_unit()}};
+    for (const NamedEstimate& e : s.estimates.index) index[e.name] = interval_json(e.interval);
+    if (s.estimates.requirement) {
+      const Requirement& asked = *s.plan.requirement;
+      json["requirement"] = {{"limit", asked.limit},
+                             {"asked_probability", asked.probability},
+                             {"confidence", asked.confidence},
+                             {"met", s.estimates.requirement->met},
+                             {"probability", interval_json(s.estimates.requirement->probability)},
+                             {"fewest_samples", s.estimates.requirement->fewest_samples}};
+      json["requirement"]["probability"]["confidence"] = asked.confidence;
+      json["requirement"]["probability"]["bounds"] = "one-sided, each at this confidence";
+    }
+    for (const ErrorStatement& e : s.estimates.errors) {
+      if (e.of == s.estimates.headline) json["error"] = error_json(e);
+      json["errors"][e.of] = error_json(e);
+    }
+    json["random"] = Json::array();
+    for (const RandomParameter& p : s.plan.inputs.parameters)
+      json["random"].push_back({{"parameters", p.paths},
+                                {"unit", p.si_unit},
+                                {"distribution", p.distribution->text().substr(0, 400)},
+                                {"mean", number(p.distribution->mean())},
+                                {"sd", number(p.distribution->sd())}});
+    json["replay"] = s.replay + " NUMBER";
+    json["files"] = {"summary.json", "samples.db", "report.html"};
+    return json;
+  }
+
+  static void print(const MonteCarloStudy& s, const OutputDirectory& out) {
+    const std::string& unit = s.study.index.si_unit();
+    fmt::print("{}: {} samples on the {} rung, {} failed; {}; index: {}\n", s.mechanism.name(), s.estimates.samples, s.rung.name,
+               s.estimates.failed, to_string(s.result.ended), s.study.index.title());
+    for (const NamedEstimate& e : s.estimates.index)
+      if (std::isfinite(e.interval.value))
+        fmt::print("  {:<8} {:>10}   ({} at {} confidence)\n", e.name, readable(e.interval.value, unit),
+                   readable_interval(e.interval, unit), readable_share(s.plan.confidence));
+    for (const ErrorStatement& e : s.estimates.errors)
+      if (e.of == s.estimates.headline)
+        fmt::print("  {} is uncertain by sampling {}, discretisation {}, rung {}: {} dominates\n", e.of,
+                   std::isfinite(e.sampling.relative) ? readable_share(e.sampling.relative) : "without bound",
+                   readable_share(e.discretisation.relative), readable_share(e.rung.relative), e.dominant);
+    if (s.estimates.requirement) fmt::print("  requirement: {}\n", verdict_sentence(s));
+    for (const std::string& warning : s.warnings) fmt::print("  warning: {}\n", warning);
+    fmt::print("  report: {}\n", (out.path() / "report.html").string());
+  }
+
+  MotionOptions motion_;
+  bool resume_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_montecarlo_verb() { return std::make_unique<MonteCarloVerb>(); }
+
+}  // namespace boresight::app
