@@ -158,6 +158,16 @@ FidelityPlan plan_fidelities(const FidelityPilot& pilot, double budget, std::uin
   return plan;
 }
 
+FidelityPlan with_weights_of(FidelityPlan plan, const FidelityPilot& pilot) {
+  check(pilot);
+  const Moments m = moments(whole(pilot));
+  for (std::size_t i = 1; i < plan.models.size(); ++i) {
+    const auto model = static_cast<std::size_t>(plan.models[i]);
+    plan.weight[i] = m.sd[model] > 0.0 ? m.correlation[model] * m.sd[0] / m.sd[model] : 0.0;
+  }
+  return plan;
+}
+
 ExcessPilot excess_pilot(const FidelityPilot& pilot, double limit) {
   check(pilot);
   const std::vector<std::vector<double>> values = whole(pilot);

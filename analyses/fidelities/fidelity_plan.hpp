@@ -46,6 +46,9 @@ struct FidelityPlan {
 // that does not pay two samples of every model after the pilot.
 FidelityPlan plan_fidelities(const FidelityPilot& pilot, double budget, std::uint64_t seed = 1);
 
+// The same samples put to another quantity: weights from its own pilot (indicators in place of values, say).
+FidelityPlan with_weights_of(FidelityPlan plan, const FidelityPilot& pilot);
+
 // Variance times CPU seconds for given correlations, in units of sd_1^2: (sum_i sqrt(w_i (rho_i^2 - rho_{i+1}^2)))^2, the
 // models in order; infinite where the order or the cost condition w_{i-1} / w_i > (rho_{i-1}^2 - rho_i^2) /
 // (rho_i^2 - rho_{i+1}^2) is broken.

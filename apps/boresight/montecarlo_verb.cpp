@@ -17,6 +17,7 @@
 #include "progress.hpp"
 #include "readable.hpp"
 #include "report/report.hpp"
+#include "several_rungs.hpp"
 #include "summary.hpp"
 #include "verb.hpp"
 
@@ -85,6 +86,12 @@ class MonteCarloVerb : public Verb {
     }
     const RunOptions run = motion_.run_options(*question.mechanism);
     const nlohmann::json identity = identity_for(command, question);
+    if (question.plan.fidelities || question.plan.tail) {
+      if (!first) return kDone;  // one rank does it all
+      const OutputDirectory out = OutputDirectory::open(command.out, command.verb, command.file, identity);
+      const SeveralRungs several{command, question, run, out, watch, resume_};
+      return question.plan.fidelities ? run_fidelities(several) : run_tail(several);
+    }
 
     // Rank 0 owns the folder, finds the rung, and tells the others both.
     std::string told;

@@ -86,7 +86,7 @@ report::Chart tornado(const SensitivityStudy& s, const DisplayUnit& unit) {
     const double width = std::max(std::abs(p.at_low - s.local.at_medians), std::abs(p.at_high - s.local.at_medians));
     return std::isfinite(width) ? width : 0.0;
   };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return swing(a) < swing(b); });  // upwards
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return swing(a) > swing(b); });
   report::Chart chart{.title = "Tornado",
                       .caption = "One parameter at its 5 % and at its 95 % quantile, all others at their medians: how far the index "
                                  "moves. Each bar is one motion.",
@@ -128,12 +128,11 @@ report::Section local_section(const SensitivityStudy& s) {
                                              "the maximum of a motion rough: where the three differ by more than {:g} % of the largest no "
                                              "slope is given, as there is none.",
                                              100.0 * kSettledSlope),
-                      .columns = {{"parameter"}, {"median"}, {"5 %"}, {"95 %"}, {"index at 5 %"}, {"index at 95 %"},
-                                  {"slope", "SI"}, {"times sd"}, {"means something"}}};
+                      .columns = {{"parameter"}, {"median"}, {"index at 5 %"}, {"index at 95 %"},
+                                  {"slope"}, {"times sd"}, {"means something"}}};
   for (const LocalSensitivity& p : s.local.parameters) {
     const double slope = p.derivative.back();
-    table.rows.push_back({p.name, readable(p.median, p.si_unit), readable(p.low, p.si_unit), readable(p.high, p.si_unit),
-                          readable(p.at_low, unit), readable(p.at_high, unit),
+    table.rows.push_back({p.name, readable(p.median, p.si_unit), readable(p.at_low, unit), readable(p.at_high, unit),
                           p.meaningful ? nlohmann::json(fmt::format("{:.4g} {}", slope, per(unit, p.si_unit))) : nlohmann::json("none"),
                           p.meaningful ? nlohmann::json(readable(slope * p.sd, unit)) : nlohmann::json(""),
                           p.meaningful ? "yes" : "no: " + p.why_not});
@@ -147,7 +146,7 @@ report::Section scatter_section(const SensitivityStudy& s) {
   for (const SampleRecord& r : s.shown) most = std::max(most, std::abs(r.outcome.value));
   const DisplayUnit unit = display_unit(s.study.index.si_unit(), most);
   report::Panels panels{.title = "The index against each parameter",
-                        .caption = fmt::format("{} independent samples of the study.", s.shown.size()),
+                        .caption = fmt::format("{} of the samples, all parameters scattering.", s.shown.size()),
                         .columns = 3,
                         .shared_legend = false};
   for (std::size_t i = 0; i < s.plan.inputs.size(); ++i) {
@@ -173,9 +172,11 @@ std::string sensitivity_sentence(const SensitivityStudy& s) {
   if (!s.global) return "";
   if (s.global->sd <= 1e-9 * std::abs(s.global->mean)) return "The index does not depend on what scatters.";
   const GroupSensitivity& first = s.global->groups[by_total(*s.global).front()];
+  // Estimates of what lies between 0 and 1 may lie beyond; a sentence need not say so, the table does.
+  const auto share = [](double value) { return readable_share(std::clamp(value, 0.0, 1.0)); };
   return fmt::format("{} matters most: {} of the variance alone ({} to {}), {} with all it does together with others ({} to {})",
-                     first.name, readable_share(first.first.value), readable_share(first.first.low), readable_share(first.first.high),
-                     readable_share(first.total.value), readable_share(first.total.low), readable_share(first.total.high));
+                     first.name, share(first.first.value), share(first.first.low), share(first.first.high),
+                     share(first.total.value), share(first.total.low), share(first.total.high));
 }
 
 report::Document sensitivity_report(const SensitivityStudy& s) {

@@ -1,4 +1,4 @@
-// What sensitivity.html shows: whose scatter makes the index scatter, alone and with the others; the tornado; where slopes
+// What the report of a sensitivity study shows: whose scatter makes the index scatter, alone and with the others; the tornado; where slopes
 // mean something and where not.
 #pragma once
 
