@@ -1,8 +1,12 @@
 #include "boresight_analyses/study/rung_sample_model.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <optional>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/unstable_step.hpp"
 
 namespace boresight {
 
@@ -50,12 +54,28 @@ void RungSampleModel::evaluate(std::span<const Sample> samples, std::span<Outcom
   }
 }
 
+RunResult RungSampleModel::run(const Rung& rung, const Parameters& parameters, RunOptions options,
+                               std::string& message) const {
+  constexpr double kSmallestShare = 1e-3;
+  for (;;) {
+    try {
+      return rung.run(parameters, options);
+    } catch (const UnstableStep&) {
+      if (options.step < kSmallestShare * options_.step || options.step == 0.0) throw;
+      options.step *= 0.5;
+      char text[60];
+      std::snprintf(text, sizeof text, "the step was shortened to %.6g s", options.step);
+      message = text;
+    }
+  }
+}
+
 void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outcome& outcome,
                                    const std::atomic<bool>& stop) const {
   RunOptions options = options_;
   options.progress = [&stop](const RunProgress&) { return !stop.load(std::memory_order_relaxed); };
   try {
-    const RunResult result = rung.run(parameters_of_(sample.values), options);
+    const RunResult result = run(rung, parameters_of_(sample.values), options, outcome.message);
     outcome.cpu_seconds = result.cost.cpu_seconds;
     if (result.interrupted) return;
     outcome.value = index_.of(result.index);
@@ -71,6 +91,27 @@ void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outco
     outcome.status = Outcome::Status::failed;
     outcome.message = failure.what();
   }
+}
+
+double common_step(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism,
+                   const std::vector<Parameters>& samples, RunOptions options) {
+  const std::unique_ptr<Rung> model = make_rung(rung, mechanism);
+  options.sample_spacing = 0.0;
+  options.events = false;
+  double step = 0.0;
+  std::optional<ComputationError> refusal;
+  for (const Parameters& sample : samples) {
+    try {
+      const RunResult result = model->run(sample, options);
+      if (result.cost.steps == 0) continue;
+      const double own = mechanism->duration() / static_cast<double>(result.cost.steps);
+      step = step == 0.0 ? own : std::min(step, own);
+    } catch (const ComputationError& failure) {
+      refusal = failure;
+    }
+  }
+  if (step == 0.0 && refusal) throw *refusal;
+  return step;
 }
 
 }  // namespace boresight

@@ -1,6 +1,9 @@
 // The plainest sample model: every sample is one run of a rung. The rung, and with it the scene that it prepares for the
 // mechanism, is shared by all samples and threads where no parameter changes the scene; where masses, gravity or springs
 // scatter, each thread has a rung of its own, so that none waits for another's scene.
+//
+// All samples are integrated with one step (RunOptions::step): finding a step afresh costs more than a cheap rung's whole run.
+// Where a sample proves stiffer than that, its step is halved until it holds, and its message says so.
 #pragma once
 
 #include <functional>
@@ -29,6 +32,7 @@ class RungSampleModel final : public SampleModel {
                 const std::atomic<bool>& stop) const override;
 
  private:
+  RunResult run(const Rung& rung, const Parameters& parameters, RunOptions options, std::string& message) const;
   void evaluate_one(const Rung& rung, const Sample& sample, Outcome& outcome, const std::atomic<bool>& stop) const;
 
   std::string rung_;
@@ -41,5 +45,10 @@ class RungSampleModel final : public SampleModel {
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Rung>> idle_;  // where the scene varies
 };
+
+// The step that suits all of these samples: the smallest that the rung chooses for any of them; 0 where it takes none. Throws
+// ComputationError where it can follow none of them.
+double common_step(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism,
+                   const std::vector<Parameters>& samples, RunOptions options);
 
 }  // namespace boresight

@@ -21,7 +21,7 @@ struct Outcome {
   enum class Status { done = 0, failed = 1, not_reached = 2 };  // not_reached: stopped before its end
   Status status = Status::not_reached;
   double value = std::numeric_limits<double>::quiet_NaN();  // the index, SI; NaN unless done
-  std::string message = {};                                  // why it failed
+  std::string message = {};                                  // why it failed, or what was done that it did not
   double cpu_seconds = 0.0;
   double model_error = 0.0;           // what the rung thinks of itself, relative: by what it leaves out
   double discretisation_error = 0.0;  // and by its steps

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "pilot_parts.hpp"
 #include "readable.hpp"
@@ -183,6 +184,23 @@ report::Panels scatter(const MonteCarloStudy& s, const DisplayUnit& unit, double
   return panels;
 }
 
+// The distribution with its numbers as people read them.
+std::string short_text(const Distribution& distribution) {
+  static const std::regex number("-?[0-9]+\\.?[0-9]*(e[-+]?[0-9]+)?");
+  const std::string text = distribution.text();
+  if (text.starts_with("fit(")) return text;
+  std::string out;
+  auto at = text.cbegin();
+  for (std::sregex_iterator m(text.begin(), text.end(), number), end; m != end; ++m) {
+    out.append(at, text.cbegin() + m->position());
+    out += fmt::format("{:.4g}", std::stod(m->str()));
+    at = text.cbegin() + m->position() + m->length();
+  }
+  out.append(at, text.cend());
+  constexpr std::size_t kLong = 160;
+  return out.size() > kLong ? out.substr(0, kLong) + " ..." : out;
+}
+
 report::Table input_table(const MonteCarloStudy& s) {
   report::Table table{.title = "What scatters",
                       .caption = "The design's coordinates become values by each distribution's quantile function.",
@@ -191,10 +209,7 @@ report::Table input_table(const MonteCarloStudy& s) {
     std::string paths;
     for (const std::string& path : p.paths) paths += (paths.empty() ? "" : " = ") + path;
     const auto text = [&](double v) { return readable(v, p.si_unit); };
-    std::string law = p.distribution->text();
-    constexpr std::size_t kLong = 160;
-    if (law.size() > kLong) law = law.substr(0, kLong) + " ...";
-    table.rows.push_back({paths, law, text(p.distribution->mean()), text(p.distribution->sd()),
+    table.rows.push_back({paths, short_text(*p.distribution) + (p.si_unit == "1" ? "" : ", in " + p.si_unit), text(p.distribution->mean()), text(p.distribution->sd()),
                           text(p.distribution->quantile(0.001)), text(p.distribution->upper_quantile(0.001))});
   }
   return table;
@@ -255,7 +270,7 @@ std::string readable_interval(const ReportedInterval& i, const std::string& si_u
 std::string verdict_sentence(const MonteCarloStudy& s) {
   const Requirement& asked = *s.plan.requirement;
   const RequirementVerdict& found = *s.estimates.requirement;
-  std::string text = fmt::format("{} at or below {} in {} of all cases, with {} confidence: {}.", s.study.index.title(),
+  std::string text = fmt::format("Wanted: {} at or below {} in {} of all cases, with {} confidence: {}.", s.study.index.title(),
                                  readable(asked.limit, s.study.index.si_unit()), fmt::format("{:g} %", 100.0 * asked.probability),
                                  fmt::format("{:g} %", 100.0 * asked.confidence), found.met ? "met" : "not shown to be met");
   if (std::isfinite(found.probability.value))

@@ -191,6 +191,10 @@ class MonteCarloVerb : public Verb {
                                        return !interrupted();
                                      }},
                                     question.mechanism, pilot_samples(question.plan, *question.mechanism));
+    if (choice.step == 0.0 && run.step == 0.0)
+      choice.step = with_options_checked(run, [&] {
+        return common_step(choice.name, question.mechanism, pilot_samples(question.plan, *question.mechanism), run);
+      });
     store.note("rung_why", choice.why);
     if (choice.pilot) {
       store.note("pilot_error", fmt::format("{:.17g}", choice.pilot->trials[choice.pilot->chosen].error));
