@@ -4,6 +4,7 @@
 
 #include "boresight/rungs/rung.hpp"
 #include "boresight_analyses/montecarlo/several_models.hpp"
+#include "boresight_analyses/statistics/interval.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 #include "command.hpp"
 #include "montecarlo_study.hpp"
