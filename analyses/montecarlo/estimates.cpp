@@ -85,8 +85,8 @@ ErrorStatement error_of(const NamedEstimate& e, const ModelError& model) {
   s.discretisation = {model.discretisation * size, model.discretisation, model.discretisation_why};
   s.rung = {model.rung * size, model.rung, model.rung_why};
   s.dominant = s.sampling.relative >= std::max(model.discretisation, model.rung) ? "sampling"
-               : model.rung >= model.discretisation                            ? "rung"
-                                                                               : "discretisation";
+               : model.rung >= model.discretisation                              ? "rung"
+                                                                                 : "discretisation";
   return s;
 }
 
@@ -115,16 +115,18 @@ std::string headline_of(const MonteCarloPlan& plan) {
   if (!plan.requirement) return "p95";
   const Headline* nearest = nullptr;
   for (const Headline& h : headlines())
-    if (h.probability > 0.0 && (nearest == nullptr || std::abs(h.probability - plan.requirement->probability) <
-                                                          std::abs(nearest->probability - plan.requirement->probability)))
+    if (h.probability > 0.0 &&
+        (nearest == nullptr || std::abs(h.probability - plan.requirement->probability) <
+                                   std::abs(nearest->probability - plan.requirement->probability)))
       nearest = &h;
   return nearest->name;
 }
 
 ReportedInterval estimate_of(const std::string& headline, const std::vector<double>& values, std::uint64_t count,
                              const MonteCarloPlan& plan, double confidence) {
-  return with_samples(values, count, plan, confidence,
-                      [&](const auto& samples) { return headline_interval(samples, headline_called(headline), confidence); });
+  return with_samples(values, count, plan, confidence, [&](const auto& samples) {
+    return headline_interval(samples, headline_called(headline), confidence);
+  });
 }
 
 Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan, const ModelError& model) {
@@ -133,7 +135,8 @@ Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan
   result.failed = static_cast<std::uint64_t>(
       std::count_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }));
   const auto ask_all = [&](const auto& samples) {
-    for (const Headline& h : headlines()) result.index.push_back({h.name, headline_interval(samples, h, plan.confidence)});
+    for (const Headline& h : headlines())
+      result.index.push_back({h.name, headline_interval(samples, h, plan.confidence)});
     if (plan.requirement) {
       const Requirement& asked = *plan.requirement;
       RequirementVerdict verdict;
@@ -149,9 +152,9 @@ Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan
   if (result.index.empty()) {
     for (const Headline& h : headlines()) result.index.push_back({h.name, too_few(plan.confidence)});
     if (plan.requirement)
-      result.requirement = RequirementVerdict{
-          false, too_few(plan.requirement->confidence),
-          wilks_one_sided(plan.requirement->probability, plan.requirement->confidence)};
+      result.requirement =
+          RequirementVerdict{false, too_few(plan.requirement->confidence),
+                             wilks_one_sided(plan.requirement->probability, plan.requirement->confidence)};
   }
   for (const NamedEstimate& e : result.index)
     if (std::isfinite(e.interval.value)) result.errors.push_back(error_of(e, model));

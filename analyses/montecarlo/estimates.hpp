@@ -1,5 +1,5 @@
-// What the samples of a study say: mean, sd and quantiles of the index with intervals, the verdict on the requirement, how the
-// estimate settled, and what each number is uncertain by.
+// What the samples of a study say: mean, sd and quantiles of the index with intervals, the verdict on the requirement,
+// how the estimate settled, and what each number is uncertain by.
 //
 // Intervals belong to the design: order statistics and Clopper-Pearson for independent samples, the scatter over
 // replicates for hypercubes and nets (analyses/statistics). A failed sample is a bad one.
@@ -16,13 +16,13 @@
 namespace boresight {
 
 struct NamedEstimate {
-  std::string name;  // among headlines()
+  std::string name;           // among headlines()
   ReportedInterval interval;  // NaN where there are too few samples for it
 };
 
 struct RequirementVerdict {
-  bool met = false;               // shown to be met: the probability's lower bound reaches what is asked
-  ReportedInterval probability;   // low and high are one-sided bounds, each at the requirement's confidence
+  bool met = false;                 // shown to be met: the probability's lower bound reaches what is asked
+  ReportedInterval probability;     // low and high are one-sided bounds, each at the requirement's confidence
   std::int64_t fewest_samples = 0;  // Wilks: independent samples that could show it at all, if none is above the limit
 };
 
@@ -52,8 +52,8 @@ struct Estimates {
   std::uint64_t samples = 0, failed = 0;
   std::vector<NamedEstimate> index;
   std::optional<RequirementVerdict> requirement;
-  std::vector<ErrorStatement> errors;  // one per headline that has an interval
-  std::string headline;                // the one that a reader looks at first: the requirement's level, or p95
+  std::vector<ErrorStatement> errors;         // one per headline that has an interval
+  std::string headline;                       // the one that a reader looks at first: the requirement's level, or p95
   std::vector<ConvergencePoint> convergence;  // of the headline
 
   const NamedEstimate& of(const std::string& name) const;

@@ -110,7 +110,8 @@ std::vector<std::uint64_t> stopping_points(const MonteCarloPlan& plan) {
     const std::uint64_t unit = unit_of(plan);
     const bool net = plan.design.kind == DesignKind::sobol;  // these keep their balance at powers of two
     std::uint64_t units = std::max<std::uint64_t>(2, net ? 16 : (200 + unit - 1) / unit);
-    for (; units * unit < plan.samples; units = net ? 2 * units : units + (units + 1) / 2) points.push_back(units * unit);
+    for (; units * unit < plan.samples; units = net ? 2 * units : units + (units + 1) / 2)
+      points.push_back(units * unit);
   }
   points.push_back(plan.samples);
   return points;
@@ -188,9 +189,11 @@ MonteCarloResult run_montecarlo(const SampleModel& model, const MonteCarloPlan& 
       if (ranks.size() > 1) {
         std::uint64_t all = 0;
         for (const NumberRange& range : work.blocks) all += range.size();
-        const std::uint64_t batch = std::max<std::uint64_t>(1, model.batch()) * static_cast<std::uint64_t>(options.jobs);
+        const std::uint64_t batch =
+            std::max<std::uint64_t>(1, model.batch()) * static_cast<std::uint64_t>(options.jobs);
         const std::uint64_t fair = all / (16 * static_cast<std::uint64_t>(ranks.size()));
-        work.blocks = blocks_of(work.blocks, std::clamp<std::uint64_t>(fair, batch, std::max<std::uint64_t>(batch, 65536)));
+        work.blocks =
+            blocks_of(work.blocks, std::clamp<std::uint64_t>(fair, batch, std::max<std::uint64_t>(batch, 65536)));
       }
     }
     const bool whole = ranks.share(work);

@@ -1,8 +1,8 @@
 // Monte Carlo: the samples of a plan, computed over threads and ranks into a store, from wherever the store stands.
 //
-// Which samples a study holds when it ends by their number or by an interval's width depends on the plan alone, not on threads,
-// ranks, or how often it was resumed: widths are judged only at fixed numbers of samples (growing by half), when all up to
-// there are in. A limit on time ends it where it stands.
+// Which samples a study holds when it ends by their number or by an interval's width depends on the plan alone, not on
+// threads, ranks, or how often it was resumed: widths are judged only at fixed numbers of samples (growing by half),
+// when all up to there are in. A limit on time ends it where it stands.
 #pragma once
 
 #include <filesystem>

@@ -132,7 +132,8 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
   const std::string design = table.choice("design", {"random", "lhs", "sobol"}, "random");
   for (const DesignKind kind : {DesignKind::random, DesignKind::lhs, DesignKind::sobol})
     if (design == to_string(kind)) plan.design.kind = kind;
-  if (table.has("strata") && plan.design.kind != DesignKind::lhs) table.fail("strata", "strata with design = \"lhs\" only");
+  if (table.has("strata") && plan.design.kind != DesignKind::lhs)
+    table.fail("strata", "strata with design = \"lhs\" only");
   if (table.has("replicates") && plan.design.kind != DesignKind::sobol)
     table.fail("replicates", "replicates with design = \"sobol\" only");
   plan.design.strata = count(table, "strata", 2, static_cast<long long>(plan.design.strata));
@@ -142,8 +143,9 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
                                                                      : 1;
   if (plan.samples % unit != 0 || (unit > 1 && plan.samples < 2 * unit))
     table.fail("samples", std::string("a multiple of ") +
-                              (plan.design.kind == DesignKind::lhs ? "strata" : "replicates") + " (" + std::to_string(unit) +
-                              "), at least twice: " + std::to_string(std::max<std::uint64_t>(2, (plan.samples + unit - 1) / unit) * unit));
+                              (plan.design.kind == DesignKind::lhs ? "strata" : "replicates") + " (" +
+                              std::to_string(unit) + "), at least twice: " +
+                              std::to_string(std::max<std::uint64_t>(2, (plan.samples + unit - 1) / unit) * unit));
 
   plan.confidence = share(table, "confidence", plan.confidence);
   if (table.has("requirement")) plan.requirement = read_requirement(table.table("requirement"), study);

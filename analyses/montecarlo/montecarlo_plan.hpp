@@ -33,9 +33,9 @@ struct Requirement {
 };
 
 struct StopRule {
-  double width = 0.0;          // half-width of the interval over the estimate; 0: no such rule
-  std::string of = "p99.73";   // among headline_names()
-  double seconds = 0.0;        // wall time; 0: no such rule
+  double width = 0.0;         // half-width of the interval over the estimate; 0: no such rule
+  std::string of = "p99.73";  // among headline_names()
+  double seconds = 0.0;       // wall time; 0: no such rule
 };
 
 // Several rungs at once: fidelities/fidelity_plan.hpp.
@@ -62,8 +62,8 @@ struct MonteCarloPlan {
   std::optional<TailQuestion> tail;
   RandomInputs inputs;
 
-  // What decides the value of sample k, but for mechanism and rung: how many samples there are, what is asked of them and
-  // when to stop are not part of it, so that a study may be continued with more.
+  // What decides the value of sample k, but for mechanism and rung: how many samples there are, what is asked of them
+  // and when to stop are not part of it, so that a study may be continued with more.
   std::string sample_text(const Study& study) const;
 };
 

@@ -1,8 +1,8 @@
 // This process among those that mpirun started (MPI), or alone.
 //
-// Rank 0 hands out blocks of sample numbers; each rank computes its block with its own threads and asks for the next one,
-// bringing the values of the last. Rank 0 answers from its main thread while its own threads compute. A rank that is lost
-// costs at most what it had not yet committed.
+// Rank 0 hands out blocks of sample numbers; each rank computes its block with its own threads and asks for the next
+// one, bringing the values of the last. Rank 0 answers from its main thread while its own threads compute. A rank that
+// is lost costs at most what it had not yet committed.
 #pragma once
 
 #include <atomic>

@@ -114,7 +114,8 @@ SampleStore::SampleStore(const std::filesystem::path& file, const std::map<std::
 
 SampleStore::SampleStore(const std::filesystem::path& file) : file_(file) {
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw StoreRefused("found no " + file.string() + ", expected a store of samples");
+  if (!std::filesystem::exists(file, error))
+    throw StoreRefused("found no " + file.string() + ", expected a store of samples");
   open();
   Statement there(db_->handle, file_, "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = 'sample'");
   if (!there.step() || there.integer(0) == 0) throw StoreRefused(file.string() + " is no store of samples");
@@ -135,7 +136,8 @@ void SampleStore::open() {
   const int code = sqlite3_open_v2(file_.c_str(), &db_->handle, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
   if (code != SQLITE_OK) fail(db_->handle, file_, code);
   // One process at a time: so the log needs no shared memory and works on network file systems too.
-  for (const char* pragma : {"PRAGMA locking_mode = EXCLUSIVE", "PRAGMA journal_mode = WAL", "PRAGMA synchronous = NORMAL"})
+  for (const char* pragma :
+       {"PRAGMA locking_mode = EXCLUSIVE", "PRAGMA journal_mode = WAL", "PRAGMA synchronous = NORMAL"})
     db_->execute(file_, pragma);
 }
 
@@ -214,7 +216,8 @@ void SampleStore::add(const SampleRecord& record) {
   if (!db_->insert) {
     std::string places = "?, ?, ?, ?, ?, ?, ?, ?";
     for (std::size_t k = 0; k < parameters_.size(); ++k) places += ", ?";
-    db_->insert = std::make_unique<Statement>(db_->handle, file_, "INSERT OR IGNORE INTO sample VALUES (" + places + ")");
+    db_->insert =
+        std::make_unique<Statement>(db_->handle, file_, "INSERT OR IGNORE INTO sample VALUES (" + places + ")");
   }
   Statement& put = *db_->insert;
   put.reset();

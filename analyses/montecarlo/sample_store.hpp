@@ -1,12 +1,13 @@
 // The store of samples: one SQLite file, to which samples are added as they finish.
 //
-// A sample is in the file once it is committed (every quarter of a second or so) and stays in it: a kill -9 loses what was
-// computed since, a full disk leaves what was there (write-ahead log). A number is stored once: adding it again changes
-// nothing. The file belongs to one study, named by a text; another study's samples are refused. One process has it open at a
-// time; ranks write a file each, which are then merged.
+// A sample is in the file once it is committed (every quarter of a second or so) and stays in it: a kill -9 loses what
+// was computed since, a full disk leaves what was there (write-ahead log). A number is stored once: adding it again
+// changes nothing. The file belongs to one study, named by a text; another study's samples are refused. One process
+// has it open at a time; ranks write a file each, which are then merged.
 //
 //   tables: study(key, value)    rung(id, name, step)
-//           sample(number, status, value, one column per random parameter, cpu_seconds, model_error, discretisation_error,
+//           sample(number, status, value, one column per random parameter, cpu_seconds, model_error,
+//           discretisation_error,
 //                  rung, message)
 #pragma once
 

@@ -1,7 +1,7 @@
 // Computes the samples of some ranges of numbers, on several threads (oneTBB).
 //
-// Threads take the next few numbers in ascending order, as many as the model likes at once, so that at any time the samples
-// not yet done are the last ones begun. A sample's values and outcome depend on its number alone.
+// Threads take the next few numbers in ascending order, as many as the model likes at once, so that at any time the
+// samples not yet done are the last ones begun. A sample's values and outcome depend on its number alone.
 #pragma once
 
 #include <atomic>

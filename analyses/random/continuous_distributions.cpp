@@ -36,8 +36,8 @@ std::string described(const char* name, std::initializer_list<Number> numbers) {
 template <typename Law>
 class FromBoost final : public Distribution {
  public:
-  FromBoost(Law law, std::string text, double lowest, double highest, std::vector<double> kinks = {}, double shift = 0.0,
-            double scale = 1.0)
+  FromBoost(Law law, std::string text, double lowest, double highest, std::vector<double> kinks = {},
+            double shift = 0.0, double scale = 1.0)
       : law_(std::move(law)),
         text_(std::move(text)),
         lowest_(lowest),
@@ -99,15 +99,15 @@ DistributionPtr make_triangular(double min, double mode, double max) {
   std::vector<double> kinks;
   if (mode > min && mode < max) kinks.push_back(mode);
   return std::make_shared<FromBoost<boost::math::triangular>>(
-      boost::math::triangular(min, mode, max), described("triangular", {{"min", min}, {"mode", mode}, {"max", max}}), min,
-      max, kinks);
+      boost::math::triangular(min, mode, max), described("triangular", {{"min", min}, {"mode", mode}, {"max", max}}),
+      min, max, kinks);
 }
 
 DistributionPtr make_beta(double alpha, double beta, double min, double max) {
   return std::make_shared<FromBoost<boost::math::beta_distribution<>>>(
       boost::math::beta_distribution<>(alpha, beta),
-      described("beta", {{"alpha", alpha}, {"beta", beta}, {"min", min}, {"max", max}}), min, max, std::vector<double>{},
-      min, max - min);
+      described("beta", {{"alpha", alpha}, {"beta", beta}, {"min", min}, {"max", max}}), min, max,
+      std::vector<double>{}, min, max - min);
 }
 
 DistributionPtr make_weibull(double shape, double scale, double location) {

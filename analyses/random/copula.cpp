@@ -12,14 +12,18 @@
 
 namespace boresight {
 
-double normal_from_spearman(double rank_correlation) { return 2.0 * std::sin(std::numbers::pi / 6.0 * rank_correlation); }
+double normal_from_spearman(double rank_correlation) {
+  return 2.0 * std::sin(std::numbers::pi / 6.0 * rank_correlation);
+}
 double normal_from_kendall(double tau) { return std::sin(0.5 * std::numbers::pi * tau); }
 
 GaussianCopula::GaussianCopula(const Eigen::MatrixXd& correlation) {
-  const double least = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const double least =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(correlation, Eigen::EigenvaluesOnly).eigenvalues()[0];
   if (!(least > 1e-10)) {
     char text[120];
-    std::snprintf(text, sizeof text, "the correlation matrix is not positive definite (smallest eigenvalue %.3g)", least);
+    std::snprintf(text, sizeof text, "the correlation matrix is not positive definite (smallest eigenvalue %.3g)",
+                  least);
     throw std::domain_error(text);
   }
   factor_ = correlation.llt().matrixL();

@@ -1,5 +1,5 @@
-// Dependence between parameters, apart from how each of them scatters: a Gaussian copula. Independent uniform coordinates
-// become dependent ones by
+// Dependence between parameters, apart from how each of them scatters: a Gaussian copula. Independent uniform
+// coordinates become dependent ones by
 //
 //   z = Phi^-1(u),   y = L z with L L^T = R,   v = Phi(y),
 //
@@ -27,7 +27,7 @@ class GaussianCopula {
   void apply(std::span<double> coordinates) const;
 
  private:
-  Eigen::MatrixXd factor_;    // L
+  Eigen::MatrixXd factor_;     // L
   std::vector<bool> changed_;  // per coordinate: some entry beside the diagonal is not zero
 };
 

@@ -1,5 +1,5 @@
-// Random numbers that are a function: of the seed, of what they are for, and of a counter, and of nothing else. So sample k
-// is the same whatever thread, rank or resumed run draws it, and in whatever order.
+// Random numbers that are a function: of the seed, of what they are for, and of a counter, and of nothing else. So
+// sample k is the same whatever thread, rank or resumed run draws it, and in whatever order.
 //
 // Philox 4x64-10 (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as easy as 1, 2, 3"), from Random123.
 #pragma once
@@ -12,13 +12,13 @@ namespace boresight {
 
 // What a stream is for; streams of different purposes never meet. The numbers are part of every stored study.
 enum class StreamPurpose : std::uint64_t {
-  sample = 1,        // coordinates of independent samples
-  scrambling = 2,    // of a net
-  permutation = 3,   // of a Latin hypercube's strata
-  within_cell = 4,   // where in its cell a point of a hypercube or a net lies
-  resampling = 5,    // bootstrap
-  subset = 6,        // chains of subset simulation
-  proposal = 7       // draws of importance sampling, starts of its mixture
+  sample = 1,       // coordinates of independent samples
+  scrambling = 2,   // of a net
+  permutation = 3,  // of a Latin hypercube's strata
+  within_cell = 4,  // where in its cell a point of a hypercube or a net lies
+  resampling = 5,   // bootstrap
+  subset = 6,       // chains of subset simulation
+  proposal = 7      // draws of importance sampling, starts of its mixture
 };
 
 class CounterStream {

@@ -84,9 +84,9 @@ std::string Design::warning(std::uint64_t n) const {
     const std::uint64_t each = n / options_.replicates;
     if (each == 0 || n % options_.replicates != 0 || !std::has_single_bit(each)) {
       const std::uint64_t low = std::bit_floor(each == 0 ? 1 : each) * options_.replicates;
-      return std::to_string(n) + " samples are not a power of two in each of the " + std::to_string(options_.replicates) +
-             " nets, so the nets lose part of their balance; " + std::to_string(low) + " or " + std::to_string(2 * low) +
-             " would keep it";
+      return std::to_string(n) + " samples are not a power of two in each of the " +
+             std::to_string(options_.replicates) + " nets, so the nets lose part of their balance; " +
+             std::to_string(low) + " or " + std::to_string(2 * low) + " would keep it";
     }
   }
   return "";

@@ -7,7 +7,8 @@
 //   sobol    `replicates` scrambled Sobol' nets side by side: point k belongs to net k mod replicates, as its point
 //            k / replicates; each is an independent replicate
 //
-// Points of a hypercube or a net are not independent, so intervals come from the replicates, never from order statistics.
+// Points of a hypercube or a net are not independent, so intervals come from the replicates, never from order
+// statistics.
 #pragma once
 
 #include <cstdint>
@@ -42,8 +43,8 @@ class Design {
   // Coordinates in (0, 1).
   void point(std::uint64_t k, std::span<double> coordinates) const;
 
-  // Designs other than `random`: which replicate point k belongs to, and how many replicates the first n points complete
-  // (all of one size; for sobol the size is that of each net so far).
+  // Designs other than `random`: which replicate point k belongs to, and how many replicates the first n points
+  // complete (all of one size; for sobol the size is that of each net so far).
   std::uint64_t replicate_of(std::uint64_t k) const;
   std::uint64_t whole_replicates(std::uint64_t n) const;
   // The number of leading points that make whole replicates of one size.

@@ -53,9 +53,7 @@ class Discrete final : public Distribution {
   double lowest() const override { return value_.front(); }
   double highest() const override { return value_.back(); }
   bool is_discrete() const override { return true; }
-  double mean() const override {
-    return std::inner_product(value_.begin(), value_.end(), weight_.begin(), 0.0);
-  }
+  double mean() const override { return std::inner_product(value_.begin(), value_.end(), weight_.begin(), 0.0); }
   double sd() const override {
     const double m = mean();
     double sum = 0.0;

@@ -1,8 +1,9 @@
-// How a parameter scatters: a distribution in one dimension, known by its quantile function, so that any design on the unit
+// How a parameter scatters: a distribution in one dimension, known by its quantile function, so that any design on the
+// unit
 // cube (random, Latin hypercube, Sobol') becomes samples by x = quantile(u).
 //
-// All values are SI. The functions themselves are Boost.Math's; truncation is exact (the distribution given that the value
-// lies within the bounds, not clipped to them), and so are mean and sd of a truncated one, up to rounding.
+// All values are SI. The functions themselves are Boost.Math's; truncation is exact (the distribution given that the
+// value lies within the bounds, not clipped to them), and so are mean and sd of a truncated one, up to rounding.
 #pragma once
 
 #include <memory>
@@ -16,12 +17,12 @@ class Distribution {
   virtual ~Distribution() = default;
   // "normal(mean 0.0001, sd 1e-05)": name and numbers with all digits; equal texts are equal distributions.
   virtual std::string text() const = 0;
-  virtual double quantile(double u) const = 0;              // u in (0, 1)
-  virtual double upper_quantile(double v) const = 0;        // the value exceeded with probability v: exact for small v
-  virtual double cdf(double x) const = 0;                   // P(X <= x)
-  virtual double survival(double x) const = 0;              // P(X > x)
-  virtual double density(double x) const = 0;               // per unit of x; 0 where the distribution is discrete
-  virtual double lowest() const = 0;                        // of the support; may be -infinity
+  virtual double quantile(double u) const = 0;        // u in (0, 1)
+  virtual double upper_quantile(double v) const = 0;  // the value exceeded with probability v: exact for small v
+  virtual double cdf(double x) const = 0;             // P(X <= x)
+  virtual double survival(double x) const = 0;        // P(X > x)
+  virtual double density(double x) const = 0;         // per unit of x; 0 where the distribution is discrete
+  virtual double lowest() const = 0;                  // of the support; may be -infinity
   virtual double highest() const = 0;
   virtual bool is_discrete() const { return false; }
   virtual std::vector<double> kinks() const { return {}; }  // where the density is not smooth, inside the support

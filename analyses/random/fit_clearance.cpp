@@ -12,7 +12,8 @@ namespace {
 
 DistributionPtr deviation(const ToleranceZone& zone, ZoneLaw law) {
   if (law == ZoneLaw::uniform) return make_uniform(zone.lower, zone.upper);
-  return make_normal(0.5 * (zone.lower + zone.upper), (zone.upper - zone.lower) / 6.0)->truncated(zone.lower, zone.upper);
+  return make_normal(0.5 * (zone.lower + zone.upper), (zone.upper - zone.lower) / 6.0)
+      ->truncated(zone.lower, zone.upper);
 }
 
 // P(c <= x) = int f_S(s) F_H(2 x + s) ds, cut where F_H reaches its ends.

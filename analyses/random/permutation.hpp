@@ -1,5 +1,6 @@
-// A random permutation of 0 .. n - 1, element by element and without a table: a Feistel network over the smallest even number
-// of bits that holds n, walked until it lands below n (Black, Rogaway 2002, "Ciphers with arbitrary finite domains").
+// A random permutation of 0 .. n - 1, element by element and without a table: a Feistel network over the smallest even
+// number of bits that holds n, walked until it lands below n (Black, Rogaway 2002, "Ciphers with arbitrary finite
+// domains").
 #pragma once
 
 #include <bit>

@@ -23,8 +23,7 @@ void check_ends(Cursor& entry, const RandomParameter& random, const std::functio
       try {
         accepts({path, random.si_unit == "1" ? std::string(text) : text + (" " + random.si_unit)});
       } catch (const InputError& error) {
-        throw InputError(entry.origin("distribution"), path,
-                         "a distribution that reaches " + error.found,
+        throw InputError(entry.origin("distribution"), path, "a distribution that reaches " + error.found,
                          error.expected + "; truncate = [low, high] cuts it", error.nearest);
       }
     }
@@ -35,7 +34,8 @@ RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechan
                                const std::function<void(const Setting&)>& accepts) {
   entry.only({"parameter", "distribution"});
   RandomParameter random;
-  random.paths = entry.is_list("parameter") ? entry.texts("parameter") : std::vector<std::string>{entry.text("parameter")};
+  random.paths =
+      entry.is_list("parameter") ? entry.texts("parameter") : std::vector<std::string>{entry.text("parameter")};
   entry.require(!random.paths.empty(), "parameter", "a parameter's path, or a list of them");
   bool radial = true;
   for (const std::string& path : random.paths) {
@@ -83,15 +83,16 @@ void read_correlations(Cursor& root, RandomInputs& inputs) {
       index[path] = static_cast<Eigen::Index>(k);
       names.push_back(path);
     }
-  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(inputs.size()),
-                                                          static_cast<Eigen::Index>(inputs.size()));
+  Eigen::MatrixXd correlation =
+      Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(inputs.size()), static_cast<Eigen::Index>(inputs.size()));
   for (Cursor& entry : entries) {
     entry.only({"parameters", "coefficient", "measure"});
     const std::vector<std::string> pair = entry.texts("parameters");
     entry.require(pair.size() == 2, "parameters", "two parameters");
     for (const std::string& path : pair)
       if (!index.contains(path))
-        entry.fail_found("parameters", "\"" + path + "\"", "a parameter of a [[random]] table", nearest_name(path, names));
+        entry.fail_found("parameters", "\"" + path + "\"", "a parameter of a [[random]] table",
+                         nearest_name(path, names));
     const Eigen::Index i = index[pair[0]], j = index[pair[1]];
     if (i == j) entry.fail("parameters", "two different parameters");
     if (correlation(i, j) != 0.0) entry.fail("parameters", "each pair once");

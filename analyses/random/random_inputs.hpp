@@ -6,7 +6,7 @@
 //
 //   distribution = one of
 //     { normal = { mean = .., sd = .. } }            { uniform = { min = .., max = .. } }
-//     { lognormal = { median = .., factor = 1.3 } }  sd of ln x is ln(factor): 68 % lie between median / factor and median * factor
+//     { lognormal = { median = .., factor = 1.3 } }  sd of ln x is ln(factor): 68 % within median / and * factor
 //     { triangular = { min = .., mode = .., max = .. } }
 //     { beta = { alpha = 2, beta = 3, min = .., max = .. } }
 //     { weibull = { shape = 1.5, scale = .., location = .. } }                      location: 0 if left out
@@ -55,9 +55,9 @@ struct RandomInputs {
   Parameters parameters_with(const Mechanism& mechanism, std::span<const double> values) const;
 };
 
-// Reads [[random]] and [[correlation]]. Throws InputError: beside what is wrong with an entry itself, a distribution that
-// reaches values the mechanism would refuse. `accepts` is asked of one value out of 10^9 at either end, as a setting of the
-// mechanism, and throws what the mechanism's own reader throws.
+// Reads [[random]] and [[correlation]]. Throws InputError: beside what is wrong with an entry itself, a distribution
+// that reaches values the mechanism would refuse. `accepts` is asked of one value out of 10^9 at either end, as a
+// setting of the mechanism, and throws what the mechanism's own reader throws.
 RandomInputs read_random_inputs(Cursor& root, const MechanismDescription& mechanism,
                                 const std::function<void(const Setting&)>& accepts);
 

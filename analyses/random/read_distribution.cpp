@@ -18,7 +18,9 @@ class Values {
   explicit Values(const SiUnit& unit) : unit_(unit), pure_(std::string(unit.unit) == "1") {}
   bool pure() const { return pure_; }
   const SiUnit& unit() const { return unit_; }
-  double one(Cursor& table, const std::string& key) const { return pure_ ? table.number(key) : table.quantity(key, unit_); }
+  double one(Cursor& table, const std::string& key) const {
+    return pure_ ? table.number(key) : table.quantity(key, unit_);
+  }
   double one(Cursor& table, const std::string& key, double otherwise) const {
     return table.has(key) ? one(table, key) : otherwise;
   }
@@ -115,8 +117,8 @@ DistributionPtr empirical(Cursor& table, const Values& values) {
     for (double& value : read) value *= scale;
     return make_empirical(std::move(read));
   } catch (const ColumnFault& fault) {
-    throw InputError(table.origin(fault.about_the_file ? "file" : "column"), table.path(fault.about_the_file ? "file" : "column"),
-                     fault.found, fault.expected, fault.nearest);
+    throw InputError(table.origin(fault.about_the_file ? "file" : "column"),
+                     table.path(fault.about_the_file ? "file" : "column"), fault.found, fault.expected, fault.nearest);
   }
 }
 
@@ -128,8 +130,9 @@ DistributionPtr fit(Cursor& entry, bool is_radial_clearance) {
   try {
     const Fit found = parse_fit(entry.text("fit"));
     if (found.least_clearance() < 0.0)
-      entry.fail_found("fit", "\"" + found.name + "\", whose shaft may be thicker than its hole by " +
-                                  std::to_string(std::lround(-1e6 * found.least_clearance())) + " um",
+      entry.fail_found("fit",
+                       "\"" + found.name + "\", whose shaft may be thicker than its hole by " +
+                           std::to_string(std::lround(-1e6 * found.least_clearance())) + " um",
                        "a fit that always has clearance, such as \"20 H7/g6\"");
     return make_fit_clearance(found, law);
   } catch (const ValueFault& fault) {
@@ -141,8 +144,9 @@ struct Family {
   const char* name;
   DistributionPtr (*read)(Cursor&, const Values&);
 };
-constexpr Family kFamilies[] = {{"normal", normal},   {"uniform", uniform}, {"lognormal", lognormal}, {"triangular", triangular},
-                                {"beta", beta},       {"weibull", weibull}, {"discrete", discrete},   {"empirical", empirical}};
+constexpr Family kFamilies[] = {{"normal", normal},         {"uniform", uniform},    {"lognormal", lognormal},
+                                {"triangular", triangular}, {"beta", beta},          {"weibull", weibull},
+                                {"discrete", discrete},     {"empirical", empirical}};
 
 }  // namespace
 
@@ -159,8 +163,7 @@ DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, bool is_rad
   for (const Family& family : kFamilies) {
     if (!entry.has(family.name)) continue;
     one_only(family.name);
-    if (!entry.is_table(family.name))
-      entry.fail(family.name, "a table of its numbers, such as { min = .., max = .. }");
+    if (!entry.is_table(family.name)) entry.fail(family.name, "a table of its numbers, such as { min = .., max = .. }");
     Cursor table = entry.table(family.name);
     distribution = family.read(table, values);
     table.finish();

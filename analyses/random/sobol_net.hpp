@@ -1,10 +1,10 @@
 // Sobol's sequence, point by point, each dimension scrambled as Owen (1995) does it.
 //
-// Direction numbers: Joe and Kuo (2008), from Boost.Random's table. Scrambling: bit b of a coordinate is flipped or not by a
-// random number that belongs to the dimension and to the bits above it (nested uniform scrambling), so that every point
-// is uniform on the cube and every net stays a net; below the 32 bits of the sequence the point lies anywhere in its cell.
-// Owen (2021, "On dropping the first Sobol' point"): the first point is part of the net and is kept, and a number of
-// points that is a power of two keeps the balance.
+// Direction numbers: Joe and Kuo (2008), from Boost.Random's table. Scrambling: bit b of a coordinate is flipped or
+// not by a random number that belongs to the dimension and to the bits above it (nested uniform scrambling), so that
+// every point is uniform on the cube and every net stays a net; below the 32 bits of the sequence the point lies
+// anywhere in its cell. Owen (2021, "On dropping the first Sobol' point"): the first point is part of the net and is
+// kept, and a number of points that is a power of two keeps the balance.
 #pragma once
 
 #include <cstdint>

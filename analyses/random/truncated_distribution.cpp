@@ -10,8 +10,8 @@
 namespace boresight {
 namespace {
 
-// X given low <= X <= high: F_t(x) = (F(x) - F(low)) / (F(high) - F(low)). Counted from whichever tail is nearer, so that a cut
-// far out in a tail keeps its digits.
+// X given low <= X <= high: F_t(x) = (F(x) - F(low)) / (F(high) - F(low)). Counted from whichever tail is nearer, so
+// that a cut far out in a tail keeps its digits.
 class Truncated final : public Distribution {
  public:
   Truncated(DistributionPtr whole, double low, double high)

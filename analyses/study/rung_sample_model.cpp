@@ -22,8 +22,8 @@ const char* to_string(Outcome::Status status) {
   return "";
 }
 
-RungSampleModel::RungSampleModel(std::string rung, std::shared_ptr<const Mechanism> mechanism, ParametersOf parameters_of,
-                                 IndexChoice index, RunOptions options, bool scene_varies)
+RungSampleModel::RungSampleModel(std::string rung, std::shared_ptr<const Mechanism> mechanism,
+                                 ParametersOf parameters_of, IndexChoice index, RunOptions options, bool scene_varies)
     : rung_(std::move(rung)),
       mechanism_(std::move(mechanism)),
       parameters_of_(std::move(parameters_of)),

@@ -1,9 +1,9 @@
-// The plainest sample model: every sample is one run of a rung. The rung, and with it the scene that it prepares for the
-// mechanism, is shared by all samples and threads where no parameter changes the scene; where masses, gravity or springs
-// scatter, each thread has a rung of its own, so that none waits for another's scene.
+// The plainest sample model: every sample is one run of a rung. The rung, and with it the scene that it prepares for
+// the mechanism, is shared by all samples and threads where no parameter changes the scene; where masses, gravity or
+// springs scatter, each thread has a rung of its own, so that none waits for another's scene.
 //
-// All samples are integrated with one step (RunOptions::step): finding a step afresh costs more than a cheap rung's whole run.
-// Where a sample proves stiffer than that, its step is halved until it holds, and its message says so.
+// All samples are integrated with one step (RunOptions::step): finding a step afresh costs more than a cheap rung's
+// whole run. Where a sample proves stiffer than that, its step is halved until it holds, and its message says so.
 #pragma once
 
 #include <functional>
@@ -46,8 +46,8 @@ class RungSampleModel final : public SampleModel {
   mutable std::vector<std::unique_ptr<Rung>> idle_;  // where the scene varies
 };
 
-// The step that suits all of these samples: the smallest that the rung chooses for any of them; 0 where it takes none. Throws
-// ComputationError where it can follow none of them.
+// The step that suits all of these samples: the smallest that the rung chooses for any of them; 0 where it takes none.
+// Throws ComputationError where it can follow none of them.
 double common_step(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism,
                    const std::vector<Parameters>& samples, RunOptions options);
 

@@ -1,7 +1,8 @@
 // What a study with many samples asks of a model: from the values of the scattered parameters to the index.
 //
-// Samples come in batches, so that a model may compute several at once (one per SIMD lane); a model says how many it likes.
-// Each outcome depends on its own sample alone, whatever it shares a batch with, and evaluate() is called from many threads.
+// Samples come in batches, so that a model may compute several at once (one per SIMD lane); a model says how many it
+// likes. Each outcome depends on its own sample alone, whatever it shares a batch with, and evaluate() is called from
+// many threads.
 #pragma once
 
 #include <atomic>
@@ -13,7 +14,7 @@
 namespace boresight {
 
 struct Sample {
-  std::uint64_t number = 0;            // from 0
+  std::uint64_t number = 0;             // from 0
   std::span<const double> values = {};  // SI, in the order of the study's random parameters
 };
 
@@ -21,7 +22,7 @@ struct Outcome {
   enum class Status { done = 0, failed = 1, not_reached = 2 };  // not_reached: stopped before its end
   Status status = Status::not_reached;
   double value = std::numeric_limits<double>::quiet_NaN();  // the index, SI; NaN unless done
-  std::string message = {};                                  // why it failed, or what was done that it did not
+  std::string message = {};                                 // why it failed, or what was done that it did not
   double cpu_seconds = 0.0;
   double model_error = 0.0;           // what the rung thinks of itself, relative: by what it leaves out
   double discretisation_error = 0.0;  // and by its steps
@@ -35,8 +36,8 @@ class SampleModel {
   virtual double step() const = 0;  // of its integration [s]; 0: its own choice
   virtual std::string leaves_out() const = 0;
   virtual std::size_t batch() const = 0;  // the number of samples it likes to be given at once
-  // outcomes.size() == samples.size(). What goes wrong in a sample is an outcome, not an exception. Once `stop` is set it
-  // returns soon; samples cut short are then not_reached.
+  // outcomes.size() == samples.size(). What goes wrong in a sample is an outcome, not an exception. Once `stop` is set
+  // it returns soon; samples cut short are then not_reached.
   virtual void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
                         const std::atomic<bool>& stop) const = 0;
 };

@@ -58,11 +58,20 @@ class ExportVerb : public Verb {
 
   int execute(const Command& command) override {
     if (!command.settings.empty())
-      throw InputError({"command line", 0}, "--set", command.settings.front().path, "no settings: the samples are computed");
-    const std::filesystem::path folder = command.file, to = command.out.empty() ? folder : std::filesystem::path(command.out);
+      throw InputError({"command line", 0}, "--set", command.settings.front().path,
+                       "no settings: the samples are computed");
+    const std::filesystem::path folder = command.file,
+                                to = command.out.empty() ? folder : std::filesystem::path(command.out);
     if (!std::filesystem::is_directory(folder))
       throw InputError({"command line", 0}, "DIR", "\"" + command.file + "\"", "a folder of results");
     const SampleStore store(folder / "samples.db");
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      if (name != "samples.db" && name.starts_with("samples.") && name.ends_with(".db"))
+        fmt::print(stderr,
+                   "boresight: {} holds samples of a lost rank that are left out: montecarlo --resume merges them\n",
+                   entry.path().string());
+    }
     std::error_code error;
     std::filesystem::create_directories(to, error);
 

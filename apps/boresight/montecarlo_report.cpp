@@ -46,7 +46,8 @@ report::Chart histogram(const MonteCarloStudy& s, const std::vector<double>& sor
   const double spread = sorted[(3 * n) / 4] - sorted[n / 4], range = sorted.back() - sorted.front();
   const double wanted = spread > 0.0 ? range / (2.0 * spread / std::cbrt(static_cast<double>(n))) : 1.0;
   const auto bins = static_cast<std::size_t>(std::clamp(std::ceil(wanted), 5.0, 80.0));
-  const double width = range > 0.0 ? range / static_cast<double>(bins) : std::max(std::abs(sorted.front()), 1e-12) * 1e-3;
+  const double width =
+      range > 0.0 ? range / static_cast<double>(bins) : std::max(std::abs(sorted.front()), 1e-12) * 1e-3;
   report::Numbers x(bins), y(bins, 0.0);
   for (std::size_t b = 0; b < bins; ++b) x[b] = (sorted.front() + (static_cast<double>(b) + 0.5) * width) * unit.per_si;
   for (const double value : sorted)
@@ -56,11 +57,13 @@ report::Chart histogram(const MonteCarloStudy& s, const std::vector<double>& sor
   return chart;
 }
 
-report::Chart distribution_function(const MonteCarloStudy& s, const std::vector<double>& sorted, const DisplayUnit& unit) {
-  report::Chart chart{.title = "Share of samples below",
-                      .caption = "Level bars are the intervals of the quantiles. Failed samples count as above everything.",
-                      .x = {s.study.index.title(), unit.name},
-                      .y = {"share below", "%"}};
+report::Chart distribution_function(const MonteCarloStudy& s, const std::vector<double>& sorted,
+                                    const DisplayUnit& unit) {
+  report::Chart chart{
+      .title = "Share of samples below",
+      .caption = "Level bars are the intervals of the quantiles. Failed samples count as above everything.",
+      .x = {s.study.index.title(), unit.name},
+      .y = {"share below", "%"}};
   const double all = static_cast<double>(s.result.values.size());
   report::Numbers x, y;
   const std::size_t every = std::max<std::size_t>(1, sorted.size() / 1500);
@@ -76,7 +79,8 @@ report::Chart distribution_function(const MonteCarloStudy& s, const std::vector<
   for (const Headline& h : headlines()) {
     const ReportedInterval& i = s.estimates.of(h.name).interval;
     if (h.probability == 0.0 || !std::isfinite(i.value)) continue;
-    const double low = std::isfinite(i.low) ? i.low : sorted.front(), high = std::isfinite(i.high) ? i.high : sorted.back();
+    const double low = std::isfinite(i.low) ? i.low : sorted.front(),
+                 high = std::isfinite(i.high) ? i.high : sorted.back();
     for (const double value : {low, i.value, high, std::nan("")}) {
       bx.push_back(value * unit.per_si);
       by.push_back(100.0 * h.probability);
@@ -125,10 +129,11 @@ report::Chart convergence(const MonteCarloStudy& s, const DisplayUnit& unit) {
 }
 
 report::Table estimate_table(const MonteCarloStudy& s, const DisplayUnit& unit) {
-  report::Table table{.title = "Estimates",
-                      .caption = fmt::format("Intervals at {} confidence; an empty end is not bounded by so few samples.",
-                                             readable_share(s.plan.confidence)),
-                      .columns = {{"Of the index"}, {"Value", unit.name}, {"Low", unit.name}, {"High", unit.name}, {"Basis"}}};
+  report::Table table{
+      .title = "Estimates",
+      .caption = fmt::format("Intervals at {} confidence; an empty end is not bounded by so few samples.",
+                             readable_share(s.plan.confidence)),
+      .columns = {{"Of the index"}, {"Value", unit.name}, {"Low", unit.name}, {"High", unit.name}, {"Basis"}}};
   const auto cell = [&](double v) { return std::isfinite(v) ? nlohmann::json(v * unit.per_si) : nlohmann::json(); };
   for (const NamedEstimate& e : s.estimates.index)
     table.rows.push_back({headline_title(e.name), cell(e.interval.value), cell(e.interval.low), cell(e.interval.high),
@@ -137,27 +142,32 @@ report::Table estimate_table(const MonteCarloStudy& s, const DisplayUnit& unit) 
 }
 
 report::Table error_table(const MonteCarloStudy& s) {
-  report::Table table{.title = "What each number is uncertain by",
-                      .caption = {},
-                      .columns = {{"Of the index"}, {"Sampling", "%"}, {"Discretisation", "%"}, {"Rung", "%"}, {"Dominates"}}};
-  const auto percent = [](double share) { return std::isfinite(share) ? nlohmann::json(100.0 * share) : nlohmann::json(); };
+  report::Table table{
+      .title = "What each number is uncertain by",
+      .caption = {},
+      .columns = {{"Of the index"}, {"Sampling", "%"}, {"Discretisation", "%"}, {"Rung", "%"}, {"Dominates"}}};
+  const auto percent = [](double share) {
+    return std::isfinite(share) ? nlohmann::json(100.0 * share) : nlohmann::json();
+  };
   for (const ErrorStatement& e : s.estimates.errors)
     table.rows.push_back({headline_title(e.of), percent(e.sampling.relative), percent(e.discretisation.relative),
                           percent(e.rung.relative), e.dominant});
   if (!s.estimates.errors.empty())
     table.caption = "Sampling: the wider side of the interval; empty: not bounded. Discretisation: " +
-                    s.estimates.errors.front().discretisation.why + ". Rung: " + s.estimates.errors.front().rung.why + ".";
+                    s.estimates.errors.front().discretisation.why + ". Rung: " + s.estimates.errors.front().rung.why +
+                    ".";
   return table;
 }
 
 report::Panels scatter(const MonteCarloStudy& s, const DisplayUnit& unit, double top) {
-  report::Panels panels{.title = "The index against each parameter",
-                        .caption = s.shown.failed.empty()
-                                       ? fmt::format("{} samples, spread evenly over the study.", s.shown.done.size())
-                                       : fmt::format("{} samples, spread evenly over the study; failed ones are drawn at the "
-                                                     "top edge, where they lie along the parameter.",
-                                                     s.shown.done.size()),
-                        .columns = 2};
+  report::Panels panels{
+      .title = "The index against each parameter",
+      .caption = s.shown.failed.empty()
+                     ? fmt::format("{} samples, spread evenly over the study.", s.shown.done.size())
+                     : fmt::format("{} samples, spread evenly over the study; failed ones are drawn at the "
+                                   "top edge, where they lie along the parameter.",
+                                   s.shown.done.size()),
+      .columns = 2};
   for (std::size_t p = 0; p < s.plan.inputs.size(); ++p) {
     const RandomParameter& random = s.plan.inputs.parameters[p];
     double largest = 0.0;
@@ -202,14 +212,16 @@ std::string short_text(const Distribution& distribution) {
 }
 
 report::Table input_table(const MonteCarloStudy& s) {
-  report::Table table{.title = "What scatters",
-                      .caption = "The design's coordinates become values by each distribution's quantile function.",
-                      .columns = {{"Parameter"}, {"Distribution"}, {"Mean"}, {"Standard deviation"}, {"0.1 % below"}, {"0.1 % above"}}};
+  report::Table table{
+      .title = "What scatters",
+      .caption = "The design's coordinates become values by each distribution's quantile function.",
+      .columns = {{"Parameter"}, {"Distribution"}, {"Mean"}, {"Standard deviation"}, {"0.1 % below"}, {"0.1 % above"}}};
   for (const RandomParameter& p : s.plan.inputs.parameters) {
     std::string paths;
     for (const std::string& path : p.paths) paths += (paths.empty() ? "" : " = ") + path;
     const auto text = [&](double v) { return readable(v, p.si_unit); };
-    table.rows.push_back({paths, short_text(*p.distribution) + (p.si_unit == "1" ? "" : ", in " + p.si_unit), text(p.distribution->mean()), text(p.distribution->sd()),
+    table.rows.push_back({paths, short_text(*p.distribution) + (p.si_unit == "1" ? "" : ", in " + p.si_unit),
+                          text(p.distribution->mean()), text(p.distribution->sd()),
                           text(p.distribution->quantile(0.001)), text(p.distribution->upper_quantile(0.001))});
   }
   return table;
@@ -225,7 +237,8 @@ report::Table failed_table(const MonteCarloStudy& s) {
   table.columns.push_back({"Why"});
   for (const SampleRecord& r : s.shown.failed) {
     std::vector<nlohmann::json> row = {r.number};
-    for (std::size_t p = 0; p < r.inputs.size(); ++p) row.push_back(readable(r.inputs[p], s.plan.inputs.parameters[p].si_unit));
+    for (std::size_t p = 0; p < r.inputs.size(); ++p)
+      row.push_back(readable(r.inputs[p], s.plan.inputs.parameters[p].si_unit));
     row.push_back(r.outcome.message);
     table.rows.push_back(std::move(row));
   }
@@ -263,38 +276,43 @@ std::string headline_title(const std::string& name) {
 }
 
 std::string readable_interval(const ReportedInterval& i, const std::string& si_unit) {
-  const auto text = [&](double value) { return std::isfinite(value) ? readable(value, si_unit) : std::string("no bound"); };
+  const auto text = [&](double value) {
+    return std::isfinite(value) ? readable(value, si_unit) : std::string("no bound");
+  };
   return text(i.low) + " to " + text(i.high);
 }
 
 std::string verdict_sentence(const MonteCarloStudy& s) {
   const Requirement& asked = *s.plan.requirement;
   const RequirementVerdict& found = *s.estimates.requirement;
-  std::string text = fmt::format("Wanted: {} at or below {} in {} of all cases, with {} confidence: {}.", s.study.index.title(),
-                                 readable(asked.limit, s.study.index.si_unit()), fmt::format("{:g} %", 100.0 * asked.probability),
-                                 fmt::format("{:g} %", 100.0 * asked.confidence), found.met ? "met" : "not shown to be met");
+  std::string text =
+      fmt::format("Wanted: {} at or below {} in {} of all cases, with {} confidence: {}.", s.study.index.title(),
+                  readable(asked.limit, s.study.index.si_unit()), fmt::format("{:g} %", 100.0 * asked.probability),
+                  fmt::format("{:g} %", 100.0 * asked.confidence), found.met ? "met" : "not shown to be met");
   if (std::isfinite(found.probability.value))
-    text += fmt::format(" The share is {:.6g} %, and at least {:.6g} % with this confidence.", 100.0 * found.probability.value,
-                        100.0 * found.probability.low);
+    text += fmt::format(" The share is {:.6g} %, and at least {:.6g} % with this confidence.",
+                        100.0 * found.probability.value, 100.0 * found.probability.low);
   if (!found.met && found.probability.value >= asked.probability)
     text += " The samples do not contradict it; more of them may show it.";
   return text;
 }
 
 report::Document montecarlo_report(const MonteCarloStudy& s) {
-  report::Document document{.title = s.mechanism.name(),
-                            .subtitle = "Scatter of the " + s.study.index.title() + ", " + std::to_string(s.estimates.samples) +
-                                        " samples",
-                            .verb = "montecarlo"};
+  report::Document document{
+      .title = s.mechanism.name(),
+      .subtitle = "Scatter of the " + s.study.index.title() + ", " + std::to_string(s.estimates.samples) + " samples",
+      .verb = "montecarlo"};
   if (s.result.ended == Ended::interrupted)
-    document.verdict = report::Verdict{report::Standing::bad, "Interrupted: the samples so far. --resume goes on from here."};
+    document.verdict =
+        report::Verdict{report::Standing::bad, "Interrupted: the samples so far. --resume goes on from here."};
   else if (s.estimates.requirement)
     document.verdict = report::Verdict{s.estimates.requirement->met ? report::Standing::good : report::Standing::bad,
                                        verdict_sentence(s)};
   document.facts = facts_of(s);
   document.warnings = s.warnings;
   document.provenance = provenance_of(s.command, s.mechanism, s.rung);
-  document.provenance.back() = {"Data", "summary.json beside this file; samples.db holds every sample (boresight export DIR: CSV)"};
+  document.provenance.back() = {
+      "Data", "summary.json beside this file; samples.db holds every sample (boresight export DIR: CSV)"};
   document.provenance.push_back({"Study hash", s.study.content_hash});
   document.provenance.push_back({"Design", s.plan.design.text()});
   document.provenance.push_back({"One sample again", s.replay + " NUMBER"});
@@ -302,18 +320,20 @@ report::Document montecarlo_report(const MonteCarloStudy& s) {
   const std::vector<double> sorted = sorted_values(s);
   if (!sorted.empty()) {
     const DisplayUnit unit = unit_for(s, sorted);
-    document.sections.push_back({.id = "distribution",
-                                 .title = "The index and its scatter",
-                                 .intro = "The study's index is the " + s.study.index.title() + ".",
-                                 .items = {histogram(s, sorted, unit), distribution_function(s, sorted, unit),
-                                           estimate_table(s, unit)}});
-    document.sections.push_back({.id = "error", .title = "How sure the numbers are", .items = {convergence(s, unit), error_table(s)}});
+    document.sections.push_back(
+        {.id = "distribution",
+         .title = "The index and its scatter",
+         .intro = "The study's index is the " + s.study.index.title() + ".",
+         .items = {histogram(s, sorted, unit), distribution_function(s, sorted, unit), estimate_table(s, unit)}});
+    document.sections.push_back(
+        {.id = "error", .title = "How sure the numbers are", .items = {convergence(s, unit), error_table(s)}});
     document.sections.push_back(
         {.id = "parameters", .title = "What it hangs on", .items = {scatter(s, unit, sorted.back()), input_table(s)}});
   }
   if (s.estimates.failed > 0)
     document.sections.push_back({.id = "failed", .title = "Failed samples", .items = {failed_table(s)}});
-  document.sections.push_back({.id = "model", .title = "What this model leaves out", .items = {report::Text{s.leaves_out}}});
+  document.sections.push_back(
+      {.id = "model", .title = "What this model leaves out", .items = {report::Text{s.leaves_out}}});
   if (s.rung.pilot) document.sections.push_back(pilot_section(*s.rung.pilot));
   return document;
 }

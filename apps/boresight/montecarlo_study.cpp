@@ -34,7 +34,8 @@ std::vector<Setting> MonteCarloQuestion::settings_of_sample(std::uint64_t number
 
 bool MonteCarloQuestion::scene_varies() const {
   return std::any_of(plan.inputs.parameters.begin(), plan.inputs.parameters.end(), [](const RandomParameter& p) {
-    return std::any_of(p.paths.begin(), p.paths.end(), [](const std::string& path) { return !path.starts_with("clearance."); });
+    return std::any_of(p.paths.begin(), p.paths.end(),
+                       [](const std::string& path) { return !path.starts_with("clearance."); });
   });
 }
 

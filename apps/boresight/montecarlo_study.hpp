@@ -1,4 +1,5 @@
-// A Monte Carlo study as a file poses it: its mechanism, what scatters, what is wanted; and the parameters of any one sample.
+// A Monte Carlo study as a file poses it: its mechanism, what scatters, what is wanted; and the parameters of any one
+// sample.
 #pragma once
 
 #include <functional>
@@ -29,7 +30,8 @@ struct MonteCarloQuestion {
   std::vector<double> values_of_sample(std::uint64_t number) const;
   // The same as settings of the mechanism.
   std::vector<Setting> settings_of_sample(std::uint64_t number) const;
-  // Whether some parameter changes more than contacts: the scene (masses, gravity, springs) is then another one each time.
+  // Whether some parameter changes more than contacts: the scene (masses, gravity, springs) is then another one each
+  // time.
   bool scene_varies() const;
 };
 

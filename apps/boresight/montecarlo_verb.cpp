@@ -28,7 +28,7 @@ namespace {
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json interval_json(const ReportedInterval& i) {
-  return {{"value", number(i.value)}, {"low", number(i.low)},         {"high", number(i.high)},
+  return {{"value", number(i.value)},   {"low", number(i.low)},           {"high", number(i.high)},
           {"confidence", i.confidence}, {"coverage", number(i.coverage)}, {"basis", i.basis}};
 }
 
@@ -66,7 +66,9 @@ class MonteCarloVerb : public Verb {
   std::string name() const override { return "montecarlo"; }
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "the index's distribution, with confidence intervals"; }
-  std::string example() const override { return "boresight montecarlo examples/3-rrcpr/montecarlo.toml --rung perturbation"; }
+  std::string example() const override {
+    return "boresight montecarlo examples/3-rrcpr/montecarlo.toml --rung perturbation";
+  }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);
     app.add_flag("--resume", resume_, "go on where an earlier run of this study stopped, or with more samples");
@@ -77,14 +79,15 @@ class MonteCarloVerb : public Verb {
     const bool first = ranks->rank() == 0;
     const Stopwatch watch;
     MonteCarloQuestion question;
+    RunOptions run;
     try {
       question = read_montecarlo_question(command.file, command.settings);
       check_rung_name(command.rung);
+      run = motion_.run_options(*question.mechanism);
     } catch (const InputError&) {
       if (first) throw;
       throw SilentExit{kBadInput};  // rank 0 says it
     }
-    const RunOptions run = motion_.run_options(*question.mechanism);
     const nlohmann::json identity = identity_for(command, question);
     if (question.plan.fidelities || question.plan.tail) {
       if (!first) return kDone;  // one rank does it all
@@ -109,8 +112,8 @@ class MonteCarloVerb : public Verb {
 
     RunOptions model_options = run;
     if (heard["step"].get<double>() > 0.0) model_options.step = heard["step"];
-    const RungSampleModel model(heard["rung"], question.mechanism, question.parameters_of(), question.study.index, model_options,
-                                question.scene_varies());
+    const RungSampleModel model(heard["rung"], question.mechanism, question.parameters_of(), question.study.index,
+                                model_options, question.scene_varies());
     MonteCarloOptions options{.folder = heard["folder"].get<std::string>(),
                               .facts = {{"study", hash_of(identity)}},
                               .jobs = command.jobs,
@@ -147,9 +150,6 @@ class MonteCarloVerb : public Verb {
   std::unique_ptr<SampleStore> open_store(const OutputDirectory& out, const MonteCarloQuestion& question) const {
     const std::filesystem::path file = out.path() / "samples.db";
     const bool there = std::filesystem::exists(file);
-    if (there && !resume_)
-      throw OutputDirectoryError("--out " + out.path().string() +
-                                 ": holds samples of this study already; --resume goes on with them, another --out begins anew");
     // Whose folder this is has to be known before the first sample is, or a kill would leave an orphan.
     if (!std::filesystem::exists(out.path() / "summary.json"))
       write_json(out, "summary.json",
@@ -158,8 +158,13 @@ class MonteCarloVerb : public Verb {
                   {"interrupted", true},
                   {"warnings", {"begun and not yet ended: samples.db holds what there is; go on with --resume"}},
                   {"identity", Json::parse(out.identity().dump())}});
-    auto store = std::make_unique<SampleStore>(file, std::map<std::string, std::string>{{"study", hash_of(out.identity())}},
-                                               names_of(question.plan.inputs));
+    auto store = std::make_unique<SampleStore>(
+        file, std::map<std::string, std::string>{{"study", hash_of(out.identity())}}, names_of(question.plan.inputs));
+    merge_shards(*store, out.path());
+    if (!resume_ && store->count() > 0)
+      throw OutputDirectoryError(
+          "--out " + out.path().string() +
+          ": holds samples of this study already; --resume goes on with them, another --out begins anew");
     if (!there) {
       store->note("mechanism", question.mechanism->name());
       store->note("mechanism_hash", question.mechanism->description().content_hash);
@@ -170,7 +175,6 @@ class MonteCarloVerb : public Verb {
       store->note("design", question.plan.design.text());
       store->note("version", BORESIGHT_VERSION);
     }
-    merge_shards(*store, out.path());
     return store;
   }
 
@@ -186,10 +190,11 @@ class MonteCarloVerb : public Verb {
                                      .wants_multibody = !run.formulation.empty() || !run.stabilisation.empty(),
                                      .index = question.study.index,
                                      .step = run.step,
-                                     .progress = [&](int trial) {
-                                       progress.update(trial, "finding the cheapest rung that meets the accuracy");
-                                       return !interrupted();
-                                     }},
+                                     .progress =
+                                         [&](int trial) {
+                                           progress.update(trial, "finding the cheapest rung that meets the accuracy");
+                                           return !interrupted();
+                                         }},
                                     question.mechanism, pilot_samples(question.plan, *question.mechanism));
     if (choice.step == 0.0 && run.step == 0.0)
       choice.step = with_options_checked(run, [&] {
@@ -205,16 +210,19 @@ class MonteCarloVerb : public Verb {
 
   static void announce(const MonteCarloQuestion& question, std::uint64_t stored, int ranks) {
     const MonteCarloPlan& plan = question.plan;
-    fmt::print("{}: {} samples ({}), {} random parameters{}{}\n", question.mechanism->name(), plan.samples, plan.design.text(),
-               plan.inputs.size(), stored > 0 ? fmt::format(", {} of them stored already", stored) : "",
+    fmt::print("{}: {} samples ({}), {} random parameters{}{}\n", question.mechanism->name(), plan.samples,
+               plan.design.text(), plan.inputs.size(),
+               stored > 0 ? fmt::format(", {} of them stored already", stored) : "",
                ranks > 1 ? fmt::format(", on {} ranks", ranks) : "");
     if (plan.requirement) {
       const auto fewest = [&](std::int64_t above) {
         return wilks_one_sided(plan.requirement->probability, plan.requirement->confidence, above);
       };
-      fmt::print("  to show {:g} % with {:g} % confidence takes {} independent samples if none is above the limit, {} if one is, "
-                 "{} if two are (Wilks)\n",
-                 100.0 * plan.requirement->probability, 100.0 * plan.requirement->confidence, fewest(0), fewest(1), fewest(2));
+      fmt::print(
+          "  to show {:g} % with {:g} % confidence takes {} independent samples if none is above the limit, {} if one "
+          "is, "
+          "{} if two are (Wilks)\n",
+          100.0 * plan.requirement->probability, 100.0 * plan.requirement->confidence, fewest(0), fewest(1), fewest(2));
     }
     std::fflush(stdout);
   }
@@ -229,7 +237,8 @@ class MonteCarloVerb : public Verb {
           const IndependentInterval i = p.running->quantile(h.probability, question.plan.confidence);
           estimate = name + " " + readable(i.value, unit);
           // Order statistics are for independent samples only.
-          if (question.plan.design.kind == DesignKind::random) estimate += " (" + readable_interval(reported(i), unit) + ")";
+          if (question.plan.design.kind == DesignKind::random)
+            estimate += " (" + readable_interval(reported(i), unit) + ")";
         } catch (const std::invalid_argument&) {
         }
       }
@@ -237,9 +246,9 @@ class MonteCarloVerb : public Verb {
     progress.update_from(static_cast<double>(p.begun_with), static_cast<double>(p.done), estimate);
   }
 
-  int write_results(const Command& command, const MonteCarloQuestion& question, const RungChoice& choice, const SampleModel& model,
-                    const SampleStore& store, const MonteCarloResult& result, const Stopwatch& watch,
-                    const OutputDirectory& out) const {
+  int write_results(const Command& command, const MonteCarloQuestion& question, const RungChoice& choice,
+                    const SampleModel& model, const SampleStore& store, const MonteCarloResult& result,
+                    const Stopwatch& watch, const OutputDirectory& out) const {
     ModelError error;
     const ShownSamples shown = shown_samples(store, result, error);
     const std::string pilot_error = store.fact("pilot_error");
@@ -300,16 +309,18 @@ class MonteCarloVerb : public Verb {
     if (const std::string warning = design.warning(result.values.size()); !warning.empty() && !result.values.empty())
       warnings.push_back(warning);
     if (result.ended == Ended::time)
-      warnings.push_back(fmt::format("stopped after {} with {} of {} samples; --resume goes on", readable(plan.stop.seconds, "s"),
-                                     result.values.size(), plan.samples));
+      warnings.push_back(fmt::format("stopped after {} with {} of {} samples; --resume goes on",
+                                     readable(plan.stop.seconds, "s"), result.values.size(), plan.samples));
     if (result.ended == Ended::width)
-      warnings.push_back(fmt::format("stopped at {} samples as the interval of {} was narrow enough: looking at it several times "
-                                     "makes its true confidence a little less than stated",
-                                     result.values.size(), plan.stop.of));
+      warnings.push_back(
+          fmt::format("stopped at {} samples as the interval of {} was narrow enough: looking at it several times "
+                      "makes its true confidence a little less than stated",
+                      result.values.size(), plan.stop.of));
     if (estimates.failed > 0)
-      warnings.push_back(fmt::format("{} of {} samples failed; they count as bad in every bound, and mean and standard deviation "
-                                     "leave them out",
-                                     estimates.failed, estimates.samples));
+      warnings.push_back(
+          fmt::format("{} of {} samples failed; they count as bad in every bound, and mean and standard deviation "
+                      "leave them out",
+                      estimates.failed, estimates.samples));
     if (plan.requirement && plan.design.kind == DesignKind::random &&
         static_cast<std::int64_t>(result.values.size()) < estimates.requirement->fewest_samples)
       warnings.push_back(fmt::format("the requirement cannot be shown with {} samples, whatever they give: it takes {}",
@@ -325,8 +336,10 @@ class MonteCarloVerb : public Verb {
     return text + " --sample-number";
   }
 
-  static Json summary_of(const MonteCarloStudy& s, const Stopwatch& watch, const OutputDirectory& out, const SampleStore& store) {
-    Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, s.result.ended == Ended::interrupted, out);
+  static Json summary_of(const MonteCarloStudy& s, const Stopwatch& watch, const OutputDirectory& out,
+                         const SampleStore& store) {
+    Json json =
+        common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, s.result.ended == Ended::interrupted, out);
     json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
     json["seed"] = s.plan.design.seed;
     json["design"] = s.plan.design.text();
@@ -369,8 +382,8 @@ class MonteCarloVerb : public Verb {
 
   static void print(const MonteCarloStudy& s, const OutputDirectory& out) {
     const std::string& unit = s.study.index.si_unit();
-    fmt::print("{}: {} samples on the {} rung, {} failed; {}; index: {}\n", s.mechanism.name(), s.estimates.samples, s.rung.name,
-               s.estimates.failed, to_string(s.result.ended), s.study.index.title());
+    fmt::print("{}: {} samples on the {} rung, {} failed; {}; index: {}\n", s.mechanism.name(), s.estimates.samples,
+               s.rung.name, s.estimates.failed, to_string(s.result.ended), s.study.index.title());
     for (const NamedEstimate& e : s.estimates.index)
       if (std::isfinite(e.interval.value))
         fmt::print("  {:<8} {:>10}   ({} at {} confidence)\n", e.name, readable(e.interval.value, unit),
@@ -380,7 +393,7 @@ class MonteCarloVerb : public Verb {
         fmt::print("  {} is uncertain by sampling {}, discretisation {}, rung {}: {} dominates\n", e.of,
                    std::isfinite(e.sampling.relative) ? readable_share(e.sampling.relative) : "without bound",
                    readable_share(e.discretisation.relative), readable_share(e.rung.relative), e.dominant);
-    if (s.estimates.requirement) fmt::print("  requirement: {}\n", verdict_sentence(s));
+    if (s.estimates.requirement) fmt::print("  {}\n", verdict_sentence(s));
     for (const std::string& warning : s.warnings) fmt::print("  warning: {}\n", warning);
     fmt::print("  report: {}\n", (out.path() / "report.html").string());
   }

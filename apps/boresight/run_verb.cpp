@@ -163,7 +163,7 @@ class RunVerb : public Verb {
   Command replay_of(const Command& asked) {
     double number = 0.0;
     if (!parse_number(sample_number_, number) || number < 0.0 || number != std::floor(number) || number > 1e15)
-      throw InputError({"command line", 0}, "--sample-number", "\"" + sample_number_ + "\"", "a sample's number, from 0");
+      throw InputError({"command line", 0}, "--sample-number", in_quotes(sample_number_), "a sample's number, from 0");
     const MonteCarloQuestion question = read_montecarlo_question(asked.file, asked.settings);
     Command command = asked;
     command.file = question.study.mechanism_file;

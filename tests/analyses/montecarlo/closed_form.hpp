@@ -1,9 +1,9 @@
 // A sample model whose distribution is known, and plans around it: the sum of independent normal parameters.
 #pragma once
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <chrono>
 #include <functional>
 #include <thread>
 
@@ -19,7 +19,8 @@ class SumModel final : public SampleModel {
   double step() const override { return 0.0; }
   std::string leaves_out() const override { return ""; }
   std::size_t batch() const override { return batch_; }
-  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>& stop) const override {
+  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                const std::atomic<bool>& stop) const override {
     for (std::size_t k = 0; k < samples.size() && !stop; ++k) {
       outcomes[k].status = samples[k].values[0] > fails_above_ ? Outcome::Status::failed : Outcome::Status::done;
       if (outcomes[k].status == Outcome::Status::done)
@@ -67,16 +68,20 @@ class Folder {
 };
 
 inline std::unique_ptr<SampleStore> open_sum_store(const Folder& folder) {
-  return std::make_unique<SampleStore>(folder.path() / "samples.db", std::map<std::string, std::string>{{"study", "sum"}},
+  return std::make_unique<SampleStore>(folder.path() / "samples.db",
+                                       std::map<std::string, std::string>{{"study", "sum"}},
                                        std::vector<std::string>{"x1", "x2"});
 }
 
-inline MonteCarloResult run_sum(const SampleModel& model, const MonteCarloPlan& plan, SampleStore& store, const Folder& folder,
-                                int jobs = 1, std::function<bool()> interrupted = {}) {
+inline MonteCarloResult run_sum(const SampleModel& model, const MonteCarloPlan& plan, SampleStore& store,
+                                const Folder& folder, int jobs = 1, std::function<bool()> interrupted = {}) {
   store.use_rung(model.rung(), model.step());
   const std::unique_ptr<Ranks> alone = Ranks::join();
   return run_montecarlo(model, plan, &store, *alone,
-                        {.folder = folder.path(), .facts = {{"study", "sum"}}, .jobs = jobs, .progress = {},
+                        {.folder = folder.path(),
+                         .facts = {{"study", "sum"}},
+                         .jobs = jobs,
+                         .progress = {},
                          .interrupted = std::move(interrupted)});
 }
 

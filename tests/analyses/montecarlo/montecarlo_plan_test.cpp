@@ -15,7 +15,8 @@ class MonteCarloPlanTest : public testing::Test {
  protected:
   MonteCarloPlan read(const std::string& table) const {
     Document document = Document::from_text(
-        "[[random]]\nparameter = \"clearance.F1.radial\"\ndistribution = { fit = \"20 H7/g6\" }\n[montecarlo]\n" + table,
+        "[[random]]\nparameter = \"clearance.F1.radial\"\ndistribution = { fit = \"20 H7/g6\" }\n[montecarlo]\n" +
+            table,
         "study.toml");
     Cursor root(document);
     return read_montecarlo_plan(root, Study{}, mechanism_->description(), [](const Setting&) {});

@@ -49,7 +49,8 @@ TEST(MonteCarlo, AnInterruptionLosesNothingAndIsResumedToTheSameBits) {
     double step() const override { return 0.0; }
     std::string leaves_out() const override { return ""; }
     std::size_t batch() const override { return 5; }
-    void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>& stop) const override {
+    void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                  const std::atomic<bool>& stop) const override {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
       model_.evaluate(samples, outcomes, stop);
     }

@@ -58,8 +58,7 @@ TEST(Design, EachHypercubeHasOnePointInEveryStratumOfEveryDimension) {
   for (std::uint64_t cube = 0; cube < 5; ++cube)
     for (std::size_t d = 0; d < 4; ++d) {
       std::set<int> strata;
-      for (std::uint64_t i = 0; i < 37; ++i)
-        strata.insert(static_cast<int>(37.0 * point(design, 37 * cube + i)[d]));
+      for (std::uint64_t i = 0; i < 37; ++i) strata.insert(static_cast<int>(37.0 * point(design, 37 * cube + i)[d]));
       EXPECT_EQ(strata.size(), 37u);
     }
 }

@@ -75,7 +75,8 @@ TEST(Distribution, MomentsOfATruncatedNormalAreExact) {
 }
 
 TEST(Distribution, QuadratureOfMomentsAgreesWithClosedForms) {
-  for (const DistributionPtr& x : {make_lognormal(0.03, 1.3), make_triangular(1.0, 2.0, 4.0), make_weibull(1.5, 2.0, 1.0)}) {
+  for (const DistributionPtr& x :
+       {make_lognormal(0.03, 1.3), make_triangular(1.0, 2.0, 4.0), make_weibull(1.5, 2.0, 1.0)}) {
     const DistributionPtr whole = x->truncated(x->lowest(), x->upper_quantile(1e-300));
     EXPECT_NEAR(whole->mean() / x->mean(), 1.0, 1e-12) << x->text();
     EXPECT_NEAR(whole->sd() / x->sd(), 1.0, 1e-11) << x->text();
@@ -84,7 +85,8 @@ TEST(Distribution, QuadratureOfMomentsAgreesWithClosedForms) {
 
 TEST(Distribution, TruncationFarOutInATailKeepsItsDigits) {
   const DistributionPtr x = make_normal(0.0, 1.0)->truncated(10.0, 12.0);
-  // Upper tail beyond 10: quantile at 1/2 from Phi_c(x) = (Phi_c(10) + Phi_c(12)) / 2, Phi_c(10) = 7.619853024160527e-24.
+  // Upper tail beyond 10: quantile at 1/2 from Phi_c(x) = (Phi_c(10) + Phi_c(12)) / 2, Phi_c(10) =
+  // 7.619853024160527e-24.
   EXPECT_NEAR(std::erfc(x->quantile(0.5) / std::numbers::sqrt2) * 0.5 / 3.8099265120802633e-24, 1.0, 1e-9);
   EXPECT_GE(x->quantile(1e-12), 10.0);
   EXPECT_LE(x->upper_quantile(1e-12), 12.0);

@@ -17,11 +17,12 @@ struct Golden {
 
 // ISO 286-2:2010, limits of common fits.
 TEST(Iso286, CommonFitsHaveTheStandardsClearances) {
-  const Golden goldens[] = {{"14 H7/h6", 0, 29},  {"20 H7/h6", 0, 34},   {"40 H7/h6", 0, 41},   {"14 H7/g6", 6, 35},
-                            {"20 H7/g6", 7, 41},  {"40 H7/g6", 9, 50},   {"14 H7/f7", 16, 52},  {"20 H7/f7", 20, 62},
-                            {"40 H7/f7", 25, 75}, {"14 H8/f7", 16, 61},  {"20 H8/f7", 20, 74},  {"40 H8/f7", 25, 89},
-                            {"14 H8/e8", 32, 86}, {"20 H8/e8", 40, 106}, {"40 H8/e8", 50, 128}, {"14 H9/d9", 50, 136},
-                            {"20 H9/d9", 65, 169}, {"40 H9/d9", 80, 204}, {"45 H11/c11", 130, 450}};
+  const Golden goldens[] = {
+      {"14 H7/h6", 0, 29},   {"20 H7/h6", 0, 34},   {"40 H7/h6", 0, 41},     {"14 H7/g6", 6, 35},
+      {"20 H7/g6", 7, 41},   {"40 H7/g6", 9, 50},   {"14 H7/f7", 16, 52},    {"20 H7/f7", 20, 62},
+      {"40 H7/f7", 25, 75},  {"14 H8/f7", 16, 61},  {"20 H8/f7", 20, 74},    {"40 H8/f7", 25, 89},
+      {"14 H8/e8", 32, 86},  {"20 H8/e8", 40, 106}, {"40 H8/e8", 50, 128},   {"14 H9/d9", 50, 136},
+      {"20 H9/d9", 65, 169}, {"40 H9/d9", 80, 204}, {"45 H11/c11", 130, 450}};
   for (const Golden& g : goldens) {
     const Fit fit = parse_fit(g.fit);
     EXPECT_NEAR(1e6 * fit.least_clearance(), g.least, 1e-9) << g.fit;
@@ -38,7 +39,8 @@ TEST(Iso286, ShaftBasisGivesTheSameClearanceAsHoleBasis) {
   }
 }
 
-// i = 0.45 D^(1/3) + 0.001 D um, D the geometric mean of the range; the standard rounds. Grades 6 to 11 are 10 i .. 100 i.
+// i = 0.45 D^(1/3) + 0.001 D um, D the geometric mean of the range; the standard rounds. Grades 6 to 11 are 10 i ..
+// 100 i.
 TEST(Iso286, GradesFollowTheToleranceUnitWithinTheStandardsRounding) {
   const double ends[] = {3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500};
   const double units[] = {10, 16, 25, 40, 64, 100};
@@ -80,8 +82,9 @@ TEST(Iso286, ASizeOnTheBorderBelongsToTheLowerRange) {
 }
 
 TEST(Iso286, WhatItDoesNotCoverIsRefusedByName) {
-  for (const char* text : {"20", "20 H7", "H7/g6", "20 H7/g", "20 h7/g6", "20 H7/G6", "20 H7/g14", "20 H0/g6", "20 K7/h6",
-                           "20 H7/k6", "0 H7/g6", "501 H7/g6", "-20 H7/g6", "nan H7/g6", "20 H7/g6x", "20 /", "20 H7/ g6"})
+  for (const char* text :
+       {"20", "20 H7", "H7/g6", "20 H7/g", "20 h7/g6", "20 H7/G6", "20 H7/g14", "20 H0/g6", "20 K7/h6", "20 H7/k6",
+        "0 H7/g6", "501 H7/g6", "-20 H7/g6", "nan H7/g6", "20 H7/g6x", "20 /", "20 H7/ g6"})
     EXPECT_THROW(parse_fit(text), ValueFault) << text;
 }
 

@@ -41,14 +41,15 @@ class RandomInputsTest : public testing::Test {
   }
   static std::string radial(const std::string& distribution) { return one("clearance.F1.radial", distribution); }
 
-  const std::shared_ptr<const Mechanism> mechanism_ = std::make_shared<const Mechanism>(read_mechanism(kDefaultMechanism));
+  const std::shared_ptr<const Mechanism> mechanism_ =
+      std::make_shared<const Mechanism>(read_mechanism(kDefaultMechanism));
 };
 
 TEST_F(RandomInputsTest, ReadsTheStudyOfTheInterface) {
-  const RandomInputs inputs = read(
-      radial("{ normal = { mean = \"0.1 mm\", sd = \"0.01 mm\" }, truncate = [\"0.05 mm\", \"0.15 mm\"] }") +
-      one("clearance.F1.contact.restitution", "{ uniform = { min = 0.7, max = 0.95 } }") +
-      one("clearance.F1.friction.coefficient", "{ lognormal = { median = 0.03, factor = 1.3 } }"));
+  const RandomInputs inputs =
+      read(radial("{ normal = { mean = \"0.1 mm\", sd = \"0.01 mm\" }, truncate = [\"0.05 mm\", \"0.15 mm\"] }") +
+           one("clearance.F1.contact.restitution", "{ uniform = { min = 0.7, max = 0.95 } }") +
+           one("clearance.F1.friction.coefficient", "{ lognormal = { median = 0.03, factor = 1.3 } }"));
   ASSERT_EQ(inputs.size(), 3u);
   std::vector<double> u = {0.5, 0.5, 0.5};
   inputs.values(u);
@@ -64,13 +65,12 @@ TEST_F(RandomInputsTest, ReadsTheStudyOfTheInterface) {
 TEST_F(RandomInputsTest, ReadsEveryDistribution) {
   const std::string csv = (std::filesystem::path(testing::TempDir()) / "gaps.csv").string();
   std::ofstream(csv) << "part, \"gap\"\n1, 90\n2, 110\n3, 130\n";
-  for (const char* text :
-       {"{ triangular = { min = \"50 um\", mode = \"0.1 mm\", max = \"0.2 mm\" } }",
-        "{ beta = { alpha = 2, beta = 3.5, min = \"50 um\", max = \"0.2 mm\" } }",
-        "{ weibull = { shape = 1.5, scale = \"0.1 mm\", location = \"10 um\" } }",
-        "{ discrete = { values = [\"0.1 mm\", \"0.2 mm\"], probabilities = [0.25, 0.75] } }",
-        "{ empirical = { file = \"gaps.csv\", column = \"gap\", unit = \"um\" } }", "{ fit = \"20 H7/g6\" }",
-        "{ fit = \"20 H7/h6\", zone = \"uniform\" }"})
+  for (const char* text : {"{ triangular = { min = \"50 um\", mode = \"0.1 mm\", max = \"0.2 mm\" } }",
+                           "{ beta = { alpha = 2, beta = 3.5, min = \"50 um\", max = \"0.2 mm\" } }",
+                           "{ weibull = { shape = 1.5, scale = \"0.1 mm\", location = \"10 um\" } }",
+                           "{ discrete = { values = [\"0.1 mm\", \"0.2 mm\"], probabilities = [0.25, 0.75] } }",
+                           "{ empirical = { file = \"gaps.csv\", column = \"gap\", unit = \"um\" } }",
+                           "{ fit = \"20 H7/g6\" }", "{ fit = \"20 H7/h6\", zone = \"uniform\" }"})
     EXPECT_EQ(fault(radial(text)), "no fault") << text;
   const RandomInputs inputs = read(radial("{ empirical = { file = \"gaps.csv\", column = \"gap\", unit = \"um\" } }"));
   EXPECT_NEAR(inputs.parameters[0].distribution->mean(), 1.1e-4, 1e-18);
@@ -101,7 +101,8 @@ TEST_F(RandomInputsTest, MistakesAreOneLineWithFileLineAndKey) {
   says(radial("{ discrete = { values = [\"1 mm\"], probabilities = [0.5] } }"), "add up to 1");
   says(radial("{ discrete = { values = [\"1 mm\", \"2 mm\"], probabilities = [-0.5, 1.5] } }"), "none below 0");
   says(radial("{ uniform = { min = \"1 mm\", max = \"2 mm\" }, truncate = [\"3 mm\", \"4 mm\"] }"), "any probability");
-  says(radial("{ uniform = { min = \"1 mm\", max = \"2 mm\" }, truncate = [\"2 mm\", \"1 mm\"] }"), "the second one larger");
+  says(radial("{ uniform = { min = \"1 mm\", max = \"2 mm\" }, truncate = [\"2 mm\", \"1 mm\"] }"),
+       "the second one larger");
   says(radial("{ empirical = { file = \"none.csv\", column = \"gap\", unit = \"um\" } }"), "a CSV file");
   says(radial("{ fit = \"20 H7/k6\" }"), "one of c, d, e, f, g, h, js");
   says(radial("{ fit = \"20 H7/js6\" }"), "always has clearance");
@@ -141,19 +142,23 @@ TEST_F(RandomInputsTest, CorrelatedParametersKeepTheirMarginalsAndHaveTheCorrela
   EXPECT_THAT(fault(two + pair + "coefficient = 1.5\n"), HasSubstr("less than 1"));
   EXPECT_THAT(fault(two + pair + "coefficient = 0.5\nmeasure = \"pearson\"\n"), HasSubstr("measure"));
   EXPECT_THAT(fault(two + pair + "coefficient = 0.5\n" + pair + "coefficient = 0.4\n"), HasSubstr("each pair once"));
-  EXPECT_THAT(fault(two + "[[correlation]]\nparameters = [\"clearance.F1.radial\", \"clearance.F1.friction.coefficient\"]\n"
-                          "coefficient = 0.5\n"),
-              HasSubstr("[[random]]"));
+  EXPECT_THAT(
+      fault(two + "[[correlation]]\nparameters = [\"clearance.F1.radial\", \"clearance.F1.friction.coefficient\"]\n"
+                  "coefficient = 0.5\n"),
+      HasSubstr("[[random]]"));
 }
 
 TEST_F(RandomInputsTest, CorrelationsThatCannotHoldTogetherAreRefused) {
   std::string text;
-  const char* paths[] = {"clearance.F1.contact.restitution", "clearance.F1.friction.coefficient", "clearance.F1.contact.poisson"};
+  const char* paths[] = {"clearance.F1.contact.restitution", "clearance.F1.friction.coefficient",
+                         "clearance.F1.contact.poisson"};
   for (const char* path : paths) text += one(path, "{ uniform = { min = 0.1, max = 0.3 } }");
   const auto pair = [&](int a, int b, const char* r) {
-    return std::string("[[correlation]]\nparameters = [\"") + paths[a] + "\", \"" + paths[b] + "\"]\ncoefficient = " + r + "\n";
+    return std::string("[[correlation]]\nparameters = [\"") + paths[a] + "\", \"" + paths[b] +
+           "\"]\ncoefficient = " + r + "\n";
   };
-  EXPECT_THAT(fault(text + pair(0, 1, "0.9") + pair(1, 2, "0.9") + pair(0, 2, "-0.9")), HasSubstr("not positive definite"));
+  EXPECT_THAT(fault(text + pair(0, 1, "0.9") + pair(1, 2, "0.9") + pair(0, 2, "-0.9")),
+              HasSubstr("not positive definite"));
 }
 
 }  // namespace

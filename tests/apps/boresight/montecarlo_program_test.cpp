@@ -1,0 +1,228 @@
+// boresight montecarlo as a user calls it: killed, resumed, spread over threads and ranks, replayed.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "program.hpp"
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class MonteCarloProgram : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    study("study.toml", 400);
+  }
+  void study(const std::string& name, int samples, const std::string& more = "") const {
+    std::ofstream(folder_ / name) << "format = 1\nmechanism = \"" << mechanism_ << R"("
+[[random]]
+parameter = "clearance.F1.radial"
+distribution = { normal = { mean = "0.1 mm", sd = "0.01 mm" }, truncate = ["0.05 mm", "0.15 mm"] }
+[[random]]
+parameter = "clearance.F1.contact.restitution"
+distribution = { uniform = { min = 0.7, max = 0.95 } }
+[[random]]
+parameter = "clearance.F1.friction.coefficient"
+distribution = { lognormal = { median = 0.03, factor = 1.3 } }
+[montecarlo]
+samples = )" << samples << "\n" << more
+                                  << "\n";
+  }
+  // A motion of 20 ms on the cheapest rung with impacts.
+  std::vector<std::string> quick(const std::string& name, const std::string& out,
+                                 std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {
+        "montecarlo", name, "--set", "motion.duration=20ms", "--rung", "perturbation", "--out", out, "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  std::string samples_of(const std::string& out) const {
+    EXPECT_EQ(call({"export", out, "--quiet"}).status, 0);
+    return text(out + "/samples.csv");
+  }
+  std::string csv_of(const std::string& name, const std::string& out, std::vector<std::string> more = {}) const {
+    const Ended ended = call(quick(name, out, std::move(more)));
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return samples_of(out);
+  }
+};
+
+TEST_F(MonteCarloProgram, WritesSummaryReportStoreAndCsv) {
+  const std::string csv = csv_of("study.toml", "out");
+  EXPECT_THAT(csv, testing::StartsWith("sample,clearance.F1.radial,clearance.F1.contact.restitution,"
+                                       "clearance.F1.friction.coefficient,value,status\n0,"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 401);
+  const nlohmann::json summary = json("out/summary.json");
+  EXPECT_EQ(summary["samples"], 400);
+  EXPECT_EQ(summary["failed"], 0);
+  EXPECT_EQ(summary["seed"], 1);
+  EXPECT_EQ(summary["interrupted"], false);
+  for (const char* name : {"mean", "sd", "p50", "p95", "p99", "p99.73"})
+    EXPECT_TRUE(summary["index"][name].contains("value") && summary["index"][name].contains("low")) << name;
+  EXPECT_LT(summary["index"]["p50"]["low"], summary["index"]["p50"]["value"]);
+  EXPECT_TRUE(summary["index"]["p99.73"]["high"].is_null()) << "400 samples do not bound this quantile";
+  for (const char* part : {"sampling", "discretisation", "rung"}) EXPECT_TRUE(summary["error"][part].contains("why"));
+  EXPECT_THAT(text("out/report.html"), HasSubstr("How sure the numbers are"));
+}
+
+TEST_F(MonteCarloProgram, AnyNumberOfThreadsGivesTheSameTable) {
+  EXPECT_EQ(csv_of("study.toml", "one", {"--jobs", "1"}), csv_of("study.toml", "two", {"--jobs", "2"}));
+}
+
+TEST_F(MonteCarloProgram, KilledAndResumedThreeTimesItGivesTheTableOfOneRun) {
+  study("long.toml", 1500);
+  const std::string whole = csv_of("long.toml", "whole", {"--jobs", "2"});
+  int killed = 0;
+  for (int k = 0; k < 3; ++k) {
+    const pid_t child = start(quick("long.toml", "cut", {"--jobs", "2", "--resume"}));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    ::kill(child, SIGKILL);
+    killed += wait_for(child).status == 128 + SIGKILL;
+  }
+  EXPECT_GT(killed, 0);
+  EXPECT_EQ(csv_of("long.toml", "cut", {"--resume"}), whole);
+}
+
+TEST_F(MonteCarloProgram, AskedToStopItEndsWithWhatThereIsAndGoesOnLater) {
+  study("long.toml", 200000);
+  const pid_t child = start(quick("long.toml", "out"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  ::kill(child, SIGINT);
+  EXPECT_EQ(wait_for(child).status, 130);
+  EXPECT_EQ(json("out/summary.json")["interrupted"], true);
+  study("long.toml", 100);
+  EXPECT_EQ(samples_of("out").find("nan"), std::string::npos);
+  EXPECT_EQ(call(quick("long.toml", "out", {"--resume"})).status, 0) << "fewer samples are part of what there is";
+}
+
+TEST_F(MonteCarloProgram, ContinuedWithMoreSamplesItGivesTheTableOfOneRun) {
+  study("more.toml", 900);
+  csv_of("study.toml", "out");
+  EXPECT_EQ(csv_of("more.toml", "out", {"--resume"}), csv_of("more.toml", "once"));
+}
+
+TEST_F(MonteCarloProgram, SamplesAreNeverOverwritten) {
+  csv_of("study.toml", "out");
+  Ended again = call(quick("study.toml", "out"));
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, AllOf(HasSubstr("--resume"), HasSubstr("--out")));
+  EXPECT_TRUE(is_one_line(again.err));
+  study("other.toml", 400, "seed = 2");
+  again = call(quick("other.toml", "out", {"--resume"}));
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, HasSubstr("another study"));
+  EXPECT_EQ(call({"export", "nothing"}).status, 2);
+}
+
+TEST_F(MonteCarloProgram, ASampleIsReplayedToTheSameBits) {
+  const std::string csv = csv_of("study.toml", "out");
+  std::istringstream lines(csv);
+  std::string row;
+  for (int k = 0; k < 9; ++k) std::getline(lines, row);
+  ASSERT_THAT(row, testing::StartsWith("7,"));
+  const std::string value = row.substr(0, row.rfind(','));
+  const double stored = std::stod(value.substr(value.rfind(',') + 1));
+
+  const std::string replay = json("out/summary.json")["replay"];
+  const std::size_t step = replay.find("--step \"") + 8;
+  const Ended ended =
+      call({"run", "study.toml", "--set", "motion.duration=20ms", "--rung", "perturbation", "--step",
+            replay.substr(step, replay.find('"', step) - step), "--sample-number", "7", "--out", "seven"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(json("seven/summary.json")["index"]["position_error"]["max"].get<double>(), stored);
+  EXPECT_EQ(call({"run", "study.toml", "--sample-number", "-1"}).status, 2);
+  EXPECT_EQ(call({"run", "study.toml", "--sample-number", "1.5"}).status, 2);
+}
+
+TEST_F(MonteCarloProgram, ARequirementThatIsNotMetIsStatusOneAndWilksIsToldBefore) {
+  study("tight.toml", 100, "requirement = { limit = \"1 um\", probability = 0.9973, confidence = 0.95 }");
+  std::vector<std::string> arguments = quick("tight.toml", "out");
+  arguments.erase(std::find(arguments.begin(), arguments.end(), "--quiet"));
+  const Ended ended = call(arguments);
+  EXPECT_EQ(ended.status, 1) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("1109 independent samples if none"), HasSubstr("not shown to be met")));
+  EXPECT_EQ(json("out/summary.json")["requirement"]["met"], false);
+  study("wide.toml", 1200, "requirement = { limit = \"5 mm\", probability = 0.9973, confidence = 0.95 }");
+  EXPECT_EQ(call(quick("wide.toml", "wide")).status, 0);
+  EXPECT_GE(json("wide/summary.json")["requirement"]["probability"]["low"], 0.9973);
+}
+
+TEST_F(MonteCarloProgram, AFullDiskIsOneLineAndLeavesTheStoreIntact) {
+  study("long.toml", 20000);
+  const Ended ended = wait_for(start(quick("long.toml", "out"), 200'000));
+  EXPECT_EQ(ended.status, 3) << ended.err;
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("samples.db"), HasSubstr("--resume")));
+  study("long.toml", 100);
+  EXPECT_EQ(csv_of("long.toml", "out", {"--resume"}).substr(0, 2000), csv_of("long.toml", "fresh").substr(0, 2000));
+}
+
+TEST_F(MonteCarloProgram, MistakesInTheStudyAreOneLine) {
+  study("bad.toml", 100, "desing = \"lhs\"");
+  const Ended ended = call(quick("bad.toml", "out"));
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(is_one_line(ended.err));
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("bad.toml:"), HasSubstr("did you mean design?")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
+#ifdef BORESIGHT_MPIEXEC
+
+class MonteCarloRanks : public MonteCarloProgram {
+ protected:
+  int under_mpirun(int ranks, const std::vector<std::string>& arguments) const {
+    std::string command = "cd '" + folder_.string() +
+                          "' && OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" BORESIGHT_MPIEXEC
+                          "' --oversubscribe -np " +
+                          std::to_string(ranks) + " '" BORESIGHT_PROGRAM "'";
+    for (const std::string& argument : arguments) command += " '" + argument + "'";
+    const int status = std::system((command + " > mpi.out 2> mpi.err").c_str());
+    return WEXITSTATUS(status);
+  }
+};
+
+TEST_F(MonteCarloRanks, TwoRanksGiveTheTableOfOneProcess) {
+  const std::string whole = csv_of("study.toml", "whole");
+  EXPECT_EQ(under_mpirun(2, quick("study.toml", "out", {"--jobs", "1"})), 0) << text("mpi.err");
+  EXPECT_EQ(samples_of("out"), whole);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/samples.1.db")) << "shards are merged";
+}
+
+TEST_F(MonteCarloRanks, ARankThatIsKilledCostsOnlyWhatItHadNotStored) {
+  study("long.toml", 1500);
+  const std::string whole = csv_of("long.toml", "whole");
+  // The shell of rank 1 kills its program from outside after a while.
+  const std::string script = (folder_ / "rank.sh").string();
+  std::ofstream(script) << "if [ \"$OMPI_COMM_WORLD_RANK\" = 1 ]; then '" BORESIGHT_PROGRAM
+                           "' \"$@\" & child=$!; sleep 0.6; kill -9 $child; wait $child; else exec '" BORESIGHT_PROGRAM
+                           "' \"$@\"; fi\n";
+  std::string command = "cd '" + folder_.string() +
+                        "' && OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" BORESIGHT_MPIEXEC
+                        "' --oversubscribe -np 2 bash rank.sh";
+  for (const std::string& argument : quick("long.toml", "out", {"--jobs", "1"})) command += " '" + argument + "'";
+  std::system((command + " > mpi.out 2> mpi.err").c_str());
+  EXPECT_EQ(under_mpirun(2, quick("long.toml", "out", {"--jobs", "1", "--resume"})), 0) << text("mpi.err");
+  EXPECT_EQ(samples_of("out"), whole);
+}
+
+TEST_F(MonteCarloRanks, AMistakeIsSaidOnce) {
+  study("bad.toml", 100, "desing = \"lhs\"");
+  EXPECT_EQ(under_mpirun(2, quick("bad.toml", "out")), 2);
+  const std::string said = text("mpi.err");
+  EXPECT_NE(said.find("did you mean design?"), std::string::npos) << said;
+  EXPECT_EQ(said.find("did you mean design?"), said.rfind("did you mean design?")) << said;
+}
+
+#endif
+
+}  // namespace
+}  // namespace boresight::app
