@@ -41,20 +41,17 @@ struct FidelityOutcome {
 std::vector<Level> open_levels(const SeveralRungs& s) {
   ContentHash hash;
   hash.add(s.out.identity().dump());
-  std::vector<std::string> names;
-  for (const RandomParameter& p : s.question.plan.inputs.parameters) names.push_back(p.name());
   std::vector<Level> levels;
   for (const std::string& rung : s.question.plan.fidelities->models) {
     const std::filesystem::path file = s.out.path() / ("samples-" + rung + ".db");
     if (std::filesystem::exists(file) && !s.resume)
       throw OutputDirectoryError("--out " + s.out.path().string() +
                                  ": holds samples of this study already; --resume goes on with them, another --out begins anew");
-    levels.push_back({rung, std::make_unique<RungSampleModel>(rung, s.question.mechanism, s.question.parameters_of(),
-                                                              s.question.study.index, s.run, s.question.scene_varies()),
-                      nullptr});
+    levels.push_back({rung, model_on(s, rung), nullptr});
     levels.back().store =
-        std::make_unique<SampleStore>(file, std::map<std::string, std::string>{{"study", hash.hexadecimal()}}, names);
-    levels.back().store->use_rung(rung, s.run.step);
+        std::make_unique<SampleStore>(file, std::map<std::string, std::string>{{"study", hash.hexadecimal()}},
+                                      names_of(s.question.plan.inputs));
+    levels.back().store->use_rung(rung, levels.back().model->step());
   }
   return levels;
 }
@@ -200,7 +197,7 @@ int run_fidelities(const SeveralRungs& s) {
   Json json = several_rungs_summary(s, top, warnings);
   json["samples"] = o.plan.samples[0];
   json["failed"] = o.mean.failed;
-  json["index"]["mean"] = bounds_json(reported(o.mean.value));
+  json["index"]["mean"] = interval_json(reported(o.mean.value));
   json["error"] = {{"of", "mean"},
                    {"sampling", {{"relative", sampling}, {"why", o.mean.value.basis}}},
                    {"discretisation", {{"relative", o.discretisation}, {"why", "the " + top + " rung's own estimate of its steps"}}},
@@ -220,7 +217,7 @@ int run_fidelities(const SeveralRungs& s) {
                            {"asked_probability", plan.requirement->probability},
                            {"confidence", plan.requirement->confidence},
                            {"met", met},
-                           {"probability", bounds_json(below)}};
+                           {"probability", interval_json(below)}};
   }
   Json& f = json["fidelities"];
   for (std::size_t i = 0; i < asked.models.size(); ++i)

@@ -12,6 +12,7 @@
 #include "progress.hpp"
 #include "readable.hpp"
 #include "report/report.hpp"
+#include "scatter_parts.hpp"
 #include "sensitivity_report.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
@@ -21,37 +22,6 @@ namespace boresight::app {
 namespace {
 
 constexpr std::size_t kMostShown = 2000;  // points of a scatter plot
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-Json interval_json(const ReportedInterval& i) {
-  return {{"value", number(i.value)}, {"low", number(i.low)}, {"high", number(i.high)}, {"confidence", i.confidence}};
-}
-
-std::vector<std::string> names_of(const RandomInputs& inputs) {
-  std::vector<std::string> names;
-  for (const RandomParameter& p : inputs.parameters) names.push_back(p.name());
-  return names;
-}
-
-// Masses, gravity and springs change the scene that runs share; contacts do not.
-bool scene_varies(const RandomInputs& inputs) {
-  for (const RandomParameter& p : inputs.parameters)
-    for (const std::string& path : p.paths)
-      if (!path.starts_with("clearance.")) return true;
-  return false;
-}
-
-// The scatter's middle and two corners: what holds there is taken to hold between them.
-std::vector<Parameters> pilot_samples(const RandomInputs& inputs, const Mechanism& mechanism) {
-  std::vector<Parameters> samples;
-  for (const double level : {0.5, 0.05, 0.95}) {
-    std::vector<double> values;
-    for (const RandomParameter& p : inputs.parameters) values.push_back(p.distribution->quantile(level));
-    samples.push_back(inputs.parameters_with(mechanism, values));
-  }
-  return samples;
-}
 
 void write_indices(std::ostream& out, const GlobalSensitivity& global) {
   out << "group,first,first_low,first_high,total,total_low,total_high,undersampled\n";
@@ -192,7 +162,7 @@ class SensitivityVerb : public Verb {
     if (!stored.empty()) return {stored.front().name, "chosen when the study was begun", stored.front().step};
     constexpr double kPilotTrials = 72.0;  // about as many as it makes; it may need fewer
     Progress progress(command.quiet, kPilotTrials, "trials of the pilot");
-    return choose_rung({.asked = command.rung,
+    RungChoice choice = choose_rung({.asked = command.rung,
                         .accuracy = command.accuracy ? command.accuracy : study.accuracy,
                         .wants_multibody = !run.formulation.empty() || !run.stabilisation.empty(),
                         .index = study.index,
@@ -202,6 +172,10 @@ class SensitivityVerb : public Verb {
                           return !interrupted();
                         }},
                        mechanism, pilot_samples(plan.inputs, *mechanism));
+    if (choice.step == 0.0 && run.step == 0.0)
+      choice.step = with_options_checked(
+          run, [&] { return common_step(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run); });
+    return choice;
   }
 
   static std::vector<std::string> warnings_of(const SensitivityStudy& s) {
@@ -252,15 +226,15 @@ class SensitivityVerb : public Verb {
       files.emplace_back("sobol.csv");
     }
     if (!s.local.interrupted) {
-      json["local"]["at_medians"] = number(s.local.at_medians);
+      json["local"]["at_medians"] = number_json(s.local.at_medians);
       for (const LocalSensitivity& p : s.local.parameters) {
         Json steps = Json::array();
         for (std::size_t k = 0; k < p.step.size(); ++k)
-          steps.push_back({{"step", number(p.step[k])}, {"derivative", number(p.derivative[k])}});
+          steps.push_back({{"step", number_json(p.step[k])}, {"derivative", number_json(p.derivative[k])}});
         json["local"][p.name] = {{"unit", p.si_unit},         {"median", p.median},
                                  {"low", p.low},              {"high", p.high},
-                                 {"at_low", number(p.at_low)}, {"at_high", number(p.at_high)},
-                                 {"meaningful", p.meaningful}, {"derivative", p.meaningful ? number(p.derivative.back()) : Json()},
+                                 {"at_low", number_json(p.at_low)}, {"at_high", number_json(p.at_high)},
+                                 {"meaningful", p.meaningful}, {"derivative", p.meaningful ? number_json(p.derivative.back()) : Json()},
                                  {"differences", steps}};
         if (!p.meaningful) json["local"][p.name]["why_not"] = p.why_not;
       }

@@ -1,24 +1,22 @@
 #include "several_rungs.hpp"
 
-#include <cmath>
 #include <filesystem>
 
 #include "report_parts.hpp"
 
 namespace boresight::app {
 
-RungSampleModel model_on(const SeveralRungs& s, const std::string& rung) {
-  return RungSampleModel(rung, s.question.mechanism, s.question.parameters_of(), s.question.study.index, s.run,
-                         s.question.scene_varies());
+std::unique_ptr<RungSampleModel> model_on(const SeveralRungs& s, const std::string& rung) {
+  const RandomInputs& inputs = s.question.plan.inputs;
+  RunOptions run = s.run;
+  if (run.step == 0.0)
+    run.step = with_options_checked(
+        run, [&] { return common_step(rung, s.question.mechanism, pilot_samples(inputs, *s.question.mechanism), run); });
+  return std::make_unique<RungSampleModel>(rung, s.question.mechanism, s.question.parameters_of(), s.question.study.index, run,
+                                           scene_varies(inputs));
 }
 
 RungChoice named_rung(const std::string& rung) { return {rung, "the study names its rungs", 0.0}; }
-
-Json bounds_json(const ReportedInterval& i) {
-  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
-  return {{"value", number(i.value)},   {"low", number(i.low)}, {"high", number(i.high)},
-          {"confidence", i.confidence}, {"basis", i.basis}};
-}
 
 void claim_folder(const SeveralRungs& s) {
   if (std::filesystem::exists(s.out.path() / "summary.json")) return;

@@ -10,6 +10,7 @@
 #include "montecarlo_study.hpp"
 #include "output_directory.hpp"
 #include "report/document.hpp"
+#include "scatter_parts.hpp"
 #include "summary.hpp"
 
 namespace boresight::app {
@@ -27,9 +28,9 @@ int run_fidelities(const SeveralRungs& study);
 int run_tail(const SeveralRungs& study);
 
 // What the two share.
-RungSampleModel model_on(const SeveralRungs& study, const std::string& rung);
+// At one step for all samples.
+std::unique_ptr<RungSampleModel> model_on(const SeveralRungs& study, const std::string& rung);
 RungChoice named_rung(const std::string& rung);
-Json bounds_json(const ReportedInterval& interval);  // infinite ends are null
 // summary.json that says whose folder this is and that the study has begun; nothing if one is there.
 void claim_folder(const SeveralRungs& study);
 // What every summary of a Monte Carlo study has; the report's head and end.

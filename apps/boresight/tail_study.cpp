@@ -48,7 +48,7 @@ int run_tail(const SeveralRungs& s) {
   const MonteCarloPlan& plan = s.question.plan;
   const int dimensions = static_cast<int>(plan.inputs.size());
   claim_folder(s);
-  const RungSampleModel cheap_model = model_on(s, asked.cheap), exact_model = model_on(s, asked.exact);
+  const auto cheap_model = model_on(s, asked.cheap), exact_model = model_on(s, asked.exact);
 
   Progress progress(s.command.quiet, asked.budget, "s of CPU");
   double spent = 0.0;
@@ -61,8 +61,8 @@ int run_tail(const SeveralRungs& s) {
                                   },
                               .interrupted = [] { return interrupted(); }};
   const auto cheap_costs = std::make_shared<std::vector<double>>(), exact_costs = std::make_shared<std::vector<double>>();
-  const BatchModel cheap = on_normal_space(cheap_model, plan.inputs, options, cheap_costs);
-  const BatchModel exact_rung = on_normal_space(exact_model, plan.inputs, options, exact_costs);
+  const BatchModel cheap = on_normal_space(*cheap_model, plan.inputs, options, cheap_costs);
+  const BatchModel exact_rung = on_normal_space(*exact_model, plan.inputs, options, exact_costs);
   ProposalOptions proposal;
   proposal.subset.seed = plan.design.seed;
   std::optional<TwoLevelPlan> pilot;
@@ -120,10 +120,10 @@ int run_tail(const SeveralRungs& s) {
                          {"asked_probability", requirement.probability},
                          {"confidence", requirement.confidence},
                          {"met", met},
-                         {"probability", bounds_json(below)}};
+                         {"probability", interval_json(below)}};
   ReportedInterval excess = reported(p);
   excess.confidence = requirement.confidence;
-  json["tail"] = {{"exceedance", bounds_json(excess)},
+  json["tail"] = {{"exceedance", interval_json(excess)},
                   {"standard_error", estimate.standard_error},
                   {"effective_exceedances", estimate.effective_exceedances},
                   {"disagreements", estimate.disagreements},
@@ -153,7 +153,7 @@ int run_tail(const SeveralRungs& s) {
   const std::string unit = s.question.study.index.si_unit();
   const std::string sentence = fmt::format("{:.3g} of all exceed {} ({:.3g} to {:.3g}), unbiased for {}", p.value,
                                            readable(requirement.limit, unit), p.low, p.high, asked.exact);
-  report::Document document = several_rungs_report(s, asked.exact, exact_model.leaves_out(), warnings);
+  report::Document document = several_rungs_report(s, asked.exact, exact_model->leaves_out(), warnings);
   document.subtitle = "How rarely the " + s.question.study.index.title() + " exceeds its limit";
   document.verdict = report::Verdict{met ? report::Standing::good : report::Standing::bad,
                                      sentence + (met ? "; the requirement is met" : "; the requirement is not shown to be met")};
