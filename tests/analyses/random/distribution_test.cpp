@@ -47,7 +47,7 @@ TEST(Distribution, DensityIsTheSlopeOfTheCdf) {
 
 TEST(Distribution, MeanAndSdAreThoseOfItsQuantiles) {
   for (const DistributionPtr& x : all_continuous()) {
-    constexpr int n = 200000;
+    constexpr int n = 50000;
     double sum = 0.0, squares = 0.0;
     for (int i = 0; i < n; ++i) {
       const double u = (i + 0.5) / n;
@@ -58,7 +58,7 @@ TEST(Distribution, MeanAndSdAreThoseOfItsQuantiles) {
     const double count = x->text().starts_with("fit") ? n / 100.0 : n;
     const double mean = sum / count, sd = std::sqrt(squares / count - mean * mean);
     EXPECT_NEAR(x->mean(), mean, 1e-3 * sd) << x->text();
-    EXPECT_NEAR(x->sd() / sd, 1.0, 3e-3) << x->text();
+    EXPECT_NEAR(x->sd() / sd, 1.0, 5e-3) << x->text();
   }
 }
 
