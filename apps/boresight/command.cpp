@@ -6,6 +6,7 @@
 
 #include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
 
 namespace boresight::app {
 namespace {
@@ -72,6 +73,13 @@ void MotionOptions::declare(CLI::App& app, bool with_poses) {
 void MotionOptions::declare_model(CLI::App& app) {
   app.add_option("--step", step, "step of the integration; otherwise the rung's own choice")
       ->type_name("TIME");
+  app.add_option("--integrator", integrator,
+                 "rk4, dopri5, rosenbrock or (multibody) generalized-alpha; otherwise the rung's own, rk4")
+      ->type_name("NAME");
+  app.add_option(
+         "--tolerance", tolerance,
+         "of error control (any but rk4): error of one step over the smallest clearance; otherwise the rung's own")
+      ->type_name("NUMBER");
   app.add_option("--formulation", formulation, "of the equations of motion (multibody): tree or paper; otherwise tree")
       ->type_name("NAME");
   app.add_option("--stabilisation", stabilisation,
@@ -86,6 +94,18 @@ RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
   constexpr double kMostSamples = 2e6;
   if (mechanism.duration() / options.sample_spacing > kMostSamples)
     throw InputError(kCommandLine, "--sample", in_quotes(sample), "at most two million samples in all");
+  const std::vector<std::string> integrators = integrator_names();
+  if (!integrator.empty() && std::find(integrators.begin(), integrators.end(), integrator) == integrators.end())
+    throw InputError(kCommandLine, "--integrator", in_quotes(integrator),
+                     "rk4, dopri5, rosenbrock or generalized-alpha", nearest_name(integrator, integrators));
+  options.integrator = integrator;
+  if (!tolerance.empty()) {
+    options.tolerance = positive_quantity("--tolerance", tolerance, kRatio);
+    if (integrator.empty() || integrator == "rk4")
+      throw InputError(kCommandLine, "--tolerance", in_quotes(tolerance),
+                       "an --integrator with an error estimate: dopri5, rosenbrock or generalized-alpha");
+    if (!step.empty()) throw InputError(kCommandLine, "--tolerance", in_quotes(tolerance), "this or --step, not both");
+  }
   options.formulation = formulation;
   const std::vector<std::string> known = {"baumgarte", "projection"};
   if (!stabilisation.empty() && std::find(known.begin(), known.end(), stabilisation) == known.end())
@@ -105,6 +125,20 @@ RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
   return options;
 }
 
+void MotionOptions::check_rung(const std::string& rung) const {
+  if (integrator.empty() || rung == "auto") return;
+  const std::vector<std::string> known = integrator_names(rung);
+  if (std::find(known.begin(), known.end(), integrator) == known.end())
+    throw InputError(
+        kCommandLine, "--integrator", in_quotes(integrator),
+        known.empty() ? "none: the " + rung + " rung takes no steps" : "one that the " + rung + " rung has",
+        nearest_name(integrator, known));
+}
+
+bool MotionOptions::asks_for_multibody() const {
+  return !formulation.empty() || !stabilisation.empty() || !integrator.empty();
+}
+
 std::size_t history_refinement(double duration, double sample_spacing) {
   return static_cast<std::size_t>(std::clamp(std::floor(20000.0 * sample_spacing / duration), 1.0, 10.0));
 }
@@ -114,10 +148,8 @@ nlohmann::json MotionOptions::model_identity() const {
 }
 
 nlohmann::json MotionOptions::identity() const {
-  return {{"step", step},
-          {"sample", sample},
-          {"formulation", formulation},
-          {"stabilisation", stabilisation},
+  return {{"step", step},           {"sample", sample},           {"integrator", integrator},
+          {"tolerance", tolerance}, {"formulation", formulation}, {"stabilisation", stabilisation},
           {"pose", poses}};
 }
 

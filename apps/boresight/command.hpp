@@ -41,13 +41,17 @@ struct CommandOptions {
 
 // How a motion is followed and what of it is kept: the options of `run` and `sweep`.
 struct MotionOptions {
-  std::string step, sample = "1 ms", formulation, stabilisation;
+  std::string step, sample = "1 ms", integrator, tolerance, formulation, stabilisation;
   std::vector<std::string> poses;
 
   void declare(CLI::App& app, bool with_poses);
   void declare_model(CLI::App& app);  // step, formulation, stabilisation alone: for verbs that keep no histories
   // Throws InputError for a value that is no duration, an unknown body, an unknown word.
   RunOptions run_options(const Mechanism& mechanism) const;
+  // Throws InputError if the rung, not "auto", does not have the integrator.
+  void check_rung(const std::string& rung) const;
+  // Whether an option was given that not every rung has: `auto` then takes multibody, which has them all.
+  bool asks_for_multibody() const;
   nlohmann::json identity() const;  // what of them changes results
   nlohmann::json model_identity() const;
 };

@@ -134,7 +134,7 @@ report::Table hardest_contacts(const Mechanism& mechanism, const RunResult& resu
   return table;
 }
 
-report::Section cost_section(const RunResult& result) {
+report::Section cost_section(const RunResult& result, const std::optional<Predictability>& predictability) {
   const RunCost& cost = result.cost;
   report::Table table{.title = "What it cost", .caption = {}, .columns = {{"What"}, {"Value"}}};
   table.rows = {
@@ -149,7 +149,12 @@ report::Section cost_section(const RunResult& result) {
   if (result.energy_error != 0.0)
     table.rows.push_back(
         {"Energy balance, largest error", fmt::format("{:.3g} of the largest energy", result.energy_error)});
-  return {.id = "cost", .title = "Cost and numerical quality", .items = {std::move(table)}};
+  report::Section section{.id = "cost", .title = "Cost and numerical quality", .items = {std::move(table)}};
+  if (predictability)
+    section.items.push_back(report::Text{predictability->measured
+                                             ? "Predictability: " + predictability_sentence(*predictability) + "."
+                                             : "Predictability was not measured: " + predictability->refusal});
+  return section;
 }
 
 // What the rung leaves out, by how much it thinks that matters, and what the other rungs say where they were asked.
@@ -195,9 +200,32 @@ report::Section model_section(const std::string& leaves_out, const RunResult& re
 
 }  // namespace
 
+std::string predictability_sentence(const Predictability& found) {
+  const std::string twin = fmt::format("a start {} off", readable(kStartOffset, "m"));
+  if (!found.parted)
+    return fmt::format("{} stays within {} of the clearance over the whole motion", twin, readable_share(kPartedShare));
+  return fmt::format(
+      "the trajectory is predictable up to {}, where {} parts by {} of the clearance; past it judge the indices, which "
+      "differ by {} (max) and {} (RMS) between the two",
+      readable(found.horizon, "s"), twin, readable_share(kPartedShare), readable_share(found.max_difference),
+      readable_share(found.rms_difference));
+}
+
+nlohmann::ordered_json predictability_json(const Predictability& found) {
+  if (!found.measured) return {{"refused", found.refusal}};
+  return {{"horizon", found.horizon},
+          {"parted", found.parted},
+          {"growth_rate", found.growth},
+          {"start_offset", kStartOffset},
+          {"parted_share_of_clearance", kPartedShare},
+          {"position_error_max_difference", found.max_difference},
+          {"position_error_rms_difference", found.rms_difference}};
+}
+
 report::Document run_report(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
                             const std::string& leaves_out, const RunResult& result, const std::vector<Compared>& others,
-                            const std::optional<AxesComparison>& axes) {
+                            const std::optional<AxesComparison>& axes,
+                            const std::optional<Predictability>& predictability) {
   report::Document document{
       .title = mechanism.name(),
       .subtitle =
@@ -243,7 +271,7 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
   }
   document.sections.push_back(model_section(leaves_out, result, others, axes));
   if (rung.pilot) document.sections.push_back(pilot_section(*rung.pilot));
-  document.sections.push_back(cost_section(result));
+  document.sections.push_back(cost_section(result, predictability));
   return document;
 }
 

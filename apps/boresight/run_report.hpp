@@ -1,10 +1,11 @@
 // The report of `run`: how far off the mechanism points, when, and what happens in its joints.
 #pragma once
 
+#include "axes_section.hpp"
 #include "boresight/mechanism/mechanism.hpp"
+#include "boresight/rungs/predictability.hpp"
 #include "boresight/rungs/run_result.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
-#include "axes_section.hpp"
 #include "command.hpp"
 #include "report/document.hpp"
 
@@ -19,6 +20,10 @@ struct Compared {
 
 report::Document run_report(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
                             const std::string& leaves_out, const RunResult& result, const std::vector<Compared>& others,
-                            const std::optional<AxesComparison>& axes);
+                            const std::optional<AxesComparison>& axes,
+                            const std::optional<Predictability>& predictability);
+// "trajectories are predictable up to ..."
+std::string predictability_sentence(const Predictability& found);
+nlohmann::ordered_json predictability_json(const Predictability& found);
 
 }  // namespace boresight::app

@@ -7,6 +7,8 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/rungs/predictability.hpp"
 #include "boresight/rungs/rung.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
@@ -23,7 +25,8 @@ namespace boresight::app {
 namespace {
 
 void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
-           const std::vector<Compared>& others, const std::optional<AxesComparison>& axes, const OutputDirectory& out) {
+           const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
+           const std::optional<Predictability>& predictability, const OutputDirectory& out) {
   fmt::print("{}: {} of motion, {} rung, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.rung,
              result.integrator, result.interrupted ? " (interrupted)" : "");
   if (choice.pilot) fmt::print("  rung: {}\n", choice.why);
@@ -40,6 +43,7 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
     fmt::print("  {}: in contact {} of the time, {} impacts, penetration up to {}, force up to {}\n", c.joint,
                readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"),
                readable(c.max_force, "N"));
+  if (predictability && predictability->parted) fmt::print("  {}\n", predictability_sentence(*predictability));
   for (const Compared& other : others) {
     if (!other.refusal.empty())
       fmt::print("  {:<12} {}\n", other.rung, other.refusal);
@@ -54,7 +58,8 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
 }
 
 Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const RunResult& result,
-                const std::vector<Compared>& others, const std::optional<AxesComparison>& axes, const Stopwatch& watch,
+                const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
+                const std::optional<Predictability>& predictability, const Stopwatch& watch,
                 const OutputDirectory& out) {
   Json json = common_summary(command, mechanism, rung, watch, result.warnings, result.interrupted, out);
   json["formulation"] = result.formulation;
@@ -79,6 +84,7 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const RungCh
     else
       entry = {{"refused", other.refusal}};
   }
+  if (predictability) json["predictability"] = predictability_json(*predictability);
   json["steps"] = result.cost.steps;
   json["rejected_steps"] = result.cost.rejected_steps;
   json["evaluations"] = result.cost.evaluations;
@@ -110,6 +116,7 @@ class RunVerb : public Verb {
     const Command command = sample_number_.empty() ? asked : replay_of(asked);
     const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(command.file, command.settings));
     check_rung_name(command.rung);
+    motion_.check_rung(command.rung);
     RunOptions options = motion_.run_options(*mechanism);
     const IndexChoice index = asked_index();
     const OutputDirectory out = OutputDirectory::open(
@@ -124,17 +131,18 @@ class RunVerb : public Verb {
       return !interrupted();
     };
     Progress pilot_progress(command.quiet, kPilotTrials, "trials of the pilot");
-    const RungChoice choice = choose_rung(
-        {.asked = command.rung,
-         .accuracy = command.accuracy,
-         .wants_multibody = !options.formulation.empty() || !options.stabilisation.empty(),
-         .index = index,
-         .step = options.step,
-         .progress = [&](int trial) {
-           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
-           return !interrupted();
-         }},
-        mechanism, {mechanism->parameters()});
+    const RungChoice choice =
+        choose_rung({.asked = command.rung,
+                     .accuracy = command.accuracy,
+                     .wants_multibody = motion_.asks_for_multibody(),
+                     .index = index,
+                     .step = options.step,
+                     .progress =
+                         [&](int trial) {
+                           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
+                           return !interrupted();
+                         }},
+                    mechanism, {mechanism->parameters()});
     pilot_progress.clear();
     if (choice.step > 0.0) options.step = choice.step;
 
@@ -147,14 +155,21 @@ class RunVerb : public Verb {
         if (name != choice.name) others.push_back(run_other(name, mechanism, options, motion_.run_options(*mechanism).step));
     const std::optional<AxesComparison> axes = compare_axes(*mechanism);
 
-    write_json(out, "summary.json", summary_of(command, *mechanism, choice, result, others, axes, watch, out));
+    // Rungs without steps have no trajectory to lose.
+    std::optional<Predictability> predictability;
+    if (!integrator_names(choice.name).empty() && mechanism->clearances() > 0 && !result.interrupted)
+      predictability = measure_predictability(mechanism, mechanism->parameters());
+
+    write_json(out, "summary.json",
+               summary_of(command, *mechanism, choice, result, others, axes, predictability, watch, out));
     out.write("timeseries.csv", [&](std::ostream& s) { write_timeseries(s, *mechanism, result, finer); });
     out.write("events.csv", [&](std::ostream& s) { write_events(s, *mechanism, result); });
     out.write("report.html", [&](std::ostream& s) {
-      report::write_html(s, run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes));
+      report::write_html(
+          s, run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability));
     });
     progress.clear();
-    if (!command.quiet) print(*mechanism, choice, result, others, axes, out);
+    if (!command.quiet) print(*mechanism, choice, result, others, axes, predictability, out);
     return result.interrupted ? kInterrupted : kDone;
   }
 
@@ -194,6 +209,8 @@ class RunVerb : public Verb {
     Compared other{.rung = name, .result = {}, .refusal = ""};
     options.step = step;
     if (name != "multibody") options.formulation = options.stabilisation = "";
+    options.integrator = "";
+    options.tolerance = 0.0;
     options.pose_bodies.clear();
     try {
       other.result = make_rung(name, mechanism)->run(mechanism->parameters(), options);

@@ -126,6 +126,7 @@ class SweepVerb : public Verb {
       const Mechanism tried(read_mechanism(study.mechanism_file, settings));
     });
     check_rung_name(command.rung);
+    motion_.check_rung(command.rung);
     SweepOptions options;
     options.run = motion_.run_options(*mechanism);
     options.jobs = command.jobs;
@@ -143,17 +144,18 @@ class SweepVerb : public Verb {
     constexpr double kPilotTrials = 24.0;  // about as many as it makes; it may need fewer
     Progress pilot_progress(command.quiet, kPilotTrials, "trials of the pilot");
     // The grid's first and last corner: what is true of both is taken to be true between them.
-    const RungChoice choice = choose_rung(
-        {.asked = command.rung,
-         .accuracy = command.accuracy ? command.accuracy : study.accuracy,
-         .wants_multibody = !options.run.formulation.empty() || !options.run.stabilisation.empty(),
-         .index = study.index,
-         .step = options.run.step,
-         .progress = [&](int trial) {
-           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
-           return !interrupted();
-         }},
-        mechanism, {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
+    const RungChoice choice =
+        choose_rung({.asked = command.rung,
+                     .accuracy = command.accuracy ? command.accuracy : study.accuracy,
+                     .wants_multibody = motion_.asks_for_multibody(),
+                     .index = study.index,
+                     .step = options.run.step,
+                     .progress =
+                         [&](int trial) {
+                           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
+                           return !interrupted();
+                         }},
+                    mechanism, {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
     pilot_progress.clear();
     if (choice.step > 0.0) options.run.step = choice.step;
 

@@ -1,35 +1,12 @@
-// Explicit Runge-Kutta with a fixed step: the method as data (a Butcher table), one step function for all of them.
-// Source of the tables: Hairer, Norsett, Wanner (1993), Solving Ordinary Differential Equations I, section II.1.
+// One explicit Runge-Kutta step of given size: the method as data (explicit_tables.hpp), one step function
+// for all of them.
 #pragma once
 
 #include <vector>
 
-#include "boresight/math/types.hpp"
+#include "boresight/integrate/explicit_tables.hpp"
 
 namespace boresight {
-
-struct ExplicitTable {
-  const char* name;
-  int order;
-  int stages;
-  std::vector<double> a;  // strictly lower triangle, row by row: a21, a31, a32, ...
-  std::vector<double> b, c;
-  // Where |R(z)| first exceeds 1 on the negative real and on the imaginary axis.
-  double real_limit, imaginary_limit;
-};
-
-// Kutta's classical method (1901): the paper's integrator.
-inline const ExplicitTable& classical_rk4() {
-  static const ExplicitTable table{"RK4",
-                                   4,
-                                   4,
-                                   {0.5, 0.0, 0.5, 0.0, 0.0, 1.0},
-                                   {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0},
-                                   {0.0, 0.5, 0.5, 1.0},
-                                   2.785293563405282,
-                                   2.8284271247461903};
-  return table;
-}
 
 // One step of size h at a time. The vectors are sized once; step() allocates nothing.
 class ExplicitRungeKutta {
@@ -39,6 +16,9 @@ class ExplicitRungeKutta {
 
   // The slope at the start of the step: fill it before step(), so that a caller can look at it first.
   VecX& first_slope() { return slope_[0]; }
+  // Slopes of the stages of the last step, from 0.
+  const VecX& slope(int stage) const { return slope_[stage]; }
+  const ExplicitTable& table() const { return table_; }
 
   // y: state at t, advanced in place. derivative(t, y, dy).
   template <typename Derivative>

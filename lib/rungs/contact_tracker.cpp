@@ -88,26 +88,17 @@ bool ContactTracker::accept(double t, const std::array<ContactState<double>, kCo
       if (started_ && last_[k].penetration < 0.0)
         at = flight_crossing(flight_[k], h, last_[k].penetration / (last_[k].penetration - now.penetration));
       flight_[k].count = 0;
-      event = {clearance_, place, started_ ? t_ + at.share * h : t, std::max(at.rate, 0.0), 0.0, 0.0, 0.0, 0.0};
+      begin(place, started_ ? t_ + at.share * h : t, at.rate);
       began = std::min(began, event.start);
-      memory_.touching[k] = true;
-      memory_.impact_speed[k] = std::max(minimum_impact_speed_, at.rate);
-      ++summary_.impacts;
-      summary_.max_impact_speed = std::max(summary_.max_impact_speed, at.rate);
-      summary_.impact_speed_above_validity += at.rate > summary_.validity_speed;
       changed = true;
     } else if (now.penetration <= 0.0 && memory_.touching[k]) {
       const Crossing at = cubic_crossing(last_[k].penetration, last_[k].rate, now.penetration, now.rate, h);
-      event.duration = t_ + at.share * h - event.start;
-      event.end_speed = -at.rate;
+      end(place, t_ + at.share * h, -at.rate);
       ended = std::max(ended, t_ + at.share * h);
-      if (keep_events_) closed_.push_back(event);
-      memory_.touching[k] = false;
       changed = true;
     }
     if (memory_.touching[k]) {
-      event.max_penetration = std::max(event.max_penetration, now.penetration);
-      summary_.max_penetration = std::max(summary_.max_penetration, now.penetration);
+      deepen(event, now.penetration);
     } else {
       memory_.impact_speed[k] = std::max(minimum_impact_speed_, now.rate);
       FreeFlight& f = flight_[k];
@@ -127,6 +118,38 @@ bool ContactTracker::accept(double t, const std::array<ContactState<double>, kCo
   t_ = t;
   started_ = true;
   return changed;
+}
+
+void ContactTracker::deepen(ContactEvent& event, double penetration) {
+  event.max_penetration = std::max(event.max_penetration, penetration);
+  summary_.max_penetration = std::max(summary_.max_penetration, penetration);
+}
+
+void ContactTracker::begin(ContactPlace place, double t, double speed) {
+  const int k = static_cast<int>(place);
+  open_[k] = {clearance_, place, t, std::max(speed, 0.0), 0.0, 0.0, 0.0, 0.0};
+  memory_.touching[k] = true;
+  memory_.impact_speed[k] = std::max(minimum_impact_speed_, speed);
+  ++summary_.impacts;
+  summary_.max_impact_speed = std::max(summary_.max_impact_speed, speed);
+  summary_.impact_speed_above_validity += speed > summary_.validity_speed;
+}
+
+void ContactTracker::end(ContactPlace place, double t, double speed) {
+  const int k = static_cast<int>(place);
+  open_[k].duration = t - open_[k].start;
+  open_[k].end_speed = speed;
+  if (keep_events_) closed_.push_back(open_[k]);
+  memory_.touching[k] = false;
+}
+
+void ContactTracker::observe(double t, const std::array<ContactState<double>, kContactPlaces>& contact) {
+  if (touching()) touching_time_ += t - t_;
+  t_ = t;
+  for (ContactPlace place : places_) {
+    const int k = static_cast<int>(place);
+    if (memory_.touching[k]) deepen(open_[k], contact[k].penetration);
+  }
 }
 
 void ContactTracker::observe_forces(const std::array<ContactState<double>, kContactPlaces>& contact) {

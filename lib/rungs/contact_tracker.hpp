@@ -25,6 +25,13 @@ class ContactTracker {
   // Forces at the state accepted last (normal_force of each place).
   void observe_forces(const std::array<ContactState<double>, kContactPlaces>& contact);
 
+  // Where the integrator locates the contacts itself, in place of accept(): observe() at the end of every step and
+  // wherever else a state is at hand, then begin() and end() of what changes there. speed: of approach, of separation
+  // [m/s].
+  void observe(double t, const std::array<ContactState<double>, kContactPlaces>& contact);
+  void begin(ContactPlace place, double t, double speed);
+  void end(ContactPlace place, double t, double speed);
+
   const ContactMemory& memory() const { return memory_; }
   bool touching() const;
 
@@ -32,6 +39,8 @@ class ContactTracker {
   ContactSummary finish(double t_end, std::vector<ContactEvent>& events);
 
  private:
+  void deepen(ContactEvent& event, double penetration);
+
   int clearance_;
   std::vector<ContactPlace> places_;
   double minimum_impact_speed_;

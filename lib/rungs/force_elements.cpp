@@ -72,7 +72,9 @@ void ForceElements::apply(double t, const std::vector<BodyMotion>& bodies, const
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     Joint& joint = joints_[c];
     joint.motion = journal_motion(static_cast<int>(c), bodies);
-    if (held_.empty())
+    if (hold_)
+      ;  // the last wrench
+    else if (held_.empty())
       joint.law.wrench(joint.motion, memory[c].impact_speed, joint.wrench);
     else
       load(joint, held_[c]);

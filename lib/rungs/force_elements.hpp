@@ -23,11 +23,17 @@ class ForceElements {
   // then couples on the slopes), one per clearance [N, N m].
   void replace_contact(std::vector<Eigen::Matrix<double, 5, 1>> loads) { held_ = std::move(loads); }
 
+  // The contacts' wrenches as they stand, whatever the motion: for derivatives of everything but the contact laws.
+  void hold_contact(bool hold) { hold_ = hold; }
+  JournalWrench<double>& contact(int clearance) { return joints_[clearance].wrench; }
+
   // Elastic energy of springs and contacts [J].
   double elastic_energy(const std::vector<BodyMotion>& bodies) const;
 
   int clearances() const { return static_cast<int>(joints_.size()); }
   const JournalInSleeve& joint(int clearance) const { return joints_[clearance].law; }
+  // The law that acts from now on: that of the contacts that are closed (located_contacts.hpp).
+  void act(int clearance, const JournalInSleeve& law) { joints_[clearance].law = law; }
   JournalMotion<double> journal_motion(int clearance, const std::vector<BodyMotion>& bodies) const;
   // Of the last apply().
   const JournalWrench<double>& contact(int clearance) const { return joints_[clearance].wrench; }
@@ -49,6 +55,7 @@ class ForceElements {
   void load(Joint& joint, const Eigen::Matrix<double, 5, 1>& held) const;
 
   const Mechanism& mechanism_;
+  bool hold_ = false;
   std::vector<Joint> joints_;
   std::vector<Eigen::Matrix<double, 5, 1>> held_;
   std::vector<Spring> springs_;

@@ -19,6 +19,10 @@ class Formulation {
   virtual ~Formulation() = default;
 
   virtual int state_size() const = 0;
+  // Whether number k of the state is a speed.
+  virtual bool is_speed(int k) const = 0;
+  // Whether the state is (q, v) with q' = v: no quaternions.
+  virtual bool positions_follow_speeds() const = 0;
   // The state of the ideal mechanism at its start: journals concentric, velocities of the ideal motion.
   virtual void start(const IdealState& ideal, VecX& y) = 0;
   // dy = f(t, y). Allocates nothing. Throws ComputationError at a singular pose.

@@ -45,10 +45,9 @@ const PoseError& MotionRecorder::accept(double t, const BodyMotion& body, const 
   position_error_max_ = std::max(position_error_max_, error_.position);
   result_.platform_acceleration_max = result_.platform_acceleration_max.cwiseMax(acceleration.head<3>().cwiseAbs());
   result_.end_time = t;
-  // A thousandth of the spacing of slack, so that rounding of t does not shift a sample by a step.
-  sampling_ = spacing_ > 0.0 && t >= next_sample_ - 1e-3 * spacing_;
+  sampling_ = wants_sample(t);
   if (sampling_) {
-    while (next_sample_ <= t + 1e-3 * spacing_) next_sample_ += spacing_;
+    while (next_sample_ <= t + kSlack * spacing_) next_sample_ += spacing_;
     result_.time.push_back(t);
     result_.boresight.samples.push_back(pose_sample(index, body, acceleration));
     if (bound) result_.boresight.samples.back().error = error_;

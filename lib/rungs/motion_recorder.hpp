@@ -17,6 +17,8 @@ class MotionRecorder {
   // instead of those of this pose (a rung that bounds each index on its own).
   const PoseError& accept(double t, const BodyMotion& body, const BodyAcceleration& acceleration,
                           const PoseError* bound = nullptr);
+  // Whether a state at t, accepted next, will be sampled.
+  bool wants_sample(double t) const { return spacing_ > 0.0 && t >= next_sample_ - kSlack * spacing_; }
   // True if the state accepted last is to be sampled: then call the two below, bodies first.
   bool sampling() const { return sampling_; }
   void sample_body(int other, const BodyMotion& body, const BodyAcceleration& acceleration);  // other: index in pose_bodies
@@ -27,6 +29,7 @@ class MotionRecorder {
   RunResult finish();
 
  private:
+  static constexpr double kSlack = 1e-6;  // of the spacing, so that rounding of t does not shift a sample by a step
   PoseSample pose_sample(int body, const BodyMotion& motion, const BodyAcceleration& acceleration) const;
 
   const Mechanism& mechanism_;

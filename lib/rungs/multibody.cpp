@@ -15,7 +15,9 @@
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/formulation.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/rungs/located_motion.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
+#include "boresight/rungs/multibody_system.hpp"
 #include "boresight/rungs/step_error.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
@@ -37,8 +39,12 @@ class Multibody final : public Rung {
     std::optional<IdealMotion> simulated;
     const IdealMotion& ideal = ideal_for(parameters, simulated);
 
-    RunResult result = with_stable_step(options.step, own_step(parameters, options, ideal), options.sample_spacing,
-                                        [&](double step) { return integrate(parameters, options, ideal, step); });
+    const std::string integrator = integrator_of(options, name());
+    RunResult result =
+        integrator != "rk4"
+            ? integrate_located(parameters, options, ideal, integrator)
+            : with_stable_step(options.step, own_step(parameters, options, ideal), options.sample_spacing,
+                               [&](double step) { return integrate(parameters, options, ideal, step); });
     result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
     result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
     return result;
@@ -75,10 +81,7 @@ class Multibody final : public Rung {
     const OffsetLayout layout(mechanism);
     std::vector<JournalInSleeve> joints;
     for (int c = 0; c < forces.clearances(); ++c) joints.push_back(forces.joint(c));
-    std::vector<ContactTracker> trackers;
-    for (int c = 0; c < mechanism.clearances(); ++c)
-      trackers.emplace_back(c, mechanism.description().joints[mechanism.description().clearances[c].joint].name,
-                            forces.joint(c), options.events);
+    std::vector<ContactTracker> trackers = make_trackers(forces, options);
     std::vector<ContactMemory> memory(trackers.size());
     std::vector<JournalMotion<double>> motion(trackers.size());
     MotionRecorder recorder(mechanism, ideal, options, static_cast<double>(steps));
@@ -126,21 +129,100 @@ class Multibody final : public Rung {
     }
 
     RunResult result = recorder.finish();
-    result.rung = name();
-    result.formulation = options.formulation.empty() ? "tree" : options.formulation;
+    complete(result, options, trackers);
     char text[60];
     std::snprintf(text, sizeof text, "RK4, h = %.6g s", h);
     result.integrator = text;
-    for (ContactTracker& tracker : trackers) result.contact.push_back(tracker.finish(result.end_time, result.events));
-    std::stable_sort(result.events.begin(), result.events.end(),
-                     [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
     result.constraint_drift = drift;
     result.error = {0.0, step_error(fastest, h), "the step against the stiffest contact met"};
     result.interrupted = interrupted;
     result.cost.steps = steps;
     result.cost.evaluations = 4 * steps + 1;
-    warn(result);
     return result;
+  }
+
+  RunResult integrate_located(const Parameters& parameters, const RunOptions& options, const IdealMotion& ideal,
+                              const std::string& integrator) const {
+    const double duration = mechanism_->duration();
+    const auto formulation = make_formulation(parameters, options, ideal);
+    if (integrator == "generalized-alpha" && !formulation->positions_follow_speeds())
+      throw ComputationError(
+          "generalized-alpha needs coordinates whose rates are the speeds, and this state holds quaternions; "
+          "rosenbrock is implicit too");
+    std::vector<ContactTracker> trackers = make_trackers(formulation->forces(), options);
+    MotionRecorder recorder(*mechanism_, ideal, options, 2.0 * duration / kPaperStep);
+    IdealState start;
+    ideal.state(0.0, start);
+    VecX y;
+    formulation->start(start, y);
+    MultibodySystem system(*formulation, trackers);
+    system.start(0.0, y);
+    double drift = 0.0;
+    long points = 0;
+    bool interrupted = false;
+    const auto show = [&](double t, const VecX& state, bool at_end) {
+      // Poses are cheap, accelerations and forces are not: inside a step only where they are sampled.
+      const bool whole = at_end || points == 0 || recorder.wants_sample(t);
+      if (whole) {
+        system.evaluate(t, state);
+        drift = std::max(drift, formulation->violation());
+      }
+      system.observe(t, state, whole);
+      record_motion(*formulation, state, t, recorder, options);
+      interrupted =
+          ++points % 1024 == 0 && options.progress && !options.progress({t, duration, recorder.position_error_max()});
+      return !interrupted;
+    };
+    IntegrationSummary summary;
+    try {
+      summary = follow_located(integrator, system, duration, options.sample_spacing, y,
+                               integration_options(*formulation, parameters, options), show);
+    } catch (const ComputationError& failure) {
+      throw ComputationError(failure.what() + (system.fault().empty() ? "" : "; refused last: " + system.fault()));
+    }
+    RunResult result = recorder.finish();
+    complete(result, options, trackers);
+    report_integration(options, name(), integrator, summary, result);
+    result.cost.evaluations += system.evaluations();
+    result.constraint_drift = drift;
+    result.error = {0.0, tolerance_error(tolerance_of(options, name())), "the tolerance of the steps"};
+    result.interrupted = interrupted;
+    return result;
+  }
+
+  // Positions are turns and slides: both are held as if a turn worked on the mechanism's size, or on a metre where that
+  // is smaller.
+  IntegrationOptions integration_options(const Formulation& formulation, const Parameters& parameters,
+                                         const RunOptions& options) const {
+    const double clearance = smallest_clearance(parameters), size = mechanism_->characteristic_length();
+    const double asked = tolerance_of(options, name());
+    const double tolerance = asked * (clearance > 0.0 ? clearance : 1e-6 * size) / std::max(1.0, size);
+    IntegrationOptions integration;
+    integration.step = options.step;
+    integration.relative_tolerance = 0.0;
+    integration.absolute_tolerances = VecX::Constant(formulation.state_size(), tolerance);
+    for (int k = 0; k < formulation.state_size(); ++k)
+      if (formulation.is_speed(k)) integration.absolute_tolerances[k] /= kFlightTime;
+    integration.largest_step = mechanism_->duration() / 100.0;
+    return integration;
+  }
+
+  std::vector<ContactTracker> make_trackers(const ForceElements& forces, const RunOptions& options) const {
+    std::vector<ContactTracker> trackers;
+    const MechanismDescription& m = mechanism_->description();
+    for (int c = 0; c < mechanism_->clearances(); ++c)
+      trackers.emplace_back(c, m.joints[m.clearances[c].joint].name, forces.joint(c), options.events);
+    return trackers;
+  }
+
+  // What both ways of integrating report alike.
+  void complete(RunResult& result, const RunOptions& options, std::vector<ContactTracker>& trackers) const {
+    result.rung = name();
+    result.formulation = options.formulation.empty() ? "tree" : options.formulation;
+    for (ContactTracker& tracker : trackers) result.contact.push_back(tracker.finish(result.end_time, result.events));
+    std::stable_sort(result.events.begin(), result.events.end(),
+                     [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
+    warn(result);
   }
 
   std::unique_ptr<Formulation> make_formulation(const Parameters& parameters, const RunOptions& options,
@@ -172,16 +254,21 @@ class Multibody final : public Rung {
 
   void record(Formulation& formulation, const VecX& y, double t, std::vector<ContactTracker>& trackers,
               MotionRecorder& recorder, const RunOptions& options) const {
+    record_motion(formulation, y, t, recorder, options);
+    for (std::size_t c = 0; c < trackers.size(); ++c)
+      trackers[c].observe_forces(formulation.forces().contact(static_cast<int>(c)).contact);
+  }
+
+  void record_motion(Formulation& formulation, const VecX& y, double t, MotionRecorder& recorder,
+                     const RunOptions& options) const {
     const std::vector<BodyMotion>& bodies = formulation.bodies(t, y);
     const std::vector<BodyAcceleration>& acceleration = formulation.acceleration();
     const int b = mechanism_->boresight_body();
     recorder.accept(t, bodies[b], acceleration[b]);
-    const ForceElements& forces = formulation.forces();
-    for (std::size_t c = 0; c < trackers.size(); ++c)
-      trackers[c].observe_forces(forces.contact(static_cast<int>(c)).contact);
     if (!recorder.sampling()) return;
     for (std::size_t k = 0; k < options.pose_bodies.size(); ++k)
       recorder.sample_body(static_cast<int>(k), bodies[options.pose_bodies[k]], acceleration[options.pose_bodies[k]]);
+    const ForceElements& forces = formulation.forces();
     for (int c = 0; c < forces.clearances(); ++c)
       recorder.sample_clearance(c, forces.motion(c), forces.contact(c).contact);
   }

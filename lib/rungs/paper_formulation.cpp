@@ -52,6 +52,8 @@ class PaperFormulation final : public Formulation {
   }
 
   int state_size() const override { return kPerBody * mechanism_.bodies(); }
+  bool is_speed(int k) const override { return k % kPerBody >= 7; }
+  bool positions_follow_speeds() const override { return false; }
 
   void start(const IdealState& ideal, VecX& y) override {
     y.resize(state_size());

@@ -6,12 +6,12 @@
 
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
-#include "boresight/rungs/contact_tracker.hpp"
-#include "boresight/rungs/motion_recorder.hpp"
-#include "boresight/rungs/step_error.hpp"
-#include "boresight/rungs/offset_dynamics.hpp"
 #include "boresight/rungs/contact_report.hpp"
+#include "boresight/rungs/located_motion.hpp"
+#include "boresight/rungs/motion_recorder.hpp"
+#include "boresight/rungs/perturbation_system.hpp"
 #include "boresight/rungs/scene_rung.hpp"
+#include "boresight/rungs/step_error.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
 namespace boresight {
@@ -43,6 +43,8 @@ class Perturbation final : public SceneRung {
 
  private:
   RunResult follow(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options) const override {
+    const std::string integrator = integrator_of(options, name());
+    if (integrator != "rk4") return integrate_located(prepared, parameters, options, integrator);
     const double own = options.step > 0.0 ? options.step : own_step(prepared, parameters);
     return with_stable_step(options.step, own, options.sample_spacing,
                             [&](double step) { return integrate(prepared, parameters, options, step); });
@@ -60,78 +62,41 @@ class Perturbation final : public SceneRung {
   RunResult integrate(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options,
                       double wanted) const {
     const Mechanism& mechanism = this->mechanism();
-    const MechanismDescription& m = mechanism.description();
-    const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters);
-    const SceneLayout& at = tables->layout;
+    PerturbationSystem system(mechanism, parameters, prepared.tables(parameters), options.events);
     const OffsetLayout& offsets = prepared.scene().offsets();
-    const int n = at.n;
+    const SceneLayout& at = system.layout();
     const double duration = mechanism.duration();
-
-    std::vector<JournalInSleeve> joints;
-    std::vector<ContactTracker> trackers;
-    for (int c = 0; c < mechanism.clearances(); ++c) {
-      const JointDescription& joint = m.joints[m.clearances[c].joint];
-      joints.emplace_back(m.clearances[c], joint.type, parameters.clearance[c]);
-      trackers.emplace_back(c, joint.name, joints.back(), options.events);
-    }
-    std::vector<ContactMemory> memory(joints.size());
-    std::vector<JournalMotion<double>> motion(joints.size());
-    std::vector<JournalWrench<double>> wrench(joints.size());
-    std::vector<double> row(tables->dynamics.width());
-    VecX force(n);
-    double scene_time = -1.0;
-    const auto scene_at = [&](double t) {
-      if (t == scene_time) return;  // two stages of a step share their time, and so do a step's end and the next one's start
-      tables->dynamics.at(t, row.data());
-      scene_time = t;
-    };
-    const auto derivative = [&](double t, const VecX& y, VecX& dy) {
-      scene_at(t);
-      const double *z = y.data(), *rate = z + n;
-      force.setZero();
-      for (std::size_t c = 0; c < joints.size(); ++c) {
-        motion[c] = journal_motion(at, at.joints[c], row.data(), z, rate);
-        joints[c].wrench(motion[c], memory[c].impact_speed, wrench[c]);
-        add_generalised_force(at, at.joints[c], row.data(), motion[c], wrench[c], force.data());
-      }
-      std::copy(rate, rate + n, dy.data());
-      coordinate_acceleration(at, row.data(), z, rate, force.data(), dy.data() + n);
-    };
+    const auto derivative = [&](double t, const VecX& state, VecX& dy) { system.derivative(t, state, dy); };
 
     const long steps = std::max(1L, static_cast<long>(std::ceil(duration / wanted - 1e-9)));
     const double h = duration / static_cast<double>(steps);
     MotionRecorder recorder(mechanism, prepared.ideal(), options, static_cast<double>(steps));
-    VecX y = VecX::Zero(2 * n);
-    ExplicitRungeKutta method(classical_rk4(), 2 * n);
+    VecX y = VecX::Zero(system.size());
+    y.head(y.size() / 2).setConstant(options.start_offset);
+    ExplicitRungeKutta method(classical_rk4(), system.size());
     const double limit = classical_rk4().real_limit;
     bool interrupted = false;
     MatX compliance;
     Nonlinearity nonlinearity;
     double fastest = 0.0;  // squared, a bound
-    std::array<ContactState<double>, kContactPlaces> contact;
     for (long i = 0;; ++i) {
       const double t = static_cast<double>(i) * h;
       if (!y.allFinite())
         throw ComputationError("the deviation grew without bound before t = " + std::to_string(t) + " s; take a smaller step");
-      scene_at(t);
-      for (std::size_t c = 0; c < joints.size(); ++c) {
-        motion[c] = journal_motion(at, at.joints[c], row.data(), y.data(), y.data() + n);
-        joints[c].gaps(motion[c], contact);
-        trackers[c].accept(t, contact);
-        memory[c] = trackers[c].memory();
-      }
+      system.accept(t, y);
       derivative(t, y, method.first_slope());
-      for (std::size_t c = 0; c < joints.size(); ++c) trackers[c].observe_forces(wrench[c].contact);
-      if (std::any_of(trackers.begin(), trackers.end(), [](const ContactTracker& c) { return c.touching(); })) {
-        offset_compliance(at, offsets, row.data(), compliance);
-        const double bound = stiffest_contact_bound(offsets, joints, motion, compliance);
+      for (std::size_t c = 0; c < system.trackers().size(); ++c)
+        system.trackers()[c].observe_forces(system.wrench()[c].contact);
+      if (system.touching()) {
+        offset_compliance(at, offsets, system.row(), compliance);
+        const double bound = stiffest_contact_bound(offsets, system.joints(), system.motion(), compliance);
         fastest = std::max(fastest, bound);
         if (h * h * bound > limit * limit) {
-          const StiffestContact stiffest = stiffest_contact(offsets, joints, motion, compliance);
+          const StiffestContact stiffest = stiffest_contact(offsets, system.joints(), system.motion(), compliance);
           if (h * stiffest.angular_frequency > limit) throw UnstableStep(mechanism, stiffest, t, h);
         }
       }
-      record(prepared, options, t, y, method.first_slope(), motion, wrench, recorder, nonlinearity);
+      record(prepared, options, t, y, method.first_slope(), system, recorder, nonlinearity);
       if (i == steps) break;
       if (options.progress && i % 4096 == 0 && !options.progress({t, duration, recorder.position_error_max()})) {
         interrupted = true;
@@ -144,9 +109,7 @@ class Perturbation final : public SceneRung {
     char text[60];
     std::snprintf(text, sizeof text, "RK4, h = %.6g s", h);
     result.integrator = text;
-    for (ContactTracker& tracker : trackers) result.contact.push_back(tracker.finish(result.end_time, result.events));
-    std::stable_sort(result.events.begin(), result.events.end(),
-                     [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
+    finish_contacts(system, result);
     result.interrupted = interrupted;
     result.error = {nonlinearity.share(mechanism.characteristic_length()), step_error(std::sqrt(fastest), h),
                     "size of the deviation against the mechanism, times how much the mechanism magnifies offsets; the step "
@@ -154,6 +117,66 @@ class Perturbation final : public SceneRung {
     result.cost.steps = steps;
     result.cost.evaluations = 4 * steps + 1;
     return result;
+  }
+
+  RunResult integrate_located(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options,
+                              const std::string& integrator) const {
+    const double duration = mechanism().duration();
+    PerturbationSystem system(mechanism(), parameters, prepared.tables(parameters), options.events);
+    MotionRecorder recorder(mechanism(), prepared.ideal(), options, 2.0 * duration / kPaperStep);
+    VecX y = VecX::Zero(system.size()), slope = y;
+    y.head(y.size() / 2).setConstant(options.start_offset);
+    Nonlinearity nonlinearity;
+    bool interrupted = false;
+    long points = 0;
+    system.start_located(0.0, y);
+    const IntegrationSummary summary =
+        follow_located(integrator, system, duration, options.sample_spacing, y,
+                       integration_options(system, parameters, options), [&](double t, const VecX& state, bool) {
+                         system.derivative(t, state, slope);
+                         system.observe(t);
+                         record(prepared, options, t, state, slope, system, recorder, nonlinearity);
+                         interrupted = ++points % 4096 == 0 && options.progress &&
+                                       !options.progress({t, duration, recorder.position_error_max()});
+                         return !interrupted;
+                       });
+    RunResult result = recorder.finish();
+    report_integration(options, name(), integrator, summary, result);
+    finish_contacts(system, result);
+    result.interrupted = interrupted;
+    result.error = {
+        nonlinearity.share(mechanism().characteristic_length()), tolerance_error(tolerance_of(options, name())),
+        "size of the deviation against the mechanism, times how much the mechanism magnifies offsets; the tolerance "
+        "of the steps"};
+    return result;
+  }
+
+  static void finish_contacts(PerturbationSystem& system, RunResult& result) {
+    for (ContactTracker& tracker : system.trackers())
+      result.contact.push_back(tracker.finish(result.end_time, result.events));
+    std::stable_sort(result.events.begin(), result.events.end(),
+                     [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
+  }
+
+  // Coordinates are offsets, or slopes of journals: these are held to the tolerance at the sleeve's ends.
+  IntegrationOptions integration_options(const PerturbationSystem& system, const Parameters& parameters,
+                                         const RunOptions& options) const {
+    const SceneLayout& at = system.layout();
+    const double asked = tolerance_of(options, name());
+    const double clearance = smallest_clearance(parameters);
+    const double length = clearance > 0.0 ? clearance : 1e-6 * mechanism().characteristic_length();
+    VecX tolerance = VecX::Constant(at.n, asked * length);
+    for (std::size_t c = 0; c < at.joints.size(); ++c)
+      for (int k = 3; k < at.joints[c].offsets; ++k)
+        if (at.joints[c].source[k] >= 0)
+          tolerance[at.joints[c].source[k]] = asked * length / system.joints()[c].half_length;
+    IntegrationOptions integration;
+    integration.step = options.step;
+    integration.relative_tolerance = 0.0;
+    integration.absolute_tolerances.resize(2 * at.n);
+    integration.absolute_tolerances << tolerance, tolerance / kFlightTime;
+    integration.largest_step = mechanism().duration() / 100.0;
+    return integration;
   }
 
   // How forces on the offsets accelerate the offsets: B A B^T, with B picking coordinates where offsets are such.
@@ -184,8 +207,7 @@ class Perturbation final : public SceneRung {
   }
 
   void record(const PreparedScene& prepared, const RunOptions& options, double t, const VecX& y, const VecX& slope,
-              const std::vector<JournalMotion<double>>& motion, const std::vector<JournalWrench<double>>& wrench,
-              MotionRecorder& recorder, Nonlinearity& nonlinearity) const {
+              const PerturbationSystem& system, MotionRecorder& recorder, Nonlinearity& nonlinearity) const {
     const Eigen::Index n = y.size() / 2;
     const DisplacedBodies displaced(prepared, t, y.head(n));
     BodyAcceleration a;
@@ -196,8 +218,8 @@ class Perturbation final : public SceneRung {
       body = displaced.moving(options.pose_bodies[k], y.tail(n), slope.tail(n), a);
       recorder.sample_body(static_cast<int>(k), body, a);
     }
-    for (std::size_t c = 0; c < motion.size(); ++c)
-      recorder.sample_clearance(static_cast<int>(c), motion[c], wrench[c].contact);
+    for (std::size_t c = 0; c < system.motion().size(); ++c)
+      recorder.sample_clearance(static_cast<int>(c), system.motion()[c], system.wrench()[c].contact);
   }
 };
 

@@ -29,6 +29,15 @@ struct RunOptions {
   std::vector<int> pose_bodies;  // further bodies whose poses are kept
   bool events = true;            // keep one ContactEvent per contact
 
+  // Rungs that follow the motion: integrator_choice.hpp.
+  std::string
+      integrator;  // "rk4", "dopri5", "rosenbrock", multibody also "generalized-alpha"; "" is the rung's own, rk4
+  double tolerance = 0.0;  // of error control: error of one step over the smallest clearance; 0: the rung's own
+
+  // Perturbation only: every coordinate starts this much off the ideal motion [m, or rad], to see how fast neighbours
+  // part.
+  double start_offset = 0.0;
+
   // Multibody only.
   std::string formulation;              // "tree" or "paper"; "" is the rung's default, the tree
   std::string stabilisation;            // "baumgarte" or "projection"; "" is the formulation's own: paper baumgarte, tree projection

@@ -18,4 +18,8 @@ inline double step_error(double angular_frequency, double step) {
   return std::min(1.0, kScatterOfImpacts + 1.5e-3 * std::pow(angular_frequency * step, 2.5));
 }
 
+// The same of steps that locate contacts: tolerance over the smallest clearance, of one step; what many steps make of
+// it, see the README of tests/benchmarks.
+inline double tolerance_error(double tolerance) { return std::min(1.0, kScatterOfImpacts + tolerance); }
+
 }  // namespace boresight

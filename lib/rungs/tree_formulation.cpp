@@ -70,6 +70,8 @@ class TreeFormulation final : public Formulation {
   }
 
   int state_size() const override { return kinematics_.state_size(); }
+  bool is_speed(int k) const override { return k >= tree_.positions(); }
+  bool positions_follow_speeds() const override { return tree_.positions() == tree_.speeds(); }
 
   void start(const IdealState& ideal, VecX& y) override {
     kinematics_.read(ideal.bodies, y);

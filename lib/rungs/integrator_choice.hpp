@@ -1,0 +1,43 @@
+// The integrators that a run may ask for by name, and what they are told about a scene.
+//
+//   rk4                fixed steps that do not stop at contact: impact speeds by carrying the free flight on
+//   (contact_tracker.hpp) dopri5             Dormand-Prince 5(4) under error control, contacts located: for contacts
+//   that come and go rosenbrock         RODAS4, L-stable, under error control, contacts located: for contacts that
+//   rest, whose vibration it steps over generalized-alpha  implicit and of second order, fast modes damped; multibody
+//   only
+//
+// Those that locate contacts change a contact's memory at the event alone. With RunOptions::step they take fixed steps
+// from event to event instead; rk4 has no error estimate, so it takes no tolerance.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "boresight/rungs/rung.hpp"
+
+namespace boresight {
+
+// Of a rung; empty where it takes no steps.
+std::vector<std::string> integrator_names(const std::string& rung);
+// Of any rung.
+std::vector<std::string> integrator_names();
+
+// Error of one step over the smallest clearance, where RunOptions::tolerance asks for nothing. Multibody's turns and
+// slides are held more strictly by the same number than the offsets themselves.
+inline constexpr double kPerturbationTolerance = 1e-3, kMultibodyTolerance = 3e-3;
+double tolerance_of(const RunOptions& options, const std::string& rung);
+
+// Of generalized-alpha at infinite frequency: fast modes lose four fifths of their amplitude in a step.
+inline constexpr double kSpectralRadius = 0.2;
+// Speeds are held to the tolerance over this time: that of the flights between contacts [s].
+inline constexpr double kFlightTime = 1e-3;
+
+// The name that the options ask for. Throws std::invalid_argument for one that the rung does not have, and for a
+// tolerance given to rk4 or along with a step.
+std::string integrator_of(const RunOptions& options, const std::string& rung);
+
+// Smallest clearance that the parameters give any joint, radial or axial, leaving out those that are zero [m]; 0 if all
+// are.
+double smallest_clearance(const Parameters& parameters);
+
+}  // namespace boresight

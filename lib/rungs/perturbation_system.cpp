@@ -1,0 +1,177 @@
+#include "boresight/rungs/perturbation_system.hpp"
+
+#include <algorithm>
+
+#include "boresight/rungs/contact_jacobian.hpp"
+#include "boresight/rungs/offset_dynamics.hpp"
+
+namespace boresight {
+namespace {
+
+std::vector<JournalInSleeve> joints_of(const Mechanism& mechanism, const Parameters& parameters) {
+  std::vector<JournalInSleeve> joints;
+  const MechanismDescription& m = mechanism.description();
+  for (int c = 0; c < mechanism.clearances(); ++c)
+    joints.emplace_back(m.clearances[c], m.joints[m.clearances[c].joint].type, parameters.clearance[c]);
+  return joints;
+}
+
+std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::vector<JournalInSleeve>& joints,
+                                        bool keep_events) {
+  std::vector<ContactTracker> trackers;
+  const MechanismDescription& m = mechanism.description();
+  for (int c = 0; c < mechanism.clearances(); ++c)
+    trackers.emplace_back(c, m.joints[m.clearances[c].joint].name, joints[c], keep_events);
+  return trackers;
+}
+
+// How the numbers of a joint's motion follow the state: kMotionNumbers x 2n; what journal_motion() computes, without
+// its constants.
+void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const double* scene, MatX& gain) {
+  const int n = at.n;
+  gain.setZero();
+  for (int k = 0; k < joint.offsets; ++k) {
+    const int value = k < 3 ? k : 6 + k, rate = k < 3 ? 3 + k : 8 + k;
+    const int source = joint.source[k];
+    if (source >= 0) {
+      gain(value, source) = gain(rate, n + source) = 1.0;
+    } else if (source == DeviationCoordinates::kDependent) {
+      const double *B = scene + joint.dependent + k * n, *B_rate = B + joint.offsets * n;
+      for (int j = 0; j < n; ++j) {
+        gain(value, j) = gain(rate, n + j) = B[j];
+        gain(rate, j) = B_rate[j];
+      }
+    } else {
+      for (int j = 0; j < n; ++j) gain(rate, n + j) = scene[joint.slide_gain + j];
+    }
+  }
+  for (int i = 0; i < joint.spins; ++i)
+    for (int j = 0; j < n; ++j) gain(6 + (joint.tilts ? i : 1), n + j) = scene[joint.spin_gain + i * n + j];
+}
+
+}  // namespace
+
+PerturbationSystem::PerturbationSystem(const Mechanism& mechanism, const Parameters& parameters,
+                                       std::shared_ptr<const SceneTables> tables, bool keep_events)
+    : tables_(std::move(tables)),
+      joints_(joints_of(mechanism, parameters)),
+      trackers_(trackers_of(mechanism, joints_, keep_events)),
+      contacts_(joints_, trackers_),
+      motion_(joints_.size()),
+      wrench_(joints_.size()),
+      row_(tables_->dynamics.width()),
+      force_(VecX::Zero(tables_->layout.n)),
+      gain_(kMotionNumbers, size()),
+      virtual_gain_(6, tables_->layout.n),
+      force_gradient_(tables_->layout.n, size()) {}
+
+bool PerturbationSystem::touching() const {
+  return std::any_of(trackers_.begin(), trackers_.end(), [](const ContactTracker& c) { return c.touching(); });
+}
+
+// Two stages of a step share their time, and so do a step's end and the next one's start.
+void PerturbationSystem::scene_at(double t) const {
+  if (t == row_time_) return;
+  tables_->dynamics.at(t, row_.data());
+  row_time_ = t;
+}
+
+void PerturbationSystem::derivative(double t, const VecX& y, VecX& dy) const {
+  scene_at(t);
+  const SceneLayout& at = tables_->layout;
+  const double *z = y.data(), *rate = z + at.n;
+  force_.setZero();
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    motion_[c] = journal_motion(at, at.joints[c], row_.data(), z, rate);
+    const bool free = located_ && !contacts_.touches(static_cast<int>(c));
+    if (free) {
+      joints_[c].gaps(motion_[c], wrench_[c].contact);
+      continue;
+    }
+    const JournalInSleeve& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
+    law.wrench(motion_[c], trackers_[c].memory().impact_speed, wrench_[c]);
+    add_generalised_force(at, at.joints[c], row_.data(), motion_[c], wrench_[c], force_.data());
+  }
+  std::copy(rate, rate + at.n, dy.data());
+  coordinate_acceleration(at, row_.data(), z, rate, force_.data(), dy.data() + at.n);
+}
+
+void PerturbationSystem::jacobian(double t, const VecX& y, MatX& J) const {
+  scene_at(t);
+  const SceneLayout& at = tables_->layout;
+  const int n = at.n;
+  const double* scene = row_.data();
+  force_gradient_.setZero();
+  ContactJacobian of_motion;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    if (located_ && !contacts_.touches(static_cast<int>(c))) continue;
+    const SceneLayout::Joint& joint = at.joints[c];
+    const JournalMotion<double> motion = journal_motion(at, joint, scene, y.data(), y.data() + n);
+    const JournalInSleeve& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
+    contact_jacobian(law, motion, trackers_[c].memory().impact_speed, MomentAbout::journal, of_motion);
+    motion_gain(at, joint, scene, gain_);
+    // A wrench works on e_dot and w: it acts on the coordinates as these follow their rates.
+    virtual_gain_.topRows<3>() = gain_.block(3, n, 3, n);
+    virtual_gain_.bottomRows<3>() = gain_.block(6, n, 3, n);
+    force_gradient_.noalias() += virtual_gain_.transpose() * (of_motion * gain_);
+  }
+  using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  J.setZero();
+  J.topRightCorner(n, n).setIdentity();
+  J.bottomRows(n).noalias() = Rows(scene + at.A, n, n) * force_gradient_;
+  J.bottomRightCorner(n, n) -= Rows(scene + at.AC, n, n);
+  if (at.stiff) J.bottomLeftCorner(n, n) -= Rows(scene + at.AK, n, n);
+}
+
+void PerturbationSystem::accept(double t, const VecX& y) {
+  scene_at(t);
+  const SceneLayout& at = tables_->layout;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    motion_[c] = journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n);
+    joints_[c].gaps(motion_[c], contact_);
+    trackers_[c].accept(t, contact_);
+  }
+}
+
+void PerturbationSystem::start_located(double t, const VecX& y) {
+  located_ = true;
+  scene_at(t);
+  const SceneLayout& at = tables_->layout;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
+    contacts_.start(static_cast<int>(c), t, contact_);
+  }
+}
+
+void PerturbationSystem::gaps(double t, const VecX& y, VecX& g) const {
+  scene_at(t);
+  const SceneLayout& at = tables_->layout;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
+    contacts_.read(static_cast<int>(c), contact_, g);
+  }
+}
+
+AfterEvent PerturbationSystem::on_event(const GapEvent& event, VecX& y) {
+  scene_at(event.t);
+  const SceneLayout& at = tables_->layout;
+  const int c = contacts_.joint_of(event);
+  joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
+  contacts_.change(event, contact_);
+  return AfterEvent::crossed;
+}
+
+void PerturbationSystem::observe(double t) {
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    joints_[c].gaps(motion_[c], contact_);
+    trackers_[c].observe(t, contact_);
+    // The law that acts may not see the contacts that are open.
+    for (int k = 0; k < kContactPlaces; ++k) {
+      wrench_[c].contact[k].penetration = contact_[k].penetration;
+      wrench_[c].contact[k].rate = contact_[k].rate;
+    }
+    trackers_[c].observe_forces(wrench_[c].contact);
+  }
+}
+
+}  // namespace boresight

@@ -1,0 +1,61 @@
+// The perturbation rung's motion as an initial value problem: y = (z, zdot), its right-hand side, its Jacobian, its
+// gaps and the memory of its contacts. The equations themselves are in offset_dynamics.hpp.
+//
+// Two ways to go: accept() after every step that did not stop at contact, or start_located() and then the events of an
+// Integrator. Serves one run: holds work space.
+#pragma once
+
+#include <memory>
+
+#include "boresight/rungs/clearance_scene.hpp"
+#include "boresight/rungs/located_contacts.hpp"
+
+namespace boresight {
+
+class PerturbationSystem {
+ public:
+  PerturbationSystem(const Mechanism& mechanism, const Parameters& parameters,
+                     std::shared_ptr<const SceneTables> tables, bool keep_events);
+
+  int size() const { return 2 * tables_->layout.n; }
+  void derivative(double t, const VecX& y, VecX& dy) const;
+  void jacobian(double t, const VecX& y, MatX& J) const;
+
+  void accept(double t, const VecX& y);
+
+  void start_located(double t, const VecX& y);
+  int gap_count() const { return contacts_.gap_count(); }
+  void gaps(double t, const VecX& y, VecX& g) const;
+  AfterEvent on_event(const GapEvent& event, VecX& y);
+  // Shows the trackers a state; after derivative() there.
+  void observe(double t);
+
+  // The scene's functions of time at the time last asked for.
+  const double* row() const { return row_.data(); }
+  const SceneLayout& layout() const { return tables_->layout; }
+  const std::vector<JournalInSleeve>& joints() const { return joints_; }
+  std::vector<ContactTracker>& trackers() { return trackers_; }
+  bool touching() const;
+  // Of the last derivative().
+  const std::vector<JournalMotion<double>>& motion() const { return motion_; }
+  const std::vector<JournalWrench<double>>& wrench() const { return wrench_; }
+
+ private:
+  PerturbationSystem(const PerturbationSystem&) = delete;  // contacts_ knows where trackers_ are
+  void scene_at(double t) const;
+
+  std::shared_ptr<const SceneTables> tables_;
+  std::vector<JournalInSleeve> joints_;
+  std::vector<ContactTracker> trackers_;
+  LocatedContacts contacts_;
+  bool located_ = false;
+  mutable std::vector<JournalMotion<double>> motion_;
+  mutable std::vector<JournalWrench<double>> wrench_;
+  mutable std::vector<double> row_;
+  mutable double row_time_ = -1.0;
+  mutable VecX force_;
+  mutable std::array<ContactState<double>, kContactPlaces> contact_;
+  mutable MatX gain_, virtual_gain_, force_gradient_;
+};
+
+}  // namespace boresight
