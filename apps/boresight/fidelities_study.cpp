@@ -244,8 +244,8 @@ int run_fidelities(const SeveralRungs& s) {
   report::Document document = several_rungs_report(s, top, levels.front().model->leaves_out(), warnings);
   document.subtitle = "The mean of the " + s.question.study.index.title() + ", on several rungs at once";
   const std::string sentence =
-      fmt::format("Mean {} ({} to {}), unbiased for {}", readable(o.mean.value.value, unit), readable(o.mean.value.low, unit),
-                  readable(o.mean.value.high, unit), top);
+      fmt::format("Mean {} ± {}, unbiased for {}", readable(o.mean.value.value, unit),
+                  readable(0.5 * (o.mean.value.high - o.mean.value.low), unit), top);
   document.verdict = report::Verdict{report::Standing::neutral, sentence};
   if (o.excess)
     document.verdict = report::Verdict{met ? report::Standing::good : report::Standing::bad,

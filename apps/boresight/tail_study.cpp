@@ -164,9 +164,12 @@ int run_tail(const SeveralRungs& s) {
   report::Table table{.title = "What the same CPU would have given",
                       .caption = "Standard errors of the probability, forecast by the pilot.",
                       .columns = {{"way"}, {"standard error"}}};
-  table.rows = {{"both rungs, importance sampling (taken)", pilot->standard_error},
-                {asked.exact + " alone, importance sampling", pilot->exact_standard_error},
+  table.rows = {{asked.exact + " alone, importance sampling", pilot->exact_standard_error},
                 {asked.exact + " alone, plain Monte Carlo", pilot->plain_standard_error}};
+  if (pilot->control > 0.0)
+    table.rows.insert(table.rows.begin(), {"both rungs, importance sampling (taken)", pilot->standard_error});
+  else
+    table.caption += " The cheap rung found the tail; measuring it on the exact rung alone is the better buy here.";
   document.sections.insert(document.sections.begin(),
                            report::Section{.id = "tail", .title = "The tail", .items = {levels_chart(s, pilot->proposal.subset), table}});
   s.out.write("report.html", [&](std::ostream& out) { report::write_html(out, document); });
