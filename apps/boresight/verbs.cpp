@@ -10,6 +10,7 @@ namespace boresight::app {
   VERB(chart)                 \
   VERB(stability)             \
   VERB(montecarlo)            \
+  VERB(sensitivity)           \
   VERB(export)
 
 #define DECLARE(name) std::unique_ptr<Verb> make_##name##_verb();
