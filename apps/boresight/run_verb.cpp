@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "boresight/contact/law_range.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
@@ -147,8 +148,9 @@ class RunVerb : public Verb {
     if (choice.step > 0.0) options.step = choice.step;
 
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
-    const RunResult result =
+    RunResult result =
         with_options_checked(options, [&] { return rung->run(mechanism->parameters(), options); });
+    add_range_warnings(*mechanism, result);
     std::vector<Compared> others;
     if (compare_)
       for (const std::string& name : rung_names())
@@ -201,6 +203,13 @@ class RunVerb : public Verb {
                        "a quantity and a statistic, like boresight_error.rms");
     }
     return index;
+  }
+
+  static void add_range_warnings(const Mechanism& mechanism, RunResult& result) {
+    for (std::size_t c = 0; c < result.contact.size(); ++c)
+      if (const auto warning = range_warning(result.contact[c].joint, mechanism.description().clearances[c].contact_law,
+                                             mechanism.parameters().clearance[c], result.contact[c].max_force))
+        result.warnings.push_back(*warning);
   }
 
   // A rung that cannot follow the motion says why, and the others go on.

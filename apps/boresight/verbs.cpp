@@ -8,7 +8,8 @@ namespace boresight::app {
   VERB(run)                   \
   VERB(sweep)                 \
   VERB(montecarlo)            \
-  VERB(export)
+  VERB(export)                \
+  VERB(laws)
 
 #define DECLARE(name) std::unique_ptr<Verb> make_##name##_verb();
 BORESIGHT_VERBS(DECLARE)
