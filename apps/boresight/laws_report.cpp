@@ -15,7 +15,7 @@ report::Table restitution_table(const std::vector<NormalLawRow>& rows) {
   report::Table table{.title = "Restitution returned for the one asked for",
                       .caption = "Measured: one impact of a free mass, integrated until it parts. Empty: cannot be asked for.",
                       .columns = {{"Law"}}};
-  for (const double e : asked_restitutions()) table.columns.push_back({fmt::format("e = {}", e)});
+  for (const double e : asked_restitutions()) table.columns.push_back({fmt::format("{}", e)});
   for (const NormalLawRow& row : rows) {
     std::vector<nlohmann::json> cells = {row.entry->name};
     for (const double returned : row.returned) cells.push_back(std::isnan(returned) ? nlohmann::json() : nlohmann::json(returned));
@@ -110,8 +110,6 @@ std::string range_of(const NormalLawRow& row, const LawsSubject& s) {
     case ElasticCurve::power: text = "clearance 0.005 to 10 mm"; break;
     case ElasticCurve::linear: text = "a spring: any"; break;
   }
-  const double from = row.good_from;
-  text += from > 1.0 ? "; restitution nowhere within 0.02" : fmt::format("; restitution within 0.02 from e = {} on", from);
   return text;
 }
 
@@ -130,10 +128,10 @@ report::Document laws_report(const Command& command, const LawsSubject& s, const
   report::Table contact{.title = "Contact laws",
                         .caption = "h: damping factor in F = K d^1.5 (1 + h d'/d0'); e: restitution asked for; f: force per "
                                    "length; E: composite modulus; dR: radial clearance.",
-                        .columns = {{"Law"}, {"Formula"}, {"Source"}, {"Holds for"}, {"Depth", "µm"}, {"Force", "N"}, {"Returned"}}};
+                        .columns = {{"Law"}, {"Formula"}, {"Source"}, {"Holds for"}, {"e within 0.02 from"}, {"Depth", "µm"}, {"Force", "N"}, {"Returned"}}};
   for (const NormalLawRow& row : normal)
-    contact.rows.push_back({row.entry->name, row.entry->formula, row.entry->source, range_of(row, s), 1e6 * row.one.depth,
-                            row.one.force, row.one.restitution});
+    contact.rows.push_back({row.entry->name, row.entry->formula, row.entry->source, range_of(row, s),
+                            row.good_from > 1.0 ? nlohmann::json() : nlohmann::json(row.good_from), 1e6 * row.one.depth, row.one.force, row.one.restitution});
   report::Table sliding{.title = "Friction laws",
                         .caption = "v: sliding speed; v_s, v_d, v_st: static, dynamic and Stribeck speed; mu, mu_s: kinetic and static "
                                    "coefficient; z: bristle deflection.",

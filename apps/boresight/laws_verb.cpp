@@ -38,8 +38,9 @@ void print(const LawsSubject& subject, const std::vector<NormalLawRow>& normal, 
     return row.returned[static_cast<std::size_t>(std::find(asked.begin(), asked.end(), e) - asked.begin())];
   };
   for (const NormalLawRow& row : normal)
-    fmt::print("  {:<22}{:8.5f}{:8.5f}{:8.5f}{:8.5f}   {}; {}; {}\n", row.entry->name, at(row, 0.3), at(row, 0.5), at(row, 0.7),
-               at(row, 0.9), row.entry->formula, row.entry->source, range_of(row, subject));
+    fmt::print("  {:<22}{:8.5f}{:8.5f}{:8.5f}{:8.5f}   {}; {}; {}{}\n", row.entry->name, at(row, 0.3), at(row, 0.5), at(row, 0.7),
+               at(row, 0.9), row.entry->formula, row.entry->source, range_of(row, subject),
+               row.good_from > 1.0 ? "" : fmt::format("; e within 0.02 from {} on", row.good_from));
   fmt::print("  {:<22}friction over normal force; source\n", "friction law");
   for (const FrictionLawRow& row : friction)
     fmt::print("  {:<22}{}; {}{}\n", row.entry->name, row.entry->formula, row.entry->source,
@@ -152,6 +153,7 @@ class LawsVerb : public Verb {
         returned[fmt::format("{}", asked_restitutions()[k])] = std::isnan(row.returned[k]) ? Json() : Json(row.returned[k]);
       json["contact_laws"][row.entry->name] = {{"formula", row.entry->formula}, {"source", row.entry->source},
                                                {"range", range_of(row, subject)}, {"returned", returned},
+                                               {"restitution_within_0.02_from", row.good_from > 1.0 ? Json() : Json(row.good_from)},
                                                {"depth", row.one.depth}, {"force", row.one.force}};
     }
     for (const FrictionLawRow& row : friction)
