@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kGood = 0.02;
 
-NormalLaw law_for(const NormalLawEntry& entry, ClearanceParameters p, double e, double mass, bool own_dashpot) {
+NormalLaw law_for(const NormalLawEntry& entry, ClearanceParameters p, double e, double mass,
+                  bool own_dashpot) {
   p.contact.restitution = e;
   if (entry.geometry == ContactGeometry::linear && !own_dashpot)
     p.contact.linear_damping = kelvin_voigt_dashpot(p.contact.linear_stiffness, mass, e);
@@ -63,8 +64,9 @@ std::vector<FrictionLawRow> friction_law_table(const FrictionParameters& p) {
       const double v = 1e-5 * std::pow(10.0, 5.0 * k / 300.0);
       row.speed.push_back(v);
       if (entry.kind == FrictionKind::lugre) {
-        const LuGreT<double> bristles = {law.coefficient,     law.stiction,        law.stribeck_speed, law.dynamic_speed,
-                                         p.bristle_stiffness, p.bristle_damping, p.viscosity};
+        const LuGreT<double> bristles = {law.coefficient,   law.stiction,        law.stribeck_speed,
+                                         law.dynamic_speed, p.bristle_stiffness, p.bristle_damping,
+                                         p.viscosity};
         const Eigen::Vector2d sliding(v, 0.0), z = sliding / bristles.slip_rate(sliding);
         row.force.push_back(-bristles.traction(sliding, z, std::numeric_limits<double>::infinity()).force[0]);
       } else {

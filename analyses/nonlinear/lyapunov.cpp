@@ -9,12 +9,13 @@ namespace boresight {
 namespace {
 
 // Straight line through (t, y) from `first` up to `end`: slope and its standard error.
-std::pair<double, double> line_through(const std::vector<double>& t, const std::vector<double>& y, std::size_t first,
-                                       std::size_t end) {
+std::pair<double, double> line_through(const std::vector<double>& t, const std::vector<double>& y,
+                                       std::size_t first, std::size_t end) {
   const double count = static_cast<double>(end - first);
   double mean_t = 0.0, mean_y = 0.0, tt = 0.0, ty = 0.0, residual = 0.0;
   for (std::size_t k = first; k < end; ++k) mean_t += t[k] / count, mean_y += y[k] / count;
-  for (std::size_t k = first; k < end; ++k) tt += (t[k] - mean_t) * (t[k] - mean_t), ty += (t[k] - mean_t) * (y[k] - mean_y);
+  for (std::size_t k = first; k < end; ++k)
+    tt += (t[k] - mean_t) * (t[k] - mean_t), ty += (t[k] - mean_t) * (y[k] - mean_y);
   const double slope = ty / tt;
   for (std::size_t k = first; k < end; ++k) {
     const double e = y[k] - mean_y - slope * (t[k] - mean_t);
@@ -27,7 +28,8 @@ std::pair<double, double> line_through(const std::vector<double>& t, const std::
 
 Divergence largest_lyapunov_exponent(const StateSeries& series, double apart, double horizon) {
   Divergence result;
-  const Eigen::Index n = series.states.cols(), steps = std::max<Eigen::Index>(3, std::lround(horizon / series.spacing));
+  const Eigen::Index n = series.states.cols(),
+                     steps = std::max<Eigen::Index>(3, std::lround(horizon / series.spacing));
   const Eigen::Index last = n - steps, gap = std::max<Eigen::Index>(1, std::lround(apart / series.spacing));
   if (last < 2 * gap) return result;
   const VecX mean = series.states.rowwise().mean();
@@ -60,15 +62,17 @@ Divergence largest_lyapunov_exponent(const StateSeries& series, double apart, do
     result.t.push_back(static_cast<double>(k) * series.spacing);
     result.log_distance.push_back(sum[k] / static_cast<double>(counted[k]));
   }
-  // The rise: from two to seven tenths of the way to where the curve levels off (the mean of its last quarter). Before it,
-  // differences still turn into the direction that grows fastest, which is faster or slower than the exponent.
+  // The rise: from two to seven tenths of the way to where the curve levels off (the mean of its last
+  // quarter). Before it, differences still turn into the direction that grows fastest, which is faster or
+  // slower than the exponent.
   const std::vector<double>& y = result.log_distance;
   const std::size_t count = y.size();
   double level = 0.0;
   for (std::size_t k = count - count / 4 - 1; k < count; ++k) level += y[k] / (count / 4 + 1);
   result.rises = level - y.front() > 1.0;
   const auto reaches = [&](double share) {
-    const auto at = std::find_if(y.begin(), y.end(), [&](double v) { return v > y.front() + share * (level - y.front()); });
+    const auto at = std::find_if(y.begin(), y.end(),
+                                 [&](double v) { return v > y.front() + share * (level - y.front()); });
     return static_cast<std::size_t>(at - y.begin());
   };
   std::size_t first = 0, end = count;

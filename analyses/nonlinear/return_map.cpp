@@ -6,7 +6,8 @@ namespace boresight {
 
 MatX poincare_section(const StateSeries& series, int skip) {
   const Eigen::Index first = static_cast<Eigen::Index>(skip) * series.per_period;
-  const Eigen::Index points = series.states.cols() > first ? (series.states.cols() - 1 - first) / series.per_period + 1 : 0;
+  const Eigen::Index points =
+      series.states.cols() > first ? (series.states.cols() - 1 - first) / series.per_period + 1 : 0;
   MatX section(series.states.rows(), points);
   for (Eigen::Index k = 0; k < points; ++k) section.col(k) = series.states.col(first + k * series.per_period);
   return section;

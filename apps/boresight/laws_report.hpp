@@ -25,7 +25,8 @@ struct LawsSubject {
 // Where a law holds, in words, with this joint's largest load held against it.
 std::string range_of(const NormalLawRow& row, const LawsSubject& subject);
 
-report::Document laws_report(const Command& command, const LawsSubject& subject, const std::vector<NormalLawRow>& normal,
+report::Document laws_report(const Command& command, const LawsSubject& subject,
+                             const std::vector<NormalLawRow>& normal,
                              const std::vector<FrictionLawRow>& friction);
 
 }  // namespace boresight::app

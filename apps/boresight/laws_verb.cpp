@@ -29,17 +29,19 @@ ClearanceParameters default_pin() {
   return p;
 }
 
-void print(const LawsSubject& subject, const std::vector<NormalLawRow>& normal, const std::vector<FrictionLawRow>& friction,
-           const OutputDirectory& out) {
-  fmt::print("restitution returned when asked for\n  {:<22}{:>8}{:>8}{:>8}{:>8}   formula; source; holds for\n", "contact law", "0.3",
-             "0.5", "0.7", "0.9");
+void print(const LawsSubject& subject, const std::vector<NormalLawRow>& normal,
+           const std::vector<FrictionLawRow>& friction, const OutputDirectory& out) {
+  fmt::print(
+      "restitution returned when asked for\n  {:<22}{:>8}{:>8}{:>8}{:>8}   formula; source; holds for\n",
+      "contact law", "0.3", "0.5", "0.7", "0.9");
   const auto& asked = asked_restitutions();
   const auto at = [&](const NormalLawRow& row, double e) {
     return row.returned[static_cast<std::size_t>(std::find(asked.begin(), asked.end(), e) - asked.begin())];
   };
   for (const NormalLawRow& row : normal)
-    fmt::print("  {:<22}{:8.5f}{:8.5f}{:8.5f}{:8.5f}   {}; {}; {}{}\n", row.entry->name, at(row, 0.3), at(row, 0.5), at(row, 0.7),
-               at(row, 0.9), row.entry->formula, row.entry->source, range_of(row, subject),
+    fmt::print("  {:<22}{:8.5f}{:8.5f}{:8.5f}{:8.5f}   {}; {}; {}{}\n", row.entry->name, at(row, 0.3),
+               at(row, 0.5), at(row, 0.7), at(row, 0.9), row.entry->formula, row.entry->source,
+               range_of(row, subject),
                row.good_from > 1.0 ? "" : fmt::format("; e within 0.02 from {} on", row.good_from));
   fmt::print("  {:<22}friction over normal force; source\n", "friction law");
   for (const FrictionLawRow& row : friction)
@@ -59,7 +61,8 @@ class LawsVerb : public Verb {
   }
   std::string example() const override { return "boresight laws examples/3-rrcpr/3-rrcpr.toml"; }
   void declare_options(CLI::App& app) override {
-    app.add_option("--joint", joint_, "the clearance joint whose geometry and material are taken; otherwise the first")
+    app.add_option("--joint", joint_,
+                   "the clearance joint whose geometry and material are taken; otherwise the first")
         ->type_name("JOINT");
     app.add_option("--speed", speed_, "of the impact")->type_name("SPEED")->capture_default_str();
     app.add_option("--mass", mass_, "that strikes")->type_name("MASS")->capture_default_str();
@@ -70,10 +73,12 @@ class LawsVerb : public Verb {
     LawsSubject subject = subject_of(command);
     subject.mass = positive_quantity("--mass", mass_, kMass);
     subject.speed = positive_quantity("--speed", speed_, kSpeed);
-    const OutputDirectory out = OutputDirectory::open(
-        command.out, command.verb, command.file.empty() ? "contact" : command.file,
-        identity_of(command, subject.hash, "", {{"joint", subject.joint}, {"speed", speed_}, {"mass", mass_}}));
-    const std::vector<NormalLawRow> normal = normal_law_table(subject.parameters, subject.mass, subject.speed);
+    const OutputDirectory out =
+        OutputDirectory::open(command.out, command.verb, command.file.empty() ? "contact" : command.file,
+                              identity_of(command, subject.hash, "",
+                                          {{"joint", subject.joint}, {"speed", speed_}, {"mass", mass_}}));
+    const std::vector<NormalLawRow> normal =
+        normal_law_table(subject.parameters, subject.mass, subject.speed);
     FrictionParameters friction_parameters = subject.parameters.friction;
     const std::vector<FrictionLawRow> friction = friction_law_table(friction_parameters);
 
@@ -82,13 +87,15 @@ class LawsVerb : public Verb {
       s << "law,asked,returned\n";
       for (const NormalLawRow& row : normal)
         for (std::size_t k = 0; k < row.returned.size(); ++k)
-          s << row.entry->name << ',' << exact(asked_restitutions()[k]) << ',' << exact(row.returned[k]) << '\n';
+          s << row.entry->name << ',' << exact(asked_restitutions()[k]) << ',' << exact(row.returned[k])
+            << '\n';
     });
     out.write("force.csv", [&](std::ostream& s) {
       s << "law,t,penetration,force\n";
       for (const NormalLawRow& row : normal)
         for (const ImpactSample& p : row.path)
-          s << row.entry->name << ',' << exact(p.t) << ',' << exact(p.penetration) << ',' << exact(p.force) << '\n';
+          s << row.entry->name << ',' << exact(p.t) << ',' << exact(p.penetration) << ',' << exact(p.force)
+            << '\n';
     });
     out.write("friction.csv", [&](std::ostream& s) {
       s << "law,speed,friction_over_normal_force\n";
@@ -96,7 +103,9 @@ class LawsVerb : public Verb {
         for (std::size_t k = 0; k < row.speed.size(); ++k)
           s << row.entry->name << ',' << exact(row.speed[k]) << ',' << exact(row.force[k]) << '\n';
     });
-    out.write("report.html", [&](std::ostream& s) { report::write_html(s, laws_report(command, subject, normal, friction)); });
+    out.write("report.html", [&](std::ostream& s) {
+      report::write_html(s, laws_report(command, subject, normal, friction));
+    });
     if (!command.quiet) print(subject, normal, friction, out);
     return kDone;
   }
@@ -106,8 +115,10 @@ class LawsVerb : public Verb {
     LawsSubject subject;
     subject.parameters = default_pin();
     if (command.file.empty()) {
-      for (const auto& [given, option] : {std::pair{!command.settings.empty(), "--set"}, std::pair{!joint_.empty(), "--joint"}})
-        if (given) throw InputError({"command line", 0}, option, "no mechanism file", "one: boresight laws MECHANISM");
+      for (const auto& [given, option] :
+           {std::pair{!command.settings.empty(), "--set"}, std::pair{!joint_.empty(), "--joint"}})
+        if (given)
+          throw InputError({"command line", 0}, option, "no mechanism file", "one: boresight laws MECHANISM");
       return subject;
     }
     const Mechanism mechanism(read_mechanism(command.file, command.settings));
@@ -116,9 +127,13 @@ class LawsVerb : public Verb {
       throw InputError({command.file, 0}, "clearance", "none", "at least one joint with clearance");
     std::vector<std::string> joints;
     for (int c = 0; c < mechanism.clearances(); ++c) joints.push_back(joint_of_clearance(mechanism, c));
-    const std::size_t c = joint_.empty() ? 0 : static_cast<std::size_t>(std::find(joints.begin(), joints.end(), joint_) - joints.begin());
+    const std::size_t c =
+        joint_.empty()
+            ? 0
+            : static_cast<std::size_t>(std::find(joints.begin(), joints.end(), joint_) - joints.begin());
     if (c == joints.size())
-      throw InputError({"command line", 0}, "--joint", "\"" + joint_ + "\"", "a joint with clearance", nearest_name(joint_, joints));
+      throw InputError({"command line", 0}, "--joint", "\"" + joint_ + "\"", "a joint with clearance",
+                       nearest_name(joint_, joints));
     subject.mechanism = mechanism.name();
     subject.hash = m.content_hash;
     subject.joint = joints[c];
@@ -128,14 +143,15 @@ class LawsVerb : public Verb {
     const auto contacts = analyse_contacts(mechanism, mechanism.parameters());
     subject.largest_load = contacts[c].largest_load;
     for (std::size_t k = 0; k < contacts.size(); ++k)
-      if (const auto warning = range_warning(joints[k], m.clearances[k].contact_law, mechanism.parameters().clearance[k],
-                                             contacts[k].largest_load))
+      if (const auto warning = range_warning(joints[k], m.clearances[k].contact_law,
+                                             mechanism.parameters().clearance[k], contacts[k].largest_load))
         subject.warnings.push_back(*warning);
     return subject;
   }
 
-  static Json summary_of(const Command& command, const LawsSubject& subject, const std::vector<NormalLawRow>& normal,
-                         const std::vector<FrictionLawRow>& friction, const Stopwatch& watch, const OutputDirectory& out) {
+  static Json summary_of(const Command& command, const LawsSubject& subject,
+                         const std::vector<NormalLawRow>& normal, const std::vector<FrictionLawRow>& friction,
+                         const Stopwatch& watch, const OutputDirectory& out) {
     Json json;
     json["verb"] = command.verb;
     if (!subject.mechanism.empty())
@@ -150,15 +166,22 @@ class LawsVerb : public Verb {
     for (const NormalLawRow& row : normal) {
       Json returned = Json::object();
       for (std::size_t k = 0; k < row.returned.size(); ++k)
-        returned[fmt::format("{}", asked_restitutions()[k])] = std::isnan(row.returned[k]) ? Json() : Json(row.returned[k]);
-      json["contact_laws"][row.entry->name] = {{"formula", row.entry->formula}, {"source", row.entry->source},
-                                               {"range", range_of(row, subject)}, {"returned", returned},
-                                               {"restitution_within_0.02_from", row.good_from > 1.0 ? Json() : Json(row.good_from)},
-                                               {"depth", row.one.depth}, {"force", row.one.force}};
+        returned[fmt::format("{}", asked_restitutions()[k])] =
+            std::isnan(row.returned[k]) ? Json() : Json(row.returned[k]);
+      json["contact_laws"][row.entry->name] = {
+          {"formula", row.entry->formula},
+          {"source", row.entry->source},
+          {"range", range_of(row, subject)},
+          {"returned", returned},
+          {"restitution_within_0.02_from", row.good_from > 1.0 ? Json() : Json(row.good_from)},
+          {"depth", row.one.depth},
+          {"force", row.one.force}};
     }
     for (const FrictionLawRow& row : friction)
-      json["friction_laws"][row.entry->name] = {{"formula", row.entry->formula}, {"source", row.entry->source},
-                                                {"static_peak", row.entry->peak}, {"sticks", row.entry->sticks}};
+      json["friction_laws"][row.entry->name] = {{"formula", row.entry->formula},
+                                                {"source", row.entry->source},
+                                                {"static_peak", row.entry->peak},
+                                                {"sticks", row.entry->sticks}};
     json["files"] = {"summary.json", "restitution.csv", "force.csv", "friction.csv", "report.html"};
     json["identity"] = Json::parse(out.identity().dump());
     return json;

@@ -1,4 +1,5 @@
-// What `run --nonlinear PERIOD` adds: Poincare section, phase portrait and largest Lyapunov exponent of each clearance joint.
+// What `run --nonlinear PERIOD` adds: Poincare section, phase portrait and largest Lyapunov exponent of each
+// clearance joint.
 #pragma once
 
 #include <vector>
@@ -13,16 +14,16 @@ namespace boresight::app {
 
 struct JointDynamics {
   std::string joint;
-  StateSeries series;       // x, z of the journal's centre in the sleeve [m], then their rates [m/s]
-  MatX section;             // once a period
-  int period = 0;           // of the motion in drive periods; 0: does not come back
+  StateSeries series;  // x, z of the journal's centre in the sleeve [m], then their rates [m/s]
+  MatX section;        // once a period
+  int period = 0;      // of the motion in drive periods; 0: does not come back
   Divergence divergence;
 };
 
 struct NonlinearAnalysis {
-  double period = 0.0;      // of the drive [s]
-  int periods = 0;          // followed
-  int skipped = 0;          // left out at the start
+  double period = 0.0;  // of the drive [s]
+  int periods = 0;      // followed
+  int skipped = 0;      // left out at the start
   std::vector<JointDynamics> joints;
 };
 

@@ -41,12 +41,15 @@ TEST(LawTable, HasEveryLawWithTheRestitutionsItReturns) {
 TEST(LawTable, LeavesOutTheLawsForCylindersWhereASleeveHasNoLength) {
   ClearanceParameters p = pin();
   p.sleeve_length = 0.0;
-  for (const NormalLawRow& row : normal_law_table(p, 1.0, 0.1)) EXPECT_NE(row.entry->geometry, ContactGeometry::line);
+  for (const NormalLawRow& row : normal_law_table(p, 1.0, 0.1))
+    EXPECT_NE(row.entry->geometry, ContactGeometry::line);
 }
 
 TEST(LawTable, FrictionOfEveryLawComesToItsKineticCoefficient) {
   for (const FrictionLawRow& row : friction_law_table(pin().friction)) {
-    const double kinetic = row.entry->kind == FrictionKind::none ? 0.0 : row.entry->kind == FrictionKind::threlfall ? 0.03 * (1.0 - std::exp(-3.0)) : 0.03;
+    const double kinetic = row.entry->kind == FrictionKind::none        ? 0.0
+                           : row.entry->kind == FrictionKind::threlfall ? 0.03 * (1.0 - std::exp(-3.0))
+                                                                        : 0.03;
     EXPECT_NEAR(row.force.back(), kinetic, 1e-6) << row.entry->name;
   }
 }

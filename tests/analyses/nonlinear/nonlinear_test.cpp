@@ -23,7 +23,9 @@ StateSeries henon(int n) {  // a = 1.4, b = 0.3
 StateSeries lorenz(int n, double spacing) {  // sigma = 16, R = 45.92, b = 4, as in Rosenstein et al.
   StateSeries s{spacing, 1, MatX(3, n)};
   Vec3 y(1.0, 2.0, 20.0);
-  const auto f = [](const Vec3& v) { return Vec3(16.0 * (v[1] - v[0]), v[0] * (45.92 - v[2]) - v[1], v[0] * v[1] - 4.0 * v[2]); };
+  const auto f = [](const Vec3& v) {
+    return Vec3(16.0 * (v[1] - v[0]), v[0] * (45.92 - v[2]) - v[1], v[0] * v[1] - 4.0 * v[2]);
+  };
   const int inner = 4;
   const double h = spacing / inner;
   for (int k = -1000; k < n; ++k) {
@@ -44,7 +46,8 @@ TEST(LyapunovExponent, OfTheHenonMapIsAsPublished) {
 }
 
 TEST(LyapunovExponent, OfLorenzSystemIsAsPublished) {
-  // 1.50 (Wolf et al. 1985). Rosenstein et al. (1993, table 2) find 1.35 to 1.75 with 1000 to 5000 states: so far the method goes.
+  // 1.50 (Wolf et al. 1985). Rosenstein et al. (1993, table 2) find 1.35 to 1.75 with 1000 to 5000 states: so
+  // far the method goes.
   const Divergence d = largest_lyapunov_exponent(lorenz(5000, 0.01), 1.0, 5.0);
   EXPECT_TRUE(d.rises);
   EXPECT_NEAR(d.exponent, 1.50, 0.2);
@@ -55,7 +58,8 @@ StateSeries linear_oscillator(int periods, int per_period) {
   StateSeries s{2.0 * std::numbers::pi / 1.3 / per_period, per_period, MatX(2, periods * per_period + 1)};
   for (Eigen::Index k = 0; k < s.states.cols(); ++k) {
     const double t = static_cast<double>(k) * s.spacing;
-    s.states.col(k) << std::cos(1.3 * t) + std::exp(-0.1 * t) * std::cos(t), -1.3 * std::sin(1.3 * t) - std::exp(-0.1 * t) * std::sin(t);
+    s.states.col(k) << std::cos(1.3 * t) + std::exp(-0.1 * t) * std::cos(t),
+        -1.3 * std::sin(1.3 * t) - std::exp(-0.1 * t) * std::sin(t);
   }
   return s;
 }
@@ -77,13 +81,16 @@ TEST(PoincareSection, OfAMotionOfTheDrivesPeriodIsOnePoint) {
 
 TEST(PoincareSection, OfAPeriodDoubledMotionHasTwoPoints) {
   StateSeries s{0.1, 10, MatX(1, 401)};
-  for (int k = 0; k <= 400; ++k) s.states(0, k) = std::sin(2.0 * std::numbers::pi * k / 20.0 + 0.3) + 0.2 * std::cos(2.0 * std::numbers::pi * k / 10.0);
+  for (int k = 0; k <= 400; ++k)
+    s.states(0, k) =
+        std::sin(2.0 * std::numbers::pi * k / 20.0 + 0.3) + 0.2 * std::cos(2.0 * std::numbers::pi * k / 10.0);
   EXPECT_EQ(section_period(poincare_section(s, 5), VecX::Constant(1, 2.0)), 2);
 }
 
 TEST(PoincareSection, OfAnIncommensurateMotionNeverComesBack) {
   StateSeries s{0.1, 10, MatX(1, 801)};
-  for (int k = 0; k <= 800; ++k) s.states(0, k) = std::sin(2.0 * std::numbers::pi * k / 10.0 * std::numbers::phi);
+  for (int k = 0; k <= 800; ++k)
+    s.states(0, k) = std::sin(2.0 * std::numbers::pi * k / 10.0 * std::numbers::phi);
   EXPECT_EQ(section_period(poincare_section(s, 0), VecX::Constant(1, 2.0)), 0);
 }
 

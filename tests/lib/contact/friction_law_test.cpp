@@ -64,10 +64,12 @@ struct Block {
   double x, v, z;
 };
 template <typename Force, typename Seen>
-void follow(const LuGreT<double>& law, Block b, double belt, double duration, double h, const Force& force, const Seen& seen) {
+void follow(const LuGreT<double>& law, Block b, double belt, double duration, double h, const Force& force,
+            const Seen& seen) {
   using State = Eigen::Vector3d;
   const auto derivative = [&](double t, const State& y) {
-    const auto traction = law.traction({y[1] - belt, 0.0}, {y[2], 0.0}, std::numeric_limits<double>::infinity());
+    const auto traction =
+        law.traction({y[1] - belt, 0.0}, {y[2], 0.0}, std::numeric_limits<double>::infinity());
     return State(y[1], force(t, y[0]) + traction.force[0], traction.rate[0]);
   };
   State y(b.x, b.v, b.z);
@@ -95,11 +97,13 @@ LuGreT<double> demonstration() {  // Canudas de Wit et al. (1995), table 1
 TEST(LuGre, HoldsALoadBelowTheStaticCoefficientWhereCoulombCreeps) {
   // 1.2 N for 0.5 s: the bristles bend by 1.2e-5 m and then nothing moves.
   double middle = 0.0, last = 0.0;
-  follow(demonstration(), {0.0, 0.0, 0.0}, 0.0, 0.5, 2e-5, [](double t, double) { return 1.2 * std::min(1.0, t / 0.1); },
-         [&](double t, const Eigen::Vector3d& y) {
-           if (t < 0.3) middle = y[0];
-           last = y[0];
-         });
+  follow(
+      demonstration(), {0.0, 0.0, 0.0}, 0.0, 0.5, 2e-5,
+      [](double t, double) { return 1.2 * std::min(1.0, t / 0.1); },
+      [&](double t, const Eigen::Vector3d& y) {
+        if (t < 0.3) middle = y[0];
+        last = y[0];
+      });
   EXPECT_NEAR(last - middle, 0.0, 2e-6);  // modified Coulomb would creep by more than v_s * 0.2 s = 2e-5 m
   EXPECT_LT(last, 5e-5);
 }
@@ -120,15 +124,16 @@ TEST(LuGre, KeepsItsSteadyForceWhereTheStepCannotFollowTheBristles) {
   law.bristle_damping = 0.0;
   Eigen::Vector2d z(0.0, 0.0);
   const double h = 1e-4;
-  for (int k = 0; k < 40; ++k) z += h * law.traction({3.0, 4.0}, z, 1.0 / h).rate;  // relaxes at 5e5 1/s unbounded
+  for (int k = 0; k < 40; ++k)
+    z += h * law.traction({3.0, 4.0}, z, 1.0 / h).rate;  // relaxes at 5e5 1/s unbounded
   const Eigen::Vector2d force = law.traction({3.0, 4.0}, z, 1.0 / h).force;
   EXPECT_NEAR(force[0], -0.6, 1e-9);
   EXPECT_NEAR(force[1], -0.8, 1e-9);
 }
 
-// Block on a belt of 0.1 m/s held by a spring of 2 N/m, static and kinetic friction 1.5 and 1 N. With Coulomb's friction:
-// first slip at 7.5 s, period 7.611259 s, turning at 0.759808 and 0.240192 m. LuGre's bristles
-// creep while they bend, and break away early: stiffer ones come closer.
+// Block on a belt of 0.1 m/s held by a spring of 2 N/m, static and kinetic friction 1.5 and 1 N. With
+// Coulomb's friction: first slip at 7.5 s, period 7.611259 s, turning at 0.759808 and 0.240192 m. LuGre's
+// bristles creep while they bend, and break away early: stiffer ones come closer.
 TEST(LuGre, SticksAndSlipsOnABeltAsCoulombsFrictionDoesTheMoreTheStifferItsBristles) {
   struct Figures {
     double first = 0.0, period = 0.0, highest = 0.0, lowest = 1.0;
@@ -138,14 +143,15 @@ TEST(LuGre, SticksAndSlipsOnABeltAsCoulombsFrictionDoesTheMoreTheStifferItsBrist
     law.bristle_stiffness = stiffness;
     Figures f;
     bool sticking = true;
-    follow(law, {0.0, 0.1, 0.0}, 0.1, 16.0, h, [](double, double x) { return -2.0 * x; },
-           [&](double t, const Eigen::Vector3d& y) {
-             f.highest = std::max(f.highest, y[0]);
-             if (f.first > 0.0) f.lowest = std::min(f.lowest, y[0]);
-             const bool sticks = std::abs(y[1] - 0.1) < 0.005;
-             if (sticking && !sticks) (f.first == 0.0 ? f.first : f.period) = t - f.first;
-             sticking = sticks;
-           });
+    follow(
+        law, {0.0, 0.1, 0.0}, 0.1, 16.0, h, [](double, double x) { return -2.0 * x; },
+        [&](double t, const Eigen::Vector3d& y) {
+          f.highest = std::max(f.highest, y[0]);
+          if (f.first > 0.0) f.lowest = std::min(f.lowest, y[0]);
+          const bool sticks = std::abs(y[1] - 0.1) < 0.005;
+          if (sticking && !sticks) (f.first == 0.0 ? f.first : f.period) = t - f.first;
+          sticking = sticks;
+        });
     return f;
   };
   const Figures soft = with_bristles(1e5, 4e-5), stiff = with_bristles(1e6, 4e-6);
@@ -169,7 +175,8 @@ TEST(FrictionLaws, LetABlockSlideDownAnInclineAsCoulombsDoes) {
       const FrictionLaw law = make_friction_law(entry.name, p);
       double v = 0.0;
       const double h = 1e-5;
-      for (int k = 0; k < 100000; ++k) v += h * (g * std::sin(slope) - g * std::cos(slope) * over_normal(law, v));
+      for (int k = 0; k < 100000; ++k)
+        v += h * (g * std::sin(slope) - g * std::cos(slope) * over_normal(law, v));
       const double factor = entry.kind == FrictionKind::threlfall ? 1.0 - std::exp(-3.0) : 1.0;
       EXPECT_NEAR(v, a + (1.0 - factor) * mu * g * std::cos(slope), 2e-3) << entry.name;  // v_d is 1e-3 m/s
     }
@@ -195,7 +202,8 @@ TEST(FrictionLaws, BringASlidingSphereToRollAsCoulombsDoes) {
 }
 
 TEST(FrictionLaws, TurnACoulombOscillatorWhereTheoryForesees) {
-  // m = 1, k = 100, mu = 0.1: turning points 0.1, -0.08038, 0.06076, -0.04114, 0.02152 m half a period of 0.314159 s apart.
+  // m = 1, k = 100, mu = 0.1: turning points 0.1, -0.08038, 0.06076, -0.04114, 0.02152 m half a period of
+  // 0.314159 s apart.
   const double turning[] = {-0.08038, 0.06076, -0.04114, 0.02152};
   FrictionParameters p;
   p.coefficient = 0.1;

@@ -19,7 +19,8 @@ TEST(LawRange, OfHertzEndsWhereThePatchSpansFifteenDegrees) {
   const ClearanceParameters p = joint(0.1e-3);
   const NormalLaw law = make_normal_law("flores", "", p);
   // a = R_a sin 15 degrees, d = a^2 / R.
-  const double a = 10e-3 * std::sin(M_PI / 12.0), d = a * a / (10e-3 * 10.1e-3 / 0.1e-3), limit = law.elastic_force(d);
+  const double a = 10e-3 * std::sin(M_PI / 12.0), d = a * a / (10e-3 * 10.1e-3 / 0.1e-3),
+               limit = law.elastic_force(d);
   EXPECT_FALSE(out_of_range("flores", p, 0.99 * limit));
   EXPECT_TRUE(out_of_range("flores", p, 1.01 * limit));
 }
@@ -42,12 +43,14 @@ TEST(LawRange, JohnsonAndLiuMeetAndNeitherHoldsWhereTheOtherIsNamed) {
 TEST(LawRange, WarningNamesJointLawReasonAndOneThatFits) {
   const auto warning = range_warning("F1", "flores", joint(0.1e-3), 2e3);
   ASSERT_TRUE(warning);
-  for (const char* part : {"F1", "flores", "15", "2000 N", "fits"}) EXPECT_NE(warning->find(part), std::string::npos) << *warning;
+  for (const char* part : {"F1", "flores", "15", "2000 N", "fits"})
+    EXPECT_NE(warning->find(part), std::string::npos) << *warning;
   EXPECT_FALSE(range_warning("F1", "flores", joint(0.1e-3), 10.0));
 }
 
 TEST(LawRange, NeverSpeaksOfAContactWithoutLoad) {
-  for (const NormalLawEntry& entry : normal_laws()) EXPECT_FALSE(out_of_range(entry.name, joint(1e-5), 0.0)) << entry.name;
+  for (const NormalLawEntry& entry : normal_laws())
+    EXPECT_FALSE(out_of_range(entry.name, joint(1e-5), 0.0)) << entry.name;
 }
 
 }  // namespace

@@ -14,22 +14,27 @@ namespace {
 
 constexpr double kAsked[] = {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99};
 
-// From e_out = (1 + W0(-(1 + h) exp(-(1 + h)))) / h, the relation that holds for the whole family whatever exponent, stiffness,
-// mass and speed. Lines of Hunt-Crossley, Gonthier and Carvalho-Martins also stand in EXUDYN's contactSphereSphereTest
-// (0.90903 at 0.9, 0.66298 at 0.5 for the first; 0.30424 at 0.3, 0.10099 at 0.1 for the second; 0.90002 at 0.9 for the third).
+// From e_out = (1 + W0(-(1 + h) exp(-(1 + h)))) / h, the relation that holds for the whole family whatever
+// exponent, stiffness, mass and speed. Lines of Hunt-Crossley, Gonthier and Carvalho-Martins also stand in
+// EXUDYN's contactSphereSphereTest (0.90903 at 0.9, 0.66298 at 0.5 for the first; 0.30424 at 0.3, 0.10099 at
+// 0.1 for the second; 0.90002 at 0.9 for the third).
 const std::map<std::string, std::array<double, 12>> kReturned = {
     {"hunt-crossley",
      {.50145, .51583, .54685, .58129, .61974, .66296, .71195, .76800, .83287, .90902, .95237, .99010}},
     {"herbert-mcwhannell",
      {.48844, .49070, .50078, .51997, .55031, .59362, .65107, .72268, .80698, .90089, .95011, .99000}},
-    {"lee-wang", {.67462, .68666, .71195, .73900, .76800, .79920, .83287, .86934, .90902, .95237, .97561, .99502}},
+    {"lee-wang",
+     {.67462, .68666, .71195, .73900, .76800, .79920, .83287, .86934, .90902, .95237, .97561, .99502}},
     {"lankarani-nikravesh",
      {.66354, .66527, .67226, .68422, .70163, .72524, .75615, .79597, .84710, .91318, .95351, .99015}},
-    {"gonthier", {.05013, .10099, .20461, .30422, .39779, .48774, .57728, .66958, .76800, .87644, .93593, .98678}},
+    {"gonthier",
+     {.05013, .10099, .20461, .30422, .39779, .48774, .57728, .66958, .76800, .87644, .93593, .98678}},
     {"zhiying-qishao",
      {.19691, .21747, .26642, .32670, .39884, .48261, .57690, .67957, .78736, .89592, .94886, .98995}},
-    {"flores", {.03289, .06944, .15554, .25621, .36287, .47044, .57728, .68318, .78854, .89392, .94683, .98934}},
-    {"hu-guo", {.03509, .07407, .16560, .27066, .37965, .48774, .59362, .69730, .79920, .89990, .94999, .99000}},
+    {"flores",
+     {.03289, .06944, .15554, .25621, .36287, .47044, .57728, .68318, .78854, .89392, .94683, .98934}},
+    {"hu-guo",
+     {.03509, .07407, .16560, .27066, .37965, .48774, .59362, .69730, .79920, .89990, .94999, .99000}},
     {"carvalho-martins",
      {.09292, .12894, .21159, .30397, .40109, .50017, .59997, .69997, .79999, .90000, .95000, .99000}},
     {"exact", {.05, .1, .2, .3, .4, .5, .6, .7, .8, .9, .95, .99}},
@@ -39,7 +44,8 @@ TEST(ContactLaws, ReturnTheRestitutionThatTheoryForesees) {
   for (const auto& [name, returned] : kReturned)
     for (std::size_t k = 0; k < returned.size(); ++k) {
       const NormalLaw law{1e9, normal_law(name).damping_factor(kAsked[k])};
-      EXPECT_NEAR(impact(law, 1.0, 1.0, 3000).restitution, returned[k], 2e-5) << name << " asked for " << kAsked[k];
+      EXPECT_NEAR(impact(law, 1.0, 1.0, 3000).restitution, returned[k], 2e-5)
+          << name << " asked for " << kAsked[k];
     }
 }
 
@@ -53,10 +59,11 @@ TEST(ContactLaws, EveryLawOfHertzGeometryIsInTheTableOfReturnedRestitutions) {
 
 TEST(ExactRestitution, HasTheDampingFactorsOfTheRelation) {
   // Solved with 30 digits.
-  const double h[] = {19.999999681532,   9.9981593974957,  4.9191667157908,  3.0870819811296,
-                      2.082498164147,    1.4327505332714,  .97487171081327,  .63482828126642,
-                      .37314620336505,   .16648195068531,  .078926605287415, .015151362109441};
-  for (int k = 0; k < 12; ++k) EXPECT_NEAR(exact_restitution_damping_factor(kAsked[k]) / h[k], 1.0, 2e-12) << kAsked[k];
+  const double h[] = {19.999999681532, 9.9981593974957, 4.9191667157908,  3.0870819811296,
+                      2.082498164147,  1.4327505332714, .97487171081327,  .63482828126642,
+                      .37314620336505, .16648195068531, .078926605287415, .015151362109441};
+  for (int k = 0; k < 12; ++k)
+    EXPECT_NEAR(exact_restitution_damping_factor(kAsked[k]) / h[k], 1.0, 2e-12) << kAsked[k];
 }
 
 TEST(ExactRestitution, ReturnsWhatItWasAskedForWhateverMassSpeedAndElasticCurve) {
@@ -67,9 +74,7 @@ TEST(ExactRestitution, ReturnsWhatItWasAskedForWhateverMassSpeedAndElasticCurve)
   for (const char* name : {"johnson", "radzimovsky", "dubowsky-freudenstein", "liu", "pereira", "flores"})
     for (const double e : {0.2, 0.6, 0.95}) {
       p.contact.restitution = e;
-      EXPECT_NEAR(impact(make_normal_law(name, "exact", p), 0.3, 0.2, 8000).restitution,
-                  e, 1e-6)
-          << name;
+      EXPECT_NEAR(impact(make_normal_law(name, "exact", p), 0.3, 0.2, 8000).restitution, e, 1e-6) << name;
     }
 }
 
@@ -85,13 +90,16 @@ TEST(ContactLaws, ReachTheDepthAndForceThatTheoryForesees) {
     const char* name;
     double depth, force, duration;
   };
-  for (const Row& row : {Row{.9, "hunt-crossley", .962999, .953011, 2.973966}, Row{.9, "lankarani-nikravesh", .964719, .954822, 2.972376},
-                         Row{.9, "gonthier", .949435, .939975, 2.987110}, Row{.9, "flores", .956737, .946720, 2.979899},
-                         Row{.9, "hu-guo", .959222, .949160, 2.977517}, Row{.5, "hu-guo", .769162, .933641, 3.314567},
-                         Row{.3, "flores", .628078, 1.084601, 3.986922}, Row{.3, "gonthier", .661729, 1.037209, 3.768553}}) {
+  for (const Row& row :
+       {Row{.9, "hunt-crossley", .962999, .953011, 2.973966},
+        Row{.9, "lankarani-nikravesh", .964719, .954822, 2.972376},
+        Row{.9, "gonthier", .949435, .939975, 2.987110}, Row{.9, "flores", .956737, .946720, 2.979899},
+        Row{.9, "hu-guo", .959222, .949160, 2.977517}, Row{.5, "hu-guo", .769162, .933641, 3.314567},
+        Row{.3, "flores", .628078, 1.084601, 3.986922}, Row{.3, "gonthier", .661729, 1.037209, 3.768553}}) {
     const NormalLaw law{1e9, normal_law(row.name).damping_factor(row.e)};
     const Impact hit = impact(law, 1.0, 1.0, 8000);
-    const double depth = std::pow(5.0 / (4.0 * law.stiffness), 0.4), force = law.stiffness * std::pow(depth, 1.5);
+    const double depth = std::pow(5.0 / (4.0 * law.stiffness), 0.4),
+                 force = law.stiffness * std::pow(depth, 1.5);
     EXPECT_NEAR(hit.depth / depth, row.depth, 2e-6) << row.name;
     EXPECT_NEAR(hit.force / force, row.force, 2e-6) << row.name;
     EXPECT_NEAR(hit.duration / depth, row.duration, 5e-5) << row.name;
@@ -138,13 +146,14 @@ TEST(ContactLaws, AreContinuousNeverPullAndStayFinite) {
           ASSERT_GE(F, 0.0) << entry.name;
           // No jump: the steepest curve, a logarithmic one where its range ends, rises with the second power.
           if (entry.geometry != ContactGeometry::linear && before > 0.0) {
-            ASSERT_LE(std::abs(F / before - 1.0), std::pow(d / depth_before, 2.0) - 1.0 + 1e-9) << entry.name << " at " << d;
+            ASSERT_LE(std::abs(F / before - 1.0), std::pow(d / depth_before, 2.0) - 1.0 + 1e-9)
+                << entry.name << " at " << d;
           }
           before = F, depth_before = d;
         }
       }
-      // Starts from nothing: a thousandth of a thousandth of the force at a thousandth of a thousandth of the depth, but for
-      // the slowly varying logarithm of the line laws.
+      // Starts from nothing: a thousandth of a thousandth of the force at a thousandth of a thousandth of the
+      // depth, but for the slowly varying logarithm of the line laws.
       if (entry.geometry != ContactGeometry::linear) {
         EXPECT_LT(law.force(1e-15, 1.0, 1.0), 3e-6 * law.force(1e-9, 1.0, 1.0)) << entry.name;
       }
@@ -161,12 +170,15 @@ TEST(ElasticCurves, SlopeAndEnergyAreTheForcesDerivativeAndIntegralAndDepthItsIn
     const NormalLaw law = make_normal_law(entry.name, "", p);
     for (const double d : {1e-9, 3e-7, 0.99e-6, 1.01e-6, 5e-6, 0.4e-4, 0.1e-3, 0.5e-3}) {
       const double h = 1e-6 * d, F = law.elastic_force(d);
-      EXPECT_NEAR((law.elastic_force(d + h) - law.elastic_force(d - h)) / (2.0 * h) / law.elastic_slope(d), 1.0, 1e-6)
+      EXPECT_NEAR((law.elastic_force(d + h) - law.elastic_force(d - h)) / (2.0 * h) / law.elastic_slope(d),
+                  1.0, 1e-6)
           << entry.name << " at " << d;
       EXPECT_NEAR(law.depth_under(F) / d, 1.0, 1e-9) << entry.name << " at " << d;
       // Simpson's rule over the last tenth of the way.
-      const double a = 0.9 * d, sum = (law.elastic_force(a) + 4.0 * law.elastic_force(0.95 * d) + F) * 0.1 * d / 6.0;
-      EXPECT_NEAR((law.elastic_energy(d) - law.elastic_energy(a)) / sum, 1.0, 1e-5) << entry.name << " at " << d;
+      const double a = 0.9 * d,
+                   sum = (law.elastic_force(a) + 4.0 * law.elastic_force(0.95 * d) + F) * 0.1 * d / 6.0;
+      EXPECT_NEAR((law.elastic_energy(d) - law.elastic_energy(a)) / sum, 1.0, 1e-5)
+          << entry.name << " at " << d;
     }
   }
 }

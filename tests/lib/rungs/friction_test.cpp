@@ -18,7 +18,8 @@ std::shared_ptr<const Mechanism> incline(const std::string& friction, double coe
   m.gravity = Vec3(0.0, 0.0, -9.81);
   scenes::add_body(m, "block", 1.0, Vec3::Zero(), Vec3::Zero());
   m.bodies[0].inertia = 0.01 * Mat3::Identity();
-  scenes::add_joint(m, JointType::cylindrical, kGround, 0, Vec3::Zero(), Vec3(std::cos(kSlope), 0.0, -std::sin(kSlope)));
+  scenes::add_joint(m, JointType::cylindrical, kGround, 0, Vec3::Zero(),
+                    Vec3(std::cos(kSlope), 0.0, -std::sin(kSlope)));
   scenes::add_clearance(m, 0, false);
   ClearanceDescription& c = m.clearances[0];
   c.friction_law = friction;
@@ -56,7 +57,8 @@ TEST(LuGre, SticksOnAnInclineWhereModifiedCoulombCreeps) {
 
 TEST(LuGre, SlidesDownAnInclineAsCoulombsFrictionDoes) {
   // mu = 0.1: 2.433379 m/s^2 once the block lies still in the bore.
-  const double gained = slide("multibody", "lugre", 0.1, 0.4).speed - slide("multibody", "lugre", 0.1, 0.25).speed;
+  const double gained =
+      slide("multibody", "lugre", 0.1, 0.4).speed - slide("multibody", "lugre", 0.1, 0.25).speed;
   EXPECT_NEAR(gained / 0.15, 2.433379145, 1e-3);
 }
 

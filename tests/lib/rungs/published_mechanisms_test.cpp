@@ -1,8 +1,9 @@
-// The mechanisms of the multibody benchmarks, as their example files describe them, against published and recomputed numbers.
+// The mechanisms of the multibody benchmarks, as their example files describe them, against published and
+// recomputed numbers.
 //
-// IFToMM multibody benchmark library: A01 simple pendulum, A02 double four-bar, A03 Andrews' squeezer, A04 Bricard. Where the
-// library prints no numbers to compare with, they come from exact solutions or were computed with two formulations of their
-// own in extended precision.
+// IFToMM multibody benchmark library: A01 simple pendulum, A02 double four-bar, A03 Andrews' squeezer, A04
+// Bricard. Where the library prints no numbers to compare with, they come from exact solutions or were
+// computed with two formulations of their own in extended precision.
 #include <gtest/gtest.h>
 
 #include "boresight/rungs/ideal_simulation.hpp"
@@ -13,7 +14,8 @@ namespace boresight {
 namespace {
 
 std::shared_ptr<const Mechanism> example(const std::string& name, const std::vector<Setting>& settings = {}) {
-  return scenes::build(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/" + name + "/" + name + ".toml", settings));
+  return scenes::build(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/" + name + "/" + name + ".toml", settings));
 }
 
 RunResult follow(const std::shared_ptr<const Mechanism>& mechanism, double step, double sample) {
@@ -61,22 +63,26 @@ TEST(Pendulum, SwingsAsTheEllipticFunctionSays) {
 // Angles of the seven bodies at 0.03 s from the Test Set for IVP Solvers (Bari): PSIDE with tolerance 1e-14.
 TEST(AndrewsSqueezer, IsWhereTheBariTestSetPutsIt) {
   const auto mechanism = example("andrews-squeezer", {{"motion.duration", "0.03 s"}});
-  const double start[] = {-0.0617138900142764496, 0.0, 0.455279819163070380, 0.222668390165885885,
-                          0.487364979543842550, -0.222668390165885885, 1.23054744454982119};
+  const double start[] = {-0.0617138900142764496, 0.0,
+                          0.455279819163070380,   0.222668390165885885,
+                          0.487364979543842550,   -0.222668390165885885,
+                          1.23054744454982119};
   const double end[] = {15.81077119629904,  -15.75637105984298, 0.04082224013073101, -0.5347301163226948,
                         0.5244099658805304, 0.5347301163226948, 1.048080741042263};
-  const auto turned = [&](int body) {  // beta; beta + theta; gamma; phi + delta; delta; Omega + epsilon; epsilon
-    const auto sum = [&](const double* q) {
-      const double angle[] = {q[0], q[0] + q[1], q[2], q[3] + q[4], q[4], q[5] + q[6], q[6]};
-      return angle[body];
-    };
-    return sum(end) - sum(start);
-  };
+  const auto turned =
+      [&](int body) {  // beta; beta + theta; gamma; phi + delta; delta; Omega + epsilon; epsilon
+        const auto sum = [&](const double* q) {
+          const double angle[] = {q[0], q[0] + q[1], q[2], q[3] + q[4], q[4], q[5] + q[6], q[6]};
+          return angle[body];
+        };
+        return sum(end) - sum(start);
+      };
   const auto difference = [](double a, double b) { return std::remainder(a - b, 2.0 * std::numbers::pi); };
   const RunResult result = follow(mechanism, 1e-5, 1e-3);
-  const double rate[] = {1139.920302151208, -1424.379294994111, 11.03291221937134, 19.29337464421385,
+  const double rate[] = {1139.920302151208,  -1424.379294994111, 11.03291221937134, 19.29337464421385,
                          0.5735699284790808, -19.29337464421385, 0.3231791658026955};
-  const double body_rate[] = {rate[0], rate[0] + rate[1], rate[2], rate[3] + rate[4], rate[4], rate[5] + rate[6], rate[6]};
+  const double body_rate[] = {rate[0], rate[0] + rate[1], rate[2], rate[3] + rate[4],
+                              rate[4], rate[5] + rate[6], rate[6]};
   for (int b = 0; b < 7; ++b) {
     const PoseSample& s = sample(result, b, 0.03);
     const Quat q = s.pose.q;
@@ -84,8 +90,9 @@ TEST(AndrewsSqueezer, IsWhereTheBariTestSetPutsIt) {
     EXPECT_NEAR(s.w.z(), body_rate[b], 1e-5) << "body " << b + 1;
   }
   // The crank's end up to 0.03 s, recomputed in extended precision.
-  for (const auto& [t, x, y] : {std::tuple{.005, 0.00684464175, 0.00146658762}, std::tuple{.010, -0.00389055239, 0.00581924412},
-                                std::tuple{.020, -0.00227442092, 0.00662019709}, std::tuple{.030, -0.00696303943, -0.00071838843}}) {
+  for (const auto& [t, x, y] :
+       {std::tuple{.005, 0.00684464175, 0.00146658762}, std::tuple{.010, -0.00389055239, 0.00581924412},
+        std::tuple{.020, -0.00227442092, 0.00662019709}, std::tuple{.030, -0.00696303943, -0.00071838843}}) {
     const Vec3 home(0.007 * std::cos(start[0]), 0.007 * std::sin(start[0]), 0.0);
     const Vec3 F = carried(*mechanism, 0, home, sample(result, 0, t));
     EXPECT_NEAR(F.x(), x, 1e-9) << t;
@@ -93,8 +100,8 @@ TEST(AndrewsSqueezer, IsWhereTheBariTestSetPutsIt) {
   }
 }
 
-// Cranks of the correct branch turn alike: 3 phi'' = 3.5 g sin phi, phi(0) = 0, phi'(0) = 1. The first singular position is
-// passed at 0.714356 s; EXUDYN's Richardson limit at 10 s agrees with this to 1e-8.
+// Cranks of the correct branch turn alike: 3 phi'' = 3.5 g sin phi, phi(0) = 0, phi'(0) = 1. The first
+// singular position is passed at 0.714356 s; EXUDYN's Richardson limit at 10 s agrees with this to 1e-8.
 void expect_double_four_bar(double duration, const std::vector<std::array<double, 5>>& reference) {
   const auto mechanism = example("double-four-bar", {{"motion.duration", std::to_string(duration) + " s"}});
   const RunResult result = follow(mechanism, 5e-4, 0.1);
@@ -136,8 +143,10 @@ TEST(Bricard, MovesAsItsExactMotionAlthoughOneConstraintIsRedundant) {
   const auto mechanism = example("bricard", {{"motion.duration", "1.5 s"}});
   const RunResult result = follow(mechanism, 5e-4, 0.1);
   // The far end of bar 2: DOP853 with projection on a 5-angle chain, energy kept to 1.4e-13 J.
-  const double reference[][4] = {{0.1, 0.9902415380, -0.9999528486, -0.0097108483}, {0.5, 0.7747178080, -0.9798150477, -0.1999061590},
-                                 {1.0, 0.2744813193, -0.8867079387, -0.4623300027}, {1.5, -0.2790175754, -0.8873613788, -0.4610745963}};
+  const double reference[][4] = {{0.1, 0.9902415380, -0.9999528486, -0.0097108483},
+                                 {0.5, 0.7747178080, -0.9798150477, -0.1999061590},
+                                 {1.0, 0.2744813193, -0.8867079387, -0.4623300027},
+                                 {1.5, -0.2790175754, -0.8873613788, -0.4610745963}};
   for (const auto& r : reference) {
     const Vec3 P = carried(*mechanism, 1, Vec3(1.0, -1.0, 0.0), sample(result, 1, r[0]));
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(P[k], r[k + 1], 1e-8) << r[0];
@@ -145,19 +154,20 @@ TEST(Bricard, MovesAsItsExactMotionAlthoughOneConstraintIsRedundant) {
   }
 }
 
-// Slider-crank of Flores et al. (2006), Lankarani-Nikravesh with e = 0.9, no friction: the first impacts, event by event.
-// Two formulations of their own (two coordinates in long double, extrapolated; Cartesian coordinates with multipliers) agree
-// on the first four to ten digits.
+// Slider-crank of Flores et al. (2006), Lankarani-Nikravesh with e = 0.9, no friction: the first impacts,
+// event by event. Two formulations of their own (two coordinates in long double, extrapolated; Cartesian
+// coordinates with multipliers) agree on the first four to ten digits.
 TEST(FloresSliderCrank, StrikesWhereAndAsHardAsTwoIndependentFormulationsSay) {
   const auto mechanism = example("flores-slider-crank", {{"motion.duration", "1.2 ms"}});
   const RunResult result = follow(mechanism, 1e-7, 1e-4);
   struct Event {
     double start, speed, duration, depth, force, end_speed;
   };
-  const Event reference[] = {{2.272860320398e-4, 4.385783145, 5.343723e-5, 7.795222e-5, 45872.275, 3.911492579},
-                             {6.370564301669e-4, 2.756949153, 5.383416e-5, 4.612189e-5, 20869.93, 1.764880328},
-                             {7.497002798424e-4, 1.826699075, 6.545016e-5, 5.301500e-5, 25926.15, 2.133988216},
-                             {1.085947033914e-3, 1.101851178, 6.075807e-5, 2.131170e-5, 6557.871, 0.723053286}};
+  const Event reference[] = {
+      {2.272860320398e-4, 4.385783145, 5.343723e-5, 7.795222e-5, 45872.275, 3.911492579},
+      {6.370564301669e-4, 2.756949153, 5.383416e-5, 4.612189e-5, 20869.93, 1.764880328},
+      {7.497002798424e-4, 1.826699075, 6.545016e-5, 5.301500e-5, 25926.15, 2.133988216},
+      {1.085947033914e-3, 1.101851178, 6.075807e-5, 2.131170e-5, 6557.871, 0.723053286}};
   ASSERT_GE(result.events.size(), 4u);
   for (int k = 0; k < 4; ++k) {
     const ContactEvent& e = result.events[k];
@@ -190,7 +200,8 @@ TEST(FloresSliderCrank, FollowsTheTwelveImpactsOfTheReference) {
 
 // The same with Flores' law: its first impact.
 TEST(FloresSliderCrank, WithFloresLawStrikesAsHardAsComputedIndependently) {
-  const auto mechanism = example("flores-slider-crank", {{"motion.duration", "0.8 ms"}, {"clearance.B.contact.law", "flores"}});
+  const auto mechanism =
+      example("flores-slider-crank", {{"motion.duration", "0.8 ms"}, {"clearance.B.contact.law", "flores"}});
   const RunResult result = follow(mechanism, 1e-7, 1e-4);
   ASSERT_GE(result.events.size(), 3u);
   EXPECT_NEAR(result.events[0].max_penetration / 7.725263e-5, 1.0, 1e-5);
