@@ -94,5 +94,31 @@ TEST(ContactLaws, OfEveryKindRunTheDefaultSceneAndStayFinite) {
   }
 }
 
+// Integrators that locate contacts read the same laws, their Jacobian included.
+TEST(ContactLaws, OfOtherGeometriesMoveTheSameUnderExplicitAndImplicitSteps) {
+  for (const char* law : {"johnson", "liu", "pereira"}) {
+    const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "20 ms"},
+                                                        {"clearance.F1.contact.law", law},
+                                                        {"clearance.F1.friction.law", "brown-mcphee"}}));
+    std::vector<double> rms;
+    for (const char* integrator : {"dopri5", "rosenbrock"}) {
+      RunOptions options;
+      options.integrator = integrator;
+      options.tolerance = 1e-5;
+      rms.push_back(make_rung("perturbation", mechanism)->run(mechanism->parameters(), options).index.position_error.rms);
+    }
+    EXPECT_NEAR(rms[0] / rms[1], 1.0, 1e-3) << law;
+  }
+}
+
+TEST(LuGre, IsRefusedByIntegratorsThatDoNotCarryItsBristles) {
+  const auto mechanism =
+      scenes::build(scenes::rrcpr({{"motion.duration", "20 ms"}, {"clearance.F1.friction.law", "lugre"}}));
+  RunOptions options;
+  options.integrator = "dopri5";
+  for (const char* rung : {"perturbation", "multibody"})
+    EXPECT_THROW(make_rung(rung, mechanism)->run(mechanism->parameters(), options), std::invalid_argument) << rung;
+}
+
 }  // namespace
 }  // namespace boresight
