@@ -28,8 +28,8 @@ double positive_quantity(const std::string& option, const std::string& text, con
   return value;
 }
 
-void CommandOptions::declare(CLI::App& app, const std::string& file_kind) {
-  app.add_option("FILE", file, "the " + file_kind + " file")->required()->type_name("");
+void CommandOptions::declare(CLI::App& app, const std::string& file_kind, bool needs_file) {
+  app.add_option("FILE", file, (needs_file ? "the " : "a ") + file_kind + " file")->required(needs_file)->type_name("");
   app.add_option("--set", settings,
                  "change a value of the mechanism: clearance.F1.radial=0.2mm (any number of times)")
       ->type_name("PATH=VALUE")

@@ -36,7 +36,7 @@ struct CommandOptions {
   int jobs = 0;
   bool quiet = false;
 
-  void declare(CLI::App& app, const std::string& file_kind);
+  void declare(CLI::App& app, const std::string& file_kind, bool needs_file = true);
   Command command(const std::string& verb) const;
 };
 

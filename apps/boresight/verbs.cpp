@@ -11,7 +11,8 @@ namespace boresight::app {
   VERB(stability)             \
   VERB(montecarlo)            \
   VERB(sensitivity)           \
-  VERB(export)
+  VERB(export)                \
+  VERB(laws)
 
 #define DECLARE(name) std::unique_ptr<Verb> make_##name##_verb();
 BORESIGHT_VERBS(DECLARE)

@@ -17,7 +17,7 @@
 #pragma once
 
 #include "boresight/contact/journal_motion.hpp"
-#include "boresight/contact/modified_coulomb.hpp"
+#include "boresight/contact/contact_friction.hpp"
 #include "boresight/contact/normal_law.hpp"
 #include "boresight/contact/ring_contact.hpp"
 
@@ -33,7 +33,7 @@ struct TiltedJournalT {
   bool slides = false;          // a cylindrical joint
   NormalLawT<T> end_law;            // of one end: K / 2
   T face_stiffness{};  // K_c [N/m]
-  ModifiedCoulombT<T> friction;
+  FrictionLawT<T> friction;
 
   void gaps(const JournalMotion<T>& motion, std::array<ContactState<T>, kContactPlaces>& contact) const {
     for (ContactState<T>& c : contact) c = {T(-1.0), T(0.0), T(0.0)};
@@ -47,7 +47,11 @@ struct TiltedJournalT {
   }
 
   void wrench(const JournalMotion<T>& m, const std::array<T, kContactPlaces>& impact_speed, JournalWrench<T>& out) const {
-    using std::sqrt;
+    wrench(m, impact_speed, SlidingFriction<T>{friction}, out);
+  }
+  template <typename Friction>
+  void wrench(const JournalMotion<T>& m, const std::array<T, kContactPlaces>& impact_speed, const Friction& traction,
+              JournalWrench<T>& out) const {
     for (ContactState<T>& c : out.contact) c = {T(-1.0), T(0.0), T(0.0)};
     out.force.setConstant(T(0.0));
     out.moment.setConstant(T(0.0));
@@ -65,8 +69,8 @@ struct TiltedJournalT {
       const Vec3T<T> point(bore_radius * at.nx, T(side) * half_length, bore_radius * at.nz);
       const Vec3T<T> v = m.e_dot + m.w.cross(Vec3T<T>(point - m.e));
       const T around = v.x() * at.nz - v.z() * at.nx;
-      const T pull = F * friction.force_per_velocity(T(sqrt(around * around + v.y() * v.y())));
-      add(point, Vec3T<T>(-pull * around * at.nz, -pull * v.y(), pull * around * at.nx), out);
+      const auto [f_around, f_along] = traction(radial_place(side), F, around, T(v.y()));
+      add(point, Vec3T<T>(f_around * at.nz, f_along, -f_around * at.nx), out);
     }
     if (!has_faces) return;
     for (int side : {-1, 1}) {
@@ -83,17 +87,16 @@ struct TiltedJournalT {
       out.moment += m.e.cross(push) + moment_of(-F * swing * on.ux, -F * swing * on.uz, m);
       const Vec3T<T> point(T(side) * swing * on.ux, T(side) * half_length, T(side) * swing * on.uz);
       const Vec3T<T> v = m.e_dot + m.w.cross(Vec3T<T>(point - m.e));
-      const T pull = F * friction.force_per_velocity(T(sqrt(v.x() * v.x() + v.z() * v.z())));
-      add(point, Vec3T<T>(-pull * v.x(), T(0.0), -pull * v.z()), out);
+      const auto [fx, fz] = traction(axial_place(side), F, T(v.x()), T(v.z()));
+      add(point, Vec3T<T>(fx, T(0.0), fz), out);
     }
   }
 
   T elastic_energy(const JournalMotion<T>& m) const {
-    using std::sqrt;
     T energy(0.0);
     for (int side : {-1, 1}) {
-      const T d = positive_part(end(m, side).penetration);
-      energy += T(0.4) * end_law.stiffness * d * d * sqrt(d);
+      const T d = end(m, side).penetration;
+      if (any(d > T(0.0))) energy += select(d > T(0.0), end_law.elastic_energy(select(d > T(0.0), d, T(1.0))), T(0.0));
       if (!has_faces) continue;
       const Face on = face(m, side);
       energy += ring_contact(face_stiffness, on.depth, on.swing).energy;

@@ -159,8 +159,42 @@ TEST_F(ProgramTest, CheckNamesTheLostMotionOfASingularMechanismAndAnswersNo) {
   EXPECT_THAT(summary["findings"][0].get<std::string>(), HasSubstr("turns about (0, 0, 1)"));
 }
 
+TEST_F(ProgramTest, LawsPrintsTheTableWithAndWithoutAMechanism) {
+  const Ended plain = call({"laws", "--out", "plain"});
+  EXPECT_EQ(plain.status, 0) << plain.err;
+  EXPECT_THAT(plain.out, AllOf(HasSubstr("lankarani-nikravesh"), HasSubstr("0.91318"), HasSubstr("lugre")));
+  EXPECT_THAT(files("plain"),
+              ElementsAre("force.csv", "friction.csv", "report.html", "restitution.csv", "summary.json"));
+  const Ended of_joint = call({"laws", mechanism_, "--out", "joint"});
+  EXPECT_EQ(of_joint.status, 0) << of_joint.err;
+  const auto summary = json("joint/summary.json");
+  EXPECT_NEAR(summary["contact_laws"]["flores"]["returned"]["0.9"].get<double>(), 0.89392, 2e-5);
+  EXPECT_THAT(summary["warnings"][0].get<std::string>(), AllOf(HasSubstr("flores"), HasSubstr("johnson fits")));
+  expect_refused({"laws", mechanism_, "--joint", "F2", "--out", "other"}, "F1");
+  expect_refused({"laws", "--set", "gravity.z=0m/s^2", "--out", "other"}, "boresight laws MECHANISM");
+}
+
+TEST_F(ProgramTest, RunWarnsOfALawOutsideOfItsRangeAndNamesOneThatFits) {
+  const Ended ended = call({"run", mechanism_, "--rung", "quasistatic", "--set", "clearance.F1.radial=20um", "--out", "tight"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("outside of its range"), HasSubstr("fits")));
+}
+
+TEST_F(ProgramTest, NonlinearToolsAreInTheReportTheSummaryAndATable) {
+  const Ended ended = call({"run", BORESIGHT_EXAMPLES "/spatial-double-crank/spatial-double-crank.toml", "--rung", "perturbation",
+                            "--set", "motion.duration=5s", "--nonlinear", "0.5 s", "--sample", "5 ms", "--out", "map"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  const auto nonlinear = json("map/summary.json")["nonlinear"];
+  EXPECT_EQ(nonlinear["periods"], 10);
+  EXPECT_TRUE(nonlinear["joints"]["D"]["lyapunov"].contains("value"));
+  EXPECT_THAT(text("map/report.html"), HasSubstr("Phase portrait"));
+  const std::string table = text("map/poincare.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 9);  // two of ten periods left out, both ends counted
+  expect_refused({"run", mechanism_, "--nonlinear", "0.5 s", "--out", "short"}, "ten or more");
+}
+
 TEST_F(ProgramTest, OtherMechanismsRun) {
-  for (const std::string name : {"crank-slider", "four-bar"}) {
+  for (const std::string name : {"crank-slider", "four-bar", "3-rrr", "spatial-slider-crank", "spatial-double-crank", "2-us-pointing"}) {
     const Ended ended = call({"run", BORESIGHT_EXAMPLES "/" + name + "/" + name + ".toml", "--quiet"});
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_GT(json("results/" + name + "-run/summary.json")["index"]["position_error"]["max"].get<double>(),
