@@ -1,6 +1,11 @@
 #include "boresight_analyses/montecarlo/montecarlo_plan.hpp"
 
+#include <algorithm>
+
 #include "boresight/io/units.hpp"
+#include "boresight/io/value_fault.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/rung.hpp"
 
 namespace boresight {
 namespace {
@@ -50,6 +55,43 @@ StopRule read_stop(Cursor table) {
   return stop;
 }
 
+void read_budget(Cursor& table, double& budget, std::uint64_t& pilot) {
+  budget = table.quantity("budget", kDuration);
+  table.require(budget > 0.0, "budget", "more than 0");
+  const long long samples = table.integer("pilot", static_cast<long long>(pilot));
+  table.require(samples >= 10 && samples <= 100'000, "pilot", "10 to 100000");
+  pilot = static_cast<std::uint64_t>(samples);
+}
+
+FidelityQuestion read_fidelities(Cursor table) {
+  table.only({"models", "budget", "pilot"});
+  FidelityQuestion q;
+  q.models = table.texts("models");
+  const std::vector<std::string> known = rung_names();
+  for (std::size_t i = 0; i < q.models.size(); ++i) {
+    const std::string& name = q.models[i];
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      table.fail_found("models", "\"" + name + "\"", "the name of a rung", nearest_name(name, known));
+    if (std::find(q.models.begin(), q.models.begin() + static_cast<std::ptrdiff_t>(i), name) != q.models.begin() + static_cast<std::ptrdiff_t>(i))
+      table.fail_found("models", "\"" + name + "\" a second time", "each rung once");
+  }
+  table.require(q.models.size() >= 2, "models", "two rungs or more, the one to be unbiased for first");
+  read_budget(table, q.budget, q.pilot);
+  table.finish();
+  return q;
+}
+
+TailQuestion read_tail(Cursor table) {
+  table.only({"cheap", "exact", "budget", "pilot"});
+  TailQuestion q;
+  q.cheap = table.choice("cheap", rung_names(), "perturbation");
+  q.exact = table.choice("exact", rung_names(), "multibody");
+  table.require(q.cheap != q.exact, "cheap", "another rung than exact");
+  read_budget(table, q.budget, q.pilot);
+  table.finish();
+  return q;
+}
+
 }  // namespace
 
 const std::vector<Headline>& headlines() {
@@ -59,15 +101,27 @@ const std::vector<Headline>& headlines() {
 }
 
 std::string MonteCarloPlan::sample_text(const Study& study) const {
-  return inputs.text + design.text() + "\nindex " + study.index.quantity + "." + study.index.statistic + "\n";
+  std::string text = inputs.text + design.text() + "\nindex " + study.index.quantity + "." + study.index.statistic + "\n";
+  // The budget divides the samples: another one is another study.
+  if (fidelities) {
+    text += "fidelities";
+    for (const std::string& model : fidelities->models) text += " " + model;
+    text += " " + std::to_string(fidelities->budget) + " " + std::to_string(fidelities->pilot) + "\n";
+  }
+  if (tail)
+    text += "tail " + tail->cheap + " " + tail->exact + " " + std::to_string(tail->budget) + " " + std::to_string(tail->pilot) + " " +
+            std::to_string(requirement->limit) + "\n";
+  return text;
 }
 
 MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
                                     const std::function<void(const Setting&)>& accepts) {
   Cursor table = root.table("montecarlo");
-  table.only({"samples", "seed", "design", "strata", "replicates", "confidence", "requirement", "stop"});
+  table.only({"samples", "seed", "design", "strata", "replicates", "confidence", "requirement", "stop", "fidelities", "tail"});
   MonteCarloPlan plan;
-  const long long samples = table.integer("samples");
+  // Those that have a budget take as many samples as it pays.
+  const bool by_budget = table.has("fidelities") || table.has("tail");
+  const long long samples = by_budget ? table.integer("samples", 1) : table.integer("samples");
   table.require(samples >= 1 && static_cast<std::uint64_t>(samples) <= kMostMonteCarloSamples, "samples",
                 "1 to " + std::to_string(kMostMonteCarloSamples));
   plan.samples = static_cast<std::uint64_t>(samples);
@@ -96,6 +150,15 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
   plan.confidence = share(table, "confidence", plan.confidence);
   if (table.has("requirement")) plan.requirement = read_requirement(table.table("requirement"), study);
   if (table.has("stop")) plan.stop = read_stop(table.table("stop"));
+  if (table.has("fidelities")) plan.fidelities = read_fidelities(table.table("fidelities"));
+  if (table.has("tail")) plan.tail = read_tail(table.table("tail"));
+  if (by_budget) {
+    if (plan.fidelities && plan.tail) table.fail("tail", "fidelities, or tail, not both");
+    if (plan.design.kind != DesignKind::random)
+      table.fail("design", "\"random\" with fidelities or tail: their intervals are for independent samples");
+    if (table.has("stop")) table.fail("stop", "no stop with fidelities or tail: their budget ends them");
+    if (plan.tail && !plan.requirement) table.fail("requirement", "a requirement with tail: its limit is what is exceeded");
+  }
   table.finish();
   plan.inputs = read_random_inputs(root, mechanism, accepts);
   if (plan.design.kind == DesignKind::sobol && plan.inputs.size() > static_cast<std::size_t>(SobolNet::kMostDimensions))

@@ -7,6 +7,10 @@
 //   strata = 100                 # lhs: points per hypercube; replicates = 16 # sobol: nets (see random/design.hpp)
 //   confidence = 0.95            # of all intervals
 //   requirement = { limit = "0.25 mm", probability = 0.9973, confidence = 0.95 }
+//   fidelities = { models = ["multibody", "perturbation", "quasistatic"], budget = "2 min", pilot = 50 }
+//                                # the mean for the first rung, most samples on the cheaper ones; CPU time, pilot included
+//   tail = { cheap = "perturbation", exact = "multibody", budget = "2 min", pilot = 50 }
+//                                # the probability of exceeding the requirement's limit where it is rare
 //   stop = { width = "2 %", of = "p99.73", time = "10 min" }    # or earlier: half-width of an interval, or wall time
 #pragma once
 
@@ -34,12 +38,28 @@ struct StopRule {
   double seconds = 0.0;       // wall time; 0: no such rule
 };
 
+// Several rungs at once: fidelities/fidelity_plan.hpp.
+struct FidelityQuestion {
+  std::vector<std::string> models;  // rungs; the first is the one to be unbiased for
+  double budget = 0.0;              // CPU seconds, the pilot's included
+  std::uint64_t pilot = 50;         // samples on every model
+};
+
+// A rare excess: tails/tail_estimate.hpp.
+struct TailQuestion {
+  std::string cheap, exact;  // rungs
+  double budget = 0.0;       // CPU seconds of the estimate, after search and pilot
+  std::uint64_t pilot = 50;  // samples on both, twice
+};
+
 struct MonteCarloPlan {
   std::uint64_t samples = 0;
   DesignOptions design;
   double confidence = 0.95;
   std::optional<Requirement> requirement;
   StopRule stop;
+  std::optional<FidelityQuestion> fidelities;
+  std::optional<TailQuestion> tail;
   RandomInputs inputs;
 
   // What decides the value of sample k, but for mechanism and rung: how many samples there are, what is asked of them

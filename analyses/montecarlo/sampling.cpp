@@ -40,6 +40,15 @@ class Numbers {
 
 bool compute_samples(const SampleModel& model, const RandomInputs& inputs, const Design& design,
                      const std::vector<NumberRange>& ranges, const SamplingOptions& options) {
+  const ValuesOf values_of = [&](std::uint64_t number, std::span<double> values) {
+    design.point(number, values);
+    inputs.values(values);
+  };
+  return compute_samples(model, inputs.size(), values_of, ranges, options);
+}
+
+bool compute_samples(const SampleModel& model, std::size_t parameters, const ValuesOf& values_of,
+                     const std::vector<NumberRange>& ranges, const SamplingOptions& options) {
   Numbers numbers(ranges);
   std::mutex landing;
   std::atomic<bool> no_more{false}, all_reached{true};
@@ -60,9 +69,8 @@ bool compute_samples(const SampleModel& model, const RandomInputs& inputs, const
       outcomes.assign(n, {});
       for (std::size_t k = 0; k < n; ++k) {
         records[k].number = batch.first + k;
-        records[k].inputs.resize(inputs.size());
-        design.point(records[k].number, records[k].inputs);
-        inputs.values(records[k].inputs);
+        records[k].inputs.resize(parameters);
+        values_of(records[k].number, records[k].inputs);
         samples[k] = {records[k].number, records[k].inputs};
       }
       try {

@@ -23,8 +23,13 @@ struct SamplingOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
+// The values (SI) of the parameters of one sample, from its number.
+using ValuesOf = std::function<void(std::uint64_t, std::span<double>)>;
+
 // Returns true if every sample was reached. What `landed` throws ends the sampling and is thrown on.
 bool compute_samples(const SampleModel& model, const RandomInputs& inputs, const Design& design,
+                     const std::vector<NumberRange>& ranges, const SamplingOptions& options);
+bool compute_samples(const SampleModel& model, std::size_t parameters, const ValuesOf& values_of,
                      const std::vector<NumberRange>& ranges, const SamplingOptions& options);
 
 }  // namespace boresight

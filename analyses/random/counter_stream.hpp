@@ -16,7 +16,9 @@ enum class StreamPurpose : std::uint64_t {
   scrambling = 2,   // of a net
   permutation = 3,  // of a Latin hypercube's strata
   within_cell = 4,  // where in its cell a point of a hypercube or a net lies
-  resampling = 5    // bootstrap
+  resampling = 5,   // bootstrap
+  subset = 6,       // chains of subset simulation
+  proposal = 7      // draws of importance sampling, starts of its mixture
 };
 
 class CounterStream {

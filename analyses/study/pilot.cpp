@@ -3,21 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+#include "boresight_analyses/study/measurement.hpp"
 
 namespace boresight {
 namespace {
 
-// Neighbouring steps whose results are as good as the first: impacts fall out differently in each.
-constexpr double kNeighbours[] = {1.0, 0.985, 0.97};
 // Steps of a dynamic rung that are tried, against its own choice.
 constexpr double kShares[] = {4.0, 2.0, 1.0, 0.5, 0.25};
-
-struct Runs {
-  double median = 0.0, half_spread = 0.0, estimate = 0.0, step = 0.0, cpu_seconds = 0.0;
-};
+// Of error control.
+constexpr double kTolerances[] = {1e-2, 1e-3, 1e-4};
 
 class Pilot {
  public:
@@ -38,55 +35,46 @@ class Pilot {
   }
 
  private:
-  // The rung at about this step (0: its own) on one sample.
-  Runs runs(const Rung& rung, const Parameters& parameters, double step) {
-    Runs out;
-    std::vector<double> values;
-    const bool stepless = step < 0.0;
-    for (double share : kNeighbours) {
-      if (options_.progress && !options_.progress(static_cast<int>(result_.trials.size()))) throw PilotInterrupted{};
-      RunOptions run;
-      run.sample_spacing = 0.0;
-      run.events = false;
-      run.step = stepless ? 0.0 : (step == 0.0 ? out.step : step) * share;
-      const RunResult result = rung.run(parameters, run);
-      values.push_back(options_.index.of(result.index));
-      out.estimate = std::max(out.estimate, result.error.total());
-      out.cpu_seconds = out.cpu_seconds == 0.0 ? result.cost.cpu_seconds : std::min(out.cpu_seconds, result.cost.cpu_seconds);
-      result_.cpu_seconds += result.cost.cpu_seconds;
-      if (out.step == 0.0 && result.cost.steps > 0) out.step = mechanism_->duration() / static_cast<double>(result.cost.steps);
-      if (stepless && values.size() == 2) break;  // the first one may have built the scene
+  Measurement measured(const Rung& rung, const Parameters& parameters, double step, const std::string& integrator = "",
+                       double tolerance = 0.0) {
+    MeasureOptions options;
+    options.index = options_.index;
+    options.advance = [this] { return !options_.progress || options_.progress(static_cast<int>(result_.trials.size())); };
+    const Way way{.rung = rung.name(), .integrator = integrator, .step = step, .tolerance = tolerance};
+    try {
+      const Measurement m = measure(rung, parameters, way, options);
+      result_.cpu_seconds += m.spent_seconds;
+      return m;
+    } catch (const MeasurementInterrupted&) {
+      throw PilotInterrupted{};
     }
-    std::sort(values.begin(), values.end());
-    out.median = values[values.size() / 2];
-    out.half_spread = 0.5 * (values.back() - values.front());
-    return out;
   }
 
   void find_reference() {
     const auto rung = make_rung("multibody", mechanism_);
     for (const Parameters& sample : samples_) {
-      const Runs own = runs(*rung, sample, options_.step);
-      const Runs fine = runs(*rung, sample, 0.5 * own.step);
-      reference_.push_back(fine.median);
+      const Measurement own = measured(*rung, sample, options_.step);
+      if (!own.refusal.empty()) throw ComputationError(own.refusal);
+      const Measurement fine = measured(*rung, sample, 0.5 * own.step);
+      if (!fine.refusal.empty()) throw ComputationError(fine.refusal);
+      reference_.push_back(fine.value);
       multibody_.push_back(own);
       // The finer median is wrong by less than the coarser one differs from it; spread of three, of which the median keeps
       // about half.
-      const double off = std::abs(own.median - fine.median) + 0.5 * fine.half_spread;
-      const double relative = fine.median != 0.0 ? off / std::abs(fine.median) : 0.0;
+      const double off = std::abs(own.value - fine.value) + 0.5 * fine.half_spread;
+      const double relative = fine.value != 0.0 ? off / std::abs(fine.value) : 0.0;
       result_.reference_error = std::max(result_.reference_error, relative);
     }
     result_.reference = reference_[0];
     PilotTrial own;
     own.rung = "multibody";
     own.step = multibody_[0].step;
-    own.value = multibody_[0].median;
+    own.value = multibody_[0].value;
     own.cpu_seconds = multibody_[0].cpu_seconds;
     own.reference = true;
     for (std::size_t s = 0; s < samples_.size(); ++s) {
       own.estimate = std::max(own.estimate, multibody_[s].estimate);
-      const double off = std::abs(multibody_[s].median - reference_[s]) + multibody_[s].half_spread;
-      if (reference_[s] != 0.0) own.error = std::max(own.error, off / std::abs(reference_[s]));
+      own.error = std::max(own.error, relative_error(multibody_[s], reference_[s]));
     }
     result_.trials.push_back(own);
   }
@@ -94,8 +82,7 @@ class Pilot {
   // Returns true if one of its steps meets the accuracy.
   bool try_rung(const std::string& name) {
     const auto rung = make_rung(name, mechanism_);
-    const bool stepless = name == "envelope" || name == "quasistatic";
-    if (stepless) return attempt(*rung, -1.0);
+    if (Way{.rung = name}.stepless()) return attempt(*rung, 0.0);
     if (options_.step > 0.0) return attempt(*rung, options_.step);
     double own = 0.0;
     try {
@@ -112,30 +99,45 @@ class Pilot {
       result_.trials.push_back(refused);
       return false;
     }
+    bool met = false;
     for (double share : kShares)
-      if (attempt(*rung, share * own)) return true;
-    return false;
+      if ((met = attempt(*rung, share * own))) break;
+    return try_integrators(*rung) || met;
   }
 
-  bool attempt(const Rung& rung, double step) {
+  // Those with error control, from loose to tight, as long as they may come out cheaper than what is chosen already.
+  bool try_integrators(const Rung& rung) {
+    bool met = false;
+    if (!options_.integrators) return false;
+    for (const std::string& integrator : integrator_names(rung.name())) {
+      if (integrator == "rk4") continue;
+      for (double tolerance : kTolerances) {
+        if (attempt(rung, 0.0, integrator, tolerance)) {
+          met = true;
+          break;
+        }
+        const PilotTrial& last = result_.trials.back();
+        if (!last.refusal.empty()) break;
+        if (result_.chosen >= 0 && last.cpu_seconds > result_.trials[result_.chosen].cpu_seconds) break;
+      }
+    }
+    return met;
+  }
+
+  bool attempt(const Rung& rung, double step, const std::string& integrator = "", double tolerance = 0.0) {
     PilotTrial trial;
     trial.rung = rung.name();
-    trial.step = std::max(0.0, step);
-    try {
-      for (std::size_t s = 0; s < samples_.size(); ++s) {
-        const Runs r = runs(rung, samples_[s], step);
-        if (s == 0) trial.value = r.median, trial.cpu_seconds = r.cpu_seconds;
-        trial.estimate = std::max(trial.estimate, r.estimate);
-        const double reference = std::abs(reference_[s]);
-        const double off = std::abs(r.median - reference_[s]) + r.half_spread;
-        // An index that is zero on both (angles where axes stay parallel) agrees.
-        const bool nothing = reference <= kNothing && std::abs(r.median) <= kNothing;
-        trial.error = std::max(trial.error, nothing ? 0.0 : off / std::max(reference, 1e-300));
-      }
-      trial.accepted = trial.error <= options_.accuracy;
-    } catch (const ComputationError& failure) {
-      trial.refusal = failure.what();
+    trial.step = step;
+    trial.integrator = integrator;
+    trial.tolerance = tolerance;
+    for (std::size_t s = 0; s < samples_.size() && trial.refusal.empty(); ++s) {
+      const Measurement m = measured(rung, samples_[s], step, integrator, tolerance);
+      trial.refusal = m.refusal;
+      if (s == 0) trial.value = m.value, trial.cpu_seconds = m.cpu_seconds;
+      trial.estimate = std::max(trial.estimate, m.estimate);
+      if (m.refusal.empty()) trial.error = std::max(trial.error, relative_error(m, reference_[s]));
     }
+    trial.accepted = trial.refusal.empty() && trial.error <= options_.accuracy;
     result_.trials.push_back(trial);
     if (trial.accepted && (result_.chosen < 0 || trial.cpu_seconds < result_.trials[result_.chosen].cpu_seconds))
       result_.chosen = static_cast<int>(result_.trials.size()) - 1;
@@ -160,13 +162,11 @@ class Pilot {
     result_.why = text;
   }
 
-  static constexpr double kNothing = 1e-9;  // [m] or [rad]: rounding of a motion integrated in metres
-
   std::shared_ptr<const Mechanism> mechanism_;
   const std::vector<Parameters>& samples_;
   const PilotOptions& options_;
   std::vector<double> reference_;
-  std::vector<Runs> multibody_;
+  std::vector<Measurement> multibody_;
   PilotResult result_;
 };
 

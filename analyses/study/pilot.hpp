@@ -4,7 +4,8 @@
 // Reference: multibody at half its own step, the median over neighbouring steps; their spread and what the full step gives
 // say how far it can be trusted. A trial is a rung at one step, run likewise at neighbouring steps:
 //   error of a trial = |median - reference| / |reference| + half the spread of its own runs
-// (impacts scatter single runs, and a study's runs are single). A rung that cannot follow the motion (a singular pose, an
+// measured as the chart measures (measurement.hpp). A trial may also be an integrator with error control at one tolerance.
+// (Impacts scatter single runs, and a study's runs are single). A rung that cannot follow the motion (a singular pose, an
 // unstable step) says why and is passed over; one that a large clearance makes inexact fails by its error: the pilot climbs.
 // With several sets of parameters (a study's extremes) each trial counts by its worst.
 #pragma once
@@ -21,7 +22,9 @@ namespace boresight {
 
 struct PilotTrial {
   std::string rung;
-  double step = 0.0;         // [s]; 0 where a rung takes none
+  double step = 0.0;         // [s]; 0 where a rung takes none, or under error control
+  std::string integrator = {};  // "" is the rung's own, RK4
+  double tolerance = 0.0;       // of error control; 0: none
   double value = 0.0;        // of the index, at the first set of parameters
   double error = 0.0;        // relative, the worst over all sets
   double estimate = 0.0;     // what the rung itself thought of its error
@@ -48,6 +51,8 @@ struct PilotOptions {
   double accuracy = 0.01;
   IndexChoice index;
   double step = 0.0;  // given by the user: the only one tried
+  // Try the integrators with error control too. Whoever asks for it must hand the chosen one's integrator and tolerance on.
+  bool integrators = false;
   // Called between trials with their number so far; return false to stop (throws Interrupted).
   std::function<bool(int)> progress;
 };

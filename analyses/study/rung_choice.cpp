@@ -23,6 +23,13 @@ void check_rung_name(const std::string& asked) {
                      nearest_name(asked, names));
 }
 
+void apply(const RungChoice& choice, RunOptions& options) {
+  if (choice.step > 0.0) options.step = choice.step;
+  if (choice.integrator.empty()) return;
+  options.integrator = choice.integrator;
+  options.tolerance = choice.tolerance;
+}
+
 RungChoice choose_rung(const RungQuestion& question, std::shared_ptr<const Mechanism> mechanism,
                        const std::vector<Parameters>& samples) {
   check_rung_name(question.asked);
@@ -32,13 +39,19 @@ RungChoice choose_rung(const RungQuestion& question, std::shared_ptr<const Mecha
   if (mechanism->clearances() == 0) return {most_exact, "no joint has clearance: nothing to choose between"};
   if (!question.accuracy)
     return {most_exact, "the rung that leaves out least; give an accuracy to have the cheapest that meets it"};
-  PilotOptions options{*question.accuracy, question.index, question.step, question.progress};
+  PilotOptions options{.accuracy = *question.accuracy,
+                       .index = question.index,
+                       .step = question.step,
+                       .integrators = question.integrators,
+                       .progress = question.progress};
   RungChoice choice;
   choice.pilot = run_pilot(std::move(mechanism), samples, options);
   const PilotTrial& chosen = choice.pilot->trials[choice.pilot->chosen];
   choice.name = chosen.rung;
   choice.why = choice.pilot->why;
   choice.step = chosen.step;
+  choice.integrator = chosen.integrator;
+  choice.tolerance = chosen.tolerance;
   return choice;
 }
 

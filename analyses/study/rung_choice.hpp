@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "boresight/rungs/rung.hpp"
 #include "boresight_analyses/study/pilot.hpp"
 
 namespace boresight {
@@ -12,6 +13,8 @@ struct RungChoice {
   std::string name;
   std::string why;
   double step = 0.0;                // that the pilot found [s]; 0: the rung's own, or the user's
+  std::string integrator = {};      // that the pilot found; "": the rung's own, or the user's
+  double tolerance = 0.0;           // of it; 0: none
   std::optional<PilotResult> pilot = {};  // where one was flown
 };
 
@@ -21,8 +24,12 @@ struct RungQuestion {
   bool wants_multibody = false;     // an option was given that only multibody has
   IndexChoice index = {};
   double step = 0.0;                // given by the user [s]; 0: none
+  bool integrators = false;         // the pilot may choose one with error control; hand it on with apply()
   std::function<bool(int)> progress = {};  // of the pilot
 };
+
+// Puts what the pilot found into the options of the runs to come.
+void apply(const RungChoice& choice, RunOptions& options);
 
 // Throws InputError (key = --rung) for a name that no rung has.
 void check_rung_name(const std::string& asked);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "boresight/contact/law_range.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "report_parts.hpp"
 
@@ -80,6 +81,29 @@ report::Table contact_frequencies(const std::vector<ContactFrequency>& contacts)
   return table;
 }
 
+// Laws used outside of their range under the largest ideal load, and parallel journals whose contact is a line, not a point.
+void add_law_notes(const Mechanism& mechanism, CheckResult& result) {
+  for (std::size_t c = 0; c < result.contacts.size(); ++c) {
+    const ClearanceDescription& d = mechanism.description().clearances[c];
+    const ClearanceParameters& p = mechanism.parameters().clearance[c];
+    const ContactFrequency& contact = result.contacts[c];
+    if (const auto warning = range_warning(contact.joint, d.contact_law, p, contact.largest_load)) {
+      result.notes.push_back(*warning);
+      continue;
+    }
+    const bool point = normal_law(d.contact_law).geometry == ContactGeometry::point;
+    const std::string line = fitting_law(p, contact.largest_load);
+    if (!point || d.axes == JournalAxes::free || line.empty() || !(contact.typical_load > 0.0)) continue;
+    const double depth = make_normal_law(line, "", p).depth_under(contact.typical_load);
+    if (std::abs(depth / contact.typical_penetration - 1.0) < 0.25) continue;
+    result.notes.push_back(
+        fmt::format("{}: {} is a law for a point, and this journal lies along {} of its sleeve: under {}, {} (a line) is {} "
+                    "deep where it is {}",
+                    contact.joint, d.contact_law, readable(p.sleeve_length, "m"), readable(contact.typical_load, "N"), line,
+                    readable(depth, "m"), readable(contact.typical_penetration, "m")));
+  }
+}
+
 }  // namespace
 
 CheckResult check_mechanism(const Mechanism& mechanism) {
@@ -96,6 +120,7 @@ CheckResult check_mechanism(const Mechanism& mechanism) {
   if (sound && mechanism.clearances() > 0) {
     try {
       result.contacts = analyse_contacts(mechanism, mechanism.parameters());
+      add_law_notes(mechanism, result);
     } catch (const ComputationError& error) {
       result.findings.emplace_back(error.what());
     }

@@ -28,8 +28,8 @@ double positive_quantity(const std::string& option, const std::string& text, con
   return value;
 }
 
-void CommandOptions::declare(CLI::App& app, const std::string& file_kind) {
-  app.add_option("FILE", file, "the " + file_kind + " file")->required()->type_name("");
+void CommandOptions::declare(CLI::App& app, const std::string& file_kind, bool needs_file) {
+  app.add_option("FILE", file, (needs_file ? "the " : "a ") + file_kind + " file")->required(needs_file)->type_name("");
   app.add_option("--set", settings,
                  "change a value of the mechanism: clearance.F1.radial=0.2mm (any number of times)")
       ->type_name("PATH=VALUE")
@@ -151,6 +151,17 @@ nlohmann::json MotionOptions::identity() const {
   return {{"step", step},           {"sample", sample},           {"integrator", integrator},
           {"tolerance", tolerance}, {"formulation", formulation}, {"stabilisation", stabilisation},
           {"pose", poses}};
+}
+
+IndexChoice index_named(const std::string& option, const std::string& text) {
+  const std::size_t dot = text.find('.');
+  IndexChoice index{text.substr(0, dot), dot == std::string::npos ? "" : text.substr(dot + 1)};
+  try {
+    index.of({});
+  } catch (const std::out_of_range&) {
+    throw InputError(kCommandLine, option, in_quotes(text), "a quantity and a statistic, like boresight_error.rms");
+  }
+  return index;
 }
 
 nlohmann::json identity_of(const Command& command, const std::string& mechanism_hash,

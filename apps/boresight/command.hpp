@@ -14,6 +14,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight/rungs/rung.hpp"
+#include "boresight_analyses/study/index_choice.hpp"
 
 namespace boresight::app {
 
@@ -35,7 +36,7 @@ struct CommandOptions {
   int jobs = 0;
   bool quiet = false;
 
-  void declare(CLI::App& app, const std::string& file_kind);
+  void declare(CLI::App& app, const std::string& file_kind, bool needs_file = true);
   Command command(const std::string& verb) const;
 };
 
@@ -73,6 +74,9 @@ std::size_t history_refinement(double duration, double sample_spacing);
 
 // A positive value with its unit, given to an option. Throws InputError naming the option.
 double positive_quantity(const std::string& option, const std::string& text, const SiUnit& unit);
+
+// "position_error.max" as an index. Throws InputError naming the option.
+IndexChoice index_named(const std::string& option, const std::string& text);
 
 // What tells this study's results from another's: verb, hashes, settings, options.
 nlohmann::json identity_of(const Command& command, const std::string& mechanism_hash,

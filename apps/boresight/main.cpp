@@ -55,7 +55,7 @@ int run_program(int argc, char** argv) {
       "interrupted.");
   for (std::size_t i = 0; i < verbs.size(); ++i) {
     CLI::App* command = app.add_subcommand(verbs[i]->name(), verbs[i]->summary());
-    options[i].declare(*command, verbs[i]->file_kind());
+    options[i].declare(*command, verbs[i]->file_kind(), verbs[i]->needs_file());
     verbs[i]->declare_options(*command);
     command->footer("Example:\n  " + verbs[i]->example());
     commands.push_back(command);

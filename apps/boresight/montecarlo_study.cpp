@@ -32,13 +32,6 @@ std::vector<Setting> MonteCarloQuestion::settings_of_sample(std::uint64_t number
   return settings;
 }
 
-bool MonteCarloQuestion::scene_varies() const {
-  return std::any_of(plan.inputs.parameters.begin(), plan.inputs.parameters.end(), [](const RandomParameter& p) {
-    return std::any_of(p.paths.begin(), p.paths.end(),
-                       [](const std::string& path) { return !path.starts_with("clearance."); });
-  });
-}
-
 MonteCarloQuestion read_montecarlo_question(const std::string& file, const std::vector<Setting>& settings) {
   Document document = Document::from_file(file);
   Cursor root(document);

@@ -30,9 +30,6 @@ struct MonteCarloQuestion {
   std::vector<double> values_of_sample(std::uint64_t number) const;
   // The same as settings of the mechanism.
   std::vector<Setting> settings_of_sample(std::uint64_t number) const;
-  // Whether some parameter changes more than contacts: the scene (masses, gravity, springs) is then another one each
-  // time.
-  bool scene_varies() const;
 };
 
 // Throws InputError.

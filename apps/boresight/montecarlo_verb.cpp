@@ -17,22 +17,16 @@
 #include "progress.hpp"
 #include "readable.hpp"
 #include "report/report.hpp"
+#include "scatter_parts.hpp"
+#include "several_rungs.hpp"
 #include "summary.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
 namespace {
 
-// NaN and infinity, which JSON has not, are null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-Json interval_json(const ReportedInterval& i) {
-  return {{"value", number(i.value)},   {"low", number(i.low)},           {"high", number(i.high)},
-          {"confidence", i.confidence}, {"coverage", number(i.coverage)}, {"basis", i.basis}};
-}
-
 Json part_json(const ErrorPart& part) {
-  return {{"value", number(part.value)}, {"relative", number(part.relative)}, {"why", part.why}};
+  return {{"value", number_json(part.value)}, {"relative", number_json(part.relative)}, {"why", part.why}};
 }
 
 Json error_json(const ErrorStatement& e) {
@@ -41,23 +35,6 @@ Json error_json(const ErrorStatement& e) {
           {"discretisation", part_json(e.discretisation)},
           {"rung", part_json(e.rung)},
           {"dominant", e.dominant}};
-}
-
-std::vector<std::string> names_of(const RandomInputs& inputs) {
-  std::vector<std::string> names;
-  for (const RandomParameter& p : inputs.parameters) names.push_back(p.name());
-  return names;
-}
-
-// The scatter's middle and two corners: what holds there is taken to hold between them.
-std::vector<Parameters> pilot_samples(const MonteCarloPlan& plan, const Mechanism& mechanism) {
-  std::vector<Parameters> samples;
-  for (const double level : {0.5, 0.05, 0.95}) {
-    std::vector<double> values;
-    for (const RandomParameter& p : plan.inputs.parameters) values.push_back(p.distribution->quantile(level));
-    samples.push_back(plan.inputs.parameters_with(mechanism, values));
-  }
-  return samples;
 }
 
 class MonteCarloVerb : public Verb {
@@ -88,6 +65,12 @@ class MonteCarloVerb : public Verb {
       throw SilentExit{kBadInput};  // rank 0 says it
     }
     const nlohmann::json identity = identity_for(command, question);
+    if (question.plan.fidelities || question.plan.tail) {
+      if (!first) return kDone;  // one rank does it all
+      const OutputDirectory out = OutputDirectory::open(command.out, command.verb, command.file, identity);
+      const SeveralRungs several{command, question, run, out, watch, resume_};
+      return question.plan.fidelities ? run_fidelities(several) : run_tail(several);
+    }
 
     // Rank 0 owns the folder, finds the rung, and tells the others both.
     std::string told;
@@ -106,7 +89,7 @@ class MonteCarloVerb : public Verb {
     RunOptions model_options = run;
     if (heard["step"].get<double>() > 0.0) model_options.step = heard["step"];
     const RungSampleModel model(heard["rung"], question.mechanism, question.parameters_of(), question.study.index,
-                                model_options, question.scene_varies());
+                                model_options, scene_varies(question.plan.inputs));
     MonteCarloOptions options{.folder = heard["folder"].get<std::string>(),
                               .facts = {{"study", hash_of(identity)}},
                               .jobs = command.jobs,
@@ -188,10 +171,10 @@ class MonteCarloVerb : public Verb {
                                            progress.update(trial, "finding the cheapest rung that meets the accuracy");
                                            return !interrupted();
                                          }},
-                                    question.mechanism, pilot_samples(question.plan, *question.mechanism));
+                                    question.mechanism, pilot_samples(question.plan.inputs, *question.mechanism));
     if (choice.step == 0.0 && run.step == 0.0)
       choice.step = with_options_checked(run, [&] {
-        return common_step(choice.name, question.mechanism, pilot_samples(question.plan, *question.mechanism), run);
+        return common_step(choice.name, question.mechanism, pilot_samples(question.plan.inputs, *question.mechanism), run);
       });
     store.note("rung_why", choice.why);
     if (choice.pilot) {
@@ -366,8 +349,8 @@ class MonteCarloVerb : public Verb {
       json["random"].push_back({{"parameters", p.paths},
                                 {"unit", p.si_unit},
                                 {"distribution", p.distribution->text().substr(0, 400)},
-                                {"mean", number(p.distribution->mean())},
-                                {"sd", number(p.distribution->sd())}});
+                                {"mean", number_json(p.distribution->mean())},
+                                {"sd", number_json(p.distribution->sd())}});
     json["replay"] = s.replay + " NUMBER";
     json["files"] = {"summary.json", "samples.db", "report.html"};
     return json;

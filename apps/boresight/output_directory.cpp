@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // The files by which a directory is known to hold results although its summary.json is missing.
-const std::vector<std::string> kResultFiles = {"report.html", "timeseries.csv", "events.csv", "sweep.csv",
+const std::vector<std::string> kResultFiles = {"report.html", "timeseries.csv", "events.csv", "sweep.csv", "restitution.csv",
                                                "samples.db"};
 
 enum class Owner { nobody, this_study, another_study, unknown };

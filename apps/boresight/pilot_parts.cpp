@@ -7,6 +7,16 @@
 #include "readable.hpp"
 
 namespace boresight::app {
+namespace {
+
+std::string way_of(const PilotTrial& t) { return t.integrator.empty() ? t.rung : t.rung + ", " + t.integrator; }
+
+std::string fineness_of(const PilotTrial& t) {
+  if (t.tolerance > 0.0) return fmt::format("tolerance {:.0e}", t.tolerance);
+  return t.step > 0.0 ? "h = " + readable(t.step, "s") : "no steps";
+}
+
+}  // namespace
 
 nlohmann::ordered_json pilot_json(const PilotResult& pilot) {
   nlohmann::ordered_json json;
@@ -20,6 +30,7 @@ nlohmann::ordered_json pilot_json(const PilotResult& pilot) {
   for (std::size_t k = 0; k < pilot.trials.size(); ++k) {
     const PilotTrial& t = pilot.trials[k];
     nlohmann::ordered_json trial = {{"rung", t.rung}, {"step", t.step}};
+    if (!t.integrator.empty()) trial.update({{"integrator", t.integrator}, {"tolerance", t.tolerance}});
     if (t.refusal.empty()) {
       trial["value"] = t.value;
       trial["error"] = t.error;
@@ -41,20 +52,20 @@ report::Section pilot_section(const PilotResult& pilot) {
                   "its own step (good to {}), and took {}.",
                   pilot.index, readable_share(pilot.accuracy), readable_share(pilot.reference_error), pilot.why)});
   report::Chart chart{.title = "Accuracy against speed",
-                      .caption = "Each mark is a rung at one step; down and left is better. Steps grow to the left.",
+                      .caption = "Each mark is a rung at one step or tolerance; down and left is better. Steps grow to the left.",
                       .x = {"CPU of one run", "ms", true},
                       .y = {"error of the index", "%", true}};
   std::vector<std::string> names;
   for (const PilotTrial& t : pilot.trials)
-    if (std::find(names.begin(), names.end(), t.rung) == names.end()) names.push_back(t.rung);
+    if (std::find(names.begin(), names.end(), way_of(t)) == names.end()) names.push_back(way_of(t));
   for (const std::string& name : names) {
     report::Series series{.name = name, .style = report::Style::line_markers};
     report::Numbers x, y;
     for (const PilotTrial& t : pilot.trials) {
-      if (t.rung != name || !t.refusal.empty()) continue;
+      if (way_of(t) != name || !t.refusal.empty()) continue;
       x.push_back(1e3 * t.cpu_seconds);
       y.push_back(100.0 * std::max(t.error, 1e-5));
-      series.text.push_back(t.step > 0.0 ? "h = " + readable(t.step, "s") : "no steps");
+      series.text.push_back(fineness_of(t));
     }
     if (x.empty()) continue;
     series.x = std::move(x);
@@ -68,17 +79,17 @@ report::Section pilot_section(const PilotResult& pilot) {
   report::Table table{.title = "Tried",
                       .caption = "The error includes half the scatter of single runs. A rung's own estimate is what it says "
                                  "before anything has checked it.",
-                      .columns = {{"Rung"}, {"Step", "µs"}, {"Error", "%"}, {"Own estimate", "%"}, {"CPU", "ms"}, {"Outcome"}}};
+                      .columns = {{"Rung"}, {"Fineness"}, {"Error", "%"}, {"Own estimate", "%"}, {"CPU", "ms"}, {"Outcome"}}};
   for (std::size_t k = 0; k < pilot.trials.size(); ++k) {
     const PilotTrial& t = pilot.trials[k];
     const bool chosen = static_cast<int>(k) == pilot.chosen;
     const char* missed = t.reference ? "the reference, at its own step" : "not accurate enough";
     if (!t.refusal.empty()) {
-      table.rows.push_back({t.rung, t.step > 0.0 ? nlohmann::json(1e6 * t.step) : nlohmann::json(), nullptr, nullptr, nullptr,
+      table.rows.push_back({way_of(t), fineness_of(t), nullptr, nullptr, nullptr,
                             "refused: " + t.refusal});
       continue;
     }
-    table.rows.push_back({t.rung, t.step > 0.0 ? nlohmann::json(1e6 * t.step) : nlohmann::json(), 100.0 * t.error,
+    table.rows.push_back({way_of(t), fineness_of(t), 100.0 * t.error,
                           100.0 * t.estimate, 1e3 * t.cpu_seconds,
                           chosen ? (pilot.met ? "taken" : "taken: the nearest there is") : missed});
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "boresight/contact/law_range.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
@@ -13,6 +14,7 @@
 #include "exit_status.hpp"
 #include "interruption.hpp"
 #include "montecarlo_study.hpp"
+#include "nonlinear_section.hpp"
 #include "progress.hpp"
 #include "readable.hpp"
 #include "report/report.hpp"
@@ -106,6 +108,9 @@ class RunVerb : public Verb {
     app.add_option("--sample-number", sample_number_,
                    "FILE is a Monte Carlo study: run this one of its samples (from 0) and report on it")
         ->type_name("K");
+    app.add_option("--nonlinear", nonlinear_,
+                   "the drive's period: adds Poincaré sections, phase portraits and the largest Lyapunov exponent")
+        ->type_name("PERIOD");
     app.add_option("--index", index_, "what --accuracy is about: position_error.max, boresight_error.rms, ...")
         ->type_name("QUANTITY.STATISTIC")
         ->capture_default_str();
@@ -118,10 +123,18 @@ class RunVerb : public Verb {
     check_rung_name(command.rung);
     motion_.check_rung(command.rung);
     RunOptions options = motion_.run_options(*mechanism);
-    const IndexChoice index = asked_index();
-    const OutputDirectory out = OutputDirectory::open(
-        command.out, command.verb, command.file,
-        identity_of(command, mechanism->description().content_hash, "", motion_.identity()));
+    const IndexChoice index = index_named("--index", index_);
+    Json identity = motion_.identity();
+    double period = 0.0;
+    if (!nonlinear_.empty()) {
+      period = positive_quantity("--nonlinear", nonlinear_, kDuration);
+      check_period(*mechanism, period);
+      options.sample_spacing = spacing_on_period(options.sample_spacing, period);
+      identity["nonlinear"] = nonlinear_;
+    }
+    const OutputDirectory out =
+        OutputDirectory::open(command.out, command.verb, command.file,
+                              identity_of(command, mechanism->description().content_hash, "", identity));
 
     const std::size_t finer = history_refinement(mechanism->duration(), options.sample_spacing);
     options.sample_spacing /= static_cast<double>(finer);
@@ -137,6 +150,7 @@ class RunVerb : public Verb {
                      .wants_multibody = motion_.asks_for_multibody(),
                      .index = index,
                      .step = options.step,
+                     .integrators = true,
                      .progress =
                          [&](int trial) {
                            pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
@@ -144,11 +158,12 @@ class RunVerb : public Verb {
                          }},
                     mechanism, {mechanism->parameters()});
     pilot_progress.clear();
-    if (choice.step > 0.0) options.step = choice.step;
+    apply(choice, options);
 
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
-    const RunResult result =
+    RunResult result =
         with_options_checked(options, [&] { return rung->run(mechanism->parameters(), options); });
+    add_range_warnings(*mechanism, result);
     std::vector<Compared> others;
     if (compare_)
       for (const std::string& name : rung_names())
@@ -160,14 +175,20 @@ class RunVerb : public Verb {
     if (!integrator_names(choice.name).empty() && mechanism->clearances() > 0 && !result.interrupted)
       predictability = measure_predictability(mechanism, mechanism->parameters());
 
-    write_json(out, "summary.json",
-               summary_of(command, *mechanism, choice, result, others, axes, predictability, watch, out));
+    Json summary = summary_of(command, *mechanism, choice, result, others, axes, predictability, watch, out);
+    report::Document document =
+        run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability);
+    if (period > 0.0) {
+      const NonlinearAnalysis nonlinear = analyse_nonlinear(*mechanism, result, period);
+      summary["nonlinear"] = nonlinear_json(nonlinear);
+      summary["files"].push_back("poincare.csv");
+      out.write("poincare.csv", [&](std::ostream& s) { write_section(s, nonlinear); });
+      document.sections.insert(document.sections.begin() + 1, nonlinear_section(nonlinear, *mechanism));
+    }
+    write_json(out, "summary.json", summary);
     out.write("timeseries.csv", [&](std::ostream& s) { write_timeseries(s, *mechanism, result, finer); });
     out.write("events.csv", [&](std::ostream& s) { write_events(s, *mechanism, result); });
-    out.write("report.html", [&](std::ostream& s) {
-      report::write_html(
-          s, run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability));
-    });
+    out.write("report.html", [&](std::ostream& s) { report::write_html(s, document); });
     progress.clear();
     if (!command.quiet) print(*mechanism, choice, result, others, axes, predictability, out);
     return result.interrupted ? kInterrupted : kDone;
@@ -191,16 +212,11 @@ class RunVerb : public Verb {
     return command;
   }
 
-  IndexChoice asked_index() const {
-    const std::size_t dot = index_.find('.');
-    IndexChoice index{index_.substr(0, dot), dot == std::string::npos ? "" : index_.substr(dot + 1)};
-    try {
-      index.of({});
-    } catch (const std::out_of_range&) {
-      throw InputError({"command line", 0}, "--index", "\"" + index_ + "\"",
-                       "a quantity and a statistic, like boresight_error.rms");
-    }
-    return index;
+  static void add_range_warnings(const Mechanism& mechanism, RunResult& result) {
+    for (std::size_t c = 0; c < result.contact.size(); ++c)
+      if (const auto warning = range_warning(result.contact[c].joint, mechanism.description().clearances[c].contact_law,
+                                             mechanism.parameters().clearance[c], result.contact[c].max_force))
+        result.warnings.push_back(*warning);
   }
 
   // A rung that cannot follow the motion says why, and the others go on.
@@ -223,7 +239,7 @@ class RunVerb : public Verb {
   static constexpr double kPilotTrials = 24.0;  // about as many as it makes; it may need fewer
   MotionOptions motion_;
   bool compare_ = false;
-  std::string index_ = "position_error.max";
+  std::string index_ = "position_error.max", nonlinear_;
   std::string sample_number_;
 };
 

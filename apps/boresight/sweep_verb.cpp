@@ -150,6 +150,7 @@ class SweepVerb : public Verb {
                      .wants_multibody = motion_.asks_for_multibody(),
                      .index = study.index,
                      .step = options.run.step,
+                     .integrators = true,
                      .progress =
                          [&](int trial) {
                            pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
@@ -157,7 +158,7 @@ class SweepVerb : public Verb {
                          }},
                     mechanism, {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
     pilot_progress.clear();
-    if (choice.step > 0.0) options.run.step = choice.step;
+    apply(choice, options.run);
 
     Progress progress(command.quiet, static_cast<double>(plan.points()), "points");
     options.progress = [&](const SweepProgress& p) {

@@ -18,6 +18,7 @@ class Verb {
   virtual ~Verb() = default;
   virtual std::string name() const = 0;
   virtual std::string file_kind() const = 0;  // what FILE is: "mechanism", "study"
+  virtual bool needs_file() const { return true; }
   virtual std::string summary() const = 0;    // one line for --help
   virtual std::string example() const = 0;    // a command that works as it stands
   virtual void declare_options(CLI::App&) {}  // beyond those every verb has

@@ -7,8 +7,12 @@ namespace boresight::app {
   VERB(check)                 \
   VERB(run)                   \
   VERB(sweep)                 \
+  VERB(chart)                 \
+  VERB(stability)             \
   VERB(montecarlo)            \
-  VERB(export)
+  VERB(sensitivity)           \
+  VERB(export)                \
+  VERB(laws)
 
 #define DECLARE(name) std::unique_ptr<Verb> make_##name##_verb();
 BORESIGHT_VERBS(DECLARE)

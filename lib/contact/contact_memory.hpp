@@ -1,4 +1,5 @@
-// The discrete state of a clearance joint's contacts: which touch, and how fast each began.
+// The discrete state of a clearance joint's contacts: which touch, how fast each began, and, where friction has a state, how
+// far its bristles are bent.
 //
 // It belongs to the state of the motion and changes only between accepted steps; a right-hand side reads it and never
 // writes it, so a rejected step leaves no trace.
@@ -6,6 +7,9 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
+
+#include "boresight/math/types.hpp"
 
 namespace boresight {
 
@@ -25,6 +29,14 @@ struct ContactMemory {
   // Approach speed at the start of the contact; while not touching, the speed to use should a contact begin inside the
   // coming step. Always positive [m/s].
   std::array<double, kContactPlaces> impact_speed{1e-3, 1e-3, 1e-3, 1e-3, 1e-3};
+  // LuGre's z [m], in the contact's plane. A continuous state: the integrator carries it and writes it here for each stage.
+  std::array<Eigen::Vector2d, kContactPlaces> bristle = [] {
+    std::array<Eigen::Vector2d, kContactPlaces> none;
+    none.fill(Eigen::Vector2d::Zero());
+    return none;
+  }();
+  // Bristles relax no faster than the step resolves [1/s].
+  double largest_bristle_rate = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace boresight

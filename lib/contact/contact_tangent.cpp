@@ -37,7 +37,7 @@ ContactTangent contact_tangent(const JournalInSleeve& joint, const JournalMotion
   const auto depth = [&](ContactPlace place) { return contact[static_cast<int>(place)].penetration; };
   if (!joint.tilts) {
     if (const double d = depth(ContactPlace::radial); d > 0.0) {
-      const double root = std::sqrt(1.5 * joint.radial_law.stiffness * std::sqrt(d)) / std::hypot(m.e.x(), m.e.z());
+      const double root = std::sqrt(joint.radial_law.elastic_slope(d)) / std::hypot(m.e.x(), m.e.z());
       tangent.column[tangent.count++] = {ContactPlace::radial, Column(root * m.e.x(), 0.0, root * m.e.z(), 0.0, 0.0)};
     }
     for (ContactPlace face : {ContactPlace::axial_minus, ContactPlace::axial_plus})
@@ -51,7 +51,7 @@ ContactTangent contact_tangent(const JournalInSleeve& joint, const JournalMotion
       const bool slides = joint.tilted.slides;
       const double reach = side * joint.half_length - (slides ? m.e.y() : 0.0);
       const double x = m.e.x() + reach * m.slope[0], z = m.e.z() + reach * m.slope[1];
-      const double root = std::sqrt(1.5 * joint.tilted.end_law.stiffness * std::sqrt(d)) / std::hypot(x, z);
+      const double root = std::sqrt(joint.tilted.end_law.elastic_slope(d)) / std::hypot(x, z);
       Column n;
       n << x, slides ? -x * m.slope[0] - z * m.slope[1] : 0.0, z, reach * x, reach * z;
       tangent.column[tangent.count++] = {end, root * n};

@@ -10,10 +10,12 @@ JournalInSleeve::JournalInSleeve(const ClearanceDescription& description, JointT
   bore_radius = p.journal_radius + p.radial;
   half_length = 0.5 * p.sleeve_length;
   has_faces = joint == JointType::revolute;
-  radial_law = {radial_hertz_stiffness(p), normal_law(description.contact_law).damping_factor(p.contact.restitution)};
+  radial_law = make_normal_law(description.contact_law, description.dissipation_law, p);
   face_stiffness = has_faces ? end_face_stiffness(p) : 0.0;
-  friction = {description.friction_law == "none" ? 0.0 : p.friction.coefficient, p.friction.static_speed,
-              p.friction.dynamic_speed};
+  friction = make_friction_law(description.friction_law, p.friction);
+  sticks = friction.kind == FrictionKind::lugre && friction.stiction > 0.0;
+  lugre = {friction.coefficient,         friction.stiction,          friction.stribeck_speed, friction.dynamic_speed,
+           p.friction.bristle_stiffness, p.friction.bristle_damping, p.friction.viscosity};
   minimum_impact_speed = p.contact.minimum_impact_speed;
   validity_speed = boresight::validity_speed(p.contact);
   tilts = description.axes == JournalAxes::free;
@@ -24,7 +26,7 @@ JournalInSleeve::JournalInSleeve(const ClearanceDescription& description, JointT
   tilted.ring_radius = 0.5 * (bore_radius + p.cap_radius);
   tilted.has_faces = has_faces;
   tilted.slides = joint == JointType::cylindrical;
-  tilted.end_law = {0.5 * radial_law.stiffness, radial_law.damping_factor};
+  tilted.end_law = radial_law.half();
   tilted.face_stiffness = face_stiffness;
   tilted.friction = friction;
 }
@@ -43,7 +45,7 @@ double JournalInSleeve::elastic_energy(const JournalMotion<double>& motion) cons
   gaps(motion, contact);
   double energy = 0.0;
   const double radial = contact[static_cast<int>(ContactPlace::radial)].penetration;
-  if (radial > 0.0) energy += 0.4 * radial_law.stiffness * radial * radial * std::sqrt(radial);
+  if (radial > 0.0) energy += radial_law.elastic_energy(radial);
   for (ContactPlace place : {ContactPlace::axial_minus, ContactPlace::axial_plus}) {
     const double d = contact[static_cast<int>(place)].penetration;
     if (d > 0.0) energy += 0.5 * face_stiffness * d * d;

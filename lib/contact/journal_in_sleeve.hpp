@@ -28,7 +28,9 @@ struct JournalInSleeveT {
   bool has_faces = true;   // end faces that limit the axial play (not on a cylindrical joint)
   NormalLawT<T> radial_law;
   T face_stiffness{};      // K_c [N/m]
-  ModifiedCoulombT<T> friction;
+  FrictionLawT<T> friction;
+  LuGreT<T> lugre;      // in place of friction where `sticks`
+  bool sticks = false;  // the friction has a state: wrench() with bristles
   double minimum_impact_speed = 1e-3;  // [m/s]
   double validity_speed = 0.0;         // Eq. 26 [m/s]
   bool tilts = false;                  // axes = "free": the contacts are those of `tilted`
@@ -37,11 +39,30 @@ struct JournalInSleeveT {
   // impact_speed: by ContactPlace [m/s]. M: the scalar of the motion, T itself or one that carries derivatives besides.
   template <typename M>
   void wrench(const JournalMotion<M>& motion, const std::array<T, kContactPlaces>& impact_speed,
-              JournalWrench<M>& out) const;
+              JournalWrench<M>& out) const {
+    if (tilts)
+      tilted.wrench(motion, impact_speed, SlidingFriction<T>{friction}, out);
+    else
+      parallel_wrench(motion, impact_speed, SlidingFriction<T>{friction}, out);
+  }
+  // With LuGre's bristles, and how fast they bend.
+  void wrench(const JournalMotion<T>& motion, const std::array<T, kContactPlaces>& impact_speed,
+              const Bristles<T>& bristles, JournalWrench<T>& out, Bristles<T>& bristle_rate, const T& largest_rate) const {
+    const BristleFriction<T> friction_with_state{lugre, bristles, bristle_rate, largest_rate};
+    for (Vec2T<T>& rate : bristle_rate) rate.setConstant(T(0.0));
+    if (tilts)
+      tilted.wrench(motion, impact_speed, friction_with_state, out);
+    else
+      parallel_wrench(motion, impact_speed, friction_with_state, out);
+  }
 
   // Penetration of every place only; used to see where contacts stand without their forces.
   template <typename M>
   void gaps(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const;
+
+  template <typename M, typename Friction>
+  void parallel_wrench(const JournalMotion<M>& motion, const std::array<T, kContactPlaces>& impact_speed,
+                       const Friction& friction, JournalWrench<M>& out) const;
 };
 
 struct JournalInSleeve : JournalInSleeveT<double> {
@@ -75,10 +96,9 @@ void JournalInSleeveT<T>::gaps(const JournalMotion<M>& m, std::array<ContactStat
 }
 
 template <typename T>
-template <typename M>
-void JournalInSleeveT<T>::wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed,
-                                 JournalWrench<M>& out) const {
-  if (tilts) return tilted.wrench(m, impact_speed, out);
+template <typename M, typename Friction>
+void JournalInSleeveT<T>::parallel_wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed,
+                                          const Friction& traction, JournalWrench<M>& out) const {
   gaps(m, out.contact);
   out.force.setConstant(M(0.0));
   out.moment.setConstant(M(0.0));
@@ -95,8 +115,7 @@ void JournalInSleeveT<T>::wrench(const JournalMotion<M>& m, const std::array<T, 
     const M arm = bore_radius - radial_clearance - radial.penetration;
     const M around = m.e_dot.x() * nz - m.e_dot.z() * nx + m.w.y() * arm;
     const M along = m.e_dot.y() + (m.w.z() * nx - m.w.x() * nz) * arm;
-    const M pull = radial.normal_force * friction.force_per_velocity(length_from_square(M(around * around + along * along)));
-    const M f_around = -pull * around, f_along = -pull * along;
+    const auto [f_around, f_along] = traction(static_cast<int>(ContactPlace::radial), radial.normal_force, around, along);
     out.force.x() += -radial.normal_force * nx + f_around * nz;
     out.force.y() += f_along;
     out.force.z() += -radial.normal_force * nz - f_around * nx;
@@ -114,13 +133,13 @@ void JournalInSleeveT<T>::wrench(const JournalMotion<M>& m, const std::array<T, 
     const M lever = T(side) * half_length - m.e.y();
     const M vx = m.e_dot.x() - m.w.y() * m.e.z() - m.w.z() * lever;
     const M vz = m.e_dot.z() + m.w.x() * lever + m.w.y() * m.e.x();
-    const M pull = face.normal_force * friction.force_per_velocity(length_from_square(M(vx * vx + vz * vz)));
-    out.force.x() -= pull * vx;
+    const auto [fx, fz] = traction(static_cast<int>(place), face.normal_force, vx, vz);
+    out.force.x() += fx;
     out.force.y() += T(side) * face.normal_force;
-    out.force.z() -= pull * vz;
+    out.force.z() += fz;
     // M x F.
-    out.moment.x() -= T(side) * half_length * pull * vz;
-    out.moment.z() += T(side) * half_length * pull * vx;
+    out.moment.x() += T(side) * half_length * fz;
+    out.moment.z() -= T(side) * half_length * fx;
   }
 }
 

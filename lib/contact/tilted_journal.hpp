@@ -17,7 +17,7 @@
 #pragma once
 
 #include "boresight/contact/journal_motion.hpp"
-#include "boresight/contact/modified_coulomb.hpp"
+#include "boresight/contact/contact_friction.hpp"
 #include "boresight/contact/normal_law.hpp"
 #include "boresight/contact/ring_contact.hpp"
 
@@ -33,7 +33,7 @@ struct TiltedJournalT {
   bool slides = false;          // a cylindrical joint
   NormalLawT<T> end_law;            // of one end: K / 2
   T face_stiffness{};  // K_c [N/m]
-  ModifiedCoulombT<T> friction;
+  FrictionLawT<T> friction;
 
   // M: the scalar of the motion, T itself or one that carries derivatives besides.
   template <typename M>
@@ -50,6 +50,11 @@ struct TiltedJournalT {
 
   template <typename M>
   void wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed, JournalWrench<M>& out) const {
+    wrench(m, impact_speed, SlidingFriction<T>{friction}, out);
+  }
+  template <typename M, typename Friction>
+  void wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed, const Friction& traction,
+              JournalWrench<M>& out) const {
     for (ContactState<M>& c : out.contact) c = {M(-1.0), M(0.0), M(0.0)};
     out.force.setConstant(M(0.0));
     out.moment.setConstant(M(0.0));
@@ -67,8 +72,8 @@ struct TiltedJournalT {
       const Vec3T<M> point(bore_radius * at.nx, M(T(side) * half_length), bore_radius * at.nz);
       const Vec3T<M> v = m.e_dot + m.w.cross(Vec3T<M>(point - m.e));
       const M around = v.x() * at.nz - v.z() * at.nx;
-      const M pull = F * friction.force_per_velocity(length_from_square(M(around * around + v.y() * v.y())));
-      add(point, Vec3T<M>(-pull * around * at.nz, -pull * v.y(), pull * around * at.nx), out);
+      const auto [f_around, f_along] = traction(radial_place(side), F, around, M(v.y()));
+      add(point, Vec3T<M>(f_around * at.nz, f_along, -f_around * at.nx), out);
     }
     if (!has_faces) return;
     for (int side : {-1, 1}) {
@@ -85,17 +90,16 @@ struct TiltedJournalT {
       out.moment += m.e.cross(push) + moment_of(-F * swing * on.ux, -F * swing * on.uz, m);
       const Vec3T<M> point(T(side) * swing * on.ux, M(T(side) * half_length), T(side) * swing * on.uz);
       const Vec3T<M> v = m.e_dot + m.w.cross(Vec3T<M>(point - m.e));
-      const M pull = F * friction.force_per_velocity(length_from_square(M(v.x() * v.x() + v.z() * v.z())));
-      add(point, Vec3T<M>(-pull * v.x(), M(0.0), -pull * v.z()), out);
+      const auto [fx, fz] = traction(axial_place(side), F, M(v.x()), M(v.z()));
+      add(point, Vec3T<M>(fx, M(0.0), fz), out);
     }
   }
 
   T elastic_energy(const JournalMotion<T>& m) const {
-    using std::sqrt;
     T energy(0.0);
     for (int side : {-1, 1}) {
-      const T d = positive_part(end(m, side).penetration);
-      energy += T(0.4) * end_law.stiffness * d * d * sqrt(d);
+      const T d = end(m, side).penetration;
+      if (any(d > T(0.0))) energy += select(d > T(0.0), end_law.elastic_energy(select(d > T(0.0), d, T(1.0))), T(0.0));
       if (!has_faces) continue;
       const Face<T> on = face(m, side);
       energy += ring_contact(face_stiffness, on.depth, on.swing).energy;

@@ -46,10 +46,25 @@ std::array<double, 2> read_pair(Cursor& cursor, const std::string& key, const Si
   return {values[0], values[1]};
 }
 
-ContactParameters read_contact(Cursor& cursor, std::string& law) {
-  cursor.only({"law", "restitution", "young", "poisson", "density", "minimum_impact_speed", "stiffness_scale"});
+ContactParameters read_contact(Cursor& cursor, std::string& law, std::string& dissipation) {
+  cursor.only({"law", "dissipation", "restitution", "young", "poisson", "density", "minimum_impact_speed",
+               "stiffness_scale", "stiffness", "damping"});
   ContactParameters p;
   law = cursor.choice("law", contact_law_names(), law);
+  const ContactGeometry geometry = normal_law(law).geometry;
+  if (cursor.has("dissipation")) {
+    dissipation = cursor.choice("dissipation", dissipation_law_names(), dissipation);
+    if (geometry != ContactGeometry::line)
+      cursor.fail_found("dissipation", "it beside the law " + in_quotes(law), "it beside a law for cylinders: johnson, ...");
+  }
+  if (geometry == ContactGeometry::linear) {
+    p.linear_stiffness = positive(cursor, "stiffness", kStiffness);
+    p.linear_damping = cursor.quantity("damping", kDamping, 0.0);
+    cursor.require(p.linear_damping >= 0.0, "damping", "a damping of zero or more");
+  } else {
+    for (const char* key : {"stiffness", "damping"})
+      if (cursor.has(key)) cursor.fail_found(key, "it beside the law " + in_quotes(law), "it beside the law \"kelvin-voigt\"");
+  }
   p.restitution = cursor.number("restitution", p.restitution);
   cursor.require(p.restitution > 0.0 && p.restitution <= 1.0, "restitution", "a number above 0, at most 1");
   p.young = read_pair(cursor, "young", &kElasticModulus, p.young);
@@ -67,7 +82,8 @@ ContactParameters read_contact(Cursor& cursor, std::string& law) {
 }
 
 FrictionParameters read_friction(Cursor& cursor, std::string& law) {
-  cursor.only({"law", "coefficient", "static_speed", "dynamic_speed"});
+  cursor.only({"law", "coefficient", "static_speed", "dynamic_speed", "static_coefficient", "stribeck_speed",
+               "bristle_stiffness", "bristle_damping", "viscosity"});
   FrictionParameters p;
   law = cursor.choice("law", friction_law_names(), law);
   p.coefficient = cursor.number("coefficient", p.coefficient);
@@ -77,6 +93,28 @@ FrictionParameters read_friction(Cursor& cursor, std::string& law) {
   p.dynamic_speed = cursor.quantity("dynamic_speed", kSpeed, p.dynamic_speed);
   cursor.require(p.dynamic_speed > p.static_speed, cursor.has("dynamic_speed") ? "dynamic_speed" : "static_speed",
                  "dynamic_speed above static_speed");
+  const FrictionLawEntry& entry = friction_law(law);
+  const auto belongs = [&](const char* key, bool allowed, const char* to) {
+    if (cursor.has(key) && !allowed) cursor.fail_found(key, "it beside the law " + in_quotes(law), to);
+    return cursor.has(key);
+  };
+  const char* peaked = "it beside a law with a static peak: bengisu-akay, brown-mcphee, lugre";
+  if (belongs("static_coefficient", entry.peak, peaked)) {
+    p.static_coefficient = cursor.number("static_coefficient");
+    cursor.require(p.static_coefficient >= p.coefficient, "static_coefficient", "a number of at least coefficient");
+  }
+  if (belongs("stribeck_speed", entry.peak, peaked)) p.stribeck_speed = positive(cursor, "stribeck_speed", kSpeed);
+  const char* bristly = "it beside the law \"lugre\"";
+  if (belongs("bristle_stiffness", entry.sticks, bristly))
+    p.bristle_stiffness = positive(cursor, "bristle_stiffness", kPerLength);
+  if (belongs("bristle_damping", entry.sticks, bristly)) {
+    p.bristle_damping = cursor.quantity("bristle_damping", kPerSpeed);
+    cursor.require(p.bristle_damping >= 0.0, "bristle_damping", "a damping of zero or more");
+  }
+  if (belongs("viscosity", entry.sticks, bristly)) {
+    p.viscosity = cursor.quantity("viscosity", kPerSpeed);
+    cursor.require(p.viscosity >= 0.0, "viscosity", "a viscosity of zero or more");
+  }
   cursor.finish();
   return p;
 }
@@ -155,7 +193,9 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
     p.sleeve_length = positive(cursor, "sleeve_length", kLength);
   }
   Cursor contact = cursor.table_or_empty("contact"), friction = cursor.table_or_empty("friction");
-  p.contact = read_contact(contact, clearance.contact_law);
+  p.contact = read_contact(contact, clearance.contact_law, clearance.dissipation_law);
+  if (normal_law(clearance.contact_law).geometry == ContactGeometry::line && p.sleeve_length == 0.0)
+    p.sleeve_length = positive(cursor, "sleeve_length", kLength);
   p.friction = read_friction(friction, clearance.friction_law);
   cursor.finish();
   return clearance;

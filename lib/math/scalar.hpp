@@ -28,4 +28,21 @@ inline T length_from_square(const T& square) {
   return sqrt(select(square > T(0.0), square, T(1e-60)));
 }
 
+// Scalars with powers and exponentials, which laws off the common path need; a lane type may do without.
+namespace powers {
+using std::exp;
+using std::log;
+using std::pow;
+using std::tanh;
+template <typename T>
+concept Present = requires(const T& x) {
+  exp(x);
+  log(x);
+  pow(x, x);
+  tanh(x);
+};
+}  // namespace powers
+template <typename T>
+concept HasPowers = powers::Present<T>;
+
 }  // namespace boresight

@@ -66,6 +66,7 @@ struct ClearanceDescription {
   int journal = 0;  // the body that carries the journal; the joint's other body carries the sleeve
   JournalAxes axes = JournalAxes::parallel;
   std::string contact_law = "flores";
+  std::string dissipation_law;  // whose damping factor a law for cylinders takes; "": its own
   std::string friction_law = "modified-coulomb";
   ClearanceParameters parameters;
   Origin origin;

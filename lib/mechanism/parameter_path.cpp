@@ -30,9 +30,16 @@ const Field<C> kClearanceFields[] = {
     {"contact.density", "kg/m^3", [](C& c) { return &c.contact.density; }},
     {"contact.minimum_impact_speed", "m/s", [](C& c) { return &c.contact.minimum_impact_speed; }},
     {"contact.stiffness_scale", "1", [](C& c) { return &c.contact.stiffness_scale; }},
+    {"contact.stiffness", "N/m", [](C& c) { return &c.contact.linear_stiffness; }},
+    {"contact.damping", "N s/m", [](C& c) { return &c.contact.linear_damping; }},
     {"friction.coefficient", "1", [](C& c) { return &c.friction.coefficient; }},
     {"friction.static_speed", "m/s", [](C& c) { return &c.friction.static_speed; }},
     {"friction.dynamic_speed", "m/s", [](C& c) { return &c.friction.dynamic_speed; }},
+    {"friction.static_coefficient", "1", [](C& c) { return &c.friction.static_coefficient; }},
+    {"friction.stribeck_speed", "m/s", [](C& c) { return &c.friction.stribeck_speed; }},
+    {"friction.bristle_stiffness", "1/m", [](C& c) { return &c.friction.bristle_stiffness; }},
+    {"friction.bristle_damping", "s/m", [](C& c) { return &c.friction.bristle_damping; }},
+    {"friction.viscosity", "s/m", [](C& c) { return &c.friction.viscosity; }},
 };
 
 using S = SpringParameters;

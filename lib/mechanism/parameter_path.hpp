@@ -2,8 +2,10 @@
 //
 //   gravity.x|y|z, payload.mass, body.NAME.mass,
 //   clearance.JOINT.{radial, axial, journal_radius, cap_radius, sleeve_length},
-//   clearance.JOINT.contact.{restitution, young, poisson, density, minimum_impact_speed, stiffness_scale},
-//   clearance.JOINT.friction.{coefficient, static_speed, dynamic_speed},
+//   clearance.JOINT.contact.{restitution, young, poisson, density, minimum_impact_speed, stiffness_scale,
+//       stiffness, damping},                                    (the last two: of the Kelvin-Voigt law)
+//   clearance.JOINT.friction.{coefficient, static_speed, dynamic_speed, static_coefficient, stribeck_speed,
+//       bristle_stiffness, bristle_damping, viscosity},
 //   spring.NUMBER.{stiffness, damping, free_length}            (NUMBER from 1, in file order)
 //
 // JOINT or NAME may be *: all of them, one value. young and poisson set both parts.

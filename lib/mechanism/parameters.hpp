@@ -20,13 +20,20 @@ struct ContactParameters {
   std::array<double, 2> poisson = {0.33, 0.33};  // [-]
   double density = 2700.0;                       // [kg/m^3], for the speed up to which Flores' law is valid
   double minimum_impact_speed = 1e-3;            // [m/s], lower bound of the latched impact speed
-  double stiffness_scale = 1.0;                  // [-], multiplies the Hertz stiffness; calibration fits it
+  double stiffness_scale = 1.0;                  // [-], multiplies the stiffness of the law; calibration fits it
+  double linear_stiffness = 0.0;                 // [N/m], of the Kelvin-Voigt law
+  double linear_damping = 0.0;                   // [N s/m], of the Kelvin-Voigt law
 };
 
 struct FrictionParameters {
-  double coefficient = 0.0;     // [-]
-  double static_speed = 1e-4;   // v_s [m/s]
-  double dynamic_speed = 1e-3;  // v_d [m/s]
+  double coefficient = 0.0;         // kinetic [-]
+  double static_speed = 1e-4;       // v_s [m/s]
+  double dynamic_speed = 1e-3;      // v_d [m/s]
+  double static_coefficient = 0.0;  // [-], of laws with a static peak; 0: the kinetic one
+  double stribeck_speed = 1e-2;     // v_st [m/s], over which the peak decays
+  double bristle_stiffness = 1e5;   // s0 of LuGre, per normal force [1/m]
+  double bristle_damping = 10.0;    // s1 of LuGre, per normal force [s/m]
+  double viscosity = 0.0;           // s2 of LuGre, per normal force [s/m]
 };
 
 struct ClearanceParameters {

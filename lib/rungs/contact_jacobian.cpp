@@ -13,9 +13,9 @@ JournalInSleeveT<T> with_scalar(const JournalInSleeve& d) {
   law.bore_radius = T(d.bore_radius);
   law.half_length = T(d.half_length);
   law.has_faces = d.has_faces;
-  law.radial_law = {T(d.radial_law.stiffness), T(d.radial_law.damping_factor)};
+  law.radial_law = d.radial_law.template cast<T>();
   law.face_stiffness = T(d.face_stiffness);
-  law.friction = {T(d.friction.coefficient), T(d.friction.static_speed), T(d.friction.dynamic_speed)};
+  law.friction = d.friction.template cast<T>();
   law.tilts = d.tilts;
   const TiltedJournalT<double>& t = d.tilted;
   law.tilted.radial_clearance = T(t.radial_clearance);
@@ -25,7 +25,7 @@ JournalInSleeveT<T> with_scalar(const JournalInSleeve& d) {
   law.tilted.ring_radius = T(t.ring_radius);
   law.tilted.has_faces = t.has_faces;
   law.tilted.slides = t.slides;
-  law.tilted.end_law = {T(t.end_law.stiffness), T(t.end_law.damping_factor)};
+  law.tilted.end_law = t.end_law.template cast<T>();
   law.tilted.face_stiffness = T(t.face_stiffness);
   law.tilted.friction = law.friction;
   return law;

@@ -97,16 +97,17 @@ std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const
     const JournalInSleeve law(m.clearances[c], m.joints[m.clearances[c].joint].type, parameters.clearance[c]);
     ContactFrequency f;
     f.joint = m.joints[m.clearances[c].joint].name;
-    f.hertz_stiffness = law.radial_law.stiffness;
+    f.hertz_stiffness = law.radial_law.curve == ElasticCurve::point ? law.radial_law.stiffness : 0.0;
     f.axial_stiffness = law.face_stiffness;
     f.typical_load = along.reaction_rms[c];
-    f.typical_penetration = std::pow(f.typical_load / f.hertz_stiffness, 2.0 / 3.0);
+    f.typical_penetration = law.radial_law.depth_under(f.typical_load);
     f.validity_speed = law.validity_speed;
     const Mat3 A = along.compliance_max.block<3, 3>(at.first, at.first);
     const double largest = Eigen::SelfAdjointEigenSolver<Mat3>(A).eigenvalues()[2];
     f.effective_mass = largest > 0.0 ? 1.0 / largest : 0.0;
-    const double deepest = std::pow(2.0 * along.reaction_max[c] / f.hertz_stiffness, 2.0 / 3.0);
-    const double radial = 1.5 * f.hertz_stiffness * std::sqrt(deepest);
+    f.largest_load = along.reaction_max[c];
+    const double deepest = law.radial_law.depth_under(2.0 * along.reaction_max[c]);
+    const double radial = deepest > 0.0 ? law.radial_law.elastic_slope(deepest) : 0.0;
     root_stiffness.segment<3>(at.first) << std::sqrt(radial), std::sqrt(law.face_stiffness), std::sqrt(radial);
     // Both ends of a tilting journal at half the stiffness each, half a sleeve's length from its centre.
     if (at.tilts) root_stiffness.segment<2>(at.first + 3).setConstant(std::sqrt(radial) * law.half_length);

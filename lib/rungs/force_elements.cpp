@@ -74,6 +74,9 @@ void ForceElements::apply(double t, const std::vector<BodyMotion>& bodies, const
     joint.motion = journal_motion(static_cast<int>(c), bodies);
     if (hold_)
       ;  // the last wrench
+    else if (held_.empty() && joint.law.sticks)
+      joint.law.wrench(joint.motion, memory[c].impact_speed, memory[c].bristle, joint.wrench, joint.bristle_rate,
+                       memory[c].largest_bristle_rate);
     else if (held_.empty())
       joint.law.wrench(joint.motion, memory[c].impact_speed, joint.wrench);
     else

@@ -38,6 +38,7 @@ class ForceElements {
   // Of the last apply().
   const JournalWrench<double>& contact(int clearance) const { return joints_[clearance].wrench; }
   const JournalMotion<double>& motion(int clearance) const { return joints_[clearance].motion; }
+  const Bristles<double>& bristle_rate(int clearance) const { return joints_[clearance].bristle_rate; }
 
  private:
   struct Joint {
@@ -45,6 +46,7 @@ class ForceElements {
     JointFrame sleeve, journal;
     JournalMotion<double> motion;
     JournalWrench<double> wrench;
+    Bristles<double> bristle_rate{};
   };
   struct Spring {
     int first, second;

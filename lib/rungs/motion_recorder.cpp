@@ -64,6 +64,7 @@ void MotionRecorder::sample_clearance(int clearance, const JournalMotion<double>
                                       const std::array<ContactState<double>, kContactPlaces>& contact) {
   ClearanceSample s;
   s.offset = motion.e;
+  s.offset_rate = motion.e_dot;
   s.penetration = -1e300;
   bool radial = false, axial = false;
   for (int k = 0; k < kContactPlaces; ++k) {

@@ -10,6 +10,7 @@
 
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/bristle_state.hpp"
 #include "boresight/rungs/contact_report.hpp"
 #include "boresight/rungs/contact_tracker.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
@@ -90,9 +91,24 @@ class Multibody final : public Rung {
     ideal.state(0.0, start);
     VecX y;
     formulation->start(start, y);
+    const BristleState bristles(joints);
+    // Where friction has a state it follows the bodies', which then are a copy of the head of the whole.
+    const Eigen::Index n = y.size();
+    VecX head, head_dot(n);
+    if (!bristles.empty()) y.conservativeResizeLike(VecX::Zero(n + bristles.size()));
+    const auto bodies_of = [&](const VecX& state) -> const VecX& {
+      if (bristles.empty()) return state;
+      head = state.head(n);
+      return head;
+    };
     ExplicitRungeKutta method(classical_rk4(), y.size());
     const auto derivative = [&](double t, const VecX& state, VecX& dy) {
-      formulation->derivative(t, state, memory, dy);
+      if (bristles.empty()) return formulation->derivative(t, state, memory, dy);
+      bristles.hand_over(state.tail(bristles.size()), h, memory);
+      formulation->derivative(t, bodies_of(state), memory, head_dot);
+      dy.head(n) = head_dot;
+      bristles.rates([&](std::size_t c) -> const Bristles<double>& { return forces.bristle_rate(static_cast<int>(c)); },
+                     dy.tail(bristles.size()));
     };
 
     double drift = 0.0, fastest = 0.0;
@@ -106,10 +122,11 @@ class Multibody final : public Rung {
       if (!y.allFinite())
         throw ComputationError("the motion grew without bound before t = " + std::to_string(t) +
                                " s with h = " + std::to_string(h) + " s; take a smaller step");
-      accept_contacts(formulation->bodies(t, y), t, forces, trackers, memory, motion);
+      accept_contacts(formulation->bodies(t, bodies_of(y)), t, forces, trackers, memory, motion);
+      bristles.release(memory, y.tail(bristles.size()));
       derivative(t, y, method.first_slope());
       drift = std::max(drift, formulation->violation());
-      record(*formulation, y, t, trackers, recorder, options);
+      record(*formulation, bodies_of(y), t, trackers, recorder, options);
       if (std::any_of(trackers.begin(), trackers.end(), [](const ContactTracker& c) { return c.touching(); })) {
         if (compliance.size() == 0 || i - compliance_age >= compliance_every) {
           compliance = formulation->offset_compliance();
@@ -125,7 +142,13 @@ class Multibody final : public Rung {
         break;
       }
       method.step(t, h, y, derivative);
-      formulation->settle(t + h, y);
+      if (bristles.empty()) {
+        formulation->settle(t + h, y);
+      } else {
+        head = y.head(n);
+        formulation->settle(t + h, head);
+        y.head(n) = head;
+      }
     }
 
     RunResult result = recorder.finish();
@@ -149,6 +172,9 @@ class Multibody final : public Rung {
       throw ComputationError(
           "generalized-alpha needs coordinates whose rates are the speeds, and this state holds quaternions; "
           "rosenbrock is implicit too");
+    for (int c = 0; c < formulation->forces().clearances(); ++c)
+      if (formulation->forces().joint(c).sticks)
+        throw std::invalid_argument("LuGre friction has a state that only rk4 carries, not " + integrator);
     std::vector<ContactTracker> trackers = make_trackers(formulation->forces(), options);
     MotionRecorder recorder(*mechanism_, ideal, options, 2.0 * duration / kPaperStep);
     IdealState start;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -72,8 +73,9 @@ class Perturbation final : public SceneRung {
     const double h = duration / static_cast<double>(steps);
     MotionRecorder recorder(mechanism, prepared.ideal(), options, static_cast<double>(steps));
     VecX y = VecX::Zero(system.size());
-    y.head(y.size() / 2).setConstant(options.start_offset);
+    y.head(system.layout().n).setConstant(options.start_offset);
     ExplicitRungeKutta method(classical_rk4(), system.size());
+    system.set_step(h);
     const double limit = classical_rk4().real_limit;
     bool interrupted = false;
     MatX compliance;
@@ -123,9 +125,11 @@ class Perturbation final : public SceneRung {
                               const std::string& integrator) const {
     const double duration = mechanism().duration();
     PerturbationSystem system(mechanism(), parameters, prepared.tables(parameters), options.events);
+    if (system.has_bristles())
+      throw std::invalid_argument("LuGre friction has a state that only rk4 carries, not " + integrator);
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, 2.0 * duration / kPaperStep);
     VecX y = VecX::Zero(system.size()), slope = y;
-    y.head(y.size() / 2).setConstant(options.start_offset);
+    y.head(system.layout().n).setConstant(options.start_offset);
     Nonlinearity nonlinearity;
     bool interrupted = false;
     long points = 0;
@@ -208,14 +212,14 @@ class Perturbation final : public SceneRung {
 
   void record(const PreparedScene& prepared, const RunOptions& options, double t, const VecX& y, const VecX& slope,
               const PerturbationSystem& system, MotionRecorder& recorder, Nonlinearity& nonlinearity) const {
-    const Eigen::Index n = y.size() / 2;
+    const Eigen::Index n = system.layout().n;
     const DisplacedBodies displaced(prepared, t, y.head(n));
     BodyAcceleration a;
-    BodyMotion body = displaced.moving(mechanism().boresight_body(), y.tail(n), slope.tail(n), a);
+    BodyMotion body = displaced.moving(mechanism().boresight_body(), y.segment(n, n), slope.segment(n, n), a);
     nonlinearity.add(recorder.accept(t, body, a), y.head(n), mechanism().characteristic_length());
     if (!recorder.sampling()) return;
     for (std::size_t k = 0; k < options.pose_bodies.size(); ++k) {
-      body = displaced.moving(options.pose_bodies[k], y.tail(n), slope.tail(n), a);
+      body = displaced.moving(options.pose_bodies[k], y.segment(n, n), slope.segment(n, n), a);
       recorder.sample_body(static_cast<int>(k), body, a);
     }
     for (std::size_t c = 0; c < system.motion().size(); ++c)

@@ -56,9 +56,12 @@ PerturbationSystem::PerturbationSystem(const Mechanism& mechanism, const Paramet
     : tables_(std::move(tables)),
       joints_(joints_of(mechanism, parameters)),
       trackers_(trackers_of(mechanism, joints_, keep_events)),
+      bristles_(joints_),
       contacts_(joints_, trackers_),
       motion_(joints_.size()),
       wrench_(joints_.size()),
+      memory_(joints_.size()),
+      bristle_rate_(joints_.size()),
       row_(tables_->dynamics.width()),
       force_(VecX::Zero(tables_->layout.n)),
       gain_(kMotionNumbers, size()),
@@ -80,6 +83,7 @@ void PerturbationSystem::derivative(double t, const VecX& y, VecX& dy) const {
   scene_at(t);
   const SceneLayout& at = tables_->layout;
   const double *z = y.data(), *rate = z + at.n;
+  bristles_.hand_over(y.tail(bristles_.size()), step_, memory_);
   force_.setZero();
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     motion_[c] = journal_motion(at, at.joints[c], row_.data(), z, rate);
@@ -89,11 +93,16 @@ void PerturbationSystem::derivative(double t, const VecX& y, VecX& dy) const {
       continue;
     }
     const JournalInSleeve& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
-    law.wrench(motion_[c], trackers_[c].memory().impact_speed, wrench_[c]);
+    if (law.sticks)
+      law.wrench(motion_[c], trackers_[c].memory().impact_speed, memory_[c].bristle, wrench_[c], bristle_rate_[c],
+                 memory_[c].largest_bristle_rate);
+    else
+      law.wrench(motion_[c], trackers_[c].memory().impact_speed, wrench_[c]);
     add_generalised_force(at, at.joints[c], row_.data(), motion_[c], wrench_[c], force_.data());
   }
   std::copy(rate, rate + at.n, dy.data());
   coordinate_acceleration(at, row_.data(), z, rate, force_.data(), dy.data() + at.n);
+  bristles_.rates([&](std::size_t c) -> const Bristles<double>& { return bristle_rate_[c]; }, dy.tail(bristles_.size()));
 }
 
 void PerturbationSystem::jacobian(double t, const VecX& y, MatX& J) const {
@@ -123,14 +132,16 @@ void PerturbationSystem::jacobian(double t, const VecX& y, MatX& J) const {
   if (at.stiff) J.bottomLeftCorner(n, n) -= Rows(scene + at.AK, n, n);
 }
 
-void PerturbationSystem::accept(double t, const VecX& y) {
+void PerturbationSystem::accept(double t, VecX& y) {
   scene_at(t);
   const SceneLayout& at = tables_->layout;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     motion_[c] = journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n);
     joints_[c].gaps(motion_[c], contact_);
     trackers_[c].accept(t, contact_);
+    if (!bristles_.empty()) memory_[c].touching = trackers_[c].memory().touching;
   }
+  bristles_.release(memory_, y.tail(bristles_.size()));
 }
 
 void PerturbationSystem::start_located(double t, const VecX& y) {

@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "boresight/rungs/bristle_state.hpp"
 #include "boresight/rungs/clearance_scene.hpp"
 #include "boresight/rungs/located_contacts.hpp"
 
@@ -17,11 +18,16 @@ class PerturbationSystem {
   PerturbationSystem(const Mechanism& mechanism, const Parameters& parameters,
                      std::shared_ptr<const SceneTables> tables, bool keep_events);
 
-  int size() const { return 2 * tables_->layout.n; }
+  // The bristles of LuGre friction, if any, follow z and zdot; only accept() carries them, not the Jacobian or the events.
+  int size() const { return 2 * tables_->layout.n + static_cast<int>(bristles_.size()); }
+  bool has_bristles() const { return !bristles_.empty(); }
+  // Of the fixed step to come [s]: bristles relax no faster than it resolves.
+  void set_step(double h) { step_ = h; }
   void derivative(double t, const VecX& y, VecX& dy) const;
   void jacobian(double t, const VecX& y, MatX& J) const;
 
-  void accept(double t, const VecX& y);
+  // Lets go the bristles of contacts that have parted.
+  void accept(double t, VecX& y);
 
   void start_located(double t, const VecX& y);
   int gap_count() const { return contacts_.gap_count(); }
@@ -47,10 +53,14 @@ class PerturbationSystem {
   std::shared_ptr<const SceneTables> tables_;
   std::vector<JournalInSleeve> joints_;
   std::vector<ContactTracker> trackers_;
+  BristleState bristles_;
+  double step_ = 0.0;
   LocatedContacts contacts_;
   bool located_ = false;
   mutable std::vector<JournalMotion<double>> motion_;
   mutable std::vector<JournalWrench<double>> wrench_;
+  mutable std::vector<ContactMemory> memory_;  // with bristles
+  mutable std::vector<Bristles<double>> bristle_rate_;
   mutable std::vector<double> row_;
   mutable double row_time_ = -1.0;
   mutable VecX force_;

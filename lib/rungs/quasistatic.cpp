@@ -33,7 +33,8 @@ class Quasistatic final : public SceneRung {
         rest[c] = rest_under(joints[c], now.load[c].force, now.load[c].slide, rest[c]);
         reactions.note(rest[c], summary[c]);
         // An elastic Hertz contact that a load F meets suddenly goes as deep as 2/5 K d^(5/2) = F d lets it.
-        constexpr double kSudden = 0.8420157493201933;  // (5/2)^(2/3) - 1
+        // A spring goes twice as deep, the other curves less: the bound for them all.
+        const double kSudden = joints[c].radial_law.curve == ElasticCurve::point ? 0.8420157493201933 : 1.0;  // (5/2)^(2/3) - 1
         const double deflection = std::max(rest[c].radial_reach[0], rest[c].radial_reach[1]) - joints[c].radial_clearance;
         overshoot = std::max(overshoot, kSudden * deflection / (joints[c].radial_clearance + deflection));
       }

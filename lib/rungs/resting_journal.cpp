@@ -22,23 +22,23 @@ double ring_depth(double stiffness, double force, double swing) {
   return 0.5 * (low + high);
 }
 
-Vec2 rest_along(const Vec2& force, double clearance, double stiffness, double& reach) {
+Vec2 rest_along(const Vec2& force, double clearance, const NormalLaw& law, double& reach) {
   const double size = force.norm();
-  reach = clearance + std::pow(size / stiffness, 2.0 / 3.0);
+  reach = clearance + law.depth_under(size);
   return size > 0.0 ? Vec2(reach / size * force) : Vec2(Vec2::Zero());
 }
 
 void rest_parallel(const JournalInSleeve& joint, const Vec3& load, const Rest& before, Rest& rest) {
   Vec3& e = rest.motion.e;
   const Vec2 radial(load.x(), load.z());
-  const Vec2 at = rest_along(radial, joint.radial_clearance, joint.radial_law.stiffness, rest.radial_reach[0]);
+  const Vec2 at = rest_along(radial, joint.radial_clearance, joint.radial_law, rest.radial_reach[0]);
   rest.radial_reach[1] = rest.radial_reach[0];
   e << at.x(), 0.0, at.y();
   double axial_force = 0.0;
   if (joint.has_faces) {
     const double along = std::abs(load.y());
     rest.axial_reach = joint.axial_clearance + along / joint.face_stiffness;
-    const bool slips = along > joint.friction.coefficient * radial.norm();
+    const bool slips = along > joint.friction.stiction * radial.norm();
     axial_force = slips ? along : 0.0;
     e.y() = slips ? std::copysign(rest.axial_reach, load.y())
                   : std::clamp(before.motion.e.y(), -joint.axial_clearance, joint.axial_clearance);
@@ -63,8 +63,8 @@ void rest_tilted(const JournalInSleeve& joint, const Eigen::Matrix<double, 5, 1>
     const Vec2 difference = 2.0 * (couple + ring_couple + reach_shift * radial) / length;
     ends[0] = 0.5 * (radial - difference);
     ends[1] = 0.5 * (radial + difference);
-    const Vec2 minus = rest_along(ends[0], t.radial_clearance, t.end_law.stiffness, rest.radial_reach[0]);
-    const Vec2 plus = rest_along(ends[1], t.radial_clearance, t.end_law.stiffness, rest.radial_reach[1]);
+    const Vec2 minus = rest_along(ends[0], t.radial_clearance, t.end_law, rest.radial_reach[0]);
+    const Vec2 plus = rest_along(ends[1], t.radial_clearance, t.end_law, rest.radial_reach[1]);
     m.slope = (plus - minus) / length;
     const Vec2 centre = 0.5 * (plus + minus) + reach_shift * m.slope;
     m.e.x() = centre.x();
@@ -72,7 +72,7 @@ void rest_tilted(const JournalInSleeve& joint, const Eigen::Matrix<double, 5, 1>
     if (!t.has_faces) break;
     const double along = std::abs(load[1]), tilt = m.slope.norm(), swing = t.ring_radius * tilt;
     const double room = std::max(0.0, t.axial_clearance - swing);
-    if (along <= t.friction.coefficient * (ends[0].norm() + ends[1].norm())) {
+    if (along <= t.friction.stiction * (ends[0].norm() + ends[1].norm())) {
       axial_force = 0.0;
       rest.axial_reach = t.axial_clearance;
       m.e.y() = std::clamp(before.motion.e.y(), -room, room);

@@ -48,6 +48,7 @@ struct ClearanceSample {
   double penetration = 0.0;    // deepest of its contacts; negative: the smallest gap [m]
   double normal_force = 0.0;   // sum over its contacts [N]
   int contact = 0;             // 0 free, 1 radial, 2 axial, 3 both
+  Vec3 offset_rate = Vec3::Zero();  // as seen from the sleeve [m/s]
 };
 
 struct BodyHistory {

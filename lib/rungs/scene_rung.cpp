@@ -65,6 +65,8 @@ BodyMotion DisplacedBodies::moving(int body, const Eigen::Ref<const VecX>& z_dot
 }
 
 std::shared_ptr<const PreparedScene> SceneRung::prepared_for(const Parameters& parameters) const {
+  if (mechanism_->clearances() == 0)
+    throw ComputationError("no joint has clearance, so nothing deviates from the ideal motion; multibody follows that");
   const std::lock_guard lock(mutex_);
   if (!prepared_ || (!is_kinematic(*mechanism_) && !same_scene(prepared_parameters_, parameters))) {
     prepared_ = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);

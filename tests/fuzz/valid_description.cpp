@@ -42,7 +42,9 @@ std::string fault_of_clearance(const MechanismDescription& m, const ClearanceDes
   for (const double x : {p.radial, p.axial, p.journal_radius, p.cap_radius, p.sleeve_length, p.contact.restitution,
                          p.contact.young[0], p.contact.young[1], p.contact.poisson[0], p.contact.poisson[1], p.contact.density,
                          p.contact.minimum_impact_speed, p.contact.stiffness_scale, p.friction.coefficient,
-                         p.friction.static_speed, p.friction.dynamic_speed}) {
+                         p.friction.static_speed, p.friction.dynamic_speed, p.contact.linear_stiffness, p.contact.linear_damping,
+                         p.friction.static_coefficient, p.friction.stribeck_speed, p.friction.bristle_stiffness,
+                         p.friction.bristle_damping, p.friction.viscosity}) {
     if (!std::isfinite(x) || x < 0.0) return "clearance number";
   }
   if (p.radial <= 0.0 || p.journal_radius <= 0.0) return "radii";

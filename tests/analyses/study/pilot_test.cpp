@@ -36,6 +36,27 @@ TEST(Pilot, TakesTheCheapestRungThatMeetsTheAccuracy) {
   EXPECT_NE(fine.why.find("cheapest"), std::string::npos);
 }
 
+TEST(Pilot, TriesIntegratorsWithErrorControlWhereItIsAskedTo) {
+  const auto mechanism = rrcpr({{"motion.duration", "0.1 s"}});
+  RungQuestion question{.asked = "auto", .accuracy = 0.002, .index = {"position_error", "rms"}};
+  for (bool integrators : {false, true}) {
+    question.integrators = integrators;
+    const RungChoice choice = choose_rung(question, mechanism, {mechanism->parameters()});
+    ASSERT_TRUE(choice.pilot);
+    bool tried = false;
+    for (const PilotTrial& t : choice.pilot->trials) tried = tried || !t.integrator.empty();
+    EXPECT_EQ(tried, integrators);
+    // What is handed on is what was measured.
+    RunOptions options;
+    apply(choice, options);
+    EXPECT_EQ(options.step, chosen(*choice.pilot).step);
+    EXPECT_EQ(options.integrator, chosen(*choice.pilot).integrator);
+    EXPECT_EQ(options.tolerance, chosen(*choice.pilot).tolerance);
+    for (const PilotTrial& t : choice.pilot->trials)
+      EXPECT_TRUE(!t.accepted || t.cpu_seconds >= chosen(*choice.pilot).cpu_seconds) << t.rung;
+  }
+}
+
 TEST(Pilot, ClimbsWhereClearanceIsLarge) {
   // A gap of a hundredth of the lengths, and of small contact stiffness: the deviation is no longer small.
   const auto mechanism = rrcpr({{"motion.duration", "0.15 s"}, {"clearance.F1.radial", "8 mm"}, {"clearance.F1.cap_radius", "25 mm"},

@@ -36,7 +36,7 @@ class ProgramTest : public Program {
 TEST_F(ProgramTest, HelpAndVersion) {
   EXPECT_THAT(call({"--version"}).out, HasSubstr("boresight "));
   EXPECT_THAT(call({"--help"}).out, AllOf(HasSubstr("check"), HasSubstr("run"), HasSubstr("sweep")));
-  for (const char* verb : {"check", "run", "sweep"}) {
+  for (const char* verb : {"check", "run", "sweep", "chart", "stability"}) {
     const Ended ended = call({verb, "--help"});
     EXPECT_EQ(ended.status, 0);
     EXPECT_THAT(ended.out,
@@ -66,6 +66,9 @@ TEST_F(ProgramTest, BadInputIsOneLineAndStatusTwo) {
   expect_refused({"run", mechanism_, "--integrator", "dopri5", "--tolerance", "1 mm"}, "--tolerance");
   expect_refused({"run", mechanism_, "--jobs", "-1"}, "--jobs");
   expect_refused({"sweep", mechanism_}, "expected a study file");
+  expect_refused({"chart", mechanism_, "--index", "position_error.biggest"}, "--index");
+  expect_refused({"chart", mechanism_, "--time", "3 kg"}, "--time");
+  expect_refused({"stability", mechanism_, "--rung", "multybody"}, "did you mean multibody?");
 }
 
 TEST_F(ProgramTest, AnUnknownFormulationIsBadInput) {
@@ -156,8 +159,42 @@ TEST_F(ProgramTest, CheckNamesTheLostMotionOfASingularMechanismAndAnswersNo) {
   EXPECT_THAT(summary["findings"][0].get<std::string>(), HasSubstr("turns about (0, 0, 1)"));
 }
 
+TEST_F(ProgramTest, LawsPrintsTheTableWithAndWithoutAMechanism) {
+  const Ended plain = call({"laws", "--out", "plain"});
+  EXPECT_EQ(plain.status, 0) << plain.err;
+  EXPECT_THAT(plain.out, AllOf(HasSubstr("lankarani-nikravesh"), HasSubstr("0.91318"), HasSubstr("lugre")));
+  EXPECT_THAT(files("plain"),
+              ElementsAre("force.csv", "friction.csv", "report.html", "restitution.csv", "summary.json"));
+  const Ended of_joint = call({"laws", mechanism_, "--out", "joint"});
+  EXPECT_EQ(of_joint.status, 0) << of_joint.err;
+  const auto summary = json("joint/summary.json");
+  EXPECT_NEAR(summary["contact_laws"]["flores"]["returned"]["0.9"].get<double>(), 0.89392, 2e-5);
+  EXPECT_THAT(summary["warnings"][0].get<std::string>(), AllOf(HasSubstr("flores"), HasSubstr("johnson fits")));
+  expect_refused({"laws", mechanism_, "--joint", "F2", "--out", "other"}, "F1");
+  expect_refused({"laws", "--set", "gravity.z=0m/s^2", "--out", "other"}, "boresight laws MECHANISM");
+}
+
+TEST_F(ProgramTest, RunWarnsOfALawOutsideOfItsRangeAndNamesOneThatFits) {
+  const Ended ended = call({"run", mechanism_, "--rung", "quasistatic", "--set", "clearance.F1.radial=20um", "--out", "tight"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("outside of its range"), HasSubstr("fits")));
+}
+
+TEST_F(ProgramTest, NonlinearToolsAreInTheReportTheSummaryAndATable) {
+  const Ended ended = call({"run", BORESIGHT_EXAMPLES "/spatial-double-crank/spatial-double-crank.toml", "--rung", "perturbation",
+                            "--set", "motion.duration=5s", "--nonlinear", "0.5 s", "--sample", "5 ms", "--out", "map"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  const auto nonlinear = json("map/summary.json")["nonlinear"];
+  EXPECT_EQ(nonlinear["periods"], 10);
+  EXPECT_TRUE(nonlinear["joints"]["D"]["lyapunov"].contains("value"));
+  EXPECT_THAT(text("map/report.html"), HasSubstr("Phase portrait"));
+  const std::string table = text("map/poincare.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 9);  // two of ten periods left out, both ends counted
+  expect_refused({"run", mechanism_, "--nonlinear", "0.5 s", "--out", "short"}, "ten or more");
+}
+
 TEST_F(ProgramTest, OtherMechanismsRun) {
-  for (const std::string name : {"crank-slider", "four-bar"}) {
+  for (const std::string name : {"crank-slider", "four-bar", "3-rrr", "spatial-slider-crank", "spatial-double-crank", "2-us-pointing"}) {
     const Ended ended = call({"run", BORESIGHT_EXAMPLES "/" + name + "/" + name + ".toml", "--quiet"});
     EXPECT_EQ(ended.status, 0) << ended.err;
     EXPECT_GT(json("results/" + name + "-run/summary.json")["index"]["position_error"]["max"].get<double>(),
@@ -184,6 +221,37 @@ TEST_F(ProgramTest, ASweepHasARowPerPointWhateverTheJobs) {
   EXPECT_EQ(summary["points"].size(), 3u);
   EXPECT_EQ(summary["points"][1]["index"]["position_error"]["max"], summary["index"]["values"][1]);
   EXPECT_THAT(text("results/study-sweep/report.html"), HasSubstr("What the paper found"));
+}
+
+TEST_F(ProgramTest, StabilityLeavesMapsAndCasesWithTheLimitsOfTheory) {
+  const Ended ended = call({"stability", mechanism_, "--set", "motion.duration=50ms", "--out", "out"});
+  ASSERT_EQ(ended.status, 0) << ended.err << ended.out;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("step limit 2.8284 measured"), HasSubstr("Grazing and chatter"), HasSubstr("out/report.html")));
+  EXPECT_THAT(files("out"), ElementsAre("baumgarte.csv", "cases.csv", "growth.csv", "horizon.csv", "limits.csv", "report.html",
+                                        "steps.csv", "summary.json"));
+  const auto summary = json("out/summary.json");
+  EXPECT_EQ(summary["cases"].size(), 11u);
+  EXPECT_LT(summary["largest_difference_from_theory"].get<double>(), 0.02);
+  EXPECT_EQ(summary["baumgarte"]["limits"].size(), 14u);
+  // The reader's own refusal of a restitution of zero stands in the case.
+  EXPECT_THAT(text("out/cases.csv"), HasSubstr("expected a number above 0, at most 1"));
+  EXPECT_THAT(text("out/report.html"), HasSubstr("Where methods and models fail"));
+}
+
+TEST_F(ProgramTest, AChartOfAStudyTakesItsIndexAndItsAccuracy) {
+  write("study.toml", "format = 1\nmechanism = \"" + mechanism_ +
+                          "\"\naccuracy = \"20 %\"\n[index]\nquantity = \"position_error\"\nstatistic = \"rms\"\n");
+  const Ended ended = call({"chart", "study.toml", "--set", "motion.duration=50ms", "--time", "1 s", "--out", "out"});
+  ASSERT_EQ(ended.status, 0) << ended.err << ended.out;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("position error, RMS"), HasSubstr("Pareto front"), HasSubstr("the paper's own setting"),
+                               HasSubstr("cheapest within 20 %")));
+  EXPECT_THAT(files("out"), ElementsAre("chart.csv", "flight.csv", "report.html", "summary.json"));
+  const auto summary = json("out/summary.json");
+  EXPECT_EQ(summary["papers"]["way"], "multibody, paper, baumgarte, rk4");
+  EXPECT_GT(summary["reference"]["uncertainty"].get<double>(), 0.0);
+  EXPECT_FALSE(summary["machine"]["processor"].get<std::string>().empty());
+  EXPECT_FALSE(summary["cheapest_within_accuracy"].is_null());
+  EXPECT_THAT(text("out/report.html"), HasSubstr("Trajectory error before the first impact"));
 }
 
 TEST_F(ProgramTest, TwoStartsOfTheProgramGiveTheSameBytes) {

@@ -114,7 +114,7 @@ TEST(ErrorLine, NamesKeysThatAreUnknownMissingOrWithoutMeaning) {
       {"driven = true", "driven = true\nsecond_axis = [1, 0, 0]",
        R"~(f.toml:34: joint.P.second_axis: found a key that has no meaning here, expected no such key)~"},
       {"restitution = 0.9", "resitution = 0.9",
-       R"~(f.toml:46: clearance.R.contact.resitution: found an unknown key, expected one of law, restitution, young, poisson, density, minimum_impact_speed, stiffness_scale; did you mean restitution?)~"},
+       R"~(f.toml:46: clearance.R.contact.resitution: found an unknown key, expected one of law, dissipation, restitution, young, poisson, density, minimum_impact_speed, stiffness_scale, stiffness, damping; did you mean restitution?)~"},
       {"torque = \"0.033\"", "torque = \"0.033\"\nforce = \"1\"",
        R"~(f.toml:59: load.1.force: found a key that has no meaning here, expected no such key; did you mean torque?)~"},
       {"[payload]", "[payloads]",
@@ -269,9 +269,9 @@ TEST(ErrorLine, NamesTheNearestName) {
       {"\"0.01*sin(t)\"", "\"0.01*sni(t)\"",
        R"~(f.toml:36: motion.drives.P: found the unknown name "sni" in "0.01*sni(t)", expected t, pi or a function such as sin; did you mean sin?)~"},
       {"restitution = 0.9", "law = \"florez\"",
-       R"~(f.toml:46: clearance.R.contact.law: found "florez", expected one of "flores", "hertz"; did you mean flores?)~"},
+       R"~(f.toml:46: clearance.R.contact.law: found "florez", expected one of "flores", "hertz", "hunt-crossley", "herbert-mcwhannell", "lee-wang", "lankarani-nikravesh", "gonthier", "zhiying-qishao", "hu-guo", "carvalho-martins", "exact", "kelvin-voigt", "johnson", "radzimovsky", "dubowsky-freudenstein", "liu", "pereira"; did you mean flores?)~"},
       {"coefficient = 0.03", "law = \"coulomb\"",
-       R"~(f.toml:48: clearance.R.friction.law: found "coulomb", expected one of "none", "modified-coulomb")~"},
+       R"~(f.toml:48: clearance.R.friction.law: found "coulomb", expected one of "none", "modified-coulomb", "threlfall", "bengisu-akay", "brown-mcphee", "lugre")~"},
   });
 }
 

@@ -136,5 +136,13 @@ TEST(Envelope, IsNeverBelowTheQuasistaticMaximum) {
   }
 }
 
+TEST(SceneRungs, RefuseAMechanismWithoutClearance) {
+  MechanismDescription description = scenes::rrcpr({{"motion.duration", "0.05 s"}});
+  description.clearances.clear();
+  const auto mechanism = scenes::build(description);
+  for (const char* name : {"envelope", "quasistatic", "perturbation"})
+    EXPECT_THROW(make_rung(name, mechanism)->run(mechanism->parameters(), {}), ComputationError) << name;
+}
+
 }  // namespace
 }  // namespace boresight

@@ -1,0 +1,32 @@
+// The estimate of a multi-fidelity plan from its samples, with its interval.
+//
+// A sample contributes with every model it ran on, so that the estimate is a sum over samples; those between m_{i-1} and m_i
+// are independent and alike, and their scatter gives the variance, whatever the pilot had thought (Welch's degrees of
+// freedom over these groups).
+#pragma once
+
+#include <vector>
+
+#include "boresight_analyses/fidelities/fidelity_plan.hpp"
+#include "boresight_analyses/statistics/interval.hpp"
+
+namespace boresight {
+
+struct FidelityEstimate {
+  IndependentInterval value;
+  double standard_error = 0.0;
+  std::int64_t failed = 0;       // samples left out of all models
+  // Variance of the dear model alone with as many of its samples, over this one's; measured, not forecast.
+  double variance_ratio = 1.0;
+};
+
+// values[i]: of the plan's i-th model, its first samples[i] or more of one common sequence of independent samples; further
+// ones are not used. A sample with a value that is not finite is left out of all models. Throws std::invalid_argument where
+// fewer than two samples of a group are left.
+FidelityEstimate estimate_fidelities(const FidelityPlan& plan, const std::vector<std::vector<double>>& values, double confidence);
+
+// 0 and 1 in place of values, for a probability; a sample that failed counts as beyond. limits: of the pilot's models.
+std::vector<std::vector<double>> excess_indicators(const FidelityPlan& plan, const std::vector<std::vector<double>>& values,
+                                                   const std::vector<double>& limits);
+
+}  // namespace boresight

@@ -1,0 +1,120 @@
+#include "boresight_analyses/sensitivity/sensitivity_plan.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "boresight/io/value_fault.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr long long kMostRows = 1LL << 24;
+
+bool power_of_two(std::uint64_t n) { return std::has_single_bit(n); }
+
+// Whether the copula makes parameter `to` depend on the coordinate of `from`.
+bool depends(const RandomInputs& inputs, std::size_t from, std::size_t to) {
+  std::vector<double> low(inputs.size(), 0.3), high = low;
+  high[from] = 0.8;
+  inputs.copula.apply(low);
+  inputs.copula.apply(high);
+  return low[to] != high[to];
+}
+
+void read_groups(Cursor& table, SensitivityPlan& plan) {
+  const std::size_t d = plan.inputs.size();
+  std::vector<std::string> known;
+  for (const RandomParameter& p : plan.inputs.parameters) known.push_back(p.name());
+  std::vector<bool> taken(d, false);
+  if (table.has("groups")) {
+    Cursor groups = table.table("groups");
+    for (const std::string& name : groups.keys()) {
+      std::vector<int> members;
+      for (const std::string& path : groups.texts(name)) {
+        const auto at = std::find(known.begin(), known.end(), path);
+        if (at == known.end())
+          groups.fail_found(name, "\"" + path + "\"", "the parameter of a [[random]] table", nearest_name(path, known));
+        const auto index = static_cast<std::size_t>(at - known.begin());
+        if (taken[index]) groups.fail_found(name, "\"" + path + "\" a second time", "each parameter in one group");
+        taken[index] = true;
+        members.push_back(static_cast<int>(index));
+      }
+      groups.require(!members.empty(), name, "at least one parameter");
+      plan.groups.push_back(std::move(members));
+      plan.names.push_back(name);
+    }
+    groups.finish();
+  }
+  for (std::size_t i = 0; i < d; ++i)
+    if (!taken[i]) {
+      plan.groups.push_back({static_cast<int>(i)});
+      plan.names.push_back(known[i]);
+    }
+  std::vector<std::size_t> group_of(d);
+  for (std::size_t g = 0; g < plan.groups.size(); ++g)
+    for (const int i : plan.groups[g]) group_of[static_cast<std::size_t>(i)] = g;
+  for (std::size_t i = 0; i < d; ++i)
+    for (std::size_t j = 0; j < d; ++j)
+      if (group_of[i] != group_of[j] && depends(plan.inputs, i, j))
+        table.fail_found("groups", known[i] + " and " + known[j] + ", which are correlated, apart",
+                         "correlated parameters in one group");
+}
+
+}  // namespace
+
+void SensitivityPlan::values(std::uint64_t number, std::span<double> values) const {
+  const std::uint64_t row = number / runs_per_row(), slot = number % runs_per_row();
+  const std::size_t d = inputs.size();
+  Point ab(2 * d);
+  points->point(row, ab);
+  std::copy_n(ab.begin() + static_cast<std::ptrdiff_t>(slot == 1 ? d : 0), d, values.begin());
+  if (slot >= 2)
+    for (const int i : groups[slot - 2]) values[static_cast<std::size_t>(i)] = ab[d + static_cast<std::size_t>(i)];
+  inputs.values(values);
+}
+
+std::string SensitivityPlan::text(const Study& study) const {
+  std::string text = inputs.text + design.text() + "\nindex " + study.index.quantity + "." + study.index.statistic + "\n";
+  for (const auto& group : groups) {
+    text += "group";
+    for (const int i : group) text += " " + std::to_string(i);
+    text += "\n";
+  }
+  return text;
+}
+
+SensitivityPlan read_sensitivity_plan(Cursor& root, const Study&, const MechanismDescription& mechanism,
+                                      const std::function<void(const Setting&)>& accepts) {
+  Cursor table = root.table("sensitivity");
+  table.only({"samples", "seed", "design", "replicates", "confidence", "groups"});
+  SensitivityPlan plan;
+  const long long rows = table.integer("samples");
+  table.require(rows >= 16 && rows <= kMostRows, "samples", "16 to " + std::to_string(kMostRows));
+  plan.rows = static_cast<std::uint64_t>(rows);
+  const long long seed = table.integer("seed", 1);
+  table.require(seed >= 0, "seed", "a whole number, 0 or more");
+  plan.design.seed = static_cast<std::uint64_t>(seed);
+  const bool net = table.choice("design", {"sobol", "random"}, "sobol") == "sobol";
+  plan.design.kind = net ? DesignKind::sobol : DesignKind::random;
+  if (table.has("replicates") && !net) table.fail("replicates", "replicates with design = \"sobol\" only");
+  const long long replicates = table.integer("replicates", 16);
+  table.require(replicates >= 2 && replicates <= 1024, "replicates", "2 to 1024");
+  plan.design.replicates = static_cast<std::uint64_t>(replicates);
+  if (net && (plan.rows % plan.design.replicates != 0 || !power_of_two(plan.rows / plan.design.replicates))) {
+    const std::uint64_t size = std::bit_ceil((plan.rows + plan.design.replicates - 1) / plan.design.replicates);
+    table.fail("samples", "replicates (" + std::to_string(replicates) + ") times a power of two, for example " +
+                              std::to_string(size * plan.design.replicates));
+  }
+  plan.confidence = table.number("confidence", 0.95);
+  table.require(plan.confidence > 0.0 && plan.confidence < 1.0, "confidence", "more than 0 and less than 1");
+  plan.inputs = read_random_inputs(root, mechanism, accepts);
+  if (net && 2 * plan.inputs.size() > static_cast<std::size_t>(SobolNet::kMostDimensions))
+    table.fail("design", "\"random\" for more than " + std::to_string(SobolNet::kMostDimensions / 2) + " random parameters");
+  read_groups(table, plan);
+  table.finish();
+  plan.points = std::make_shared<const Design>(plan.design, static_cast<int>(2 * plan.inputs.size()));
+  return plan;
+}
+
+}  // namespace boresight

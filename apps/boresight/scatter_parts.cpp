@@ -1,0 +1,37 @@
+#include "scatter_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace boresight::app {
+
+Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json interval_json(const ReportedInterval& i) {
+  return {{"value", number_json(i.value)}, {"low", number_json(i.low)},           {"high", number_json(i.high)},
+          {"confidence", i.confidence},    {"coverage", number_json(i.coverage)}, {"basis", i.basis}};
+}
+
+std::vector<std::string> names_of(const RandomInputs& inputs) {
+  std::vector<std::string> names;
+  for (const RandomParameter& p : inputs.parameters) names.push_back(p.name());
+  return names;
+}
+
+bool scene_varies(const RandomInputs& inputs) {
+  return std::any_of(inputs.parameters.begin(), inputs.parameters.end(), [](const RandomParameter& p) {
+    return std::any_of(p.paths.begin(), p.paths.end(), [](const std::string& path) { return !path.starts_with("clearance."); });
+  });
+}
+
+std::vector<Parameters> pilot_samples(const RandomInputs& inputs, const Mechanism& mechanism) {
+  std::vector<Parameters> samples;
+  for (const double level : {0.5, 0.05, 0.95}) {
+    std::vector<double> values;
+    for (const RandomParameter& p : inputs.parameters) values.push_back(p.distribution->quantile(level));
+    samples.push_back(inputs.parameters_with(mechanism, values));
+  }
+  return samples;
+}
+
+}  // namespace boresight::app

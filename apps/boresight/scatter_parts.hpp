@@ -1,0 +1,21 @@
+// What the verbs over scattered parameters share: montecarlo, sensitivity.
+#pragma once
+
+#include <vector>
+
+#include "boresight_analyses/random/random_inputs.hpp"
+#include "boresight_analyses/statistics/interval.hpp"
+#include "summary.hpp"
+
+namespace boresight::app {
+
+Json number_json(double value);  // NaN and infinity, which JSON has not, are null
+Json interval_json(const ReportedInterval& interval);
+
+std::vector<std::string> names_of(const RandomInputs& inputs);
+// Whether some parameter changes more than contacts: the scene (masses, gravity, springs) is then another one each time.
+bool scene_varies(const RandomInputs& inputs);
+// The scatter's middle and two corners, for the pilot: what holds there is taken to hold between them.
+std::vector<Parameters> pilot_samples(const RandomInputs& inputs, const Mechanism& mechanism);
+
+}  // namespace boresight::app

@@ -1,0 +1,270 @@
+// boresight sensitivity STUDY: which parameter's scatter makes the index scatter.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ostream>
+
+#include "boresight/io/content_hash.hpp"
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight_analyses/study/rung_sample_model.hpp"
+#include "exit_status.hpp"
+#include "interruption.hpp"
+#include "progress.hpp"
+#include "readable.hpp"
+#include "report/report.hpp"
+#include "scatter_parts.hpp"
+#include "sensitivity_report.hpp"
+#include "summary.hpp"
+#include "tables.hpp"
+#include "verb.hpp"
+
+namespace boresight::app {
+namespace {
+
+constexpr std::size_t kMostShown = 2000;  // points of a scatter plot
+
+void write_indices(std::ostream& out, const GlobalSensitivity& global) {
+  out << "group,first,first_low,first_high,total,total_low,total_high,undersampled\n";
+  for (const GroupSensitivity& g : global.groups) {
+    out << csv_field(g.name);
+    for (const ReportedInterval& i : {g.first, g.total})
+      out << ',' << exact(i.value) << ',' << exact(i.low) << ',' << exact(i.high);
+    out << ',' << (g.undersampled ? "true" : "false") << '\n';
+  }
+}
+
+void write_local(std::ostream& out, const LocalResult& local) {
+  out << "parameter,unit,median,sd,low,high,index_at_low,index_at_high";
+  for (const char* name : {"half", "quarter", "eighth"}) out << ",step_" << name << ",derivative_" << name;
+  out << ",meaningful\n";
+  for (const LocalSensitivity& p : local.parameters) {
+    out << csv_field(p.name) << ',' << csv_field(p.si_unit);
+    for (const double v : {p.median, p.sd, p.low, p.high, p.at_low, p.at_high}) out << ',' << exact(v);
+    for (std::size_t k = 0; k < p.step.size(); ++k) out << ',' << exact(p.step[k]) << ',' << exact(p.derivative[k]);
+    out << ',' << (p.meaningful ? "true" : "false") << '\n';
+  }
+}
+
+class SensitivityVerb : public Verb {
+ public:
+  std::string name() const override { return "sensitivity"; }
+  std::string file_kind() const override { return "study"; }
+  std::string summary() const override { return "which parameter's scatter matters: Sobol' indices, slopes, tornado"; }
+  std::string example() const override {
+    return "boresight sensitivity examples/3-rrcpr/sensitivity.toml --rung perturbation";
+  }
+  void declare_options(CLI::App& app) override {
+    motion_.declare_model(app);
+    app.add_flag("--resume", resume_, "go on where an earlier run of this study stopped");
+  }
+
+  int execute(const Command& command) override {
+    const Stopwatch watch;
+    Document document = Document::from_file(command.file);
+    Cursor root(document);
+    const Study study = read_study(root, document.content_hash());
+    const auto mechanism =
+        std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, command.settings));
+    const SensitivityPlan plan =
+        read_sensitivity_plan(root, study, mechanism->description(), [&](const Setting& setting) {
+          std::vector<Setting> settings = command.settings;
+          settings.push_back(setting);
+          const Mechanism tried(read_mechanism(study.mechanism_file, settings));
+        });
+    check_rung_name(command.rung);
+    RunOptions run = motion_.run_options(*mechanism);
+
+    ContentHash runs;
+    runs.add(plan.text(study));
+    nlohmann::json options = motion_.model_identity();
+    if (study.accuracy) options["study_accuracy"] = *study.accuracy;
+    const OutputDirectory out = OutputDirectory::open(
+        command.out, command.verb, command.file,
+        identity_of(command, mechanism->description().content_hash, runs.hexadecimal(), options));
+    SampleStore store = open_store(out, plan, study);
+    const RungChoice choice = rung_for(command, study, mechanism, plan, run, store);
+    if (choice.step > 0.0) run.step = choice.step;
+    const RungSampleModel model(
+        choice.name, mechanism,
+        [mechanism, &plan](std::span<const double> values) { return plan.inputs.parameters_with(*mechanism, values); },
+        study.index, run, scene_varies(plan.inputs));
+    store.use_rung(model.rung(), model.step());
+
+    if (!command.quiet) {
+      fmt::print("{}: {} runs ({} rows of {}; {})\n", mechanism->name(), plan.runs(), plan.rows, plan.runs_per_row(),
+                 plan.design.text());
+      std::fflush(stdout);
+    }
+    Progress progress(command.quiet, static_cast<double>(plan.runs()), "runs");
+    SensitivityOptions options_of_runs{.jobs = command.jobs, .progress = {}, .interrupted = [] { return interrupted(); }};
+    options_of_runs.progress = [&](const SensitivityProgress& p) {
+      progress.update_from(static_cast<double>(p.begun_with), static_cast<double>(p.done),
+                           "mean of the index " + readable(p.mean_so_far, study.index.si_unit()) +
+                               (p.failed > 0 ? fmt::format(", {} failed", p.failed) : ""));
+    };
+    const bool whole =
+        with_options_checked(run, [&] { return compute_sensitivity_runs(model, plan, store, options_of_runs); });
+    std::optional<GlobalSensitivity> global;
+    LocalResult local;
+    local.interrupted = true;
+    if (whole) {
+      global = global_sensitivity(plan, store);
+      local = local_sensitivity(model, plan.inputs, command.jobs, [] { return interrupted(); });
+    }
+    progress.clear();
+
+    SensitivityStudy result{.command = command,
+                            .study = study,
+                            .mechanism = *mechanism,
+                            .rung = choice,
+                            .plan = plan,
+                            .global = global,
+                            .local = local,
+                            .shown = {},
+                            .interrupted = !whole || local.interrupted,
+                            .warnings = {},
+                            .leaves_out = model.leaves_out()};
+    const std::uint64_t every = plan.runs_per_row() * (plan.rows / kMostShown + 1);
+    store.read(plan.runs(), [&](const SampleRecord& r) {
+      if (r.number % every == 0 && r.outcome.status == Outcome::Status::done) result.shown.push_back(r);
+    });
+    result.warnings = warnings_of(result);
+    write(result, out, watch);
+    if (!command.quiet) print(result, out);
+    if (result.interrupted) return kInterrupted;
+    return global ? kDone : kFailed;
+  }
+
+ private:
+  SampleStore open_store(const OutputDirectory& out, const SensitivityPlan& plan, const Study& study) const {
+    const std::filesystem::path file = out.path() / "samples.db";
+    if (std::filesystem::exists(file) && !resume_)
+      throw OutputDirectoryError("--out " + out.path().string() +
+                                 ": holds runs of this study already; --resume goes on with them, another --out begins anew");
+    // Whose folder this is has to be known before the first run is, or a kill would leave an orphan.
+    if (!std::filesystem::exists(out.path() / "summary.json"))
+      write_json(out, "summary.json",
+                 {{"verb", "sensitivity"},
+                  {"version", BORESIGHT_VERSION},
+                  {"interrupted", true},
+                  {"warnings", {"begun and not yet ended: samples.db holds what there is; go on with --resume"}},
+                  {"identity", Json::parse(out.identity().dump())}});
+    ContentHash hash;
+    hash.add(out.identity().dump());
+    hash.add(plan.text(study));
+    return SampleStore(file, {{"study", hash.hexadecimal()}}, names_of(plan.inputs));
+  }
+
+  // A study keeps its rung: the one it was begun with is the one it goes on with.
+  static RungChoice rung_for(const Command& command, const Study& study, const std::shared_ptr<const Mechanism>& mechanism,
+                             const SensitivityPlan& plan, const RunOptions& run, const SampleStore& store) {
+    const std::vector<SampleStore::StoredRung> stored = store.rungs();
+    if (!stored.empty()) return {stored.front().name, "chosen when the study was begun", stored.front().step};
+    constexpr double kPilotTrials = 72.0;  // about as many as it makes; it may need fewer
+    Progress progress(command.quiet, kPilotTrials, "trials of the pilot");
+    RungChoice choice = choose_rung({.asked = command.rung,
+                        .accuracy = command.accuracy ? command.accuracy : study.accuracy,
+                        .wants_multibody = !run.formulation.empty() || !run.stabilisation.empty(),
+                        .index = study.index,
+                        .step = run.step,
+                        .progress = [&](int trial) {
+                          progress.update(trial, "finding the cheapest rung that meets the accuracy");
+                          return !interrupted();
+                        }},
+                       mechanism, pilot_samples(plan.inputs, *mechanism));
+    if (choice.step == 0.0 && run.step == 0.0)
+      choice.step = with_options_checked(
+          run, [&] { return common_step(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run); });
+    return choice;
+  }
+
+  static std::vector<std::string> warnings_of(const SensitivityStudy& s) {
+    std::vector<std::string> warnings;
+    if (s.global) {
+      std::string unsettled;
+      for (const GroupSensitivity& g : s.global->groups)
+        if (g.undersampled) unsettled += (unsettled.empty() ? "" : ", ") + g.name;
+      if (!unsettled.empty())
+        warnings.push_back("under-sampled (a negative index, or an interval wider than 0.2): " + unsettled +
+                           "; more samples settle it");
+      if (s.global->failed_runs > 0)
+        warnings.push_back(fmt::format("{} of {} runs failed; the {} rows that they belong to are left out, so the indices speak of "
+                                       "the parameters' range without them",
+                                       s.global->failed_runs, s.plan.runs(), s.global->failed_rows));
+    }
+    for (const LocalSensitivity& p : s.local.parameters)
+      if (!p.meaningful) warnings.push_back("no slope for " + p.name + ": " + p.why_not);
+    return warnings;
+  }
+
+  static void write(const SensitivityStudy& s, const OutputDirectory& out, const Stopwatch& watch) {
+    Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, s.interrupted, out);
+    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    json["seed"] = s.plan.design.seed;
+    json["design"] = s.plan.design.text();
+    json["samples"] = s.plan.rows;
+    json["runs"] = s.plan.runs();
+    json["index"] = {{"quantity", s.study.index.quantity}, {"statistic", s.study.index.statistic}, {"unit", s.study.index.si_unit()}};
+    std::vector<std::string> files = {"summary.json", "samples.db", "report.html"};
+    if (s.global) {
+      json["index"]["mean"] = s.global->mean;
+      json["index"]["sd"] = s.global->sd;
+      json["failed"] = s.global->failed_runs;
+      json["failed_rows"] = s.global->failed_rows;
+      for (std::size_t g = 0; g < s.plan.groups.size(); ++g) {
+        const GroupSensitivity& group = s.global->groups[g];
+        Json parameters = Json::array();
+        for (const int i : s.plan.groups[g]) parameters.push_back(s.plan.inputs.parameters[static_cast<std::size_t>(i)].name());
+        json["sobol"][group.name] = {{"parameters", parameters},
+                                     {"first", interval_json(group.first)},
+                                     {"total", interval_json(group.total)},
+                                     {"undersampled", group.undersampled}};
+      }
+      json["interactions"] = interval_json(s.global->interactions);
+      json["basis"] = s.global->interactions.basis;
+      out.write("sobol.csv", [&](std::ostream& stream) { write_indices(stream, *s.global); });
+      files.emplace_back("sobol.csv");
+    }
+    if (!s.local.interrupted) {
+      json["local"]["at_medians"] = number_json(s.local.at_medians);
+      for (const LocalSensitivity& p : s.local.parameters) {
+        Json steps = Json::array();
+        for (std::size_t k = 0; k < p.step.size(); ++k)
+          steps.push_back({{"step", number_json(p.step[k])}, {"derivative", number_json(p.derivative[k])}});
+        json["local"][p.name] = {{"unit", p.si_unit},         {"median", p.median},
+                                 {"low", p.low},              {"high", p.high},
+                                 {"at_low", number_json(p.at_low)}, {"at_high", number_json(p.at_high)},
+                                 {"meaningful", p.meaningful}, {"derivative", p.meaningful ? number_json(p.derivative.back()) : Json()},
+                                 {"differences", steps}};
+        if (!p.meaningful) json["local"][p.name]["why_not"] = p.why_not;
+      }
+      out.write("local.csv", [&](std::ostream& stream) { write_local(stream, s.local); });
+      files.emplace_back("local.csv");
+    }
+    json["files"] = files;
+    write_json(out, "summary.json", json);
+    out.write("report.html", [&](std::ostream& stream) { report::write_html(stream, sensitivity_report(s)); });
+  }
+
+  static void print(const SensitivityStudy& s, const OutputDirectory& out) {
+    if (s.interrupted) fmt::print("  interrupted; go on with --resume\n");
+    if (s.global) {
+      fmt::print("  index: {}; mean {}, standard deviation {}; {} rung\n", s.study.index.title(),
+                 readable(s.global->mean, s.study.index.si_unit()), readable(s.global->sd, s.study.index.si_unit()), s.rung.name);
+      for (const GroupSensitivity& g : s.global->groups)
+        fmt::print("  {:<40} first {:>6.3f} ({:.3f} to {:.3f})   total {:>6.3f} ({:.3f} to {:.3f})\n", g.name, g.first.value,
+                   g.first.low, g.first.high, g.total.value, g.total.low, g.total.high);
+    }
+    for (const std::string& warning : s.warnings) fmt::print("  warning: {}\n", warning);
+    fmt::print("  report: {}\n", (out.path() / "report.html").string());
+  }
+
+  MotionOptions motion_;
+  bool resume_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_sensitivity_verb() { return std::make_unique<SensitivityVerb>(); }
+
+}  // namespace boresight::app

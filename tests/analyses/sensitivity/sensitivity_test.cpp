@@ -1,0 +1,159 @@
+#include "boresight_analyses/sensitivity/sensitivity.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/sensitivity/local_sensitivity.hpp"
+
+namespace boresight {
+namespace {
+
+// y = 3 a + 2 b + 5 |c| in units of each parameter's sd: indices and slopes are known. Fails where asked.
+class ClosedForm final : public SampleModel {
+ public:
+  std::string rung() const override { return "closed form"; }
+  double step() const override { return 0.0; }
+  std::string leaves_out() const override { return ""; }
+  std::size_t batch() const override { return 3; }
+  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>&) const override {
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const auto& v = samples[k].values;
+      ++evaluations;
+      if (fails && fails(samples[k].number)) {
+        outcomes[k].status = Outcome::Status::failed;
+        continue;
+      }
+      outcomes[k].status = Outcome::Status::done;
+      outcomes[k].value = 3.0 * (v[0] - 1e-4) / 1e-5 + 2.0 * (v[1] - 0.8) / 0.01 + 5.0 * std::abs((v[2] - 0.03) / 0.001);
+    }
+  }
+  mutable std::atomic<int> evaluations{0};
+  std::function<bool(std::uint64_t)> fails;
+};
+
+class SensitivityTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("boresight-sensitivity-" + std::to_string(::getpid()) + "-" +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directory(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  SensitivityPlan plan(const std::string& table, const std::string& more = "") const {
+    const std::string file = (folder_ / "study.toml").string();
+    std::ofstream(file) << "format = 1\nmechanism = \"" BORESIGHT_EXAMPLES "/3-rrcpr/3-rrcpr.toml\"\n" + table + R"(
+[[random]]
+parameter = "clearance.F1.radial"
+distribution = { normal = { mean = "0.1 mm", sd = "0.01 mm" } , truncate = ["0.01 mm", "0.19 mm"] }
+[[random]]
+parameter = "clearance.F1.contact.restitution"
+distribution = { normal = { mean = 0.8, sd = 0.01 } }
+[[random]]
+parameter = "clearance.F1.friction.coefficient"
+distribution = { normal = { mean = 0.03, sd = 0.001 } }
+)" + more;
+    Document document = Document::from_file(file);
+    Cursor root(document);
+    const Study study = read_study(root, document.content_hash());
+    return read_sensitivity_plan(root, study, read_mechanism(study.mechanism_file, {}), [](const Setting&) {});
+  }
+  std::unique_ptr<SampleStore> store(const SensitivityPlan& plan, const std::string& name = "samples.db") const {
+    std::vector<std::string> names;
+    for (const RandomParameter& p : plan.inputs.parameters) names.push_back(p.name());
+    auto s = std::make_unique<SampleStore>(folder_ / name, std::map<std::string, std::string>{{"study", "test"}}, names);
+    s->use_rung("closed form", 0.0);
+    return s;
+  }
+  void expect_refused(const std::string& table, const std::string& words, const std::string& more = "") const {
+    try {
+      plan(table, more);
+      FAIL() << "accepted: " << table;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(words)) << table;
+    }
+  }
+  std::filesystem::path folder_;
+};
+
+// V(|z|) = 1 - 2/pi: the variance is 9 + 4 + 25 (1 - 2/pi).
+TEST_F(SensitivityTest, MeetsTheIndicesOfAnAdditiveModelInBothDesigns) {
+  const double v[] = {9.0, 4.0, 25.0 * (1.0 - 2.0 / M_PI)}, total = v[0] + v[1] + v[2];
+  for (const char* table : {"[sensitivity]\nsamples = 4096\n", "[sensitivity]\nsamples = 6000\ndesign = \"random\"\n"}) {
+    const SensitivityPlan p = plan(table);
+    const auto s = store(p, p.design.kind == DesignKind::random ? "r.db" : "s.db");
+    ASSERT_TRUE(compute_sensitivity_runs(ClosedForm{}, p, *s, {.jobs = 2, .progress = {}, .interrupted = {}}));
+    const auto result = global_sensitivity(p, *s);
+    ASSERT_TRUE(result);
+    for (std::size_t g = 0; g < 3; ++g) {
+      EXPECT_NEAR(result->groups[g].first.value, v[g] / total, 0.05) << table << g;
+      EXPECT_NEAR(result->groups[g].total.value, v[g] / total, 0.05) << table << g;
+    }
+    EXPECT_NEAR(result->sd, std::sqrt(total), 0.05 * std::sqrt(total));
+  }
+}
+
+TEST_F(SensitivityTest, IsTheSameInOnePieceOrResumed) {
+  const SensitivityPlan p = plan("[sensitivity]\nsamples = 64\n");
+  const ClosedForm whole, parts;
+  const auto one = store(p, "one.db"), two = store(p, "two.db");
+  compute_sensitivity_runs(whole, p, *one, {.jobs = 1, .progress = {}, .interrupted = {}});
+  EXPECT_FALSE(compute_sensitivity_runs(parts, p, *two, {.jobs = 2, .progress = {}, .interrupted = [&] { return parts.evaluations > 100; }}));
+  EXPECT_TRUE(compute_sensitivity_runs(parts, p, *two, {.jobs = 2, .progress = {}, .interrupted = {}}));
+  EXPECT_EQ(parts.evaluations, static_cast<int>(p.runs()));  // none twice
+  const auto a = global_sensitivity(p, *one), b = global_sensitivity(p, *two);
+  for (std::size_t g = 0; g < 3; ++g) {
+    EXPECT_EQ(a->groups[g].first.value, b->groups[g].first.value);
+    EXPECT_EQ(a->groups[g].total.low, b->groups[g].total.low);
+  }
+}
+
+TEST_F(SensitivityTest, CountsFailedRunsAndLeavesOutTheirRows) {
+  const SensitivityPlan p = plan("[sensitivity]\nsamples = 64\ngroups = { gap = [\"clearance.F1.radial\"] }\n");
+  ClosedForm model;
+  model.fails = [](std::uint64_t number) { return number == 7 || number == 8 || number == 100; };
+  const auto s = store(p);
+  compute_sensitivity_runs(model, p, *s, {.jobs = 1, .progress = {}, .interrupted = {}});
+  const auto result = global_sensitivity(p, *s);
+  EXPECT_EQ(result->groups[0].name, "gap");
+  EXPECT_EQ(result->failed_runs, 3u);
+  EXPECT_EQ(result->failed_rows, 2);
+}
+
+// Slopes of the smooth parameters are exact; |z| has none at its middle.
+TEST_F(SensitivityTest, GivesSlopesWhereThereAreSome) {
+  const SensitivityPlan p = plan("[sensitivity]\nsamples = 64\n");
+  const LocalResult local = local_sensitivity(ClosedForm{}, p.inputs, 1, [] { return false; });
+  EXPECT_TRUE(local.parameters[0].meaningful);
+  EXPECT_NEAR(local.parameters[0].derivative.back(), 3e5, 1.0);
+  EXPECT_NEAR(local.parameters[1].derivative.back(), 200.0, 1e-6);
+  EXPECT_NEAR(local.parameters[0].at_high - local.at_medians, 3.0 * 1.6449, 1e-2);
+  ClosedForm rough;
+  rough.fails = [](std::uint64_t number) { return number == 3; };
+  EXPECT_FALSE(local_sensitivity(rough, p.inputs, 1, [] { return false; }).parameters[0].meaningful);
+}
+
+TEST_F(SensitivityTest, RefusesWhatContradictsItself) {
+  expect_refused("[sensitivity]\nsamples = 100\n", "128");
+  expect_refused("[sensitivity]\nsamples = 8\n", "16 to");
+  expect_refused("[sensitivity]\nsamples = 64\nconfidence = 1.5\n", "less than 1");
+  expect_refused("[sensitivity]\nsamples = 64\ndesign = \"lhs\"\n", "sobol");
+  expect_refused("[sensitivity]\nsamples = 64\ndesign = \"random\"\nreplicates = 4\n", "replicates");
+  expect_refused("[sensitivity]\nsamples = 64\nsampels = 3\n", "samples");
+  expect_refused("[sensitivity]\nsamples = 64\ngroups = { a = [\"clearance.F1.radiall\"] }\n", "clearance.F1.radial");
+  expect_refused("[sensitivity]\nsamples = 64\ngroups = { a = [\"clearance.F1.radial\"], b = [\"clearance.F1.radial\"] }\n", "second time");
+  expect_refused("[sensitivity]\nsamples = 64\n", "one group",
+                 "[[correlation]]\nparameters = [\"clearance.F1.radial\", \"clearance.F1.friction.coefficient\"]\ncoefficient = 0.5\n");
+}
+
+}  // namespace
+}  // namespace boresight

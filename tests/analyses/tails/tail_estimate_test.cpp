@@ -1,0 +1,144 @@
+#include "boresight_analyses/tails/tail_estimate.hpp"
+
+#include <gmock/gmock.h>
+
+#include "boresight_analyses/statistics/running.hpp"
+#include "boresight_analyses/tails/two_level_pilot.hpp"
+#include "problems.hpp"
+
+namespace boresight {
+namespace {
+
+using problems::phi;
+using problems::pointwise;
+
+GaussianMixture proposal(const BatchModel& model, int dimensions, double limit) {
+  return tail_proposal(model, dimensions, limit, {}).mixture;
+}
+
+TEST(GaussianMixture, HasADensityThatIntegratesToOne) {
+  // Against the standard normal: E_phi[q / phi] = 1.
+  const GaussianMixture q = proposal(pointwise(problems::two_sided), 2, 2.0);
+  double sum = 0.0;
+  const double h = 0.05;
+  for (double x = -10.0; x < 10.0; x += h)
+    for (double y = -10.0; y < 10.0; y += h) sum += std::exp(q.log_density({x, y})) * h * h;
+  EXPECT_NEAR(sum, 1.0, 1e-6);
+}
+
+// Draws have the density they say: an expectation under q against its integral.
+TEST(GaussianMixture, DrawsFromItsDensity) {
+  const GaussianMixture q = proposal(pointwise(problems::two_sided), 2, 2.0);
+  const CounterStream stream(5, StreamPurpose::proposal);
+  double drawn = 0.0, integral = 0.0;
+  for (std::uint64_t k = 0; k < 20000; ++k) drawn += std::abs(q.draw(stream, 1, k)[0]) / 20000.0;
+  const double h = 0.05;
+  for (double x = -10.0; x < 10.0; x += h)
+    for (double y = -10.0; y < 10.0; y += h) integral += std::abs(x) * std::exp(q.log_density({x, y})) * h * h;
+  EXPECT_NEAR(drawn, integral, 0.03);
+}
+
+TEST(GaussianMixture, FindsTwoRegions) {
+  const GaussianMixture q(subset_simulation(pointwise(problems::two_sided), 1, 3.0, {}).beyond, {}, 2, 1);
+  EXPECT_EQ(q.components(), 2u);
+  EXPECT_GT(q.log_density({3.3}), q.log_density({0.0}) + 5.0);
+  EXPECT_GT(q.log_density({-3.3}), q.log_density({0.0}) + 5.0);
+}
+
+void expect_estimate(const BatchModel& model, int dimensions, double limit, double truth) {
+  const GaussianMixture q = proposal(model, dimensions, limit);
+  int held = 0;
+  double mean = 0.0, square = 0.0;
+  constexpr int kRepetitions = 300;
+  for (std::uint64_t k = 0; k < kRepetitions; ++k) {
+    const TailEstimate e = importance_sampling(model, limit, q, 500, {0.95, 1, k});
+    held += e.probability.low <= truth && truth <= e.probability.high;
+    mean += e.probability.value / kRepetitions;
+    square += e.probability.value * e.probability.value / kRepetitions;
+  }
+  const double sd = std::sqrt(square - mean * mean);
+  EXPECT_NEAR(mean, truth, 3.0 * sd / std::sqrt(double(kRepetitions)));
+  testing::Test::RecordProperty("coverage_" + std::to_string(dimensions), std::to_string(double(held) / kRepetitions));
+  EXPECT_GE(double(held) / kRepetitions, 0.93);
+  // Plain Monte Carlo with as many points scatters by sqrt(truth / 500).
+  EXPECT_LT(sd, 0.1 * std::sqrt(truth / 500.0));
+}
+
+TEST(ImportanceSampling, IsUnbiasedAndCoversALinearLimitState) {
+  expect_estimate(pointwise(problems::linear), 2, 4.0, phi(-4.0));
+  expect_estimate(pointwise(problems::linear), 6, 4.0, phi(-4.0));
+}
+TEST(ImportanceSampling, IsUnbiasedAndCoversAParallelSystem) {
+  expect_estimate(pointwise(problems::parallel), 2, 2.5, phi(-2.5) * phi(-2.5));
+}
+TEST(ImportanceSampling, IsUnbiasedAndCoversTwoRegions) {
+  expect_estimate(pointwise(problems::two_sided), 3, 4.0, 2.0 * phi(-4.0));
+}
+
+// The cheap model leans by 0.15 rad and lies off by 0.1: it alone is wrong by a third, the corrected one is not.
+const BatchModel kExact = pointwise([](const Point& u) { return u[0]; });
+const BatchModel kLeaning = pointwise([](const Point& u) { return std::cos(0.15) * u[0] + std::sin(0.15) * u[1] - 0.1; });
+
+TEST(TwoLevelImportanceSampling, IsUnbiasedForTheExactModelWhateverTheCheapOneIs) {
+  const double limit = 3.5, truth = phi(-3.5);
+  const TwoLevelPlan plan = two_level_pilot(kLeaning, kExact, 2, limit, 50, {0.01, 1.0}, 300.0, {});
+  EXPECT_LT(plan.cheap_limit, limit - 0.1);
+  const double control = 0.7;  // any but the pilot's would do
+  int held = 0;
+  double mean = 0.0, square = 0.0, alone = 0.0;
+  constexpr int kRepetitions = 300;
+  for (std::uint64_t k = 0; k < kRepetitions; ++k) {
+    const TailEstimate e = two_level_importance_sampling(kLeaning, kExact, limit, plan.proposal.mixture, 5000, 300, control, {0.95, 1, k});
+    held += e.probability.low <= truth && truth <= e.probability.high;
+    mean += e.probability.value / kRepetitions;
+    square += e.probability.value * e.probability.value / kRepetitions;
+    alone += importance_sampling(kLeaning, limit, plan.proposal.mixture, 500, {0.95, 1, k}).probability.value / kRepetitions;
+    if (k == 0) {
+      EXPECT_EQ(e.exact_evaluations, 300);
+      EXPECT_EQ(e.cheap_evaluations, 5300);
+      EXPECT_GT(e.disagreements, 0);
+    }
+  }
+  const double sd = std::sqrt(square - mean * mean);
+  EXPECT_NEAR(mean, truth, 3.0 * sd / std::sqrt(double(kRepetitions)));
+  EXPECT_GE(double(held) / kRepetitions, 0.93);
+  EXPECT_NEAR(alone, phi(-3.6), 0.05 * phi(-3.6));  // what the cheap model says
+  EXPECT_LT(sd, 0.1 * std::sqrt(truth / 300.0));
+}
+
+// Costs 1 : 100. A cheap model that all but agrees is leaned on, one that has nothing to do with the exact one is not.
+TEST(TwoLevelPilot, LeansOnTheCheapModelAsFarAsItAgrees) {
+  const BatchModel near = pointwise([](const Point& u) { return u[0] + 0.001 * u[1]; });
+  const BatchModel other = pointwise([](const Point& u) { return u[1]; });
+  const TwoLevelPlan good = two_level_pilot(near, kExact, 2, 3.5, 200, {0.01, 1.0}, 300.0, {});
+  EXPECT_GT(good.control, 0.8);
+  EXPECT_LT(good.standard_error, 0.5 * good.exact_standard_error);
+  EXPECT_LT(good.standard_error, 0.05 * good.plain_standard_error);
+  EXPECT_GT(good.cheap_points, 10 * good.exact_points);
+  EXPECT_NEAR(0.01 * double(good.cheap_points) + 1.01 * double(good.exact_points), 300.0, 3.0);
+  const TwoLevelPlan poor = two_level_pilot(other, kExact, 2, 3.5, 200, {0.01, 1.0}, 300.0, {});
+  EXPECT_LT(poor.control, 0.2);
+}
+
+// Repeated runs of the plan scatter as the pilot said.
+TEST(TwoLevelPilot, ForecastsTheStandardError) {
+  const BatchModel near = pointwise([](const Point& u) { return u[0] + 0.02 * u[1]; });
+  const TwoLevelPlan plan = two_level_pilot(near, kExact, 2, 3.5, 1000, {0.01, 1.0}, 300.0, {});
+  RunningMoments values;
+  for (std::uint64_t k = 0; k < 200; ++k)
+    values.add(two_level_importance_sampling(near, kExact, 3.5, plan.proposal.mixture, std::max<std::int64_t>(2, plan.cheap_points),
+                                             plan.exact_points, plan.control, {0.95, 1, k}).probability.value);
+  EXPECT_NEAR(values.mean(), phi(-3.5), 3.0 * values.sd() / std::sqrt(200.0));
+  EXPECT_NEAR(values.sd() / plan.standard_error, 1.0, 0.3);
+}
+
+TEST(ImportanceSampling, CountsFailedPointsAsBeyond) {
+  const BatchModel fails = pointwise([](const Point& u) { return u[0] > 3.0 ? std::nan("") : u[0]; });
+  const TailEstimate e = importance_sampling(fails, 3.0, proposal(fails, 2, 3.0), 2000, {});
+  EXPECT_EQ(e.failed, e.exceedances);
+  EXPECT_LE(e.probability.low, phi(-3.0));
+  EXPECT_GE(e.probability.high, phi(-3.0));
+}
+
+}  // namespace
+}  // namespace boresight

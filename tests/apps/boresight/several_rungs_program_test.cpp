@@ -1,0 +1,102 @@
+// boresight sensitivity, and the fidelities and tail of montecarlo, as a user calls them.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "program.hpp"
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+
+class SeveralRungsProgram : public Program {
+ protected:
+  void study(const std::string& table) const {
+    std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << mechanism_ << R"("
+[[random]]
+parameter = "clearance.F1.radial"
+distribution = { normal = { mean = "0.1 mm", sd = "0.01 mm" }, truncate = ["0.05 mm", "0.15 mm"] }
+[[random]]
+parameter = "clearance.F1.friction.coefficient"
+distribution = { lognormal = { median = 0.03, factor = 1.3 } }
+)" << table;
+  }
+  // A motion of 20 ms.
+  Ended ask(const std::string& verb, std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments = {verb, "study.toml", "--set", "motion.duration=20ms", "--out", "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return call(arguments);
+  }
+};
+
+TEST_F(SeveralRungsProgram, SensitivityLeavesWhatTheInterfacePromises) {
+  study("[sensitivity]\nsamples = 64\nreplicates = 4\n");
+  const Ended ended = ask("sensitivity", {"--rung", "quasistatic"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("clearance.F1.radial"), HasSubstr("total"), HasSubstr("out/report.html")));
+  for (const char* file : {"summary.json", "sobol.csv", "local.csv", "report.html", "samples.db"}) EXPECT_THAT(files("out"), Contains(file));
+  const auto summary = json("out/summary.json");
+  EXPECT_EQ(summary["verb"], "sensitivity");
+  EXPECT_EQ(summary["runs"], 256);
+  EXPECT_EQ(summary["failed"], 0);
+  // Quasistatic error follows the clearance, and friction has no part in it.
+  EXPECT_NEAR(summary["sobol"]["clearance.F1.radial"]["total"]["value"].get<double>(), 1.0, 0.15);
+  EXPECT_NEAR(summary["sobol"]["clearance.F1.friction.coefficient"]["total"]["value"].get<double>(), 0.0, 0.01);
+  EXPECT_TRUE(summary["local"]["clearance.F1.radial"]["meaningful"].get<bool>());
+
+  const Ended again = ask("sensitivity", {"--rung", "quasistatic"});
+  EXPECT_EQ(again.status, 2);
+  EXPECT_THAT(again.err, HasSubstr("--resume"));
+  EXPECT_EQ(ask("sensitivity", {"--rung", "quasistatic", "--resume"}).status, 0);
+  EXPECT_EQ(json("out/summary.json")["sobol"], summary["sobol"]);
+}
+
+TEST_F(SeveralRungsProgram, FidelitiesForecastTheirGainAndAgreeWithThePilot) {
+  study("[montecarlo]\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"2 s\", pilot = 10 }\n");
+  const Ended ended = ask("montecarlo");
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("forecast"), HasSubstr("unbiased for perturbation")));
+  const auto summary = json("out/summary.json");
+  const auto& mean = summary["index"]["mean"];
+  EXPECT_LT(mean["low"].get<double>(), mean["value"].get<double>());
+  EXPECT_GT(summary["fidelities"]["rungs"][0]["samples"].get<int>(), 1);
+  EXPECT_LT(summary["fidelities"]["cpu_seconds"].get<double>(), 4.0);
+  for (const char* file : {"rungs.csv", "report.html", "samples-perturbation.db"}) EXPECT_THAT(files("out"), Contains(file));
+  EXPECT_EQ(ask("montecarlo").status, 2);
+  EXPECT_EQ(ask("montecarlo", {"--resume"}).status, 0);
+  EXPECT_EQ(json("out/summary.json")["index"]["mean"], mean);  // the plan it was begun with, all samples found again
+}
+
+TEST_F(SeveralRungsProgram, TailSaysHowRareTheExcessIs) {
+  study("[montecarlo]\nrequirement = { limit = \"0.3 mm\", probability = 0.99, confidence = 0.9 }\n"
+        "tail = { cheap = \"quasistatic\", exact = \"perturbation\", budget = \"1 s\", pilot = 20 }\n");
+  const Ended ended = ask("montecarlo");
+  EXPECT_TRUE(ended.status == 0 || ended.status == 1) << ended.err;
+  const auto summary = json("out/summary.json");
+  EXPECT_EQ(ended.status == 0, summary["requirement"]["met"].get<bool>());
+  EXPECT_LE(summary["tail"]["exceedance"]["low"].get<double>(), summary["tail"]["exceedance"]["high"].get<double>());
+  for (const char* file : {"levels.csv", "report.html"}) EXPECT_THAT(files("out"), Contains(file));
+}
+
+TEST_F(SeveralRungsProgram, ContradictionsAreRefusedWithTheirLine) {
+  const struct { const char *table, *words; } cases[] = {
+      {"[montecarlo]\nfidelities = { models = [\"multibody\"], budget = \"2 s\" }\n", "two rungs"},
+      {"[montecarlo]\nfidelities = { models = [\"multibody\", \"perturbatoin\"], budget = \"2 s\" }\n", "did you mean perturbation?"},
+      {"[montecarlo]\nfidelities = { models = [\"multibody\", \"envelope\"], budget = \"-2 s\" }\n", "more than 0"},
+      {"[montecarlo]\ndesign = \"sobol\"\nsamples = 64\nfidelities = { models = [\"multibody\", \"envelope\"], budget = \"2 s\" }\n", "random"},
+      {"[montecarlo]\ntail = { budget = \"2 s\" }\n", "requirement"},
+      {"[sensitivity]\nsamples = 100\n", "power of two"}};
+  for (const auto& c : cases) {
+    study(c.table);
+    const Ended ended = ask(std::string(c.table).starts_with("[sens") ? "sensitivity" : "montecarlo");
+    EXPECT_EQ(ended.status, 2) << c.table;
+    EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("study.toml:"), HasSubstr(c.words)));
+  }
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -1,0 +1,230 @@
+// Friction laws against their printed points and the cases with closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "boresight/contact/contact_friction.hpp"
+
+namespace boresight {
+namespace {
+
+FrictionParameters parameters() {
+  FrictionParameters p;
+  p.coefficient = 0.3;
+  p.static_coefficient = 0.45;
+  return p;
+}
+
+double over_normal(const FrictionLaw& law, double v) { return v * law.force_per_velocity(v); }
+
+TEST(Threlfall, RisesTo95PercentWithoutAJump) {
+  const FrictionLaw law = make_friction_law("threlfall", parameters());
+  EXPECT_EQ(over_normal(law, 0.0), 0.0);
+  EXPECT_NEAR(over_normal(law, 0.5e-3), 0.3 * (1.0 - std::exp(-1.5)), 1e-15);
+  EXPECT_NEAR(over_normal(law, 1e-3), 0.95 * 0.3, 0.0003 * 0.3);
+  EXPECT_NEAR(over_normal(law, 1e-3), over_normal(law, 1.0001e-3), 1e-15);
+}
+
+TEST(BengisuAkay, PeaksAtTheStaticCoefficientAndDecaysToTheKineticOne) {
+  const FrictionLaw law = make_friction_law("bengisu-akay", parameters());
+  EXPECT_EQ(over_normal(law, 0.0), 0.0);
+  EXPECT_NEAR(over_normal(law, 1e-3), 0.45, 1e-15);
+  EXPECT_NEAR(over_normal(law, 11e-3), 0.3 + 0.15 * std::exp(-1.0), 1e-15);
+  EXPECT_NEAR(over_normal(law, 1.0), 0.3, 1e-12);
+  // Slopes meet at the peak only where both vanish or the decay begins: continuous.
+  EXPECT_NEAR(over_normal(law, 1e-3 - 1e-12), over_normal(law, 1e-3 + 1e-12), 1e-10);
+}
+
+TEST(BrownMcPhee, HasItsPrintedValueAtTheTransitionSpeed) {
+  const FrictionLaw law = make_friction_law("brown-mcphee", parameters());
+  EXPECT_NEAR(over_normal(law, 1e-3), 0.999329299739067 * 0.3 + 0.15, 1e-12);
+  EXPECT_NEAR(over_normal(law, 1.0), 0.3, 1e-6);
+  double highest = 0.0;
+  for (double v = 1e-5; v < 1e-2; v += 1e-6) highest = std::max(highest, over_normal(law, v));
+  EXPECT_NEAR(highest, 0.45, 1e-3);
+}
+
+TEST(FrictionLaws, AreContinuousZeroAtRestAndNeverAboveTheStaticCoefficient) {
+  for (const FrictionLawEntry& entry : friction_laws()) {
+    const FrictionLaw law = make_friction_law(entry.name, parameters());
+    double before = 0.0;
+    for (double v = 0.0; v < 3e-3; v += 1e-7) {
+      const double f = over_normal(law, v);
+      ASSERT_TRUE(std::isfinite(f)) << entry.name;
+      ASSERT_LE(f, 0.45 + 1e-3) << entry.name;
+      ASSERT_NEAR(f, before, 3e-4) << entry.name << " at " << v;  // steepest: 4 mu / v_d
+      before = f;
+    }
+  }
+}
+
+// A block of 1 kg with LuGre friction under a normal force of 1 N: x, v, z from the start, RK4.
+struct Block {
+  double x, v, z;
+};
+template <typename Force, typename Seen>
+void follow(const LuGreT<double>& law, Block b, double belt, double duration, double h, const Force& force,
+            const Seen& seen) {
+  using State = Eigen::Vector3d;
+  const auto derivative = [&](double t, const State& y) {
+    const auto traction =
+        law.traction({y[1] - belt, 0.0}, {y[2], 0.0}, std::numeric_limits<double>::infinity());
+    return State(y[1], force(t, y[0]) + traction.force[0], traction.rate[0]);
+  };
+  State y(b.x, b.v, b.z);
+  const long steps = std::lround(duration / h);
+  for (long k = 0; k <= steps; ++k) {
+    const double t = k * h;
+    seen(t, y);
+    const State k1 = derivative(t, y), k2 = derivative(t + 0.5 * h, y + 0.5 * h * k1);
+    const State k3 = derivative(t + 0.5 * h, y + 0.5 * h * k2), k4 = derivative(t + h, y + h * k3);
+    y += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  }
+}
+
+LuGreT<double> demonstration() {  // Canudas de Wit et al. (1995), table 1
+  LuGreT<double> law;
+  law.kinetic = 1.0;
+  law.stiction = 1.5;
+  law.stribeck_speed = 1e-3;
+  law.damping_speed = 1e9;  // theirs does not decay
+  law.bristle_stiffness = 1e5;
+  law.bristle_damping = std::sqrt(1e5);
+  return law;
+}
+
+TEST(LuGre, HoldsALoadBelowTheStaticCoefficientWhereCoulombCreeps) {
+  // 1.2 N for 0.5 s: the bristles bend by 1.2e-5 m and then nothing moves.
+  double middle = 0.0, last = 0.0;
+  follow(
+      demonstration(), {0.0, 0.0, 0.0}, 0.0, 0.5, 2e-5,
+      [](double t, double) { return 1.2 * std::min(1.0, t / 0.1); },
+      [&](double t, const Eigen::Vector3d& y) {
+        if (t < 0.3) middle = y[0];
+        last = y[0];
+      });
+  EXPECT_NEAR(last - middle, 0.0, 2e-6);  // modified Coulomb would creep by more than v_s * 0.2 s = 2e-5 m
+  EXPECT_LT(last, 5e-5);
+}
+
+TEST(LuGre, SlidesUnderTheKineticCoefficient) {
+  LuGreT<double> law = demonstration();
+  for (const double v : {0.05, 0.5, 5.0}) {
+    // The steady deflection g / s0.
+    const auto traction = law.traction({v, 0.0}, {1.0 / 1e5, 0.0}, 1e300);
+    EXPECT_NEAR(traction.rate[0], 0.0, 1e-9 * v);
+    EXPECT_NEAR(traction.force[0], -1.0, 1e-8);
+  }
+}
+
+// The bound on how fast bristles relax leaves the steady force of sliding alone.
+TEST(LuGre, KeepsItsSteadyForceWhereTheStepCannotFollowTheBristles) {
+  LuGreT<double> law = demonstration();
+  law.bristle_damping = 0.0;
+  Eigen::Vector2d z(0.0, 0.0);
+  const double h = 1e-4;
+  for (int k = 0; k < 40; ++k)
+    z += h * law.traction({3.0, 4.0}, z, 1.0 / h).rate;  // relaxes at 5e5 1/s unbounded
+  const Eigen::Vector2d force = law.traction({3.0, 4.0}, z, 1.0 / h).force;
+  EXPECT_NEAR(force[0], -0.6, 1e-9);
+  EXPECT_NEAR(force[1], -0.8, 1e-9);
+}
+
+// Block on a belt of 0.1 m/s held by a spring of 2 N/m, static and kinetic friction 1.5 and 1 N. With
+// Coulomb's friction: first slip at 7.5 s, period 7.611259 s, turning at 0.759808 and 0.240192 m. LuGre's
+// bristles creep while they bend, and break away early: stiffer ones come closer.
+TEST(LuGre, SticksAndSlipsOnABeltAsCoulombsFrictionDoesTheMoreTheStifferItsBristles) {
+  struct Figures {
+    double first = 0.0, period = 0.0, highest = 0.0, lowest = 1.0;
+  };
+  const auto with_bristles = [](double stiffness, double h) {
+    LuGreT<double> law = demonstration();
+    law.bristle_stiffness = stiffness;
+    Figures f;
+    bool sticking = true;
+    follow(
+        law, {0.0, 0.1, 0.0}, 0.1, 16.0, h, [](double, double x) { return -2.0 * x; },
+        [&](double t, const Eigen::Vector3d& y) {
+          f.highest = std::max(f.highest, y[0]);
+          if (f.first > 0.0) f.lowest = std::min(f.lowest, y[0]);
+          const bool sticks = std::abs(y[1] - 0.1) < 0.005;
+          if (sticking && !sticks) (f.first == 0.0 ? f.first : f.period) = t - f.first;
+          sticking = sticks;
+        });
+    return f;
+  };
+  const Figures soft = with_bristles(1e5, 4e-5), stiff = with_bristles(1e6, 4e-6);
+  EXPECT_NEAR(soft.first, 7.5, 0.01 * 7.5);
+  EXPECT_NEAR(soft.period, 7.611259254, 0.02 * 7.6);
+  EXPECT_NEAR(soft.highest, 0.759807621, 0.01);
+  EXPECT_NEAR(soft.lowest, 0.240192379, 0.01);
+  EXPECT_LT(std::abs(stiff.first - 7.5), 0.8 * std::abs(soft.first - 7.5));
+  EXPECT_LT(std::abs(stiff.period - 7.611259254), 0.5 * std::abs(soft.period - 7.611259254));
+  EXPECT_LT(std::abs(stiff.highest - 0.759807621), 0.5 * std::abs(soft.highest - 0.759807621));
+}
+
+// Closed forms of Coulomb's friction, to the accuracy that a law regularised at 1 mm/s allows.
+TEST(FrictionLaws, LetABlockSlideDownAnInclineAsCoulombsDoes) {
+  const double slope = 20.0 * M_PI / 180.0, g = 9.81;
+  for (const auto& [mu, a] : {std::pair{0.1, 2.433379145}, std::pair{0.3, 0.589702223}})
+    for (const FrictionLawEntry& entry : friction_laws()) {
+      if (entry.kind == FrictionKind::none || entry.kind == FrictionKind::lugre) continue;
+      FrictionParameters p;
+      p.coefficient = mu;
+      const FrictionLaw law = make_friction_law(entry.name, p);
+      double v = 0.0;
+      const double h = 1e-5;
+      for (int k = 0; k < 100000; ++k)
+        v += h * (g * std::sin(slope) - g * std::cos(slope) * over_normal(law, v));
+      const double factor = entry.kind == FrictionKind::threlfall ? 1.0 - std::exp(-3.0) : 1.0;
+      EXPECT_NEAR(v, a + (1.0 - factor) * mu * g * std::cos(slope), 2e-3) << entry.name;  // v_d is 1e-3 m/s
+    }
+}
+
+TEST(FrictionLaws, BringASlidingSphereToRollAsCoulombsDoes) {
+  // v0 = 2 m/s, mu = 0.2: rolling at 10/7 m/s from 0.291248 s on.
+  for (const char* name : {"modified-coulomb", "brown-mcphee", "bengisu-akay"}) {
+    FrictionParameters p;
+    p.coefficient = 0.2;
+    const FrictionLaw law = make_friction_law(name, p);
+    double v = 2.0, spin = 0.0, rolling = 0.0;  // spin times radius
+    const double h = 1e-5;
+    for (int k = 0; k < 40000; ++k) {
+      const double slip = v - spin, f = std::copysign(over_normal(law, std::abs(slip)), slip) * 9.81;
+      v -= h * f;
+      spin += 2.5 * h * f;
+      if (rolling == 0.0 && v - spin < 2e-3) rolling = k * h;
+    }
+    EXPECT_NEAR(v, 10.0 / 7.0, 1e-3) << name;
+    EXPECT_NEAR(rolling, 0.291247998, 1e-3) << name;
+  }
+}
+
+TEST(FrictionLaws, TurnACoulombOscillatorWhereTheoryForesees) {
+  // m = 1, k = 100, mu = 0.1: turning points 0.1, -0.08038, 0.06076, -0.04114, 0.02152 m half a period of
+  // 0.314159 s apart.
+  const double turning[] = {-0.08038, 0.06076, -0.04114, 0.02152};
+  FrictionParameters p;
+  p.coefficient = 0.1;
+  p.static_speed = 1e-7;
+  p.dynamic_speed = 1e-4;
+  const FrictionLaw law = make_friction_law("modified-coulomb", p);
+  double x = 0.1, v = 0.0;
+  int turns = 0;
+  const double h = 1e-6;
+  for (int k = 0; k < 1400000 && turns < 4; ++k) {
+    const double before = v;
+    v += h * (-100.0 * x - std::copysign(9.81 * over_normal(law, std::abs(v)), v));
+    x += h * v;
+    if (k > 1000 && before * v < 0.0) {
+      EXPECT_NEAR(x, turning[turns], 2e-5);
+      EXPECT_NEAR(k * h, 0.3141592654 * (turns + 1), 3e-4);
+      ++turns;
+    }
+  }
+  EXPECT_EQ(turns, 4);
+}
+
+}  // namespace
+}  // namespace boresight

@@ -1,0 +1,212 @@
+// What restitution each law returns when asked for one, and the shape of every law's force.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "boresight/contact/exact_restitution.hpp"
+#include "boresight/contact/impact.hpp"
+#include "boresight/contact/kelvin_voigt.hpp"
+#include "boresight/contact/normal_law.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr double kAsked[] = {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99};
+
+// From e_out = (1 + W0(-(1 + h) exp(-(1 + h)))) / h, the relation that holds for the whole family whatever
+// exponent, stiffness, mass and speed. Lines of Hunt-Crossley, Gonthier and Carvalho-Martins also stand in
+// EXUDYN's contactSphereSphereTest (0.90903 at 0.9, 0.66298 at 0.5 for the first; 0.30424 at 0.3, 0.10099 at
+// 0.1 for the second; 0.90002 at 0.9 for the third).
+const std::map<std::string, std::array<double, 12>> kReturned = {
+    {"hunt-crossley",
+     {.50145, .51583, .54685, .58129, .61974, .66296, .71195, .76800, .83287, .90902, .95237, .99010}},
+    {"herbert-mcwhannell",
+     {.48844, .49070, .50078, .51997, .55031, .59362, .65107, .72268, .80698, .90089, .95011, .99000}},
+    {"lee-wang",
+     {.67462, .68666, .71195, .73900, .76800, .79920, .83287, .86934, .90902, .95237, .97561, .99502}},
+    {"lankarani-nikravesh",
+     {.66354, .66527, .67226, .68422, .70163, .72524, .75615, .79597, .84710, .91318, .95351, .99015}},
+    {"gonthier",
+     {.05013, .10099, .20461, .30422, .39779, .48774, .57728, .66958, .76800, .87644, .93593, .98678}},
+    {"zhiying-qishao",
+     {.19691, .21747, .26642, .32670, .39884, .48261, .57690, .67957, .78736, .89592, .94886, .98995}},
+    {"flores",
+     {.03289, .06944, .15554, .25621, .36287, .47044, .57728, .68318, .78854, .89392, .94683, .98934}},
+    {"hu-guo",
+     {.03509, .07407, .16560, .27066, .37965, .48774, .59362, .69730, .79920, .89990, .94999, .99000}},
+    {"carvalho-martins",
+     {.09292, .12894, .21159, .30397, .40109, .50017, .59997, .69997, .79999, .90000, .95000, .99000}},
+    {"exact", {.05, .1, .2, .3, .4, .5, .6, .7, .8, .9, .95, .99}},
+    {"hertz", {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}}};
+
+TEST(ContactLaws, ReturnTheRestitutionThatTheoryForesees) {
+  for (const auto& [name, returned] : kReturned)
+    for (std::size_t k = 0; k < returned.size(); ++k) {
+      const NormalLaw law{1e9, normal_law(name).damping_factor(kAsked[k])};
+      EXPECT_NEAR(impact(law, 1.0, 1.0, 3000).restitution, returned[k], 2e-5)
+          << name << " asked for " << kAsked[k];
+    }
+}
+
+TEST(ContactLaws, EveryLawOfHertzGeometryIsInTheTableOfReturnedRestitutions) {
+  for (const NormalLawEntry& law : normal_laws()) {
+    if (law.geometry == ContactGeometry::point) {
+      EXPECT_EQ(kReturned.count(law.name), 1u) << law.name;
+    }
+  }
+}
+
+TEST(ExactRestitution, HasTheDampingFactorsOfTheRelation) {
+  // Solved with 30 digits.
+  const double h[] = {19.999999681532, 9.9981593974957, 4.9191667157908,  3.0870819811296,
+                      2.082498164147,  1.4327505332714, .97487171081327,  .63482828126642,
+                      .37314620336505, .16648195068531, .078926605287415, .015151362109441};
+  for (int k = 0; k < 12; ++k)
+    EXPECT_NEAR(exact_restitution_damping_factor(kAsked[k]) / h[k], 1.0, 2e-12) << kAsked[k];
+}
+
+TEST(ExactRestitution, ReturnsWhatItWasAskedForWhateverMassSpeedAndElasticCurve) {
+  ClearanceParameters p;
+  p.radial = 0.1e-3;
+  p.journal_radius = 10e-3;
+  p.sleeve_length = 30e-3;
+  for (const char* name : {"johnson", "radzimovsky", "dubowsky-freudenstein", "liu", "pereira", "flores"})
+    for (const double e : {0.2, 0.6, 0.95}) {
+      p.contact.restitution = e;
+      EXPECT_NEAR(impact(make_normal_law(name, "exact", p), 0.3, 0.2, 8000).restitution, e, 1e-6) << name;
+    }
+}
+
+TEST(ExactRestitution, GoesToZeroDampingSmoothlyAtFullRestitution) {
+  EXPECT_EQ(exact_restitution_damping_factor(1.0), 0.0);
+  EXPECT_NEAR(exact_restitution_damping_factor(1.0 - 1e-9) / 1.5e-9, 1.0, 1e-6);
+}
+
+TEST(ContactLaws, ReachTheDepthAndForceThatTheoryForesees) {
+  // Relative to the undamped impact: depth, force, and duration over depth / speed.
+  struct Row {
+    double e;
+    const char* name;
+    double depth, force, duration;
+  };
+  for (const Row& row :
+       {Row{.9, "hunt-crossley", .962999, .953011, 2.973966},
+        Row{.9, "lankarani-nikravesh", .964719, .954822, 2.972376},
+        Row{.9, "gonthier", .949435, .939975, 2.987110}, Row{.9, "flores", .956737, .946720, 2.979899},
+        Row{.9, "hu-guo", .959222, .949160, 2.977517}, Row{.5, "hu-guo", .769162, .933641, 3.314567},
+        Row{.3, "flores", .628078, 1.084601, 3.986922}, Row{.3, "gonthier", .661729, 1.037209, 3.768553}}) {
+    const NormalLaw law{1e9, normal_law(row.name).damping_factor(row.e)};
+    const Impact hit = impact(law, 1.0, 1.0, 8000);
+    const double depth = std::pow(5.0 / (4.0 * law.stiffness), 0.4),
+                 force = law.stiffness * std::pow(depth, 1.5);
+    EXPECT_NEAR(hit.depth / depth, row.depth, 2e-6) << row.name;
+    EXPECT_NEAR(hit.force / force, row.force, 2e-6) << row.name;
+    EXPECT_NEAR(hit.duration / depth, row.duration, 5e-5) << row.name;
+  }
+}
+
+TEST(KelvinVoigt, ReturnsTheRestitutionOfItsClosedForm) {
+  for (const double e : {0.2, 0.5, 0.9}) {
+    const double m = 0.7, K = 1e7, D = kelvin_voigt_dashpot(K, m, e);
+    NormalLaw law;
+    law.curve = ElasticCurve::linear;
+    law.stiffness = K;
+    law.dashpot = D;
+    EXPECT_NEAR(impact(law, m, 0.3, 20000).restitution, e, 1e-6);
+    EXPECT_NEAR(kelvin_voigt_restitution(K, D, m), e, 1e-12);
+  }
+}
+
+TEST(KelvinVoigt, JumpsByTheDashpotWhenContactBegins) {
+  ClearanceParameters p;
+  p.contact.linear_stiffness = 1e7;
+  p.contact.linear_damping = 100.0;
+  const NormalLaw law = kelvin_voigt(p);
+  EXPECT_NEAR(law.force(1e-15, 0.5, 0.5), 50.0, 1e-7);
+}
+
+// All laws, over twelve decades of penetration and rates up to ten times the impact speed.
+TEST(ContactLaws, AreContinuousNeverPullAndStayFinite) {
+  ClearanceParameters p;
+  p.radial = 0.1e-3;
+  p.journal_radius = 10e-3;
+  p.sleeve_length = 30e-3;
+  p.contact.linear_stiffness = 1e8;
+  p.contact.linear_damping = 10.0;
+  for (const NormalLawEntry& entry : normal_laws())
+    for (const double e : {1e-6, 0.1, 0.9, 1.0}) {
+      p.contact.restitution = e;
+      const NormalLaw law = make_normal_law(entry.name, "", p);
+      for (const double rate : {-10.0, -0.5, 0.0, 0.5, 1.0, 10.0}) {
+        double before = 0.0, depth_before = 0.0;
+        for (double d = 1e-15; d < 1e-2; d *= 1.02) {
+          const double F = law.force(d, rate, 1.0);
+          ASSERT_TRUE(std::isfinite(F)) << entry.name;
+          ASSERT_GE(F, 0.0) << entry.name;
+          // No jump: the steepest curve, a logarithmic one where its range ends, rises with the second power.
+          if (entry.geometry != ContactGeometry::linear && before > 0.0) {
+            ASSERT_LE(std::abs(F / before - 1.0), std::pow(d / depth_before, 2.0) - 1.0 + 1e-9)
+                << entry.name << " at " << d;
+          }
+          before = F, depth_before = d;
+        }
+      }
+      // Starts from nothing: a thousandth of a thousandth of the force at a thousandth of a thousandth of the
+      // depth, but for the slowly varying logarithm of the line laws.
+      if (entry.geometry != ContactGeometry::linear) {
+        EXPECT_LT(law.force(1e-15, 1.0, 1.0), 3e-6 * law.force(1e-9, 1.0, 1.0)) << entry.name;
+      }
+    }
+}
+
+TEST(ElasticCurves, SlopeAndEnergyAreTheForcesDerivativeAndIntegralAndDepthItsInverse) {
+  ClearanceParameters p;
+  p.radial = 0.1e-3;
+  p.journal_radius = 10e-3;
+  p.sleeve_length = 30e-3;
+  p.contact.linear_stiffness = 1e8;
+  for (const NormalLawEntry& entry : normal_laws()) {
+    const NormalLaw law = make_normal_law(entry.name, "", p);
+    for (const double d : {1e-9, 3e-7, 0.99e-6, 1.01e-6, 5e-6, 0.4e-4, 0.1e-3, 0.5e-3}) {
+      const double h = 1e-6 * d, F = law.elastic_force(d);
+      EXPECT_NEAR((law.elastic_force(d + h) - law.elastic_force(d - h)) / (2.0 * h) / law.elastic_slope(d),
+                  1.0, 1e-6)
+          << entry.name << " at " << d;
+      EXPECT_NEAR(law.depth_under(F) / d, 1.0, 1e-9) << entry.name << " at " << d;
+      // Simpson's rule over the last tenth of the way.
+      const double a = 0.9 * d,
+                   sum = (law.elastic_force(a) + 4.0 * law.elastic_force(0.95 * d) + F) * 0.1 * d / 6.0;
+      EXPECT_NEAR((law.elastic_energy(d) - law.elastic_energy(a)) / sum, 1.0, 1e-5)
+          << entry.name << " at " << d;
+    }
+  }
+}
+
+// The implicit laws, from penetration to force and back through the line that their papers print.
+TEST(CylinderLaws, SatisfyTheirPrintedRelations) {
+  ClearanceParameters p;
+  p.radial = 0.5e-3;
+  p.journal_radius = 9.5e-3;
+  p.sleeve_length = 15e-3;
+  p.contact.young = {207e9, 207e9};
+  p.contact.poisson = {0.3, 0.3};
+  const double E = 207e9 / (2.0 * (1.0 - 0.09)), L = 15e-3, dR = 0.5e-3, Ra = 9.5e-3, Rb = 10e-3, pi = M_PI;
+  for (const double d : {1e-7, 1e-6, 5e-6, 2e-5}) {
+    double f = make_normal_law("johnson", "", p).elastic_force(d) / L;
+    EXPECT_NEAR(f / (pi * E) * (std::log(4.0 * pi * E * dR / f) - 1.0) / d, 1.0, 1e-12);
+    f = make_normal_law("radzimovsky", "", p).elastic_force(d) / L;
+    const double b = 1.60 * std::sqrt(f * Ra * Rb / (dR * E));
+    EXPECT_NEAR(f / (pi * E) * (2.0 / 3.0 + std::log(4.0 * Ra / b) + std::log(4.0 * Rb / b)) / d, 1.0, 1e-12);
+    const double F = make_normal_law("dubowsky-freudenstein", "", p).elastic_force(d), s = 1.0 / (pi * E);
+    EXPECT_NEAR(F * s / L * (std::log(L * L * L * dR / (F * Ra * Rb * s)) + 1.0) / d, 1.0, 1e-12);
+    const double liu = 0.5 * pi * d * E * L * std::sqrt(d / (2.0 * (dR + d)));
+    EXPECT_NEAR(make_normal_law("liu", "", p).elastic_force(d) / liu, 1.0, 1e-14);
+    const double n = (0.0151 * 0.5 + 1.151) * std::pow(0.5, -0.005);
+    const double pereira = (0.965 * 0.5 + 0.0965) * 15.0 * (E * 1e-6) / 0.5 * std::pow(1e3 * d, n);
+    EXPECT_NEAR(make_normal_law("pereira", "", p).elastic_force(d) / pereira, 1.0, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace boresight
