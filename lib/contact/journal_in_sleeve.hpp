@@ -60,6 +60,19 @@ struct JournalInSleeveT {
   template <typename M>
   void gaps(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const;
 
+  // The radial contact of a parallel journal: its normal, and how deep it is.
+  template <typename M>
+  struct Radial {
+    M nx, nz, penetration, rate;
+  };
+  template <typename M>
+  Radial<M> radial_contact(const JournalMotion<M>& m) const {
+    // A concentric journal has no normal; length_from_square gives it some.
+    const M distance = length_from_square(M(m.e.x() * m.e.x() + m.e.z() * m.e.z())), inverse = T(1.0) / distance;
+    const M nx = m.e.x() * inverse, nz = m.e.z() * inverse;
+    return {nx, nz, distance - radial_clearance, m.e_dot.x() * nx + m.e_dot.z() * nz};
+  }
+
   template <typename M, typename Friction>
   void parallel_wrench(const JournalMotion<M>& motion, const std::array<T, kContactPlaces>& impact_speed,
                        const Friction& friction, JournalWrench<M>& out) const;
@@ -82,10 +95,10 @@ template <typename M>
 void JournalInSleeveT<T>::gaps(const JournalMotion<M>& m, std::array<ContactState<M>, kContactPlaces>& contact) const {
   if (tilts) return tilted.gaps(m, contact);
   for (ContactState<M>& c : contact) c = {M(-1.0), M(0.0), M(0.0)};
-  const M distance = length_from_square(M(m.e.x() * m.e.x() + m.e.z() * m.e.z()));
+  const Radial<M> at = radial_contact(m);
   ContactState<M>& radial = contact[static_cast<int>(ContactPlace::radial)];
-  radial.penetration = distance - radial_clearance;
-  radial.rate = (m.e_dot.x() * m.e.x() + m.e_dot.z() * m.e.z()) / distance;
+  radial.penetration = at.penetration;
+  radial.rate = at.rate;
   if (!has_faces) return;
   ContactState<M>& plus = contact[static_cast<int>(ContactPlace::axial_plus)];
   plus.penetration = -m.e.y() - axial_clearance;
@@ -105,9 +118,7 @@ void JournalInSleeveT<T>::parallel_wrench(const JournalMotion<M>& m, const std::
 
   ContactState<M>& radial = out.contact[static_cast<int>(ContactPlace::radial)];
   if (any(radial.penetration > T(0.0))) {
-    // Where another sample is in contact and this one is concentric, any divisor does.
-    const M inverse = T(1.0) / select(radial.penetration > T(0.0), M(radial.penetration + radial_clearance), M(1.0));
-    const M nx = m.e.x() * inverse, nz = m.e.z() * inverse;
+    const auto [nx, nz, penetration, rate] = radial_contact(m);
     radial.normal_force =
         radial_law.force(radial.penetration, radial.rate, impact_speed[static_cast<int>(ContactPlace::radial)]);
     // Sliding: around the bore along (n_z, 0, -n_x), in which a positive spin about y carries the journal's surface, and

@@ -49,10 +49,10 @@ struct LaneOutcome {
 
 struct LaneSettings {
   const RosenbrockTable* method = nullptr;
-  double longest_step = 1e-3;   // [s]: the scene's numbers are taken as straight lines across a step
+  double longest_step = 2e-3;   // [s]: the scene's numbers are taken as straight lines across a step
   double first_step = 1e-6;     // [s]
   double smallest_step = 1e-13; // [s]
-  long most_steps = 100000;
+  long most_steps = 10'000'000;
 };
 
 // Integrates jobs[0 .. count): as many at once as the register has lanes, each at its own time and step; a lane whose sample

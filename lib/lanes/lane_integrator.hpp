@@ -6,7 +6,6 @@
 // the method has besides. What all lanes do in common is counted in tests/benchmarks/README.md.
 // Control of the step: Hairer and Wanner (1996), section IV.8, with the exponent 1/4 of methods of order 4(3).
 #pragma once
-#include <cstdlib>
 
 #include "boresight/lanes/lane_contacts.hpp"
 #include "boresight/lanes/lane_rosenbrock.hpp"
@@ -199,7 +198,7 @@ class LaneIntegrator {
     out.rejected = static_cast<long>(rejected_.lane(l));
   }
 
-  static double env(const char*n,double d){const char*e=getenv(n);return e?atof(e):d;} double kSafety=env("SAF",0.9),kSmallestFactor=env("SMF",0.2),kLargestFactor=env("LAF",4.0),kEntryFactor=env("ENF",1.5);
+  static constexpr double kSafety = 0.9, kSmallestFactor = 0.2, kLargestFactor = 4.0, kEntryFactor = 1.5;
 
   LaneSettings settings_;
   LaneDynamics<T, N> dynamics_;

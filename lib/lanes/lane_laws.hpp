@@ -27,7 +27,8 @@ JournalInSleeveT<T> in_all_lanes(JournalInSleeve law) {
   out.tilts = law.tilts;
   out.tilted.has_faces = law.tilted.has_faces;
   out.tilted.slides = law.tilted.slides;
-  out.friction.kind = law.friction.kind;
+  // Without friction the coefficient is zero: the common law does.
+  out.friction.kind = law.friction.kind == FrictionKind::none ? FrictionKind::modified_coulomb : law.friction.kind;
   const auto from = law_numbers<double>(law);
   const auto to = law_numbers<T>(out);
   for (std::size_t i = 0; i < to.size(); ++i) *to[i] = T(*from[i]);

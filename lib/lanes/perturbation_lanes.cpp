@@ -1,7 +1,6 @@
 #include "boresight/lanes/perturbation_lanes.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <list>
 #include <mutex>
 
@@ -11,8 +10,7 @@ namespace boresight {
 namespace {
 
 constexpr int kPad = 8;  // lanes of the widest register
-// Times per cell at which a gain that is no entry of the scene's table is looked at.
-constexpr std::size_t kScenesKept = 64;
+constexpr std::size_t kScenesKept = 64;  // of different masses
 
 bool same_scene(const Parameters& a, const Parameters& b) {
   if (a.gravity != b.gravity || a.payload_mass != b.payload_mass || a.body_mass != b.body_mass) return false;
@@ -57,9 +55,20 @@ struct PerturbationLanes::Prepared {
 struct PerturbationLanes::Cache {
   std::mutex mutex;
   std::shared_ptr<const PreparedScene> scene;
+  std::shared_ptr<const TimeTable> gain;  // G over time, which no mass changes
   Parameters scene_parameters;
   std::list<std::shared_ptr<const Prepared>> prepared;  // the latest first
 };
+
+bool PerturbationLanes::serve(const Mechanism& mechanism) {
+  const MechanismDescription& m = mechanism.description();
+  for (int c = 0; c < mechanism.clearances(); ++c) {
+    const JournalInSleeve law(m.clearances[c], m.joints[m.clearances[c].joint].type, mechanism.parameters().clearance[c]);
+    if (law.radial_law.curve != ElasticCurve::point || law.sticks) return false;
+    if (law.friction.kind != FrictionKind::modified_coulomb && law.friction.kind != FrictionKind::none) return false;
+  }
+  return mechanism.clearances() > 0;
+}
 
 PerturbationLanes::PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity)
     : mechanism_(std::move(mechanism)), quantity_(quantity), cache_(std::make_unique<Cache>()) {
@@ -67,31 +76,43 @@ PerturbationLanes::PerturbationLanes(std::shared_ptr<const Mechanism> mechanism,
 }
 PerturbationLanes::~PerturbationLanes() = default;
 
-std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_for(const Parameters& parameters) const {
-  const std::lock_guard lock(cache_->mutex);
-  for (auto it = cache_->prepared.begin(); it != cache_->prepared.end(); ++it)
-    if (same_scene((*it)->parameters, parameters)) {
-      cache_->prepared.splice(cache_->prepared.begin(), cache_->prepared, it);
-      return cache_->prepared.front();
-    }
-  if (!cache_->scene || (!is_kinematic(*mechanism_) && !same_scene(cache_->scene_parameters, parameters))) {
-    cache_->scene = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
-    cache_->scene_parameters = parameters;
+std::shared_ptr<const TimeTable> PerturbationLanes::gain_over_time(const PreparedScene& scene,
+                                                                   const Parameters& parameters) const {
+  const TimeTable& dynamics = scene.tables(parameters)->dynamics;
+  std::vector<double> gains;
+  int width = 0;
+  for (int k = 0; k <= dynamics.cells(); ++k) {
+    const MatX G = index_gain(*mechanism_, scene, quantity_, std::min(k * dynamics.spacing(), mechanism_->duration()));
+    for (int i = 0; i < 3; ++i)
+      for (Eigen::Index j = 0; j < G.cols(); ++j) gains.push_back(G(i, j));
+    width = static_cast<int>(G.size());
   }
+  return std::make_shared<const TimeTable>(dynamics.spacing(), width, gains);
+}
+
+// Looks the scene up, or computes it with nobody waiting: threads with other masses do so side by side.
+std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_for(const Parameters& parameters) const {
   auto p = std::make_shared<Prepared>();
   p->parameters = parameters;
-  p->scene = cache_->scene;
-  p->tables = p->scene->tables(parameters);
-  const TimeTable& dynamics = p->tables->dynamics;
-  const int n = p->tables->layout.n, knots = dynamics.cells() + 1;
-
-  std::vector<double> gains;
-  for (int k = 0; k < knots; ++k) {
-    const MatX G = index_gain(*mechanism_, *p->scene, quantity_, std::min(k * dynamics.spacing(), mechanism_->duration()));
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < n; ++j) gains.push_back(G(i, j));
+  std::shared_ptr<const TimeTable> gain_table;
+  {
+    const std::lock_guard lock(cache_->mutex);
+    for (auto it = cache_->prepared.begin(); it != cache_->prepared.end(); ++it)
+      if (same_scene((*it)->parameters, parameters)) {
+        cache_->prepared.splice(cache_->prepared.begin(), cache_->prepared, it);
+        return cache_->prepared.front();
+      }
+    if (!cache_->scene || (!is_kinematic(*mechanism_) && !same_scene(cache_->scene_parameters, parameters))) {
+      cache_->scene = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
+      cache_->scene_parameters = parameters;
+      cache_->gain = gain_over_time(*cache_->scene, parameters);
+    }
+    p->scene = cache_->scene;
+    gain_table = cache_->gain;
   }
-  const TimeTable gain(dynamics.spacing(), 3 * n, gains);
+  p->tables = std::make_shared<const SceneTables>(p->scene->scene().tables(parameters));
+  const TimeTable &dynamics = p->tables->dynamics, &gain = *gain_table;
+  const int n = p->tables->layout.n;
 
   LaneScene& lane = p->lane;
   lane.gain = dynamics.width();
@@ -125,6 +146,7 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
       p->acceleration[k] += a * a / lane.cells;
     }
   p->acceleration = p->acceleration.cwiseSqrt();
+  const std::lock_guard lock(cache_->mutex);
   cache_->prepared.push_front(p);
   if (cache_->prepared.size() > kScenesKept) cache_->prepared.pop_back();
   return p;
@@ -177,7 +199,8 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
   }
   LaneSettings settings;
   settings.method = method;
-  settings.longest_step = getenv("LST")?atof(getenv("LST")):1e-3; settings.first_step=getenv("VS")?atof(getenv("VS")):1e-6;
+  // Across a step the scene's numbers are straight lines: a hundredth of the time in which they turn.
+  settings.longest_step = std::min(settings.longest_step, mechanism_->duration() / 100.0);
   target.kernel(jobs.data(), static_cast<long>(jobs.size()), settings, outcomes.data());
 }
 

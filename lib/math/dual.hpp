@@ -18,7 +18,9 @@ struct Dual {
   T v[N];  // derivatives
 
   Dual() = default;
-  Dual(double value) : Dual(T(value)) {}  // NOLINT: a constant
+  Dual(double value)  // NOLINT: a constant
+    requires(!std::same_as<T, double>)
+      : Dual(T(value)) {}
   Dual(const T& value) : a(value) {       // NOLINT
     for (T& d : v) d = T(0.0);
   }
@@ -42,7 +44,7 @@ struct Dual {
     return each(x.a * y.a, [&](int k) { return x.v[k] * y.a + x.a * y.v[k]; });
   }
   friend Dual operator/(const Dual& x, const Dual& y) {
-    const T inverse = T(1.0) / y.a, q = x.a / y.a;
+    const T inverse = T(1.0) / y.a, q = x.a * inverse;
     return each(q, [&](int k) { return (x.v[k] - q * y.v[k]) * inverse; });
   }
   // With a constant: fewer operations than with a Dual whose derivatives are zero.
@@ -60,10 +62,10 @@ struct Dual {
   }
   friend Dual operator/(const Dual& x, const T& c) {
     const T inverse = T(1.0) / c;
-    return each(x.a / c, [&](int k) { return x.v[k] * inverse; });
+    return each(x.a * inverse, [&](int k) { return x.v[k] * inverse; });
   }
   friend Dual operator/(const T& c, const Dual& x) {
-    const T q = c / x.a, slope = -q / x.a;
+    const T inverse = T(1.0) / x.a, q = c * inverse, slope = -q * inverse;
     return each(q, [&](int k) { return slope * x.v[k]; });
   }
 

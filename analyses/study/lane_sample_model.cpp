@@ -1,0 +1,96 @@
+#include "boresight_analyses/study/lane_sample_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/cpu_clock.hpp"
+#include "boresight/rungs/step_error.hpp"
+
+namespace boresight {
+namespace {
+
+std::optional<PointingQuantity> quantity_of(const std::string& name) {
+  if (name == "position_error") return PointingQuantity::position_error;
+  if (name == "orientation_error") return PointingQuantity::orientation_error;
+  if (name == "boresight_error") return PointingQuantity::boresight_error;
+  if (name == "line_of_sight_error") return PointingQuantity::line_of_sight_error;
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool LaneSampleModel::serve(const Mechanism& mechanism, const IndexChoice& index, const RunOptions& options) {
+  const bool statistic = index.statistic == "max" || index.statistic == "rms" || index.statistic == "mean";
+  return statistic && quantity_of(index.quantity) && PerturbationLanes::serve(mechanism) && options.step == 0.0 &&
+         options.integrator.empty() && options.tolerance == 0.0;
+}
+
+LaneSampleModel::LaneSampleModel(std::shared_ptr<const Mechanism> mechanism, RungSampleModel::ParametersOf parameters_of,
+                                 IndexChoice index)
+    : mechanism_(std::move(mechanism)),
+      parameters_of_(std::move(parameters_of)),
+      index_(std::move(index)),
+      lanes_(mechanism_, quantity_of(index_.quantity).value()) {}
+
+// What the rung itself estimates (perturbation.cpp), from what the lanes keep: the deviation over the mechanism's size, times
+// how much the mechanism magnifies its offsets.
+double LaneSampleModel::nonlinearity(const Parameters& parameters, const LaneOutcome& found) const {
+  const double length = mechanism_->characteristic_length();
+  const double deviation = index_.quantity == "position_error" ? found.max / length : found.max;
+  double offset = 0.0;
+  for (const ClearanceParameters& c : parameters.clearance) offset = std::max({offset, c.radial, c.axial});
+  offset += found.max_penetration;
+  return offset > 0.0 ? deviation * std::max(1.0, deviation * length / offset) : 0.0;
+}
+
+std::string LaneSampleModel::leaves_out() const { return make_rung("perturbation", mechanism_)->leaves_out(); }
+
+void LaneSampleModel::evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                               const std::atomic<bool>& stop) const {
+  if (stop) return;
+  const double start = thread_cpu_seconds();
+  std::vector<Parameters> parameters;
+  for (const Sample& sample : samples) parameters.push_back(parameters_of_(sample.values));
+  std::vector<LaneOutcome> found(samples.size());
+  try {
+    lanes_.run(parameters, found);
+  } catch (const ComputationError& failure) {
+    for (Outcome& outcome : outcomes) {
+      outcome.status = Outcome::Status::failed;
+      outcome.message = failure.what();
+    }
+    return;
+  }
+  long attempts = 0;
+  for (const LaneOutcome& f : found) attempts += f.steps + f.rejected;
+  const double per_attempt = (thread_cpu_seconds() - start) / static_cast<double>(std::max(1L, attempts));
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const LaneOutcome& f = found[k];
+    Outcome& outcome = outcomes[k];
+    outcome.cpu_seconds = per_attempt * static_cast<double>(f.steps + f.rejected);
+    if (f.status != LaneStatus::done) {
+      outcome.status = Outcome::Status::failed;
+      outcome.message = std::string(f.status == LaneStatus::step_too_small ? "the error estimate asked for a vanishing step"
+                                                                          : "too many steps") +
+                        " at t = " + std::to_string(f.t) + " s";
+      continue;
+    }
+    outcome.value = index_.statistic == "max" ? f.max : index_.statistic == "rms" ? std::sqrt(f.mean_square) : f.mean;
+    outcome.model_error = nonlinearity(parameters[k], f);
+    outcome.discretisation_error = tolerance_error(kLaneTolerance);
+    outcome.status = Outcome::Status::done;
+  }
+}
+
+std::unique_ptr<SampleModel> sample_model(const std::string& rung, std::shared_ptr<const Mechanism> mechanism,
+                                          RungSampleModel::ParametersOf parameters_of, IndexChoice index, RunOptions options,
+                                          bool scene_varies) {
+  if (rung == "perturbation" && LaneSampleModel::serve(*mechanism, index, options))
+    return std::make_unique<LaneSampleModel>(std::move(mechanism), std::move(parameters_of), std::move(index));
+  return std::make_unique<RungSampleModel>(rung, std::move(mechanism), std::move(parameters_of), std::move(index),
+                                           std::move(options), scene_varies);
+}
+
+}  // namespace boresight

@@ -1,0 +1,178 @@
+// Many samples side by side give what each gives alone, on every instruction set, and what the rung itself gives.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "boresight/lanes/perturbation_lanes.hpp"
+#include "boresight/rungs/rung.hpp"
+#include "scenes.hpp"
+
+namespace boresight {
+namespace {
+
+bool operator==(const LaneOutcome& a, const LaneOutcome& b) {
+  return a.status == b.status && a.t == b.t && a.max == b.max && a.time_of_max == b.time_of_max && a.mean == b.mean &&
+         a.mean_square == b.mean_square && a.touching_time == b.touching_time && a.max_penetration == b.max_penetration &&
+         a.impacts == b.impacts && a.steps == b.steps && a.rejected == b.rejected;
+}
+
+std::shared_ptr<const Mechanism> scene(const char* duration, JournalAxes axes = JournalAxes::parallel) {
+  std::vector<Setting> settings = {{"motion.duration", duration}};
+  if (axes == JournalAxes::free) settings.push_back({"clearance.F1.sleeve_length", "120 mm"});
+  MechanismDescription d = scenes::rrcpr(settings);
+  d.clearances[0].axes = axes;
+  return scenes::build(std::move(d));
+}
+
+// Clearance, restitution, friction and payload all scatter.
+std::vector<Parameters> scattered(const Mechanism& mechanism, int count, bool with_payload) {
+  std::mt19937_64 random(1);
+  const auto uniform = [&](double a, double b) { return a + (b - a) * 0x1p-53 * static_cast<double>(random() >> 11); };
+  std::vector<Parameters> samples;
+  for (int k = 0; k < count; ++k) {
+    Parameters p = mechanism.parameters();
+    p.clearance[0].radial = uniform(5e-5, 3e-4);
+    p.clearance[0].axial = uniform(5e-5, 3e-4);
+    p.clearance[0].contact.restitution = uniform(0.6, 0.95);
+    p.clearance[0].friction.coefficient = uniform(0.0, 0.1);
+    if (with_payload) p.payload_mass = k % 3 == 0 ? 0.0 : uniform(0.0, 500.0);
+    samples.push_back(p);
+  }
+  return samples;
+}
+
+void expect_same_bits(JournalAxes axes, PointingQuantity quantity) {
+  const auto mechanism = scene("0.06 s", axes);
+  const PerturbationLanes lanes(mechanism, quantity);
+  const std::vector<Parameters> samples = scattered(*mechanism, 21, true);
+  std::vector<LaneOutcome> alone(samples.size());
+  for (std::size_t k = 0; k < samples.size(); ++k) lanes.run({&samples[k], 1}, {&alone[k], 1});
+  for (const LaneTarget& target : lane_targets()) {
+    std::vector<LaneOutcome> together(samples.size());
+    lanes.run(target, samples, together);
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      EXPECT_EQ(together[k].status, LaneStatus::done) << target.name << ", sample " << k;
+      EXPECT_TRUE(together[k] == alone[k]) << target.name << ", sample " << k << ": " << together[k].max << " and "
+                                           << alone[k].max;
+    }
+  }
+}
+
+TEST(Lanes, GiveTheSameBitsAloneAndTogetherOnEveryInstructionSet) {
+  expect_same_bits(JournalAxes::parallel, PointingQuantity::position_error);
+}
+
+TEST(Lanes, GiveTheSameBitsWithJournalsThatTilt) { expect_same_bits(JournalAxes::free, PointingQuantity::boresight_error); }
+
+TEST(Lanes, GiveTheSameBitsInAnyOrderOfTheSamples) {
+  const auto mechanism = scene("0.03 s");
+  const PerturbationLanes lanes(mechanism, PointingQuantity::position_error);
+  std::vector<Parameters> samples = scattered(*mechanism, 19, false);
+  std::vector<LaneOutcome> forth(samples.size()), back(samples.size());
+  lanes.run(samples, forth);
+  std::reverse(samples.begin(), samples.end());
+  lanes.run(samples, back);
+  for (std::size_t k = 0; k < samples.size(); ++k) EXPECT_TRUE(forth[k] == back[samples.size() - 1 - k]) << k;
+}
+
+// Before impacts have parted them, the rung's own fixed steps and the lanes' adaptive ones follow one motion.
+TEST(Lanes, FollowTheRungItself) {
+  for (const JournalAxes axes : {JournalAxes::parallel, JournalAxes::free}) {
+    const auto mechanism = scene("0.05 s", axes);
+    RunOptions options;
+    options.step = 2e-6;
+    options.sample_spacing = 0.0;
+    const PointingIndices index = make_rung("perturbation", mechanism)->run(mechanism->parameters(), options).index;
+    const std::pair<PointingQuantity, const Statistics*> quantities[] = {
+        {PointingQuantity::position_error, &index.position_error},
+        {PointingQuantity::orientation_error, &index.orientation_error},
+        {PointingQuantity::boresight_error, &index.boresight_error},
+        {PointingQuantity::line_of_sight_error, &index.line_of_sight_error}};
+    for (const auto& [quantity, expected] : quantities) {
+      if (expected->max < 1e-9) continue;  // parallel axes: no turning
+      const PerturbationLanes lanes(mechanism, quantity);
+      LaneOutcome out;
+      lanes.run({&mechanism->parameters(), 1}, {&out, 1}, 1e-4);
+      EXPECT_NEAR(out.max, expected->max, 2e-3 * expected->max) << static_cast<int>(quantity);
+      EXPECT_NEAR(std::sqrt(out.mean_square), expected->rms, 1e-3 * expected->rms) << static_cast<int>(quantity);
+      EXPECT_NEAR(out.mean, expected->mean, 1e-3 * expected->mean) << static_cast<int>(quantity);
+    }
+  }
+}
+
+TEST(Lanes, CountContactsAsTheRungDoes) {
+  const auto mechanism = scene("0.1 s");
+  RunOptions options;
+  options.step = 5e-6;
+  const RunResult run = make_rung("perturbation", mechanism)->run(mechanism->parameters(), options);
+  LaneOutcome out;
+  PerturbationLanes(mechanism, PointingQuantity::position_error).run({&mechanism->parameters(), 1}, {&out, 1}, 2e-4);
+  EXPECT_NEAR(out.touching_time / out.t, run.contact[0].contact_fraction, 0.01);
+  EXPECT_NEAR(out.max_penetration, run.contact[0].max_penetration, 0.02 * run.contact[0].max_penetration);
+  EXPECT_NEAR(static_cast<double>(out.impacts), static_cast<double>(run.contact[0].impacts), 2.0);
+}
+
+// A scene with dependent offsets and more coordinates than there are kernels of fixed size for.
+TEST(Lanes, TakeClearanceInManyJoints) {
+  MechanismDescription d = scenes::rrcpr({{"motion.duration", "0.02 s"}});
+  const ClearanceDescription pattern = d.clearances[0];
+  for (const char* name : {"F2", "F3", "B1"})
+    for (int j = 0; j < static_cast<int>(d.joints.size()); ++j)
+      if (d.joints[j].name == name) {
+        ClearanceDescription more = pattern;
+        more.joint = j;
+        more.journal = d.joints[j].second;
+        d.clearances.push_back(more);
+      }
+  const auto mechanism = scenes::build(std::move(d));
+  ASSERT_EQ(mechanism->clearances(), 4);
+  RunOptions options;
+  options.step = 2e-6;
+  options.sample_spacing = 0.0;
+  const Statistics expected =
+      make_rung("perturbation", mechanism)->run(mechanism->parameters(), options).index.position_error;
+  LaneOutcome out;
+  PerturbationLanes(mechanism, PointingQuantity::position_error).run({&mechanism->parameters(), 1}, {&out, 1}, 2e-4);
+  EXPECT_NEAR(out.max, expected.max, 0.01 * expected.max);
+  EXPECT_NEAR(std::sqrt(out.mean_square), expected.rms, 0.005 * expected.rms);
+}
+
+TEST(Lanes, RefuseLawsThatTheyDoNotHave) {
+  EXPECT_TRUE(PerturbationLanes::serve(*scene("0.1 s")));
+  MechanismDescription d = scenes::rrcpr();
+  d.clearances[0].contact_law = "johnson";
+  EXPECT_FALSE(PerturbationLanes::serve(*scenes::build(std::move(d))));
+}
+
+// The index at the default tolerance against its converged value: RK4 at 2 us, medians over three neighbouring steps.
+TEST(LanesLong, MeetOnePercentOverClearancesAndLoads) {
+  for (const double c : {1e-4, 2e-4, 3e-4})
+    for (const double payload : {0.0, 250.0, 500.0}) {
+      const auto mechanism = scene("1 s");
+      Parameters sample = mechanism->parameters();
+      sample.clearance[0].radial = sample.clearance[0].axial = c;
+      sample.payload_mass = payload;
+      const auto rung = make_rung("perturbation", mechanism);
+      std::vector<double> max, rms;
+      for (const double step : {2e-6, 2.2e-6, 2.5e-6}) {
+        RunOptions options;
+        options.step = step;
+        options.sample_spacing = 0.0;
+        const Statistics s = rung->run(sample, options).index.position_error;
+        max.push_back(s.max);
+        rms.push_back(s.rms);
+      }
+      std::sort(max.begin(), max.end());
+      std::sort(rms.begin(), rms.end());
+      LaneOutcome out;
+      PerturbationLanes(mechanism, PointingQuantity::position_error).run({&sample, 1}, {&out, 1});
+      std::printf("c %.1f mm, %3.0f kg: maximum %.4f mm (%+.2f %%), RMS %.4f mm (%+.2f %%), %ld steps, %ld rejected\n", 1e3 * c,
+                  payload, 1e3 * out.max, 100.0 * (out.max / max[1] - 1.0), 1e3 * std::sqrt(out.mean_square),
+                  100.0 * (std::sqrt(out.mean_square) / rms[1] - 1.0), out.steps, out.rejected);
+      EXPECT_NEAR(out.max, max[1], 0.01 * max[1]);
+      EXPECT_NEAR(std::sqrt(out.mean_square), rms[1], 0.005 * rms[1]);
+    }
+}
+
+}  // namespace
+}  // namespace boresight
