@@ -25,7 +25,7 @@ namespace {
 
 struct Level {
   std::string rung;
-  std::unique_ptr<RungSampleModel> model;
+  std::unique_ptr<SampleModel> model;
   std::unique_ptr<SampleStore> store;
 };
 

@@ -9,7 +9,7 @@
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight_analyses/montecarlo/montecarlo.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
-#include "boresight_analyses/study/rung_sample_model.hpp"
+#include "boresight_analyses/study/lane_sample_model.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
 #include "montecarlo_report.hpp"
@@ -88,8 +88,10 @@ class MonteCarloVerb : public Verb {
 
     RunOptions model_options = run;
     if (heard["step"].get<double>() > 0.0) model_options.step = heard["step"];
-    const RungSampleModel model(heard["rung"], question.mechanism, question.parameters_of(), question.study.index,
-                                model_options, scene_varies(question.plan.inputs));
+    const std::unique_ptr<SampleModel> sampled = sample_model(heard["rung"], question.mechanism, question.parameters_of(),
+                                                              question.study.index, model_options,
+                                                              scene_varies(question.plan.inputs));
+    const SampleModel& model = *sampled;
     MonteCarloOptions options{.folder = heard["folder"].get<std::string>(),
                               .facts = {{"study", hash_of(identity)}},
                               .jobs = command.jobs,
@@ -172,7 +174,10 @@ class MonteCarloVerb : public Verb {
                                            return !interrupted();
                                          }},
                                     question.mechanism, pilot_samples(question.plan.inputs, *question.mechanism));
-    if (choice.step == 0.0 && run.step == 0.0)
+    // Lanes choose each sample's steps by its error; what else runs takes one step for all samples.
+    const bool lanes = choice.name == "perturbation" && LaneSampleModel::serve(*question.mechanism, question.study.index, run);
+    if (lanes) choice.step = 0.0;
+    if (!lanes && choice.step == 0.0 && run.step == 0.0)
       choice.step = with_options_checked(run, [&] {
         return common_step(choice.name, question.mechanism, pilot_samples(question.plan.inputs, *question.mechanism), run);
       });
@@ -309,6 +314,7 @@ class MonteCarloVerb : public Verb {
     for (const Setting& setting : command.settings) text += " --set " + setting.path + "=" + setting.value;
     text += " --rung " + model.rung();
     if (model.step() > 0.0) text += fmt::format(" --step \"{:.17g} s\"", model.step());
+    if (model.batch() > 1) text += " --integrator rosenbrock";  // the lanes' method; its steps are not the same
     return text + " --sample-number";
   }
 

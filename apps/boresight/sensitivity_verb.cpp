@@ -6,7 +6,7 @@
 
 #include "boresight/io/content_hash.hpp"
 #include "boresight/io/mechanism_file.hpp"
-#include "boresight_analyses/study/rung_sample_model.hpp"
+#include "boresight_analyses/study/lane_sample_model.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
@@ -84,10 +84,11 @@ class SensitivityVerb : public Verb {
     SampleStore store = open_store(out, plan, study);
     const RungChoice choice = rung_for(command, study, mechanism, plan, run, store);
     if (choice.step > 0.0) run.step = choice.step;
-    const RungSampleModel model(
+    const std::unique_ptr<SampleModel> sampled = sample_model(
         choice.name, mechanism,
         [mechanism, &plan](std::span<const double> values) { return plan.inputs.parameters_with(*mechanism, values); },
         study.index, run, scene_varies(plan.inputs));
+    const SampleModel& model = *sampled;
     store.use_rung(model.rung(), model.step());
 
     if (!command.quiet) {
@@ -172,7 +173,9 @@ class SensitivityVerb : public Verb {
                           return !interrupted();
                         }},
                        mechanism, pilot_samples(plan.inputs, *mechanism));
-    if (choice.step == 0.0 && run.step == 0.0)
+    const bool lanes = choice.name == "perturbation" && LaneSampleModel::serve(*mechanism, study.index, run);
+    if (lanes) choice.step = 0.0;
+    if (!lanes && choice.step == 0.0 && run.step == 0.0)
       choice.step = with_options_checked(
           run, [&] { return common_step(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run); });
     return choice;

@@ -6,14 +6,15 @@
 
 namespace boresight::app {
 
-std::unique_ptr<RungSampleModel> model_on(const SeveralRungs& s, const std::string& rung) {
+std::unique_ptr<SampleModel> model_on(const SeveralRungs& s, const std::string& rung) {
   const RandomInputs& inputs = s.question.plan.inputs;
   RunOptions run = s.run;
-  if (run.step == 0.0)
+  const bool lanes = rung == "perturbation" && LaneSampleModel::serve(*s.question.mechanism, s.question.study.index, run);
+  if (!lanes && run.step == 0.0)
     run.step = with_options_checked(
         run, [&] { return common_step(rung, s.question.mechanism, pilot_samples(inputs, *s.question.mechanism), run); });
-  return std::make_unique<RungSampleModel>(rung, s.question.mechanism, s.question.parameters_of(), s.question.study.index, run,
-                                           scene_varies(inputs));
+  return sample_model(rung, s.question.mechanism, s.question.parameters_of(), s.question.study.index, run,
+                      scene_varies(inputs));
 }
 
 RungChoice named_rung(const std::string& rung) { return {rung, "the study names its rungs", 0.0}; }

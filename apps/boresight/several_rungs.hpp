@@ -5,7 +5,7 @@
 #include "boresight/rungs/rung.hpp"
 #include "boresight_analyses/montecarlo/several_models.hpp"
 #include "boresight_analyses/statistics/interval.hpp"
-#include "boresight_analyses/study/rung_sample_model.hpp"
+#include "boresight_analyses/study/lane_sample_model.hpp"
 #include "command.hpp"
 #include "montecarlo_study.hpp"
 #include "output_directory.hpp"
@@ -29,7 +29,7 @@ int run_tail(const SeveralRungs& study);
 
 // What the two share.
 // At one step for all samples.
-std::unique_ptr<RungSampleModel> model_on(const SeveralRungs& study, const std::string& rung);
+std::unique_ptr<SampleModel> model_on(const SeveralRungs& study, const std::string& rung);
 RungChoice named_rung(const std::string& rung);
 // summary.json that says whose folder this is and that the study has begun; nothing if one is there.
 void claim_folder(const SeveralRungs& study);
