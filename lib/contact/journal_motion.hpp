@@ -20,10 +20,10 @@ struct JournalMotion {
   Vec2T<T> slope = Vec2T<T>::Constant(T(0.0)), slope_rate = Vec2T<T>::Constant(T(0.0));
 };
 
-// One possible contact.
+// One possible contact. Not zero from the start: gaps() and wrench() write every place.
 template <typename T>
 struct ContactState {
-  T penetration{}, rate{}, normal_force{};  // [m], [m/s], [N]; penetration < 0: a gap
+  T penetration, rate, normal_force;  // [m], [m/s], [N]; penetration < 0: a gap
 };
 
 // Force on the journal, and moment about the sleeve's centre.

@@ -4,7 +4,7 @@ set(kernels scalar sse2 avx2 avx512)
 foreach(kernel IN LISTS kernels)
   list(APPEND kernel_files ${CMAKE_CURRENT_LIST_DIR}/lanes_${kernel}.cpp)
 endforeach()
-set_property(SOURCE ${kernel_files} TARGET_DIRECTORY lanes APPEND PROPERTY COMPILE_OPTIONS -ffp-contract=off -fno-math-errno -Wno-psabi)
+set_property(SOURCE ${kernel_files} TARGET_DIRECTORY lanes APPEND PROPERTY COMPILE_OPTIONS -ffp-contract=off -fno-math-errno -fno-trapping-math -Wno-psabi)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lanes_avx2.cpp TARGET_DIRECTORY lanes APPEND PROPERTY COMPILE_OPTIONS -march=x86-64-v3)
   set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lanes_avx512.cpp TARGET_DIRECTORY lanes

@@ -110,19 +110,19 @@ class LaneDynamics {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       return wrench.moment[i] - (motion.e[j] * wrench.force[k] - motion.e[k] * wrench.force[j]);
     };
-    const auto into_force = [&](int j, const T& gain, const D& part) {
-      force_[j] += gain * part.a;
-      add_gradient<offsets, spins>(joint, row, j, gain, part);
+    const auto into_force = [&](int j, const D& part) {
+      force_[j] += part.a;
+      add_gradient<offsets, spins>(joint, row, j, part);
     };
     for (int k = 0; k < 3; ++k) {
       const int source = joint.source[k];
       if (source >= 0) {
-        into_force(source, T(1.0), wrench.force[k]);
+        into_force(source, wrench.force[k]);
         force_change_[source] += rate_of<offsets, spins>(joint, change, z, v, wrench.force[k]);
       } else {
         const int first = source == DeviationCoordinates::kDependent ? joint.dependent + k * n : joint.slide_gain;
         for (int j = 0; j < n; ++j) {
-          into_force(j, row[first + j], wrench.force[k]);
+          into_force(j, row[first + j] * wrench.force[k]);
           force_change_[j] += row[first + j] * rate_of<offsets, spins>(joint, change, z, v, wrench.force[k]) +
                               change[first + j] * wrench.force[k].a;
         }
@@ -133,20 +133,20 @@ class LaneDynamics {
       const T rate = rate_of<offsets, spins>(joint, change, z, v, part);
       for (int j = 0; j < n; ++j) {
         const int gain = joint.spin_gain + i * n + j;
-        into_force(j, row[gain], part);
+        into_force(j, row[gain] * part);
         force_change_[j] += row[gain] * rate + change[gain] * part.a;
       }
     }
   }
 
-  // Of the j-th generalised force, to which `part` adds gain times itself.
+  // Of the j-th generalised force, to which `part` is added.
   template <int offsets, int spins, typename D>
-  void add_gradient(const SceneLayout::Joint& joint, const T* row, int j, const T& gain, const D& part) {
+  void add_gradient(const SceneLayout::Joint& joint, const T* row, int j, const D& part) {
     const int n = count();
     T *by_z = &gradient_z_[j * n], *by_v = &gradient_v_[j * n];
     for (int k = 0; k < offsets; ++k) {
       const int source = joint.source[k];
-      const T d = gain * part.v[k], d_rate = gain * part.v[offsets + k];
+      const T &d = part.v[k], &d_rate = part.v[offsets + k];
       if (source >= 0) {
         by_z[source] += d;
         by_v[source] += d_rate;
@@ -161,7 +161,7 @@ class LaneDynamics {
       }
     }
     for (int s = 0; s < spins; ++s) {
-      const T d = gain * part.v[2 * offsets + s];
+      const T& d = part.v[2 * offsets + s];
       for (int i = 0; i < n; ++i) by_v[i] += d * row[joint.spin_gain + s * n + i];
     }
   }

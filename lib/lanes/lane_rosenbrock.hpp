@@ -55,7 +55,8 @@ class LaneRosenbrock {
         }
         stage_v = stage_v_.data();
         const T share(table_.alpha[i]);
-        for (int k = 0; k < width; ++k) row_[k] = row[k] + share * change[k];
+        if (table_.alpha[i] != table_.alpha[i - 1])
+          for (int k = 0; k < width; ++k) row_[k] = row[k] + share * change[k];
         dynamics.acceleration(row_.data(), stage_z_.data(), stage_v_.data(), slope_.data());
       }
       const T time_part = T(table_.d[i]) * h;
