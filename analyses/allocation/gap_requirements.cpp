@@ -1,0 +1,224 @@
+#include "boresight_analyses/allocation/gap_requirements.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "boresight_analyses/random/design.hpp"
+#include "boresight_analyses/statistics/binomial.hpp"
+
+namespace boresight {
+
+std::int64_t allowed_failures(std::int64_t samples, double probability, double confidence) {
+  std::int64_t allowed = -1;
+  while (allowed + 1 < samples && clopper_pearson_lower(samples - allowed - 1, samples, confidence) >= probability)
+    ++allowed;
+  return allowed;
+}
+
+UnitSamples unit_samples(std::size_t joints, std::size_t samples, std::uint64_t seed) {
+  const Design design({.kind = DesignKind::random, .seed = seed}, static_cast<int>(joints));
+  UnitSamples unit(joints, std::vector<double>(samples));
+  std::vector<double> point(joints);
+  for (std::size_t k = 0; k < samples; ++k) {
+    design.point(k, point);
+    for (std::size_t j = 0; j < joints; ++j) unit[j][k] = point[j];
+  }
+  return unit;
+}
+
+std::vector<int> tightest_options(const std::vector<std::vector<DistributionPtr>>& gap) {
+  std::vector<int> tightest;
+  for (const auto& options : gap) {
+    std::vector<double> mean;
+    for (const DistributionPtr& d : options) mean.push_back(d->mean());
+    tightest.push_back(static_cast<int>(std::min_element(mean.begin(), mean.end()) - mean.begin()));
+  }
+  return tightest;
+}
+
+StatisticalRequirement::StatisticalRequirement(const LinearDeviation& deviation,
+                                               const std::vector<std::vector<DistributionPtr>>& gap,
+                                               const UnitSamples& unit, std::int64_t allowed, double limit)
+    : deviation_(deviation),
+      tightest_(tightest_options(gap)),
+      samples_(unit.front().size()),
+      allowed_(allowed),
+      limit_(limit),
+      order_(samples_) {
+  for (std::size_t j = 0; j < gap.size(); ++j) {
+    gap_.emplace_back();
+    for (const DistributionPtr& d : gap[j]) {
+      auto& values = gap_.back().emplace_back(samples_);
+      for (std::size_t k = 0; k < samples_; ++k) values[k] = d->quantile(unit[j][k]);
+    }
+  }
+  std::iota(order_.begin(), order_.end(), 0U);
+}
+
+std::vector<double> StatisticalRequirement::indices(std::span<const int> choice) const {
+  std::vector<double> values(samples_), c(choice.size());
+  for (std::size_t k = 0; k < samples_; ++k) {
+    for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j], k);
+    values[k] = deviation_.index(c);
+  }
+  return values;
+}
+
+double StatisticalRequirement::reached(std::span<const int> choice) const {
+  if (allowed_ < 0) return std::numeric_limits<double>::infinity();
+  std::vector<double> values = indices(choice);
+  std::nth_element(values.begin(), values.begin() + allowed_, values.end(), std::greater<>());
+  return values[static_cast<std::size_t>(allowed_)];
+}
+
+bool StatisticalRequirement::is_met(std::span<const int> choice) const {
+  std::int64_t failed = 0;
+  std::vector<double> c(choice.size());
+  for (std::size_t i = 0; i < samples_; ++i) {
+    const std::uint32_t k = order_[i];
+    for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j], k);
+    if (deviation_.index(c) > limit_) {
+      std::swap(order_[i], order_[static_cast<std::size_t>(failed)]);
+      if (++failed > allowed_) return false;
+    }
+  }
+  return allowed_ >= 0;
+}
+
+bool StatisticalRequirement::may_be_met(std::span<const int> choice) const {
+  if (allowed_ < 0) return false;
+  std::int64_t failed = 0;
+  std::vector<double> c(choice.size()), g(choice.size());
+  for (std::size_t i = 0; i < samples_; ++i) {
+    const std::uint32_t k = order_[i];
+    for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j] >= 0 ? choice[j] : tightest_[j], k);
+    if (deviation_.index(c) <= limit_) continue;
+    // Convex: it lies above its tangent. Where a wider gap works against the others, the tangent says by how much at most.
+    double least = deviation_.index(c, g);
+    for (std::size_t j = 0; j < c.size(); ++j) {
+      if (choice[j] >= 0) continue;
+      double gain = 0.0;
+      for (const auto& option : gap_[j]) gain = std::min(gain, g[j] * (option[k] - c[j]));
+      least += gain;
+    }
+    if (least > limit_) {
+      std::swap(order_[i], order_[static_cast<std::size_t>(failed)]);
+      if (++failed > allowed_) return false;
+    }
+  }
+  return true;
+}
+
+// For a set that meets the requirement, all samples but the allowed ones have I_k <= limit, and each lies above its
+// tangent L_k at the set given. So over M samples
+//   sum_k L_k <= M limit + sum of the `allowed` largest (max L_k - limit)+,
+// and sum_k L_k is a constant plus a sum over joints. The M samples are those with the largest indices here.
+std::optional<AdditiveInequality> StatisticalRequirement::inequality_near(std::span<const int> choice) const {
+  if (allowed_ < 0 || !deviation_.is_convex()) return {};
+  std::vector<double> values = indices(choice);
+  std::vector<std::uint32_t> hard(samples_);
+  std::iota(hard.begin(), hard.end(), 0U);
+  constexpr std::size_t kTimesAllowed = 8, kFewest = 40;
+  const std::size_t most = std::min(samples_, std::max(kFewest, kTimesAllowed * static_cast<std::size_t>(allowed_ + 1)));
+  std::partial_sort(hard.begin(), hard.begin() + static_cast<std::ptrdiff_t>(most), hard.end(),
+                    [&](auto l, auto r) { return values[l] > values[r]; });
+  hard.resize(most);
+  AdditiveInequality out;
+  for (const auto& options : gap_) out.weight.emplace_back(options.size(), 0.0);
+  out.budget = static_cast<double>(most) * limit_;
+  std::vector<double> c(choice.size()), g(choice.size()), excess;
+  for (const std::uint32_t k : hard) {
+    for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j], k);
+    const double value = deviation_.index(c, g);
+    double constant = value, largest = 0.0;
+    for (std::size_t j = 0; j < c.size(); ++j) {
+      constant -= g[j] * c[j];
+      double most_here = -std::numeric_limits<double>::infinity();
+      for (std::size_t o = 0; o < gap_[j].size(); ++o) {
+        out.weight[j][o] += g[j] * gap_[j][o][k];
+        most_here = std::max(most_here, g[j] * gap_[j][o][k]);
+      }
+      largest += most_here;
+    }
+    out.budget -= constant;
+    excess.push_back(std::max(0.0, constant + largest - limit_));
+  }
+  std::sort(excess.begin(), excess.end(), std::greater<>());
+  for (std::size_t i = 0; i < std::min(excess.size(), static_cast<std::size_t>(allowed_)); ++i) out.budget += excess[i];
+  return out;
+}
+
+std::vector<double> StatisticalRequirement::error_shares(std::span<const int> choice) const {
+  std::vector<double> mean(choice.size()), variance(choice.size()), g(choice.size());
+  for (std::size_t j = 0; j < mean.size(); ++j) {
+    const auto& values = gap_[j][static_cast<std::size_t>(choice[j])];
+    mean[j] = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(samples_);
+    for (const double v : values) variance[j] += (v - mean[j]) * (v - mean[j]);
+  }
+  deviation_.index(mean, g);
+  double sum = 0.0;
+  for (std::size_t j = 0; j < mean.size(); ++j) sum += variance[j] *= g[j] * g[j];
+  for (double& v : variance) v = sum > 0.0 ? v / sum : 0.0;
+  return variance;
+}
+
+WorstCaseRequirement::WorstCaseRequirement(const LinearDeviation& deviation,
+                                           const std::vector<std::vector<DistributionPtr>>& gap, double limit)
+    : deviation_(deviation), limit_(limit) {
+  for (const auto& options : gap) {
+    largest_.emplace_back();
+    for (const DistributionPtr& d : options) largest_.back().push_back(d->highest());
+  }
+}
+
+bool WorstCaseRequirement::is_met(std::span<const int> choice) const { return may_be_met(choice); }
+
+bool WorstCaseRequirement::may_be_met(std::span<const int> choice) const {
+  std::vector<double> c(choice.size());
+  for (std::size_t j = 0; j < c.size(); ++j)
+    c[j] = choice[j] >= 0 ? largest_[j][static_cast<std::size_t>(choice[j])]
+                          : *std::min_element(largest_[j].begin(), largest_[j].end());
+  return deviation_.worst_index(c) <= limit_;
+}
+
+RootSumSquareRequirement::RootSumSquareRequirement(const LinearDeviation& deviation,
+                                                   const std::vector<std::vector<DistributionPtr>>& gap,
+                                                   double probability, double limit)
+    : deviation_(deviation),
+      tightest_(tightest_options(gap)),
+      z_(boost::math::quantile(boost::math::normal(), probability)),
+      limit_(limit) {
+  for (const auto& options : gap) {
+    middle_.emplace_back();
+    half_.emplace_back();
+    for (const DistributionPtr& d : options) {
+      middle_.back().push_back(0.5 * (d->lowest() + d->highest()));
+      half_.back().push_back(0.5 * (d->highest() - d->lowest()));
+    }
+  }
+}
+
+bool RootSumSquareRequirement::is_met(std::span<const int> choice) const { return may_be_met(choice); }
+
+bool RootSumSquareRequirement::may_be_met(std::span<const int> choice) const {
+  std::vector<double> c(choice.size()), h(choice.size());
+  for (std::size_t j = 0; j < c.size(); ++j) {
+    const auto o = static_cast<std::size_t>(choice[j] >= 0 ? choice[j] : tightest_[j]);
+    c[j] = middle_[j][o];
+    h[j] = half_[j][o];
+  }
+  return root_sum_square_index(deviation_, c, h, z_) <= limit_;
+}
+
+double root_sum_square_index(const LinearDeviation& deviation, std::span<const double> middle,
+                             std::span<const double> half, double z) {
+  std::vector<double> g(middle.size());
+  const double index = deviation.index(middle, g);
+  double squares = 0.0;
+  for (std::size_t j = 0; j < g.size(); ++j) squares += std::pow(g[j] * half[j] / 3.0, 2);
+  return index + z * std::sqrt(squares);
+}
+
+}  // namespace boresight
