@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <nlopt.hpp>
-#include <optional>
 #include <stdexcept>
 
 namespace boresight {
@@ -140,14 +140,29 @@ class Search {
     Search* search;
     std::size_t constraint;
   };
+  // What the caller's functions throw ends the search and is thrown on; NLopt would swallow it.
+  template <typename Compute>
+  double guarded(const Compute& compute) {
+    try {
+      return compute();
+    } catch (const nlopt::forced_stop&) {
+      throw;
+    } catch (...) {
+      fault_ = std::current_exception();
+      throw nlopt::forced_stop();
+    }
+  }
   static double objective_of(const std::vector<double>& u, std::vector<double>& gradient, void* data) {
-    return static_cast<Search*>(data)->evaluate(u, gradient.empty() ? nullptr : gradient.data());
+    Search& s = *static_cast<Search*>(data);
+    return s.guarded([&] { return s.evaluate(u, gradient.empty() ? nullptr : gradient.data()); });
   }
   static double constraint_of(const std::vector<double>& u, std::vector<double>& gradient, void* data) {
     const auto& bound = *static_cast<Bound*>(data);
     Search& s = *bound.search;
-    const double value = s.problem_.constraints[bound.constraint](
-        s.scaled(u), gradient.empty() ? std::span<double>() : std::span<double>(s.gradient_));
+    const double value = s.guarded([&] {
+      return s.problem_.constraints[bound.constraint](
+          s.scaled(u), gradient.empty() ? std::span<double>() : std::span<double>(s.gradient_));
+    });
     for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] = s.gradient_[i] * s.range(i);
     return value;
   }
@@ -197,6 +212,7 @@ class Search {
       result_.converged = false;
       result_.stopped = "the algorithm could not go on";
     }
+    if (fault_) std::rethrow_exception(fault_);
   }
 
   const MinimisationProblem& problem_;
@@ -206,6 +222,7 @@ class Search {
   double best_value_ = 0.0, best_violation_ = 0.0, best_excess_ = 0.0;
   int evaluations_ = 0;
   bool seen_ = false;
+  std::exception_ptr fault_;
 };
 
 template <std::size_t N>

@@ -22,6 +22,20 @@ const char* to_string(Outcome::Status status) {
   return "";
 }
 
+namespace {
+
+MotionMeasures measures_of(const RunResult& result) {
+  MotionMeasures m{.free_flight_share = 0.0, .impacts_per_second = 0.0, .peak_acceleration = 0.0};
+  for (const ContactSummary& joint : result.contact) {
+    m.free_flight_share = std::max(m.free_flight_share, 1.0 - joint.contact_fraction);
+    if (result.end_time > 0.0) m.impacts_per_second += static_cast<double>(joint.impacts) / result.end_time;
+  }
+  m.peak_acceleration = result.platform_acceleration_max.cwiseAbs().maxCoeff();
+  return m;
+}
+
+}  // namespace
+
 RungSampleModel::RungSampleModel(std::string rung, std::shared_ptr<const Mechanism> mechanism,
                                  ParametersOf parameters_of, IndexChoice index, RunOptions options, bool scene_varies)
     : rung_(std::move(rung)),
@@ -79,6 +93,7 @@ void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outco
     outcome.cpu_seconds = result.cost.cpu_seconds;
     if (result.interrupted) return;
     outcome.value = index_.of(result.index);
+    outcome.motion = measures_of(result);
     outcome.model_error = result.error.model;
     outcome.discretisation_error = result.error.discretisation;
     outcome.status = Outcome::Status::done;

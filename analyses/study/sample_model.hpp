@@ -18,6 +18,13 @@ struct Sample {
   std::span<const double> values = {};  // SI, in the order of the study's random parameters
 };
 
+// What else a run says of its motion: how steadily the joints hold, how hard they hit.
+struct MotionMeasures {
+  double free_flight_share = std::numeric_limits<double>::quiet_NaN();   // of the time, of the joint least in contact
+  double impacts_per_second = std::numeric_limits<double>::quiet_NaN();  // contacts begun, all joints together [1/s]
+  double peak_acceleration = std::numeric_limits<double>::quiet_NaN();   // of the boresight body, largest component [m/s^2]
+};
+
 struct Outcome {
   enum class Status { done = 0, failed = 1, not_reached = 2 };  // not_reached: stopped before its end
   Status status = Status::not_reached;
@@ -26,6 +33,7 @@ struct Outcome {
   double cpu_seconds = 0.0;
   double model_error = 0.0;           // what the rung thinks of itself, relative: by what it leaves out
   double discretisation_error = 0.0;  // and by its steps
+  MotionMeasures motion = {};         // NaN where the model does not say
 };
 const char* to_string(Outcome::Status status);
 

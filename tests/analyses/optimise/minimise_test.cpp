@@ -116,6 +116,16 @@ TEST(Minimise, RefusesAlgorithmsThatCannotTakeTheProblem) {
   EXPECT_THROW(minimise(p, {.global = "annealing"}), std::invalid_argument);
 }
 
+TEST(Minimise, WhatTheObjectiveThrowsIsThrownOn) {
+  MinimisationProblem p = quadratic();
+  struct Full {};
+  p.objective = [](Values x, Gradient) -> double {
+    if (x[0] < 0.5) throw Full{};
+    return x[0];
+  };
+  EXPECT_THROW(minimise(p, fine()), Full);
+}
+
 TEST(Minimise, AnInterruptionKeepsTheBestPlaceSeen) {
   MinimisationProblem p = quadratic();
   int left = 20;

@@ -1,0 +1,40 @@
+// A parameter, or several that share a value, that an optimisation may choose within bounds:
+//
+//   [[match.variable]]
+//   parameter = "payload.mass"       # one path, or a list of paths that take the same value
+//   from = "0 kg"
+//   to = "150 kg"
+//   starts = ["1 kg", "60 kg"]       # where searches begin; the middle if left out
+//   scale = "linear"                 # or log: the search then sees the logarithm
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "boresight/io/cursor.hpp"
+#include "boresight/mechanism/mechanism.hpp"
+#include "boresight/mechanism/parameter_path.hpp"
+
+namespace boresight {
+
+struct DesignVariable {
+  std::vector<std::string> paths;
+  std::string si_unit;
+  double from = 0.0, to = 0.0;
+  bool log = false;
+  std::vector<double> starts;
+  std::vector<ParameterPath> places;
+
+  const std::string& name() const { return paths.front(); }
+  // The search's own scale.
+  double to_search(double value) const;
+  double from_search(double x) const;
+};
+
+// Throws InputError. `accepts`: see read_random_inputs; asked of both bounds.
+DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& mechanism,
+                                    const std::function<void(const Setting&)>& accepts);
+
+}  // namespace boresight
