@@ -11,6 +11,7 @@ namespace boresight::app {
   VERB(stability)             \
   VERB(montecarlo)            \
   VERB(sensitivity)           \
+  VERB(match)                 \
   VERB(export)                \
   VERB(laws)
 
