@@ -24,18 +24,6 @@ std::uint64_t count(Cursor& table, const std::string& key, long long least, long
   return static_cast<std::uint64_t>(value);
 }
 
-Requirement read_requirement(Cursor table, const Study& study) {
-  table.only({"limit", "probability", "confidence"});
-  Requirement r;
-  r.limit = table.quantity("limit", unit_of_index(study.index.si_unit()));
-  table.require(r.limit > 0.0, "limit", "more than 0");
-  r.probability = share(table, "probability", r.probability);
-  r.confidence = share(table, "confidence", r.confidence);
-  table.require(r.confidence > 0.5, "confidence", "more than 0.5 and less than 1");
-  table.finish();
-  return r;
-}
-
 StopRule read_stop(Cursor table) {
   table.only({"width", "of", "time"});
   StopRule stop;
@@ -93,6 +81,18 @@ TailQuestion read_tail(Cursor table) {
 }
 
 }  // namespace
+
+Requirement read_requirement(Cursor table, const Study& study) {
+  table.only({"limit", "probability", "confidence"});
+  Requirement r;
+  r.limit = table.quantity("limit", unit_of_index(study.index.si_unit()));
+  table.require(r.limit > 0.0, "limit", "more than 0");
+  r.probability = share(table, "probability", r.probability);
+  r.confidence = share(table, "confidence", r.confidence);
+  table.require(r.confidence > 0.5, "confidence", "more than 0.5 and less than 1");
+  table.finish();
+  return r;
+}
 
 const std::vector<Headline>& headlines() {
   static const std::vector<Headline> all = {{"mean", 0.0}, {"sd", 0.0},   {"p50", 0.5},

@@ -76,6 +76,9 @@ struct Headline {
 };
 const std::vector<Headline>& headlines();
 
+// The table { limit = .., probability = .., confidence = .. }. Throws InputError.
+Requirement read_requirement(Cursor table, const Study& study);
+
 // Throws InputError. `accepts`: see read_random_inputs.
 MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
                                     const std::function<void(const Setting&)>& accepts);

@@ -1,14 +1,5 @@
 #include "boresight_analyses/optimise/design_evaluator.hpp"
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
-
-#include <algorithm>
-#include <chrono>
-#include <mutex>
-#include <thread>
-
 #include "boresight_analyses/random/design.hpp"
 
 namespace boresight {
@@ -37,49 +28,9 @@ const std::vector<Outcome>& DesignEvaluator::at(std::span<const double> design) 
       values[k].insert(values[k].end(), point.begin(), point.end());
     }
   }
-  std::vector<Outcome> outcomes(n);
-  std::atomic<bool> stop{false};
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr fault;
-  const auto work = [&] {
-    const std::size_t most = std::max<std::size_t>(1, model_.batch());
-    for (;;) {
-      const std::size_t first = next.fetch_add(most), end = std::min(n, first + most);
-      if (first >= n || stop) return;
-      std::vector<Sample> samples;
-      for (std::size_t k = first; k < end; ++k) samples.push_back({k, values[k]});
-      try {
-        model_.evaluate(samples, {outcomes.data() + first, end - first}, stop);
-      } catch (...) {
-        const std::scoped_lock lock(mutex);
-        if (!fault) fault = std::current_exception();
-        stop = true;
-      }
-    }
-  };
-  {
-    const std::jthread watcher([&](const std::stop_token& end) {
-      while (!end.stop_requested() && !stop) {
-        if (options_.interrupted && options_.interrupted()) stop = true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      }
-    });
-    const int jobs = std::max(1, options_.jobs);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
-    tbb::task_arena arena(jobs);
-    arena.execute([&] {
-      tbb::task_group group;
-      for (int j = 1; j < jobs; ++j) group.run(work);
-      work();
-      group.wait();
-    });
-  }
-  if (fault) std::rethrow_exception(fault);
-  for (const Outcome& outcome : outcomes) {
-    if (outcome.status == Outcome::Status::not_reached) throw EvaluationInterrupted{};
-    cpu_seconds_ += outcome.cpu_seconds;
-  }
+  std::vector<Outcome> outcomes =
+      evaluate_all(model_, values, {.jobs = options_.jobs, .interrupted = options_.interrupted});
+  for (const Outcome& outcome : outcomes) cpu_seconds_ += outcome.cpu_seconds;
   ++computed_;
   if (store_ != nullptr) store_->add(design, outcomes);
   const std::vector<Outcome>& kept = seen_[key] = std::move(outcomes);

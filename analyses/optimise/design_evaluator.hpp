@@ -4,19 +4,17 @@
 // by luck. The model sees the variables first, then the study's random parameters.
 #pragma once
 
-#include <atomic>
 #include <functional>
+#include <map>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include "boresight_analyses/optimise/evaluation_store.hpp"
+#include "boresight_analyses/optimise/parallel_evaluation.hpp"
 #include "boresight_analyses/random/random_inputs.hpp"
 #include "boresight_analyses/study/sample_model.hpp"
 
 namespace boresight {
-
-struct EvaluationInterrupted {};
 
 class DesignEvaluator {
  public:

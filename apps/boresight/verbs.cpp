@@ -12,6 +12,7 @@ namespace boresight::app {
   VERB(montecarlo)            \
   VERB(sensitivity)           \
   VERB(match)                 \
+  VERB(allocate)              \
   VERB(export)                \
   VERB(laws)
 
