@@ -15,6 +15,21 @@ constexpr std::size_t kTrialSamples = 12;      // that the first factor is taken
 constexpr int kMostRounds = 4;
 constexpr std::uint64_t kFreshSeed = 1'000'003;  // the confirmation's, away from the search's
 constexpr double kMicro = 1e-6;
+constexpr double kPower = 0.8;  // the chance that a set which the search accepts is confirmed
+
+// How many of the search's samples may exceed the limit: no more than shows the requirement, and so few that `confirm`
+// fresh samples of such a set show it with a chance of kPower. (They are fewer, and leave less room: a set that 1000 samples
+// show just so would mostly be refuted by 120 fresh ones.)
+std::int64_t allowed_in_search(const AllocationPlan& plan) {
+  const auto samples = static_cast<std::int64_t>(plan.samples), confirm = static_cast<std::int64_t>(plan.confirm);
+  const Requirement& r = plan.requirement;
+  const std::int64_t shown = allowed_failures(samples, r.probability, r.confidence);
+  const std::int64_t fresh = allowed_failures(confirm, r.probability, r.confidence);
+  if (shown < 0 || fresh < 0) return -1;
+  // The share q of bad ones with P(at most `fresh` of `confirm` are bad) = kPower.
+  const double q = clopper_pearson_upper(fresh, confirm, 1.0 - kPower);
+  return std::min(shown, static_cast<std::int64_t>(std::floor(q * static_cast<double>(samples))));
+}
 
 class Allocating {
  public:
@@ -23,8 +38,7 @@ class Allocating {
         deviation_(deviation),
         options_(options),
         unit_(unit_samples(plan.joints.size(), plan.samples, plan.seed)),
-        allowed_(allowed_failures(static_cast<std::int64_t>(plan.samples), plan.requirement.probability,
-                                  plan.requirement.confidence)) {
+        allowed_(allowed_in_search(plan)) {
     for (const AllocationJoint& joint : plan.joints) {
       price_.emplace_back();
       gap_.emplace_back();
@@ -200,6 +214,12 @@ class Allocating {
     for (int round = 0; round < kMostRounds; ++round) {
       progress("searching", 0.2 + 0.15 * round);
       a = cheapest(plan_.requirement.limit, a.feasible ? a.choice : std::vector<int>{});
+      // A set that was refuted is not asked again: its index is taken for larger until another one is found.
+      constexpr double kFurther = 1.005;
+      while (a.feasible && !result_.confirmations.empty() && !result_.confirmations.back().met && same(a, refuted_)) {
+        result_.factor *= kFurther;
+        a = cheapest(plan_.requirement.limit);
+      }
       if (!a.feasible) break;
       if (result_.feasible && !(a.price < result_.chosen.price * (1.0 - 1e-9)) && !result_.confirmations.back().agrees) {
         // Nothing cheaper under the corrected factor than what was confirmed already.
@@ -211,6 +231,7 @@ class Allocating {
       double factor = 1.0;
       AllocationConfirmation c = confirmed(a, confirm, rung, factor);
       const bool go_on = !c.agrees && round + 1 < kMostRounds && std::isfinite(factor);
+      if (!c.met) refuted_ = a;
       if (c.met && (!result_.feasible || a.price < result_.chosen.price)) {
         result_.feasible = true;
         result_.chosen = a;
@@ -218,12 +239,7 @@ class Allocating {
       if (go_on) c.sentence += "; the search goes on with its factor";
       result_.confirmations.push_back(c);
       if (!go_on) break;
-      // The first disagreement is corrected as measured, a further one with a margin: sets near the limit are chosen by the
-      // luck of the search's samples, and each round would find such a one anew.
-      constexpr double kMargin = 0.01;
-      const double corrected = factor * (1.0 + kMargin * round);
-      if (std::abs(corrected / result_.factor - 1.0) < 1e-4) break;
-      result_.factor = corrected;
+      result_.factor = factor;
     }
     if (!result_.feasible) {
       result_.chosen = a;
@@ -245,6 +261,13 @@ class Allocating {
     }
     judge(result_.chosen);
     result_.converged = result_.chosen.proven;
+  }
+
+  static bool same(const Allocation& a, const Allocation& b) {
+    if (a.tolerance.empty()) return a.choice == b.choice;
+    for (std::size_t j = 0; j < a.tolerance.size(); ++j)
+      if (std::abs(a.tolerance[j] - b.tolerance[j]) > 1e-3 * a.tolerance[j]) return false;
+    return true;
   }
 
   // What the two classical ways of judging choose for the same limit, and how that fares by the samples.
@@ -366,6 +389,7 @@ class Allocating {
   std::vector<ContinuousJoint> curves_;
   std::vector<std::vector<double>> z_;
   std::unique_ptr<StatisticalRequirement> statistical_;
+  Allocation refuted_;
   AllocationResult result_;
 };
 

@@ -37,14 +37,20 @@ class BranchAndBound {
   DiscreteAllocation run() {
     if (options_.start.size() == price_.size()) offer(options_.start);
     offer(tightest_);
-    if (result_.feasible) relax();
+    add_inequalities(tightest_);
+    if (result_.feasible) {
+      try_multipliers();
+      add_inequalities(result_.choice);
+      try_multipliers();
+      relax();
+      add_inequalities(result_.choice);
+    }
     Node root{0.0, 0, std::vector<int>(price_.size(), -1)};
     if (!requirement_.may_be_met(root.choice)) {
       result_.proven = true;
       result_.bound = std::numeric_limits<double>::infinity();
       return result_;
     }
-    add_inequality(result_.feasible ? result_.choice : tightest_);
     root.bound = bound_of(root);
     std::priority_queue<Node, std::vector<Node>, Dearer> open;
     open.push(root);
@@ -77,35 +83,106 @@ class BranchAndBound {
     return true;
   }
 
-  // From a set that meets the requirement: the single change that saves most, or the exchange of two joints' options
-  // that saves anything, until there is none.
+  // From a set that meets the requirement: the cheapest set that differs in one joint's option, or in two, and meets it
+  // too, until there is none.
   void relax() {
     for (bool better = true; better;) {
       better = false;
       std::vector<std::pair<double, std::vector<int>>> tries;
-      const auto add = [&](std::vector<int> choice) {
-        const double price = price_of(price_, choice);
-        if (cheaper(price)) tries.emplace_back(price, std::move(choice));
+      const auto each = [&](std::vector<int> choice, std::size_t from, auto&& visit) {
+        for (std::size_t j = from; j < price_.size(); ++j)
+          for (int o = 0; o < static_cast<int>(price_[j].size()); ++o) {
+            if (o == choice[j]) continue;
+            std::vector<int> changed = choice;
+            changed[j] = o;
+            visit(changed, j);
+          }
       };
-      for (std::size_t j = 0; j < price_.size(); ++j)
-        for (int o = 0; o < static_cast<int>(price_[j].size()); ++o) {
-          std::vector<int> one = result_.choice;
-          one[j] = o;
-          add(one);
-        }
-      std::stable_sort(tries.begin(), tries.end());
-      for (const auto& [price, choice] : tries)
-        if (offer(choice)) {
-          better = true;
-          break;
-        }
+      const auto add = [&](const std::vector<int>& choice, std::size_t) {
+        const double price = price_of(price_, choice);
+        if (cheaper(price)) tries.emplace_back(price, choice);
+      };
+      each(result_.choice, 0, [&](const std::vector<int>& one, std::size_t j) {
+        add(one, j);
+        each(one, j + 1, add);
+      });
+      // Small savings are the likeliest to hold; a run of failures ends the round.
+      std::stable_sort(tries.begin(), tries.end(), [](const auto& l, const auto& r) { return l.first > r.first; });
+      constexpr int kMostTries = 400;
+      int left = kMostTries;
+      for (const auto& [price, choice] : tries) {
+        if (left-- == 0) break;
+        if (!cheaper(price) || may_not(choice) || !offer(choice)) continue;
+        better = true;
+        break;
+      }
     }
   }
 
-  void add_inequality(const std::vector<int>& near) {
-    if (auto inequality = requirement_.inequality_near(near)) inequalities_.push_back(std::move(*inequality));
-    constexpr std::size_t kMostInequalities = 12;
-    if (inequalities_.size() > kMostInequalities) inequalities_.erase(inequalities_.begin() + 1);
+  // Whether asking the requirement can pay: where the open joints' least weights leave an inequality far from its budget, the
+  // answer is yes.
+  bool is_tight(const Node& node) const {
+    if (inequalities_.empty()) return true;
+    constexpr double kClose = 0.97;
+    for (const AdditiveInequality& inequality : inequalities_) {
+      double sum = 0.0;
+      for (std::size_t j = 0; j < price_.size(); ++j)
+        sum += node.choice[j] >= 0 ? inequality.weight[j][static_cast<std::size_t>(node.choice[j])]
+                                   : *std::min_element(inequality.weight[j].begin(), inequality.weight[j].end());
+      if (sum > kClose * inequality.budget) return true;
+    }
+    return false;
+  }
+
+  // An inequality rules the set out already.
+  bool may_not(const std::vector<int>& choice) const {
+    for (const AdditiveInequality& inequality : inequalities_) {
+      double sum = 0.0;
+      for (std::size_t j = 0; j < choice.size(); ++j) sum += inequality.weight[j][static_cast<std::size_t>(choice[j])];
+      if (sum > inequality.budget + 1e-9 * std::abs(inequality.budget)) return true;
+    }
+    return false;
+  }
+
+  void add_inequalities(const std::vector<int>& near) {
+    constexpr std::size_t kMost = 9;
+    for (AdditiveInequality& inequality : requirement_.inequalities_near(near)) {
+      if (inequalities_.size() >= kMost) return;
+      inequalities_.push_back(std::move(inequality));
+    }
+  }
+
+  // Sets that the multipliers of the inequalities suggest: of each, the options that are cheapest with their weights priced.
+  void try_multipliers() {
+    std::vector<std::pair<double, std::vector<int>>> tries;
+    for (const AdditiveInequality& inequality : inequalities_)
+      for (double decade = -4.0; decade < 4.0; decade += 0.02) {
+        const double lambda = std::pow(10.0, decade) * scale_of(inequality);
+        std::vector<int> choice;
+        for (std::size_t j = 0; j < price_.size(); ++j) {
+          std::size_t best = 0;
+          for (std::size_t o = 1; o < price_[j].size(); ++o)
+            if (price_[j][o] + lambda * inequality.weight[j][o] < price_[j][best] + lambda * inequality.weight[j][best]) best = o;
+          choice.push_back(static_cast<int>(best));
+        }
+        tries.emplace_back(price_of(price_, choice), std::move(choice));
+      }
+    std::sort(tries.begin(), tries.end());
+    tries.erase(std::unique(tries.begin(), tries.end()), tries.end());
+    for (const auto& [price, choice] : tries)
+      if (offer(choice)) break;
+  }
+
+  // A price over a weight, of the order of the multiplier.
+  double scale_of(const AdditiveInequality& inequality) const {
+    double price = 0.0, weight = 0.0;
+    for (std::size_t j = 0; j < price_.size(); ++j) {
+      const auto [cheap, dear] = std::minmax_element(price_[j].begin(), price_[j].end());
+      const auto [low, high] = std::minmax_element(inequality.weight[j].begin(), inequality.weight[j].end());
+      price = std::max(price, *dear - *cheap);
+      weight = std::max(weight, *high - *low);
+    }
+    return weight > 0.0 ? price / weight : 0.0;
   }
 
   double bound_of(const Node& node) const {
@@ -172,9 +249,10 @@ class BranchAndBound {
 
   void expand(const Node& node, std::priority_queue<Node, std::vector<Node>, Dearer>& open) {
     if (node.depth == price_.size()) {
-      if (offer(node.choice)) relax();
-      // What fails here says most about its neighbours.
-      else if (result_.judged % 16 == 0) add_inequality(node.choice);
+      if (offer(node.choice)) {
+        relax();
+        add_inequalities(result_.choice);
+      }
       return;
     }
     const std::size_t joint = order_[node.depth];
@@ -183,7 +261,7 @@ class BranchAndBound {
       child.choice[joint] = o;
       child.bound = std::max(node.bound, bound_of(child));
       if (!cheaper(child.bound)) continue;
-      if (child.depth < price_.size() && !requirement_.may_be_met(child.choice)) continue;
+      if (child.depth < price_.size() && is_tight(child) && !requirement_.may_be_met(child.choice)) continue;
       // A set that meets the requirement, early: the open joints at their tightest.
       if (!result_.feasible) {
         std::vector<int> whole = child.choice;

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,8 +29,8 @@ class AllocationRequirement {
   virtual bool is_met(std::span<const int> choice) const = 0;
   // choice[j] = -1: open. May say true in error, never false.
   virtual bool may_be_met(std::span<const int> choice) const = 0;
-  // Holds for every set that meets the requirement; sharpest for sets near `choice`.
-  virtual std::optional<AdditiveInequality> inequality_near(std::span<const int>) const { return {}; }
+  // Hold for every set that meets the requirement; sharpest for sets near `choice`.
+  virtual std::vector<AdditiveInequality> inequalities_near(std::span<const int>) const { return {}; }
 };
 
 struct DiscreteAllocation {

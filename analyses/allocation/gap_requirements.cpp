@@ -55,6 +55,15 @@ StatisticalRequirement::StatisticalRequirement(const LinearDeviation& deviation,
     }
   }
   std::iota(order_.begin(), order_.end(), 0U);
+  tight_index_ = indices(tightest_);
+  for (std::size_t j = 0; j < gap.size(); ++j) most_per_gap_.push_back(deviation.most_per_gap(j));
+}
+
+// |e + a_j dc| <= |e| + |a_j| |dc|, and no statistic of sizes grows by more than the largest of them does.
+double StatisticalRequirement::quick_bound(std::span<const double> gaps, std::size_t k) const {
+  double bound = tight_index_[k];
+  for (std::size_t j = 0; j < gaps.size(); ++j) bound += most_per_gap_[j] * std::abs(gaps[j] - gap(j, tightest_[j], k));
+  return bound;
 }
 
 std::vector<double> StatisticalRequirement::indices(std::span<const int> choice) const {
@@ -79,7 +88,7 @@ bool StatisticalRequirement::is_met(std::span<const int> choice) const {
   for (std::size_t i = 0; i < samples_; ++i) {
     const std::uint32_t k = order_[i];
     for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j], k);
-    if (deviation_.index(c) > limit_) {
+    if (quick_bound(c, k) > limit_ && deviation_.index(c) > limit_) {
       std::swap(order_[i], order_[static_cast<std::size_t>(failed)]);
       if (++failed > allowed_) return false;
     }
@@ -94,7 +103,7 @@ bool StatisticalRequirement::may_be_met(std::span<const int> choice) const {
   for (std::size_t i = 0; i < samples_; ++i) {
     const std::uint32_t k = order_[i];
     for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j] >= 0 ? choice[j] : tightest_[j], k);
-    if (deviation_.index(c) <= limit_) continue;
+    if (quick_bound(c, k) <= limit_ || deviation_.index(c) <= limit_) continue;
     // Convex: it lies above its tangent. Where a wider gap works against the others, the tangent says by how much at most.
     double least = deviation_.index(c, g);
     for (std::size_t j = 0; j < c.size(); ++j) {
@@ -111,43 +120,46 @@ bool StatisticalRequirement::may_be_met(std::span<const int> choice) const {
   return true;
 }
 
-// For a set that meets the requirement, all samples but the allowed ones have I_k <= limit, and each lies above its
-// tangent L_k at the set given. So over M samples
-//   sum_k L_k <= M limit + sum of the `allowed` largest (max L_k - limit)+,
-// and sum_k L_k is a constant plus a sum over joints. The M samples are those with the largest indices here.
-std::optional<AdditiveInequality> StatisticalRequirement::inequality_near(std::span<const int> choice) const {
+// For a set that meets the requirement, all samples but at most the allowed ones have I_k <= limit, and each lies above its
+// tangent L_k = l_k + sum_j g_kj c_jk at the set given. So among any M samples there are M - allowed with
+//   sum_k L_k <= (M - allowed) limit,
+// and whichever they are, joint j adds at least the sum of its M - allowed least g_kj c_jk: an inequality that is additive
+// over joints. The M samples are those with the largest indices here: few lie near the limit, many lose little by the choice.
+std::vector<AdditiveInequality> StatisticalRequirement::inequalities_near(std::span<const int> choice) const {
   if (allowed_ < 0 || !deviation_.is_convex()) return {};
-  std::vector<double> values = indices(choice);
+  const std::vector<double> values = indices(choice);
   std::vector<std::uint32_t> hard(samples_);
   std::iota(hard.begin(), hard.end(), 0U);
-  constexpr std::size_t kTimesAllowed = 8, kFewest = 40;
-  const std::size_t most = std::min(samples_, std::max(kFewest, kTimesAllowed * static_cast<std::size_t>(allowed_ + 1)));
-  std::partial_sort(hard.begin(), hard.begin() + static_cast<std::ptrdiff_t>(most), hard.end(),
-                    [&](auto l, auto r) { return values[l] > values[r]; });
-  hard.resize(most);
-  AdditiveInequality out;
-  for (const auto& options : gap_) out.weight.emplace_back(options.size(), 0.0);
-  out.budget = static_cast<double>(most) * limit_;
-  std::vector<double> c(choice.size()), g(choice.size()), excess;
-  for (const std::uint32_t k : hard) {
+  std::sort(hard.begin(), hard.end(), [&](auto l, auto r) { return values[l] > values[r]; });
+  std::vector<std::vector<double>> gradient(samples_, std::vector<double>(choice.size()));
+  std::vector<double> constant(samples_), c(choice.size());
+  for (std::size_t i = 0; i < samples_; ++i) {
+    const std::uint32_t k = hard[i];
     for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j], k);
-    const double value = deviation_.index(c, g);
-    double constant = value, largest = 0.0;
-    for (std::size_t j = 0; j < c.size(); ++j) {
-      constant -= g[j] * c[j];
-      double most_here = -std::numeric_limits<double>::infinity();
-      for (std::size_t o = 0; o < gap_[j].size(); ++o) {
-        out.weight[j][o] += g[j] * gap_[j][o][k];
-        most_here = std::max(most_here, g[j] * gap_[j][o][k]);
-      }
-      largest += most_here;
-    }
-    out.budget -= constant;
-    excess.push_back(std::max(0.0, constant + largest - limit_));
+    constant[i] = deviation_.index(c, gradient[i]);
+    for (std::size_t j = 0; j < c.size(); ++j) constant[i] -= gradient[i][j] * c[j];
   }
-  std::sort(excess.begin(), excess.end(), std::greater<>());
-  for (std::size_t i = 0; i < std::min(excess.size(), static_cast<std::size_t>(allowed_)); ++i) out.budget += excess[i];
-  return out;
+  const auto allowed = static_cast<std::size_t>(allowed_);
+  std::vector<AdditiveInequality> all;
+  std::vector<double> terms;
+  for (const std::size_t times : {5, 12, 25}) {
+    const std::size_t most = std::min(samples_, times * (allowed + 1));
+    const auto least_sum = [&](auto&& term) {
+      terms.clear();
+      for (std::size_t i = 0; i < most; ++i) terms.push_back(term(i));
+      std::nth_element(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(most - allowed - 1), terms.end());
+      return std::accumulate(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(most - allowed), 0.0);
+    };
+    AdditiveInequality& out = all.emplace_back();
+    out.budget = static_cast<double>(most - allowed) * limit_ - least_sum([&](std::size_t i) { return constant[i]; });
+    for (std::size_t j = 0; j < gap_.size(); ++j) {
+      out.weight.emplace_back();
+      for (const auto& option : gap_[j])
+        out.weight[j].push_back(least_sum([&](std::size_t i) { return gradient[i][j] * option[hard[i]]; }));
+    }
+    if (most == samples_) break;
+  }
+  return all;
 }
 
 std::vector<double> StatisticalRequirement::error_shares(std::span<const int> choice) const {

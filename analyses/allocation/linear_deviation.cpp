@@ -102,6 +102,8 @@ double LinearDeviation::index(std::span<const double> gaps, std::span<double> gr
   return value;
 }
 
+double LinearDeviation::most_per_gap(std::size_t j) const { return *std::max_element(size_[j].begin(), size_[j].end()); }
+
 double LinearDeviation::worst_index(std::span<const double> gaps) const { return worst_index(gaps, {}); }
 
 double LinearDeviation::worst_index(std::span<const double> gaps, std::span<double> gradient) const {

@@ -29,6 +29,7 @@ class LinearDeviation {
                   std::string statistic);
 
   std::size_t gaps() const { return sensitivity_.size(); }
+  double most_per_gap(std::size_t j) const;  // the largest |a_j| over time
   bool is_convex() const { return statistic_ != "p99.73"; }
 
   double index(std::span<const double> gaps) const;

@@ -22,7 +22,7 @@
 namespace boresight::app {
 namespace {
 
-constexpr std::size_t kInstants = 250;  // of the motion, that the linear deviation keeps
+constexpr std::size_t kInstants = 125;  // of the motion, that the linear deviation keeps
 
 // All gaps at their least, their middle, their largest.
 std::vector<std::vector<double>> corner_gaps(const AllocationPlan& plan) {
