@@ -11,17 +11,18 @@
 namespace boresight {
 namespace {
 
-constexpr std::size_t kTrialSamples = 12;      // that the first factor is taken from
+constexpr std::size_t kTrialSamples = 12;  // that the first factor is taken from
 constexpr int kMostRounds = 4;
 constexpr std::uint64_t kFreshSeed = 1'000'003;  // the confirmation's, away from the search's
 constexpr double kMicro = 1e-6;
 constexpr double kPower = 0.8;  // the chance that a set which the search accepts is confirmed
 
-// How many of the search's samples may exceed the limit: no more than shows the requirement, and so few that `confirm`
-// fresh samples of such a set show it with a chance of kPower. (They are fewer, and leave less room: a set that 1000 samples
-// show just so would mostly be refuted by 120 fresh ones.)
+// How many of the search's samples may exceed the limit: no more than shows the requirement, and so few that
+// `confirm` fresh samples of such a set show it with a chance of kPower. (They are fewer, and leave less
+// room: a set that 1000 samples show just so would mostly be refuted by 120 fresh ones.)
 std::int64_t allowed_in_search(const AllocationPlan& plan) {
-  const auto samples = static_cast<std::int64_t>(plan.samples), confirm = static_cast<std::int64_t>(plan.confirm);
+  const auto samples = static_cast<std::int64_t>(plan.samples),
+             confirm = static_cast<std::int64_t>(plan.confirm);
   const Requirement& r = plan.requirement;
   const std::int64_t shown = allowed_failures(samples, r.probability, r.confidence);
   const std::int64_t fresh = allowed_failures(confirm, r.probability, r.confidence);
@@ -56,7 +57,8 @@ class Allocating {
     }
     if (!plan.is_continuous()) {
       tightest_ = tightest_options(gap_);
-      statistical_ = std::make_unique<StatisticalRequirement>(deviation_, gap_, unit_, allowed_, plan.requirement.limit);
+      statistical_ =
+          std::make_unique<StatisticalRequirement>(deviation_, gap_, unit_, allowed_, plan.requirement.limit);
     }
   }
 
@@ -89,8 +91,8 @@ class Allocating {
     Allocation a;
     a.judged_by = "samples";
     if (plan_.is_continuous()) {
-      const ContinuousAllocation c =
-          allocate_continuous(curves_, statistical_tolerances(deviation_, least_, z_, allowed_), working_limit(limit));
+      const ContinuousAllocation c = allocate_continuous(
+          curves_, statistical_tolerances(deviation_, least_, z_, allowed_), working_limit(limit));
       a.feasible = c.feasible;
       a.proven = c.converged;
       a.tolerance = c.tolerance;
@@ -100,7 +102,9 @@ class Allocating {
       statistical_->set_limit(working_limit(limit));
       DiscreteAllocationOptions o;
       o.start = start;
-      o.progress = [this](const DiscreteAllocation&) { return !(options_.interrupted && options_.interrupted()); };
+      o.progress = [this](const DiscreteAllocation&) {
+        return !(options_.interrupted && options_.interrupted());
+      };
       const DiscreteAllocation d = allocate_discrete(price_, tightest_, *statistical_, o);
       if (options_.interrupted && options_.interrupted()) throw EvaluationInterrupted{};
       a.feasible = d.feasible;
@@ -117,7 +121,8 @@ class Allocating {
   }
 
   // Gaps of a set at these coordinates: [sample][joint].
-  std::vector<std::vector<double>> gaps_of(const Allocation& a, const UnitSamples& unit, std::size_t count) const {
+  std::vector<std::vector<double>> gaps_of(const Allocation& a, const UnitSamples& unit,
+                                           std::size_t count) const {
     std::vector<std::vector<double>> gaps(count, std::vector<double>(plan_.joints.size()));
     for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
       const DistributionPtr d = a.tolerance.empty() ? gap_[j][static_cast<std::size_t>(a.choice[j])]
@@ -130,18 +135,20 @@ class Allocating {
   // By the samples of the search, on the confirming rung's scale.
   void judge(Allocation& a) const {
     std::vector<double> values;
-    for (const auto& gaps : gaps_of(a, unit_, plan_.samples)) values.push_back(result_.factor * deviation_.index(gaps));
+    for (const auto& gaps : gaps_of(a, unit_, plan_.samples))
+      values.push_back(result_.factor * deviation_.index(gaps));
     std::sort(values.begin(), values.end(), std::greater<>());
-    const auto above = std::count_if(values.begin(), values.end(), [&](double v) {
-      return v > plan_.requirement.limit * (1.0 + 1e-9);
-    });
+    const auto above = std::count_if(values.begin(), values.end(),
+                                     [&](double v) { return v > plan_.requirement.limit * (1.0 + 1e-9); });
     a.share_within = 1.0 - static_cast<double>(above) / static_cast<double>(values.size());
-    a.reached = allowed_ < 0 ? std::numeric_limits<double>::infinity() : values[static_cast<std::size_t>(allowed_)];
-    a.meets = above <= allowed_;
+    a.reached =
+        allowed_ < 0 ? std::numeric_limits<double>::infinity() : values[static_cast<std::size_t>(allowed_)];
+    a.meets = above <= allowed_failures(static_cast<std::int64_t>(values.size()),
+                                        plan_.requirement.probability, plan_.requirement.confidence);
   }
 
-  // The index that `count` samples of these outcomes show at the least: the largest but the allowed ones. Failed ones
-  // are above everything.
+  // The index that `count` samples of these outcomes show at the least: the largest but the allowed ones.
+  // Failed ones are above everything.
   double shown_limit(const std::vector<double>& values, std::int64_t& allowed) const {
     allowed = allowed_failures(static_cast<std::int64_t>(values.size()), plan_.requirement.probability,
                                plan_.requirement.confidence);
@@ -157,8 +164,8 @@ class Allocating {
     return values;
   }
 
-  AllocationConfirmation confirmed(const Allocation& a, const ConfirmingModel& confirm, const std::string& rung,
-                                   double& factor) const {
+  AllocationConfirmation confirmed(const Allocation& a, const ConfirmingModel& confirm,
+                                   const std::string& rung, double& factor) const {
     AllocationConfirmation c;
     c.rung = rung;
     c.seed = plan_.seed + kFreshSeed;
@@ -176,14 +183,16 @@ class Allocating {
       c.failed += !std::isfinite(v);
     }
     c.share_within = static_cast<double>(within) / static_cast<double>(values.size());
-    c.share_low = clopper_pearson_lower(within, static_cast<std::int64_t>(values.size()), plan_.requirement.confidence);
+    c.share_low =
+        clopper_pearson_lower(within, static_cast<std::int64_t>(values.size()), plan_.requirement.confidence);
     c.met = c.share_low >= plan_.requirement.probability;
     factor = c.reached / shown_limit(linear, allowed);
     // Far below the limit is a disagreement too: a cheaper set may do.
     c.agrees = c.met && c.reached > (1.0 - options_.accuracy) * std::min(plan_.requirement.limit, a.reached);
     char text[300];
     std::snprintf(text, sizeof text,
-                  "%zu samples of the %s rung with seed %llu: %.4g %% within the limit, at least %.4g %% with %g %% confidence; "
+                  "%zu samples of the %s rung with seed %llu: %.4g %% within the limit, at least %.4g %% "
+                  "with %g %% confidence; "
                   "%s",
                   c.samples, rung.c_str(), static_cast<unsigned long long>(c.seed), 100.0 * c.share_within,
                   100.0 * c.share_low, 100.0 * plan_.requirement.confidence,
@@ -216,12 +225,14 @@ class Allocating {
       a = cheapest(plan_.requirement.limit, a.feasible ? a.choice : std::vector<int>{});
       // A set that was refuted is not asked again: its index is taken for larger until another one is found.
       constexpr double kFurther = 1.005;
-      while (a.feasible && !result_.confirmations.empty() && !result_.confirmations.back().met && same(a, refuted_)) {
+      while (a.feasible && !result_.confirmations.empty() && !result_.confirmations.back().met &&
+             same(a, refuted_)) {
         result_.factor *= kFurther;
         a = cheapest(plan_.requirement.limit);
       }
       if (!a.feasible) break;
-      if (result_.feasible && !(a.price < result_.chosen.price * (1.0 - 1e-9)) && !result_.confirmations.back().agrees) {
+      if (result_.feasible && !(a.price < result_.chosen.price * (1.0 - 1e-9)) &&
+          !result_.confirmations.back().agrees) {
         // Nothing cheaper under the corrected factor than what was confirmed already.
         result_.confirmations.back().sentence += ", but no cheaper set can be shown";
         result_.confirmations.back().agrees = true;
@@ -292,8 +303,8 @@ class Allocating {
         finish(a, name);
       };
       take(result_.worst_case, worst_case_tolerances(deviation_, least_), "worst case");
-      take(result_.root_sum_square, root_sum_square_tolerances(deviation_, least_, plan_.requirement.probability),
-           "root-sum-square");
+      take(result_.root_sum_square,
+           root_sum_square_tolerances(deviation_, least_, plan_.requirement.probability), "root-sum-square");
       return;
     }
     const auto take = [&](Allocation& a, const AllocationRequirement& requirement, const std::string& name) {
@@ -306,8 +317,8 @@ class Allocating {
       finish(a, name);
     };
     take(result_.worst_case, WorstCaseRequirement(deviation_, gap_, limit), "worst case");
-    take(result_.root_sum_square, RootSumSquareRequirement(deviation_, gap_, plan_.requirement.probability, limit),
-         "root-sum-square");
+    take(result_.root_sum_square,
+         RootSumSquareRequirement(deviation_, gap_, plan_.requirement.probability, limit), "root-sum-square");
   }
 
   void share_out() {
@@ -351,8 +362,8 @@ class Allocating {
     progress("the price of the last micrometre", 0.9);
     const Allocation here = cheapest(limit, result_.chosen.choice);
     const CostPoint tighter = priced(limit - kMicro);
-    result_.last_micrometre =
-        tighter.feasible && here.feasible ? tighter.price - here.price : std::numeric_limits<double>::quiet_NaN();
+    result_.last_micrometre = tighter.feasible && here.feasible ? tighter.price - here.price
+                                                                : std::numeric_limits<double>::quiet_NaN();
     // From the tightest reachable to where the cheapest of all meets it.
     Allocation tight = here, wide = here;
     for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
@@ -362,7 +373,8 @@ class Allocating {
         continue;
       }
       tight.choice[j] = tightest_[j];
-      wide.choice[j] = static_cast<int>(std::min_element(price_[j].begin(), price_[j].end()) - price_[j].begin());
+      wide.choice[j] =
+          static_cast<int>(std::min_element(price_[j].begin(), price_[j].end()) - price_[j].begin());
     }
     judge(tight);
     judge(wide);
@@ -371,7 +383,8 @@ class Allocating {
       progress("front of cost against accuracy", 0.9 + 0.1 * k / plan_.front);
       const double share = plan_.front == 1 ? 0.5 : static_cast<double>(k) / (plan_.front - 1);
       // A hair wider than the ends, so that rounding does not make them unreachable.
-      result_.front.push_back(priced((tight.reached + share * (wide.reached - tight.reached)) * (1.0 + 1e-9)));
+      result_.front.push_back(
+          priced((tight.reached + share * (wide.reached - tight.reached)) * (1.0 + 1e-9)));
     }
     std::sort(result_.front.begin(), result_.front.end(),
               [](const CostPoint& l, const CostPoint& r) { return l.limit < r.limit; });

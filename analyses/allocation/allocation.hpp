@@ -1,10 +1,12 @@
-// Allocation: the cheapest fits or tolerances with which P(index <= limit) >= p is shown with the stated confidence.
+// Allocation: the cheapest fits or tolerances with which P(index <= limit) >= p is shown with the stated
+// confidence.
 //
-// The search judges sets of fits by samples of the gaps on the linear deviation (linear_deviation.hpp). What that leaves
-// out, impacts above all, is made good by a working limit: a few samples on the rung that confirms say by which factor its
-// index differs on the very same gaps, and the search goes on with the limit divided by it (space mapping: Bandler et al.
-// 1994, IEEE Trans. MTT 42(12)). The winner is then confirmed by independent samples with a seed of its own on that rung;
-// where these disagree the factor is corrected by them, and the search goes on from there.
+// The search judges sets of fits by samples of the gaps on the linear deviation (linear_deviation.hpp). What
+// that leaves out, impacts above all, is made good by a working limit: a few samples on the rung that
+// confirms say by which factor its index differs on the very same gaps, and the search goes on with the limit
+// divided by it (space mapping: Bandler et al. 1994, IEEE Trans. MTT 42(12)). The winner is then confirmed by
+// independent samples with a seed of its own on that rung; where these disagree the factor is corrected by
+// them, and the search goes on from there.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +23,17 @@ namespace boresight {
 
 // One set of fits or tolerances, and what it does.
 struct Allocation {
-  std::string judged_by;          // "samples", "worst case", "root-sum-square"
+  std::string judged_by;  // "samples", "worst case", "root-sum-square"
   bool feasible = false;
-  bool proven = false;            // nothing cheaper meets the same requirement (continuous: the descent came to rest)
+  bool proven = false;  // nothing cheaper meets the same requirement (continuous: the descent came to rest)
   std::vector<int> choice;        // of options; empty where continuous
   std::vector<double> tolerance;  // [m]; empty where discrete
   double price = 0.0;
-  double reached = 0.0;        // the least limit that the samples show for it, on the confirming rung's scale
-  double share_within = 0.0;   // of the samples, likewise
-  bool meets = false;          // the requirement, by the samples
-  std::int64_t nodes = 0;      // of the search
+  double reached = 0.0;       // the least limit that it keeps with the room a confirmation needs, on the
+                              // confirming rung's scale
+  double share_within = 0.0;  // of the samples, likewise
+  bool meets = false;         // the requirement, by the samples of the search, without that room
+  std::int64_t nodes = 0;     // of the search
   std::string why;
 };
 
@@ -49,27 +52,29 @@ struct AllocationConfirmation {
   std::string rung;
   std::uint64_t seed = 0;
   std::size_t samples = 0, failed = 0;
-  double factor = 1.0;   // index of the rung over that of the linear deviation, when this set was searched for
+  double factor = 1.0;  // index of the rung over that of the linear deviation, when this set was searched for
   double price = 0.0;
-  double reached = 0.0;  // the least limit that these samples show
+  double reached = 0.0;                        // the least limit that these samples show
   double share_within = 0.0, share_low = 0.0;  // and the lower bound at the requirement's confidence
   bool met = false, agrees = false;
   std::string sentence;
 };
 
 struct AllocationResult {
-  bool feasible = false;    // a set meets the requirement, confirmed
+  bool feasible = false;  // a set meets the requirement, confirmed
   bool interrupted = false;
-  bool converged = false;   // proven cheapest by the samples of the search, and confirmed
-  double misfit = 0.0;      // of the linear deviation against its own rung, relative
-  double factor = 1.0;      // at the end
-  double best_reachable = 0.0;  // where not feasible: the least limit that can be shown with the tightest gaps
+  bool converged = false;  // proven cheapest by the samples of the search, and confirmed
+  double misfit = 0.0;     // of the linear deviation against its own rung, relative
+  double factor = 1.0;     // at the end
+  double best_reachable =
+      0.0;  // where not feasible: the least limit that can be shown with the tightest gaps
   Allocation chosen, worst_case, root_sum_square;
   std::vector<AllocationShare> shares;
-  std::vector<CostPoint> front;     // ascending limit
-  double last_micrometre = 0.0;     // what keeping the limit 1 micrometre (or microradian) tighter costs; NaN if it cannot
+  std::vector<CostPoint> front;  // ascending limit
+  double last_micrometre =
+      0.0;  // what keeping the limit 1 micrometre (or microradian) tighter costs; NaN if it cannot
   std::vector<AllocationConfirmation> confirmations;  // one per round
-  std::int64_t evaluations = 0, reused = 0;  // sets of gaps on the confirming rung
+  std::int64_t evaluations = 0, reused = 0;           // sets of gaps on the confirming rung
   double search_seconds = 0.0;
 };
 
@@ -82,9 +87,10 @@ struct AllocationOptions {
 using ConfirmingModel =
     std::function<std::vector<Outcome>(const std::vector<std::vector<double>>& gaps, std::uint64_t seed)>;
 
-// `confirm`: the outcomes of the confirming rung at these gaps ([sample][joint]), other random parameters drawn with the
-// seed. Throws what it throws, and EvaluationInterrupted.
+// `confirm`: the outcomes of the confirming rung at these gaps ([sample][joint]), other random parameters
+// drawn with the seed. Throws what it throws, and EvaluationInterrupted.
 AllocationResult run_allocation(const AllocationPlan& plan, const LinearDeviation& deviation, double misfit,
-                                const ConfirmingModel& confirm, const std::string& rung, const AllocationOptions& options);
+                                const ConfirmingModel& confirm, const std::string& rung,
+                                const AllocationOptions& options);
 
 }  // namespace boresight

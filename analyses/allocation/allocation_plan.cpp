@@ -74,7 +74,8 @@ ContinuousJoint read_curve(Cursor& joint) {
   return {make_cost_curve(law, a, b, k, metres), bounds[0], bounds[1]};
 }
 
-void check_gaps(Cursor& entry, const AllocationJoint& joint, const std::function<void(const Setting&)>& accepts) {
+void check_gaps(Cursor& entry, const AllocationJoint& joint,
+                const std::function<void(const Setting&)>& accepts) {
   std::vector<double> values;
   for (const AllocationOption& o : joint.options) {
     values.push_back(o.gap->lowest());
@@ -96,15 +97,18 @@ void check_gaps(Cursor& entry, const AllocationJoint& joint, const std::function
 }
 
 AllocationJoint read_joint(Cursor& entry, const std::vector<AllocationOption>& common, ZoneLaw law,
-                           const MechanismDescription& mechanism, const std::function<void(const Setting&)>& accepts) {
+                           const MechanismDescription& mechanism,
+                           const std::function<void(const Setting&)>& accepts) {
   entry.only({"parameter", "fits", "processes", "cost", "tolerance", "least"});
   AllocationJoint joint;
-  joint.paths = entry.is_list("parameter") ? entry.texts("parameter") : std::vector<std::string>{entry.text("parameter")};
+  joint.paths = entry.is_list("parameter") ? entry.texts("parameter")
+                                           : std::vector<std::string>{entry.text("parameter")};
   entry.require(!joint.paths.empty(), "parameter", "the path of a radial clearance, or a list of them");
   for (const std::string& path : joint.paths) {
     joint.places.emplace_back(mechanism, path, entry.origin("parameter"));
     if (!path.starts_with("clearance.") || !path.ends_with(".radial"))
-      entry.fail_found("parameter", "\"" + path + "\"", "the path of a radial clearance, clearance.JOINT.radial");
+      entry.fail_found("parameter", "\"" + path + "\"",
+                       "the path of a radial clearance, clearance.JOINT.radial");
   }
   const int kinds = entry.has("fits") + entry.has("processes") + entry.has("cost");
   if (kinds > 1) entry.fail("parameter", "one of fits, processes and cost");
@@ -136,15 +140,16 @@ DistributionPtr make_zone(double least, double tolerance, ZoneLaw law) {
 }
 
 Parameters AllocationPlan::parameters_with(const Mechanism& mechanism, std::span<const double> values) const {
-  Parameters p = inputs ? inputs->parameters_with(mechanism, values.subspan(joints.size())) : mechanism.parameters();
+  Parameters p =
+      inputs ? inputs->parameters_with(mechanism, values.subspan(joints.size())) : mechanism.parameters();
   for (std::size_t j = 0; j < joints.size(); ++j)
     for (const ParameterPath& place : joints[j].places) place.set(p, values[j]);
   return p;
 }
 
 std::string AllocationPlan::sample_text(const Study& study) const {
-  std::string text = "index " + study.index.quantity + "." + study.index.statistic + "\nseed " + std::to_string(seed) +
-                     " confirm " + std::to_string(confirm) + "\n";
+  std::string text = "index " + study.index.quantity + "." + study.index.statistic + "\nseed " +
+                     std::to_string(seed) + " confirm " + std::to_string(confirm) + "\n";
   for (const AllocationJoint& joint : joints)
     for (const std::string& path : joint.paths) text += path + (&path == &joint.paths.back() ? "\n" : " ");
   return inputs ? text + inputs->text : text;
@@ -159,24 +164,31 @@ AllocationPlan read_allocation_plan(Cursor& root, const Study& study, const Mech
   plan.requirement = read_requirement(asked, study);
   const auto count = [&](const char* key, long long least, long long most, std::size_t otherwise) {
     const long long value = table.integer(key, static_cast<long long>(otherwise));
-    table.require(value >= least && value <= most, key, std::to_string(least) + " to " + std::to_string(most));
+    table.require(value >= least && value <= most, key,
+                  std::to_string(least) + " to " + std::to_string(most));
     return static_cast<std::size_t>(value);
   };
   const std::int64_t fewest = wilks_one_sided(plan.requirement.probability, plan.requirement.confidence);
-  plan.samples = count("samples", fewest, 1'000'000, std::max<std::size_t>(1000, static_cast<std::size_t>(4 * fewest)));
-  plan.confirm = count("confirm", fewest, 1'000'000, std::max<std::size_t>(120, static_cast<std::size_t>(3 * fewest)));
+  plan.samples =
+      count("samples", fewest, 1'000'000, std::max<std::size_t>(1000, static_cast<std::size_t>(4 * fewest)));
+  plan.confirm =
+      count("confirm", fewest, 1'000'000, std::max<std::size_t>(120, static_cast<std::size_t>(3 * fewest)));
   plan.seed = count("seed", 0, 1'000'000'000, 1);
   plan.front = static_cast<int>(count("front", 0, 50, 6));
-  plan.zone = table.choice("zone", {"normal", "uniform"}, "normal") == "uniform" ? ZoneLaw::uniform : ZoneLaw::normal;
+  plan.zone =
+      table.choice("zone", {"normal", "uniform"}, "normal") == "uniform" ? ZoneLaw::uniform : ZoneLaw::normal;
   std::vector<AllocationOption> common;
   if (table.has("fits")) common = read_fits(table, plan.zone);
   std::set<std::string> taken;
   for (Cursor& entry : table.tables("joint")) {
     plan.joints.push_back(read_joint(entry, common, plan.zone, mechanism, accepts));
     for (const std::string& path : plan.joints.back().paths)
-      if (!taken.insert(path).second) entry.fail_found("parameter", "\"" + path + "\" a second time", "each joint once");
+      if (!taken.insert(path).second)
+        entry.fail_found("parameter", "\"" + path + "\" a second time", "each joint once");
     if (plan.joints.back().options.empty() != plan.joints.front().options.empty())
-      entry.fail("cost", "cost curves for all joints or for none: fits and processes are chosen, tolerances are continuous");
+      entry.fail(
+          "cost",
+          "cost curves for all joints or for none: fits and processes are chosen, tolerances are continuous");
   }
   if (plan.joints.empty()) table.fail("joint", "at least one [[allocate.joint]] table");
   table.finish();

@@ -17,7 +17,8 @@ std::vector<double> exponentials(std::span<const double> x) {
   return t;
 }
 
-// The share s at which from + s (to - from) last keeps the limit, in ln t; the requirement does not fall along it.
+// The share s at which from + s (to - from) last keeps the limit, in ln t; the requirement does not fall
+// along it.
 double last_within(const ToleranceRequirement& requirement, double limit, const std::vector<double>& from,
                    const std::vector<double>& to, int& evaluations) {
   double low = 0.0, high = 1.0;
@@ -69,7 +70,8 @@ ContinuousAllocation allocate_continuous(const std::vector<ContinuousJoint>& joi
   problem.gradients = true;
   problem.objective = [&](std::span<const double> x, std::span<double> gradient) {
     const std::vector<double> t = exponentials(x);
-    for (std::size_t j = 0; j < gradient.size(); ++j) gradient[j] = joints[j].cost.slope(t[j]) * t[j] / price_scale;
+    for (std::size_t j = 0; j < gradient.size(); ++j)
+      gradient[j] = joints[j].cost.slope(t[j]) * t[j] / price_scale;
     return price_of(joints, t) / price_scale;
   };
   problem.constraints.push_back([&](std::span<const double> x, std::span<double> gradient) {
@@ -80,8 +82,8 @@ ContinuousAllocation allocate_continuous(const std::vector<ContinuousJoint>& joi
     return value / limit - 1.0;
   });
 
-  // A requirement with kinks (an order statistic, a maximum over time) can stop either algorithm short; the better one
-  // stands, pulled back onto the limit where it lies beyond it.
+  // A requirement with kinks (an order statistic, a maximum over time) can stop either algorithm short; the
+  // better one stands, pulled back onto the limit where it lies beyond it.
   std::vector<double> best = problem.start;
   const auto offer = [&](const std::vector<double>& x, bool converged) {
     const double s = last_within(requirement, limit, problem.lower, x, result.evaluations);
@@ -105,7 +107,8 @@ ContinuousAllocation allocate_continuous(const std::vector<ContinuousJoint>& joi
                                                  .tolerance = 1e-10,
                                                  .constraint_tolerance = 1e-10});
       if (offer(minimum.x, minimum.converged))
-        result.why = std::string(algorithm) + " in ln t: gradients are at hand, and reciprocal costs are convex there";
+        result.why =
+            std::string(algorithm) + " in ln t: gradients are at hand, and reciprocal costs are convex there";
     }
     if (price_of(joints, exponentials(best)) > before * (1.0 - 1e-7)) {
       result.converged = true;  // neither moves on
@@ -122,7 +125,7 @@ ContinuousAllocation allocate_continuous(const std::vector<ContinuousJoint>& joi
 ToleranceRequirement statistical_tolerances(const LinearDeviation& deviation, std::vector<double> least,
                                             std::vector<std::vector<double>> z, std::int64_t allowed) {
   return [&deviation, least = std::move(least), z = std::move(z), allowed](std::span<const double> t,
-                                                                         std::span<double> gradient) {
+                                                                           std::span<double> gradient) {
     if (allowed < 0) return std::numeric_limits<double>::infinity();
     const std::size_t samples = z.front().size();
     std::vector<std::pair<double, std::size_t>> values(samples);
@@ -137,7 +140,8 @@ ToleranceRequirement statistical_tolerances(const LinearDeviation& deviation, st
     const auto rank = static_cast<std::size_t>(allowed);
     const std::size_t reach = 1 + rank / 4;
     const std::size_t last = std::min(samples, rank + reach + 1);
-    std::partial_sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(last), values.end(), std::greater<>());
+    std::partial_sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(last), values.end(),
+                      std::greater<>());
     if (!gradient.empty()) {
       std::fill(gradient.begin(), gradient.end(), 0.0);
       const std::size_t first = rank > reach ? rank - reach : 0;
@@ -163,7 +167,8 @@ ToleranceRequirement worst_case_tolerances(const LinearDeviation& deviation, std
 ToleranceRequirement root_sum_square_tolerances(const LinearDeviation& deviation, std::vector<double> least,
                                                 double probability) {
   const double quantile = boost::math::quantile(boost::math::normal(), probability);
-  return [&deviation, least = std::move(least), quantile](std::span<const double> t, std::span<double> gradient) {
+  return [&deviation, least = std::move(least), quantile](std::span<const double> t,
+                                                          std::span<double> gradient) {
     const auto value = [&](const std::vector<double>& tolerance) {
       std::vector<double> middle(least), half(tolerance.size());
       for (std::size_t j = 0; j < half.size(); ++j) middle[j] += half[j] = 0.5 * tolerance[j];

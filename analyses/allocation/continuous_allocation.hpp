@@ -1,8 +1,9 @@
-// Tolerances t_j in a box at least total cost under one requirement g(t) <= limit, each with its cost curve: NLopt with
-// gradients (SLSQP, held against MMA) in ln t, where reciprocal costs and sums of tolerances are both convex.
+// Tolerances t_j in a box at least total cost under one requirement g(t) <= limit, each with its cost curve:
+// NLopt with gradients (SLSQP, held against MMA) in ln t, where reciprocal costs and sums of tolerances are
+// both convex.
 //
-// Where only one requirement binds and no tolerance is at its bound, the optimum is Chase's closed form (Chase 1999,
-// "Minimum-cost tolerance allocation", ADCATS report 99-5): dC_j/dt_j + lambda dg/dt_j = 0.
+// Where only one requirement binds and no tolerance is at its bound, the optimum is Chase's closed form
+// (Chase 1999, "Minimum-cost tolerance allocation", ADCATS report 99-5): dC_j/dt_j + lambda dg/dt_j = 0.
 #pragma once
 
 #include <functional>
@@ -21,7 +22,8 @@ struct ContinuousJoint {
 };
 
 // The value that must not exceed the limit, and its gradient where asked for; not falling in any tolerance.
-using ToleranceRequirement = std::function<double(std::span<const double> tolerance, std::span<double> gradient)>;
+using ToleranceRequirement =
+    std::function<double(std::span<const double> tolerance, std::span<double> gradient)>;
 
 struct ContinuousAllocation {
   bool feasible = false;  // the tightest tolerances keep the limit
@@ -38,11 +40,11 @@ ContinuousAllocation allocate_continuous(const std::vector<ContinuousJoint>& joi
 
 double price_of(const std::vector<ContinuousJoint>& joints, std::span<const double> tolerance);
 
-// Gaps c_j = least_j + t_j z_jk, z in [0, 1] from the zone's law: requirements of a linear deviation. The deviation must
-// outlive them.
+// Gaps c_j = least_j + t_j z_jk, z in [0, 1] from the zone's law: requirements of a linear deviation. The
+// deviation must outlive them.
 //
-// The largest index but the `allowed` ones over the samples. Its gradient is averaged over neighbouring ranks, as the
-// order statistic itself has kinks wherever two samples change places.
+// The largest index but the `allowed` ones over the samples. Its gradient is averaged over neighbouring
+// ranks, as the order statistic itself has kinks wherever two samples change places.
 ToleranceRequirement statistical_tolerances(const LinearDeviation& deviation, std::vector<double> least,
                                             std::vector<std::vector<double>> z, std::int64_t allowed);
 ToleranceRequirement worst_case_tolerances(const LinearDeviation& deviation, std::vector<double> least);

@@ -3,10 +3,10 @@
 //   reciprocal           A + B / t         reciprocal-squared   A + B / t^2
 //   reciprocal-power     A + B / t^k       exponential          A e^(-B t)
 //
-// (Chase, Greenwood, Loosli, Hauglund 1990, "Least cost tolerance allocation for mechanical assemblies with automated
-// process selection", Manufacturing Review 3(1), Table 1.) t is the width of the zone that the radial clearance may lie
-// in, [m]; A is a price, B a price times m^k, for the exponential 1/m. A study file gives A and B for t in a unit of
-// its own.
+// (Chase, Greenwood, Loosli, Hauglund 1990, "Least cost tolerance allocation for mechanical assemblies with
+// automated process selection", Manufacturing Review 3(1), Table 1.) t is the width of the zone that the
+// radial clearance may lie in, [m]; A is a price, B a price times m^k, for the exponential 1/m. A study file
+// gives A and B for t in a unit of its own.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@ using Prices = std::vector<std::vector<double>>;
 
 struct Node {
   double bound = 0.0;
-  std::size_t depth = 0;    // joints decided, in the search's order
+  std::size_t depth = 0;  // joints decided, in the search's order
   std::vector<int> choice;
 };
 struct Dearer {
@@ -22,8 +22,8 @@ struct Dearer {
 
 class BranchAndBound {
  public:
-  BranchAndBound(const Prices& price, const std::vector<int>& tightest, const AllocationRequirement& requirement,
-                 const DiscreteAllocationOptions& options)
+  BranchAndBound(const Prices& price, const std::vector<int>& tightest,
+                 const AllocationRequirement& requirement, const DiscreteAllocationOptions& options)
       : price_(price), tightest_(tightest), requirement_(requirement), options_(options) {
     // Joints whose price varies most decide most.
     for (std::size_t j = 0; j < price.size(); ++j) order_.push_back(j);
@@ -31,7 +31,8 @@ class BranchAndBound {
       const auto [low, high] = std::minmax_element(price_[j].begin(), price_[j].end());
       return *high - *low;
     };
-    std::stable_sort(order_.begin(), order_.end(), [&](std::size_t l, std::size_t r) { return range(l) > range(r); });
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](std::size_t l, std::size_t r) { return range(l) > range(r); });
   }
 
   DiscreteAllocation run() {
@@ -83,8 +84,8 @@ class BranchAndBound {
     return true;
   }
 
-  // From a set that meets the requirement: the cheapest set that differs in one joint's option, or in two, and meets it
-  // too, until there is none.
+  // From a set that meets the requirement: the cheapest set that differs in one joint's option, or in two,
+  // and meets it too, until there is none.
   void relax() {
     for (bool better = true; better;) {
       better = false;
@@ -107,7 +108,8 @@ class BranchAndBound {
         each(one, j + 1, add);
       });
       // Small savings are the likeliest to hold; a run of failures ends the round.
-      std::stable_sort(tries.begin(), tries.end(), [](const auto& l, const auto& r) { return l.first > r.first; });
+      std::stable_sort(tries.begin(), tries.end(),
+                       [](const auto& l, const auto& r) { return l.first > r.first; });
       constexpr int kMostTries = 400;
       int left = kMostTries;
       for (const auto& [price, choice] : tries) {
@@ -119,16 +121,17 @@ class BranchAndBound {
     }
   }
 
-  // Whether asking the requirement can pay: where the open joints' least weights leave an inequality far from its budget, the
-  // answer is yes.
+  // Whether asking the requirement can pay: where the open joints' least weights leave an inequality far from
+  // its budget, the answer is yes.
   bool is_tight(const Node& node) const {
     if (inequalities_.empty()) return true;
     constexpr double kClose = 0.97;
     for (const AdditiveInequality& inequality : inequalities_) {
       double sum = 0.0;
       for (std::size_t j = 0; j < price_.size(); ++j)
-        sum += node.choice[j] >= 0 ? inequality.weight[j][static_cast<std::size_t>(node.choice[j])]
-                                   : *std::min_element(inequality.weight[j].begin(), inequality.weight[j].end());
+        sum += node.choice[j] >= 0
+                   ? inequality.weight[j][static_cast<std::size_t>(node.choice[j])]
+                   : *std::min_element(inequality.weight[j].begin(), inequality.weight[j].end());
       if (sum > kClose * inequality.budget) return true;
     }
     return false;
@@ -138,7 +141,8 @@ class BranchAndBound {
   bool may_not(const std::vector<int>& choice) const {
     for (const AdditiveInequality& inequality : inequalities_) {
       double sum = 0.0;
-      for (std::size_t j = 0; j < choice.size(); ++j) sum += inequality.weight[j][static_cast<std::size_t>(choice[j])];
+      for (std::size_t j = 0; j < choice.size(); ++j)
+        sum += inequality.weight[j][static_cast<std::size_t>(choice[j])];
       if (sum > inequality.budget + 1e-9 * std::abs(inequality.budget)) return true;
     }
     return false;
@@ -152,7 +156,8 @@ class BranchAndBound {
     }
   }
 
-  // Sets that the multipliers of the inequalities suggest: of each, the options that are cheapest with their weights priced.
+  // Sets that the multipliers of the inequalities suggest: of each, the options that are cheapest with their
+  // weights priced.
   void try_multipliers() {
     std::vector<std::pair<double, std::vector<int>>> tries;
     for (const AdditiveInequality& inequality : inequalities_)
@@ -162,7 +167,9 @@ class BranchAndBound {
         for (std::size_t j = 0; j < price_.size(); ++j) {
           std::size_t best = 0;
           for (std::size_t o = 1; o < price_[j].size(); ++o)
-            if (price_[j][o] + lambda * inequality.weight[j][o] < price_[j][best] + lambda * inequality.weight[j][best]) best = o;
+            if (price_[j][o] + lambda * inequality.weight[j][o] <
+                price_[j][best] + lambda * inequality.weight[j][best])
+              best = o;
           choice.push_back(static_cast<int>(best));
         }
         tries.emplace_back(price_of(price_, choice), std::move(choice));
@@ -198,8 +205,9 @@ class BranchAndBound {
     return bound;
   }
 
-  // max over lambda >= 0 of sum over open joints of min_o (price + lambda weight) - lambda (budget - decided weight): a
-  // concave function of lambda, its maximum by golden section. Infinite where even the least weights exceed the budget.
+  // max over lambda >= 0 of sum over open joints of min_o (price + lambda weight) - lambda (budget - decided
+  // weight): a concave function of lambda, its maximum by golden section. Infinite where even the least
+  // weights exceed the budget.
   double priced(const AdditiveInequality& inequality, const Node& node) const {
     double left = inequality.budget, least_weight = 0.0, price_range = 0.0, weight_range = 0.0;
     for (std::size_t j = 0; j < price_.size(); ++j) {
@@ -214,7 +222,8 @@ class BranchAndBound {
       const auto [cheap, dear] = std::minmax_element(price_[j].begin(), price_[j].end());
       price_range = std::max(price_range, *dear - *cheap);
     }
-    if (least_weight > left + 1e-12 * std::abs(inequality.budget)) return std::numeric_limits<double>::infinity();
+    if (least_weight > left + 1e-12 * std::abs(inequality.budget))
+      return std::numeric_limits<double>::infinity();
     if (weight_range == 0.0) return -std::numeric_limits<double>::infinity();
     const auto dual = [&](double lambda) {
       double sum = -lambda * left;

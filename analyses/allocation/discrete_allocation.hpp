@@ -1,11 +1,11 @@
 // The cheapest set of options, one per joint, that meets a requirement: branch and bound, exact.
 //
-// A node decides some joints. It is left when no completion of it can meet the requirement, or when none can be cheaper
-// than the best set known: the least price of the joints left open, also under the additive inequality that the
-// requirement offers,
+// A node decides some joints. It is left when no completion of it can meet the requirement, or when none can
+// be cheaper than the best set known: the least price of the joints left open, also under the additive
+// inequality that the requirement offers,
 //   sum_j w_j(o_j) <= budget    for every set that meets it,
-// priced by its Lagrange multiplier (Fisher 1981, Management Science 27, "The Lagrangian relaxation method"; any
-// multiplier gives a bound, the best one is sought). Nodes are taken cheapest bound first.
+// priced by its Lagrange multiplier (Fisher 1981, Management Science 27, "The Lagrangian relaxation method";
+// any multiplier gives a bound, the best one is sought). Nodes are taken cheapest bound first.
 #pragma once
 
 #include <cstdint>
@@ -38,18 +38,19 @@ struct DiscreteAllocation {
   bool proven = false;      // nothing cheaper exists, or nothing meets the requirement at all
   std::vector<int> choice;  // where feasible
   double price = std::numeric_limits<double>::infinity();
-  double bound = 0.0;  // nothing costs less and meets the requirement
+  double bound = 0.0;                  // nothing costs less and meets the requirement
   std::int64_t nodes = 0, judged = 0;  // judged: whole sets that the requirement was asked about
 };
 
 struct DiscreteAllocationOptions {
   std::int64_t most_nodes = 2'000'000;
-  std::vector<int> start = {};        // a set to begin with, or empty
+  std::vector<int> start = {};                                   // a set to begin with, or empty
   std::function<bool(const DiscreteAllocation&)> progress = {};  // now and then; return false to stop
 };
 
 // price[joint][option]; tightest[joint]: the option with the least gap.
-DiscreteAllocation allocate_discrete(const std::vector<std::vector<double>>& price, const std::vector<int>& tightest,
+DiscreteAllocation allocate_discrete(const std::vector<std::vector<double>>& price,
+                                     const std::vector<int>& tightest,
                                      const AllocationRequirement& requirement,
                                      const DiscreteAllocationOptions& options = {});
 

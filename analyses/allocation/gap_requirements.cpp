@@ -12,7 +12,8 @@ namespace boresight {
 
 std::int64_t allowed_failures(std::int64_t samples, double probability, double confidence) {
   std::int64_t allowed = -1;
-  while (allowed + 1 < samples && clopper_pearson_lower(samples - allowed - 1, samples, confidence) >= probability)
+  while (allowed + 1 < samples &&
+         clopper_pearson_lower(samples - allowed - 1, samples, confidence) >= probability)
     ++allowed;
   return allowed;
 }
@@ -62,7 +63,8 @@ StatisticalRequirement::StatisticalRequirement(const LinearDeviation& deviation,
 // |e + a_j dc| <= |e| + |a_j| |dc|, and no statistic of sizes grows by more than the largest of them does.
 double StatisticalRequirement::quick_bound(std::span<const double> gaps, std::size_t k) const {
   double bound = tight_index_[k];
-  for (std::size_t j = 0; j < gaps.size(); ++j) bound += most_per_gap_[j] * std::abs(gaps[j] - gap(j, tightest_[j], k));
+  for (std::size_t j = 0; j < gaps.size(); ++j)
+    bound += most_per_gap_[j] * std::abs(gaps[j] - gap(j, tightest_[j], k));
   return bound;
 }
 
@@ -104,7 +106,8 @@ bool StatisticalRequirement::may_be_met(std::span<const int> choice) const {
     const std::uint32_t k = order_[i];
     for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j] >= 0 ? choice[j] : tightest_[j], k);
     if (quick_bound(c, k) <= limit_ || deviation_.index(c) <= limit_) continue;
-    // Convex: it lies above its tangent. Where a wider gap works against the others, the tangent says by how much at most.
+    // Convex: it lies above its tangent. Where a wider gap works against the others, the tangent says by how
+    // much at most.
     double least = deviation_.index(c, g);
     for (std::size_t j = 0; j < c.size(); ++j) {
       if (choice[j] >= 0) continue;
@@ -120,11 +123,13 @@ bool StatisticalRequirement::may_be_met(std::span<const int> choice) const {
   return true;
 }
 
-// For a set that meets the requirement, all samples but at most the allowed ones have I_k <= limit, and each lies above its
-// tangent L_k = l_k + sum_j g_kj c_jk at the set given. So among any M samples there are M - allowed with
+// For a set that meets the requirement, all samples but at most the allowed ones have I_k <= limit, and each
+// lies above its tangent L_k = l_k + sum_j g_kj c_jk at the set given. So among any M samples there are M -
+// allowed with
 //   sum_k L_k <= (M - allowed) limit,
-// and whichever they are, joint j adds at least the sum of its M - allowed least g_kj c_jk: an inequality that is additive
-// over joints. The M samples are those with the largest indices here: few lie near the limit, many lose little by the choice.
+// and whichever they are, joint j adds at least the sum of its M - allowed least g_kj c_jk: an inequality
+// that is additive over joints. The M samples are those with the largest indices here: few lie near the
+// limit, many lose little by the choice.
 std::vector<AdditiveInequality> StatisticalRequirement::inequalities_near(std::span<const int> choice) const {
   if (allowed_ < 0 || !deviation_.is_convex()) return {};
   const std::vector<double> values = indices(choice);
@@ -147,11 +152,13 @@ std::vector<AdditiveInequality> StatisticalRequirement::inequalities_near(std::s
     const auto least_sum = [&](auto&& term) {
       terms.clear();
       for (std::size_t i = 0; i < most; ++i) terms.push_back(term(i));
-      std::nth_element(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(most - allowed - 1), terms.end());
+      std::nth_element(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(most - allowed - 1),
+                       terms.end());
       return std::accumulate(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(most - allowed), 0.0);
     };
     AdditiveInequality& out = all.emplace_back();
-    out.budget = static_cast<double>(most - allowed) * limit_ - least_sum([&](std::size_t i) { return constant[i]; });
+    out.budget =
+        static_cast<double>(most - allowed) * limit_ - least_sum([&](std::size_t i) { return constant[i]; });
     for (std::size_t j = 0; j < gap_.size(); ++j) {
       out.weight.emplace_back();
       for (const auto& option : gap_[j])

@@ -3,8 +3,9 @@
 //   statistical      P(index <= limit) >= p with confidence, over samples of the gaps (common to all sets)
 //   worst case       every gap at its largest and all errors in one direction stay within the limit
 //   root-sum-square  index at the mean gaps + z sqrt(sum (dI/dc_j h_j / 3)^2) <= limit,
-//                    h_j half the zone of the gap taken as three standard deviations, z the normal quantile of p
-//                    (Chase, Greenwood 1988, "Design issues in mechanical tolerance analysis", Manufacturing Review 1(1))
+//                    h_j half the zone of the gap taken as three standard deviations, z the normal quantile
+//                    of p (Chase, Greenwood 1988, "Design issues in mechanical tolerance analysis",
+//                    Manufacturing Review 1(1))
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,8 @@
 
 namespace boresight {
 
-// How many of `samples` may exceed the limit while P(index <= limit) >= probability still holds with this confidence
-// (Clopper, Pearson); -1 if not even none is enough.
+// How many of `samples` may exceed the limit while P(index <= limit) >= probability still holds with this
+// confidence (Clopper, Pearson); -1 if not even none is enough.
 std::int64_t allowed_failures(std::int64_t samples, double probability, double confidence);
 
 // unit[joint][sample] in (0, 1): the same for every set of options.
@@ -27,8 +28,9 @@ UnitSamples unit_samples(std::size_t joints, std::size_t samples, std::uint64_t 
 class StatisticalRequirement final : public AllocationRequirement {
  public:
   // gap[joint][option]: how the radial clearance scatters.
-  StatisticalRequirement(const LinearDeviation& deviation, const std::vector<std::vector<DistributionPtr>>& gap,
-                         const UnitSamples& unit, std::int64_t allowed, double limit);
+  StatisticalRequirement(const LinearDeviation& deviation,
+                         const std::vector<std::vector<DistributionPtr>>& gap, const UnitSamples& unit,
+                         std::int64_t allowed, double limit);
 
   bool is_met(std::span<const int> choice) const override;
   bool may_be_met(std::span<const int> choice) const override;
@@ -39,7 +41,8 @@ class StatisticalRequirement final : public AllocationRequirement {
   std::vector<double> indices(std::span<const int> choice) const;  // of all samples
   // The least limit that this set meets: the largest index but the allowed ones.
   double reached(std::span<const int> choice) const;
-  // Variance of the index that joint j's gap brings, to first order about the mean gaps, as shares of their sum.
+  // Variance of the index that joint j's gap brings, to first order about the mean gaps, as shares of their
+  // sum.
   std::vector<double> error_shares(std::span<const int> choice) const;
 
  private:
@@ -79,8 +82,9 @@ class WorstCaseRequirement final : public AllocationRequirement {
 // Open joints are taken at their tightest: an assumption where gaps work against each other.
 class RootSumSquareRequirement final : public AllocationRequirement {
  public:
-  RootSumSquareRequirement(const LinearDeviation& deviation, const std::vector<std::vector<DistributionPtr>>& gap,
-                           double probability, double limit);
+  RootSumSquareRequirement(const LinearDeviation& deviation,
+                           const std::vector<std::vector<DistributionPtr>>& gap, double probability,
+                           double limit);
   bool is_met(std::span<const int> choice) const override;
   bool may_be_met(std::span<const int> choice) const override;
 

@@ -43,7 +43,8 @@ LinearDeviation::LinearDeviation(std::vector<double> time, std::vector<double> o
   }
 }
 
-double LinearDeviation::statistic_of(const std::vector<double>& sizes, std::vector<double>* derivative) const {
+double LinearDeviation::statistic_of(const std::vector<double>& sizes,
+                                     std::vector<double>* derivative) const {
   const std::size_t n = sizes.size();
   if (derivative) derivative->assign(n, 0.0);
   if (statistic_ == "mean") {
@@ -102,7 +103,9 @@ double LinearDeviation::index(std::span<const double> gaps, std::span<double> gr
   return value;
 }
 
-double LinearDeviation::most_per_gap(std::size_t j) const { return *std::max_element(size_[j].begin(), size_[j].end()); }
+double LinearDeviation::most_per_gap(std::size_t j) const {
+  return *std::max_element(size_[j].begin(), size_[j].end());
+}
 
 double LinearDeviation::worst_index(std::span<const double> gaps) const { return worst_index(gaps, {}); }
 
@@ -120,8 +123,8 @@ double LinearDeviation::worst_index(std::span<const double> gaps, std::span<doub
 
 LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& mechanism,
                                       const std::vector<std::vector<ParameterPath>>& places,
-                                      const std::vector<double>& probe, const IndexChoice& index, std::size_t instants,
-                                      double& misfit) {
+                                      const std::vector<double>& probe, const IndexChoice& index,
+                                      std::size_t instants, double& misfit) {
   const auto rung = make_rung("quasistatic", mechanism);
   const Vec3 boresight_B = mechanism->boresight_B();
   RunOptions options;

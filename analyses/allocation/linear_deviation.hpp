@@ -1,13 +1,15 @@
-// How the pointing error follows from the gaps where journals rest against their sleeves: linearly, instant by instant,
+// How the pointing error follows from the gaps where journals rest against their sleeves: linearly, instant
+// by instant,
 //
 //   e(t) = e_0(t) + sum_j a_j(t) c_j,        index = statistic over t of |e(t)|
 //
-// with one vector a_j per joint: where its journal lies under the ideal reaction, carried to the boresight body. e_0 holds
-// what does not hang on the gaps (deflections, axial play). Taken from runs of the quasistatic rung, whose contact
-// directions come from the ideal motion and not from the gaps; so the form is its own, up to the second order of c.
+// with one vector a_j per joint: where its journal lies under the ideal reaction, carried to the boresight
+// body. e_0 holds what does not hang on the gaps (deflections, axial play). Taken from runs of the
+// quasistatic rung, whose contact directions come from the ideal motion and not from the gaps; so the form is
+// its own, up to the second order of c.
 //
-// The index is a convex function of the gaps for every statistic but p99.73; its gradient then gives lower bounds that
-// hold everywhere, by which the allocation proves that nothing cheaper exists.
+// The index is a convex function of the gaps for every statistic but p99.73; its gradient then gives lower
+// bounds that hold everywhere, by which the allocation proves that nothing cheaper exists.
 #pragma once
 
 #include <memory>
@@ -23,10 +25,10 @@ namespace boresight {
 
 class LinearDeviation {
  public:
-  // offset[3 i + d], sensitivity[j][3 i + d]: component d at instant i, [m] or [rad], and per m of gap j; `time`: of the
-  // instants, ascending. `statistic` among statistic_names().
-  LinearDeviation(std::vector<double> time, std::vector<double> offset, std::vector<std::vector<double>> sensitivity,
-                  std::string statistic);
+  // offset[3 i + d], sensitivity[j][3 i + d]: component d at instant i, [m] or [rad], and per m of gap j;
+  // `time`: of the instants, ascending. `statistic` among statistic_names().
+  LinearDeviation(std::vector<double> time, std::vector<double> offset,
+                  std::vector<std::vector<double>> sensitivity, std::string statistic);
 
   std::size_t gaps() const { return sensitivity_.size(); }
   double most_per_gap(std::size_t j) const;  // the largest |a_j| over time
@@ -49,12 +51,12 @@ class LinearDeviation {
   std::string statistic_;
 };
 
-// `places`: one radial clearance each, or several that share a value. `instants`: kept of the motion. What the linear form
-// misses against the rung itself, relative, is measured with all gaps at `probe` and returned in `misfit`.
-// Throws ComputationError.
+// `places`: one radial clearance each, or several that share a value. `instants`: kept of the motion. What
+// the linear form misses against the rung itself, relative, is measured with all gaps at `probe` and returned
+// in `misfit`. Throws ComputationError.
 LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& mechanism,
                                       const std::vector<std::vector<ParameterPath>>& places,
-                                      const std::vector<double>& probe, const IndexChoice& index, std::size_t instants,
-                                      double& misfit);
+                                      const std::vector<double>& probe, const IndexChoice& index,
+                                      std::size_t instants, double& misfit);
 
 }  // namespace boresight

@@ -9,7 +9,8 @@
 namespace boresight {
 namespace {
 
-// A descent begins with steps this large, as a share of the ranges: impacts make the objective rough at a small scale.
+// A descent begins with steps this large, as a share of the ranges: impacts make the objective rough at a
+// small scale.
 constexpr double kFirstStep = 0.2;
 
 class Matching {
@@ -52,8 +53,10 @@ class Matching {
 
   MatchingVisit visit(const std::vector<double>& design) {
     const std::vector<Outcome>& outcomes = evaluator_->at(design);
-    MatchingVisit v{.design = design, .objective = plan_.objective.of(outcomes), .violation = 0.0, .stage = stage_};
-    for (const MatchingConstraint& c : plan_.constraints) v.violation = std::max(v.violation, excess(c, outcomes));
+    MatchingVisit v{
+        .design = design, .objective = plan_.objective.of(outcomes), .violation = 0.0, .stage = stage_};
+    for (const MatchingConstraint& c : plan_.constraints)
+      v.violation = std::max(v.violation, excess(c, outcomes));
     if (std::isfinite(v.objective)) largest_ = std::max(largest_, std::abs(v.objective));
     result_.visits.push_back(v);
     result_.evaluations = evaluator_->computed();
@@ -132,11 +135,13 @@ class Matching {
       result_.global = "none";
       result_.why = "no search of the whole box was asked for";
     }
-    for (std::size_t k = 0; k < starts.size(); ++k) descend(starts[k], "start " + std::to_string(k + 1), plan_.evaluations);
+    for (std::size_t k = 0; k < starts.size(); ++k)
+      descend(starts[k], "start " + std::to_string(k + 1), plan_.evaluations);
     // Any place seen on the way counts, the corners of the search included.
     best_of_visits();
-    result_.why += "; then " + result_.local + (result_.local == "bobyqa" ? ", which models the objective by a quadratic"
-                                                                       : ", which needs no gradients") +
+    result_.why += "; then " + result_.local +
+                   (result_.local == "bobyqa" ? ", which models the objective by a quadratic"
+                                              : ", which needs no gradients") +
                    ": impacts leave no derivatives to go by";
   }
 
@@ -155,7 +160,8 @@ class Matching {
     }
   }
 
-  // Whether b is worse than a beyond what the common samples leave open: Student's t of the paired differences.
+  // Whether b is worse than a beyond what the common samples leave open: Student's t of the paired
+  // differences.
   bool is_worse(const std::vector<double>& b, const std::vector<double>& a) {
     if (a == b) return false;
     const auto& of_a = evaluator_->at(a);
@@ -193,7 +199,8 @@ class Matching {
     std::vector<double> values;
     const double low = v.to_search(v.from), high = v.to_search(v.to);
     for (int i = 0; i < plan_.map; ++i)
-      values.push_back(v.from_search(low + (high - low) * static_cast<double>(i) / static_cast<double>(plan_.map - 1)));
+      values.push_back(
+          v.from_search(low + (high - low) * static_cast<double>(i) / static_cast<double>(plan_.map - 1)));
     values.front() = v.from;
     values.back() = v.to;
     values.push_back(through);
@@ -232,7 +239,8 @@ class Matching {
     });
     result_.front.clear();
     for (const FrontPoint& p : all)
-      if (result_.front.empty() || p.free_flight_share < result_.front.back().free_flight_share) result_.front.push_back(p);
+      if (result_.front.empty() || p.free_flight_share < result_.front.back().free_flight_share)
+        result_.front.push_back(p);
   }
 
   void seek_front() {
@@ -246,7 +254,8 @@ class Matching {
     const std::vector<FrontPoint> known = result_.front;
     constexpr int kEvaluationsPerPoint = 12;
     for (int k = 1; k <= plan_.front; ++k) {
-      // The most accurate design with at most this much free flight (the epsilon-constraint method, Haimes 1971).
+      // The most accurate design with at most this much free flight (the epsilon-constraint method, Haimes
+      // 1971).
       const MatchingConstraint level{stability, low + (high - low) * k / (plan_.front + 1.0)};
       MinimisationProblem p = problem(&accuracy, &level);
       for (const FrontPoint& f : known)
@@ -272,16 +281,19 @@ class Matching {
     c.interval = plan_.objective.interval(outcomes, options_.confidence);
     c.design = result_.design;
     c.objective = c.value;
-    const ReportedInterval here = plan_.objective.interval(evaluator_->at(result_.design), options_.confidence);
+    const ReportedInterval here =
+        plan_.objective.interval(evaluator_->at(result_.design), options_.confidence);
     const double scatter = 0.5 * (c.interval.high - c.interval.low + here.high - here.low);
     const double off = std::abs(c.value - result_.objective);
     bool keeps = true;
-    for (const MatchingConstraint& k : plan_.constraints) keeps = keeps && excess(k, outcomes) <= options_.accuracy;
-    c.agrees = std::isfinite(off) && off <= options_.accuracy * std::abs(c.value) + (std::isfinite(scatter) ? scatter : 0.0) &&
+    for (const MatchingConstraint& k : plan_.constraints)
+      keeps = keeps && excess(k, outcomes) <= options_.accuracy;
+    c.agrees = std::isfinite(off) &&
+               off <= options_.accuracy * std::abs(c.value) + (std::isfinite(scatter) ? scatter : 0.0) &&
                keeps == result_.feasible;
     char text[300];
-    std::snprintf(text, sizeof text, "%s with seed %llu gives %.4g where the search had %.4g: %s", rung.c_str(),
-                  static_cast<unsigned long long>(c.seed), c.value, result_.objective,
+    std::snprintf(text, sizeof text, "%s with seed %llu gives %.4g where the search had %.4g: %s",
+                  rung.c_str(), static_cast<unsigned long long>(c.seed), c.value, result_.objective,
                   c.agrees ? "within what samples and accuracy leave open" : "they disagree");
     c.sentence = text;
     if (!c.agrees && std::isfinite(off)) {

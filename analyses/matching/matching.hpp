@@ -1,8 +1,8 @@
 // Matching: the values of the variables at which the objective is least within the constraints.
 //
-// The whole box is searched once, then a descent goes out from its best place and from each of the user's starts; they
-// are held against each other. The winner is confirmed with other random numbers on the next rung up; where that disagrees
-// a descent goes on there.
+// The whole box is searched once, then a descent goes out from its best place and from each of the user's
+// starts; they are held against each other. The winner is confirmed with other random numbers on the next
+// rung up; where that disagrees a descent goes on there.
 #pragma once
 
 #include <functional>
@@ -32,7 +32,7 @@ struct MatchingDescent {
 };
 
 struct MatchingMap {
-  std::vector<double> x, y;             // of the first and second variable; y empty where there is one only
+  std::vector<double> x, y;  // of the first and second variable; y empty where there is one only
   std::vector<std::vector<double>> value;  // [y][x]; NaN: failed or a constraint broken by `violation` > 0
 };
 
@@ -48,8 +48,8 @@ struct MatchingConfirmation {
   double value = 0.0;
   ReportedInterval interval{};
   bool agrees = false;
-  bool went_on = false;              // a descent on this rung moved the optimum
-  std::vector<double> design;        // where it ended
+  bool went_on = false;        // a descent on this rung moved the optimum
+  std::vector<double> design;  // where it ended
   double objective = 0.0;
   std::string sentence;
 };
@@ -59,17 +59,18 @@ struct MatchingResult {
   double objective = 0.0, violation = 0.0;
   bool feasible = false, converged = false, interrupted = false;
   ReportedInterval interval{};  // of the objective there
-  // Values of the variables among those tried that are as good, as far as the samples can tell (paired differences, 95 %).
+  // Values of the variables among those tried that are as good, as far as the samples can tell (paired
+  // differences, 95 %).
   std::vector<double> as_good_from, as_good_to;
   std::vector<double> constraint_values;
-  std::vector<bool> active;  // constraints within 1 % of their bound
+  std::vector<bool> active;    // constraints within 1 % of their bound
   std::vector<bool> at_bound;  // variables
   std::int64_t evaluations = 0, reused = 0;
   std::string global, local, why;
   std::vector<MatchingDescent> descents;
   std::vector<MatchingVisit> visits;  // in the order they were asked for
   MatchingMap map;
-  std::vector<FrontPoint> front;  // ascending index
+  std::vector<FrontPoint> front;                   // ascending index
   std::vector<MatchingConfirmation> confirmation;  // none or one
 };
 

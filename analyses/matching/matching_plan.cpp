@@ -46,22 +46,23 @@ std::vector<std::vector<double>> MatchingPlan::starts() const {
   std::vector<std::vector<double>> all(most);
   for (std::size_t k = 0; k < most; ++k)
     for (const DesignVariable& v : variables)
-      all[k].push_back(v.starts.empty()
-                           ? v.from_search(0.5 * (v.to_search(v.from) + v.to_search(v.to)))
-                           : v.starts[std::min(k, v.starts.size() - 1)]);
+      all[k].push_back(v.starts.empty() ? v.from_search(0.5 * (v.to_search(v.from) + v.to_search(v.to)))
+                                        : v.starts[std::min(k, v.starts.size() - 1)]);
   return all;
 }
 
 Parameters MatchingPlan::parameters_with(const Mechanism& mechanism, std::span<const double> values) const {
-  Parameters p = inputs ? inputs->parameters_with(mechanism, values.subspan(variables.size())) : mechanism.parameters();
+  Parameters p =
+      inputs ? inputs->parameters_with(mechanism, values.subspan(variables.size())) : mechanism.parameters();
   for (std::size_t i = 0; i < variables.size(); ++i)
     for (const ParameterPath& place : variables[i].places) place.set(p, values[i]);
   return p;
 }
 
 std::string MatchingPlan::sample_text(const Study& study) const {
-  std::string text = "index " + study.index.quantity + "." + study.index.statistic + "\nseed " + std::to_string(seed) +
-                     " samples " + std::to_string(samples) + " confirm " + std::to_string(confirm) + "\n";
+  std::string text = "index " + study.index.quantity + "." + study.index.statistic + "\nseed " +
+                     std::to_string(seed) + " samples " + std::to_string(samples) + " confirm " +
+                     std::to_string(confirm) + "\n";
   for (const DesignVariable& v : variables) {
     for (const std::string& path : v.paths) text += path + " ";
     text += "\n";
@@ -72,8 +73,8 @@ std::string MatchingPlan::sample_text(const Study& study) const {
 MatchingPlan read_matching_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
                                 const std::function<void(const Setting&)>& accepts) {
   Cursor table = root.table("match");
-  table.only({"minimise", "over", "probability", "samples", "seed", "evaluations", "tolerance", "global", "local", "map",
-              "front", "confirm", "variable", "constraint"});
+  table.only({"minimise", "over", "probability", "samples", "seed", "evaluations", "tolerance", "global",
+              "local", "map", "front", "confirm", "variable", "constraint"});
   MatchingPlan plan;
   plan.objective = read_measure(table, "minimise");
   bool scatters = plan.objective.over != Over::nominal;
@@ -94,7 +95,8 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
   plan.confirm = static_cast<std::size_t>(count(table, "confirm", 2, 1'000'000, 64));
   if (!scatters)
     for (const char* key : {"samples", "confirm"})
-      if (table.has(key)) table.fail(key, std::string(key) + " with over = \"mean\", \"quantile\" or \"worst\" only");
+      if (table.has(key))
+        table.fail(key, std::string(key) + " with over = \"mean\", \"quantile\" or \"worst\" only");
   const long long seed = table.integer("seed", 1);
   table.require(seed >= 0, "seed", "a whole number, 0 or more");
   plan.seed = static_cast<std::uint64_t>(seed);
@@ -113,9 +115,11 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
   for (Cursor& entry : table.tables("variable")) {
     plan.variables.push_back(read_design_variable(entry, mechanism, accepts));
     for (const std::string& path : plan.variables.back().paths)
-      if (!taken.insert(path).second) entry.fail_found("parameter", "\"" + path + "\" a second time", "each parameter once");
+      if (!taken.insert(path).second)
+        entry.fail_found("parameter", "\"" + path + "\" a second time", "each parameter once");
   }
-  if (plan.variables.empty()) table.fail("variable", "at least one [[match.variable]] table: what may be chosen");
+  if (plan.variables.empty())
+    table.fail("variable", "at least one [[match.variable]] table: what may be chosen");
   const std::size_t n = plan.variables.size();
   if (plan.local == "bobyqa" && n < 2) table.fail("local", "cobyla: bobyqa wants two variables or more");
   if (!plan.constraints.empty()) {

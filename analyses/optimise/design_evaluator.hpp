@@ -1,7 +1,8 @@
-// From a design (values of the variables) to the outcomes of its samples, computed over threads once and remembered.
+// From a design (values of the variables) to the outcomes of its samples, computed over threads once and
+// remembered.
 //
-// Sample k of every design draws the same random numbers (common random numbers): two designs differ by the designs, not
-// by luck. The model sees the variables first, then the study's random parameters.
+// Sample k of every design draws the same random numbers (common random numbers): two designs differ by the
+// designs, not by luck. The model sees the variables first, then the study's random parameters.
 #pragma once
 
 #include <functional>
@@ -26,8 +27,10 @@ class DesignEvaluator {
     std::function<void()> landed = {};  // after each design that was computed
   };
 
-  // `inputs`: nullptr where nothing scatters; `store`: nullptr to keep evaluations in memory alone. All must outlive it.
-  DesignEvaluator(const SampleModel& model, const RandomInputs* inputs, EvaluationStore* store, Options options);
+  // `inputs`: nullptr where nothing scatters; `store`: nullptr to keep evaluations in memory alone. All must
+  // outlive it.
+  DesignEvaluator(const SampleModel& model, const RandomInputs* inputs, EvaluationStore* store,
+                  Options options);
 
   // Throws EvaluationInterrupted. The reference holds until the evaluator goes.
   const std::vector<Outcome>& at(std::span<const double> design);

@@ -17,7 +17,8 @@ DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& m
                                     const std::function<void(const Setting&)>& accepts) {
   entry.only({"parameter", "from", "to", "starts", "scale"});
   DesignVariable v;
-  v.paths = entry.is_list("parameter") ? entry.texts("parameter") : std::vector<std::string>{entry.text("parameter")};
+  v.paths = entry.is_list("parameter") ? entry.texts("parameter")
+                                       : std::vector<std::string>{entry.text("parameter")};
   entry.require(!v.paths.empty(), "parameter", "a parameter's path, or a list of them");
   for (const std::string& path : v.paths) {
     v.places.emplace_back(mechanism, path, entry.origin("parameter"));

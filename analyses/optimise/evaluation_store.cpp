@@ -13,8 +13,10 @@ std::vector<std::string> columns(std::vector<std::string> variables) {
 
 }  // namespace
 
-EvaluationStore::EvaluationStore(const std::filesystem::path& file, const std::map<std::string, std::string>& facts,
-                                 const std::vector<std::string>& variables, const std::string& rung, double step)
+EvaluationStore::EvaluationStore(const std::filesystem::path& file,
+                                 const std::map<std::string, std::string>& facts,
+                                 const std::vector<std::string>& variables, const std::string& rung,
+                                 double step)
     : store_(file, facts, columns(variables)), variables_(variables.size()) {
   store_.use_rung(rung, step);
   store_.read(~std::uint64_t{0} >> 1, [&](const SampleRecord& record) {
@@ -25,7 +27,8 @@ EvaluationStore::EvaluationStore(const std::filesystem::path& file, const std::m
     const auto place = static_cast<std::size_t>(record.inputs[variables_]);
     if (outcomes.size() <= place) outcomes.resize(place + 1);
     outcomes[place] = record.outcome;
-    outcomes[place].motion = {record.inputs[variables_ + 1], record.inputs[variables_ + 2], record.inputs[variables_ + 3]};
+    outcomes[place].motion = {record.inputs[variables_ + 1], record.inputs[variables_ + 2],
+                              record.inputs[variables_ + 3]};
   });
 }
 

@@ -1,6 +1,7 @@
-// Evaluations that were paid for, kept for the next start: every sample of every design is a row of a store of samples
-// (montecarlo/sample_store.hpp), with the design's variables, the sample's place in its design, and the contact measures
-// as columns. A design counts as known once all its samples are there; one that a kill cut short is computed anew.
+// Evaluations that were paid for, kept for the next start: every sample of every design is a row of a store
+// of samples (montecarlo/sample_store.hpp), with the design's variables, the sample's place in its design,
+// and the contact measures as columns. A design counts as known once all its samples are there; one that a
+// kill cut short is computed anew.
 #pragma once
 
 #include <filesystem>
@@ -17,8 +18,8 @@ namespace boresight {
 
 class EvaluationStore {
  public:
-  // `facts` name the study, and all that decides an outcome but the design: rung, step, seed, number of samples. Throws
-  // StoreRefused, StoreFailed.
+  // `facts` name the study, and all that decides an outcome but the design: rung, step, seed, number of
+  // samples. Throws StoreRefused, StoreFailed.
   EvaluationStore(const std::filesystem::path& file, const std::map<std::string, std::string>& facts,
                   const std::vector<std::string>& variables, const std::string& rung, double step);
 

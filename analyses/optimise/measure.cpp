@@ -24,7 +24,8 @@ const std::vector<OverName>& over_names() {
 }
 
 std::string MeasureChoice::si_unit(const IndexChoice& index) const {
-  return measure == Measure::index ? index.si_unit() : measure_names()[static_cast<std::size_t>(measure)].si_unit;
+  return measure == Measure::index ? index.si_unit()
+                                   : measure_names()[static_cast<std::size_t>(measure)].si_unit;
 }
 
 std::string MeasureChoice::title(const IndexChoice& index) const {
@@ -90,7 +91,8 @@ ReportedInterval MeasureChoice::interval(std::span<const Outcome> outcomes, doub
     else
       ++failed;
   }
-  if (values.size() >= 2 && over == Over::mean) return reported(IndependentSamples(values, failed).mean(confidence));
+  if (values.size() >= 2 && over == Over::mean)
+    return reported(IndependentSamples(values, failed).mean(confidence));
   if (!values.empty() && over == Over::quantile)
     return reported(IndependentSamples(values, failed).quantile(probability, confidence));
   const double value = of(outcomes);

@@ -1,5 +1,5 @@
-// What an optimisation is about: a number of the motion (the study's index, or one of its contact measures), and what is
-// made of it where parameters scatter.
+// What an optimisation is about: a number of the motion (the study's index, or one of its contact measures),
+// and what is made of it where parameters scatter.
 #pragma once
 
 #include <span>
@@ -41,8 +41,8 @@ struct MeasureChoice {
   double of(const Outcome& outcome) const;
   // NaN where a sample failed or the model does not say.
   double of(std::span<const Outcome> outcomes) const;
-  // The same with its interval: Student's t of a mean, order statistics of a quantile; a nominal value or a worst case
-  // has none (its ends are the value).
+  // The same with its interval: Student's t of a mean, order statistics of a quantile; a nominal value or a
+  // worst case has none (its ends are the value).
   ReportedInterval interval(std::span<const Outcome> outcomes, double confidence) const;
 };
 

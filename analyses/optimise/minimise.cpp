@@ -69,7 +69,8 @@ class Search {
     const bool constrained = !problem_.constraints.empty();
     if (options_.global != "auto") {
       const Algorithm* a = named(kGlobal, options_.global);
-      if (options_.global != "none" && a == nullptr) throw std::invalid_argument("no global search " + options_.global);
+      if (options_.global != "none" && a == nullptr)
+        throw std::invalid_argument("no global search " + options_.global);
       if (a && constrained && !a->takes_constraints)
         throw std::invalid_argument(options_.global + " takes no constraints; direct-l and isres do");
       result_.why = "the search was asked for";
@@ -89,9 +90,11 @@ class Search {
     const bool constrained = !problem_.constraints.empty();
     if (options_.local != "auto") {
       const Algorithm* a = named(kLocal, options_.local);
-      if (options_.local != "none" && a == nullptr) throw std::invalid_argument("no descent " + options_.local);
+      if (options_.local != "none" && a == nullptr)
+        throw std::invalid_argument("no descent " + options_.local);
       if (a && a->wants_gradient && !problem_.gradients)
-        throw std::invalid_argument(options_.local + " wants gradients, which there are none of; cobyla and bobyqa do not");
+        throw std::invalid_argument(options_.local +
+                                    " wants gradients, which there are none of; cobyla and bobyqa do not");
       if (a && constrained && !a->takes_constraints)
         throw std::invalid_argument(options_.local + " takes no constraints; cobyla does");
       if (a && problem_.size() < a->least_dimensions)
@@ -112,7 +115,8 @@ class Search {
     return "bobyqa";
   }
 
-  // Value at a place of the unit box; remembers the best place that keeps the constraints, or breaks them least.
+  // Value at a place of the unit box; remembers the best place that keeps the constraints, or breaks them
+  // least.
   double evaluate(const std::vector<double>& u, double* gradient) {
     if (options_.interrupted && options_.interrupted()) {
       result_.interrupted = true;
@@ -182,7 +186,10 @@ class Search {
     optimiser.set_maxeval(evaluations);
     if (a.plain == nlopt::G_MLSL_LDS) {
       const bool bobyqa = !problem_.gradients && n > 1;
-      nlopt::opt descent(problem_.gradients ? nlopt::LD_SLSQP : bobyqa ? nlopt::LN_BOBYQA : nlopt::LN_COBYLA, n);
+      nlopt::opt descent(problem_.gradients ? nlopt::LD_SLSQP
+                         : bobyqa           ? nlopt::LN_BOBYQA
+                                            : nlopt::LN_COBYLA,
+                         n);
       descent.set_xtol_abs(10.0 * options_.tolerance);
       optimiser.set_local_optimizer(descent);
     }
@@ -242,7 +249,8 @@ Minimum minimise(const MinimisationProblem& problem, const MinimisationOptions& 
   if (n == 0 || problem.upper.size() != n || problem.start.size() != n)
     throw std::invalid_argument("bounds and start of different sizes, or of none");
   for (std::size_t i = 0; i < n; ++i)
-    if (!(problem.lower[i] < problem.upper[i])) throw std::invalid_argument("a lower bound that is not below the upper one");
+    if (!(problem.lower[i] < problem.upper[i]))
+      throw std::invalid_argument("a lower bound that is not below the upper one");
   return Search(problem, options).run();
 }
 

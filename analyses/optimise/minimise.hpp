@@ -1,13 +1,13 @@
-// The least value of a function in a box, under inequality constraints: NLopt (Johnson 2007), a search of the whole box
-// followed by a descent from the best place found.
+// The least value of a function in a box, under inequality constraints: NLopt (Johnson 2007), a search of the
+// whole box followed by a descent from the best place found.
 //
 //   MinimisationProblem problem{.lower = {0, 0}, .upper = {1, 1}, .start = {0.5, 0.5}};
 //   problem.objective = [](std::span<const double> x, std::span<double>) { return x[0] * x[0] + x[1]; };
 //   const Minimum minimum = minimise(problem, {});
 //
-// Variables are scaled to the unit box before NLopt sees them, so that metres and kilograms weigh alike. Which algorithm
-// is taken, and why, is part of the result. A constraint g(x) <= 0 should be scaled to the order of 1: a violation below
-// `constraint_tolerance` counts as none.
+// Variables are scaled to the unit box before NLopt sees them, so that metres and kilograms weigh alike.
+// Which algorithm is taken, and why, is part of the result. A constraint g(x) <= 0 should be scaled to the
+// order of 1: a violation below `constraint_tolerance` counts as none.
 #pragma once
 
 #include <functional>
@@ -44,10 +44,10 @@ struct MinimisationOptions {
 struct Minimum {
   std::vector<double> x;
   double objective = 0.0;
-  double violation = 0.0;   // the largest constraint, 0 if all hold
-  bool converged = false;   // the descent came to rest, or the search was exhausted where there is no descent
+  double violation = 0.0;  // the largest constraint, 0 if all hold
+  bool converged = false;  // the descent came to rest, or the search was exhausted where there is no descent
   bool interrupted = false;
-  int evaluations = 0;      // of the objective
+  int evaluations = 0;        // of the objective
   std::string global, local;  // what was taken, "none" where there was none
   std::string why;            // and why
   std::string stopped;        // why it ended
@@ -56,8 +56,8 @@ struct Minimum {
 std::vector<std::string> global_algorithms();  // the words, "auto" first
 std::vector<std::string> local_algorithms();
 
-// Throws std::invalid_argument for options that contradict each other or the problem (an algorithm that wants gradients
-// or cannot take constraints).
+// Throws std::invalid_argument for options that contradict each other or the problem (an algorithm that wants
+// gradients or cannot take constraints).
 Minimum minimise(const MinimisationProblem& problem, const MinimisationOptions& options);
 
 }  // namespace boresight

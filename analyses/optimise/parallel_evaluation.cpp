@@ -31,7 +31,8 @@ std::vector<Outcome> evaluate_all(const SampleModel& model, const std::vector<st
         model.evaluate(samples, {outcomes.data() + first, end - first}, stop);
         const std::scoped_lock lock(mutex);
         for (std::size_t k = first; k < end; ++k)
-          if (options.landed && !fault && outcomes[k].status != Outcome::Status::not_reached) options.landed(k, outcomes[k]);
+          if (options.landed && !fault && outcomes[k].status != Outcome::Status::not_reached)
+            options.landed(k, outcomes[k]);
       } catch (...) {
         const std::scoped_lock lock(mutex);
         if (!fault) fault = std::current_exception();
@@ -47,7 +48,8 @@ std::vector<Outcome> evaluate_all(const SampleModel& model, const std::vector<st
       }
     });
     const int jobs = std::max(1, options.jobs);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(jobs));
     tbb::task_arena arena(jobs);
     arena.execute([&] {
       tbb::task_group group;

@@ -18,7 +18,8 @@ struct ParallelEvaluation {
   std::function<void(std::size_t, const Outcome&)> landed = {};
 };
 
-// values[k]: of sample k. Throws EvaluationInterrupted where not all were reached, and what the model or `landed` throws.
+// values[k]: of sample k. Throws EvaluationInterrupted where not all were reached, and what the model or
+// `landed` throws.
 std::vector<Outcome> evaluate_all(const SampleModel& model, const std::vector<std::vector<double>>& values,
                                   const ParallelEvaluation& options);
 

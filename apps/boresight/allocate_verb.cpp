@@ -70,13 +70,14 @@ class Confirming {
       open.push_back(values[k]);
       open_at.push_back(k);
     }
-    const std::vector<Outcome> computed_now = evaluate_all(
-        model_, open, {.jobs = jobs_,
-                       .interrupted = [] { return interrupted(); },
-                       .landed = [&](std::size_t k, const Outcome& outcome) {
-                         ++computed;
-                         store_.add(open[k], {outcome});
-                       }});
+    const std::vector<Outcome> computed_now = evaluate_all(model_, open,
+                                                           {.jobs = jobs_,
+                                                            .interrupted = [] { return interrupted(); },
+                                                            .landed =
+                                                                [&](std::size_t k, const Outcome& outcome) {
+                                                                  ++computed;
+                                                                  store_.add(open[k], {outcome});
+                                                                }});
     for (std::size_t k = 0; k < open.size(); ++k) outcomes[open_at[k]] = computed_now[k];
     return outcomes;
   }
@@ -95,8 +96,8 @@ void write_allocation(std::ostream& out, const AllocateStudy& s) {
   for (std::size_t j = 0; j < s.result.shares.size(); ++j) {
     const AllocationShare& share = s.result.shares[j];
     out << csv_field(share.joint) << ',' << csv_field(share.option) << ','
-        << (s.result.chosen.tolerance.empty() ? "" : exact(s.result.chosen.tolerance[j])) << ',' << exact(share.price) << ','
-        << exact(share.cost_share) << ',' << exact(share.error_share);
+        << (s.result.chosen.tolerance.empty() ? "" : exact(s.result.chosen.tolerance[j])) << ','
+        << exact(share.price) << ',' << exact(share.cost_share) << ',' << exact(share.error_share);
     for (const Allocation* a : {&s.result.worst_case, &s.result.root_sum_square})
       out << ',' << (a->feasible ? csv_field(option_text(s, *a, j)) : "");
     out << '\n';
@@ -107,7 +108,9 @@ class AllocateVerb : public Verb {
  public:
   std::string name() const override { return "allocate"; }
   std::string file_kind() const override { return "study"; }
-  std::string summary() const override { return "fits or tolerances per joint at least cost that meet the requirement"; }
+  std::string summary() const override {
+    return "fits or tolerances per joint at least cost that meet the requirement";
+  }
   std::string example() const override { return "boresight allocate examples/3-rrcpr/allocate.toml"; }
   void declare_options(CLI::App& app) override { motion_.declare_model(app); }
 
@@ -116,38 +119,45 @@ class AllocateVerb : public Verb {
     Document document = Document::from_file(command.file);
     Cursor root(document);
     const Study study = read_study(root, document.content_hash());
-    const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, command.settings));
-    const AllocationPlan plan = read_allocation_plan(root, study, mechanism->description(), [&](const Setting& setting) {
-      std::vector<Setting> settings = command.settings;
-      settings.push_back(setting);
-      const Mechanism tried(read_mechanism(study.mechanism_file, settings));
-    });
+    const auto mechanism =
+        std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, command.settings));
+    const AllocationPlan plan =
+        read_allocation_plan(root, study, mechanism->description(), [&](const Setting& setting) {
+          std::vector<Setting> settings = command.settings;
+          settings.push_back(setting);
+          const Mechanism tried(read_mechanism(study.mechanism_file, settings));
+        });
     check_rung_name(command.rung);
     motion_.check_rung(command.rung);
     const RunOptions asked = motion_.run_options(*mechanism);
     ContentHash samples;
     samples.add(plan.sample_text(study));
-    const OutputDirectory out = OutputDirectory::open(
-        command.out, command.verb, command.file,
-        identity_of(command, mechanism->description().content_hash, samples.hexadecimal(), motion_.identity()));
+    const OutputDirectory out =
+        OutputDirectory::open(command.out, command.verb, command.file,
+                              identity_of(command, mechanism->description().content_hash,
+                                          samples.hexadecimal(), motion_.identity()));
 
     const RungChoice choice = rung_for(command);
     const std::vector<std::vector<double>> gaps = corner_gaps(plan);
     std::vector<std::vector<ParameterPath>> places;
     for (const AllocationJoint& joint : plan.joints) places.push_back(joint.places);
     double misfit = 0.0;
-    const LinearDeviation deviation = find_linear_deviation(mechanism, places, gaps[0], study.index, kInstants, misfit);
+    const LinearDeviation deviation =
+        find_linear_deviation(mechanism, places, gaps[0], study.index, kInstants, misfit);
 
     std::vector<Parameters> corners;
     for (std::vector<double> values : gaps) {
       if (plan.inputs)
-        for (const RandomParameter& p : plan.inputs->parameters) values.push_back(p.distribution->quantile(0.5));
+        for (const RandomParameter& p : plan.inputs->parameters)
+          values.push_back(p.distribution->quantile(0.5));
       corners.push_back(plan.parameters_with(*mechanism, values));
     }
     const RunOptions run = options_on(choice.name, mechanism, corners, asked);
     const RungSampleModel model(
         choice.name, mechanism,
-        [mechanism, &plan](std::span<const double> values) { return plan.parameters_with(*mechanism, values); },
+        [mechanism, &plan](std::span<const double> values) {
+          return plan.parameters_with(*mechanism, values);
+        },
         study.index, run, plan.inputs && scene_varies(*plan.inputs));
     std::vector<std::string> names;
     for (const AllocationJoint& joint : plan.joints) names.push_back(joint.name());
@@ -163,16 +173,23 @@ class AllocateVerb : public Verb {
     }
     Progress progress(command.quiet, 1.0, "of the allocation");
     AllocationResult result = with_options_checked(run, [&] {
-      return run_allocation(plan, deviation, misfit, std::ref(confirming), choice.name,
-                            {.accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.05),
-                             .interrupted = [] { return interrupted(); },
-                             .progress = [&](const std::string& stage, double share) { progress.update(share, stage); }});
+      return run_allocation(
+          plan, deviation, misfit, std::ref(confirming), choice.name,
+          {.accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.05),
+           .interrupted = [] { return interrupted(); },
+           .progress = [&](const std::string& stage, double share) { progress.update(share, stage); }});
     });
     progress.clear();
     result.evaluations = confirming.computed;
     result.reused = confirming.reused;
-    AllocateStudy allocated{.command = command, .study = study, .mechanism = *mechanism, .rung = choice, .plan = plan,
-                            .result = result, .warnings = {}, .leaves_out = model.leaves_out()};
+    AllocateStudy allocated{.command = command,
+                            .study = study,
+                            .mechanism = *mechanism,
+                            .rung = choice,
+                            .plan = plan,
+                            .result = result,
+                            .warnings = {},
+                            .leaves_out = model.leaves_out()};
     allocated.warnings = warnings_of(allocated);
     write_json(out, "summary.json", summary_of(allocated, watch, out));
     out.write("allocation.csv", [&](std::ostream& s) { write_allocation(s, allocated); });
@@ -185,9 +202,12 @@ class AllocateVerb : public Verb {
  private:
   static RungChoice rung_for(const Command& command) {
     if (command.rung == "perturbation" || command.rung == "multibody")
-      return {.name = command.rung, .why = "asked for by name; confirms what the linear deviation at rest finds"};
+      return {.name = command.rung,
+              .why = "asked for by name; confirms what the linear deviation at rest finds"};
     return {.name = "perturbation",
-            .why = "the next rung above the quasistatic one, whose linear deviation the search uses; it confirms the choice"};
+            .why =
+                "the next rung above the quasistatic one, whose linear deviation the search uses; it "
+                "confirms the choice"};
   }
 
   static std::vector<std::string> warnings_of(const AllocateStudy& s) {
@@ -196,20 +216,27 @@ class AllocateVerb : public Verb {
     if (r.feasible && !r.chosen.proven)
       warnings.push_back("the search ended before it had shown that nothing cheaper meets the requirement");
     for (std::size_t k = 0; k + 1 < r.confirmations.size(); ++k)
-      warnings.push_back("round " + std::to_string(k + 1) + " of the confirmation disagreed with the search: " +
-                         r.confirmations[k].sentence);
+      warnings.push_back("round " + std::to_string(k + 1) +
+                         " of the confirmation disagreed with the search: " + r.confirmations[k].sentence);
     constexpr double kMuch = 0.02;
     if (r.misfit > kMuch)
-      warnings.push_back(fmt::format("the error is not linear in the gaps: off by {:.2g} % against the quasistatic rung",
-                                     100.0 * r.misfit));
+      warnings.push_back(
+          fmt::format("the error is not linear in the gaps: off by {:.2g} % against the quasistatic rung",
+                      100.0 * r.misfit));
     for (const Allocation* a : {&r.worst_case, &r.root_sum_square})
-      if (r.feasible && a->feasible && !a->meets) warnings.push_back("the " + a->judged_by + " allocation is " + standing_of(s, *a));
+      if (r.feasible && a->feasible && !a->meets)
+        warnings.push_back("the " + a->judged_by + " allocation is " + standing_of(s, *a));
     return warnings;
   }
 
   static Json allocation_json(const AllocateStudy& s, const Allocation& a) {
-    Json json = {{"feasible", a.feasible}, {"price", number_json(a.price)}, {"share_within", number_json(a.share_within)},
-                 {"least_limit_shown", number_json(a.reached)}, {"meets", a.meets}, {"proven", a.proven}, {"nodes", a.nodes},
+    Json json = {{"feasible", a.feasible},
+                 {"price", number_json(a.price)},
+                 {"share_within", number_json(a.share_within)},
+                 {"least_limit_shown", number_json(a.reached)},
+                 {"meets", a.meets},
+                 {"proven", a.proven},
+                 {"nodes", a.nodes},
                  {"standing", standing_of(s, a)}};
     json["choice"] = Json::object();
     if (!a.choice.empty() || !a.tolerance.empty())
@@ -258,18 +285,30 @@ class AllocateVerb : public Verb {
     json["root_sum_square"] = allocation_json(s, r.root_sum_square);
     json["shares"] = Json::array();
     for (const AllocationShare& share : r.shares)
-      json["shares"].push_back({{"joint", share.joint}, {"price", share.price}, {"cost_share", share.cost_share},
-                                {"error_share", share.error_share}, {"next_saving", share.next_saving}});
+      json["shares"].push_back({{"joint", share.joint},
+                                {"price", share.price},
+                                {"cost_share", share.cost_share},
+                                {"error_share", share.error_share},
+                                {"next_saving", share.next_saving}});
     json["front"] = Json::array();
     for (const CostPoint& p : r.front)
-      json["front"].push_back({{"limit", p.limit}, {"price", number_json(p.price)}, {"feasible", p.feasible}});
+      json["front"].push_back(
+          {{"limit", p.limit}, {"price", number_json(p.price)}, {"feasible", p.feasible}});
     json["last_micrometre"] = number_json(r.last_micrometre);
     json["confirmations"] = Json::array();
     for (const AllocationConfirmation& c : r.confirmations)
-      json["confirmations"].push_back({{"rung", c.rung}, {"seed", c.seed}, {"samples", c.samples}, {"failed", c.failed},
-                                       {"factor", c.factor}, {"price", c.price}, {"share_within", c.share_within},
-                                       {"share_low", c.share_low}, {"least_limit_shown", number_json(c.reached)},
-                                       {"met", c.met}, {"agrees", c.agrees}, {"sentence", c.sentence}});
+      json["confirmations"].push_back({{"rung", c.rung},
+                                       {"seed", c.seed},
+                                       {"samples", c.samples},
+                                       {"failed", c.failed},
+                                       {"factor", c.factor},
+                                       {"price", c.price},
+                                       {"share_within", c.share_within},
+                                       {"share_low", c.share_low},
+                                       {"least_limit_shown", number_json(c.reached)},
+                                       {"met", c.met},
+                                       {"agrees", c.agrees},
+                                       {"sentence", c.sentence}});
     json["files"] = {"summary.json", "allocation.csv", "confirmation.db", "report.html"};
     return json;
   }
@@ -278,14 +317,17 @@ class AllocateVerb : public Verb {
     fmt::print("{}\n", allocate_sentence(s));
     for (std::size_t j = 0; j < s.result.shares.size(); ++j) {
       const AllocationShare& share = s.result.shares[j];
-      fmt::print("  {:<24} {:<12} price {:<6.4g} {:>5.1f} % of the cost, {:>5.1f} % of the error\n", share.joint,
-                 option_text(s, s.result.chosen, j), share.price, 100.0 * share.cost_share, 100.0 * share.error_share);
+      fmt::print("  {:<24} {:<12} price {:<6.4g} {:>5.1f} % of the cost, {:>5.1f} % of the error\n",
+                 share.joint, option_text(s, s.result.chosen, j), share.price, 100.0 * share.cost_share,
+                 100.0 * share.error_share);
     }
     for (const Allocation* a : {&s.result.worst_case, &s.result.root_sum_square})
       if (!a->judged_by.empty())
-        fmt::print("  {}: {}{}\n", a->judged_by, a->feasible ? fmt::format("{:.5g}, ", a->price) : "", standing_of(s, *a));
+        fmt::print("  {}: {}{}\n", a->judged_by, a->feasible ? fmt::format("{:.5g}, ", a->price) : "",
+                   standing_of(s, *a));
     if (s.result.feasible && std::isfinite(s.result.last_micrometre))
-      fmt::print("  the last micro{}: {:.4g}\n", s.study.index.si_unit() == "m" ? "metre" : "radian", s.result.last_micrometre);
+      fmt::print("  the last micro{}: {:.4g}\n", s.study.index.si_unit() == "m" ? "metre" : "radian",
+                 s.result.last_micrometre);
     for (const std::string& warning : s.warnings) fmt::print("  warning: {}\n", warning);
     fmt::print("  report: {}\n", (out.path() / "report.html").string());
   }

@@ -33,15 +33,18 @@ DisplayUnit variable_unit(const DesignVariable& v) {
 report::Axis axis_of(const DesignVariable& v) { return {v.name(), variable_unit(v).name, v.log}; }
 
 report::Table optimum_table(const MatchStudy& s) {
-  report::Table table{.title = "The optimum",
-                      .caption = "As good: the values among those tried whose objective cannot be told from the optimum's with "
-                                 "these samples, or within the accuracy.",
-                      .columns = {{"variable"}, {"value"}, {"as good"}, {"bounds"}, {"at its bound"}}};
+  report::Table table{
+      .title = "The optimum",
+      .caption =
+          "As good: the values among those tried whose objective cannot be told from the optimum's with "
+          "these samples, or within the accuracy.",
+      .columns = {{"variable"}, {"value"}, {"as good"}, {"bounds"}, {"at its bound"}}};
   for (std::size_t i = 0; i < s.plan.variables.size(); ++i) {
     const DesignVariable& v = s.plan.variables[i];
     std::string as_good = "";
     if (i < s.result.as_good_from.size())
-      as_good = readable(s.result.as_good_from[i], v.si_unit) + " to " + readable(s.result.as_good_to[i], v.si_unit);
+      as_good = readable(s.result.as_good_from[i], v.si_unit) + " to " +
+                readable(s.result.as_good_to[i], v.si_unit);
     table.rows.push_back({v.name(), readable(s.result.design[i], v.si_unit), as_good,
                           readable(v.from, v.si_unit) + " to " + readable(v.to, v.si_unit),
                           s.result.at_bound[i] ? "yes" : "no"});
@@ -63,17 +66,22 @@ report::Table constraint_table(const MatchStudy& s) {
 }
 
 report::Table descent_table(const MatchStudy& s) {
-  report::Table table{.title = "Descents held against each other",
-                      .caption = "The same answer: the end's objective cannot be told from the best one's.",
-                      .columns = {{"from"}, {"start"}, {"end"}, {"objective"}, {"evaluations"}, {"same answer"}}};
+  report::Table table{
+      .title = "Descents held against each other",
+      .caption = "The same answer: the end's objective cannot be told from the best one's.",
+      .columns = {{"from"}, {"start"}, {"end"}, {"objective"}, {"evaluations"}, {"same answer"}}};
   for (const MatchingDescent& d : s.result.descents)
-    table.rows.push_back({d.from, design_text(s.plan, d.start), design_text(s.plan, d.end), value_text(s, d.objective),
-                          d.evaluations, d.agrees ? "yes" : "no"});
+    table.rows.push_back({d.from, design_text(s.plan, d.start), design_text(s.plan, d.end),
+                          value_text(s, d.objective), d.evaluations, d.agrees ? "yes" : "no"});
   return table;
 }
 
 report::Series optimum_mark(const MatchStudy& s, const report::Numbers& x, const report::Numbers& y) {
-  return {.name = "optimum", .x = x, .y = y, .style = report::Style::markers, .text = {value_text(s, s.result.objective)}};
+  return {.name = "optimum",
+          .x = x,
+          .y = y,
+          .style = report::Style::markers,
+          .text = {value_text(s, s.result.objective)}};
 }
 
 // One variable: the objective along it. Two or more: over the first two, with the way of the search.
@@ -100,7 +108,8 @@ report::Chart map_chart(const MatchStudy& s) {
     tried.x = tx;
     tried.y = ty;
     chart.series.push_back(std::move(tried));
-    chart.series.push_back(optimum_mark(s, {s.result.design[0] * ux.per_si}, {s.result.objective * uz.per_si}));
+    chart.series.push_back(
+        optimum_mark(s, {s.result.design[0] * ux.per_si}, {s.result.objective * uz.per_si}));
     return chart;
   }
   const DesignVariable& w = s.plan.variables[1];
@@ -129,10 +138,11 @@ report::Chart map_chart(const MatchStudy& s) {
         px.push_back(visit.design[0] * ux.per_si);
         py.push_back(visit.design[1] * uy.per_si);
       }
-    chart.series.push_back({.name = stage,
-                            .x = px,
-                            .y = py,
-                            .style = stage == "search of the box" ? report::Style::markers : report::Style::line_markers});
+    chart.series.push_back(
+        {.name = stage,
+         .x = px,
+         .y = py,
+         .style = stage == "search of the box" ? report::Style::markers : report::Style::line_markers});
   }
   chart.series.push_back(optimum_mark(s, {s.result.design[0] * ux.per_si}, {s.result.design[1] * uy.per_si}));
   return chart;
@@ -162,10 +172,12 @@ report::Chart front_chart(const MatchStudy& s) {
   double most = 0.0;
   for (const FrontPoint& p : s.result.front) most = std::max(most, p.index);
   const DisplayUnit unit = display_unit(s.study.index.si_unit(), most);
-  report::Chart chart{.title = "Accuracy against stability",
-                      .caption = "Designs that no other one beats in both. Stability: the less time in free flight the steadier.",
-                      .x = {s.study.index.title(), unit.name},
-                      .y = {"share of time in free flight", "%"}};
+  report::Chart chart{
+      .title = "Accuracy against stability",
+      .caption =
+          "Designs that no other one beats in both. Stability: the less time in free flight the steadier.",
+      .x = {s.study.index.title(), unit.name},
+      .y = {"share of time in free flight", "%"}};
   report::Series series{.name = "front", .style = report::Style::line_markers};
   report::Numbers x, y;
   for (const FrontPoint& p : s.result.front) {
@@ -180,7 +192,8 @@ report::Chart front_chart(const MatchStudy& s) {
 }
 
 report::Table front_table(const MatchStudy& s) {
-  report::Table table{.title = "The front", .columns = {{"design"}, {s.study.index.title()}, {"free flight"}}};
+  report::Table table{.title = "The front",
+                      .columns = {{"design"}, {s.study.index.title()}, {"free flight"}}};
   for (const FrontPoint& p : s.result.front)
     table.rows.push_back({design_text(s.plan, p.design), readable(p.index, s.study.index.si_unit()),
                           readable_share(p.free_flight_share)});
@@ -192,21 +205,23 @@ report::Table front_table(const MatchStudy& s) {
 std::string design_text(const MatchingPlan& plan, const std::vector<double>& design) {
   std::string text;
   for (std::size_t i = 0; i < design.size(); ++i)
-    text += (i == 0 ? "" : ", ") + plan.variables[i].name() + " = " + readable(design[i], plan.variables[i].si_unit);
+    text += (i == 0 ? "" : ", ") + plan.variables[i].name() + " = " +
+            readable(design[i], plan.variables[i].si_unit);
   return text;
 }
 
 std::string match_sentence(const MatchStudy& s) {
   const MatchingResult& r = s.result;
   if (r.design.empty()) return "Nothing was found: no design could be computed.";
-  std::string text = fmt::format("{}: {} at {}", s.plan.objective.title(s.study.index), value_text(s, r.objective),
-                                 design_text(s.plan, r.design));
+  std::string text = fmt::format("{}: {} at {}", s.plan.objective.title(s.study.index),
+                                 value_text(s, r.objective), design_text(s.plan, r.design));
   if (std::isfinite(r.interval.low) && std::isfinite(r.interval.high) && r.interval.low < r.interval.high)
-    text += fmt::format(" ({} to {} at {:g} % confidence)", value_text(s, r.interval.low), value_text(s, r.interval.high),
-                        100.0 * r.interval.confidence);
+    text += fmt::format(" ({} to {} at {:g} % confidence)", value_text(s, r.interval.low),
+                        value_text(s, r.interval.high), 100.0 * r.interval.confidence);
   text += ".";
   if (!r.feasible)
-    text += fmt::format(" The constraints cannot all be kept: this design breaks them least, by {:.3g} %.", 100.0 * r.violation);
+    text += fmt::format(" The constraints cannot all be kept: this design breaks them least, by {:.3g} %.",
+                        100.0 * r.violation);
   if (!r.confirmation.empty()) text += " Confirmation: " + r.confirmation.front().sentence + ".";
   return text;
 }
@@ -216,20 +231,24 @@ report::Document match_report(const MatchStudy& s) {
                             .subtitle = "Matching: least " + s.plan.objective.title(s.study.index),
                             .verb = "match"};
   const bool good = s.result.feasible && s.result.converged && !s.result.interrupted;
-  document.verdict = report::Verdict{good ? report::Standing::good : report::Standing::bad,
-                                     (s.result.interrupted ? "Interrupted; the best so far. " : "") + match_sentence(s)};
+  document.verdict =
+      report::Verdict{good ? report::Standing::good : report::Standing::bad,
+                      (s.result.interrupted ? "Interrupted; the best so far. " : "") + match_sentence(s)};
   document.warnings = s.warnings;
   document.provenance = provenance_of(s.command, s.mechanism, s.rung);
-  document.provenance.back() = {"Data", "summary.json and evaluations.csv beside this file; evaluations.db holds every sample"};
+  document.provenance.back() = {
+      "Data", "summary.json and evaluations.csv beside this file; evaluations.db holds every sample"};
   document.provenance.push_back({"Study hash", s.study.content_hash});
   if (s.result.design.empty()) return document;
-  document.facts = {{.label = "Least " + s.plan.objective.title(s.study.index), .value = value_text(s, s.result.objective)},
-                    {.label = "Designs computed", .value = s.result.evaluations,
-                     .note = s.result.reused > 0 ? fmt::format("and {} from an earlier run", s.result.reused) : ""},
-                    {.label = "Samples per design", .value = s.plan.samples}};
+  document.facts = {
+      {.label = "Least " + s.plan.objective.title(s.study.index), .value = value_text(s, s.result.objective)},
+      {.label = "Designs computed",
+       .value = s.result.evaluations,
+       .note = s.result.reused > 0 ? fmt::format("and {} from an earlier run", s.result.reused) : ""},
+      {.label = "Samples per design", .value = s.plan.samples}};
   for (std::size_t i = 0; i < s.plan.variables.size(); ++i)
-    document.facts.push_back(
-        {.label = s.plan.variables[i].name(), .value = readable(s.result.design[i], s.plan.variables[i].si_unit)});
+    document.facts.push_back({.label = s.plan.variables[i].name(),
+                              .value = readable(s.result.design[i], s.plan.variables[i].si_unit)});
 
   report::Section optimum{.id = "optimum", .title = "What to choose", .items = {optimum_table(s)}};
   if (!s.plan.constraints.empty()) optimum.items.emplace_back(constraint_table(s));
@@ -237,12 +256,13 @@ report::Document match_report(const MatchStudy& s) {
   if (!s.result.map.value.empty())
     document.sections.push_back({.id = "map", .title = "Where it lies", .items = {map_chart(s)}});
   if (s.result.front.size() > 1)
-    document.sections.push_back(
-        {.id = "front", .title = "What stability costs in accuracy", .items = {front_chart(s), front_table(s)}});
+    document.sections.push_back({.id = "front",
+                                 .title = "What stability costs in accuracy",
+                                 .items = {front_chart(s), front_table(s)}});
   document.sections.push_back({.id = "search",
                                .title = "How it was found",
-                               .intro = "Search of the box: " + s.result.global + ", descent: " + s.result.local + ". " +
-                                        s.result.why + ".",
+                               .intro = "Search of the box: " + s.result.global +
+                                        ", descent: " + s.result.local + ". " + s.result.why + ".",
                                .items = {descent_table(s), settling_chart(s)}});
   document.sections.push_back(
       {.id = "model", .title = "What this model leaves out", .items = {report::Text{s.leaves_out}}});

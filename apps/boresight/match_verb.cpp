@@ -1,4 +1,5 @@
-// boresight match STUDY: the values of some parameters at which the pointing error, or another measure, is least.
+// boresight match STUDY: the values of some parameters at which the pointing error, or another measure, is
+// least.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -47,9 +48,11 @@ std::vector<Parameters> corners_of(const MatchingPlan& plan, const Mechanism& me
   for (const double share : {0.5, 0.0, 1.0}) {
     std::vector<double> values;
     for (const DesignVariable& v : plan.variables)
-      values.push_back(v.from_search(v.to_search(v.from) + share * (v.to_search(v.to) - v.to_search(v.from))));
+      values.push_back(
+          v.from_search(v.to_search(v.from) + share * (v.to_search(v.to) - v.to_search(v.from))));
     if (plan.inputs)
-      for (const RandomParameter& p : plan.inputs->parameters) values.push_back(p.distribution->quantile(0.5));
+      for (const RandomParameter& p : plan.inputs->parameters)
+        values.push_back(p.distribution->quantile(0.5));
     corners.push_back(plan.parameters_with(mechanism, values));
   }
   return corners;
@@ -82,12 +85,14 @@ class MatchVerb : public Verb {
     Document document = Document::from_file(command.file);
     Cursor root(document);
     const Study study = read_study(root, document.content_hash());
-    const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, command.settings));
-    const MatchingPlan plan = read_matching_plan(root, study, mechanism->description(), [&](const Setting& setting) {
-      std::vector<Setting> settings = command.settings;
-      settings.push_back(setting);
-      const Mechanism tried(read_mechanism(study.mechanism_file, settings));
-    });
+    const auto mechanism =
+        std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, command.settings));
+    const MatchingPlan plan =
+        read_matching_plan(root, study, mechanism->description(), [&](const Setting& setting) {
+          std::vector<Setting> settings = command.settings;
+          settings.push_back(setting);
+          const Mechanism tried(read_mechanism(study.mechanism_file, settings));
+        });
     check_rung_name(command.rung);
     motion_.check_rung(command.rung);
     const RunOptions asked = motion_.run_options(*mechanism);
@@ -96,9 +101,9 @@ class MatchVerb : public Verb {
     samples.add(plan.sample_text(study));
     nlohmann::json options = motion_.identity();
     if (study.accuracy) options["study_accuracy"] = *study.accuracy;
-    const OutputDirectory out =
-        OutputDirectory::open(command.out, command.verb, command.file,
-                              identity_of(command, mechanism->description().content_hash, samples.hexadecimal(), options));
+    const OutputDirectory out = OutputDirectory::open(
+        command.out, command.verb, command.file,
+        identity_of(command, mechanism->description().content_hash, samples.hexadecimal(), options));
 
     const std::vector<Parameters> corners = corners_of(plan, *mechanism);
     const RungChoice choice = rung_for(command, study, mechanism, corners, asked);
@@ -109,16 +114,20 @@ class MatchVerb : public Verb {
     RunOptions run = asked;
     if (choice.step > 0.0) run.step = choice.step;
     run = options_on(choice.name, mechanism, corners, run);
-    const RungSampleModel model(choice.name, mechanism, parameters_of, study.index, run, any_scene_varies(plan));
+    const RungSampleModel model(choice.name, mechanism, parameters_of, study.index, run,
+                                any_scene_varies(plan));
     std::vector<std::string> names;
     for (const DesignVariable& v : plan.variables) names.push_back(v.name());
     const auto store = open_evaluations(out, name(), "evaluations.db", names, model.rung(), model.step());
     const RandomInputs* inputs = plan.inputs ? &*plan.inputs : nullptr;
-    DesignEvaluator evaluator(model, inputs, store.get(),
-                              {.samples = plan.samples, .seed = plan.seed, .jobs = command.jobs,
-                               .interrupted = [] { return interrupted(); }});
+    DesignEvaluator evaluator(
+        model, inputs, store.get(),
+        {.samples = plan.samples, .seed = plan.seed, .jobs = command.jobs, .interrupted = [] {
+           return interrupted();
+         }});
 
-    // On the same rung only other random numbers confirm; where nothing scatters there is nothing to confirm with.
+    // On the same rung only other random numbers confirm; where nothing scatters there is nothing to confirm
+    // with.
     std::unique_ptr<RungSampleModel> upper_model;
     std::unique_ptr<EvaluationStore> upper_store;
     std::unique_ptr<DesignEvaluator> upper_evaluator;
@@ -129,36 +138,49 @@ class MatchVerb : public Verb {
       upper_store = open_evaluations(out, name(), "confirmation.db", names, upper, upper_model->step());
       upper_evaluator = std::make_unique<DesignEvaluator>(
           *upper_model, inputs, upper_store.get(),
-          DesignEvaluator::Options{.samples = plan.confirm, .seed = plan.seed + kFreshSeed, .jobs = command.jobs,
-                                   .interrupted = [] { return interrupted(); }, .landed = {}});
+          DesignEvaluator::Options{.samples = plan.confirm,
+                                   .seed = plan.seed + kFreshSeed,
+                                   .jobs = command.jobs,
+                                   .interrupted = [] { return interrupted(); },
+                                   .landed = {}});
     }
 
     if (!command.quiet) {
-      fmt::print("{}: {} variables, {} on the {} rung, {} per design{}\n", mechanism->name(), plan.variables.size(),
-                 plan.objective.title(study.index), choice.name, plan.samples == 1 ? "one run" : fmt::format("{} runs", plan.samples),
+      fmt::print("{}: {} variables, {} on the {} rung, {} per design{}\n", mechanism->name(),
+                 plan.variables.size(), plan.objective.title(study.index), choice.name,
+                 plan.samples == 1 ? "one run" : fmt::format("{} runs", plan.samples),
                  store->size() > 0 ? fmt::format("; {} designs known already", store->size()) : "");
       std::fflush(stdout);
     }
     // About as many designs as it asks for; descents end sooner.
-    const double designs = plan.evaluations * (1.0 + 0.5 * static_cast<double>(plan.starts().size() + 1)) +
-                           std::pow(plan.map, std::min<double>(2.0, static_cast<double>(plan.variables.size()))) +
-                           12.0 * plan.front;
+    const double designs =
+        plan.evaluations * (1.0 + 0.5 * static_cast<double>(plan.starts().size() + 1)) +
+        std::pow(plan.map, std::min<double>(2.0, static_cast<double>(plan.variables.size()))) +
+        12.0 * plan.front;
     Progress progress(command.quiet, designs, "designs");
     const MatchingResult result = with_options_checked(run, [&] {
-      return run_matching(plan, evaluator, upper_evaluator.get(), upper,
-                          {.accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.01),
-                           .interrupted = [] { return interrupted(); },
-                           .progress = [&](const MatchingResult& r) {
-                             std::string estimate = r.visits.back().stage;
-                             if (!r.design.empty())
-                               estimate += "; best so far " + readable(r.objective, plan.objective.si_unit(study.index)) +
-                                           " at " + design_text(plan, r.design);
-                             progress.update(std::min(designs, static_cast<double>(r.visits.size())), estimate);
-                           }});
+      return run_matching(
+          plan, evaluator, upper_evaluator.get(), upper,
+          {.accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.01),
+           .interrupted = [] { return interrupted(); },
+           .progress =
+               [&](const MatchingResult& r) {
+                 std::string estimate = r.visits.back().stage;
+                 if (!r.design.empty())
+                   estimate += "; best so far " + readable(r.objective, plan.objective.si_unit(study.index)) +
+                               " at " + design_text(plan, r.design);
+                 progress.update(std::min(designs, static_cast<double>(r.visits.size())), estimate);
+               }});
     });
     progress.clear();
-    const MatchStudy matched{.command = command, .study = study, .mechanism = *mechanism, .rung = choice, .plan = plan,
-                             .result = result, .warnings = warnings_of(plan, result), .leaves_out = model.leaves_out()};
+    const MatchStudy matched{.command = command,
+                             .study = study,
+                             .mechanism = *mechanism,
+                             .rung = choice,
+                             .plan = plan,
+                             .result = result,
+                             .warnings = warnings_of(plan, result),
+                             .leaves_out = model.leaves_out()};
     write_json(out, "summary.json", summary_of(matched, watch, out));
     out.write("evaluations.csv", [&](std::ostream& s) { write_evaluations(s, plan, result); });
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, match_report(matched)); });
@@ -171,7 +193,8 @@ class MatchVerb : public Verb {
  private:
   static constexpr std::uint64_t kFreshSeed = 1'000'003;
 
-  static RungChoice rung_for(const Command& command, const Study& study, const std::shared_ptr<const Mechanism>& mechanism,
+  static RungChoice rung_for(const Command& command, const Study& study,
+                             const std::shared_ptr<const Mechanism>& mechanism,
                              const std::vector<Parameters>& corners, const RunOptions& run) {
     constexpr double kPilotTrials = 72.0;
     Progress progress(command.quiet, kPilotTrials, "trials of the pilot");
@@ -196,8 +219,8 @@ class MatchVerb : public Verb {
       warnings.push_back("the descent ended before it came to rest; more evaluations may find better");
     for (const MatchingDescent& d : result.descents)
       if (!d.agrees)
-        warnings.push_back(fmt::format("the descent from {} ended at {}, a worse place than the optimum", d.from,
-                                       design_text(plan, d.end)));
+        warnings.push_back(fmt::format("the descent from {} ended at {}, a worse place than the optimum",
+                                       d.from, design_text(plan, d.end)));
     for (std::size_t i = 0; i < result.at_bound.size(); ++i)
       if (result.at_bound[i])
         warnings.push_back(plan.variables[i].name() + " lies at its bound: better values may lie beyond");
@@ -227,7 +250,8 @@ class MatchVerb : public Verb {
     json["samples_per_design"] = s.plan.samples;
     json["algorithm"] = {{"global", r.global}, {"local", r.local}, {"why", r.why}};
     if (!r.as_good_from.empty())
-      json["as_good"] = {{"from", design_json(s.plan, r.as_good_from)}, {"to", design_json(s.plan, r.as_good_to)}};
+      json["as_good"] = {{"from", design_json(s.plan, r.as_good_from)},
+                         {"to", design_json(s.plan, r.as_good_to)}};
     json["constraints"] = Json::array();
     for (std::size_t k = 0; k < r.constraint_values.size(); ++k)
       json["constraints"].push_back({{"measure", s.plan.constraints[k].measure.key()},
@@ -245,14 +269,19 @@ class MatchVerb : public Verb {
                                   {"same_answer", d.agrees}});
     json["front"] = Json::array();
     for (const FrontPoint& p : r.front)
-      json["front"].push_back(
-          {{"design", design_json(s.plan, p.design)}, {"index", p.index}, {"free_flight_share", p.free_flight_share}});
+      json["front"].push_back({{"design", design_json(s.plan, p.design)},
+                               {"index", p.index},
+                               {"free_flight_share", p.free_flight_share}});
     if (!r.confirmation.empty()) {
       const MatchingConfirmation& c = r.confirmation.front();
-      json["confirmation"] = {{"rung", c.rung},        {"seed", c.seed},
-                              {"samples", c.samples},  {"value", number_json(c.value)},
-                              {"low", number_json(c.interval.low)}, {"high", number_json(c.interval.high)},
-                              {"agrees", c.agrees},    {"went_on", c.went_on},
+      json["confirmation"] = {{"rung", c.rung},
+                              {"seed", c.seed},
+                              {"samples", c.samples},
+                              {"value", number_json(c.value)},
+                              {"low", number_json(c.interval.low)},
+                              {"high", number_json(c.interval.high)},
+                              {"agrees", c.agrees},
+                              {"went_on", c.went_on},
                               {"sentence", c.sentence}};
     }
     json["files"] = {"summary.json", "evaluations.csv", "evaluations.db", "report.html"};
@@ -261,11 +290,11 @@ class MatchVerb : public Verb {
 
   static void print(const MatchStudy& s, const OutputDirectory& out) {
     fmt::print("{}\n", match_sentence(s));
-    fmt::print("  search: {}, descent: {}; {} designs computed, {} reused; {}\n", s.result.global, s.result.local,
-               s.result.evaluations, s.result.reused, s.result.why);
+    fmt::print("  search: {}, descent: {}; {} designs computed, {} reused; {}\n", s.result.global,
+               s.result.local, s.result.evaluations, s.result.reused, s.result.why);
     for (const MatchingDescent& d : s.result.descents)
-      fmt::print("  from {}: {} -> {}, {:.5g}{}\n", d.from, design_text(s.plan, d.start), design_text(s.plan, d.end),
-                 d.objective, d.agrees ? ", the same answer" : "");
+      fmt::print("  from {}: {} -> {}, {:.5g}{}\n", d.from, design_text(s.plan, d.start),
+                 design_text(s.plan, d.end), d.objective, d.agrees ? ", the same answer" : "");
     for (const std::string& warning : s.warnings) fmt::print("  warning: {}\n", warning);
     fmt::print("  report: {}\n", (out.path() / "report.html").string());
   }

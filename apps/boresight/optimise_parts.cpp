@@ -30,20 +30,22 @@ RunOptions options_on(const std::string& rung, const std::shared_ptr<const Mecha
 }
 
 std::unique_ptr<EvaluationStore> open_evaluations(const OutputDirectory& out, const std::string& verb,
-                                                  const std::string& name, const std::vector<std::string>& variables,
+                                                  const std::string& name,
+                                                  const std::vector<std::string>& variables,
                                                   const std::string& rung, double step) {
   if (!std::filesystem::exists(out.path() / "summary.json"))
-    write_json(out, "summary.json",
-               {{"verb", verb},
-                {"version", BORESIGHT_VERSION},
-                {"interrupted", true},
-                {"warnings", {"begun and not yet ended: the same command goes on, and reuses what is in " + name}},
-                {"identity", Json::parse(out.identity().dump())}});
+    write_json(
+        out, "summary.json",
+        {{"verb", verb},
+         {"version", BORESIGHT_VERSION},
+         {"interrupted", true},
+         {"warnings", {"begun and not yet ended: the same command goes on, and reuses what is in " + name}},
+         {"identity", Json::parse(out.identity().dump())}});
   ContentHash hash;
   hash.add(out.identity().dump());
   return std::make_unique<EvaluationStore>(
-      out.path() / name, std::map<std::string, std::string>{{"study", hash.hexadecimal()}, {"rung", rung}}, variables, rung,
-      step);
+      out.path() / name, std::map<std::string, std::string>{{"study", hash.hexadecimal()}, {"rung", rung}},
+      variables, rung, step);
 }
 
 }  // namespace boresight::app

@@ -1,7 +1,7 @@
 // Allocations over cost curves, against Chase's closed form.
 //
-// Chase (1999), "Minimum-cost tolerance allocation", ADCATS report 99-5: for costs A_j + B_j / t_j^k the Lagrange
-// conditions give, with sensitivities s_j,
+// Chase (1999), "Minimum-cost tolerance allocation", ADCATS report 99-5: for costs A_j + B_j / t_j^k the
+// Lagrange conditions give, with sensitivities s_j,
 //   worst case:       t_j = (k B_j / (lambda s_j))^(1/(k+1)),       sum s_j t_j = T
 //   root-sum-square:  t_j = (k B_j / (2 lambda s_j^2))^(1/(k+2)),   sqrt(sum (s_j t_j)^2) = T
 #include "boresight_analyses/allocation/continuous_allocation.hpp"
@@ -18,7 +18,8 @@ const std::vector<double> kB = {0.5, 0.2, 1.0, 0.35};
 
 std::vector<ContinuousJoint> joints(double exponent) {
   std::vector<ContinuousJoint> all;
-  for (const double b : kB) all.push_back({make_cost_curve("reciprocal-power", 1.0, b, exponent, 1e-3), 1e-7, 1e-2});
+  for (const double b : kB)
+    all.push_back({make_cost_curve("reciprocal-power", 1.0, b, exponent, 1e-3), 1e-7, 1e-2});
   return all;
 }
 
@@ -92,7 +93,8 @@ TEST(ContinuousAllocation, WithSamplesPutsTheRequiredOrderStatisticOnTheLimit) {
   const LinearDeviation deviation({0.0, 1.0}, {0, 0, 0, 0, 0, 0}, {{1.5, 0, 0, 2.0, 0, 0}}, "max");
   std::vector<double> z(200);
   for (std::size_t k = 0; k < z.size(); ++k) z[k] = (static_cast<double>(k) + 0.5) / 200.0;
-  const auto requirement = statistical_tolerances(deviation, {1e-5}, {z}, 9);  // the tenth largest: z = 190.5 / 200
+  const auto requirement =
+      statistical_tolerances(deviation, {1e-5}, {z}, 9);  // the tenth largest: z = 190.5 / 200
   const ContinuousAllocation found =
       allocate_continuous({{make_cost_curve("reciprocal", 0, 1, 1, 1e-3), 1e-7, 1e-2}}, requirement, 1e-4);
   EXPECT_NEAR(found.tolerance[0], (1e-4 / 2.0 - 1e-5) / (190.5 / 200.0), 1e-11);
@@ -102,7 +104,9 @@ TEST(CostCurve, HasTheSlopeOfItsPrice) {
   for (const std::string& law : cost_law_names()) {
     const CostCurve curve = make_cost_curve(law, 2.0, 0.3, 1.7, 1e-3);
     const double t = 4e-4, h = 1e-9;
-    EXPECT_NEAR(curve.slope(t), (curve.price(t + h) - curve.price(t - h)) / (2 * h), 1e-5 * std::abs(curve.slope(t))) << law;
+    EXPECT_NEAR(curve.slope(t), (curve.price(t + h) - curve.price(t - h)) / (2 * h),
+                1e-5 * std::abs(curve.slope(t)))
+        << law;
   }
 }
 

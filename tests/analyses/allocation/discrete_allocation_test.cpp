@@ -42,7 +42,8 @@ Scene scene(std::size_t joints, std::size_t options, unsigned seed, const std::s
       gap[j].push_back(make_uniform(0.25 * width, width));
     }
   }
-  return {prices, gap, LinearDeviation(time, offset, sensitivity, statistic), unit_samples(joints, 150, seed)};
+  return {prices, gap, LinearDeviation(time, offset, sensitivity, statistic),
+          unit_samples(joints, 150, seed)};
 }
 
 // The cheapest of all sets, one by one.
@@ -85,8 +86,8 @@ TEST(DiscreteAllocation, IsExactOnFiveJointsForEveryWayOfJudging) {
     const Scene s = scene(5, 4, 100 + seed);
     const StatisticalRequirement statistical(s.deviation, s.gap, s.unit, 5, 45e-6);
     const WorstCaseRequirement worst(s.deviation, s.gap, 60e-6);
-    for (const AllocationRequirement* requirement :
-         {static_cast<const AllocationRequirement*>(&statistical), static_cast<const AllocationRequirement*>(&worst)}) {
+    for (const AllocationRequirement* requirement : {static_cast<const AllocationRequirement*>(&statistical),
+                                                     static_cast<const AllocationRequirement*>(&worst)}) {
       std::int64_t meeting = 0;
       const double best = brute_force(s.price, *requirement, meeting);
       const DiscreteAllocation found = allocate_discrete(s.price, tightest_options(s.gap), *requirement);

@@ -16,12 +16,15 @@ class Valley final : public SampleModel {
   double step() const override { return 0.0; }
   std::string leaves_out() const override { return ""; }
   std::size_t batch() const override { return 1; }
-  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>&) const override {
+  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                const std::atomic<bool>&) const override {
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      const double x = samples[k].values[0], scatter = samples[k].values.size() > 1 ? samples[k].values[1] : 0.0;
+      const double x = samples[k].values[0],
+                   scatter = samples[k].values.size() > 1 ? samples[k].values[1] : 0.0;
       outcomes[k].status = Outcome::Status::done;
       outcomes[k].value = 1.0 + std::pow(x - 3.0 - shift_, 2) + 0.2 * (scatter - 0.5);
-      outcomes[k].motion = {.free_flight_share = 0.1 + 0.02 * std::pow(x - 7.0, 2), .impacts_per_second = 1.0,
+      outcomes[k].motion = {.free_flight_share = 0.1 + 0.02 * std::pow(x - 7.0, 2),
+                            .impacts_per_second = 1.0,
                             .peak_acceleration = 1.0};
     }
   }

@@ -20,7 +20,9 @@ MinimisationOptions fine() {
 // (x-1)^2 + 10 (y-0.3 x)^2, least at (1, 0.3).
 MinimisationProblem quadratic() {
   MinimisationProblem p{.lower = {-2, -1}, .upper = {3, 4}, .start = {2.5, 3}};
-  p.objective = [](Values x, Gradient) { return std::pow(x[0] - 1, 2) + 10 * std::pow(x[1] - 0.3 * x[0], 2); };
+  p.objective = [](Values x, Gradient) {
+    return std::pow(x[0] - 1, 2) + 10 * std::pow(x[1] - 0.3 * x[0], 2);
+  };
   return p;
 }
 
@@ -45,9 +47,10 @@ TEST(Minimise, EveryUnconstrainedPairOfAlgorithmsAgrees) {
     }
 }
 
-// Hock and Schittkowski (1981), problem 71 without its equation: x1 x4 (x1 + x2 + x3) + x3 over 1 <= x <= 5 with
-// x1 x2 x3 x4 >= 25 and |x|^2 <= 40. Its published optimum, 17.0140173 at (1, 4.7429994, 3.8211503, 1.3794082), keeps
-// |x|^2 = 40 with equality, and the less-than-or-equal lets nothing better in.
+// Hock and Schittkowski (1981), problem 71 without its equation: x1 x4 (x1 + x2 + x3) + x3 over 1 <= x <= 5
+// with x1 x2 x3 x4 >= 25 and |x|^2 <= 40. Its published optimum, 17.0140173 at
+// (1, 4.7429994, 3.8211503, 1.3794082), keeps |x|^2 = 40 with equality, and the less-than-or-equal lets
+// nothing better in.
 MinimisationProblem hock_schittkowski_71(bool gradients) {
   MinimisationProblem p{.lower = {1, 1, 1, 1}, .upper = {5, 5, 5, 5}, .start = {1, 5, 5, 1}};
   p.gradients = gradients;

@@ -22,7 +22,8 @@ class OptimiseProgram : public Program {
               const std::vector<std::string>& more = {}) const {
     return call(arguments(verb, study, out, more));
   }
-  static std::vector<std::string> arguments(const std::string& verb, const std::string& study, const std::string& out,
+  static std::vector<std::string> arguments(const std::string& verb, const std::string& study,
+                                            const std::string& out,
                                             const std::vector<std::string>& more = {}) {
     std::vector<std::string> all = {verb, study, "--set", "motion.duration=20ms", "--out", out, "--quiet"};
     all.insert(all.end(), more.begin(), more.end());
@@ -46,7 +47,8 @@ to = "0.2 mm"
 fits = [{ fit = "20 H9/d9", price = 4 }, { fit = "20 H8/f7", price = 7 }, { fit = "20 H7/g6", price = 12 }]
 )") {
     return "\n[allocate]\nrequirement = { limit = \"" + limit +
-           "\", probability = 0.9, confidence = 0.9 }\nsamples = 200\nconfirm = 60\nfront = 3\n[[allocate.joint]]\nparameter = "
+           "\", probability = 0.9, confidence = 0.9 }\nsamples = 200\nconfirm = 60\nfront = "
+           "3\n[[allocate.joint]]\nparameter = "
            "\"clearance.F1.radial\"\n" +
            joint;
   }
@@ -84,8 +86,9 @@ parameter = "clearance.F1.friction.coefficient"
 distribution = { uniform = { min = 0.02, max = 0.04 } }
 )" + match("over = \"mean\"\nsamples = 20\nconfirm = 2\n"));
   const auto slow = [&](const std::string& out) {
-    return std::vector<std::string>{"match", "study.toml", "--set",  "motion.duration=100ms", "--out",
-                                    out,     "--quiet",    "--rung", "perturbation",          "--jobs", "1"};
+    return std::vector<std::string>{"match",        "study.toml", "--set",   "motion.duration=100ms",
+                                    "--out",        out,          "--quiet", "--rung",
+                                    "perturbation", "--jobs",     "1"};
   };
   const pid_t child = start(slow("out"));
   // Until the log of the store has grown twice with time between: the tables, then a design.
