@@ -1,7 +1,9 @@
-// Distributions and what samples say of a quantile, against OpenTURNS (Baudin, Dutfoy, Iooss, Popelin 2017, Handbook of
-// Uncertainty Quantification, 2001-2038).
+// Distributions and what samples say of a quantile, against OpenTURNS (Baudin, Dutfoy, Iooss, Popelin 2017,
+// Handbook of Uncertainty Quantification, 2001-2038).
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
 #include <openturns/Beta.hxx>
 #include <openturns/Binomial.hxx>
 #include <openturns/LogNormal.hxx>
@@ -11,9 +13,6 @@
 #include <openturns/TruncatedDistribution.hxx>
 #include <openturns/WeibullMin.hxx>
 #include <openturns/Wilks.hxx>
-
-#include <cmath>
-#include <limits>
 
 #include "boresight_analyses/random/distribution.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
@@ -32,8 +31,10 @@ void expect_the_same(const Distribution& ours, const OT::Distribution& theirs, d
   for (const double u : kLevels) {
     const double x = theirs.computeScalarQuantile(u), tail = theirs.computeScalarQuantile(u, true);
     EXPECT_NEAR(ours.quantile(u), x, tolerance * std::max(std::abs(x), sd)) << ours.text() << " at " << u;
-    EXPECT_NEAR(ours.upper_quantile(u), tail, tolerance * std::max(std::abs(tail), sd)) << ours.text() << " above " << u;
-    // A truncated one is a difference of two probabilities: a rounding of theirs, over the mass that is left, is its own.
+    EXPECT_NEAR(ours.upper_quantile(u), tail, tolerance * std::max(std::abs(tail), sd))
+        << ours.text() << " above " << u;
+    // A truncated one is a difference of two probabilities: a rounding of theirs, over the mass that is left,
+    // is its own.
     const double below = theirs.computeCDF(x);
     EXPECT_NEAR(ours.cdf(x), below, 1e-10 * below + 1e-15) << ours.text() << " at " << x;
     EXPECT_NEAR(ours.density(x) / theirs.computePDF(x), 1.0, 1e-10) << ours.text() << " at " << x;
@@ -42,12 +43,14 @@ void expect_the_same(const Distribution& ours, const OT::Distribution& theirs, d
 
 constexpr double kTight = 1e-10;
 
-TEST(DistributionsAgreeWithOpenTurns, Normal) { expect_the_same(*make_normal(1e-4, 2e-5), OT::Normal(1e-4, 2e-5), kTight); }
+TEST(DistributionsAgreeWithOpenTurns, Normal) {
+  expect_the_same(*make_normal(1e-4, 2e-5), OT::Normal(1e-4, 2e-5), kTight);
+}
 TEST(DistributionsAgreeWithOpenTurns, TruncatedNormal) {
-  expect_the_same(*make_normal(1.0, 0.2)->truncated(0.7, 1.3), OT::TruncatedDistribution(OT::Normal(1.0, 0.2), 0.7, 1.3),
-                  kTight);
-  expect_the_same(*make_normal(1.0, 0.2)->truncated(1.1, 1.9), OT::TruncatedDistribution(OT::Normal(1.0, 0.2), 1.1, 1.9),
-                  kTight);
+  expect_the_same(*make_normal(1.0, 0.2)->truncated(0.7, 1.3),
+                  OT::TruncatedDistribution(OT::Normal(1.0, 0.2), 0.7, 1.3), kTight);
+  expect_the_same(*make_normal(1.0, 0.2)->truncated(1.1, 1.9),
+                  OT::TruncatedDistribution(OT::Normal(1.0, 0.2), 1.1, 1.9), kTight);
 }
 TEST(DistributionsAgreeWithOpenTurns, Lognormal) {
   expect_the_same(*make_lognormal(0.5, 1.3), OT::LogNormal(std::log(0.5), std::log(1.3)), kTight);
@@ -63,8 +66,8 @@ TEST(DistributionsAgreeWithOpenTurns, Weibull) {
   expect_the_same(*make_weibull(1.8, 0.3, 0.1), OT::WeibullMin(0.3, 1.8, 0.1), kTight);
 }
 
-// Hyndman and Fan (1996, The American Statistician 50): they take definition 5, position n p + 1/2, we definition 7,
-// position (n - 1) p + 1. At the level that has the same position the two are one number.
+// Hyndman and Fan (1996, The American Statistician 50): they take definition 5, position n p + 1/2, we
+// definition 7, position (n - 1) p + 1. At the level that has the same position the two are one number.
 TEST(SamplesAgreeWithOpenTurns, OnAQuantile) {
   OT::RandomGenerator::SetSeed(1);
   for (const unsigned n : {20u, 101u, 1000u}) {
@@ -87,12 +90,14 @@ TEST(SamplesAgreeWithOpenTurns, OnTheCoverageOfAQuantilesInterval) {
     for (const double p : {0.5, 0.9, 0.9973}) {
       const QuantileRanks r = quantile_ranks(n, p, 0.95);
       const OT::Binomial b(static_cast<OT::UnsignedInteger>(n), p);
-      const double coverage = b.computeCDF(OT::Scalar(r.high - 1)) - (r.low > 0 ? b.computeCDF(OT::Scalar(r.low - 1)) : 0.0);
+      const double coverage =
+          b.computeCDF(OT::Scalar(r.high - 1)) - (r.low > 0 ? b.computeCDF(OT::Scalar(r.low - 1)) : 0.0);
       EXPECT_NEAR(r.coverage, coverage, 1e-10) << n << " samples at " << p;
     }
 }
 
-// 500 samples of theirs, their quantile as the truth: three binomial standard errors below the coverage stated.
+// 500 samples of theirs, their quantile as the truth: three binomial standard errors below the coverage
+// stated.
 TEST(SamplesAgreeWithOpenTurns, ThatIntervalsHoldTheirQuantile) {
   OT::RandomGenerator::SetSeed(2);
   const OT::LogNormal law(0.0, 0.5);

@@ -1,6 +1,9 @@
-// Sobol' indices against OpenTURNS, on the function of Ishigami and Homma (1990), which it takes from its own text.
+// Sobol' indices against OpenTURNS, on the function of Ishigami and Homma (1990), which it takes from its own
+// text.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <numbers>
 #include <openturns/ComposedDistribution.hxx>
 #include <openturns/JansenSensitivityAlgorithm.hxx>
 #include <openturns/RandomGenerator.hxx>
@@ -8,9 +11,6 @@
 #include <openturns/SobolIndicesExperiment.hxx>
 #include <openturns/SymbolicFunction.hxx>
 #include <openturns/Uniform.hxx>
-
-#include <cmath>
-#include <numbers>
 
 #include "boresight_analyses/sensitivity/sobol_indices.hpp"
 #include "repetition.hpp"
@@ -43,19 +43,23 @@ TEST(SobolIndicesAgreeWithOpenTurns, OnIshigamiWithinBothIntervals) {
   OT::SaltelliSensitivityAlgorithm peer(cube(), 10000, theirs());
   peer.setConfidenceLevel(kConfidence);
   const OT::Point first = peer.getFirstOrderIndices(), total = peer.getTotalOrderIndices();
-  const OT::Interval firsts = peer.getFirstOrderIndicesInterval(), totals = peer.getTotalOrderIndicesInterval();
+  const OT::Interval firsts = peer.getFirstOrderIndicesInterval(),
+                     totals = peer.getTotalOrderIndicesInterval();
 
   std::mt19937_64 engine(1);
   Points ab(10000, Point(6));
   for (Point& p : ab)
     for (double& u : p) u = repetition::uniform(engine);
-  const auto random = sobol_indices(sobol_rows(kOurs, ab, single_parameters(3)), BootstrapOptions{kConfidence, 2000, 1});
+  const auto random =
+      sobol_indices(sobol_rows(kOurs, ab, single_parameters(3)), BootstrapOptions{kConfidence, 2000, 1});
   std::vector<std::vector<SobolRow>> nets;
   for (int r = 0; r < 16; ++r)
     nets.push_back(sobol_rows(kOurs, repetition::scrambled_sobol(engine, 1024, 6), single_parameters(3)));
   const auto replicated = sobol_indices(nets, kConfidence);
 
-  const auto overlap = [](const auto& ours, double low, double high) { return ours.low <= high && low <= ours.high; };
+  const auto overlap = [](const auto& ours, double low, double high) {
+    return ours.low <= high && low <= ours.high;
+  };
   for (unsigned g = 0; g < 3; ++g) {
     const double f0 = firsts.getLowerBound()[g], f1 = firsts.getUpperBound()[g];
     const double t0 = totals.getLowerBound()[g], t1 = totals.getUpperBound()[g];
@@ -68,15 +72,17 @@ TEST(SobolIndicesAgreeWithOpenTurns, OnIshigamiWithinBothIntervals) {
     // Nets settle the indices ten times closer: their value is to lie in the peer's interval.
     EXPECT_TRUE(f0 <= replicated.groups[g].first.value && replicated.groups[g].first.value <= f1) << g;
     EXPECT_TRUE(t0 <= replicated.groups[g].total.value && replicated.groups[g].total.value <= t1) << g;
-    std::printf("  x%u first %.4f [%.4f, %.4f] theirs, %.4f [%.4f, %.4f] ours; total %.4f [%.4f, %.4f], %.4f [%.4f, %.4f]\n",
-                g + 1, first[g], f0, f1, random.groups[g].first.value, random.groups[g].first.low,
-                random.groups[g].first.high, total[g], t0, t1, random.groups[g].total.value, random.groups[g].total.low,
-                random.groups[g].total.high);
+    std::printf(
+        "  x%u first %.4f [%.4f, %.4f] theirs, %.4f [%.4f, %.4f] ours; total %.4f [%.4f, %.4f], %.4f [%.4f, "
+        "%.4f]\n",
+        g + 1, first[g], f0, f1, random.groups[g].first.value, random.groups[g].first.low,
+        random.groups[g].first.high, total[g], t0, t1, random.groups[g].total.value,
+        random.groups[g].total.low, random.groups[g].total.high);
   }
 }
 
-// The same evaluations, rows made by the peer: Jansen's sums (total index) are the same. The peer divides them by 2 n - 1
-// and the variance of a alone, we by 2 n and that of a and b.
+// The same evaluations, rows made by the peer: Jansen's sums (total index) are the same. The peer divides
+// them by 2 n - 1 and the variance of a alone, we by 2 n and that of a and b.
 TEST(SobolIndicesAgreeWithOpenTurns, OnJansensSumsOfTheSameEvaluations) {
   constexpr unsigned n = 500;
   OT::RandomGenerator::SetSeed(3);

@@ -1,6 +1,8 @@
-// Probabilities of rare excesses against OpenTURNS: its FORM (Hasofer and Lind 1974) and its subset simulation.
+// Probabilities of rare excesses against OpenTURNS: its FORM (Hasofer and Lind 1974) and its subset
+// simulation.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <openturns/Cobyla.hxx>
 #include <openturns/ComposedDistribution.hxx>
 #include <openturns/CompositeRandomVector.hxx>
@@ -14,8 +16,6 @@
 #include <openturns/SymbolicFunction.hxx>
 #include <openturns/ThresholdEvent.hxx>
 #include <openturns/WeibullMin.hxx>
-
-#include <cmath>
 
 #include "boresight_analyses/random/distribution.hpp"
 #include "boresight_analyses/statistics/running.hpp"
@@ -42,8 +42,9 @@ class Peer {
     laws[0] = x1;
     laws[1] = x2;
     joint_ = OT::ComposedDistribution(laws);
-    event_ = OT::ThresholdEvent(OT::CompositeRandomVector(OT::SymbolicFunction(in, out), OT::RandomVector(joint_)),
-                                OT::Greater(), limit);
+    event_ =
+        OT::ThresholdEvent(OT::CompositeRandomVector(OT::SymbolicFunction(in, out), OT::RandomVector(joint_)),
+                           OT::Greater(), limit);
   }
   double form() const {
     OT::Cobyla solver;
@@ -84,11 +85,12 @@ RunningMoments our_subset(const BatchModel& model, double limit) {
   return p;
 }
 IndependentInterval our_estimate(const BatchModel& model, double limit) {
-  return importance_sampling(model, limit, tail_proposal(model, 2, limit, {}).mixture, 20000, {0.998, 1, 0}).probability;
+  return importance_sampling(model, limit, tail_proposal(model, 2, limit, {}).mixture, 20000, {0.998, 1, 0})
+      .probability;
 }
 
-// Means of runs of 1000 points a level: three standard errors of the difference, and 2 % each for a bias of the order of
-// 1 / points.
+// Means of runs of 1000 points a level: three standard errors of the difference, and 2 % each for a bias of
+// the order of 1 / points.
 void expect_the_same(const RunningMoments& ours, const RunningMoments& theirs) {
   const double error = std::sqrt((ours.sd() * ours.sd() + theirs.sd() * theirs.sd()) / kRuns);
   EXPECT_NEAR(ours.mean(), theirs.mean(), 3.0 * error + 0.04 * theirs.mean());
@@ -98,10 +100,13 @@ void expect_held(const IndependentInterval& i, double truth) {
   EXPECT_TRUE(i.low <= truth && truth <= i.high) << i.low << " to " << i.high << ", not " << truth;
   EXPECT_LT(i.high - i.low, 0.2 * truth);
 }
-void print(const char* what, double form, const RunningMoments& theirs, const RunningMoments& ours, const IndependentInterval& i) {
-  std::printf("  %s: FORM %.4g, subsets %.4g +- %.1g theirs, %.4g +- %.1g ours, importance sampling %.4g [%.4g, %.4g]\n", what,
-              form, theirs.mean(), theirs.sd() / std::sqrt(kRuns), ours.mean(), ours.sd() / std::sqrt(kRuns), i.value, i.low,
-              i.high);
+void print(const char* what, double form, const RunningMoments& theirs, const RunningMoments& ours,
+           const IndependentInterval& i) {
+  std::printf(
+      "  %s: FORM %.4g, subsets %.4g +- %.1g theirs, %.4g +- %.1g ours, importance sampling %.4g [%.4g, "
+      "%.4g]\n",
+      what, form, theirs.mean(), theirs.sd() / std::sqrt(kRuns), ours.mean(), ours.sd() / std::sqrt(kRuns),
+      i.value, i.low, i.high);
 }
 
 TEST(TailsAgreeWithOpenTurns, OnALinearLimitState) {
@@ -119,7 +124,8 @@ TEST(TailsAgreeWithOpenTurns, OnALinearLimitState) {
 double bent_truth(double limit) {
   double p = 0.0;
   const double h = 1e-3;  // the trapezoidal rule is exact to rounding for an entire function that decays
-  for (double w = -10.0; w < 10.0; w += h) p += h * phi(-limit - 0.2 * w * w) * std::exp(-0.5 * w * w) / std::sqrt(2.0 * M_PI);
+  for (double w = -10.0; w < 10.0; w += h)
+    p += h * phi(-limit - 0.2 * w * w) * std::exp(-0.5 * w * w) / std::sqrt(2.0 * M_PI);
   return p;
 }
 TEST(TailsAgreeWithOpenTurns, OnABentLimitStateWhereFormIsOff) {
@@ -141,14 +147,17 @@ TEST(TailsAgreeWithOpenTurns, OnLoadOverStrength) {
   const OT::LogNormal strength(std::log(5.0), std::log(1.2));
   const Peer peer("x1 - x2", 0.0, load, strength);
   const DistributionPtr s = make_weibull(2.0, 1.0, 0.0), r = make_lognormal(5.0, 1.2);
-  const auto x = [](const Distribution& d, double u) { return u < 0.0 ? d.quantile(phi(u)) : d.upper_quantile(phi(-u)); };
+  const auto x = [](const Distribution& d, double u) {
+    return u < 0.0 ? d.quantile(phi(u)) : d.upper_quantile(phi(-u));
+  };
   const BatchModel model = pointwise([&](const Point& u) { return x(*s, u[0]) - x(*r, u[1]); });
   const RunningMoments theirs = peer.subset(3), ours = our_subset(model, 0.0);
   const IndependentInterval i = our_estimate(model, 0.0);
   print("load over strength", peer.form(), theirs, ours, i);
   // P(S > R) = E[survival of S at R], by their functions alone.
   double truth = 0.0;
-  for (double y = 0.5; y < 20.0; y += 1e-3) truth += 1e-3 * strength.computePDF(y) * load.computeComplementaryCDF(y);
+  for (double y = 0.5; y < 20.0; y += 1e-3)
+    truth += 1e-3 * strength.computePDF(y) * load.computeComplementaryCDF(y);
   expect_held(i, truth);
   EXPECT_NEAR(peer.form() / truth, 1.0, 0.3);
   expect_the_same(ours, theirs);
