@@ -173,7 +173,8 @@ class Matching {
     std::vector<double> difference;
     for (std::size_t k = 0; k < of_a.size(); ++k)
       difference.push_back(plan_.objective.of(of_b[k]) - plan_.objective.of(of_a[k]));
-    return IndependentSamples(difference).mean(options_.confidence).low > 0.0;
+    return IndependentSamples(difference).mean(options_.confidence).low >
+           options_.accuracy * std::abs(value_a);
   }
 
   bool keeps_constraints(const std::vector<double>& design) {

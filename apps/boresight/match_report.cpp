@@ -68,7 +68,10 @@ report::Table constraint_table(const MatchStudy& s) {
 report::Table descent_table(const MatchStudy& s) {
   report::Table table{
       .title = "Descents held against each other",
-      .caption = "The same answer: the end's objective cannot be told from the best one's.",
+      .caption =
+          "The same answer: the end's objective is not worse than the best one's by more than the accuracy, "
+          "as far as the "
+          "samples can tell.",
       .columns = {{"from"}, {"start"}, {"end"}, {"objective"}, {"evaluations"}, {"same answer"}}};
   for (const MatchingDescent& d : s.result.descents)
     table.rows.push_back({d.from, design_text(s.plan, d.start), design_text(s.plan, d.end),
