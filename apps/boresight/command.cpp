@@ -144,7 +144,11 @@ std::size_t history_refinement(double duration, double sample_spacing) {
 }
 
 nlohmann::json MotionOptions::model_identity() const {
-  return {{"step", step}, {"formulation", formulation}, {"stabilisation", stabilisation}};
+  return {{"step", step},
+          {"integrator", integrator},
+          {"tolerance", tolerance},
+          {"formulation", formulation},
+          {"stabilisation", stabilisation}};
 }
 
 nlohmann::json MotionOptions::identity() const {

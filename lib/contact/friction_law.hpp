@@ -55,6 +55,8 @@ struct FrictionLawT {
         case FrictionKind::brown_mcphee: return brown_mcphee(speed, coefficient, stiction, dynamic_speed) / divisor;
         default: return T(0.0);
       }
+    } else if constexpr (HasPowers<M>) {
+      return cast<M>().force_per_velocity(speed);
     } else {
       throw std::logic_error("this scalar has no powers: only modified Coulomb friction");
     }

@@ -69,6 +69,8 @@ struct NormalLawT {
     if constexpr (HasPowers<T> && std::is_same_v<M, T>) {
       const T whole = elastic_force(depth) * (T(1.0) + damping_factor * rate / impact_speed) + dashpot * rate;
       return select(penetration > T(0.0), positive_part(whole), T(0.0));
+    } else if constexpr (HasPowers<M>) {
+      return cast<M>().force(penetration, rate, M(impact_speed));
     } else {
       throw std::logic_error("this scalar has no powers: only laws of Hertz's geometry");
     }

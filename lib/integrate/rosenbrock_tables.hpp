@@ -56,28 +56,6 @@ inline const RosenbrockTable& rodas3() {
   return table;
 }
 
-// Kaps and Rentrop (1979), Generalized Runge-Kutta methods of order four with stepsize control for stiff ordinary differential
-// equations, Numerische Mathematik 33, 55-68: GRK4T. Order 4(3) at three evaluations a step, its error constant small; A(89.3)-stable,
-// and at infinity R = 0.454: what is stepped over dies out in a few steps.
-inline const RosenbrockTable& grk4t() {
-  static const RosenbrockTable table{
-      .name = "GRK4T",
-      .order = 4,
-      .embedded_order = 3,
-      .dense_order = 3,
-      .stages = 4,
-      .gamma = 0.231,
-      .a = {2.0, 4.52470820736, 4.16352878860, 4.52470820736, 4.16352878860, 0.0},
-      .c = {-5.07167533877, 6.02015272865, 0.159750684673, -1.856343618677, -8.50538085819, -2.08407513602},
-      .m = {3.95750374663, 4.62489238836, 0.617477263873, 1.28261294568},
-      .e = {-2.30215540292, -3.07363448539, 0.873280801802, 1.28261294568},
-      .alpha = {0.0, 0.462, 0.880208333333, 0.880208333333},
-      .d = {0.231, -0.0396296677520, 0.550778939579, -0.0553509845700},
-      .p = {},
-      .q = {}};
-  return table;
-}
-
 // Hairer and Wanner (1996), section IV.7: RODAS, order 4(3), six stages, dense output of order 3.
 inline const RosenbrockTable& rodas4() {
   static const RosenbrockTable table{

@@ -153,7 +153,6 @@ class LaneIntegrator {
     entry_ = select(accepted & entering_, h, entry_);
     next = select(began, smaller(next, T(kEntryFactor) * entry_), next);
     entering_ = select(accepted, began, entering_);
-    // A step cut short by the end of the motion or a contact says nothing of the one after it.
     steps_ = select(accepted, steps_ + T(1.0), steps_);
     rejected_ = select(accepted, rejected_, rejected_ + T(1.0));
     rejected_before_ = running_ & !accepted;

@@ -12,15 +12,6 @@ namespace {
 constexpr int kPad = 8;  // lanes of the widest register
 constexpr std::size_t kScenesKept = 64;  // of different masses
 
-bool same_scene(const Parameters& a, const Parameters& b) {
-  if (a.gravity != b.gravity || a.payload_mass != b.payload_mass || a.body_mass != b.body_mass) return false;
-  for (std::size_t s = 0; s < a.spring.size(); ++s)
-    if (a.spring[s].stiffness != b.spring[s].stiffness || a.spring[s].damping != b.spring[s].damping ||
-        a.spring[s].free_length != b.spring[s].free_length)
-      return false;
-  return true;
-}
-
 // G at t, 3 x n: the index to first order is |G z|.
 MatX index_gain(const Mechanism& mechanism, const PreparedScene& prepared, PointingQuantity quantity, double t) {
   const TimeTable& table = prepared.pose_gain(mechanism.boresight_body());
@@ -198,7 +189,7 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
     jobs[i].gap_tolerance = tolerances[i].data() + 2 * jobs[i].scene->layout->n;
   }
   LaneSettings settings;
-  settings.method = method;
+  settings.method = &rodas4();
   // Across a step the scene's numbers are straight lines: a hundredth of the time in which they turn.
   settings.longest_step = std::min(settings.longest_step, mechanism_->duration() / 100.0);
   target.kernel(jobs.data(), static_cast<long>(jobs.size()), settings, outcomes.data());

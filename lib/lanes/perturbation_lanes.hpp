@@ -40,8 +40,6 @@ class PerturbationLanes {
   void run(const LaneTarget& target, std::span<const Parameters> samples, std::span<LaneOutcome> outcomes,
            double tolerance = kLaneTolerance) const;
 
-  const RosenbrockTable* method = &rodas4();
-
  private:
   struct Prepared;
   std::shared_ptr<const Prepared> prepared_for(const Parameters& parameters) const;

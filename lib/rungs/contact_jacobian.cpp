@@ -5,32 +5,6 @@
 namespace boresight {
 namespace {
 
-template <typename T>
-JournalInSleeveT<T> with_scalar(const JournalInSleeve& d) {
-  JournalInSleeveT<T> law;
-  law.radial_clearance = T(d.radial_clearance);
-  law.axial_clearance = T(d.axial_clearance);
-  law.bore_radius = T(d.bore_radius);
-  law.half_length = T(d.half_length);
-  law.has_faces = d.has_faces;
-  law.radial_law = d.radial_law.template cast<T>();
-  law.face_stiffness = T(d.face_stiffness);
-  law.friction = d.friction.template cast<T>();
-  law.tilts = d.tilts;
-  const TiltedJournalT<double>& t = d.tilted;
-  law.tilted.radial_clearance = T(t.radial_clearance);
-  law.tilted.axial_clearance = T(t.axial_clearance);
-  law.tilted.bore_radius = T(t.bore_radius);
-  law.tilted.half_length = T(t.half_length);
-  law.tilted.ring_radius = T(t.ring_radius);
-  law.tilted.has_faces = t.has_faces;
-  law.tilted.slides = t.slides;
-  law.tilted.end_law = t.end_law.template cast<T>();
-  law.tilted.face_stiffness = T(t.face_stiffness);
-  law.tilted.friction = law.friction;
-  return law;
-}
-
 // column: of each input, among the numbers of the motion.
 template <int inputs>
 void differentiate(const JournalInSleeve& law, const JournalMotion<double>& m, const std::array<int, inputs>& column,
@@ -46,10 +20,8 @@ void differentiate(const JournalInSleeve& law, const JournalMotion<double>& m, c
   };
   for (int k = 0; k < kMotionNumbers; ++k) number(motion, k) = Jet(number(m, k));
   for (int i = 0; i < inputs; ++i) number(motion, column[i]).v[i] = 1.0;
-  std::array<Jet, kContactPlaces> speed;
-  for (int k = 0; k < kContactPlaces; ++k) speed[k] = Jet(impact_speed[k]);
   JournalWrench<Jet> wrench;
-  with_scalar<Jet>(law).wrench(motion, speed, wrench);
+  law.wrench(motion, impact_speed, wrench);
   Vec3T<Jet> moment = wrench.moment;
   if (about == MomentAbout::journal) moment -= motion.e.cross(wrench.force);
   for (int k = 0; k < 3; ++k)

@@ -7,9 +7,7 @@
 #include "boresight/rungs/ideal_simulation.hpp"
 
 namespace boresight {
-namespace {
 
-// What of the parameters the tables hang on, and the ideal motion where it is simulated.
 bool same_scene(const Parameters& a, const Parameters& b) {
   if (a.gravity != b.gravity || a.payload_mass != b.payload_mass || a.body_mass != b.body_mass) return false;
   for (std::size_t s = 0; s < a.spring.size(); ++s)
@@ -18,8 +16,6 @@ bool same_scene(const Parameters& a, const Parameters& b) {
       return false;
   return true;
 }
-
-}  // namespace
 
 PreparedScene::PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motion, const Parameters& parameters)
     : ideal_(std::move(ideal_motion)), scene_(mechanism, ideal_, parameters) {}
@@ -39,22 +35,21 @@ const TimeTable& PreparedScene::pose_gain(int body) const {
   return found != pose_gain_.end() ? found->second : pose_gain_.emplace(body, scene_.pose_gain(body)).first->second;
 }
 
+DisplacedBodies::PoseGain DisplacedBodies::gain(int body) const {
+  PoseGain E(6, z_.size());
+  prepared_.pose_gain(body).at(t_, E.data());
+  return E;
+}
+
 BodyMotion DisplacedBodies::at_rest(int body, BodyAcceleration& acceleration) const {
-  const Eigen::Index n = z_.size();
-  std::vector<double> row(6 * n);
-  prepared_.pose_gain(body).at(t_, row.data());
-  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>> E(row.data(), 6, n);
   BodyMotion motion = prepared_.ideal().body(t_, body, &acceleration);
-  displace(motion, E * z_);
+  displace(motion, gain(body) * z_);
   return motion;
 }
 
 BodyMotion DisplacedBodies::moving(int body, const Eigen::Ref<const VecX>& z_dot, const Eigen::Ref<const VecX>& z_ddot,
                                    BodyAcceleration& acceleration) const {
-  const Eigen::Index n = z_.size();
-  std::vector<double> row(6 * n);
-  prepared_.pose_gain(body).at(t_, row.data());
-  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>> E(row.data(), 6, n);
+  const PoseGain E = gain(body);
   BodyMotion motion = prepared_.ideal().body(t_, body, &acceleration);
   displace(motion, E * z_);
   const Vec6 rate = E * z_dot;

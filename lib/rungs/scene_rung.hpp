@@ -10,6 +10,10 @@
 
 namespace boresight {
 
+// Whether two sets of parameters share what the scene's tables hang on, and the ideal motion where it is simulated: masses,
+// gravity, springs.
+bool same_scene(const Parameters& a, const Parameters& b);
+
 // A mechanism's ideal motion and scene, and what is read off them again and again. Safe to share between threads.
 class PreparedScene {
  public:
@@ -44,6 +48,9 @@ class DisplacedBodies {
                     BodyAcceleration& acceleration) const;
 
  private:
+  using PoseGain = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
+  PoseGain gain(int body) const;
+
   const PreparedScene& prepared_;
   double t_;
   Eigen::Ref<const VecX> z_;

@@ -5,7 +5,9 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <vector>
 
+#include "boresight/io/expression.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 
@@ -43,6 +45,37 @@ inline MechanismDescription rrcpr_with_legs(double eta, double r_C, double r_F) 
     joint("P" + i).axis = (F - C).normalized();
     joint("F" + i).point = F;
   }
+  return m;
+}
+
+// A planar four-bar in space in the x-z plane, pivots at `points`, first bar driven. Redundant: revolutes
+// everywhere; else one spherical and one cylindrical joint give the same motion with independent rows.
+inline MechanismDescription four_bar(const std::vector<Vec3>& points, bool redundant, const std::string& law) {
+  MechanismDescription m;
+  m.name = "four-bar";
+  for (int k = 0; k < 3; ++k) {
+    BodyDescription b;
+    b.name = "bar" + std::to_string(k);
+    b.mass = 1.0;
+    b.center_of_mass = 0.5 * (points[k] + points[k + 1]);
+    b.inertia = Vec3(0.1, 0.1, 0.01).asDiagonal();
+    if (k == 1) b.boresight = Vec3::UnitZ();
+    m.bodies.push_back(b);
+  }
+  for (int k = 0; k < 4; ++k) {
+    JointDescription j;
+    j.name = "j" + std::to_string(k);
+    j.first = k == 0 ? kGround : k - 1;
+    j.second = k == 3 ? kGround : k;
+    j.point = points[k];
+    j.axis = Vec3::UnitY();
+    j.driven = k == 0;
+    if (!redundant && k == 1) j.type = JointType::spherical;
+    if (!redundant && k == 2) j.type = JointType::cylindrical;
+    m.joints.push_back(j);
+  }
+  m.motion.duration = 0.5;
+  m.motion.drives[0] = parse_expression(law);
   return m;
 }
 

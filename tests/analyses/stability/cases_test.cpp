@@ -17,41 +17,10 @@
 namespace boresight {
 namespace {
 
-// A planar four-bar in space in the x-z plane, pivots at `points`, first bar driven. Redundant: revolutes
-// everywhere; else one spherical and one cylindrical joint give the same motion with independent rows.
-MechanismDescription four_bar(const std::vector<Vec3>& points, bool redundant, const std::string& law) {
-  MechanismDescription m;
-  m.name = "four-bar";
-  for (int k = 0; k < 3; ++k) {
-    BodyDescription b;
-    b.name = "bar" + std::to_string(k);
-    b.mass = 1.0;
-    b.center_of_mass = 0.5 * (points[k] + points[k + 1]);
-    b.inertia = Vec3(0.1, 0.1, 0.01).asDiagonal();
-    if (k == 1) b.boresight = Vec3::UnitZ();
-    m.bodies.push_back(b);
-  }
-  for (int k = 0; k < 4; ++k) {
-    JointDescription j;
-    j.name = "j" + std::to_string(k);
-    j.first = k == 0 ? kGround : k - 1;
-    j.second = k == 3 ? kGround : k;
-    j.point = points[k];
-    j.axis = Vec3::UnitY();
-    j.driven = k == 0;
-    if (!redundant && k == 1) j.type = JointType::spherical;
-    if (!redundant && k == 2) j.type = JointType::cylindrical;
-    m.joints.push_back(j);
-  }
-  m.motion.duration = 0.5;
-  m.motion.drives[0] = parse_expression(law);
-  return m;
-}
-
 TEST(SingularPose, OfAFourBarAtItsChangePointIsNamedWithItsTime) {
   // A parallelogram, crank up at first, turned into one line with the other bars at t = 0.25 s.
   const std::vector<Vec3> parallelogram = {{0, 0, 0}, {0, 0, 1}, {2, 0, 1}, {2, 0, 0}};
-  const auto mechanism = scenes::build(four_bar(parallelogram, false, "2*pi*t"));
+  const auto mechanism = scenes::build(scenes::four_bar(parallelogram, false, "2*pi*t"));
   const KinematicReport report = analyse_kinematics(*mechanism);
   ASSERT_FALSE(report.lost.empty());
   EXPECT_NEAR(report.lost.front().t, 0.25, 0.005);
@@ -63,7 +32,7 @@ TEST(SingularPose, OfAFourBarAtItsChangePointIsNamedWithItsTime) {
 TEST(RedundantRows, ThatContradictEachOtherAreRefused) {
   // Bars of 1, 0.6 and 1 m cannot close over a ground of 2 m with the crank turned away from it by more than
   // some 50 degrees.
-  MechanismDescription m = four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, true, "0.4*sin(3*t)");
+  MechanismDescription m = scenes::four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, true, "0.4*sin(3*t)");
   // Both bars on the ground driven, by laws that do not go together.
   m.joints[3].driven = true;
   m.motion.drives[3] = parse_expression("t");
@@ -76,7 +45,7 @@ TEST(RedundantRows, ThatContradictEachOtherAreRefused) {
 
 TEST(RedundantRows, ThatAgreeAreBorneAndCounted) {
   const auto mechanism =
-      scenes::build(four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, true, "0.4*sin(3*t)"));
+      scenes::build(scenes::four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, true, "0.4*sin(3*t)"));
   Scene scene;
   scene.mechanism = mechanism;
   const Followed followed = follow(mechanism);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -45,6 +46,19 @@ samples = )" << samples << "\n" << more
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
+  std::uintmax_t stored_bytes(const std::string& out) const {
+    std::uintmax_t sum = 0;
+    if (!std::filesystem::exists(folder_ / out)) return sum;
+    std::error_code gone;  // the program may merge or remove one meanwhile
+    for (const auto& file : std::filesystem::directory_iterator(folder_ / out))
+      if (const std::uintmax_t size = std::filesystem::file_size(file, gone); !gone) sum += size;
+    return sum;
+  }
+  // However fast the machine, there is something stored and more to come.
+  void wait_until_stored(const std::string& out, std::uintmax_t before) const {
+    for (int k = 0; k < 10000 && stored_bytes(out) < before + 100'000; ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
   std::string samples_of(const std::string& out) const {
     EXPECT_EQ(call({"export", out, "--quiet"}).status, 0);
     return text(out + "/samples.csv");
@@ -83,8 +97,9 @@ TEST_F(MonteCarloProgram, KilledAndResumedThreeTimesItGivesTheTableOfOneRun) {
   const std::string whole = csv_of("long.toml", "whole", {"--jobs", "2"});
   int killed = 0;
   for (int k = 0; k < 3; ++k) {
+    const std::uintmax_t before = stored_bytes("cut");
     const pid_t child = start(quick("long.toml", "cut", {"--jobs", "2", "--resume"}));
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    wait_until_stored("cut", before);
     ::kill(child, SIGKILL);
     killed += wait_for(child).status == 128 + SIGKILL;
   }
@@ -95,7 +110,7 @@ TEST_F(MonteCarloProgram, KilledAndResumedThreeTimesItGivesTheTableOfOneRun) {
 TEST_F(MonteCarloProgram, AskedToStopItEndsWithWhatThereIsAndGoesOnLater) {
   study("long.toml", 200000);
   const pid_t child = start(quick("long.toml", "out"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  wait_until_stored("out", 0);
   ::kill(child, SIGINT);
   EXPECT_EQ(wait_for(child).status, 130);
   EXPECT_EQ(json("out/summary.json")["interrupted"], true);

@@ -142,36 +142,10 @@ TEST(KinematicReport, EqualRadiiLoseASidewaysMotion) {
 }
 
 TEST(ConstraintSystem, RedundantRowsGiveTheSameMotionAsAnIndependentSet) {
-  // A planar four-bar in space: three of its rows repeat others. With one revolute made spherical and one cylindrical
-  // the same motion has independent rows.
+  // Three rows of a planar four-bar in space repeat others; with one revolute made spherical and one cylindrical the same motion
+  // has independent rows.
   const auto four_bar = [](bool redundant) {
-    MechanismDescription m;
-    m.name = "four-bar";
-    const Vec3 points[] = {{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}};
-    for (int k = 0; k < 3; ++k) {
-      BodyDescription b;
-      b.name = "bar" + std::to_string(k);
-      b.mass = 1.0;
-      b.center_of_mass = 0.5 * (points[k] + points[k + 1]);
-      b.inertia = Vec3(0.1, 0.1, 0.01).asDiagonal();
-      if (k == 1) b.boresight = Vec3::UnitZ();
-      m.bodies.push_back(b);
-    }
-    for (int k = 0; k < 4; ++k) {
-      JointDescription j;
-      j.name = "j" + std::to_string(k);
-      j.first = k == 0 ? kGround : k - 1;
-      j.second = k == 3 ? kGround : k;
-      j.point = points[k];
-      j.axis = Vec3::UnitY();
-      j.driven = k == 0;
-      if (!redundant && k == 1) j.type = JointType::spherical;
-      if (!redundant && k == 2) j.type = JointType::cylindrical;
-      m.joints.push_back(j);
-    }
-    m.motion.duration = 0.5;
-    m.motion.drives[0] = parse_expression("0.4*sin(3*t)+0.1*t");
-    return scenes::build(m);
+    return scenes::build(scenes::four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, redundant, "0.4*sin(3*t)+0.1*t"));
   };
   const auto loose = four_bar(false), tight = four_bar(true);
   EXPECT_EQ(analyse_kinematics(*tight, 21).redundant_rows, 3);
