@@ -1,0 +1,104 @@
+// Derivatives carried through impacts are those that differences of whole motions give.
+#include "boresight_analyses/calibration/sensitive_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/mechanism/parameter_path.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/rungs/scene_rung.hpp"
+
+namespace boresight {
+namespace {
+
+class Scene {
+ public:
+  explicit Scene(const std::vector<Setting>& settings = {})
+      : mechanism(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", settings)),
+        prepared(mechanism, ideal_motion(mechanism, mechanism.parameters()), mechanism.parameters()),
+        tables(prepared.tables(mechanism.parameters())) {
+    for (const char* path : {"clearance.A.radial", "clearance.A.contact.restitution", "clearance.A.friction.coefficient",
+                             "clearance.A.contact.stiffness_scale"})
+      paths.emplace_back(mechanism.description(), path);
+    for (const ParameterPath& path : paths) values.push_back(path.get(mechanism.parameters()));
+  }
+
+  Parameters at(const std::vector<double>& v) const {
+    Parameters p = mechanism.parameters();
+    for (std::size_t k = 0; k < paths.size(); ++k) paths[k].set(p, v[k]);
+    return p;
+  }
+  SensitiveMotion follow(const std::vector<double>& v, MotionRequest request, bool derivatives) const {
+    request.by_parameters = request.by_start_state = derivatives;
+    return follow_with_sensitivity(mechanism, at(v), tables,
+                                   contact_numbers(mechanism, [&](const auto& x) { return at(x); }, v), request);
+  }
+
+  Mechanism mechanism;
+  PreparedScene prepared;
+  std::shared_ptr<const SceneTables> tables;
+  std::vector<ParameterPath> paths;
+  std::vector<double> values;
+};
+
+MotionRequest flight_to(double end) {
+  MotionRequest request;
+  request.end = end;
+  request.times = {0.25 * end, 0.5 * end, 0.75 * end, end};
+  request.start_state = VecX::Zero(6);
+  request.start_state << 2e-5, 1e-5, -1e-5, 0.02, 0.001, 0.03;
+  request.tolerance = 1e-11;
+  request.control_derivatives = true;
+  return request;
+}
+
+TEST(SensitiveMotion, DerivativesThroughImpactsAreThoseOfRichardsonDifferences) {
+  const Scene scene;
+  const MotionRequest request = flight_to(8e-3);
+  const SensitiveMotion motion = scene.follow(scene.values, request, true);
+  ASSERT_GE(motion.impact_speed.size(), 2u);
+  ASSERT_TRUE(motion.grazing.empty());
+  const std::size_t last = request.times.size() - 1;
+  for (std::size_t d = 0; d < 10; ++d) {
+    const auto moved = [&](double share) {
+      std::vector<double> v = scene.values;
+      MotionRequest r = request;
+      if (d < 4)
+        v[d] *= 1.0 + share;
+      else
+        r.start_state[static_cast<Eigen::Index>(d) - 4] += share * (d < 7 ? 5e-5 : 5e-2);
+      return VecX(scene.follow(v, r, false).state.col(static_cast<Eigen::Index>(last)));
+    };
+    const double unit = d < 4 ? scene.values[d] : d < 7 ? 5e-5 : 5e-2;
+    const auto central = [&](double h) { return VecX((moved(h) - moved(-h)) / (2.0 * h * unit)); };
+    const double h = d == 7 ? 2e-5 : 1e-4;  // the crank pin's speed along x decides over the most
+    const VecX exact = motion.by[last].col(static_cast<Eigen::Index>(d));
+    VecX difference = (4.0 * central(0.5 * h) - central(h)) / 3.0 - exact, size = exact;
+    difference.tail<3>() *= kFlightTime;
+    size.tail<3>() *= kFlightTime;
+    EXPECT_LT(difference.norm(), 1e-6 * size.norm()) << "direction " << d;
+  }
+}
+
+TEST(SensitiveMotion, TheSameMotionWithAndWithoutDerivatives) {
+  const Scene scene;
+  MotionRequest request = flight_to(8e-3);
+  request.tolerance = 1e-3;
+  request.control_derivatives = false;
+  const MatX with = scene.follow(scene.values, request, true).state, without = scene.follow(scene.values, request, false).state;
+  EXPECT_LT((with - without).norm(), 1e-9 * with.norm());
+}
+
+TEST(SensitiveMotion, GrazingIsNoticed) {
+  const Scene scene;
+  MotionRequest request = flight_to(1e-4);
+  request.start_state << 4.999e-5, 0.0, 0.0, 1.2e-3, 0.0, 0.0;
+  const SensitiveMotion motion = scene.follow(scene.values, request, true);
+  ASSERT_FALSE(motion.grazing.empty());
+  EXPECT_NEAR(motion.grazing.front().speed, 1.2e-3, 2e-4);
+  EXPECT_EQ(motion.grazing.front().clearance, 0);
+}
+
+}  // namespace
+}  // namespace boresight
