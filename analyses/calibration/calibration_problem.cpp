@@ -1,0 +1,369 @@
+#include "boresight_analyses/calibration/calibration_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+
+namespace boresight {
+
+CalibrationRun::CalibrationRun(std::string run_name, std::shared_ptr<const Mechanism> with_settings,
+                               MeasuredData measured)
+    : name(std::move(run_name)), mechanism(std::move(with_settings)), data(std::move(measured)) {
+  prepared = std::make_shared<const PreparedScene>(*mechanism, ideal_motion(*mechanism, mechanism->parameters()),
+                                                   mechanism->parameters());
+  tables = prepared->tables(mechanism->parameters());
+  prepared->pose_gain(mechanism->boresight_body());
+}
+
+double ResidualLoss::residual(double r) const {
+  const double a = std::abs(r);
+  if (kind == Loss::huber && a > scale) return std::copysign(std::sqrt(2.0 * scale * a - scale * scale), r);
+  if (kind == Loss::cauchy) return std::copysign(scale * std::sqrt(std::log1p(r * r / (scale * scale))), r);
+  return r;
+}
+
+double ResidualLoss::slope(double r) const {
+  const double a = std::abs(r);
+  if (kind == Loss::huber && a > scale) return scale / std::sqrt(2.0 * scale * a - scale * scale);
+  if (kind == Loss::cauchy && a > 1e-6 * scale) return r / (1.0 + r * r / (scale * scale)) / residual(r);
+  return 1.0;
+}
+
+double ResidualLoss::score(double r) const { return residual(r) * slope(r); }
+
+double ResidualLoss::weight(double r) const {
+  const double square = r * r / (scale * scale);
+  if (kind == Loss::huber) return square > 1.0 ? 0.0 : 1.0;
+  if (kind == Loss::cauchy) return std::max(0.0, (1.0 - square) / ((1.0 + square) * (1.0 + square)));
+  return 1.0;
+}
+
+void CalibrationProblem::prepare(double window_length, bool from_rest) {
+  channels.clear();
+  windows.clear();
+  for (const CalibrationRun& run : runs)
+    for (int c : run.data.channels)
+      if (std::find(channels.begin(), channels.end(), c) == channels.end()) channels.push_back(c);
+  std::sort(channels.begin(), channels.end());
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const MeasuredData& data = runs[r].data;
+    const double duration = runs[r].mechanism->duration();
+    for (std::size_t i = 0; i < data.time.size(); ++i)
+      if (data.time[i] < 0.0 || data.time[i] > duration * (1.0 + 1e-9))
+        throw InputError({data.file, data.line[i]}, "t", std::to_string(data.time[i]) + " s",
+                         "a time within the motion, 0 to " + std::to_string(duration) + " s");
+    const int samples = static_cast<int>(data.time.size());
+    for (int first = 0; first < samples;) {
+      int last = first;
+      while (last + 1 < samples && data.time[last + 1] < data.time[first] + window_length) ++last;
+      Window w{static_cast<int>(r), first, last, 0.0, 0.0, false};
+      w.start = std::max(0.0, data.time[first] - largest_time_offset);
+      w.end = std::min(duration, data.time[last] + largest_time_offset);
+      w.from_rest = from_rest && first == 0;
+      if (w.from_rest) w.start = 0.0;
+      const auto values = data.value.middleRows(first, last - first + 1).array();
+      // Its own start state takes 2n numbers; a window that has not more says nothing.
+      if (values.isFinite().count() > (w.from_rest ? 0 : state_size(w))) windows.push_back(w);
+      first = last + 1;
+    }
+  }
+}
+
+std::vector<std::string> CalibrationProblem::global_names() const {
+  std::vector<std::string> names;
+  for (const FittedParameter& p : parameters) names.push_back(p.path);
+  if (fit_time_offset) names.emplace_back("time_offset");
+  if (fit_bias)
+    for (int c : channels) names.push_back(std::string("bias.") + channel_names()[c].name);
+  return names;
+}
+
+VecX CalibrationProblem::state_scale(const Window& window) const {
+  const double clearance = smallest_clearance(runs[window.run].mechanism->parameters());
+  const double length = clearance > 0.0 ? clearance : 1e-4;
+  VecX scale = VecX::Constant(state_size(window), length);
+  scale.tail(scale.size() / 2) /= kFlightTime;
+  return scale;
+}
+
+VecX CalibrationProblem::prior_deviation(const Window& window) const {
+  VecX deviation = VecX::Constant(state_size(window), 10.0);
+  deviation.tail(deviation.size() / 2).setConstant(100.0);
+  return deviation;
+}
+
+int CalibrationProblem::column(int run, int channel) const {
+  const std::vector<int>& own = runs[run].data.channels;
+  const auto found = std::find(own.begin(), own.end(), channels[channel]);
+  return found == own.end() ? -1 : static_cast<int>(found - own.begin());
+}
+
+Globals CalibrationProblem::start() const {
+  Globals g;
+  g.u.resize(parameter_count());
+  for (int p = 0; p < parameter_count(); ++p) g.u[p] = parameters[p].coordinate(parameters[p].start);
+  if (fit_bias) g.bias = VecX::Zero(static_cast<Eigen::Index>(channels.size()));
+  return g;
+}
+
+std::vector<double> CalibrationProblem::values(const Globals& globals) const {
+  std::vector<double> values(parameters.size());
+  for (std::size_t p = 0; p < values.size(); ++p)
+    values[p] = parameters[p].value(globals.u[static_cast<Eigen::Index>(p)]);
+  return values;
+}
+
+Parameters CalibrationProblem::parameters_at(int run, const std::vector<double>& values) const {
+  Parameters at = runs[run].mechanism->parameters();
+  for (std::size_t p = 0; p < values.size(); ++p) parameters[p].place.front().set(at, values[p]);
+  return at;
+}
+
+ContactNumbers CalibrationProblem::contact_numbers_at(int run, const std::vector<double>& values) const {
+  return contact_numbers(
+      *runs[run].mechanism, [&](const std::vector<double>& x) { return parameters_at(run, x); }, values);
+}
+
+void CalibrationProblem::channel_rows(const CalibrationRun& run, int kind, double t, ChannelRows& out) const {
+  const int n = run.tables->layout.n, body = run.mechanism->boresight_body();
+  const TimeTable& gain = run.prepared->pose_gain(body);
+  std::vector<double> row(gain.width());
+  gain.at(t, row.data());
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>> E(row.data(), 6, n);
+  out.size = kind >= 9;
+  out.rows.setZero(3, n);
+  if (kind < 6) {
+    out.rows.row(0) = E.row(kind);
+    return;
+  }
+  if (kind == 9) out.rows = E.topRows<3>();
+  if (kind == 10) out.rows = E.bottomRows<3>();
+  if (kind == 9 || kind == 10) return;
+  const BodyMotion ideal = run.prepared->ideal().body(t, body);
+  if (kind == 12) {
+    // The angle at the origin: the part of the displacement across the line of sight.
+    const double distance = ideal.p.norm();
+    const Vec3 along = ideal.p / distance;
+    out.rows = (Mat3::Identity() - along * along.transpose()) / distance * E.topRows<3>();
+    return;
+  }
+  const Vec3 axis = ideal.R * run.mechanism->boresight_B();
+  Mat3 cross;  // theta x axis = cross theta
+  cross << 0.0, axis.z(), -axis.y(), -axis.z(), 0.0, axis.x(), axis.y(), -axis.x(), 0.0;
+  const MatX turned = cross * E.bottomRows<3>();
+  if (kind == 11)
+    out.rows = turned;
+  else
+    out.rows.row(0) = turned.row(kind - 6);
+}
+
+void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const VecX& state, bool derivatives,
+                                  WindowResiduals& out) const {
+  const CalibrationRun& run = runs[w.run];
+  const int n = run.tables->layout.n, P = parameter_count();
+  const std::vector<double> theta = values(globals);
+  const VecX scale = state_scale(w);
+  MotionRequest request;
+  request.start = w.start;
+  request.end = w.end;
+  request.start_state = state.cwiseProduct(scale);
+  request.tolerance = tolerance;
+  request.by_parameters = request.by_start_state = derivatives;
+  for (int i = w.first; i <= w.last; ++i)
+    request.times.push_back(std::clamp(run.data.time[i] + globals.time_offset, w.start, w.end));
+  out.motion = follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), run.tables,
+                                       contact_numbers_at(w.run, theta), request);
+  const int samples = w.last - w.first + 1, most = samples * static_cast<int>(channels.size());
+  out.r.resize(most);
+  out.sample.clear();
+  out.channel.clear();
+  if (derivatives) {
+    out.by_global.setZero(most, global_count());
+    out.by_state.setZero(most, 2 * n);
+  }
+  int m = 0;
+  ChannelRows at, later, earlier;
+  for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
+    const int column_here = column(w.run, c);
+    if (column_here < 0) continue;
+    for (int i = 0; i < samples; ++i) {
+      const double measured = run.data.value(w.first + i, column_here);
+      if (!std::isfinite(measured)) continue;
+      const double t = request.times[i];
+      channel_rows(run, channels[c], t, at);
+      const auto z = out.motion.state.col(i).head(n);
+      const Vec3 vector = at.rows * z;
+      const double model = at.size ? vector.norm() : vector[0];
+      const double bias = globals.bias.size() > 0 ? globals.bias[c] : 0.0;
+      out.r[m] = (model + bias - measured) / sigma[c];
+      out.sample.push_back(w.first + i);
+      out.channel.push_back(c);
+      if (derivatives) {
+        const Vec3 along = at.size ? Vec3(vector / std::max(model, 1e-12)) : Vec3::UnitX();
+        const Eigen::RowVectorXd by_z = along.transpose() * at.rows / sigma[c];
+        const MatX& S = out.motion.by[i];
+        for (int p = 0; p < P; ++p)
+          out.by_global(m, p) = by_z.dot(S.col(p).head(n)) * parameters[p].slope(globals.u[p]);
+        out.by_state.row(m) = by_z * S.block(0, P, n, 2 * n) * scale.asDiagonal();
+        int g = P;
+        if (fit_time_offset) {
+          constexpr double kShort = 1e-5;  // [s], against the motion's own time
+          channel_rows(run, channels[c], std::min(t + kShort, run.mechanism->duration()), later);
+          channel_rows(run, channels[c], std::max(t - kShort, 0.0), earlier);
+          const double apart = std::min(t + kShort, run.mechanism->duration()) - std::max(t - kShort, 0.0);
+          const Vec3 turning = (later.rows - earlier.rows) * z / apart;
+          out.by_global(m, g++) = by_z.dot(out.motion.state.col(i).tail(n)) + along.dot(turning) / sigma[c];
+        }
+        if (fit_bias) out.by_global(m, g + c) = 1.0 / sigma[c];
+      }
+      ++m;
+    }
+  }
+  out.r.conservativeResize(m);
+  if (derivatives) {
+    out.by_global.conservativeResize(m, Eigen::NoChange);
+    out.by_state.conservativeResize(m, Eigen::NoChange);
+  }
+}
+
+double CalibrationProblem::cost(const Window& window, const Globals& globals, const VecX& state) const {
+  WindowResiduals at;
+  try {
+    evaluate(window, globals, state, false, at);
+  } catch (const ComputationError&) {
+    return std::numeric_limits<double>::infinity();
+  }
+  double sum = state.cwiseQuotient(prior_deviation(window)).squaredNorm();
+  for (Eigen::Index i = 0; i < at.r.size(); ++i) sum += loss.residual(at.r[i]) * loss.residual(at.r[i]);
+  return sum;
+}
+
+double CalibrationProblem::refine_state(const Window& w, const Globals& globals, VecX& state, int most_iterations) const {
+  const VecX prior = prior_deviation(w);
+  double here = cost(w, globals, state), damping = 1e-3;
+  if (!std::isfinite(here)) return here;
+  WindowResiduals at;
+  for (int k = 0; k < most_iterations; ++k) {
+    evaluate(w, globals, state, true, at);
+    MatX H = prior.cwiseAbs2().cwiseInverse().asDiagonal();
+    VecX g = -state.cwiseQuotient(prior.cwiseAbs2());
+    for (Eigen::Index i = 0; i < at.r.size(); ++i) {
+      const double slope = loss.slope(at.r[i]);
+      H.noalias() += slope * slope * at.by_state.row(i).transpose() * at.by_state.row(i);
+      g.noalias() -= loss.residual(at.r[i]) * slope * at.by_state.row(i).transpose();
+    }
+    const double before = here;
+    for (int trial = 0; trial < 6; ++trial) {
+      MatX damped = H;
+      damped.diagonal() *= 1.0 + damping;
+      const VecX moved = state + damped.ldlt().solve(g);
+      const double there = cost(w, globals, moved);
+      damping *= there < here ? 0.1 : 10.0;
+      if (!(there < here)) continue;
+      state = moved;
+      here = there;
+      break;
+    }
+    if (!(here < before * (1.0 - 1e-3))) break;
+  }
+  return here;
+}
+
+VecX CalibrationProblem::state_at(const Window& w, const Globals& globals, const VecX& state, double t) const {
+  const CalibrationRun& run = runs[w.run];
+  const std::vector<double> theta = values(globals);
+  MotionRequest request;
+  request.start = w.start;
+  request.end = t;
+  request.times = {t};
+  request.start_state = state.cwiseProduct(state_scale(w));
+  request.tolerance = tolerance;
+  return follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), run.tables,
+                                 contact_numbers_at(w.run, theta), request)
+      .state.col(0)
+      .cwiseQuotient(state_scale(w));
+}
+
+VecX CalibrationProblem::guess_state(const Window& w, const Globals& globals, const VecX& carried) const {
+  const CalibrationRun& run = runs[w.run];
+  const int n = run.tables->layout.n, samples = w.last - w.first + 1;
+  const VecX scale = state_scale(w), prior = prior_deviation(w);
+  if (w.from_rest) return VecX::Zero(2 * n);
+  constexpr int kSteps = 8;
+  VecX best = carried.size() > 0 ? carried : VecX(VecX::Zero(2 * n));
+  double best_cost = refine_state(w, globals, best, kSteps);
+  // z(t) = a + b tau + c tau^2 over the first samples, by reweighted least squares.
+  for (const auto& [count, powers] : {std::pair{4, 2}, {6, 2}, {6, 3}, {10, 3}, {16, 3}}) {
+    const int used = std::min(count, samples);
+    if (used < powers) continue;
+    const int unknowns = powers * n;
+    VecX x = VecX::Zero(unknowns);
+    for (int pass = 0; pass < 4; ++pass) {
+      MatX H = MatX::Zero(unknowns, unknowns);
+      VecX g = VecX::Zero(unknowns);
+      for (int k = 0; k < powers; ++k)
+        for (int j = 0; j < n; ++j) H(k * n + j, k * n + j) = 1.0 / (k == 0 ? prior[j] * prior[j] : prior[n + j] * prior[n + j]);
+      for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
+        const int column_here = column(w.run, c);
+        if (column_here < 0 || channels[c] >= 9) continue;
+        for (int i = 0; i < used; ++i) {
+          const double measured = run.data.value(w.first + i, column_here);
+          if (!std::isfinite(measured)) continue;
+          const double t = run.data.time[w.first + i] + globals.time_offset, tau = (t - w.start) / kFlightTime;
+          ChannelRows at;
+          channel_rows(run, channels[c], t, at);
+          Eigen::RowVectorXd row(unknowns);
+          for (int k = 0; k < powers; ++k)
+            row.segment(k * n, n) = at.rows.row(0) * scale[0] / sigma[c] * std::pow(tau, k);
+          const double bias = globals.bias.size() > 0 ? globals.bias[c] : 0.0;
+          const double y = (measured - bias) / sigma[c], r = std::abs(y - row.dot(x));
+          const double weight = pass > 0 && r > 3.0 ? 3.0 / r : 1.0;
+          H += weight * row.transpose() * row;
+          g += weight * y * row.transpose();
+        }
+      }
+      x = H.ldlt().solve(g);
+    }
+    VecX state = VecX::Zero(2 * n);
+    state.head(n) = x.head(n);
+    state.tail(n) = x.segment(n, n);
+    const double here = refine_state(w, globals, state, kSteps);
+    if (here < best_cost) {
+      best_cost = here;
+      best = state;
+    }
+  }
+  return best;
+}
+
+VecX noise_from_differences(const CalibrationProblem& problem) {
+  VecX sigma(static_cast<Eigen::Index>(problem.channels.size()));
+  for (int c = 0; c < static_cast<int>(problem.channels.size()); ++c) {
+    std::vector<double> differences;
+    double largest = 0.0;
+    for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+      const int column = problem.column(static_cast<int>(r), c);
+      if (column < 0) continue;
+      const auto v = problem.runs[r].data.value.col(column);
+      for (Eigen::Index i = 1; i + 1 < v.size(); ++i) {
+        const double d = v[i - 1] - 2.0 * v[i] + v[i + 1];
+        if (std::isfinite(d)) differences.push_back(std::abs(d));
+        if (std::isfinite(v[i])) largest = std::max(largest, std::abs(v[i]));
+      }
+    }
+    double middle = 0.0;
+    if (!differences.empty()) {
+      std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2),
+                       differences.end());
+      middle = differences[differences.size() / 2];
+    }
+    // Data without any noise would weigh without bound.
+    sigma[c] = std::max({1.4826 * middle / std::sqrt(6.0), 1e-6 * largest, 1e-15});
+  }
+  return sigma;
+}
+
+}  // namespace boresight

@@ -1,0 +1,55 @@
+#include "boresight_analyses/calibration/fitted_parameter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace boresight {
+
+double FittedParameter::value(double u) const {
+  if (transform == Transform::log) return std::exp(u);
+  return lower + (upper - lower) / (1.0 + std::exp(-u));
+}
+
+double FittedParameter::coordinate(double v) const {
+  if (transform == Transform::log) return std::log(v);
+  const double share = std::clamp((v - lower) / (upper - lower), 1e-6, 1.0 - 1e-6);
+  return std::log(share / (1.0 - share));
+}
+
+double FittedParameter::slope(double u) const {
+  if (transform == Transform::log) return std::exp(u);
+  const double share = 1.0 / (1.0 + std::exp(-u));
+  return (upper - lower) * share * (1.0 - share);
+}
+
+double FittedParameter::lowest_coordinate() const { return coordinate(lower); }
+double FittedParameter::highest_coordinate() const { return coordinate(upper); }
+
+bool FittedParameter::at_bound(double u) const {
+  if (transform == Transform::log) {
+    const double low = lowest_coordinate(), high = highest_coordinate();
+    return u < low + 0.01 * (high - low) || u > high - 0.01 * (high - low);
+  }
+  const double share = 1.0 / (1.0 + std::exp(-u));
+  return share < 0.01 || share > 0.99;
+}
+
+FittedParameter fitted_parameter(const MechanismDescription& mechanism, const std::string& path, double start,
+                                 const Origin& origin) {
+  FittedParameter p;
+  p.path = path;
+  p.place.emplace_back(mechanism, path, origin);
+  p.si_unit = p.place.front().unit();
+  p.start = start;
+  if (path.ends_with(".restitution")) {
+    p.transform = Transform::logit;
+    p.lower = 0.01;
+    p.upper = 1.0;
+  } else {
+    p.lower = 0.1 * start;
+    p.upper = 10.0 * start;
+  }
+  return p;
+}
+
+}  // namespace boresight

@@ -1,0 +1,38 @@
+// Measured pointing data: one CSV table of one run on a test rig.
+//
+//   t [s], dx [um], rz [urad], boresight_error [urad]
+//   0.000, 3.2, , 41.7                                  an empty field, "nan" or "NA": not measured
+//   0.001, 3.4, -12.1, 40.9                             unequal steps are welcome, times must rise
+//
+// Channels: those of channel_names(), each with its unit in brackets. Lines that start with # and empty lines are skipped.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "boresight/math/types.hpp"
+
+namespace boresight {
+
+struct ChannelName {
+  const char* name;
+  const char* si_unit;
+  const char* title;  // for people
+};
+// dx dy dz: displacement from the ideal pose, world axes; rx ry rz: rotation vector from it; bx by bz: change of the
+// pointing axis' unit vector; position_error, orientation_error, boresight_error, line_of_sight_error: sizes, as the
+// indices.
+const std::vector<ChannelName>& channel_names();
+
+struct MeasuredData {
+  std::string file;
+  std::vector<int> channels;  // among channel_names(), in the order of the file
+  std::vector<double> time;   // [s]
+  MatX value;                 // samples x channels, SI; NaN: missing
+  std::vector<int> line;      // of each sample, in the file
+};
+
+// Throws InputError naming the line.
+MeasuredData read_measured_data(const std::string& file);
+
+}  // namespace boresight
