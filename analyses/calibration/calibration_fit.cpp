@@ -226,7 +226,7 @@ FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vect
   solver.num_threads = options.jobs;
   solver.max_num_iterations = options.most_iterations;
   solver.function_tolerance = options.cost_tolerance;
-  solver.parameter_tolerance = 1e-9;
+  solver.parameter_tolerance = options.parameter_tolerance;
   solver.update_state_every_iteration = true;
   solver.callbacks.push_back(&watch);
   solver.logging_type = ceres::SILENT;

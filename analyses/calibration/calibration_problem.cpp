@@ -172,6 +172,7 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
   request.start_state = state.cwiseProduct(scale);
   request.tolerance = tolerance;
   request.by_parameters = request.by_start_state = derivatives;
+  request.control_derivatives = derivatives;
   for (int i = w.first; i <= w.last; ++i)
     request.times.push_back(std::clamp(run.data.time[i] + globals.time_offset, w.start, w.end));
   out.motion = follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), run.tables,
