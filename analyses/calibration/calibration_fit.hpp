@@ -21,8 +21,8 @@ struct FitProgress {
 struct FitOptions {
   int jobs = 1;
   int most_iterations = 40;
-  double cost_tolerance = 1e-7;  // relative change of the cost at which it stops
-  double parameter_tolerance = 1e-7;  // relative step at which it stops
+  double cost_tolerance = 1e-6;  // relative change of the cost at which it stops
+  double parameter_tolerance = 1e-5;  // relative step at which it stops
   std::vector<int> windows;      // those that count; empty: all that are not held out
   std::vector<bool> fixed;       // parameters that stay; empty: none
   bool fix_nuisance = false;

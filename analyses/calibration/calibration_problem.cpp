@@ -171,8 +171,9 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
   request.end = w.end;
   request.start_state = state.cwiseProduct(scale);
   request.tolerance = tolerance;
-  request.by_parameters = request.by_start_state = derivatives;
-  request.control_derivatives = derivatives;
+  request.by_parameters = derivatives;
+  request.by_start_state = derivatives && !w.from_rest;
+  request.derivative_tolerance = derivatives ? derivative_tolerance : 0.0;
   for (int i = w.first; i <= w.last; ++i)
     request.times.push_back(std::clamp(run.data.time[i] + globals.time_offset, w.start, w.end));
   out.motion = follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), run.tables,
@@ -208,7 +209,7 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
         const MatX& S = out.motion.by[i];
         for (int p = 0; p < P; ++p)
           out.by_global(m, p) = by_z.dot(S.col(p).head(n)) * parameters[p].slope(globals.u[p]);
-        out.by_state.row(m) = by_z * S.block(0, P, n, 2 * n) * scale.asDiagonal();
+        if (!w.from_rest) out.by_state.row(m) = by_z * S.block(0, P, n, 2 * n) * scale.asDiagonal();
         int g = P;
         if (fit_time_offset) {
           constexpr double kShort = 1e-5;  // [s], against the motion's own time

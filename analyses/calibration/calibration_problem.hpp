@@ -64,7 +64,7 @@ struct WindowResiduals {
   VecX r;                            // standardised, without loss
   std::vector<int> sample, channel;  // of each
   MatX by_global;                    // x (parameters, time offset, biases)
-  MatX by_state;                     // x 2n, in units of state_scale()
+  MatX by_state;                     // x 2n, in units of state_scale(); zero where the window starts from rest
   SensitiveMotion motion;
 };
 
@@ -79,6 +79,8 @@ class CalibrationProblem {
   double largest_time_offset = 0.0;  // [s]
   ResidualLoss loss;
   double tolerance = 1e-5;  // of the integration: residuals must not jitter by more than a small part of sigma
+
+  double derivative_tolerance = 1e-3;
 
   // Collects the channels, cuts the windows. from_rest: a run's first window starts at t = 0 where the model does, in the
   // ideal pose. Throws InputError where the data reach beyond the motion.

@@ -72,13 +72,14 @@ struct Follower {
     for (int d = 0; d < W; ++d)
       if (const int i = first + d - by_parameters; i >= 0 && i < n2 && first + d < count) Y[n2 + W * i + d] = 1.0;
     IntegrationOptions held = options(Y.size());
-    if (request.control_derivatives) {
+    if (request.derivative_tolerance > 0.0) {
+      const double share = request.derivative_tolerance / request.tolerance;
       const auto own = held.absolute_tolerances.head(n2).eval();
       const double length = own[0] / request.tolerance;
       for (int d = 0; d < W && first + d < count; ++d) {
         const int i = first + d - by_parameters;
         const double size = i < 0 ? numbers.values[first + d] : i < n2 / 2 ? length : length / kFlightTime;
-        for (int k = 0; k < n2; ++k) held.absolute_tolerances[n2 + W * k + d] = own[k] / size;
+        for (int k = 0; k < n2; ++k) held.absolute_tolerances[n2 + W * k + d] = share * own[k] / size;
       }
     }
     follow(system, request, held, Y, [&](std::size_t k, const VecX& at) {

@@ -20,7 +20,7 @@
 // Where contact only grazes, g_t + g_y f -> 0 and dt*/dq grows without bound: derivatives there hold for ever smaller
 // changes of q only. Such impacts are counted.
 //
-// Steps are chosen by the error of y alone, as if S were not there, unless control_derivatives asks for more: the
+// Steps are chosen by the error of y alone, as if S were not there, unless derivative_tolerance asks for more: the
 // derivatives are then those of the numerical motion with its steps held fixed (internal differentiation; Bock 1981), and y
 // is the same with and without them. Inside an impact S is some thousand times what it is before and after, so what is
 // left of it behind the impact is less exact than y by about that factor.
@@ -56,7 +56,7 @@ struct MotionRequest {
   bool by_parameters = false;          // directions 0 .. parameters-1
   bool by_start_state = false;         // the next 2n directions
   double tolerance = 1e-3;             // of a step, over the smallest clearance
-  bool control_derivatives = false;    // hold S (times each quantity's own size) to the same tolerance
+  double derivative_tolerance = 0.0;   // of S times each quantity's own size, as tolerance; 0: S has no say in the steps
   double grazing_speed = 0.0;          // approaches slower than this graze; 0: twice the least impact speed [m/s]
 };
 

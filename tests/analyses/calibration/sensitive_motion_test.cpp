@@ -49,7 +49,7 @@ MotionRequest flight_to(double end) {
   request.start_state = VecX::Zero(6);
   request.start_state << 2e-5, 1e-5, -1e-5, 0.02, 0.001, 0.03;
   request.tolerance = 1e-11;
-  request.control_derivatives = true;
+  request.derivative_tolerance = request.tolerance;
   return request;
 }
 
@@ -85,7 +85,7 @@ TEST(SensitiveMotion, TheSameMotionWithAndWithoutDerivatives) {
   const Scene scene;
   MotionRequest request = flight_to(8e-3);
   request.tolerance = 1e-3;
-  request.control_derivatives = false;
+  request.derivative_tolerance = 0.0;
   const MatX with = scene.follow(scene.values, request, true).state, without = scene.follow(scene.values, request, false).state;
   EXPECT_LT((with - without).norm(), 1e-9 * with.norm());
 }

@@ -1,0 +1,81 @@
+// A four-bar on a test rig, whose contacts are known because its data are made here.
+#pragma once
+
+#include <map>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight_analyses/calibration/calibrate.hpp"
+#include "boresight_analyses/calibration/rig.hpp"
+
+namespace boresight::four_bar {
+
+inline std::shared_ptr<const Mechanism> mechanism(double speed, double duration, std::vector<Setting> more = {}) {
+  std::vector<Setting> settings = {{"motion.duration", std::to_string(duration) + " s"},
+                                   {"motion.drives.A", "2*pi*" + std::to_string(speed) + "*t"},
+                                   {"clearance.D.radial", "0.2 mm"},
+                                   {"clearance.D.contact.restitution", "0.6"},
+                                   {"clearance.D.friction.coefficient", "0.1"}};
+  settings.insert(settings.end(), more.begin(), more.end());
+  return std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml", settings));
+}
+
+inline std::vector<double> times(double duration, double spacing = 1e-3) {
+  std::vector<double> t;
+  for (int i = 0; i * spacing < duration * (1.0 + 1e-9); ++i) t.push_back(std::min(i * spacing, duration));
+  return t;
+}
+
+// Readings of the perturbation model itself, without errors.
+inline MatX own_readings(const std::shared_ptr<const Mechanism>& m, const std::vector<double>& t,
+                         const std::vector<int>& channels) {
+  RunOptions options;
+  options.integrator = "dopri5";
+  options.tolerance = 1e-6;
+  options.sample_spacing = t[1] - t[0];
+  const RunResult run = make_rung("perturbation", m)->run(m->parameters(), options);
+  MatX readings(static_cast<Eigen::Index>(t.size()), static_cast<Eigen::Index>(channels.size()));
+  for (std::size_t i = 0; i < t.size(); ++i)
+    for (std::size_t c = 0; c < channels.size(); ++c)
+      readings(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) =
+          channel_reading(channels[c], run.boresight.samples[i], m->boresight_B());
+  return readings;
+}
+
+struct Bench {
+  std::vector<std::shared_ptr<const Mechanism>> mechanisms;
+  std::vector<MatX> clean;
+  std::vector<double> t;
+  bool multibody = false;
+
+  Bench(const std::vector<double>& speeds, double duration, bool by_multibody, std::vector<Setting> more = {},
+        std::vector<int> channels = {0, 1, 2, 3, 4, 5})
+      : t(times(duration)), multibody(by_multibody) {
+    for (double speed : speeds) {
+      mechanisms.push_back(mechanism(speed, duration, more));
+      clean.push_back(by_multibody ? multibody_readings(mechanisms.back(), mechanisms.back()->parameters(), t, channels)
+                                   : own_readings(mechanisms.back(), t, channels));
+    }
+  }
+
+  // Fits start a fifth off.
+  CalibrationProblem problem(const SyntheticRig& rig, const std::vector<std::string>& paths) const {
+    CalibrationProblem p;
+    for (std::size_t r = 0; r < mechanisms.size(); ++r)
+      p.runs.emplace_back("run " + std::to_string(r + 1), mechanisms[r], with_rig_errors(rig, t, clean[r], static_cast<int>(r)));
+    for (const std::string& path : paths) {
+      const double truth = ParameterPath(mechanisms[0]->description(), path).get(mechanisms[0]->parameters());
+      p.parameters.push_back(fitted_parameter(mechanisms[0]->description(), path, truth * (path.ends_with("restitution") ? 0.8 : 1.2)));
+    }
+    p.prepare(10.0, true);
+    return p;
+  }
+  double truth(const std::string& path) const {
+    return ParameterPath(mechanisms[0]->description(), path).get(mechanisms[0]->parameters());
+  }
+};
+
+inline const std::vector<std::string> kFour = {"clearance.D.radial", "clearance.D.contact.restitution",
+                                               "clearance.D.friction.coefficient", "clearance.D.contact.stiffness_scale"};
+
+}  // namespace boresight::four_bar
