@@ -164,7 +164,6 @@ FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vect
   VecX bias = problem.fit_bias ? VecX(start.bias.cwiseQuotient(problem.sigma)) : VecX();
   ceres::Problem ceres_problem;
   bool free_states = false;
-  auto inner = std::make_shared<ceres::ParameterBlockOrdering>();
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (std::size_t k = 0; k < result.windows.size(); ++k) {
     const Window& w = problem.windows[result.windows[k]];
@@ -179,7 +178,6 @@ FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vect
     if (w.from_rest) {
       ceres_problem.SetParameterBlockConstant(states[k].data());
     } else {
-      inner->AddElementToGroup(states[k].data(), 0);
       free_states = true;
     }
   }
@@ -214,11 +212,6 @@ FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vect
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_SCHUR;
   solver.linear_solver_ordering = ordering;
-  // Start states follow every step of the parameters at once: each window's own landscape is rough, and one radius of trust
-  // for all of them together would hold the parameters where the roughest window is.
-  solver.use_inner_iterations = free_states;
-  solver.inner_iteration_tolerance = 1e-4;
-  if (free_states) solver.inner_iteration_ordering = inner;
   if (!free_states) {
     solver.linear_solver_type = ceres::DENSE_QR;
     solver.linear_solver_ordering.reset();
@@ -231,13 +224,24 @@ FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vect
   solver.callbacks.push_back(&watch);
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  ceres::Solve(solver, &ceres_problem, &summary);
-  take();
+  // Each window's own landscape is rough, and one radius of trust for all of them together holds the parameters where the
+  // roughest window is: between solves every window looks for its start state alone.
+  const int rounds = free_states ? 3 : 1;
+  solver.max_num_iterations = std::max(1, options.most_iterations / rounds);
+  for (int round = 0; round < rounds; ++round) {
+    ceres::Solve(solver, &ceres_problem, &summary);
+    take();
+    if (round == 0) result.start_cost = 2.0 * summary.initial_cost;
+    result.iterations += static_cast<int>(summary.iterations.size()) - 1;
+    result.evaluations += summary.num_residual_evaluations + summary.num_jacobian_evaluations;
+    if (round + 1 == rounds || result.interrupted || !summary.IsSolutionUsable()) break;
+    in_parallel(static_cast<int>(states.size()), options.jobs, [&](int k) {
+      const Window& w = problem.windows[result.windows[k]];
+      if (!w.from_rest) problem.refine_state(w, result.globals, states[k], 6);
+    });
+  }
   result.states = std::move(states);
-  result.start_cost = 2.0 * summary.initial_cost;
   result.cost = 2.0 * summary.final_cost;
-  result.iterations = static_cast<int>(summary.iterations.size()) - 1;
-  result.evaluations = summary.num_residual_evaluations + summary.num_jacobian_evaluations;
   result.converged = summary.termination_type == ceres::CONVERGENCE;
   if (result.interrupted)
     result.reason = "interrupted";
