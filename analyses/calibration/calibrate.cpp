@@ -22,7 +22,7 @@ CalibrationProblem up_to(const CalibrationProblem& problem, double share) {
     const std::vector<double>& t = problem.runs[w.run].data.time;
     const double end = t[w.first] + share * (t[w.last] - t[w.first]);
     if (!w.from_rest) continue;
-    while (w.last > w.first && t[w.last] > end) --w.last;
+    while (w.last > w.first + 1 && t[w.last] > end) --w.last;
     w.end = std::min(w.end, t[w.last] + problem.largest_time_offset);
   }
   return part;

@@ -15,6 +15,8 @@ namespace boresight::app {
   VERB(allocate)              \
   VERB(export)                \
   VERB(laws)
+  VERB(calibrate)             \
+  VERB(export)
 
 #define DECLARE(name) std::unique_ptr<Verb> make_##name##_verb();
 BORESIGHT_VERBS(DECLARE)
