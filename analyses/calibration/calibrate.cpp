@@ -379,6 +379,7 @@ class Calibrator {
         for (std::size_t b = 0; b < free.size(); ++b) out(a, b) = H(free[a], free[b]);
       return MatX(out + 1e-8 * MatX::Identity(out.rows(), out.cols()));
     };
+    if (free.empty()) return;
     const MatX H = part(result_.inference.information);
     const MatX before = H.inverse();
     for (const Candidate& candidate : options_.candidates) {

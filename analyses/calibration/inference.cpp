@@ -29,6 +29,7 @@ std::vector<double> autocorrelations_of(const std::vector<ResidualSeries>& serie
 // Eliminates what was held.
 MatX inverse_of(const MatX& H, const std::vector<int>& free) {
   MatX out = MatX::Constant(H.rows(), H.cols(), std::numeric_limits<double>::quiet_NaN());
+  if (free.empty()) return out;
   MatX part(free.size(), free.size());
   for (std::size_t a = 0; a < free.size(); ++a)
     for (std::size_t b = 0; b < free.size(); ++b) part(a, b) = H(free[a], free[b]);

@@ -44,7 +44,7 @@ report::Table estimate_table(const CalibrationStudy& s) {
 }
 
 report::Chart correlation_chart(const CalibrationStudy& s) {
-  report::Chart chart{.title = "Correlation of the estimates"};
+  report::Chart chart{.title = "Correlation of the estimates", .x = {"estimate"}, .y = {"estimate"}};
   report::Heatmap map{.label = "correlation", .diverging = true};
   report::Names names;
   for (const ParameterEstimate& e : s.result.inference.parameters) names.push_back(short_name(e.name));

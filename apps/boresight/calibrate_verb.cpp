@@ -149,7 +149,8 @@ class CalibrateVerb : public Verb {
     fmt::print("{}: {} runs, {} values; {}\n", s.mechanism.name(), s.problem.runs.size(), s.result.inference.values, s.result.fit.reason);
     for (const ParameterEstimate& e : s.result.inference.parameters)
       if (e.identifiable)
-        fmt::print("  {}: {} ({} to {})\n", e.name, readable(e.value, e.si_unit), readable(e.low, e.si_unit), readable(e.high, e.si_unit));
+        fmt::print("  {}: {} +- {} ({:.5g} to {:.5g}{}{})\n", e.name, readable(e.value, e.si_unit), readable(e.standard_error, e.si_unit), e.low,
+                   e.high, e.si_unit == "1" ? "" : " ", e.si_unit == "1" ? "" : e.si_unit);
       else
         fmt::print("  {}: not identifiable: {}\n", e.name, e.reason);
     for (const std::string& sentence : s.result.verdict) fmt::print("  {}\n", sentence);

@@ -124,7 +124,9 @@ TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) {
     SyntheticRig rig;
     rig.seed = static_cast<std::uint64_t>(set) + 1;
     CalibrationProblem problem = bench.problem(rig, kFour);
-    const CalibrationResult result = calibrate(problem, options_with(2));
+    CalibrationOptions options = options_with(3);
+    options.starts = 4;
+    const CalibrationResult result = calibrate(problem, options);
     for (int p = 0; p < 4; ++p) {
       const ParameterEstimate& e = result.inference.parameters[p];
       const double truth = bench.truth(e.name);
