@@ -47,8 +47,10 @@ class Calibrator {
       noise_from_residuals();
       refit("noise estimated from the residuals");
       correct();
+      refit("last");
       result_.inference = infer(problem_, result_.fit, options_.confidence, result_.fixed, options_.jobs);
       explain_what_is_held();
+      judge_fit();
       result_.hold_out = held_out(problem_, result_.fit.globals);
       if (options_.profile) profile();
       compare_laws();
@@ -66,6 +68,25 @@ class Calibrator {
   }
 
  private:
+  // A fit that has lost its way leaves more than the noise that neighbouring samples show.
+  void judge_fit() {
+    const VecX rough = noise_from_differences(problem_);
+    double worst = 0.0;
+    int channel = 0;
+    for (Eigen::Index c = 0; c < rough.size(); ++c)
+      if (problem_.sigma[c] * std::sqrt(result_.inference.variance_factor) / rough[c] > worst) {
+        worst = problem_.sigma[c] * std::sqrt(result_.inference.variance_factor) / rough[c];
+        channel = problem_.channels[static_cast<std::size_t>(c)];
+      }
+    if (worst < 1.25) return;
+    char text[320];
+    std::snprintf(text, sizeof text,
+                  "The fit leaves %.2g times the noise that neighbouring samples of %s show: it stands in a local minimum, or the "
+                  "model leaves something out. Its intervals are then too narrow; more starts or shorter windows may help.",
+                  worst, channel_names()[channel].name);
+    result_.verdict.insert(result_.verdict.begin(), text);
+  }
+
   void set_noise(const VecX& sigma) {
     problem_.sigma = sigma;
     for (std::size_t c = 0; c < problem_.channels.size(); ++c)
@@ -156,8 +177,34 @@ class Calibrator {
         result_.evaluations += found.evaluations;
         if (found.interrupted) throw Interrupted{};
         at = found.globals;
+        look_around(up_to(problem_, share), at);
       }
     note(fit(problem_, at, {}, fit_options("whole data", 30, options_.jobs)));
+    if (!grows(problem_)) return;
+    at = result_.fit.globals;
+    if (look_around(problem_, at)) note(fit(problem_, at, {}, fit_options("whole data, from a better place", 20, options_.jobs)));
+  }
+
+  // Impacts make small local minima all along a valley: whether a step of a few to some thirty percent of one parameter
+  // alone leads to a lower place. Moves `at` there.
+  bool look_around(const CalibrationProblem& problem, Globals& at) {
+    std::vector<Globals> tried = {at};
+    for (int p = 0; p < problem.parameter_count(); ++p)
+      for (const double step : {-0.3, -0.1, -0.03, -0.01, 0.01, 0.03, 0.1, 0.3}) {
+        if (result_.fixed[p]) continue;
+        Globals moved = at;
+        moved.u[p] = std::clamp(at.u[p] + step, problem.parameters[p].lowest_coordinate(), problem.parameters[p].highest_coordinate());
+        tried.push_back(moved);
+      }
+    std::vector<double> cost(tried.size(), 0.0);
+    in_parallel(static_cast<int>(tried.size()), options_.jobs, [&](int k) {
+      for (const Window& w : problem.windows)
+        if (w.from_rest && !w.held_out) cost[k] += problem.cost(w, tried[k], VecX::Zero(problem.state_size(w)));
+    });
+    const auto best = std::min_element(cost.begin(), cost.end());
+    if (!(*best < 0.999 * cost[0])) return false;
+    at = tried[best - cost.begin()];
+    return true;
   }
 
   void refit(const std::string& stage) {
