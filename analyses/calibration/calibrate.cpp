@@ -177,7 +177,7 @@ class Calibrator {
         result_.evaluations += found.evaluations;
         if (found.interrupted) throw Interrupted{};
         at = found.globals;
-        look_around(up_to(problem_, share), at);
+        if (share > 0.4) look_around(up_to(problem_, share), at);
       }
     note(fit(problem_, at, {}, fit_options("whole data", 30, options_.jobs)));
     if (!grows(problem_)) return;
@@ -190,7 +190,7 @@ class Calibrator {
   bool look_around(const CalibrationProblem& problem, Globals& at) {
     std::vector<Globals> tried = {at};
     for (int p = 0; p < problem.parameter_count(); ++p)
-      for (const double step : {-0.3, -0.1, -0.03, -0.01, 0.01, 0.03, 0.1, 0.3}) {
+      for (const double step : {-0.2, -0.03, 0.03, 0.2}) {
         if (result_.fixed[p]) continue;
         Globals moved = at;
         moved.u[p] = std::clamp(at.u[p] + step, problem.parameters[p].lowest_coordinate(), problem.parameters[p].highest_coordinate());

@@ -178,7 +178,9 @@ report::Document calibrate_report(const CalibrationStudy& s) {
   report::Document document{.title = s.mechanism.name(), .subtitle = "calibration of its contacts by measured pointing data", .verb = "calibrate"};
   const bool all = std::all_of(inference.parameters.begin(), inference.parameters.end(), [](const auto& e) { return e.identifiable; });
   document.verdict = report::Verdict{all && s.result.fit.converged ? report::Standing::good : report::Standing::bad,
-                                     s.result.verdict.empty() ? s.result.fit.reason : s.result.verdict.front()};
+                                     all && s.result.fit.converged ? std::string("All parameters are identifiable from these data.")
+                                     : s.result.verdict.empty()    ? s.result.fit.reason
+                                                                   : s.result.verdict.front()};
   for (const ParameterEstimate& e : inference.parameters)
     if (e.name.starts_with("clearance."))
       document.facts.push_back({short_name(e.name), e.identifiable ? readable(e.value, e.si_unit) : std::string("not identifiable"), "",
