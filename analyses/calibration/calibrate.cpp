@@ -29,12 +29,14 @@ CalibrationProblem up_to(const CalibrationProblem& problem, double share) {
 }
 
 bool grows(const CalibrationProblem& problem) {
-  return std::any_of(problem.windows.begin(), problem.windows.end(), [](const Window& w) { return w.from_rest; });
+  return std::any_of(problem.windows.begin(), problem.windows.end(),
+                     [](const Window& w) { return w.from_rest; });
 }
 
 class Calibrator {
  public:
-  Calibrator(CalibrationProblem& problem, const CalibrationOptions& options) : problem_(problem), options_(options) {
+  Calibrator(CalibrationProblem& problem, const CalibrationOptions& options)
+      : problem_(problem), options_(options) {
     result_.fixed.assign(problem.parameters.size(), false);
   }
 
@@ -81,8 +83,10 @@ class Calibrator {
     if (worst < 1.25) return;
     char text[320];
     std::snprintf(text, sizeof text,
-                  "The fit leaves %.2g times the noise that neighbouring samples of %s show: it stands in a local minimum, or the "
-                  "model leaves something out. Its intervals are then too narrow; more starts or shorter windows may help.",
+                  "The fit leaves %.2g times the noise that neighbouring samples of %s show: it stands in a "
+                  "local minimum, or the "
+                  "model leaves something out. Its intervals are then too narrow; more starts or shorter "
+                  "windows may help.",
                   worst, channel_names()[channel].name);
     result_.verdict.insert(result_.verdict.begin(), text);
   }
@@ -111,7 +115,8 @@ class Calibrator {
       text = number;
       for (std::size_t k = 0; k < std::min<std::size_t>(4, values.size()); ++k) {
         const std::string& path = problem_.parameters[k].path;
-        std::snprintf(number, sizeof number, ", %s %.4g", path.substr(path.rfind('.') + 1).c_str(), values[k]);
+        std::snprintf(number, sizeof number, ", %s %.4g", path.substr(path.rfind('.') + 1).c_str(),
+                      values[k]);
         text += number;
       }
       const std::lock_guard lock(mutex_);
@@ -126,7 +131,8 @@ class Calibrator {
     result_.fit = std::move(fit);
   }
 
-  // The start given, and others within a factor of two of it (restitution: one in the logit), tried on a short horizon.
+  // The start given, and others within a factor of two of it (restitution: one in the logit), tried on a
+  // short horizon.
   Globals best_start() {
     const CalibrationProblem part = up_to(problem_, 0.125);
     const CounterStream stream(options_.seed, StreamPurpose::sample);
@@ -137,8 +143,8 @@ class Calibrator {
         const FittedParameter& parameter = problem_.parameters[p];
         const double reach = parameter.transform == Transform::log ? std::log(2.0) : 1.0;
         double& u = from[s].u[p];
-        u = std::clamp(u + reach * (2.0 * stream.uniform(s, static_cast<std::uint64_t>(p)) - 1.0), parameter.lowest_coordinate(),
-                       parameter.highest_coordinate());
+        u = std::clamp(u + reach * (2.0 * stream.uniform(s, static_cast<std::uint64_t>(p)) - 1.0),
+                       parameter.lowest_coordinate(), parameter.highest_coordinate());
       }
     std::vector<long> evaluations(from.size(), 0);
     std::atomic<bool> stop{false};
@@ -146,10 +152,11 @@ class Calibrator {
     in_parallel(static_cast<int>(from.size()), side_by_side, [&](int s) {
       Globals at = from[s];
       double here = 0.0;
-      for (const double share : grows(part) ? std::vector<double>{0.25, 0.5, 1.0} : std::vector<double>{1.0}) {
+      for (const double share :
+           grows(part) ? std::vector<double>{0.25, 0.5, 1.0} : std::vector<double>{1.0}) {
         if (stop) return;
-        FitOptions o = fit_options("start " + std::to_string(s + 1) + " of " + std::to_string(from.size()), 12,
-                                   std::max(1, options_.jobs / side_by_side));
+        FitOptions o = fit_options("start " + std::to_string(s + 1) + " of " + std::to_string(from.size()),
+                                   12, std::max(1, options_.jobs / side_by_side));
         o.cost_tolerance = 1e-4;
         const FitResult found = fit(up_to(part, share), at, {}, o);
         stop = stop || found.interrupted;
@@ -171,7 +178,8 @@ class Calibrator {
   void grow(Globals at, double share) {
     if (grows(problem_))
       for (; share < 0.99; share *= 2.0) {
-        FitOptions o = fit_options("horizon " + std::to_string(static_cast<int>(100.0 * share)) + " %", 10, options_.jobs);
+        FitOptions o = fit_options("horizon " + std::to_string(static_cast<int>(100.0 * share)) + " %", 10,
+                                   options_.jobs);
         o.cost_tolerance = 1e-5;
         const FitResult found = fit(up_to(problem_, share), at, {}, o);
         result_.evaluations += found.evaluations;
@@ -182,24 +190,27 @@ class Calibrator {
     note(fit(problem_, at, {}, fit_options("whole data", 30, options_.jobs)));
     if (!grows(problem_)) return;
     at = result_.fit.globals;
-    if (look_around(problem_, at)) note(fit(problem_, at, {}, fit_options("whole data, from a better place", 20, options_.jobs)));
+    if (look_around(problem_, at))
+      note(fit(problem_, at, {}, fit_options("whole data, from a better place", 20, options_.jobs)));
   }
 
-  // Impacts make small local minima all along a valley: whether a step of a few to some thirty percent of one parameter
-  // alone leads to a lower place. Moves `at` there.
+  // Impacts make small local minima all along a valley: whether a step of a few to some thirty percent of one
+  // parameter alone leads to a lower place. Moves `at` there.
   bool look_around(const CalibrationProblem& problem, Globals& at) {
     std::vector<Globals> tried = {at};
     for (int p = 0; p < problem.parameter_count(); ++p)
       for (const double step : {-0.2, -0.03, 0.03, 0.2}) {
         if (result_.fixed[p]) continue;
         Globals moved = at;
-        moved.u[p] = std::clamp(at.u[p] + step, problem.parameters[p].lowest_coordinate(), problem.parameters[p].highest_coordinate());
+        moved.u[p] = std::clamp(at.u[p] + step, problem.parameters[p].lowest_coordinate(),
+                                problem.parameters[p].highest_coordinate());
         tried.push_back(moved);
       }
     std::vector<double> cost(tried.size(), 0.0);
     in_parallel(static_cast<int>(tried.size()), options_.jobs, [&](int k) {
       for (const Window& w : problem.windows)
-        if (w.from_rest && !w.held_out) cost[k] += problem.cost(w, tried[k], VecX::Zero(problem.state_size(w)));
+        if (w.from_rest && !w.held_out)
+          cost[k] += problem.cost(w, tried[k], VecX::Zero(problem.state_size(w)));
     });
     const auto best = std::min_element(cost.begin(), cost.end());
     if (!(*best < 0.999 * cost[0])) return false;
@@ -221,11 +232,13 @@ class Calibrator {
       if (!path.ends_with(".restitution")) continue;
       int impacts = 0;
       for (std::size_t c = 0; c < m.clearances.size(); ++c)
-        if (path.starts_with("clearance.*.") || path.starts_with("clearance." + m.joints[m.clearances[c].joint].name + "."))
+        if (path.starts_with("clearance.*.") ||
+            path.starts_with("clearance." + m.joints[m.clearances[c].joint].name + "."))
           impacts += first.impacts[c];
       if (impacts > 0) continue;
       result_.fixed[p] = any = true;
-      held_.push_back({static_cast<int>(p), "the data hold no impact in its joint, and restitution shows in impacts alone"});
+      held_.push_back({static_cast<int>(p),
+                       "the data hold no impact in its joint, and restitution shows in impacts alone"});
     }
     if (!any) return;
     for (const auto& [p, why] : held_) result_.fit.globals.u[p] = problem_.start().u[p];
@@ -254,10 +267,12 @@ class Calibrator {
     VecX sigma = problem_.sigma;
     for (std::size_t c = 0; c < sizes.size(); ++c) {
       if (sizes[c].empty()) continue;
-      std::nth_element(sizes[c].begin(), sizes[c].begin() + static_cast<std::ptrdiff_t>(sizes[c].size() / 2), sizes[c].end());
+      std::nth_element(sizes[c].begin(), sizes[c].begin() + static_cast<std::ptrdiff_t>(sizes[c].size() / 2),
+                       sizes[c].end());
       const double freedom = static_cast<double>(all) / std::max(1.0, static_cast<double>(all) - unknowns);
       // Never far below what differences say: a channel fitted too well is not a quiet one.
-      sigma[static_cast<Eigen::Index>(c)] *= std::max(0.5, 1.4826 * sizes[c][sizes[c].size() / 2] * std::sqrt(freedom));
+      sigma[static_cast<Eigen::Index>(c)] *=
+          std::max(0.5, 1.4826 * sizes[c][sizes[c].size() / 2] * std::sqrt(freedom));
     }
     set_noise(sigma);
   }
@@ -281,18 +296,22 @@ class Calibrator {
         std::vector<double> times;
         for (int i = w.first; i <= w.last; ++i)
           times.push_back(std::max(0.0, run.data.time[i] + result_.fit.globals.time_offset));
-        const MatX multibody = multibody_readings(run.mechanism, problem_.parameters_at(w.run, values), times, run.data.channels);
+        const MatX multibody = multibody_readings(run.mechanism, problem_.parameters_at(w.run, values), times,
+                                                  run.data.channels);
         WindowResiduals at;
         plain.evaluate(w, result_.fit.globals, VecX::Zero(problem_.state_size(w)), false, at);
         difference[k] = MatX::Zero(multibody.rows(), multibody.cols());
         for (Eigen::Index i = 0; i < at.r.size(); ++i) {
           const int row = at.sample[i] - w.first, column = problem_.column(w.run, at.channel[i]);
-          const double sigma = problem_.sigma[at.channel[i]], measured_here = run.data.value(at.sample[i], column);
-          const double bias = result_.fit.globals.bias.size() > 0 ? result_.fit.globals.bias[at.channel[i]] : 0.0;
+          const double sigma = problem_.sigma[at.channel[i]],
+                       measured_here = run.data.value(at.sample[i], column);
+          const double bias =
+              result_.fit.globals.bias.size() > 0 ? result_.fit.globals.bias[at.channel[i]] : 0.0;
           const double model = measured_here + at.r[i] * sigma - bias;
           difference[k](row, column) = multibody(row, column) - model;
           square[k] += std::pow(difference[k](row, column) / sigma, 2);
-          misfit[k] += std::pow(problem_.loss.residual((multibody(row, column) + bias - measured_here) / sigma), 2);
+          misfit[k] +=
+              std::pow(problem_.loss.residual((multibody(row, column) + bias - measured_here) / sigma), 2);
           ++count[k];
         }
       });
@@ -356,8 +375,8 @@ class Calibrator {
         std::vector<VecX> states = result_.fit.states;
         for (const double step : {1.0, 2.0, 3.0}) {
           const FittedParameter& parameter = problem_.parameters[wanted[k]];
-          at.u[wanted[k]] = std::clamp(result_.fit.globals.u[wanted[k]] + side * step * deviation, parameter.lowest_coordinate(),
-                                       parameter.highest_coordinate());
+          at.u[wanted[k]] = std::clamp(result_.fit.globals.u[wanted[k]] + side * step * deviation,
+                                       parameter.lowest_coordinate(), parameter.highest_coordinate());
           FitOptions o;
           o.most_iterations = 6;
           o.fixed = result_.fixed;
@@ -365,7 +384,8 @@ class Calibrator {
           const FitResult found = fit(problem_, at, states, o);
           at = found.globals;
           states = found.states;
-          const double risen = std::max(0.0, found.cost - result_.fit.cost) / result_.inference.variance_factor;
+          const double risen =
+              std::max(0.0, found.cost - result_.fit.cost) / result_.inference.variance_factor;
           points.emplace_back(at.u[wanted[k]] - result_.fit.globals.u[wanted[k]], risen);
         }
       }
@@ -403,7 +423,8 @@ class Calibrator {
         for (ClearanceDescription& c : description.clearances) c.contact_law = law;
         run.mechanism = std::make_shared<const Mechanism>(std::move(description));
       }
-      const FitResult found = fit(other, result_.fit.globals, {}, fit_options("law " + law, 25, options_.jobs));
+      const FitResult found =
+          fit(other, result_.fit.globals, {}, fit_options("law " + law, 25, options_.jobs));
       result_.evaluations += found.evaluations;
       const double parameters = law == "hertz" ? other.global_count() - 1.0 : other.global_count();
       LawScore score{law, found.cost, found.cost + 2.0 * parameters, 0.0, {}, found.reason};
@@ -440,7 +461,8 @@ class Calibrator {
           data.line.push_back(0);
         }
         data.channels = problem_.channels;
-        data.value = MatX::Zero(static_cast<Eigen::Index>(data.time.size()), static_cast<Eigen::Index>(data.channels.size()));
+        data.value = MatX::Zero(static_cast<Eigen::Index>(data.time.size()),
+                                static_cast<Eigen::Index>(data.channels.size()));
         one.runs = {CalibrationRun(candidate.name, candidate.mechanism, data)};
         one.loss.kind = Loss::none;
         const double length = problem_.windows.front().end - problem_.windows.front().start;
@@ -457,8 +479,10 @@ class Calibrator {
         for (std::size_t a = 0; a < free.size(); ++a) {
           if (free[a] >= P) continue;
           const auto i = static_cast<Eigen::Index>(a);
-          const double relative = std::pow(problem_.parameters[free[a]].slope(result_.fit.globals.u[free[a]]) /
-                                               problem_.parameters[free[a]].value(result_.fit.globals.u[free[a]]), 2);
+          const double relative =
+              std::pow(problem_.parameters[free[a]].slope(result_.fit.globals.u[free[a]]) /
+                           problem_.parameters[free[a]].value(result_.fit.globals.u[free[a]]),
+                       2);
           sum_before += relative * before(i, i);
           sum_after += relative * after(i, i);
           test.error_ratio.push_back(std::sqrt(after(i, i) / before(i, i)));
@@ -495,8 +519,10 @@ void hold_out_windows(CalibrationProblem& problem, double share) {
 
 std::string posterior_toml(const CalibrationProblem& problem, const CalibrationResult& result) {
   std::string out =
-      "# What a calibration knows of the parameters, as random inputs of a study (boresight montecarlo). Gaussian in the\n"
-      "# coordinates of the fit: logarithms, so lognormal; restitution: normal, truncated to where it can be.\n";
+      "# What a calibration knows of the parameters, as random inputs of a study (boresight montecarlo). "
+      "Gaussian in the\n"
+      "# coordinates of the fit: logarithms, so lognormal; restitution: normal, truncated to where it can "
+      "be.\n";
   char text[400];
   const int P = problem.parameter_count();
   const auto quantity = [](double value, const std::string& unit) {
@@ -513,13 +539,17 @@ std::string posterior_toml(const CalibrationProblem& problem, const CalibrationR
     std::string distribution;
     if (!e.identifiable) {
       out += "\n# Not identifiable (" + e.reason + "): all that is allowed for it.";
-      distribution = "{ uniform = { min = " + quantity(parameter.lower, e.si_unit) + ", max = " + quantity(parameter.upper, e.si_unit) + " } }";
+      distribution = "{ uniform = { min = " + quantity(parameter.lower, e.si_unit) +
+                     ", max = " + quantity(parameter.upper, e.si_unit) + " } }";
     } else if (parameter.transform == Transform::log) {
       std::snprintf(text, sizeof text, "%.17g", std::exp(e.coordinate_error));
-      distribution = "{ lognormal = { median = " + quantity(e.value, e.si_unit) + ", factor = " + text + " } }";
+      distribution =
+          "{ lognormal = { median = " + quantity(e.value, e.si_unit) + ", factor = " + text + " } }";
     } else {
-      distribution = "{ normal = { mean = " + quantity(e.value, e.si_unit) + ", sd = " + quantity(e.standard_error, e.si_unit) +
-                     " }, truncate = [" + quantity(parameter.lower, e.si_unit) + ", " + quantity(parameter.upper, e.si_unit) + "] }";
+      distribution = "{ normal = { mean = " + quantity(e.value, e.si_unit) +
+                     ", sd = " + quantity(e.standard_error, e.si_unit) + " }, truncate = [" +
+                     quantity(parameter.lower, e.si_unit) + ", " + quantity(parameter.upper, e.si_unit) +
+                     "] }";
     }
     out += "\n[[random]]\nparameter = \"" + e.name + "\"\ndistribution = " + distribution + "\n";
   }
@@ -529,8 +559,10 @@ std::string posterior_toml(const CalibrationProblem& problem, const CalibrationR
       const auto& first = result.inference.parameters[a];
       const auto& second = result.inference.parameters[b];
       if (!first.identifiable || !second.identifiable || !std::isfinite(rho)) continue;
-      std::snprintf(text, sizeof text, "\n[[correlation]]\nparameters = [\"%s\", \"%s\"]\ncoefficient = %.6f\nmeasure = \"normal\"\n",
-                    first.name.c_str(), second.name.c_str(), std::clamp(rho, -0.999, 0.999));
+      std::snprintf(
+          text, sizeof text,
+          "\n[[correlation]]\nparameters = [\"%s\", \"%s\"]\ncoefficient = %.6f\nmeasure = \"normal\"\n",
+          first.name.c_str(), second.name.c_str(), std::clamp(rho, -0.999, 0.999));
       out += text;
     }
   return out;

@@ -19,7 +19,8 @@ class WindowCost final : public ceres::CostFunction {
       : problem_(problem), window_(window), values_(residuals - problem.state_size(window)) {
     for (int p = 0; p < problem.parameter_count(); ++p) mutable_parameter_block_sizes()->push_back(1);
     if (problem.fit_time_offset) mutable_parameter_block_sizes()->push_back(1);
-    if (problem.fit_bias) mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.channels.size()));
+    if (problem.fit_bias)
+      mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.channels.size()));
     mutable_parameter_block_sizes()->push_back(problem.state_size(window));
     set_num_residuals(residuals);
   }
@@ -127,8 +128,8 @@ std::vector<int> windows_of(const CalibrationProblem& problem, const FitOptions&
   return windows;
 }
 
-std::vector<VecX> guess_states(const CalibrationProblem& problem, const std::vector<int>& windows, const Globals& globals,
-                               int jobs) {
+std::vector<VecX> guess_states(const CalibrationProblem& problem, const std::vector<int>& windows,
+                               const Globals& globals, int jobs) {
   std::vector<VecX> states(windows.size());
   // Window after window within a run, so that each may go on from where the one before led.
   in_parallel(static_cast<int>(problem.runs.size()), jobs, [&](int run) {
@@ -172,8 +173,8 @@ FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vect
     if (problem.fit_time_offset) blocks.push_back(&offset);
     if (problem.fit_bias) blocks.push_back(bias.data());
     blocks.push_back(states[k].data());
-    ceres_problem.AddResidualBlock(new WindowCost(problem, w, value_count(problem, w) + problem.state_size(w)), nullptr,
-                                   blocks);
+    ceres_problem.AddResidualBlock(
+        new WindowCost(problem, w, value_count(problem, w) + problem.state_size(w)), nullptr, blocks);
     ordering->AddElementToGroup(states[k].data(), 0);
     if (w.from_rest) {
       ceres_problem.SetParameterBlockConstant(states[k].data());
@@ -206,7 +207,8 @@ FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vect
   Watch watch([&](const ceres::IterationSummary& s) {
     if (!options.progress) return true;
     take();
-    result.interrupted = !options.progress({s.iteration, options.most_iterations, 2.0 * s.cost, result.globals});
+    result.interrupted =
+        !options.progress({s.iteration, options.most_iterations, 2.0 * s.cost, result.globals});
     return !result.interrupted;
   });
   ceres::Solver::Options solver;
@@ -224,8 +226,8 @@ FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vect
   solver.callbacks.push_back(&watch);
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  // Each window's own landscape is rough, and one radius of trust for all of them together holds the parameters where the
-  // roughest window is: between solves every window looks for its start state alone.
+  // Each window's own landscape is rough, and one radius of trust for all of them together holds the
+  // parameters where the roughest window is: between solves every window looks for its start state alone.
   const int rounds = free_states ? 3 : 1;
   solver.max_num_iterations = std::max(1, options.most_iterations / rounds);
   for (int round = 0; round < rounds; ++round) {

@@ -42,10 +42,12 @@ PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechan
 
 }  // namespace
 
-CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism) {
+CalibrationPlan read_calibration_plan(Cursor& root, const Study& study,
+                                      const MechanismDescription& mechanism) {
   Cursor table = root.table("calibrate");
-  table.only({"window", "start", "loss", "loss_scale", "starts", "seed", "confidence", "time_offset", "mounting_bias", "hold_out",
-              "corrections", "profile", "laws", "noise", "parameter", "run", "candidate"});
+  table.only({"window", "start", "loss", "loss_scale", "starts", "seed", "confidence", "time_offset",
+              "mounting_bias", "hold_out", "corrections", "profile", "laws", "noise", "parameter", "run",
+              "candidate"});
   CalibrationPlan plan;
   if (table.text("window", "whole") != "whole") {
     plan.window = table.quantity("window", kDuration);
@@ -58,14 +60,16 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
   table.require(plan.loss.scale > 0.0, "loss_scale", "more than 0 standard deviations");
   const auto whole = [&](const char* key, long long least, long long most, long long otherwise) {
     const long long value = table.integer(key, otherwise);
-    table.require(value >= least && value <= most, key, std::to_string(least) + " to " + std::to_string(most));
+    table.require(value >= least && value <= most, key,
+                  std::to_string(least) + " to " + std::to_string(most));
     return value;
   };
   plan.starts = static_cast<int>(whole("starts", 1, 1000, 4));
   plan.seed = static_cast<std::uint64_t>(whole("seed", 0, 1LL << 62, 1));
   plan.corrections = static_cast<int>(whole("corrections", 0, 10, 2));
   plan.confidence = table.number("confidence", 0.95);
-  table.require(plan.confidence > 0.5 && plan.confidence < 1.0, "confidence", "more than 0.5 and less than 1");
+  table.require(plan.confidence > 0.5 && plan.confidence < 1.0, "confidence",
+                "more than 0.5 and less than 1");
   if (table.has("time_offset")) {
     plan.largest_time_offset = table.quantity("time_offset", kDuration);
     table.require(plan.largest_time_offset > 0.0, "time_offset", "more than 0: the largest that is possible");
@@ -85,7 +89,8 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
       plan.laws.push_back(law);
     }
   }
-  plan.noise = VecX::Constant(static_cast<Eigen::Index>(channel_names().size()), std::numeric_limits<double>::quiet_NaN());
+  plan.noise = VecX::Constant(static_cast<Eigen::Index>(channel_names().size()),
+                              std::numeric_limits<double>::quiet_NaN());
   if (table.has("noise")) {
     Cursor noise = table.table("noise");
     for (std::size_t c = 0; c < channel_names().size(); ++c) {
@@ -96,7 +101,8 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
     }
     noise.finish();
   }
-  for (Cursor& parameter : table.tables("parameter")) plan.parameters.push_back(read_parameter(parameter, mechanism));
+  for (Cursor& parameter : table.tables("parameter"))
+    plan.parameters.push_back(read_parameter(parameter, mechanism));
   table.require(!plan.parameters.empty(), "parameter", "at least one [[calibrate.parameter]]");
   for (Cursor& run : table.tables("run")) {
     run.only({"data", "name", "set"});
@@ -123,13 +129,16 @@ CalibrationProblem calibration_problem(
   const Mechanism& mechanism = *problem.runs.front().mechanism;
   for (const PlannedParameter& p : plan.parameters) {
     const double own = ParameterPath(mechanism.description(), p.path, p.origin).get(mechanism.parameters());
-    if (!(p.start.value_or(own) > 0.0)) throw InputError(p.origin, p.path, "a start of 0", "start = ..., more than 0");
-    FittedParameter fitted = fitted_parameter(mechanism.description(), p.path, p.start.value_or(own), p.origin);
+    if (!(p.start.value_or(own) > 0.0))
+      throw InputError(p.origin, p.path, "a start of 0", "start = ..., more than 0");
+    FittedParameter fitted =
+        fitted_parameter(mechanism.description(), p.path, p.start.value_or(own), p.origin);
     fitted.lower = p.lower.value_or(fitted.lower);
     fitted.upper = p.upper.value_or(fitted.upper);
     if (!(fitted.lower < fitted.start && fitted.start < fitted.upper))
       throw InputError(p.origin, p.path, "a start of " + std::to_string(fitted.start),
-                       "one between lower and upper, " + std::to_string(fitted.lower) + " and " + std::to_string(fitted.upper));
+                       "one between lower and upper, " + std::to_string(fitted.lower) + " and " +
+                           std::to_string(fitted.upper));
     problem.parameters.push_back(fitted);
   }
   problem.loss = plan.loss;
@@ -138,8 +147,10 @@ CalibrationProblem calibration_problem(
   problem.fit_bias = plan.mounting_bias;
   problem.prepare(plan.window, plan.from_rest);
   hold_out_windows(problem, plan.hold_out);
-  if (std::none_of(problem.windows.begin(), problem.windows.end(), [](const Window& w) { return !w.held_out; }))
-    throw InputError({plan.runs.front().data, 0}, "data", "too few values", "more in a window than its start state has numbers");
+  if (std::none_of(problem.windows.begin(), problem.windows.end(),
+                   [](const Window& w) { return !w.held_out; }))
+    throw InputError({plan.runs.front().data, 0}, "data", "too few values",
+                     "more in a window than its start state has numbers");
   return problem;
 }
 

@@ -2,10 +2,9 @@
 //
 //   [calibrate]
 //   window = "whole"                  # or a time, "20 ms": see calibration_problem.hpp
-//   start = "rest"                    # where a run's first window begins: in the ideal pose ("rest") or anywhere ("free")
-//   loss = "huber"                    # "none", "cauchy"; loss_scale: in standard deviations
-//   starts = 4
-//   time_offset = "2 ms"              # the largest; left out: none is fitted
+//   start = "rest"                    # where a run's first window begins: in the ideal pose ("rest") or
+//   anywhere ("free") loss = "huber"                    # "none", "cauchy"; loss_scale: in standard
+//   deviations starts = 4 time_offset = "2 ms"              # the largest; left out: none is fitted
 //   mounting_bias = true
 //   hold_out = "20 %"
 //   corrections = 2                   # by multibody
@@ -64,7 +63,8 @@ struct CalibrationPlan {
 };
 
 // mechanism: of the study, for the units of paths. Throws InputError.
-CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism);
+CalibrationPlan read_calibration_plan(Cursor& root, const Study& study,
+                                      const MechanismDescription& mechanism);
 
 // Reads the data and prepares the problem. mechanism_with: the study's mechanism with a run's settings.
 CalibrationProblem calibration_problem(

@@ -12,8 +12,8 @@ namespace boresight {
 CalibrationRun::CalibrationRun(std::string run_name, std::shared_ptr<const Mechanism> with_settings,
                                MeasuredData measured)
     : name(std::move(run_name)), mechanism(std::move(with_settings)), data(std::move(measured)) {
-  prepared = std::make_shared<const PreparedScene>(*mechanism, ideal_motion(*mechanism, mechanism->parameters()),
-                                                   mechanism->parameters());
+  prepared = std::make_shared<const PreparedScene>(
+      *mechanism, ideal_motion(*mechanism, mechanism->parameters()), mechanism->parameters());
   tables = prepared->tables(mechanism->parameters());
   prepared->pose_gain(mechanism->boresight_body());
 }
@@ -160,8 +160,8 @@ void CalibrationProblem::channel_rows(const CalibrationRun& run, int kind, doubl
     out.rows.row(0) = turned.row(kind - 6);
 }
 
-void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const VecX& state, bool derivatives,
-                                  WindowResiduals& out) const {
+void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const VecX& state,
+                                  bool derivatives, WindowResiduals& out) const {
   const CalibrationRun& run = runs[w.run];
   const int n = run.tables->layout.n, P = parameter_count();
   const std::vector<double> theta = values(globals);
@@ -243,7 +243,8 @@ double CalibrationProblem::cost(const Window& window, const Globals& globals, co
   return sum;
 }
 
-double CalibrationProblem::refine_state(const Window& w, const Globals& globals, VecX& state, int most_iterations) const {
+double CalibrationProblem::refine_state(const Window& w, const Globals& globals, VecX& state,
+                                        int most_iterations) const {
   const VecX prior = prior_deviation(w);
   double here = cost(w, globals, state), damping = 1e-3;
   if (!std::isfinite(here)) return here;
@@ -274,7 +275,8 @@ double CalibrationProblem::refine_state(const Window& w, const Globals& globals,
   return here;
 }
 
-VecX CalibrationProblem::state_at(const Window& w, const Globals& globals, const VecX& state, double t) const {
+VecX CalibrationProblem::state_at(const Window& w, const Globals& globals, const VecX& state,
+                                  double t) const {
   const CalibrationRun& run = runs[w.run];
   const std::vector<double> theta = values(globals);
   MotionRequest request;
@@ -307,14 +309,16 @@ VecX CalibrationProblem::guess_state(const Window& w, const Globals& globals, co
       MatX H = MatX::Zero(unknowns, unknowns);
       VecX g = VecX::Zero(unknowns);
       for (int k = 0; k < powers; ++k)
-        for (int j = 0; j < n; ++j) H(k * n + j, k * n + j) = 1.0 / (k == 0 ? prior[j] * prior[j] : prior[n + j] * prior[n + j]);
+        for (int j = 0; j < n; ++j)
+          H(k * n + j, k * n + j) = 1.0 / (k == 0 ? prior[j] * prior[j] : prior[n + j] * prior[n + j]);
       for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
         const int column_here = column(w.run, c);
         if (column_here < 0 || channels[c] >= 9) continue;
         for (int i = 0; i < used; ++i) {
           const double measured = run.data.value(w.first + i, column_here);
           if (!std::isfinite(measured)) continue;
-          const double t = run.data.time[w.first + i] + globals.time_offset, tau = (t - w.start) / kFlightTime;
+          const double t = run.data.time[w.first + i] + globals.time_offset,
+                       tau = (t - w.start) / kFlightTime;
           ChannelRows at;
           channel_rows(run, channels[c], t, at);
           Eigen::RowVectorXd row(unknowns);
@@ -358,7 +362,8 @@ VecX noise_from_differences(const CalibrationProblem& problem) {
     }
     double middle = 0.0;
     if (!differences.empty()) {
-      std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2),
+      std::nth_element(differences.begin(),
+                       differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2),
                        differences.end());
       middle = differences[differences.size() / 2];
     }

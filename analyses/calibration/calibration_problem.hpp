@@ -1,12 +1,15 @@
-// A calibration as least squares: runs with their data, cut into windows; residuals of a window and their derivatives.
+// A calibration as least squares: runs with their data, cut into windows; residuals of a window and their
+// derivatives.
 //
-// Where impacts dissipate, neighbouring motions come together again and a window may be a whole run. Where they part (high
-// restitution, small clearance), one residual over a whole run has a useless landscape: data are then cut into shorter
-// windows; each starts from a state of its own, which is estimated along with the parameters and then eliminated (multiple
-// shooting without continuity: Bock 1981, with every window an experiment of its own).
+// Where impacts dissipate, neighbouring motions come together again and a window may be a whole run. Where
+// they part (high restitution, small clearance), one residual over a whole run has a useless landscape: data
+// are then cut into shorter windows; each starts from a state of its own, which is estimated along with the
+// parameters and then eliminated (multiple shooting without continuity: Bock 1981, with every window an
+// experiment of its own).
 //
 //   r = (model(t + offset; theta, start state) + bias - data) / sigma       per sample and channel
-//   f(r): Huber or Cauchy, written as a residual whose square is the loss, so that every sample is bounded alone
+//   f(r): Huber or Cauchy, written as a residual whose square is the loss, so that every sample is bounded
+//   alone
 //
 // A weak prior holds the start state within reach of the clearance where the channels do not see all of it.
 #pragma once
@@ -47,10 +50,10 @@ struct ResidualLoss {
 
 struct Window {
   int run = 0;
-  int first = 0, last = 0;  // samples, inclusive
+  int first = 0, last = 0;        // samples, inclusive
   double start = 0.0, end = 0.0;  // of the motion followed [s]
   bool held_out = false;
-  bool from_rest = false;         // starts at the ideal pose and with it; no start state is estimated
+  bool from_rest = false;  // starts at the ideal pose and with it; no start state is estimated
 };
 
 // What all windows share, in the coordinates of the fit.
@@ -64,7 +67,7 @@ struct WindowResiduals {
   VecX r;                            // standardised, without loss
   std::vector<int> sample, channel;  // of each
   MatX by_global;                    // x (parameters, time offset, biases)
-  MatX by_state;                     // x 2n, in units of state_scale(); zero where the window starts from rest
+  MatX by_state;  // x 2n, in units of state_scale(); zero where the window starts from rest
   SensitiveMotion motion;
 };
 
@@ -78,12 +81,13 @@ class CalibrationProblem {
   bool fit_time_offset = false, fit_bias = false;
   double largest_time_offset = 0.0;  // [s]
   ResidualLoss loss;
-  double tolerance = 1e-5;  // of the integration: residuals must not jitter by more than a small part of sigma
+  double tolerance =
+      1e-5;  // of the integration: residuals must not jitter by more than a small part of sigma
 
   double derivative_tolerance = 1e-3;
 
-  // Collects the channels, cuts the windows. from_rest: a run's first window starts at t = 0 where the model does, in the
-  // ideal pose. Throws InputError where the data reach beyond the motion.
+  // Collects the channels, cuts the windows. from_rest: a run's first window starts at t = 0 where the model
+  // does, in the ideal pose. Throws InputError where the data reach beyond the motion.
   void prepare(double window_length, bool from_rest);
 
   int parameter_count() const { return static_cast<int>(parameters.size()); }
@@ -109,10 +113,12 @@ class CalibrationProblem {
                 WindowResiduals& out) const;
   // Loss over a window, prior included.
   double cost(const Window& window, const Globals& globals, const VecX& state) const;
-  // A start state that fits the window better, parameters held: Levenberg-Marquardt on the state alone. Returns the loss.
+  // A start state that fits the window better, parameters held: Levenberg-Marquardt on the state alone.
+  // Returns the loss.
   double refine_state(const Window& window, const Globals& globals, VecX& state, int most_iterations) const;
-  // A first guess of a window's start state: of several local fits of its data, and of `carried` where it is not empty
-  // (where the window before led), the one that the model follows best after a few steps of refinement.
+  // A first guess of a window's start state: of several local fits of its data, and of `carried` where it is
+  // not empty (where the window before led), the one that the model follows best after a few steps of
+  // refinement.
   VecX guess_state(const Window& window, const Globals& globals, const VecX& carried = {}) const;
   // Where a window's motion stands at the start of the next window; scaled.
   VecX state_at(const Window& window, const Globals& globals, const VecX& state, double t) const;
@@ -125,8 +131,8 @@ class CalibrationProblem {
   void channel_rows(const CalibrationRun& run, int kind, double t, ChannelRows& out) const;
 };
 
-// Standard deviation of the noise of each channel from second differences of neighbouring samples, robust against the
-// few that an impact or an outlier bends: 1.4826 median |d2| / sqrt(6).
+// Standard deviation of the noise of each channel from second differences of neighbouring samples, robust
+// against the few that an impact or an outlier bends: 1.4826 median |d2| / sqrt(6).
 VecX noise_from_differences(const CalibrationProblem& problem);
 
 }  // namespace boresight

@@ -9,8 +9,8 @@
 namespace boresight {
 namespace {
 
-// A coordinate's standard deviation beyond which the data are said not to know the parameter: as a logarithm, a factor of
-// two at 95 % confidence.
+// A coordinate's standard deviation beyond which the data are said not to know the parameter: as a logarithm,
+// a factor of two at 95 % confidence.
 constexpr double kUnknown = 0.35;
 
 std::vector<double> autocorrelations_of(const std::vector<ResidualSeries>& series, int lags) {
@@ -51,7 +51,8 @@ std::string number(const char* format, double value) {
 
 }  // namespace
 
-WindowInformation window_information(const CalibrationProblem& problem, const Window& w, const WindowResiduals& at) {
+WindowInformation window_information(const CalibrationProblem& problem, const Window& w,
+                                     const WindowResiduals& at) {
   const Eigen::Index N = at.r.size(), G = at.by_global.cols();
   VecX weight(N), score(N);
   for (Eigen::Index i = 0; i < N; ++i) {
@@ -74,7 +75,8 @@ WindowInformation window_information(const CalibrationProblem& problem, const Wi
 
 Inference infer(const CalibrationProblem& problem, const FitResult& fit, double confidence,
                 const std::vector<bool>& fixed, int jobs) {
-  const int G = problem.global_count(), P = problem.parameter_count(), count = static_cast<int>(fit.windows.size());
+  const int G = problem.global_count(), P = problem.parameter_count(),
+            count = static_cast<int>(fit.windows.size());
   Inference out;
   std::vector<WindowInformation> parts(count);
   std::vector<WindowResiduals> residuals(count);
@@ -99,8 +101,8 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
       const double r = residuals[k].r[i];
       psi_square += problem.loss.score(r) * problem.loss.score(r);
       psi_slope += problem.loss.weight(r);
-      if (out.residuals.empty() || out.residuals.back().run != w.run || out.residuals.back().channel != residuals[k].channel[i] ||
-          i == 0) {
+      if (out.residuals.empty() || out.residuals.back().run != w.run ||
+          out.residuals.back().channel != residuals[k].channel[i] || i == 0) {
         // A window's residuals come channel by channel.
         out.residuals.push_back({w.run, residuals[k].channel[i], {}, {}, {}, {}});
       }
@@ -131,7 +133,8 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   out.covariance = out.variance_factor * inverse;
   if (out.autocorrelation > noise) {
     int lost = 1;
-    while (lost + 1 < static_cast<int>(out.autocorrelations.size()) && out.autocorrelations[lost] > noise) ++lost;
+    while (lost + 1 < static_cast<int>(out.autocorrelations.size()) && out.autocorrelations[lost] > noise)
+      ++lost;
     out.lags = 2 * lost;
     MatX meat = white;
     for (const WindowInformation& part : parts)
@@ -152,7 +155,8 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
     }
   }
   const VecX deviation = out.covariance.diagonal().cwiseSqrt();
-  out.correlation = deviation.cwiseInverse().asDiagonal() * out.covariance * deviation.cwiseInverse().asDiagonal();
+  out.correlation =
+      deviation.cwiseInverse().asDiagonal() * out.covariance * deviation.cwiseInverse().asDiagonal();
   Eigen::SelfAdjointEigenSolver<MatX> eigen(out.information.topLeftCorner(P, P) / out.variance_factor);
   out.rank = static_cast<int>((eigen.eigenvalues().array() > 1.0 / (kUnknown * kUnknown)).count());
 
@@ -175,17 +179,22 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
         e.reason = "held at its start";
       } else if (p.at_bound(u)) {
         e.identifiable = false;
-        e.reason = "the fit ran into the bound of what is allowed for it: the data ask for less or more, or for nothing";
+        e.reason =
+            "the fit ran into the bound of what is allowed for it: the data ask for less or more, or for "
+            "nothing";
       } else if (!(e.standard_error / e.value < kUnknown)) {
         e.identifiable = false;
-        e.reason = "its standard error is " + number("%.0f %%", 100.0 * e.standard_error / e.value) + " of it";
+        e.reason =
+            "its standard error is " + number("%.0f %%", 100.0 * e.standard_error / e.value) + " of it";
       } else {
         e.reason = "known to " + number("%.2g %%", 100.0 * e.standard_error / e.value);
       }
     } else {
       const bool offset = problem.fit_time_offset && g == P;
-      e.si_unit = offset ? "s" : channel_names()[problem.channels[g - P - (problem.fit_time_offset ? 1 : 0)]].si_unit;
-      e.value = offset ? fit.globals.time_offset : fit.globals.bias[g - P - (problem.fit_time_offset ? 1 : 0)];
+      e.si_unit =
+          offset ? "s" : channel_names()[problem.channels[g - P - (problem.fit_time_offset ? 1 : 0)]].si_unit;
+      e.value =
+          offset ? fit.globals.time_offset : fit.globals.bias[g - P - (problem.fit_time_offset ? 1 : 0)];
       e.standard_error = deviation[g];
       e.low = e.value - quantile * deviation[g];
       e.high = e.value + quantile * deviation[g];
@@ -207,22 +216,26 @@ std::vector<std::string> verdict(const CalibrationProblem& problem, const Infere
     for (int b = a + 1; b < P; ++b) {
       const double rho = inference.correlation(a, b);
       if (!(std::abs(rho) > 0.9)) continue;
-      words.push_back(inference.parameters[a].name + " and " + inference.parameters[b].name +
-                      (std::abs(rho) > 0.97 ? " cannot be told apart by these data: " : " are hard to tell apart: ") +
-                      "their correlation is " + number("%.3f", rho) +
-                      "; only one combination of them is known. A run under another load or speed would separate them.");
+      words.push_back(
+          inference.parameters[a].name + " and " + inference.parameters[b].name +
+          (std::abs(rho) > 0.97 ? " cannot be told apart by these data: " : " are hard to tell apart: ") +
+          "their correlation is " + number("%.3f", rho) +
+          "; only one combination of them is known. A run under another load or speed would separate them.");
     }
   if (inference.rank < P)
     words.push_back("The data see " + std::to_string(inference.rank) + " of the " + std::to_string(P) +
                     " directions in which the parameters can change.");
   if (inference.grazing > 0)
-    words.push_back(std::to_string(inference.grazing) +
-                    " contacts began while barely moving (grazing): derivatives by them hold for small changes only.");
+    words.push_back(
+        std::to_string(inference.grazing) +
+        " contacts began while barely moving (grazing): derivatives by them hold for small changes only.");
   if (inference.lags > 0)
-    words.push_back("Neighbouring residuals follow one another (correlation " + number("%.2f", inference.autocorrelation) +
+    words.push_back("Neighbouring residuals follow one another (correlation " +
+                    number("%.2f", inference.autocorrelation) +
                     "): the model leaves something out. Errors are widened for it over " +
                     std::to_string(inference.lags) + " samples.");
-  if (words.empty()) words.push_back("All parameters are identifiable, and no two are confused with each other.");
+  if (words.empty())
+    words.push_back("All parameters are identifiable, and no two are confused with each other.");
   return words;
 }
 

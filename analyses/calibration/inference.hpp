@@ -2,11 +2,13 @@
 //
 // Start states are eliminated: with A = J_g - J_s (J_s' W J_s + P)^-1 J_s' W J_g, W = psi'(r), P the prior,
 //   information  H = sum A' W J_g
-//   white residuals      cov = s^2 H^-1,  s^2 = sum psi^2 / (N - k) / mean psi'          Huber (1981), section 7.6
-//   residuals that follow one another   cov = H^-1 (sum_l b_l sum_i s_i s_(i+l)') H^-1,  s_i = sum over channels of A_i psi_i
-//     with Bartlett weights b_l = 1 - |l| / (L + 1)                                       Newey and West (1987)
-// and L twice the lag behind which the residuals' autocorrelation is lost in its noise. All in the coordinates of the fit,
-// where parameters are logarithms; intervals are mapped back and so stay physical.
+//   white residuals      cov = s^2 H^-1,  s^2 = sum psi^2 / (N - k) / mean psi'          Huber (1981),
+//   section 7.6 residuals that follow one another   cov = H^-1 (sum_l b_l sum_i s_i s_(i+l)') H^-1,  s_i =
+//   sum over channels of A_i psi_i
+//     with Bartlett weights b_l = 1 - |l| / (L + 1)                                       Newey and West
+//     (1987)
+// and L twice the lag behind which the residuals' autocorrelation is lost in its noise. All in the
+// coordinates of the fit, where parameters are logarithms; intervals are mapped back and so stay physical.
 #pragma once
 
 #include <limits>
@@ -24,7 +26,8 @@ struct ParameterEstimate {
   double value = 0.0;
   double standard_error = std::numeric_limits<double>::quiet_NaN();
   double low = std::numeric_limits<double>::quiet_NaN(), high = low;  // Wald interval
-  double coordinate_error = std::numeric_limits<double>::quiet_NaN();  // of u: the relative error of a logarithm
+  double coordinate_error =
+      std::numeric_limits<double>::quiet_NaN();  // of u: the relative error of a logarithm
   bool identifiable = true;
   std::string reason;  // why, or why not
 };
@@ -49,7 +52,8 @@ struct Inference {
   std::vector<double> autocorrelations;  // by lag, from 0
 };
 
-// Contribution of one window (loss and start state as in the problem) to the information, and its scores sample by sample.
+// Contribution of one window (loss and start state as in the problem) to the information, and its scores
+// sample by sample.
 struct WindowInformation {
   MatX information;
   MatX scores;  // samples x globals
@@ -61,7 +65,8 @@ WindowInformation window_information(const CalibrationProblem& problem, const Wi
 Inference infer(const CalibrationProblem& problem, const FitResult& fit, double confidence,
                 const std::vector<bool>& fixed, int jobs);
 
-// In words: what these data can and cannot tell, one sentence each; names pairs whose correlation is beyond 0.9.
+// In words: what these data can and cannot tell, one sentence each; names pairs whose correlation is beyond
+// 0.9.
 std::vector<std::string> verdict(const CalibrationProblem& problem, const Inference& inference);
 
 }  // namespace boresight

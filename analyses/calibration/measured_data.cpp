@@ -43,7 +43,8 @@ double scale_of(const Heading& h, const SiUnit& unit, const Origin& at) {
   try {
     return scale_of_unit(h.unit, unit);
   } catch (const ValueFault&) {
-    throw InputError(at, h.name, "the unit " + in_quotes(h.unit), std::string("that of ") + expectation(unit));
+    throw InputError(at, h.name, "the unit " + in_quotes(h.unit),
+                     std::string("that of ") + expectation(unit));
   }
 }
 
@@ -77,20 +78,23 @@ Columns read_header(const std::string& line, const Origin& at, MeasuredData& dat
     }
     const auto found = std::find(known.begin() + 1, known.end(), h.name);
     if (found == known.end())
-      throw InputError(at, "header", in_quotes(h.name), "t, or a channel of pointing data", nearest_name(h.name, known));
+      throw InputError(at, "header", in_quotes(h.name), "t, or a channel of pointing data",
+                       nearest_name(h.name, known));
     const int channel = static_cast<int>(found - known.begin()) - 1;
     columns.place.push_back(here);
     columns.scale.push_back(scale_of(h, unit_called(channel_names()[channel].si_unit), at));
     data.channels.push_back(channel);
   }
   if (columns.time < 0) throw InputError(at, "header", "no column \"t\"", "\"t [s]\"");
-  if (data.channels.empty()) throw InputError(at, "header", "no channel", "at least one, such as \"dx [um]\"");
+  if (data.channels.empty())
+    throw InputError(at, "header", "no channel", "at least one, such as \"dx [um]\"");
   return columns;
 }
 
 double number(const std::string& field, const std::string& column, const Origin& at) {
   double value = 0.0;
-  if (!parse_number(field, value)) throw InputError(at, column, in_quotes(field), "a finite number, or nothing");
+  if (!parse_number(field, value))
+    throw InputError(at, column, in_quotes(field), "a finite number, or nothing");
   return value;
 }
 
@@ -141,11 +145,13 @@ MeasuredData read_measured_data(const std::string& file) {
     rows.emplace_back();
     for (std::size_t c = 0; c < columns.place.size(); ++c) {
       const std::string& field = row[columns.place[c]];
-      rows.back().push_back(is_missing(field) ? std::numeric_limits<double>::quiet_NaN()
-                                              : number(field, columns.name[columns.place[c]], origin) * columns.scale[c]);
+      rows.back().push_back(is_missing(field)
+                                ? std::numeric_limits<double>::quiet_NaN()
+                                : number(field, columns.name[columns.place[c]], origin) * columns.scale[c]);
     }
   }
-  if (rows.empty()) throw InputError({file, 0}, "data", "no rows", "a header with units and at least one row");
+  if (rows.empty())
+    throw InputError({file, 0}, "data", "no rows", "a header with units and at least one row");
   data.value.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(data.channels.size()));
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t c = 0; c < rows[i].size(); ++c)

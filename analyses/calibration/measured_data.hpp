@@ -4,7 +4,8 @@
 //   0.000, 3.2, , 41.7                                  an empty field, "nan" or "NA": not measured
 //   0.001, 3.4, -12.1, 40.9                             unequal steps are welcome, times must rise
 //
-// Channels: those of channel_names(), each with its unit in brackets. Lines that start with # and empty lines are skipped.
+// Channels: those of channel_names(), each with its unit in brackets. Lines that start with # and empty lines
+// are skipped.
 #pragma once
 
 #include <string>
@@ -19,9 +20,9 @@ struct ChannelName {
   const char* si_unit;
   const char* title;  // for people
 };
-// dx dy dz: displacement from the ideal pose, world axes; rx ry rz: rotation vector from it; bx by bz: change of the
-// pointing axis' unit vector; position_error, orientation_error, boresight_error, line_of_sight_error: sizes, as the
-// indices.
+// dx dy dz: displacement from the ideal pose, world axes; rx ry rz: rotation vector from it; bx by bz: change
+// of the pointing axis' unit vector; position_error, orientation_error, boresight_error, line_of_sight_error:
+// sizes, as the indices.
 const std::vector<ChannelName>& channel_names();
 
 struct MeasuredData {

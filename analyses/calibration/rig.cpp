@@ -42,7 +42,8 @@ MatX multibody_readings(const std::shared_ptr<const Mechanism>& mechanism, const
   return readings;
 }
 
-MeasuredData with_rig_errors(const SyntheticRig& rig, const std::vector<double>& times, const MatX& clean, int run) {
+MeasuredData with_rig_errors(const SyntheticRig& rig, const std::vector<double>& times, const MatX& clean,
+                             int run) {
   MeasuredData data;
   data.channels = rig.channels;
   data.time = times;
@@ -55,13 +56,19 @@ MeasuredData with_rig_errors(const SyntheticRig& rig, const std::vector<double>&
     return std::string(channel_names()[rig.channels[static_cast<std::size_t>(c)]].si_unit) == "rad";
   };
   for (Eigen::Index c = 0; c < clean.cols(); ++c)
-    largest[kind(c)] = std::max(largest[kind(c)], std::sqrt(clean.col(c).squaredNorm() / static_cast<double>(clean.rows())));
+    largest[kind(c)] =
+        std::max(largest[kind(c)], std::sqrt(clean.col(c).squaredNorm() / static_cast<double>(clean.rows())));
   for (Eigen::Index c = 0; c < clean.cols(); ++c) {
     const double sigma = rig.noise * largest[kind(c)];
     for (Eigen::Index i = 0; i < clean.rows(); ++i) {
-      const auto draw = [&](std::uint64_t what) { return stream.uniform(static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(c) + 64 * what, static_cast<std::uint64_t>(run)); };
-      data.value(i, c) += sigma * boost::math::quantile(normal, draw(0)) + (rig.bias.size() > 0 ? rig.bias[c] : 0.0);
-      if (draw(1) < rig.outliers) data.value(i, c) += (draw(2) < 0.5 ? -1.0 : 1.0) * (20.0 + 30.0 * draw(3)) * sigma;
+      const auto draw = [&](std::uint64_t what) {
+        return stream.uniform(static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(c) + 64 * what,
+                              static_cast<std::uint64_t>(run));
+      };
+      data.value(i, c) +=
+          sigma * boost::math::quantile(normal, draw(0)) + (rig.bias.size() > 0 ? rig.bias[c] : 0.0);
+      if (draw(1) < rig.outliers)
+        data.value(i, c) += (draw(2) < 0.5 ? -1.0 : 1.0) * (20.0 + 30.0 * draw(3)) * sigma;
     }
   }
   return data;

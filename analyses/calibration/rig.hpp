@@ -23,8 +23,10 @@ struct SyntheticRig {
   double outliers = 0.0;     // share of the readings that are gross errors of 20 to 50 deviations
   std::uint64_t seed = 1;
 };
-// Readings of `clean` (multibody_readings at the times of `data`) with what a rig adds. run: tells runs' noises apart.
-MeasuredData with_rig_errors(const SyntheticRig& rig, const std::vector<double>& times, const MatX& clean, int run);
+// Readings of `clean` (multibody_readings at the times of `data`) with what a rig adds. run: tells runs'
+// noises apart.
+MeasuredData with_rig_errors(const SyntheticRig& rig, const std::vector<double>& times, const MatX& clean,
+                             int run);
 
 // As read_measured_data reads it, in um and urad.
 std::string csv_of(const MeasuredData& data);

@@ -12,8 +12,9 @@ namespace boresight {
 namespace {
 
 // As the perturbation rung's own; columns of sensitivity have no say in the step.
-IntegrationOptions integration_options(const SceneLayout& at, const Parameters& parameters, const ContactNumbers& numbers,
-                                       double asked, double duration, Eigen::Index size) {
+IntegrationOptions integration_options(const SceneLayout& at, const Parameters& parameters,
+                                       const ContactNumbers& numbers, double asked, double duration,
+                                       Eigen::Index size) {
   const double clearance = smallest_clearance(parameters);
   const double length = clearance > 0.0 ? clearance : 1e-6;
   VecX tolerance = VecX::Constant(at.n, asked * length);
@@ -32,19 +33,21 @@ IntegrationOptions integration_options(const SceneLayout& at, const Parameters& 
 }
 
 template <typename S, typename Keep>
-void follow(S& system, const MotionRequest& request, const IntegrationOptions& options, VecX& Y, Keep&& keep) {
+void follow(S& system, const MotionRequest& request, const IntegrationOptions& options, VecX& Y,
+            Keep&& keep) {
   Integrator<ExplicitMethod> integrator(ExplicitMethod(dormand_prince54(), Y.size()), system.gap_count(),
                                         options.looks_inside_step);
   std::size_t k = 0;
   for (; k < request.times.size() && request.times[k] <= request.start; ++k) keep(k, Y);
   VecX inside = Y;
   system.start_located(request.start, Y);
-  const IntegrationSummary summary = integrator.run(system, request.start, request.end, Y, options, [&](const auto& step) {
-    for (; k < request.times.size() && request.times[k] <= step.end(); ++k) {
-      step.at(request.times[k], inside);
-      keep(k, inside);
-    }
-  });
+  const IntegrationSummary summary =
+      integrator.run(system, request.start, request.end, Y, options, [&](const auto& step) {
+        for (; k < request.times.size() && request.times[k] <= step.end(); ++k) {
+          step.at(request.times[k], inside);
+          keep(k, inside);
+        }
+      });
   if (!summary.completed()) throw ComputationError(summary.message);
   for (; k < request.times.size(); ++k) keep(k, Y);
 }
@@ -57,20 +60,23 @@ struct Follower {
   const MotionRequest& request;
 
   IntegrationOptions options(Eigen::Index size) const {
-    return integration_options(tables->layout, parameters, numbers, request.tolerance, mechanism.duration(), size);
+    return integration_options(tables->layout, parameters, numbers, request.tolerance, mechanism.duration(),
+                               size);
   }
 
   // W of the directions, from `first` on.
   template <int W>
   void directions(int first, int count, bool parameters_too, SensitiveMotion& out) const {
-    const int n2 = 2 * tables->layout.n, by_parameters = parameters_too ? static_cast<int>(numbers.by.size()) : 0;
+    const int n2 = 2 * tables->layout.n,
+              by_parameters = parameters_too ? static_cast<int>(numbers.by.size()) : 0;
     ContactNumbers seeded = numbers;
     if (!parameters_too) seeded.by.clear();
     SensitiveSystem<W> system(mechanism, parameters, tables, seeded, first);
     VecX Y = VecX::Zero(system.size());
     Y.head(n2) = request.start_state;
     for (int d = 0; d < W; ++d)
-      if (const int i = first + d - by_parameters; i >= 0 && i < n2 && first + d < count) Y[n2 + W * i + d] = 1.0;
+      if (const int i = first + d - by_parameters; i >= 0 && i < n2 && first + d < count)
+        Y[n2 + W * i + d] = 1.0;
     IntegrationOptions held = options(Y.size());
     if (request.derivative_tolerance > 0.0) {
       const double share = request.derivative_tolerance / request.tolerance;
@@ -108,10 +114,11 @@ struct Follower {
 }  // namespace
 
 SensitiveMotion follow_with_sensitivity(const Mechanism& mechanism, const Parameters& parameters,
-                                        const std::shared_ptr<const SceneTables>& tables, const ContactNumbers& numbers,
-                                        const MotionRequest& request) {
+                                        const std::shared_ptr<const SceneTables>& tables,
+                                        const ContactNumbers& numbers, const MotionRequest& request) {
   const int n2 = 2 * tables->layout.n;
-  const int count = (request.by_parameters ? static_cast<int>(numbers.by.size()) : 0) + (request.by_start_state ? n2 : 0);
+  const int count =
+      (request.by_parameters ? static_cast<int>(numbers.by.size()) : 0) + (request.by_start_state ? n2 : 0);
   SensitiveMotion out;
   out.state.resize(n2, static_cast<Eigen::Index>(request.times.size()));
   const Follower follower{mechanism, parameters, tables, numbers, request};

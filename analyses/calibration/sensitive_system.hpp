@@ -1,7 +1,8 @@
-// y and W columns of its sensitivity as one initial value problem for the Integrator; see sensitive_motion.hpp.
+// y and W columns of its sensitivity as one initial value problem for the Integrator; see
+// sensitive_motion.hpp.
 //
-// State: y (2n), then S row by row: the W derivatives of y_0, of y_1, ... Contacts, gaps and memory are those of
-// PerturbationSystem; here they gain derivatives.
+// State: y (2n), then S row by row: the W derivatives of y_0, of y_1, ... Contacts, gaps and memory are those
+// of PerturbationSystem; here they gain derivatives.
 #pragma once
 
 #include <ceres/jet.h>
@@ -18,8 +19,8 @@ class SensitiveSystem {
   using Jet = ceres::Jet<double, W>;
 
   // first: the first of the W directions; those from `parameters` on are components of the start state.
-  SensitiveSystem(const Mechanism& mechanism, const Parameters& parameters, std::shared_ptr<const SceneTables> tables,
-                  const ContactNumbers& numbers, int first)
+  SensitiveSystem(const Mechanism& mechanism, const Parameters& parameters,
+                  std::shared_ptr<const SceneTables> tables, const ContactNumbers& numbers, int first)
       : tables_(std::move(tables)),
         plain_(mechanism, parameters, tables_, false),
         row_(tables_->dynamics.width()),
@@ -48,11 +49,13 @@ class SensitiveSystem {
     for (std::size_t c = 0; c < joints_.size(); ++c) {
       const auto& touching = memory(c).touching;
       if (!touches(touching)) continue;
-      const JournalMotion<Jet> motion = journal_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n);
+      const JournalMotion<Jet> motion =
+          journal_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n);
       acting(c, touching).wrench(motion, impact_speed_[c], wrench);
       add_generalised_force(at, at.joints[c], row_.data(), motion, wrench, force_.data());
     }
-    coordinate_acceleration(at, row_.data(), states_.data(), states_.data() + at.n, force_.data(), acceleration_.data());
+    coordinate_acceleration(at, row_.data(), states_.data(), states_.data() + at.n, force_.data(),
+                            acceleration_.data());
     const int size = plain_.size();
     for (int i = 0; i < at.n; ++i) {
       dY[i] = Y[at.n + i];
@@ -100,7 +103,8 @@ class SensitiveSystem {
     ContactPlace place;
   };
 
-  JournalInSleeveT<Jet> joint_with_derivatives(const ContactNumbers& numbers, std::size_t c, int first) const {
+  JournalInSleeveT<Jet> joint_with_derivatives(const ContactNumbers& numbers, std::size_t c,
+                                               int first) const {
     JournalInSleeve plain = numbers.joints[c];
     JournalInSleeveT<Jet> joint;
     joint.has_faces = plain.has_faces;
@@ -156,7 +160,8 @@ class SensitiveSystem {
     const SceneLayout& at = tables_->layout;
     const int c = gap.clearance, place = static_cast<int>(gap.place);
     std::array<ContactState<Jet>, kContactPlaces> contact;
-    joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n), contact);
+    joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n),
+                    contact);
     const ContactState<Jet>& here = contact[place];
     Jet& speed = impact_speed_[c][place];
     speed = Jet(memory(c).impact_speed[place]);
@@ -169,8 +174,8 @@ class SensitiveSystem {
     approach_joint.push_back(c);
   }
 
-  // r_t + r_y f: along the motion, by a central difference of the geometry alone over 0.2 us, in which no gap of
-  // engineering size bends (relative error 1e-8).
+  // r_t + r_y f: along the motion, by a central difference of the geometry alone over 0.2 us, in which no gap
+  // of engineering size bends (relative error 1e-8).
   double rate_of_rate(const Gap& gap, double t) const {
     constexpr double kShort = 1e-7;  // [s]
     const SceneLayout& at = tables_->layout;

@@ -20,12 +20,21 @@ std::string short_name(const std::string& path) {
 }
 
 report::Table estimate_table(const CalibrationStudy& s) {
-  report::Table table{.title = "Estimates",
-                      .caption = fmt::format("Intervals at {} confidence from the information matrix; by profile where the "
-                                             "likelihood was followed. SI units.",
-                                             readable_share(s.plan.confidence)),
-                      .columns = {{"Parameter"}, {"Value"}, {"Standard error"}, {"Low"}, {"High"}, {"Profile low"},
-                                  {"Profile high"}, {"Unit"}, {"Identifiable"}, {"Why"}}};
+  report::Table table{
+      .title = "Estimates",
+      .caption = fmt::format("Intervals at {} confidence from the information matrix; by profile where the "
+                             "likelihood was followed. SI units.",
+                             readable_share(s.plan.confidence)),
+      .columns = {{"Parameter"},
+                  {"Value"},
+                  {"Standard error"},
+                  {"Low"},
+                  {"High"},
+                  {"Profile low"},
+                  {"Profile high"},
+                  {"Unit"},
+                  {"Identifiable"},
+                  {"Why"}}};
   for (std::size_t k = 0; k < s.result.inference.parameters.size(); ++k) {
     const ParameterEstimate& e = s.result.inference.parameters[k];
     nlohmann::json low, high;
@@ -36,9 +45,9 @@ report::Table estimate_table(const CalibrationStudy& s) {
       }
     const bool known = e.identifiable;
     const auto shown = [&](double v) { return known ? cell(v) : nlohmann::json(); };
-    table.rows.push_back({short_name(e.name), shown(e.value), shown(e.standard_error), shown(e.low), shown(e.high),
-                          known ? low : nlohmann::json(), known ? high : nlohmann::json(), e.si_unit == "1" ? "" : e.si_unit,
-                          known, e.reason});
+    table.rows.push_back({short_name(e.name), shown(e.value), shown(e.standard_error), shown(e.low),
+                          shown(e.high), known ? low : nlohmann::json(), known ? high : nlohmann::json(),
+                          e.si_unit == "1" ? "" : e.si_unit, known, e.reason});
   }
   return table;
 }
@@ -60,17 +69,21 @@ report::Chart correlation_chart(const CalibrationStudy& s) {
 }
 
 report::Panels residual_panels(const CalibrationStudy& s, bool fits) {
-  report::Panels panels{.title = fits ? "Measured and fitted" : "Residuals over time",
-                        .caption = fits ? "The first run." : "In standard deviations of each channel's noise; all runs.",
-                        .columns = 3};
+  report::Panels panels{
+      .title = fits ? "Measured and fitted" : "Residuals over time",
+      .caption = fits ? "The first run." : "In standard deviations of each channel's noise; all runs.",
+      .columns = 3};
   for (std::size_t c = 0; c < s.problem.channels.size(); ++c) {
     const ChannelName& channel = channel_names()[s.problem.channels[c]];
     double largest = 1e-12;
     for (const ResidualSeries& r : s.result.inference.residuals)
       for (double v : r.measured) largest = std::max(largest, std::abs(v));
     const DisplayUnit unit = display_unit(channel.si_unit, largest);
-    report::Chart chart{.title = channel.title, .x = {"Time", "s"}, .y = fits ? report::Axis{channel.name, unit.name} : report::Axis{"residual"}};
-    report::Series measured{.name = "measured", .y = report::Numbers{}, .style = report::Style::markers}, fitted{.name = "fitted"};
+    report::Chart chart{.title = channel.title,
+                        .x = {"Time", "s"},
+                        .y = fits ? report::Axis{channel.name, unit.name} : report::Axis{"residual"}};
+    report::Series measured{.name = "measured", .y = report::Numbers{}, .style = report::Style::markers},
+        fitted{.name = "fitted"};
     report::Numbers t, y, model;
     for (const ResidualSeries& r : s.result.inference.residuals) {
       if (r.channel != static_cast<int>(c) || (fits && r.run != 0)) continue;
@@ -101,21 +114,26 @@ report::Panels residual_panels(const CalibrationStudy& s, bool fits) {
 }
 
 report::Panels residual_checks(const CalibrationStudy& s) {
-  report::Panels panels{.title = "Are the residuals noise?",
-                        .caption = "Left: residuals against the quantiles of a normal distribution; a straight line is noise, "
-                                   "ends that turn away are outliers. Right: autocorrelation; beyond the lines, neighbours are alike.",
-                        .columns = 2};
+  report::Panels panels{
+      .title = "Are the residuals noise?",
+      .caption =
+          "Left: residuals against the quantiles of a normal distribution; a straight line is noise, "
+          "ends that turn away are outliers. Right: autocorrelation; beyond the lines, neighbours are alike.",
+      .columns = 2};
   std::vector<double> all;
-  for (const ResidualSeries& r : s.result.inference.residuals) all.insert(all.end(), r.residual.begin(), r.residual.end());
+  for (const ResidualSeries& r : s.result.inference.residuals)
+    all.insert(all.end(), r.residual.begin(), r.residual.end());
   std::sort(all.begin(), all.end());
   report::Chart qq{.title = "Quantiles", .x = {"normal"}, .y = {"residual"}};
-  report::Series points{.name = "residuals", .style = report::Style::markers}, line{.name = "noise", .muted = true};
+  report::Series points{.name = "residuals", .style = report::Style::markers},
+      line{.name = "noise", .muted = true};
   report::Numbers x, y;
   const boost::math::normal normal;
   const std::size_t every = std::max<std::size_t>(1, all.size() / 400);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i % every != 0 && i > 20 && i + 20 < all.size()) continue;
-    x.push_back(boost::math::quantile(normal, (static_cast<double>(i) + 0.5) / static_cast<double>(all.size())));
+    x.push_back(
+        boost::math::quantile(normal, (static_cast<double>(i) + 0.5) / static_cast<double>(all.size())));
     y.push_back(all[i]);
   }
   points.x = x;
@@ -124,7 +142,10 @@ report::Panels residual_checks(const CalibrationStudy& s) {
   line.y = report::Numbers{-4.0, 4.0};
   qq.series = {points, line};
   const double bound = 2.0 / std::sqrt(static_cast<double>(std::max(1L, s.result.inference.values)));
-  report::Chart lags{.title = "Autocorrelation", .x = {"lag", "samples"}, .y = {"correlation"}, .lines = {{'y', bound, ""}, {'y', -bound, ""}}};
+  report::Chart lags{.title = "Autocorrelation",
+                     .x = {"lag", "samples"},
+                     .y = {"correlation"},
+                     .lines = {{'y', bound, ""}, {'y', -bound, ""}}};
   report::Series bars{.name = "autocorrelation", .style = report::Style::bars};
   report::Numbers lag, value;
   for (std::size_t l = 1; l < s.result.inference.autocorrelations.size(); ++l) {
@@ -139,14 +160,19 @@ report::Panels residual_checks(const CalibrationStudy& s) {
 }
 
 report::Panels profile_panels(const CalibrationStudy& s) {
-  report::Panels panels{.title = "Profile likelihood",
-                        .caption = "How much worse the fit becomes when one parameter is held and all others are fitted anew. "
-                                   "The line: where the interval ends.",
-                        .columns = 2};
+  report::Panels panels{
+      .title = "Profile likelihood",
+      .caption =
+          "How much worse the fit becomes when one parameter is held and all others are fitted anew. "
+          "The line: where the interval ends.",
+      .columns = 2};
   for (const Profile& p : s.result.profiles) {
     report::Chart chart{.title = short_name(s.problem.parameters[p.parameter].path),
-                        .x = {"value", s.problem.parameters[p.parameter].si_unit == "1" ? "" : s.problem.parameters[p.parameter].si_unit},
-                        .y = {"rise"}, .lines = {{'y', 3.841, "95 %"}}};
+                        .x = {"value", s.problem.parameters[p.parameter].si_unit == "1"
+                                           ? ""
+                                           : s.problem.parameters[p.parameter].si_unit},
+                        .y = {"rise"},
+                        .lines = {{'y', 3.841, "95 %"}}};
     report::Series line{.name = "rise", .style = report::Style::line_markers};
     line.x = p.value;
     line.y = p.cost_rise;
@@ -157,8 +183,11 @@ report::Panels profile_panels(const CalibrationStudy& s) {
 }
 
 report::Table starts_table(const CalibrationStudy& s) {
-  report::Table table{.title = "Starts", .caption = "Tried on the first part of every run; the cheapest went on.", .columns = {{"Start"}}};
-  for (const FittedParameter& p : s.problem.parameters) table.columns.push_back({short_name(p.path) + " from"});
+  report::Table table{.title = "Starts",
+                      .caption = "Tried on the first part of every run; the cheapest went on.",
+                      .columns = {{"Start"}}};
+  for (const FittedParameter& p : s.problem.parameters)
+    table.columns.push_back({short_name(p.path) + " from"});
   for (const FittedParameter& p : s.problem.parameters) table.columns.push_back({short_name(p.path) + " to"});
   table.columns.push_back({"Cost"});
   for (std::size_t k = 0; k < s.result.starts.size(); ++k) {
@@ -175,29 +204,41 @@ report::Table starts_table(const CalibrationStudy& s) {
 
 report::Document calibrate_report(const CalibrationStudy& s) {
   const Inference& inference = s.result.inference;
-  report::Document document{.title = s.mechanism.name(), .subtitle = "calibration of its contacts by measured pointing data", .verb = "calibrate"};
-  const bool all = std::all_of(inference.parameters.begin(), inference.parameters.end(), [](const auto& e) { return e.identifiable; });
-  document.verdict = report::Verdict{all && s.result.fit.converged ? report::Standing::good : report::Standing::bad,
-                                     all && s.result.fit.converged ? std::string("All parameters are identifiable from these data.")
-                                     : s.result.verdict.empty()    ? s.result.fit.reason
-                                                                   : s.result.verdict.front()};
+  report::Document document{.title = s.mechanism.name(),
+                            .subtitle = "calibration of its contacts by measured pointing data",
+                            .verb = "calibrate"};
+  const bool all = std::all_of(inference.parameters.begin(), inference.parameters.end(),
+                               [](const auto& e) { return e.identifiable; });
+  document.verdict = report::Verdict{
+      all && s.result.fit.converged ? report::Standing::good : report::Standing::bad,
+      all && s.result.fit.converged ? std::string("All parameters are identifiable from these data.")
+      : s.result.verdict.empty()    ? s.result.fit.reason
+                                    : s.result.verdict.front()};
   for (const ParameterEstimate& e : inference.parameters)
     if (e.name.starts_with("clearance."))
-      document.facts.push_back({short_name(e.name), e.identifiable ? readable(e.value, e.si_unit) : std::string("not identifiable"), "",
-                                e.identifiable ? readable(e.low, e.si_unit) + " to " + readable(e.high, e.si_unit) : e.reason});
+      document.facts.push_back(
+          {short_name(e.name),
+           e.identifiable ? readable(e.value, e.si_unit) : std::string("not identifiable"), "",
+           e.identifiable ? readable(e.low, e.si_unit) + " to " + readable(e.high, e.si_unit) : e.reason});
   report::Section answer{.id = "answer", .title = "What the data say"};
   std::string words;
   for (const std::string& sentence : s.result.verdict) words += (words.empty() ? "" : "\n\n") + sentence;
-  words += fmt::format("\n\nThe fit {} after {} iterations, {} evaluations of windows. {} values, {} unknowns; the noise is {:.3g} times "
-                       "what was taken for it.",
-                       s.result.fit.reason, s.result.fit.iterations, s.result.evaluations, inference.values, inference.unknowns,
-                       std::sqrt(inference.variance_factor));
+  words += fmt::format(
+      "\n\nThe fit {} after {} iterations, {} evaluations of windows. {} values, {} unknowns; the noise is "
+      "{:.3g} times "
+      "what was taken for it.",
+      s.result.fit.reason, s.result.fit.iterations, s.result.evaluations, inference.values,
+      inference.unknowns, std::sqrt(inference.variance_factor));
   if (s.result.confirmation >= 0.0)
-    words += fmt::format("\n\nConfirmed on multibody: its motion at the optimum leaves residuals of {:.3g} standard deviations (rms).",
-                         s.result.confirmation);
+    words += fmt::format(
+        "\n\nConfirmed on multibody: its motion at the optimum leaves residuals of {:.3g} standard "
+        "deviations (rms).",
+        s.result.confirmation);
   if (s.result.hold_out)
-    words += fmt::format("\n\nOn {} values kept out of the fit, residuals are {:.3g} standard deviations (rms); 1 is as good as the noise allows.",
-                         s.result.hold_out->values, s.result.hold_out->rms);
+    words += fmt::format(
+        "\n\nOn {} values kept out of the fit, residuals are {:.3g} standard deviations (rms); 1 is as good "
+        "as the noise allows.",
+        s.result.hold_out->values, s.result.hold_out->rms);
   answer.items = {report::Text{words}, estimate_table(s), correlation_chart(s)};
   report::Section residuals{.id = "residuals", .title = "Residuals"};
   residuals.items = {residual_panels(s, true), residual_panels(s, false), residual_checks(s)};
@@ -205,31 +246,38 @@ report::Document calibrate_report(const CalibrationStudy& s) {
   report::Section more{.id = "more", .title = "How sure, and what next"};
   if (!s.result.profiles.empty()) more.items.push_back(profile_panels(s));
   if (!s.result.laws.empty()) {
-    report::Table laws{.title = "Contact laws by the same data", .caption = "AIC: lower is better; a difference above 10 decides.",
+    report::Table laws{.title = "Contact laws by the same data",
+                       .caption = "AIC: lower is better; a difference above 10 decides.",
                        .columns = {{"Law"}, {"AIC"}, {"Difference"}, {"Held-out rms"}}};
     for (const LawScore& l : s.result.laws)
-      laws.rows.push_back({l.law, cell(l.aic), cell(l.difference), l.held_out ? cell(*l.held_out) : nlohmann::json()});
+      laws.rows.push_back(
+          {l.law, cell(l.aic), cell(l.difference), l.held_out ? cell(*l.held_out) : nlohmann::json()});
     more.items.push_back(laws);
   }
   if (!s.result.next_tests.empty()) {
-    report::Table next{.title = "The next test",
-                       .caption = "What one more run of each candidate would do to the intervals. D: gain in the logarithm of the "
-                                  "information's determinant; A: sum of relative variances, with it over without it.",
-                       .columns = {{"Candidate"}, {"D gain"}, {"A ratio"}, {"Standard errors become"}}};
+    report::Table next{
+        .title = "The next test",
+        .caption =
+            "What one more run of each candidate would do to the intervals. D: gain in the logarithm of the "
+            "information's determinant; A: sum of relative variances, with it over without it.",
+        .columns = {{"Candidate"}, {"D gain"}, {"A ratio"}, {"Standard errors become"}}};
     for (const NextTest& t : s.result.next_tests) {
       std::string errors = t.refusal;
-      for (double r : t.error_ratio) errors += fmt::format("{}{:.0f} %", errors.empty() ? "" : ", ", 100.0 * r);
+      for (double r : t.error_ratio)
+        errors += fmt::format("{}{:.0f} %", errors.empty() ? "" : ", ", 100.0 * r);
       next.rows.push_back({t.name, cell(t.d_gain), cell(t.a_ratio), errors});
     }
     more.items.push_back(next);
   }
   if (!s.result.starts.empty()) more.items.push_back(starts_table(s));
   if (!s.result.corrections.empty()) {
-    report::Table steps{.title = "Corrections by multibody",
-                        .caption = "Multibody less perturbation at the optimum, taken off the data; then the fit goes on.",
-                        .columns = {{"Step"}, {"Difference", "deviations"}, {"Largest shift of a parameter", "%"}}};
+    report::Table steps{
+        .title = "Corrections by multibody",
+        .caption = "Multibody less perturbation at the optimum, taken off the data; then the fit goes on.",
+        .columns = {{"Step"}, {"Difference", "deviations"}, {"Largest shift of a parameter", "%"}}};
     for (std::size_t k = 0; k < s.result.corrections.size(); ++k)
-      steps.rows.push_back({static_cast<double>(k + 1), cell(s.result.corrections[k].difference), cell(100.0 * s.result.corrections[k].largest_shift)});
+      steps.rows.push_back({static_cast<double>(k + 1), cell(s.result.corrections[k].difference),
+                            cell(100.0 * s.result.corrections[k].largest_shift)});
     more.items.push_back(steps);
   }
   if (!more.items.empty()) document.sections.push_back(more);

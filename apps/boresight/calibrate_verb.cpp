@@ -29,8 +29,11 @@ class CalibrateVerb : public Verb {
   std::string summary() const override { return "contact parameters from measured pointing data"; }
   std::string example() const override { return "boresight calibrate examples/calibration/calibrate.toml"; }
   void declare_options(CLI::App& app) override {
-    app.add_option("--make-data", noise_, "write the study's data files anew from the multibody rung, with this noise, such as \"1 %\"");
-    app.add_option("--make-offset", offset_, "of --make-data: a hidden mounting offset on every displacement, such as \"5 um\"");
+    app.add_option(
+        "--make-data", noise_,
+        "write the study's data files anew from the multibody rung, with this noise, such as \"1 %\"");
+    app.add_option("--make-offset", offset_,
+                   "of --make-data: a hidden mounting offset on every displacement, such as \"5 um\"");
     app.add_option("--make-seed", seed_, "of --make-data: of the noise");
   }
 
@@ -57,12 +60,14 @@ class CalibrateVerb : public Verb {
     options.corrections = plan.corrections;
     options.profile = plan.profile;
     options.laws = plan.laws;
-    for (const PlannedRun& c : plan.candidates) options.candidates.push_back({c.name, mechanism_with(c.settings)});
+    for (const PlannedRun& c : plan.candidates)
+      options.candidates.push_back({c.name, mechanism_with(c.settings)});
     ContentHash data;
     for (const CalibrationRun& run : problem.runs) data.add(csv_of(run.data));
-    const OutputDirectory out = OutputDirectory::open(
-        command.out, command.verb, command.file,
-        identity_of(command, mechanism->description().content_hash, study.content_hash, {{"data", data.hexadecimal()}}));
+    const OutputDirectory out =
+        OutputDirectory::open(command.out, command.verb, command.file,
+                              identity_of(command, mechanism->description().content_hash, study.content_hash,
+                                          {{"data", data.hexadecimal()}}));
     Progress progress(command.quiet, 1.0, "of the fit");
     options.progress = [&](const std::string& stage, double share, const std::string& estimate) {
       progress.update(share, stage + ": " + estimate);
@@ -72,8 +77,10 @@ class CalibrateVerb : public Verb {
     progress.clear();
     RungChoice rung;
     rung.name = "perturbation";
-    rung.why = plan.corrections > 0 ? "the fit needs exact derivatives, which it has; what it leaves out is corrected by multibody"
-                                    : "the fit needs exact derivatives, which it has";
+    rung.why =
+        plan.corrections > 0
+            ? "the fit needs exact derivatives, which it has; what it leaves out is corrected by multibody"
+            : "the fit needs exact derivatives, which it has";
     const CalibrationStudy whole{command, study, *mechanism, rung, plan, problem, result};
     write_json(out, "summary.json", summary_of(whole, watch, out));
     if (!result.inference.parameters.empty()) {
@@ -116,46 +123,68 @@ class CalibrateVerb : public Verb {
     json["converged"] = r.fit.converged;
     json["reason"] = r.fit.reason;
     json["evaluations"] = r.evaluations;
-    for (const char* key : {"optimum", "standard_error", "interval", "correlation", "identifiable"}) json[key] = Json::object();
+    for (const char* key : {"optimum", "standard_error", "interval", "correlation", "identifiable"})
+      json[key] = Json::object();
     const auto& parameters = r.inference.parameters;
     for (std::size_t a = 0; a < parameters.size(); ++a) {
       const ParameterEstimate& e = parameters[a];
       json["optimum"][e.name] = e.identifiable ? number(e.value) : Json();
       json["standard_error"][e.name] = e.identifiable ? number(e.standard_error) : Json();
-      json["interval"][e.name] = e.identifiable ? Json{{"low", number(e.low)}, {"high", number(e.high)}, {"confidence", s.plan.confidence}} : Json();
+      json["interval"][e.name] =
+          e.identifiable
+              ? Json{{"low", number(e.low)}, {"high", number(e.high)}, {"confidence", s.plan.confidence}}
+              : Json();
       for (const Profile& p : r.profiles)
-        if (e.identifiable && p.parameter == static_cast<int>(a)) json["interval"][e.name]["profile"] = {{"low", number(p.low)}, {"high", number(p.high)}};
+        if (e.identifiable && p.parameter == static_cast<int>(a))
+          json["interval"][e.name]["profile"] = {{"low", number(p.low)}, {"high", number(p.high)}};
       for (std::size_t b = 0; b < parameters.size(); ++b)
-        json["correlation"][e.name][parameters[b].name] = number(r.inference.correlation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
+        json["correlation"][e.name][parameters[b].name] =
+            number(r.inference.correlation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
       json["identifiable"][e.name] = {{"value", e.identifiable}, {"reason", e.reason}};
     }
     json["verdict"] = r.verdict;
-    json["residuals"] = {{"values", r.inference.values}, {"unknowns", r.inference.unknowns}, {"variance_factor", number(r.inference.variance_factor)},
-                         {"autocorrelation", number(r.inference.autocorrelation)}, {"lags", r.inference.lags}};
+    json["residuals"] = {{"values", r.inference.values},
+                         {"unknowns", r.inference.unknowns},
+                         {"variance_factor", number(r.inference.variance_factor)},
+                         {"autocorrelation", number(r.inference.autocorrelation)},
+                         {"lags", r.inference.lags}};
     Json sigma = Json::object();
-    for (std::size_t c = 0; c < s.problem.channels.size(); ++c) sigma[channel_names()[s.problem.channels[c]].name] = s.problem.sigma[static_cast<Eigen::Index>(c)];
+    for (std::size_t c = 0; c < s.problem.channels.size(); ++c)
+      sigma[channel_names()[s.problem.channels[c]].name] = s.problem.sigma[static_cast<Eigen::Index>(c)];
     json["noise"] = sigma;
     json["multibody"] = {{"residual_rms", r.confirmation >= 0.0 ? number(r.confirmation) : Json()}};
-    json["hold_out"] = r.hold_out ? Json{{"values", r.hold_out->values}, {"rms", number(r.hold_out->rms)}} : Json();
+    json["hold_out"] =
+        r.hold_out ? Json{{"values", r.hold_out->values}, {"rms", number(r.hold_out->rms)}} : Json();
     json["laws"] = Json::array();
-    for (const LawScore& l : r.laws) json["laws"].push_back({{"law", l.law}, {"cost", number(l.cost)}, {"aic", number(l.aic)}, {"difference", number(l.difference)}});
+    for (const LawScore& l : r.laws)
+      json["laws"].push_back({{"law", l.law},
+                              {"cost", number(l.cost)},
+                              {"aic", number(l.aic)},
+                              {"difference", number(l.difference)}});
     json["next_tests"] = Json::array();
-    for (const NextTest& t : r.next_tests) json["next_tests"].push_back({{"name", t.name}, {"d_gain", number(t.d_gain)}, {"a_ratio", number(t.a_ratio)}, {"refusal", t.refusal}});
+    for (const NextTest& t : r.next_tests)
+      json["next_tests"].push_back({{"name", t.name},
+                                    {"d_gain", number(t.d_gain)},
+                                    {"a_ratio", number(t.a_ratio)},
+                                    {"refusal", t.refusal}});
     json["files"] = {"summary.json", "posterior.toml", "report.html"};
     return json;
   }
 
   static void print(const CalibrationStudy& s, const OutputDirectory& out) {
-    fmt::print("{}: {} runs, {} values; {}\n", s.mechanism.name(), s.problem.runs.size(), s.result.inference.values, s.result.fit.reason);
+    fmt::print("{}: {} runs, {} values; {}\n", s.mechanism.name(), s.problem.runs.size(),
+               s.result.inference.values, s.result.fit.reason);
     for (const ParameterEstimate& e : s.result.inference.parameters)
       if (e.identifiable)
-        fmt::print("  {}: {} +- {} ({:.5g} to {:.5g}{}{})\n", e.name, readable(e.value, e.si_unit), readable(e.standard_error, e.si_unit), e.low,
-                   e.high, e.si_unit == "1" ? "" : " ", e.si_unit == "1" ? "" : e.si_unit);
+        fmt::print("  {}: {} +- {} ({:.5g} to {:.5g}{}{})\n", e.name, readable(e.value, e.si_unit),
+                   readable(e.standard_error, e.si_unit), e.low, e.high, e.si_unit == "1" ? "" : " ",
+                   e.si_unit == "1" ? "" : e.si_unit);
       else
         fmt::print("  {}: not identifiable: {}\n", e.name, e.reason);
     for (const std::string& sentence : s.result.verdict) fmt::print("  {}\n", sentence);
     if (!s.result.next_tests.empty()) fmt::print("  next test: {}\n", s.result.next_tests.front().name);
-    fmt::print("  posterior: {}\n  report: {}\n", (out.path() / "posterior.toml").string(), (out.path() / "report.html").string());
+    fmt::print("  posterior: {}\n  report: {}\n", (out.path() / "posterior.toml").string(),
+               (out.path() / "report.html").string());
   }
 
   std::string noise_, offset_;

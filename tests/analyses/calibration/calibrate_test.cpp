@@ -61,7 +61,8 @@ TEST(Calibrate, FindsHiddenTimeOffsetAndMountingBias) {
   const auto& found = result.inference.parameters;
   ASSERT_EQ(found.size(), 9u);
   EXPECT_NEAR(found[2].value, 5e-4, 4.0 * found[2].standard_error);
-  for (int c = 0; c < 6; ++c) EXPECT_NEAR(found[3 + c].value, rig.bias[c], 4.0 * found[3 + c].standard_error) << found[3 + c].name;
+  for (int c = 0; c < 6; ++c)
+    EXPECT_NEAR(found[3 + c].value, rig.bias[c], 4.0 * found[3 + c].standard_error) << found[3 + c].name;
   for (int p = 0; p < 2; ++p) EXPECT_LT(deviations_off(bench, found[p]), 4.0) << found[p].name;
 }
 
@@ -109,7 +110,8 @@ TEST(CalibrateLong, FourParametersFromTenRunsOfASecond) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf("  ten runs of 1 s at 1 kHz, four parameters, 2 threads: %.1f s\n", seconds);
   for (const ParameterEstimate& e : result.inference.parameters)
-    std::printf("  %s %.5f of the truth, error %.3g %%\n", e.name.c_str(), e.value / bench.truth(e.name), 100.0 * e.standard_error / e.value);
+    std::printf("  %s %.5f of the truth, error %.3g %%\n", e.name.c_str(), e.value / bench.truth(e.name),
+                100.0 * e.standard_error / e.value);
   EXPECT_LT(seconds, 30.0);
   EXPECT_LT(std::abs(result.inference.parameters[0].value / bench.truth(kFour[0]) - 1.0), 0.01);
 }
@@ -136,7 +138,8 @@ TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) {
   }
   int all = 0;
   for (int p = 0; p < 4; ++p) {
-    std::printf("  %s: truth inside %d of %d intervals of 95 %%, largest error %.3g %%\n", kFour[p].c_str(), inside[p], sets, 100.0 * worst[p]);
+    std::printf("  %s: truth inside %d of %d intervals of 95 %%, largest error %.3g %%\n", kFour[p].c_str(),
+                inside[p], sets, 100.0 * worst[p]);
     all += inside[p];
   }
   // 90 to 99 % of the sets; a binomial allowance where there are few sets.

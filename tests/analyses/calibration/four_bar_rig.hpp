@@ -9,7 +9,8 @@
 
 namespace boresight::four_bar {
 
-inline std::shared_ptr<const Mechanism> mechanism(double speed, double duration, std::vector<Setting> more = {}) {
+inline std::shared_ptr<const Mechanism> mechanism(double speed, double duration,
+                                                  std::vector<Setting> more = {}) {
   std::vector<Setting> settings = {{"motion.duration", std::to_string(duration) + " s"},
                                    {"motion.drives.A", "2*pi*" + std::to_string(speed) + "*t"},
                                    {"clearance.D.radial", "0.2 mm"},
@@ -53,8 +54,9 @@ struct Bench {
       : t(times(duration)), multibody(by_multibody) {
     for (double speed : speeds) {
       mechanisms.push_back(mechanism(speed, duration, more));
-      clean.push_back(by_multibody ? multibody_readings(mechanisms.back(), mechanisms.back()->parameters(), t, channels)
-                                   : own_readings(mechanisms.back(), t, channels));
+      clean.push_back(
+          by_multibody ? multibody_readings(mechanisms.back(), mechanisms.back()->parameters(), t, channels)
+                       : own_readings(mechanisms.back(), t, channels));
     }
   }
 
@@ -62,10 +64,12 @@ struct Bench {
   CalibrationProblem problem(const SyntheticRig& rig, const std::vector<std::string>& paths) const {
     CalibrationProblem p;
     for (std::size_t r = 0; r < mechanisms.size(); ++r)
-      p.runs.emplace_back("run " + std::to_string(r + 1), mechanisms[r], with_rig_errors(rig, t, clean[r], static_cast<int>(r)));
+      p.runs.emplace_back("run " + std::to_string(r + 1), mechanisms[r],
+                          with_rig_errors(rig, t, clean[r], static_cast<int>(r)));
     for (const std::string& path : paths) {
       const double truth = ParameterPath(mechanisms[0]->description(), path).get(mechanisms[0]->parameters());
-      p.parameters.push_back(fitted_parameter(mechanisms[0]->description(), path, truth * (path.ends_with("restitution") ? 0.8 : 1.2)));
+      p.parameters.push_back(fitted_parameter(mechanisms[0]->description(), path,
+                                              truth * (path.ends_with("restitution") ? 0.8 : 1.2)));
     }
     p.prepare(10.0, true);
     return p;
@@ -76,6 +80,7 @@ struct Bench {
 };
 
 inline const std::vector<std::string> kFour = {"clearance.D.radial", "clearance.D.contact.restitution",
-                                               "clearance.D.friction.coefficient", "clearance.D.contact.stiffness_scale"};
+                                               "clearance.D.friction.coefficient",
+                                               "clearance.D.contact.stiffness_scale"};
 
 }  // namespace boresight::four_bar

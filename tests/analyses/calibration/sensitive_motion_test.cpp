@@ -5,8 +5,8 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/parameter_path.hpp"
-#include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/rungs/scene_rung.hpp"
 
 namespace boresight {
@@ -15,11 +15,12 @@ namespace {
 class Scene {
  public:
   explicit Scene(const std::vector<Setting>& settings = {})
-      : mechanism(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", settings)),
+      : mechanism(
+            read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", settings)),
         prepared(mechanism, ideal_motion(mechanism, mechanism.parameters()), mechanism.parameters()),
         tables(prepared.tables(mechanism.parameters())) {
-    for (const char* path : {"clearance.A.radial", "clearance.A.contact.restitution", "clearance.A.friction.coefficient",
-                             "clearance.A.contact.stiffness_scale"})
+    for (const char* path : {"clearance.A.radial", "clearance.A.contact.restitution",
+                             "clearance.A.friction.coefficient", "clearance.A.contact.stiffness_scale"})
       paths.emplace_back(mechanism.description(), path);
     for (const ParameterPath& path : paths) values.push_back(path.get(mechanism.parameters()));
   }
@@ -32,7 +33,9 @@ class Scene {
   SensitiveMotion follow(const std::vector<double>& v, MotionRequest request, bool derivatives) const {
     request.by_parameters = request.by_start_state = derivatives;
     return follow_with_sensitivity(mechanism, at(v), tables,
-                                   contact_numbers(mechanism, [&](const auto& x) { return at(x); }, v), request);
+                                   contact_numbers(
+                                       mechanism, [&](const auto& x) { return at(x); }, v),
+                                   request);
   }
 
   Mechanism mechanism;
@@ -86,7 +89,8 @@ TEST(SensitiveMotion, TheSameMotionWithAndWithoutDerivatives) {
   MotionRequest request = flight_to(8e-3);
   request.tolerance = 1e-3;
   request.derivative_tolerance = 0.0;
-  const MatX with = scene.follow(scene.values, request, true).state, without = scene.follow(scene.values, request, false).state;
+  const MatX with = scene.follow(scene.values, request, true).state,
+             without = scene.follow(scene.values, request, false).state;
   EXPECT_LT((with - without).norm(), 1e-9 * with.norm());
 }
 

@@ -20,7 +20,7 @@ class CalibrateProgram : public Program {
   }
 };
 
-TEST_F(CalibrateProgram, RecoversTheExamplesTruthAndItsPosteriorFeedsMonteCarlo) {
+TEST_F(CalibrateProgram, LongRecoversTheExamplesTruthAndItsPosteriorFeedsMonteCarlo) {
   const Ended ended = call({"calibrate", "calibrate.toml", "--out", "out", "--quiet", "--jobs", "2"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   const nlohmann::json summary = json("out/summary.json");
@@ -31,12 +31,14 @@ TEST_F(CalibrateProgram, RecoversTheExamplesTruthAndItsPosteriorFeedsMonteCarlo)
   for (const char* path : {"clearance.D.radial", "clearance.D.contact.restitution"}) {
     EXPECT_TRUE(summary["identifiable"][path]["value"].get<bool>());
     EXPECT_GT(summary["standard_error"][path].get<double>(), 0.0);
-    EXPECT_LT(summary["interval"][path]["low"].get<double>(), summary["interval"][path]["high"].get<double>());
+    EXPECT_LT(summary["interval"][path]["low"].get<double>(),
+              summary["interval"][path]["high"].get<double>());
     EXPECT_NEAR(summary["correlation"][path][path].get<double>(), 1.0, 1e-9);
   }
   std::ofstream(folder_ / "scatter.toml") << "format = 1\nmechanism = \"rig.toml\"\n"
                                           << text("out/posterior.toml") << "\n[montecarlo]\nsamples = 20\n";
-  const Ended scatter = call({"montecarlo", "scatter.toml", "--rung", "perturbation", "--out", "mc", "--quiet"});
+  const Ended scatter =
+      call({"montecarlo", "scatter.toml", "--rung", "perturbation", "--out", "mc", "--quiet"});
   EXPECT_EQ(scatter.status, 0) << scatter.err;
 }
 
