@@ -1,6 +1,6 @@
 #include "boresight_analyses/calibration/calibration_plan.hpp"
 
-#include "boresight/contact/normal_law.hpp"
+#include "boresight/contact/journal_in_sleeve.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/random/csv_column.hpp"
@@ -127,6 +127,13 @@ CalibrationProblem calibration_problem(
   for (const PlannedRun& run : plan.runs)
     problem.runs.emplace_back(run.name, mechanism_with(run.settings), read_measured_data(run.data));
   const Mechanism& mechanism = *problem.runs.front().mechanism;
+  for (int c = 0; c < mechanism.clearances(); ++c) {
+    const ClearanceDescription& clearance = mechanism.description().clearances[c];
+    if (JournalInSleeve(clearance, mechanism.description().joints[clearance.joint].type, clearance.parameters)
+            .sticks)
+      throw InputError(clearance.origin, "friction.law", in_quotes(clearance.friction_law),
+                       "a law without bristles: calibrate does not follow their state");
+  }
   for (const PlannedParameter& p : plan.parameters) {
     const double own = ParameterPath(mechanism.description(), p.path, p.origin).get(mechanism.parameters());
     if (!(p.start.value_or(own) > 0.0))

@@ -18,7 +18,7 @@
 
 namespace boresight {
 
-inline constexpr int kContactNumbers = 18;
+inline constexpr int kContactNumbers = 26;
 
 // The numbers of a contact that a parameter may change, always in the same order.
 template <typename T>
@@ -29,18 +29,26 @@ std::array<T*, kContactNumbers> numbers_of(JournalInSleeveT<T>& j) {
           &j.half_length,
           &j.radial_law.stiffness,
           &j.radial_law.damping_factor,
+          &j.radial_law.length,
+          &j.radial_law.exponent,
+          &j.radial_law.dashpot,
           &j.face_stiffness,
           &j.friction.coefficient,
           &j.friction.static_speed,
           &j.friction.dynamic_speed,
+          &j.friction.stiction,
+          &j.friction.stribeck_speed,
           &j.tilted.radial_clearance,
           &j.tilted.axial_clearance,
           &j.tilted.bore_radius,
           &j.tilted.half_length,
           &j.tilted.ring_radius,
-          &j.tilted.end_law.stiffness,
           &j.tilted.face_stiffness,
-          &j.tilted.end_law.damping_factor};
+          &j.tilted.end_law.stiffness,
+          &j.tilted.end_law.damping_factor,
+          &j.tilted.end_law.length,
+          &j.tilted.end_law.exponent,
+          &j.tilted.end_law.dashpot};
 }
 
 struct ContactNumbers {

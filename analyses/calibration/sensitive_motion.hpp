@@ -13,7 +13,7 @@
 //
 //   S+ = S- + (f- - f+) dt*/dq,        dt*/dq = -(g_y S + g_q) / (g_t + g_y f)
 //
-// Contact forces here are K d^(3/2) (1 + h ddot / m), and what friction makes of them: zero at d = 0. So f+ =
+// Where forces start from zero at d = 0 (all laws without a dashpot, and what friction makes of them), f+ =
 // f- at every closing and opening, the jump in S is zero, and what is left of the impact's sensitivity is in
 // the memory. The latched speed is the gap's rate r(t, y, q) at the event:
 //

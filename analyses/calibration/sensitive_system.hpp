@@ -83,13 +83,14 @@ class SensitiveSystem {
     const Gap& gap = gaps_[event.gap];
     const bool begins = event.crossing == Crossing::closing || event.crossing == Crossing::lasting;
     y_ = Y.head(plain_.size());
-    if (begins) plain_.derivative(event.t, y_, slope_);
+    plain_.derivative(event.t, y_, slope_);
+    const VecX slope_before = slope_;
     plain_.on_event(event, y_);
-    if (begins) {
-      scene_at(event.t);
-      load(Y);
-      latch(gap, &event.t);
-    }
+    scene_at(event.t);
+    load(Y);
+    if (begins) latch(gap, &event.t);
+    plain_.derivative(event.t, y_, slope_);
+    jump(gap, slope_before - slope_, Y);
     return AfterEvent::crossed;
   }
 
@@ -112,7 +113,9 @@ class SensitiveSystem {
     joint.tilts = plain.tilts;
     joint.tilted.has_faces = plain.tilted.has_faces;
     joint.tilted.slides = plain.tilted.slides;
-    joint.tilted.friction = {Jet(0.0), Jet(0.0), Jet(0.0)};
+    joint.radial_law.curve = plain.radial_law.curve;
+    joint.tilted.end_law.curve = plain.tilted.end_law.curve;
+    joint.friction.kind = plain.friction.kind;
     const auto from = numbers_of<double>(plain);
     const auto to = numbers_of<Jet>(joint);
     for (int i = 0; i < kContactNumbers; ++i) {
@@ -172,6 +175,21 @@ class SensitiveSystem {
     approach_speed.push_back(here.rate.a);
     approach_time.push_back(*event_time);
     approach_joint.push_back(c);
+  }
+
+  // S+ - S- of the header, from f- - f+. An event without a rate grazes: there it has no derivative.
+  void jump(const Gap& gap, const VecX& difference, VecX& Y) const {
+    const SceneLayout& at = tables_->layout;
+    const int c = gap.clearance, place = static_cast<int>(gap.place);
+    std::array<ContactState<Jet>, kContactPlaces> contact;
+    joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n),
+                    contact);
+    const double rate = contact[place].rate.a;
+    if (std::abs(rate) < joints_[c].minimum_impact_speed) return;
+    // Without a dashpot the difference is the rounding of the event's time.
+    if (!(joints_[c].radial_law.dashpot.a > 0.0)) return;
+    for (int i = 0; i < plain_.size(); ++i)
+      Y.template segment<W>(plain_.size() + W * i) -= difference[i] / rate * contact[place].penetration.v;
   }
 
   // r_t + r_y f: along the motion, by a central difference of the geometry alone over 0.2 us, in which no gap

@@ -13,10 +13,9 @@ namespace boresight::app {
   VERB(sensitivity)           \
   VERB(match)                 \
   VERB(allocate)              \
+  VERB(calibrate)             \
   VERB(export)                \
   VERB(laws)
-  VERB(calibrate)             \
-  VERB(export)
 
 #define DECLARE(name) std::unique_ptr<Verb> make_##name##_verb();
 BORESIGHT_VERBS(DECLARE)
