@@ -1,0 +1,51 @@
+// Every program that is held beside ours proves that it models the same mechanism, before its speed is
+// measured.
+#include <gtest/gtest.h>
+
+#include "peer_proof.hpp"
+#include "scenes.hpp"
+
+namespace boresight::peers {
+namespace {
+
+const PeerScene& scene() {
+  static const auto mechanism = scenes::build(scenes::rrcpr());
+  static const PeerScene s(mechanism, mechanism->parameters());
+  return s;
+}
+
+// Of the joint's clearance, 0.1 mm.
+constexpr double kClearance = 1e-4;
+
+class PeerProves : public testing::TestWithParam<int> {};
+
+TEST_P(PeerProves, ThatItModelsTheSameMechanism) {
+  const auto all = peers();
+  const Peer& peer = *all[static_cast<std::size_t>(GetParam())];
+  const PeerProof proof = prove(peer, scene(), peer.proving_setting());
+  std::printf(
+      "  %s, %s: from the ideal motion %.2g m and %.2g rad, from our flight %.2g m; first contact %.7f s, "
+      "ours %.7f s\n",
+      peer.name().c_str(), peer.proving_setting().fineness().c_str(), proof.from_ideal, proof.turn_from_ideal,
+      proof.flight_difference, proof.first_contact, proof.our_first_contact);
+  // A mistake of modelling shows at once: a wrong mass or axis moves the free flight by a share of the
+  // clearance itself.
+  EXPECT_LT(proof.flight_difference, 1e-4 * kClearance);
+  EXPECT_GT(proof.our_first_contact, 0.0);
+  EXPECT_NEAR(proof.first_contact, proof.our_first_contact, 5e-5);
+  if (!proof.has_ideal) return;
+  EXPECT_LT(proof.from_ideal, 1e-2 * kClearance);
+  EXPECT_LT(proof.turn_from_ideal, 1e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, PeerProves, testing::Range(0, static_cast<int>(peers().size())),
+                         [](const auto& which) {
+                           std::string name = peers()[static_cast<std::size_t>(which.param)]->name();
+                           std::erase_if(name,
+                                         [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+                           return name;
+                         });
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(PeerProves);
+
+}  // namespace
+}  // namespace boresight::peers
