@@ -11,7 +11,7 @@ using Column = Eigen::Matrix<double, 5, 1>;
 
 void add_ring(const TiltedJournal& joint, const JournalMotion<double>& m, int side, double penetration,
               ContactTangent& tangent) {
-  const ContactPlace place = static_cast<ContactPlace>(TiltedJournal::axial_place(side));
+  const ContactPlace place = TiltedJournal::axial_place(side);
   const double tilt = m.slope.norm(), swing = joint.ring_radius * tilt, depth = penetration - swing;
   const double a = depth >= swing ? std::numbers::pi : std::acos(std::clamp(-depth / swing, -1.0, 1.0));
   const double s = std::sin(a), c = std::cos(a), k = joint.face_stiffness / std::numbers::pi;
@@ -46,7 +46,7 @@ ContactTangent contact_tangent(const JournalInSleeve& joint, const JournalMotion
     return tangent;
   }
   for (int side : {-1, 1}) {
-    const ContactPlace end = static_cast<ContactPlace>(TiltedJournal::radial_place(side));
+    const ContactPlace end = TiltedJournal::radial_place(side);
     if (const double d = depth(end); d > 0.0) {
       const bool slides = joint.tilted.slides;
       const double reach = side * joint.half_length - (slides ? m.e.y() : 0.0);
@@ -57,7 +57,7 @@ ContactTangent contact_tangent(const JournalInSleeve& joint, const JournalMotion
       tangent.column[tangent.count++] = {end, root * n};
     }
     if (!joint.has_faces) continue;
-    const double d = depth(static_cast<ContactPlace>(TiltedJournal::axial_place(side)));
+    const double d = depth(TiltedJournal::axial_place(side));
     if (d > 0.0) add_ring(joint.tilted, m, side, d, tangent);
   }
   return tangent;

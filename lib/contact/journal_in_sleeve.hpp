@@ -37,9 +37,9 @@ struct JournalInSleeveT {
   TiltedJournalT<T> tilted;
 
   // impact_speed: by ContactPlace [m/s]. M: the scalar of the motion, T itself or one that carries derivatives besides.
-  template <typename M>
-  void wrench(const JournalMotion<M>& motion, const std::array<T, kContactPlaces>& impact_speed,
-              JournalWrench<M>& out) const {
+  // Out: JournalWrench<M>, or JournalLoad<M> where what each contact carries is not asked for.
+  template <typename M, typename Out>
+  void wrench(const JournalMotion<M>& motion, const std::array<T, kContactPlaces>& impact_speed, Out& out) const {
     if (tilts)
       tilted.wrench(motion, impact_speed, SlidingFriction<T>{friction}, out);
     else
@@ -73,9 +73,15 @@ struct JournalInSleeveT {
     return {nx, nz, distance - radial_clearance, m.e_dot.x() * nx + m.e_dot.z() * nz};
   }
 
-  template <typename M, typename Friction>
+  // The axial one of the face at side * L_b/2, without its force.
+  template <typename M>
+  ContactState<M> face_contact(const JournalMotion<M>& m, double side) const {
+    return {T(-side) * m.e.y() - axial_clearance, T(-side) * m.e_dot.y(), M(0.0)};
+  }
+
+  template <typename M, typename Friction, typename Out>
   void parallel_wrench(const JournalMotion<M>& motion, const std::array<T, kContactPlaces>& impact_speed,
-                       const Friction& friction, JournalWrench<M>& out) const;
+                       const Friction& friction, Out& out) const;
 };
 
 struct JournalInSleeve : JournalInSleeveT<double> {
@@ -96,34 +102,27 @@ void JournalInSleeveT<T>::gaps(const JournalMotion<M>& m, std::array<ContactStat
   if (tilts) return tilted.gaps(m, contact);
   for (ContactState<M>& c : contact) c = {M(-1.0), M(0.0), M(0.0)};
   const Radial<M> at = radial_contact(m);
-  ContactState<M>& radial = contact[static_cast<int>(ContactPlace::radial)];
-  radial.penetration = at.penetration;
-  radial.rate = at.rate;
+  contact[static_cast<int>(ContactPlace::radial)] = {at.penetration, at.rate, M(0.0)};
   if (!has_faces) return;
-  ContactState<M>& plus = contact[static_cast<int>(ContactPlace::axial_plus)];
-  plus.penetration = -m.e.y() - axial_clearance;
-  plus.rate = -m.e_dot.y();
-  ContactState<M>& minus = contact[static_cast<int>(ContactPlace::axial_minus)];
-  minus.penetration = m.e.y() - axial_clearance;
-  minus.rate = m.e_dot.y();
+  contact[static_cast<int>(ContactPlace::axial_minus)] = face_contact(m, -1.0);
+  contact[static_cast<int>(ContactPlace::axial_plus)] = face_contact(m, 1.0);
 }
 
 template <typename T>
-template <typename M, typename Friction>
+template <typename M, typename Friction, typename Out>
 void JournalInSleeveT<T>::parallel_wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed,
-                                          const Friction& traction, JournalWrench<M>& out) const {
-  gaps(m, out.contact);
+                                          const Friction& traction, Out& out) const {
+  forget_contacts(out);
   out.force.setConstant(M(0.0));
   out.moment.setConstant(M(0.0));
 
-  ContactState<M>& radial = out.contact[static_cast<int>(ContactPlace::radial)];
-  if (any(radial.penetration > T(0.0))) {
-    const auto [nx, nz, penetration, rate] = radial_contact(m);
-    radial.normal_force =
-        radial_law.force(radial.penetration, radial.rate, impact_speed[static_cast<int>(ContactPlace::radial)]);
+  const auto [nx, nz, penetration, rate] = radial_contact(m);
+  ContactState<M> radial{penetration, rate, M(0.0)};
+  if (any(penetration > T(0.0))) {
+    radial.normal_force = radial_law.force(penetration, rate, impact_speed[static_cast<int>(ContactPlace::radial)]);
     // Sliding: around the bore along (n_z, 0, -n_x), in which a positive spin about y carries the journal's surface, and
     // along the axis. The contact point lies R_b - |e| from the journal's centre.
-    const M arm = bore_radius - radial_clearance - radial.penetration;
+    const M arm = bore_radius - radial_clearance - penetration;
     const M around = m.e_dot.x() * nz - m.e_dot.z() * nx + m.w.y() * arm;
     const M along = m.e_dot.y() + (m.w.z() * nx - m.w.x() * nz) * arm;
     const auto [f_around, f_along] = traction(static_cast<int>(ContactPlace::radial), radial.normal_force, around, along);
@@ -135,22 +134,25 @@ void JournalInSleeveT<T>::parallel_wrench(const JournalMotion<M>& m, const std::
     out.moment.y() += bore_radius * f_around;
     out.moment.z() += bore_radius * nx * f_along;
   }
+  keep_contact(out, ContactPlace::radial, radial);
   if (!has_faces) return;
   for (const auto& [place, side] : {std::pair{ContactPlace::axial_minus, -1.0}, std::pair{ContactPlace::axial_plus, 1.0}}) {
-    ContactState<M>& face = out.contact[static_cast<int>(place)];
-    if (!any(face.penetration > T(0.0))) continue;
-    face.normal_force = face_stiffness * positive_part(face.penetration);
-    // At M = (0, side L_b/2, 0): edot + w x (M - e), its part across the axis.
-    const M lever = T(side) * half_length - m.e.y();
-    const M vx = m.e_dot.x() - m.w.y() * m.e.z() - m.w.z() * lever;
-    const M vz = m.e_dot.z() + m.w.x() * lever + m.w.y() * m.e.x();
-    const auto [fx, fz] = traction(static_cast<int>(place), face.normal_force, vx, vz);
-    out.force.x() += fx;
-    out.force.y() += T(side) * face.normal_force;
-    out.force.z() += fz;
-    // M x F.
-    out.moment.x() += T(side) * half_length * fz;
-    out.moment.z() -= T(side) * half_length * fx;
+    ContactState<M> face = face_contact(m, side);
+    if (any(face.penetration > T(0.0))) {
+      face.normal_force = face_stiffness * positive_part(face.penetration);
+      // At M = (0, side L_b/2, 0): edot + w x (M - e), its part across the axis.
+      const M lever = T(side) * half_length - m.e.y();
+      const M vx = m.e_dot.x() - m.w.y() * m.e.z() - m.w.z() * lever;
+      const M vz = m.e_dot.z() + m.w.x() * lever + m.w.y() * m.e.x();
+      const auto [fx, fz] = traction(static_cast<int>(place), face.normal_force, vx, vz);
+      out.force.x() += fx;
+      out.force.y() += T(side) * face.normal_force;
+      out.force.z() += fz;
+      // M x F.
+      out.moment.x() += T(side) * half_length * fz;
+      out.moment.z() -= T(side) * half_length * fx;
+    }
+    keep_contact(out, place, face);
   }
 }
 

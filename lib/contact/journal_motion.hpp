@@ -28,9 +28,28 @@ struct ContactState {
 
 // Force on the journal, and moment about the sleeve's centre.
 template <typename T>
-struct JournalWrench {
+struct JournalLoad {
   Vec3T<T> force, moment;
+};
+
+// The same with what each contact carries of it.
+template <typename T>
+struct JournalWrench : JournalLoad<T> {
   std::array<ContactState<T>, kContactPlaces> contact;  // by ContactPlace; unused places keep a gap of -1 m
 };
+
+// What a law fills in of a contact: everything where it is kept, nothing where only the load is asked for.
+template <typename T>
+void keep_contact(JournalLoad<T>&, ContactPlace, const ContactState<T>&) {}
+template <typename T>
+void keep_contact(JournalWrench<T>& out, ContactPlace place, const ContactState<T>& state) {
+  out.contact[static_cast<int>(place)] = state;
+}
+template <typename T>
+void forget_contacts(JournalLoad<T>&) {}
+template <typename T>
+void forget_contacts(JournalWrench<T>& out) {
+  for (ContactState<T>& c : out.contact) c = {T(-1.0), T(0.0), T(0.0)};
+}
 
 }  // namespace boresight

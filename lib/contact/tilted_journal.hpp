@@ -41,30 +41,31 @@ struct TiltedJournalT {
     for (ContactState<M>& c : contact) c = {M(-1.0), M(0.0), M(0.0)};
     for (int side : {-1, 1}) {
       const End<M> at = end(motion, side);
-      contact[radial_place(side)] = {at.penetration, at.rate, M(0.0)};
+      contact[static_cast<int>(radial_place(side))] = {at.penetration, at.rate, M(0.0)};
       if (!has_faces) continue;
       const Face<M> on = face(motion, side);
-      contact[axial_place(side)] = {on.depth + on.swing, on.rate, M(0.0)};
+      contact[static_cast<int>(axial_place(side))] = {on.depth + on.swing, on.rate, M(0.0)};
     }
   }
 
-  template <typename M>
-  void wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed, JournalWrench<M>& out) const {
+  // Out: JournalWrench<M>, or JournalLoad<M>.
+  template <typename M, typename Out>
+  void wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed, Out& out) const {
     wrench(m, impact_speed, SlidingFriction<T>{friction}, out);
   }
-  template <typename M, typename Friction>
+  template <typename M, typename Friction, typename Out>
   void wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed, const Friction& traction,
-              JournalWrench<M>& out) const {
-    for (ContactState<M>& c : out.contact) c = {M(-1.0), M(0.0), M(0.0)};
+              Out& out) const {
+    forget_contacts(out);
     out.force.setConstant(M(0.0));
     out.moment.setConstant(M(0.0));
     for (int side : {-1, 1}) {
       const End<M> at = end(m, side);
-      ContactState<M>& contact = out.contact[radial_place(side)];
-      contact = {at.penetration, at.rate, M(0.0)};
+      const ContactPlace place = radial_place(side);
+      keep_contact(out, place, {at.penetration, at.rate, M(0.0)});
       if (!any(at.penetration > T(0.0))) continue;
-      const M F = end_law.force(at.penetration, at.rate, impact_speed[radial_place(side)]);
-      contact.normal_force = F;
+      const M F = end_law.force(at.penetration, at.rate, impact_speed[static_cast<int>(place)]);
+      keep_contact(out, place, {at.penetration, at.rate, F});
       const M tilted = at.nx * m.slope[0] + at.nz * m.slope[1];
       const Vec3T<M> push(-F * at.nx, slides ? M(F * tilted) : M(0.0), -F * at.nz);
       out.force += push;
@@ -72,25 +73,26 @@ struct TiltedJournalT {
       const Vec3T<M> point(bore_radius * at.nx, M(T(side) * half_length), bore_radius * at.nz);
       const Vec3T<M> v = m.e_dot + m.w.cross(Vec3T<M>(point - m.e));
       const M around = v.x() * at.nz - v.z() * at.nx;
-      const auto [f_around, f_along] = traction(radial_place(side), F, around, M(v.y()));
+      const auto [f_around, f_along] = traction(static_cast<int>(place), F, around, M(v.y()));
       add(point, Vec3T<M>(f_around * at.nz, f_along, -f_around * at.nx), out);
     }
     if (!has_faces) return;
     for (int side : {-1, 1}) {
       const Face<M> on = face(m, side);
-      ContactState<M>& contact = out.contact[axial_place(side)];
-      contact = {on.depth + on.swing, on.rate, M(0.0)};
-      if (!any(contact.penetration > T(0.0))) continue;
+      const ContactPlace place = axial_place(side);
+      const M penetration = on.depth + on.swing;
+      keep_contact(out, place, {penetration, on.rate, M(0.0)});
+      if (!any(penetration > T(0.0))) continue;
       const RingForce<M> ring = ring_contact(face_stiffness, on.depth, on.swing);
       const M F = ring.force;
-      contact.normal_force = F;
+      keep_contact(out, place, {penetration, on.rate, F});
       const Vec3T<M> push(M(0.0), T(side) * F, M(0.0));
       const M swing = ring_radius * ring.moment_arm;
       out.force += push;
       out.moment += m.e.cross(push) + moment_of(-F * swing * on.ux, -F * swing * on.uz, m);
       const Vec3T<M> point(T(side) * swing * on.ux, M(T(side) * half_length), T(side) * swing * on.uz);
       const Vec3T<M> v = m.e_dot + m.w.cross(Vec3T<M>(point - m.e));
-      const auto [fx, fz] = traction(axial_place(side), F, M(v.x()), M(v.z()));
+      const auto [fx, fz] = traction(static_cast<int>(place), F, M(v.x()), M(v.z()));
       add(point, Vec3T<M>(fx, M(0.0), fz), out);
     }
   }
@@ -107,8 +109,8 @@ struct TiltedJournalT {
     return energy;
   }
 
-  static int radial_place(int side) { return static_cast<int>(side < 0 ? ContactPlace::radial_minus : ContactPlace::radial_plus); }
-  static int axial_place(int side) { return static_cast<int>(side < 0 ? ContactPlace::axial_minus : ContactPlace::axial_plus); }
+  static ContactPlace radial_place(int side) { return side < 0 ? ContactPlace::radial_minus : ContactPlace::radial_plus; }
+  static ContactPlace axial_place(int side) { return side < 0 ? ContactPlace::axial_minus : ContactPlace::axial_plus; }
 
   // Of the couple (gx, gz) on the slopes, about the journal's centre.
   template <typename M>
@@ -158,7 +160,7 @@ struct TiltedJournalT {
   }
 
   template <typename M>
-  static void add(const Vec3T<M>& point, const Vec3T<M>& force, JournalWrench<M>& out) {
+  static void add(const Vec3T<M>& point, const Vec3T<M>& force, JournalLoad<M>& out) {
     out.force += force;
     out.moment += point.cross(force);
   }

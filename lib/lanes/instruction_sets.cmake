@@ -8,6 +8,6 @@ set_property(SOURCE ${kernel_files} TARGET_DIRECTORY lanes APPEND PROPERTY COMPI
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lanes_avx2.cpp TARGET_DIRECTORY lanes APPEND PROPERTY COMPILE_OPTIONS -march=x86-64-v3)
   set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lanes_avx512.cpp TARGET_DIRECTORY lanes
-               APPEND PROPERTY COMPILE_OPTIONS -march=x86-64-v4 -mprefer-vector-width=512)
+               APPEND PROPERTY COMPILE_OPTIONS -march=x86-64-v4 -mtune=icelake-server -mprefer-vector-width=512)
   target_compile_definitions(lanes PRIVATE BORESIGHT_X86_LANES)
 endif()  # elsewhere the compiler's generic vectors serve, and the wide kernels are built but not offered

@@ -35,7 +35,7 @@ class LaneDynamics {
     for (int i = 0; i < n; ++i) force_[i] = T(0.0);
     for (std::size_t c = 0; c < laws.size(); ++c) {
       const JournalMotion<T> motion = journal_motion(at, at.joints[c], row, z, v);
-      JournalWrench<T> wrench;
+      JournalLoad<T> wrench;
       laws[c].wrench(motion, impact_speed[c], wrench);
       add_generalised_force(at, at.joints[c], row, motion, wrench, force_.data());
     }
@@ -102,7 +102,7 @@ class LaneDynamics {
         motion.slope_rate[k] = D(m.slope_rate[k], offsets + 3 + k);
       }
     for (int k = 0; k < spins; ++k) motion.w[tilts ? k : 1] = D(m.w[tilts ? k : 1], 2 * offsets + k);
-    JournalWrench<D> wrench;
+    JournalLoad<D> wrench;
     laws[c].wrench(motion, impact_speed[c], wrench);
 
     // The wrench as the coordinates see it: its force, and its moment about the journal's centre.

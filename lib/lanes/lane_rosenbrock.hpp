@@ -41,7 +41,12 @@ class LaneRosenbrock {
     const int width = dynamics.at.width;
     for (int k = 0; k < width; ++k) row_[k] = change[k] * per_h;
     dynamics.linearise(row, row_.data(), z, v, slope_.data(), a_z_.data(), a_v_.data(), a_t_.data());
-    decompose(sigma, inverse);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        lu_[i * n + j] = -a_v_[i * n + j] - a_z_[i * n + j] * inverse;
+        if (i == j) lu_[i * n + j] += sigma;
+      }
+    decompose();
     const T* stage_v = v;
     for (int i = 0; i < table_.stages; ++i) {
       if (moves_[i]) {
@@ -84,16 +89,31 @@ class LaneRosenbrock {
     }
   }
 
- private:
-  int count() const { return N > 0 ? N : n_; }
-
-  void decompose(const T& sigma, const T& inverse) {
+  // What an error of the rates does to the offsets, in the system that the last step saw: x in (s - f_v - f_z / w) x = error.
+  // A free coordinate carries it on for as long as the scene changes, 1/s; friction's slope stops it; a contact's spring turns
+  // it around after 1/w. s: per coordinate [1/s]; returns w, the square root of the largest of -f_z's diagonal, no less than s.
+  T offsets_of_rate_errors(const T* s, T* error) {
     const int n = count();
+    T stiffest = s[0] * s[0];
+    for (int i = 0; i < n; ++i) stiffest = larger(stiffest, -a_z_[i * n + i]);
+    stiffest = sqrt(stiffest);
+    const T inverse = T(1.0) / stiffest;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
         lu_[i * n + j] = -a_v_[i * n + j] - a_z_[i * n + j] * inverse;
-        if (i == j) lu_[i * n + j] += sigma;
+        if (i == j) lu_[i * n + j] += s[i];
       }
+    decompose();
+    substitute(error);
+    return stiffest;
+  }
+
+ private:
+  int count() const { return N > 0 ? N : n_; }
+
+  // lu_: a matrix into its factors.
+  void decompose() {
+    const int n = count();
     for (int k = 0; k < n; ++k) {
       lu_[k * n + k] = T(1.0) / lu_[k * n + k];  // the pivot's inverse in its place
       for (int i = k + 1; i < n; ++i) {
@@ -104,19 +124,23 @@ class LaneRosenbrock {
     }
   }
 
+  void substitute(T* x) const {
+    const int n = count();
+    for (int i = 1; i < n; ++i)
+      for (int j = 0; j < i; ++j) x[i] -= lu_[i * n + j] * x[j];
+    for (int i = n - 1; i >= 0; --i) {
+      for (int j = i + 1; j < n; ++j) x[i] -= lu_[i * n + j] * x[j];
+      x[i] = x[i] * lu_[i * n + i];
+    }
+  }
+
   void solve(const T& inverse, T* u_z, T* u_v) const {
     const int n = count();
     for (int i = 0; i < n; ++i) {
-      T x = r_v_[i];
-      for (int j = 0; j < n; ++j) x += a_z_[i * n + j] * (r_z_[j] * inverse);
-      for (int j = 0; j < i; ++j) x -= lu_[i * n + j] * u_v[j];
-      u_v[i] = x;
+      u_v[i] = r_v_[i];
+      for (int j = 0; j < n; ++j) u_v[i] += a_z_[i * n + j] * (r_z_[j] * inverse);
     }
-    for (int i = n - 1; i >= 0; --i) {
-      T x = u_v[i];
-      for (int j = i + 1; j < n; ++j) x -= lu_[i * n + j] * u_v[j];
-      u_v[i] = x * lu_[i * n + i];
-    }
+    substitute(u_v);
     for (int i = 0; i < n; ++i) u_z[i] = (r_z_[i] + u_v[i]) * inverse;
   }
 

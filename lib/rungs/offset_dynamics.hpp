@@ -55,7 +55,7 @@ JournalMotion<T> journal_motion(const SceneLayout& at, const SceneLayout::Joint&
 // Adds a joint's wrench to the generalised force (n numbers).
 template <typename T, typename S>
 void add_generalised_force(const SceneLayout& at, const SceneLayout::Joint& joint, const S* scene,
-                           const JournalMotion<T>& motion, const JournalWrench<T>& wrench, T* force) {
+                           const JournalMotion<T>& motion, const JournalLoad<T>& wrench, T* force) {
   for (int k = 0; k < 3; ++k) {
     const int source = joint.source[k];
     if (source >= 0) {

@@ -91,8 +91,8 @@ void rest_tilted(const JournalInSleeve& joint, const Eigen::Matrix<double, 5, 1>
     if (change <= 1e-9 * (couple.norm() + along * t.ring_radius)) break;
   }
   joint.gaps(m, rest.contact);
-  for (int end : {0, 1}) rest.contact[TiltedJournal::radial_place(end == 0 ? -1 : 1)].normal_force = ends[end].norm();
-  if (t.has_faces) rest.contact[TiltedJournal::axial_place(side)].normal_force = axial_force;
+  for (int end : {0, 1}) rest.contact[static_cast<int>(TiltedJournal::radial_place(end == 0 ? -1 : 1))].normal_force = ends[end].norm();
+  if (t.has_faces) rest.contact[static_cast<int>(TiltedJournal::axial_place(side))].normal_force = axial_force;
 }
 
 }  // namespace

@@ -99,8 +99,8 @@ TEST(TiltedJournal, HasThePapersForcesWhenItIsParallel) {
     ASSERT_LT(normal_parallel.moment.norm(), 1e-10 * (1.0 + normal.force.norm()));
     Vec3 pushed(0.0, 0.0, 0.0);
     for (int side : {-1, 1}) {
-      pushed.y() += side * a.contact[TiltedJournal::axial_place(side)].normal_force;
-      const double F = a.contact[TiltedJournal::radial_place(side)].normal_force / std::hypot(o[0], o[2]);
+      pushed.y() += side * a.contact[static_cast<int>(TiltedJournal::axial_place(side))].normal_force;
+      const double F = a.contact[static_cast<int>(TiltedJournal::radial_place(side))].normal_force / std::hypot(o[0], o[2]);
       pushed -= F * Vec3(o[0], 0.0, o[2]);
     }
     const Vec3 shift = m.e.cross(pushed);
