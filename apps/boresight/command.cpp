@@ -43,6 +43,7 @@ void CommandOptions::declare(CLI::App& app, const std::string& file_kind, bool n
       ->type_name("SHARE");
   app.add_option("--jobs", jobs, "threads; otherwise as many as there are cores")->type_name("N");
   app.add_flag("--quiet", quiet, "no progress, no summary on the terminal");
+  app.add_flag("--json", json, "summary.json to standard output instead of the summary for people");
 }
 
 Command CommandOptions::command(const std::string& verb) const {
@@ -51,7 +52,7 @@ Command CommandOptions::command(const std::string& verb) const {
   command.file = file;
   command.out = out;
   command.rung = rung;
-  command.quiet = quiet;
+  command.quiet = quiet || json;
   for (const std::string& text : settings) command.settings.push_back(parse_setting(text));
   if (!accuracy.empty()) command.accuracy = positive_quantity("--accuracy", accuracy, kRatio);
   if (jobs < 0 || jobs > 4096)

@@ -35,6 +35,7 @@ struct CommandOptions {
   std::vector<std::string> settings;
   int jobs = 0;
   bool quiet = false;
+  bool json = false;
 
   void declare(CLI::App& app, const std::string& file_kind, bool needs_file = true);
   Command command(const std::string& verb) const;

@@ -1,20 +1,25 @@
 // boresight VERB FILE [options]: finds the verb, reads the command line, and turns faults into one line and
 // an exit status.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
+#include <fstream>
 #include <iostream>
 #include <new>
 
 #include "boresight_analyses/montecarlo/sample_store.hpp"
 #include "boresight_analyses/study/pilot.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "completion.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
 #include "montecarlo_study.hpp"
 #include "output_directory.hpp"
+#include "summary.hpp"
 #include "verb.hpp"
 
 namespace {
@@ -26,7 +31,9 @@ int fail(int status, const std::string& message) {
   std::string line = message;
   for (char& c : line)
     if (c == '\n' || c == '\r') c = ' ';
-  std::cerr << "boresight: " << line << std::endl;
+  // Colour only where somebody looks, and did not ask for none (no-color.org).
+  const bool colour = ::isatty(STDERR_FILENO) && std::getenv("NO_COLOR") == nullptr;
+  std::cerr << (colour ? "\033[31mboresight:\033[0m " : "boresight: ") << line << std::endl;
   return status;
 }
 
@@ -61,10 +68,16 @@ int run_program(int argc, char** argv) {
     commands.push_back(command);
   }
 
+  std::string shell;
+  CLI::App* completion = app.add_subcommand("completion", "completion of verbs and options in a shell: bash, zsh, fish");
+  completion->add_option("SHELL", shell, "bash, zsh or fish")->required()->type_name("");
+  completion->footer("Example:\n  source <(boresight completion bash)");
+
   if (argc < 2)
     return fail(kBadInput, "found no verb, expected boresight VERB FILE; boresight --help tells more");
   const bool known =
-      std::any_of(verbs.begin(), verbs.end(), [&](const auto& verb) { return verb->name() == argv[1]; });
+      std::any_of(verbs.begin(), verbs.end(), [&](const auto& verb) { return verb->name() == argv[1]; }) ||
+      completion->get_name() == argv[1];
   if (argv[1][0] != '-' && !known) return unknown_verb(argv[1], verbs);
   try {
     app.parse(argc, argv);
@@ -73,8 +86,19 @@ int run_program(int argc, char** argv) {
     return fail(kBadInput, std::string(error.what()) + "; boresight " +
                                (argv[1][0] == '-' ? "" : argv[1] + std::string(" ")) + "--help tells more");
   }
-  for (std::size_t i = 0; i < verbs.size(); ++i)
-    if (commands[i]->parsed()) return verbs[i]->execute(options[i].command(verbs[i]->name()));
+  if (completion->parsed()) {
+    const auto& shells = completion_shells();
+    if (std::find(shells.begin(), shells.end(), shell) == shells.end())
+      throw InputError({"command line", 0}, "SHELL", "\"" + shell + "\"", "bash, zsh or fish", nearest_name(shell, shells));
+    std::cout << completion_script(app, shell);
+    return kDone;
+  }
+  for (std::size_t i = 0; i < verbs.size(); ++i) {
+    if (!commands[i]->parsed()) continue;
+    const int status = verbs[i]->execute(options[i].command(verbs[i]->name()));
+    if (options[i].json && !last_summary().empty()) std::cout << std::ifstream(last_summary()).rdbuf();
+    return status;
+  }
   return kBadInput;
 }
 

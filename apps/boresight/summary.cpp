@@ -74,7 +74,17 @@ Json contact_json(const std::vector<ContactSummary>& contact) {
 
 Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
+namespace {
+std::filesystem::path& summary_written() {
+  static std::filesystem::path path;
+  return path;
+}
+}  // namespace
+
+const std::filesystem::path& last_summary() { return summary_written(); }
+
 void write_json(const OutputDirectory& out, const std::string& name, const Json& json) {
+  if (name == "summary.json") summary_written() = out.path() / name;
   out.write(name, [&](std::ostream& stream) {
     stream << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   });

@@ -36,6 +36,9 @@ Json index_json(const PointingIndices& index);                  // per quantity:
 Json contact_json(const std::vector<ContactSummary>& contact);  // per joint
 Json vector_json(const Vec3& vector);                           // [x, y, z]
 
+// Where this program's last summary.json went; empty before the first.
+const std::filesystem::path& last_summary();
+
 void write_json(const OutputDirectory& out, const std::string& name, const Json& json);
 
 }  // namespace boresight::app

@@ -1,0 +1,58 @@
+// boresight new FOLDER: a commented mechanism and a study to start from, and what to do with them.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "boresight/mechanism/error.hpp"
+#include "exit_status.hpp"
+#include "output_directory.hpp"
+#include "verb.hpp"
+
+extern "C" {
+extern const char boresight_template_mechanism[];
+extern const char boresight_template_montecarlo[];
+}
+
+namespace boresight::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class NewVerb : public Verb {
+ public:
+  std::string name() const override { return "new"; }
+  std::string file_kind() const override { return "folder to make, not a"; }
+  std::string summary() const override { return "a commented mechanism and study to start from"; }
+  std::string example() const override { return "boresight new antenna"; }
+
+  int execute(const Command& command) override {
+    if (!command.settings.empty())
+      throw InputError({"command line", 0}, "--set", command.settings.front().path, "no settings: edit the files it writes");
+    const fs::path folder = command.file;
+    const struct {
+      const char* name;
+      const char* text;
+    } files[] = {{"mechanism.toml", boresight_template_mechanism}, {"montecarlo.toml", boresight_template_montecarlo}};
+    for (const auto& file : files)
+      if (fs::exists(folder / file.name))
+        throw OutputDirectoryError((folder / file.name).string() + ": is there already; give another folder, or remove it");
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed || !fs::is_directory(folder))
+      throw OutputDirectoryError(folder.string() + ": cannot make this folder" + (failed ? ": " + failed.message() : ""));
+    for (const auto& file : files) write_atomically(folder / file.name, file.text);
+    if (!command.quiet)
+      fmt::print("{0}: an antenna whose elevation bearing has play, to be changed into yours\n"
+                 "  boresight check {0}/mechanism.toml        what would go wrong, before it does\n"
+                 "  boresight run {0}/mechanism.toml          one motion: how far off it points\n"
+                 "  boresight montecarlo {0}/montecarlo.toml  with what probability\n",
+                 folder.string());
+    return kDone;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_new_verb() { return std::make_unique<NewVerb>(); }
+
+}  // namespace boresight::app
