@@ -15,9 +15,21 @@ namespace {
 
 struct Interrupted {};
 
+// Where the search only feels its way, motions may jitter by a hundredth of the noise.
+constexpr double kSearchTolerance = 1e-5, kSearchDerivativeTolerance = 1e-3;
+
+// Of settle(): rounds, descents in each, and the share of the foretold rise below which a place is worth one.
+constexpr int kMostSettlings = 4, kDescents = 2;
+constexpr double kSurprise = 0.5;
+
+// A correction that moves no parameter by more than this many standard errors is the last one.
+constexpr double kSettledShift = 0.1;
+
 // A problem whose runs are followed up to a share of the whole only.
 CalibrationProblem up_to(const CalibrationProblem& problem, double share) {
   CalibrationProblem part = problem;
+  part.tolerance = kSearchTolerance;
+  part.derivative_tolerance = kSearchDerivativeTolerance;
   for (Window& w : part.windows) {
     const std::vector<double>& t = problem.runs[w.run].data.time;
     const double end = t[w.first] + share * (t[w.last] - t[w.first]);
@@ -188,10 +200,7 @@ class Calibrator {
         if (share > 0.4) look_around(up_to(problem_, share), at);
       }
     note(fit(problem_, at, {}, fit_options("whole data", 30, options_.jobs)));
-    if (!grows(problem_)) return;
-    at = result_.fit.globals;
-    if (look_around(problem_, at))
-      note(fit(problem_, at, {}, fit_options("whole data, from a better place", 20, options_.jobs)));
+    settle("whole data");
   }
 
   // Impacts make small local minima all along a valley: whether a step of a few to some thirty percent of one
@@ -216,6 +225,61 @@ class Calibrator {
     if (!(*best < 0.999 * cost[0])) return false;
     at = tried[best - cost.begin()];
     return true;
+  }
+
+  // Away from the optimum by some standard errors of a parameter, along the line on which the others follow it,
+  // the cost rises as the parabola of the information says, unless another valley is near: from the places
+  // where it rises least the fit goes down once more. Ends where nothing lower is found.
+  void settle(const std::string& stage) {
+    if (!grows(problem_)) return;
+    for (int round = 0; round < kMostSettlings; ++round) {
+      const FitResult here = result_.fit;
+      const Inference inference =
+          infer(problem_, here, options_.confidence, result_.fixed, options_.jobs);
+      struct Trial {
+        Globals at;
+        double foretold = 0.0, cost = 0.0;
+        double share(double least) const { return (cost - least) / foretold; }
+      };
+      std::vector<Trial> trials;
+      for (int p = 0; p < problem_.parameter_count(); ++p)
+        for (const double step : {-24.0, -12.0, -6.0, -3.0, 3.0, 6.0, 12.0, 24.0}) {
+          if (result_.fixed[p]) continue;
+          Trial t{here.globals, step * step * inference.variance_factor};
+          moved_along(inference.covariance.col(p) * step / std::sqrt(inference.covariance(p, p)), t.at);
+          trials.push_back(t);
+        }
+      in_parallel(static_cast<int>(trials.size()), options_.jobs, [&](int k) {
+        for (const Window& w : problem_.windows)
+          if (!w.held_out) trials[k].cost += problem_.cost(w, trials[k].at, VecX::Zero(problem_.state_size(w)));
+      });
+      result_.evaluations += static_cast<long>(trials.size());
+      std::sort(trials.begin(), trials.end(),
+                [&](const Trial& a, const Trial& b) { return a.share(here.cost) < b.share(here.cost); });
+      FitResult best = here;
+      for (std::size_t k = 0; k < std::min<std::size_t>(kDescents, trials.size()); ++k) {
+        if (!(trials[k].share(here.cost) < kSurprise)) break;
+        FitResult found = fit(problem_, trials[k].at, {}, fit_options(stage + ", another valley", 15, options_.jobs));
+        result_.evaluations += found.evaluations;
+        if (found.interrupted) throw Interrupted{};
+        if (found.cost < best.cost) best = std::move(found);
+      }
+      if (!(best.cost < here.cost - 0.1 * inference.variance_factor)) return;
+      result_.fit = std::move(best);
+    }
+  }
+
+  // Held parameters have no covariance, and stay.
+  void moved_along(const VecX& step, Globals& at) const {
+    int g = 0;
+    for (int p = 0; p < problem_.parameter_count(); ++p, ++g)
+      if (std::isfinite(step[g]))
+        at.u[p] = std::clamp(at.u[p] + step[g], problem_.parameters[p].lowest_coordinate(),
+                             problem_.parameters[p].highest_coordinate());
+    if (problem_.fit_time_offset)
+      at.time_offset = std::clamp(at.time_offset + step[g++], -problem_.largest_time_offset,
+                                  problem_.largest_time_offset);
+    if (problem_.fit_bias) at.bias += step.tail(at.bias.size());
   }
 
   void refit(const std::string& stage) {
@@ -281,6 +345,10 @@ class Calibrator {
   void correct() {
     if (options_.corrections == 0 || !grows(problem_)) return;
     const std::vector<CalibrationRun> measured = problem_.runs;
+    const VecX error = infer(problem_, result_.fit, options_.confidence, result_.fixed, options_.jobs)
+                           .covariance.diagonal()
+                           .cwiseSqrt();
+    bool settled = false;
     for (int step = 0; step <= options_.corrections; ++step) {
       const std::vector<double> values = problem_.values(result_.fit.globals);
       std::vector<MatX> difference(problem_.windows.size());
@@ -323,7 +391,7 @@ class Calibrator {
         n += count[k];
       }
       result_.confirmation = std::sqrt(off / std::max(1L, n));
-      if (step == options_.corrections) return;
+      if (step == options_.corrections || settled) return;
       for (std::size_t k = 0; k < count.size(); ++k) {
         const Window& w = problem_.windows[k];
         if (w.from_rest)
@@ -332,6 +400,12 @@ class Calibrator {
       }
       const VecX before = result_.fit.globals.u;
       refit("corrected by multibody");
+      // The landscape is another one now.
+      if (step == 0) settle("corrected by multibody");
+      settled = true;
+      for (int p = 0; p < problem_.parameter_count(); ++p)
+        if (!result_.fixed[p] && std::abs(result_.fit.globals.u[p] - before[p]) > kSettledShift * error[p])
+          settled = false;
       result_.corrections.push_back({problem_.values(result_.fit.globals),
                                      (result_.fit.globals.u - before).lpNorm<Eigen::Infinity>(),
                                      std::sqrt(sum / std::max(1L, n))});

@@ -81,10 +81,11 @@ class CalibrationProblem {
   bool fit_time_offset = false, fit_bias = false;
   double largest_time_offset = 0.0;  // [s]
   ResidualLoss loss;
-  double tolerance =
-      1e-5;  // of the integration: residuals must not jitter by more than a small part of sigma
-
-  double derivative_tolerance = 1e-3;
+  // Of the integration (MotionRequest). What a motion jitters by from one choice of steps to the next roughens the
+  // landscape at the width of a standard error: at 1e-5 by as much as one unit of the loss, at 1e-7 by nothing
+  // that matters.
+  double tolerance = 1e-7;
+  double derivative_tolerance = 1e-4;
 
   // Collects the channels, cuts the windows. from_rest: a run's first window starts at t = 0 where the model
   // does, in the ideal pose. Throws InputError where the data reach beyond the motion.
