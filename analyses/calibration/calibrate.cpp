@@ -7,7 +7,7 @@
 #include <mutex>
 
 #include "boresight/mechanism/error.hpp"
-#include "boresight_analyses/calibration/rig.hpp"
+#include "boresight_analyses/calibration/multibody_correction.hpp"
 #include "boresight_analyses/random/counter_stream.hpp"
 
 namespace boresight {
@@ -24,6 +24,8 @@ constexpr double kSurprise = 0.5;
 
 // A correction that moves no parameter by more than this many standard errors is the last one.
 constexpr double kSettledShift = 0.1;
+// Slopes of multibody are taken over a standard error, but no wider than this.
+constexpr double kWidestSlope = 0.05;
 
 // A problem whose runs are followed up to a share of the whole only.
 CalibrationProblem up_to(const CalibrationProblem& problem, double share) {
@@ -341,74 +343,42 @@ class Calibrator {
     set_noise(sigma);
   }
 
-  // Multibody less perturbation at the optimum, taken off the data.
+  // Multibody less the fit's rung at the optimum: offset, from the second correction on slopes too, until it moves
+  // nothing that matters. The slopes are taken where the first correction has led.
   void correct() {
     if (options_.corrections == 0 || !grows(problem_)) return;
-    const std::vector<CalibrationRun> measured = problem_.runs;
-    const VecX error = infer(problem_, result_.fit, options_.confidence, result_.fixed, options_.jobs)
-                           .covariance.diagonal()
-                           .cwiseSqrt();
+    std::vector<std::vector<MatX>> slopes;
     bool settled = false;
-    for (int step = 0; step <= options_.corrections; ++step) {
-      const std::vector<double> values = problem_.values(result_.fit.globals);
-      std::vector<MatX> difference(problem_.windows.size());
-      std::vector<double> square(problem_.windows.size(), 0.0), misfit = square;
-      std::vector<long> count(problem_.windows.size(), 0);
+    for (int step = 0;; ++step) {
+      const Globals at = result_.fit.globals;
       tell("multibody at the optimum", 0.0, "correction " + std::to_string(step + 1));
-      CalibrationProblem plain = problem_;
-      plain.runs = measured;
-      in_parallel(static_cast<int>(problem_.windows.size()), options_.jobs, [&](int k) {
-        const Window& w = problem_.windows[k];
-        if (!w.from_rest) return;
-        const CalibrationRun& run = measured[w.run];
-        std::vector<double> times;
-        for (int i = w.first; i <= w.last; ++i)
-          times.push_back(std::max(0.0, run.data.time[i] + result_.fit.globals.time_offset));
-        const MatX multibody = multibody_readings(run.mechanism, problem_.parameters_at(w.run, values), times,
-                                                  run.data.channels);
-        WindowResiduals at;
-        plain.evaluate(w, result_.fit.globals, VecX::Zero(problem_.state_size(w)), false, at);
-        difference[k] = MatX::Zero(multibody.rows(), multibody.cols());
-        for (Eigen::Index i = 0; i < at.r.size(); ++i) {
-          const int row = at.sample[i] - w.first, column = problem_.column(w.run, at.channel[i]);
-          const double sigma = problem_.sigma[at.channel[i]],
-                       measured_here = run.data.value(at.sample[i], column);
-          const double bias =
-              result_.fit.globals.bias.size() > 0 ? result_.fit.globals.bias[at.channel[i]] : 0.0;
-          const double model = measured_here + at.r[i] * sigma - bias;
-          difference[k](row, column) = multibody(row, column) - model;
-          square[k] += std::pow(difference[k](row, column) / sigma, 2);
-          misfit[k] +=
-              std::pow(problem_.loss.residual((multibody(row, column) + bias - measured_here) / sigma), 2);
-          ++count[k];
-        }
-      });
-      double sum = 0.0, off = 0.0;
-      long n = 0;
-      for (std::size_t k = 0; k < count.size(); ++k) {
-        sum += square[k];
-        off += misfit[k];
-        n += count[k];
-      }
-      result_.confirmation = std::sqrt(off / std::max(1L, n));
+      const ReadingDifference difference = multibody_differences(problem_, {at}, options_.jobs).front();
+      const CorrectionSize size = size_of(problem_, at, difference);
+      result_.confirmation = size.confirmation;
       if (step == options_.corrections || settled) return;
-      for (std::size_t k = 0; k < count.size(); ++k) {
-        const Window& w = problem_.windows[k];
-        if (w.from_rest)
-          problem_.runs[w.run].data.value.middleRows(w.first, w.last - w.first + 1) =
-              measured[w.run].data.value.middleRows(w.first, w.last - w.first + 1) - difference[k];
+      const VecX error = infer(problem_, result_.fit, options_.confidence, result_.fixed, options_.jobs)
+                             .covariance.diagonal()
+                             .cwiseSqrt();
+      if (step == 1) {
+        VecX width = VecX::Zero(problem_.parameter_count());
+        for (int p = 0; p < problem_.parameter_count(); ++p)
+          if (!result_.fixed[p]) width[p] = std::min(error[p], kWidestSlope);
+        slopes = multibody_slopes(problem_, at, width, options_.jobs);
       }
-      const VecX before = result_.fit.globals.u;
+      problem_.corrections.clear();
+      for (std::size_t r = 0; r < difference.size(); ++r)
+        problem_.corrections.push_back(
+            {at.u, difference[r], slopes.empty() ? std::vector<MatX>() : slopes[r]});
       refit("corrected by multibody");
       // The landscape is another one now.
       if (step == 0) settle("corrected by multibody");
-      settled = true;
+      settled = step > 0;
       for (int p = 0; p < problem_.parameter_count(); ++p)
-        if (!result_.fixed[p] && std::abs(result_.fit.globals.u[p] - before[p]) > kSettledShift * error[p])
+        if (!result_.fixed[p] && std::abs(result_.fit.globals.u[p] - at.u[p]) > kSettledShift * error[p])
           settled = false;
       result_.corrections.push_back({problem_.values(result_.fit.globals),
-                                     (result_.fit.globals.u - before).lpNorm<Eigen::Infinity>(),
-                                     std::sqrt(sum / std::max(1L, n))});
+                                     (result_.fit.globals.u - at.u).lpNorm<Eigen::Infinity>(),
+                                     size.difference});
       noise_from_residuals();
     }
   }
@@ -538,6 +508,7 @@ class Calibrator {
         data.value = MatX::Zero(static_cast<Eigen::Index>(data.time.size()),
                                 static_cast<Eigen::Index>(data.channels.size()));
         one.runs = {CalibrationRun(candidate.name, candidate.mechanism, data)};
+        one.corrections.clear();
         one.loss.kind = Loss::none;
         const double length = problem_.windows.front().end - problem_.windows.front().start;
         one.prepare(problem_.windows.front().from_rest ? std::max(length, data.time.back()) : length, true);

@@ -186,6 +186,8 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
     out.by_global.setZero(most, global_count());
     out.by_state.setZero(most, 2 * n);
   }
+  const ModelCorrection* correction = corrections.empty() ? nullptr : &corrections[w.run];
+  const VecX from_correction = correction ? VecX(globals.u - correction->at) : VecX();
   int m = 0;
   ChannelRows at, later, earlier;
   for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
@@ -198,17 +200,26 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
       channel_rows(run, channels[c], t, at);
       const auto z = out.motion.state.col(i).head(n);
       const Vec3 vector = at.rows * z;
-      const double model = at.size ? vector.norm() : vector[0];
+      const double own = at.size ? vector.norm() : vector[0];
+      double model = own;
+      if (correction) {
+        model += correction->offset(w.first + i, column_here);
+        for (std::size_t p = 0; p < correction->slope.size(); ++p)
+          model += correction->slope[p](w.first + i, column_here) * from_correction[p];
+      }
       const double bias = globals.bias.size() > 0 ? globals.bias[c] : 0.0;
       out.r[m] = (model + bias - measured) / sigma[c];
       out.sample.push_back(w.first + i);
       out.channel.push_back(c);
       if (derivatives) {
-        const Vec3 along = at.size ? Vec3(vector / std::max(model, 1e-12)) : Vec3::UnitX();
+        const Vec3 along = at.size ? Vec3(vector / std::max(own, 1e-12)) : Vec3::UnitX();
         const Eigen::RowVectorXd by_z = along.transpose() * at.rows / sigma[c];
         const MatX& S = out.motion.by[i];
         for (int p = 0; p < P; ++p)
           out.by_global(m, p) = by_z.dot(S.col(p).head(n)) * parameters[p].slope(globals.u[p]);
+        if (correction)
+          for (std::size_t p = 0; p < correction->slope.size(); ++p)
+            out.by_global(m, p) += correction->slope[p](w.first + i, column_here) / sigma[c];
         if (!w.from_rest) out.by_state.row(m) = by_z * S.block(0, P, n, 2 * n) * scale.asDiagonal();
         int g = P;
         if (fit_time_offset) {

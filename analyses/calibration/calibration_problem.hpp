@@ -71,11 +71,20 @@ struct WindowResiduals {
   SensitiveMotion motion;
 };
 
+// What a richer model's readings are above this one's, to first order in the parameters: with it, readings and their
+// derivatives at `at` are the richer model's (Alexandrov and Lewis 2001, Optimization and Engineering 2, 413-430).
+struct ModelCorrection {
+  VecX at;                  // u
+  MatX offset;              // samples x the run's channels [SI]
+  std::vector<MatX> slope;  // per parameter, by its u; empty: none
+};
+
 class CalibrationProblem {
  public:
   std::vector<CalibrationRun> runs;
   std::vector<FittedParameter> parameters;
   std::vector<Window> windows;
+  std::vector<ModelCorrection> corrections;  // per run; empty: none
   std::vector<int> channels;  // among channel_names(), of all runs together
   VecX sigma;                 // noise per channel [SI]
   bool fit_time_offset = false, fit_bias = false;

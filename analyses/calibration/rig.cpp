@@ -23,7 +23,7 @@ MatX multibody_readings(const std::shared_ptr<const Mechanism>& mechanism, const
   for (std::size_t i = 1; i < times.size(); ++i) spacing = std::min(spacing, times[i] - times[i - 1]);
   RunOptions options;
   options.integrator = "dopri5";
-  options.tolerance = 1e-5;
+  options.tolerance = 1e-7;
   options.sample_spacing = std::max(spacing, 1e-5);
   options.events = false;
   const RunResult run = make_rung("multibody", mechanism)->run(parameters, options);
