@@ -71,8 +71,9 @@ struct WindowResiduals {
   SensitiveMotion motion;
 };
 
-// What a richer model's readings are above this one's, to first order in the parameters: with it, readings and their
-// derivatives at `at` are the richer model's (Alexandrov and Lewis 2001, Optimization and Engineering 2, 413-430).
+// What a richer model's readings are above this one's, to first order in the parameters: with it, readings
+// and their derivatives at `at` are the richer model's (Alexandrov and Lewis 2001, Optimization and
+// Engineering 2, 413-430).
 struct ModelCorrection {
   VecX at;                  // u
   MatX offset;              // samples x the run's channels [SI]
@@ -85,14 +86,14 @@ class CalibrationProblem {
   std::vector<FittedParameter> parameters;
   std::vector<Window> windows;
   std::vector<ModelCorrection> corrections;  // per run; empty: none
-  std::vector<int> channels;  // among channel_names(), of all runs together
-  VecX sigma;                 // noise per channel [SI]
+  std::vector<int> channels;                 // among channel_names(), of all runs together
+  VecX sigma;                                // noise per channel [SI]
   bool fit_time_offset = false, fit_bias = false;
   double largest_time_offset = 0.0;  // [s]
   ResidualLoss loss;
-  // Of the integration (MotionRequest). What a motion jitters by from one choice of steps to the next roughens the
-  // landscape at the width of a standard error: at 1e-5 by as much as one unit of the loss, at 1e-7 by nothing
-  // that matters.
+  // Of the integration (MotionRequest). What a motion jitters by from one choice of steps to the next
+  // roughens the landscape at the width of a standard error: at 1e-5 by as much as one unit of the loss, at
+  // 1e-7 by nothing that matters.
   double tolerance = 1e-7;
   double derivative_tolerance = 1e-4;
 
@@ -140,9 +141,5 @@ class CalibrationProblem {
   };
   void channel_rows(const CalibrationRun& run, int kind, double t, ChannelRows& out) const;
 };
-
-// Standard deviation of the noise of each channel from second differences of neighbouring samples, robust
-// against the few that an impact or an outlier bends: 1.4826 median |d2| / sqrt(6).
-VecX noise_from_differences(const CalibrationProblem& problem);
 
 }  // namespace boresight

@@ -14,15 +14,16 @@ MatX window_difference(const CalibrationProblem& plain, const Window& w, const G
   const CalibrationRun& run = plain.runs[w.run];
   std::vector<double> times;
   for (int i = w.first; i <= w.last; ++i) times.push_back(std::max(0.0, run.data.time[i] + at.time_offset));
-  const MatX multibody = multibody_readings(run.mechanism, plain.parameters_at(w.run, plain.values(at)), times,
-                                            run.data.channels);
+  const MatX multibody = multibody_readings(run.mechanism, plain.parameters_at(w.run, plain.values(at)),
+                                            times, run.data.channels);
   WindowResiduals own;
   plain.evaluate(w, at, VecX::Zero(plain.state_size(w)), false, own);
   MatX difference = MatX::Zero(multibody.rows(), multibody.cols());
   for (Eigen::Index i = 0; i < own.r.size(); ++i) {
     const int row = own.sample[i] - w.first, column = plain.column(w.run, own.channel[i]);
     const double bias = at.bias.size() > 0 ? at.bias[own.channel[i]] : 0.0;
-    const double model = run.data.value(own.sample[i], column) + own.r[i] * plain.sigma[own.channel[i]] - bias;
+    const double model =
+        run.data.value(own.sample[i], column) + own.r[i] * plain.sigma[own.channel[i]] - bias;
     difference(row, column) = multibody(row, column) - model;
   }
   return difference;
@@ -90,9 +91,8 @@ CorrectionSize size_of(const CalibrationProblem& problem, const Globals& at,
     for (Eigen::Index i = 0; i < residuals.r.size(); ++i) {
       const int channel = residuals.channel[i];
       size.confirmation += std::pow(problem.loss.residual(residuals.r[i]), 2);
-      size.difference += std::pow(difference[w.run](residuals.sample[i], problem.column(w.run, channel)) /
-                                      problem.sigma[channel],
-                                  2);
+      size.difference += std::pow(
+          difference[w.run](residuals.sample[i], problem.column(w.run, channel)) / problem.sigma[channel], 2);
     }
   }
   size.confirmation = std::sqrt(size.confirmation / static_cast<double>(std::max(1L, count)));

@@ -7,6 +7,7 @@
 #include "boresight/io/content_hash.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight_analyses/calibration/calibration_plan.hpp"
+#include "boresight_analyses/calibration/posterior.hpp"
 #include "boresight_analyses/calibration/rig.hpp"
 #include "calibrate_report.hpp"
 #include "exit_status.hpp"
@@ -84,7 +85,7 @@ class CalibrateVerb : public Verb {
     const CalibrationStudy whole{command, study, *mechanism, rung, plan, problem, result};
     write_json(out, "summary.json", summary_of(whole, watch, out));
     if (!result.inference.parameters.empty()) {
-      out.write("posterior.toml", [&](std::ostream& s) { s << posterior_toml(problem, result); });
+      out.write("posterior.toml", [&](std::ostream& s) { s << posterior_toml(problem, result.inference); });
       out.write("report.html", [&](std::ostream& s) { report::write_html(s, calibrate_report(whole)); });
     }
     if (!command.quiet) print(whole, out);

@@ -1,0 +1,61 @@
+#include "boresight_analyses/calibration/channel_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace boresight {
+
+VecX noise_from_differences(const CalibrationProblem& problem) {
+  VecX sigma(static_cast<Eigen::Index>(problem.channels.size()));
+  for (int c = 0; c < static_cast<int>(problem.channels.size()); ++c) {
+    std::vector<double> differences;
+    double largest = 0.0;
+    for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+      const int column = problem.column(static_cast<int>(r), c);
+      if (column < 0) continue;
+      const auto v = problem.runs[r].data.value.col(column);
+      for (Eigen::Index i = 1; i + 1 < v.size(); ++i) {
+        const double d = v[i - 1] - 2.0 * v[i] + v[i + 1];
+        if (std::isfinite(d)) differences.push_back(std::abs(d));
+        if (std::isfinite(v[i])) largest = std::max(largest, std::abs(v[i]));
+      }
+    }
+    double middle = 0.0;
+    if (!differences.empty()) {
+      std::nth_element(differences.begin(),
+                       differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2),
+                       differences.end());
+      middle = differences[differences.size() / 2];
+    }
+    // Data without any noise would weigh without bound.
+    sigma[c] = std::max({1.4826 * middle / std::sqrt(6.0), 1e-6 * largest, 1e-15});
+  }
+  return sigma;
+}
+
+VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fit) {
+  std::vector<std::vector<double>> sizes(problem.channels.size());
+  int unknowns = problem.global_count();
+  for (std::size_t k = 0; k < fit.windows.size(); ++k) {
+    const Window& w = problem.windows[fit.windows[k]];
+    WindowResiduals at;
+    problem.evaluate(w, fit.globals, fit.states[k], false, at);
+    unknowns += w.from_rest ? 0 : problem.state_size(w);
+    for (Eigen::Index i = 0; i < at.r.size(); ++i) sizes[at.channel[i]].push_back(std::abs(at.r[i]));
+  }
+  std::size_t all = 0;
+  for (const auto& s : sizes) all += s.size();
+  VecX sigma = problem.sigma;
+  for (std::size_t c = 0; c < sizes.size(); ++c) {
+    if (sizes[c].empty()) continue;
+    std::nth_element(sizes[c].begin(), sizes[c].begin() + static_cast<std::ptrdiff_t>(sizes[c].size() / 2),
+                     sizes[c].end());
+    const double freedom = static_cast<double>(all) / std::max(1.0, static_cast<double>(all) - unknowns);
+    // Never far below what differences say: a channel fitted too well is not a quiet one.
+    sigma[static_cast<Eigen::Index>(c)] *=
+        std::max(0.5, 1.4826 * sizes[c][sizes[c].size() / 2] * std::sqrt(freedom));
+  }
+  return sigma;
+}
+
+}  // namespace boresight

@@ -1,0 +1,16 @@
+// How noisy each channel is, by its own data.
+#pragma once
+
+#include "boresight_analyses/calibration/calibration_fit.hpp"
+
+namespace boresight {
+
+// Standard deviation of the noise of each channel from second differences of neighbouring samples, robust
+// against the few that an impact or an outlier bends: 1.4826 median |d2| / sqrt(6).
+VecX noise_from_differences(const CalibrationProblem& problem);
+
+// From what a fit leaves, by the median, which outliers do not reach: a channel's sigma times 1.4826 median
+// |r|, and the unknowns made up for; at least half of the problem's own sigma.
+VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fit);
+
+}  // namespace boresight

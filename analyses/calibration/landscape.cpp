@@ -1,0 +1,100 @@
+#include "boresight_analyses/calibration/landscape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace boresight {
+namespace {
+
+// A search may jitter by a hundredth of the noise.
+constexpr double kSearchTolerance = 1e-5, kSearchDerivativeTolerance = 1e-3;
+constexpr double kSurprise = 0.5;
+
+// Held parameters have no covariance, and stay.
+Globals moved_along(const CalibrationProblem& problem, const Globals& from, const VecX& step) {
+  Globals at = from;
+  int g = 0;
+  for (int p = 0; p < problem.parameter_count(); ++p, ++g)
+    if (std::isfinite(step[g]))
+      at.u[p] = std::clamp(at.u[p] + step[g], problem.parameters[p].lowest_coordinate(),
+                           problem.parameters[p].highest_coordinate());
+  if (problem.fit_time_offset)
+    at.time_offset =
+        std::clamp(at.time_offset + step[g++], -problem.largest_time_offset, problem.largest_time_offset);
+  if (problem.fit_bias) at.bias += step.tail(at.bias.size());
+  return at;
+}
+
+}  // namespace
+
+bool follows_from_rest(const CalibrationProblem& problem) {
+  return std::any_of(problem.windows.begin(), problem.windows.end(),
+                     [](const Window& w) { return w.from_rest; });
+}
+
+CalibrationProblem searched_up_to(const CalibrationProblem& problem, double share) {
+  CalibrationProblem part = problem;
+  part.tolerance = kSearchTolerance;
+  part.derivative_tolerance = kSearchDerivativeTolerance;
+  for (Window& w : part.windows) {
+    const std::vector<double>& t = problem.runs[w.run].data.time;
+    const double end = t[w.first] + share * (t[w.last] - t[w.first]);
+    if (!w.from_rest) continue;
+    while (w.last > w.first + 1 && t[w.last] > end) --w.last;
+    w.end = std::min(w.end, t[w.last] + problem.largest_time_offset);
+  }
+  return part;
+}
+
+double loss_at(const CalibrationProblem& problem, const Globals& at) {
+  double loss = 0.0;
+  for (const Window& w : problem.windows)
+    if (w.from_rest && !w.held_out) loss += problem.cost(w, at, VecX::Zero(problem.state_size(w)));
+  return loss;
+}
+
+bool look_around(const CalibrationProblem& problem, const std::vector<bool>& fixed, int jobs, Globals& at) {
+  std::vector<Globals> tried = {at};
+  for (int p = 0; p < problem.parameter_count(); ++p)
+    for (const double step : {-0.2, -0.03, 0.03, 0.2}) {
+      if (fixed[p]) continue;
+      Globals moved = at;
+      moved.u[p] = std::clamp(at.u[p] + step, problem.parameters[p].lowest_coordinate(),
+                              problem.parameters[p].highest_coordinate());
+      tried.push_back(moved);
+    }
+  std::vector<double> loss(tried.size(), 0.0);
+  in_parallel(static_cast<int>(tried.size()), jobs, [&](int k) { loss[k] = loss_at(problem, tried[k]); });
+  const auto best = std::min_element(loss.begin(), loss.end());
+  if (!(*best < 0.999 * loss[0])) return false;
+  at = tried[best - loss.begin()];
+  return true;
+}
+
+std::vector<Globals> other_valleys(const CalibrationProblem& problem, const FitResult& fit,
+                                   const Inference& inference, const std::vector<bool>& fixed, int jobs,
+                                   long& evaluations) {
+  struct Trial {
+    Globals at;
+    double share = 0.0;  // of the foretold rise
+  };
+  std::vector<Trial> trials;
+  std::vector<double> foretold;
+  for (int p = 0; p < problem.parameter_count(); ++p)
+    for (const double step : {-24.0, -12.0, -6.0, -3.0, 3.0, 6.0, 12.0, 24.0}) {
+      if (fixed[p]) continue;
+      const VecX line = inference.covariance.col(p) / std::sqrt(inference.covariance(p, p));
+      trials.push_back({moved_along(problem, fit.globals, step * line)});
+      foretold.push_back(step * step * inference.variance_factor);
+    }
+  in_parallel(static_cast<int>(trials.size()), jobs,
+              [&](int k) { trials[k].share = (loss_at(problem, trials[k].at) - fit.cost) / foretold[k]; });
+  evaluations += static_cast<long>(trials.size());
+  std::sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.share < b.share; });
+  std::vector<Globals> places;
+  for (const Trial& t : trials)
+    if (t.share < kSurprise) places.push_back(t.at);
+  return places;
+}
+
+}  // namespace boresight
