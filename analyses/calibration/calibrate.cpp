@@ -16,6 +16,12 @@ namespace {
 
 struct Interrupted {};
 
+// A fit is lost where its loss is above that of noise by this factor (noise from neighbouring samples). Then
+// more batches of starts are tried, and more of them followed to the end.
+constexpr double kLost = 1.25;
+constexpr int kMostBatches = 6;
+constexpr std::size_t kMostGrown = 3;
+
 // Rounds of looking into other valleys, and descents in each.
 constexpr int kMostSettlings = 4, kDescents = 2;
 
@@ -34,22 +40,17 @@ class Calibrator {
   CalibrationResult run() {
     try {
       set_noise(noise_from_differences(problem_));
-      const Globals best = best_start();
-      grow(best, 0.25);
+      search();
       hold_what_no_impact_shows();
       set_noise(noise_from_residuals(problem_, result_.fit));
       refit("noise estimated from the residuals");
       correct();
       refit("last");
       result_.inference = infer_now();
+      profile();
       explain_what_is_held();
       judge_fit();
       result_.hold_out = score_held_out(problem_, result_.fit.globals, options_.jobs);
-      if (options_.profile) {
-        tell("profile likelihood", 0.0, "");
-        result_.profiles = profile_likelihood(problem_, result_.fit, result_.inference, result_.fixed,
-                                              options_.confidence, options_.jobs);
-      }
       for (const std::string& law : options_.laws) {
         tell("contact laws", 0.0, law);
         result_.laws.push_back(
@@ -138,48 +139,79 @@ class Calibrator {
     result_.fit = std::move(fit);
   }
 
-  // The start given, and others within a factor of two of it (restitution: one in the logit), tried on a
-  // short horizon.
-  Globals best_start() {
+  // Starts on a short horizon, and from the best of them on to the whole; from the next best where that one
+  // has lost its way.
+  void search() {
     const CalibrationProblem part = searched_up_to(problem_, 0.125);
+    std::vector<Descent> tried;
+    do {
+      try_starts(part, std::max(1, options_.starts), tried);
+      std::sort(tried.begin(), tried.end(),
+                [](const Descent& a, const Descent& b) { return a.cost < b.cost; });
+    } while (lost(part, tried.front().cost) &&
+             static_cast<int>(tried.size()) < kMostBatches * options_.starts);
+    FitResult best;
+    for (std::size_t s = 0; s < tried.size() && s < kMostGrown; ++s) {
+      grow(tried[s].to, 0.25);
+      if (s == 0 || result_.fit.cost < best.cost) best = result_.fit;
+      if (!lost(problem_, best.cost)) break;
+    }
+    result_.fit = best;
+  }
+
+  struct Descent {
+    Globals from, to;
+    double cost = 0.0;
+    long evaluations = 0;
+  };
+
+  // A loss that noise alone does not explain.
+  static bool lost(const CalibrationProblem& problem, double cost) {
+    return cost > kLost * static_cast<double>(values_in(problem));
+  }
+
+  // The start given, and others within a factor of two of it (restitution: one in the logit).
+  Globals start(int number) const {
     const CounterStream stream(options_.seed, StreamPurpose::sample);
-    std::vector<Globals> from(std::max(1, options_.starts), problem_.start()), to = from;
-    std::vector<double> cost(from.size());
-    for (std::size_t s = 1; s < from.size(); ++s)
-      for (int p = 0; p < problem_.parameter_count(); ++p) {
-        const FittedParameter& parameter = problem_.parameters[p];
-        const double reach = parameter.transform == Transform::log ? std::log(2.0) : 1.0;
-        double& u = from[s].u[p];
-        u = std::clamp(u + reach * (2.0 * stream.uniform(s, static_cast<std::uint64_t>(p)) - 1.0),
-                       parameter.lowest_coordinate(), parameter.highest_coordinate());
-      }
-    std::vector<long> evaluations(from.size(), 0);
+    Globals at = problem_.start();
+    for (int p = 0; number > 0 && p < problem_.parameter_count(); ++p) {
+      const FittedParameter& parameter = problem_.parameters[p];
+      const double reach = parameter.transform == Transform::log ? std::log(2.0) : 1.0;
+      const double draw = stream.uniform(static_cast<std::uint64_t>(number), static_cast<std::uint64_t>(p));
+      at.u[p] = std::clamp(at.u[p] + reach * (2.0 * draw - 1.0), parameter.lowest_coordinate(),
+                           parameter.highest_coordinate());
+    }
+    return at;
+  }
+
+  // `count` more of them, side by side.
+  void try_starts(const CalibrationProblem& part, int count, std::vector<Descent>& tried) {
+    const int before = static_cast<int>(tried.size()), side_by_side = std::min(options_.jobs, count);
+    std::vector<Descent> more(count);
     std::atomic<bool> stop{false};
-    const int side_by_side = std::min<int>(options_.jobs, static_cast<int>(from.size()));
-    in_parallel(static_cast<int>(from.size()), side_by_side, [&](int s) {
-      Globals at = from[s];
-      double here = 0.0;
+    in_parallel(count, side_by_side, [&](int s) {
+      Descent& d = more[s];
+      d.from = d.to = start(before + s);
       for (const double share :
            follows_from_rest(part) ? std::vector<double>{0.25, 0.5, 1.0} : std::vector<double>{1.0}) {
         if (stop) return;
-        FitOptions o = fit_options("start " + std::to_string(s + 1) + " of " + std::to_string(from.size()),
-                                   12, std::max(1, options_.jobs / side_by_side));
+        FitOptions o =
+            fit_options("start " + std::to_string(before + s + 1) + " of " + std::to_string(before + count),
+                        12, std::max(1, options_.jobs / side_by_side));
         o.cost_tolerance = 1e-4;
-        const FitResult found = fit(searched_up_to(part, share), at, {}, o);
+        const FitResult found = fit(searched_up_to(part, share), d.to, {}, o);
         stop = stop || found.interrupted;
-        evaluations[s] += found.evaluations;
-        at = found.globals;
-        here = found.cost;
+        d.evaluations += found.evaluations;
+        d.to = found.globals;
+        d.cost = found.cost;
       }
-      to[s] = at;
-      cost[s] = here;
     });
     if (stop) throw Interrupted{};
-    for (std::size_t s = 0; s < from.size(); ++s) {
-      result_.starts.push_back({problem_.values(from[s]), problem_.values(to[s]), cost[s]});
-      result_.evaluations += evaluations[s];
+    for (const Descent& d : more) {
+      result_.starts.push_back({problem_.values(d.from), problem_.values(d.to), d.cost});
+      result_.evaluations += d.evaluations;
+      tried.push_back(d);
     }
-    return to[std::min_element(cost.begin(), cost.end()) - cost.begin()];
   }
 
   void grow(Globals at, double share) {
@@ -216,6 +248,22 @@ class Calibrator {
       }
       if (!(result_.fit.cost < before - 0.1 * inference.variance_factor)) return;
     }
+  }
+
+  // Intervals by the loss itself. Where a profile comes by a lower place than the optimum, that is the
+  // optimum.
+  void profile() {
+    if (!options_.profile) return;
+    for (int round = 0; round < kMostSettlings; ++round) {
+      tell("profile likelihood", 0.0, "");
+      FitResult lower = result_.fit;
+      result_.profiles = profile_likelihood(problem_, result_.fit, result_.inference, result_.fixed,
+                                            options_.confidence, options_.jobs, lower);
+      if (!(lower.cost < result_.fit.cost - 0.1 * result_.inference.variance_factor)) break;
+      note(fit(problem_, lower.globals, lower.states, fit_options("from a lower place", 15, options_.jobs)));
+      result_.inference = infer_now();
+    }
+    take_intervals(result_.profiles, options_.confidence, problem_, result_.inference);
   }
 
   Inference infer_now() const {
@@ -256,23 +304,26 @@ class Calibrator {
     }
   }
 
-  // Multibody less the fit's rung at the optimum: offset, from the second correction on slopes too, until it
-  // moves nothing that matters. The slopes are taken where the first correction has led.
+  // First an offset, multibody less the fit's rung at the optimum. From there on multibody's own value and
+  // slopes, until that moves nothing that matters; slopes are taken anew where the fit has left the width
+  // over which they were taken.
   void correct() {
     if (options_.corrections == 0 || !follows_from_rest(problem_)) return;
     std::vector<std::vector<MatX>> slopes;
+    VecX slopes_at, width;
     bool settled = false;
     for (int step = 0;; ++step) {
       const Globals at = result_.fit.globals;
       tell("multibody at the optimum", 0.0, "correction " + std::to_string(step + 1));
-      const ReadingDifference difference = multibody_differences(problem_, {at}, options_.jobs).front();
+      const Readings difference = multibody_difference(problem_, at, options_.jobs);
       const CorrectionSize size = size_of(problem_, at, difference);
       result_.confirmation = size.confirmation;
       if (step == options_.corrections || settled) return;
-      const VecX error = infer_now().covariance.diagonal().cwiseSqrt();
-      if (step == 1) {
-        VecX width = VecX::Zero(problem_.parameter_count());
-        for (int p = 0; p < problem_.parameter_count(); ++p)
+      const VecX error = infer_now().covariance.diagonal().cwiseSqrt().head(problem_.parameter_count());
+      if (step > 0 && (slopes.empty() || ((at.u - slopes_at).cwiseAbs() - width).maxCoeff() > 0.0)) {
+        slopes_at = at.u;
+        width.setZero(error.size());
+        for (int p = 0; p < width.size(); ++p)
           if (!result_.fixed[p]) width[p] = std::min(error[p], kWidestSlope);
         slopes = multibody_slopes(problem_, at, width, options_.jobs);
       }

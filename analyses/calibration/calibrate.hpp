@@ -1,10 +1,11 @@
 // A whole calibration: from data to parameters, what they are worth, and what to measure next.
 //
-// Order: noise from differences; several starts on the first eighth of every run, side by side; the best of them on a
-// horizon that doubles up to the whole (so that impacts enter one after another and the landscape stays smooth); other
-// valleys near the place it found; noise from the residuals, and once more. What the fit's rung leaves out and multibody
-// has, in value and slope at the optimum, is then added to the model and the fit goes on until that moves nothing (first
-// order model management: Alexandrov and Lewis 2001, Optimization and Engineering 2, 413-430).
+// Order: noise from differences; several starts on the first eighth of every run, side by side; the best of
+// them on a horizon that doubles up to the whole (so that impacts enter one after another and the landscape
+// stays smooth); other valleys near the place it found; noise from the residuals, and once more. What the
+// fit's rung leaves out and multibody has, in value and slope at the optimum, is then added to the model and
+// the fit goes on until that moves nothing (first order model management: Alexandrov and Lewis 2001,
+// Optimization and Engineering 2, 413-430).
 #pragma once
 
 #include <optional>
@@ -20,8 +21,9 @@ struct CalibrationOptions {
   double confidence = 0.95;
   int starts = 4;
   std::uint64_t seed = 1;
-  VecX noise;           // per channel of channel_names(), NaN: estimated; empty: all estimated
-  int corrections = 4;  // by multibody, at most: they end where one moves nothing; 0: none, and no confirmation
+  VecX noise;  // per channel of channel_names(), NaN: estimated; empty: all estimated
+  int corrections =
+      4;  // by multibody, at most: they end where one moves nothing; 0: none, and no confirmation
   bool profile = false;
   std::vector<std::string> laws;      // compared by the same data
   std::vector<Candidate> candidates;  // of a next test

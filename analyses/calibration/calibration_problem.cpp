@@ -164,16 +164,20 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
                                   bool derivatives, WindowResiduals& out) const {
   const CalibrationRun& run = runs[w.run];
   const int n = run.tables->layout.n, P = parameter_count();
-  const std::vector<double> theta = values(globals);
+  const ModelCorrection* correction = corrections.empty() ? nullptr : &corrections[w.run];
+  const bool linear = correction && !correction->slope.empty();
+  Globals followed = globals;
+  if (linear) followed.u = correction->at;
+  const std::vector<double> theta = values(followed);
   const VecX scale = state_scale(w);
   MotionRequest request;
   request.start = w.start;
   request.end = w.end;
   request.start_state = state.cwiseProduct(scale);
   request.tolerance = tolerance;
-  request.by_parameters = derivatives;
+  request.by_parameters = derivatives && !linear;
   request.by_start_state = derivatives && !w.from_rest;
-  request.derivative_tolerance = derivatives ? derivative_tolerance : 0.0;
+  request.derivative_tolerance = derivatives && !linear ? derivative_tolerance : 0.0;
   for (int i = w.first; i <= w.last; ++i)
     request.times.push_back(std::clamp(run.data.time[i] + globals.time_offset, w.start, w.end));
   out.motion = follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), run.tables,
@@ -186,8 +190,7 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
     out.by_global.setZero(most, global_count());
     out.by_state.setZero(most, 2 * n);
   }
-  const ModelCorrection* correction = corrections.empty() ? nullptr : &corrections[w.run];
-  const VecX from_correction = correction ? VecX(globals.u - correction->at) : VecX();
+  const VecX from_correction = linear ? VecX(globals.u - correction->at) : VecX();
   int m = 0;
   ChannelRows at, later, earlier;
   for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
@@ -214,13 +217,12 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
       if (derivatives) {
         const Vec3 along = at.size ? Vec3(vector / std::max(own, 1e-12)) : Vec3::UnitX();
         const Eigen::RowVectorXd by_z = along.transpose() * at.rows / sigma[c];
-        const MatX& S = out.motion.by[i];
         for (int p = 0; p < P; ++p)
-          out.by_global(m, p) = by_z.dot(S.col(p).head(n)) * parameters[p].slope(globals.u[p]);
-        if (correction)
-          for (std::size_t p = 0; p < correction->slope.size(); ++p)
-            out.by_global(m, p) += correction->slope[p](w.first + i, column_here) / sigma[c];
-        if (!w.from_rest) out.by_state.row(m) = by_z * S.block(0, P, n, 2 * n) * scale.asDiagonal();
+          out.by_global(m, p) =
+              linear ? correction->slope[p](w.first + i, column_here) / sigma[c]
+                     : by_z.dot(out.motion.by[i].col(p).head(n)) * parameters[p].slope(globals.u[p]);
+        if (!w.from_rest)
+          out.by_state.row(m) = by_z * out.motion.by[i].rightCols(2 * n).topRows(n) * scale.asDiagonal();
         int g = P;
         if (fit_time_offset) {
           constexpr double kShort = 1e-5;  // [s], against the motion's own time

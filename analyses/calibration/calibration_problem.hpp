@@ -71,13 +71,13 @@ struct WindowResiduals {
   SensitiveMotion motion;
 };
 
-// What a richer model's readings are above this one's, to first order in the parameters: with it, readings
-// and their derivatives at `at` are the richer model's (Alexandrov and Lewis 2001, Optimization and
-// Engineering 2, 413-430).
+// A richer model's readings in place of this one's. Without slopes: this model's, moved by an offset. With
+// them: the richer model's value and slopes at `at`; this model's own motion then stays at `at`, and has no
+// say in the parameters.
 struct ModelCorrection {
   VecX at;                  // u
-  MatX offset;              // samples x the run's channels [SI]
-  std::vector<MatX> slope;  // per parameter, by its u; empty: none
+  MatX offset;              // at `at`, richer less this: samples x the run's channels [SI]
+  std::vector<MatX> slope;  // of the richer model, per parameter by its u; empty: this model's
 };
 
 class CalibrationProblem {

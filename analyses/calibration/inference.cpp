@@ -51,6 +51,20 @@ std::string number(const char* format, double value) {
 
 }  // namespace
 
+void judge(const FittedParameter& parameter, ParameterEstimate& e) {
+  const double share = e.standard_error / e.value;
+  e.identifiable = false;
+  if (parameter.at_bound(parameter.coordinate(e.value))) {
+    e.reason =
+        "the fit ran into the bound of what is allowed for it: the data ask for less or more, or for nothing";
+  } else if (!(share < kUnknown)) {
+    e.reason = "its standard error is " + number("%.0f %%", 100.0 * share) + " of it";
+  } else {
+    e.identifiable = true;
+    e.reason = "known to " + number("%.2g %%", 100.0 * share);
+  }
+}
+
 WindowInformation window_information(const CalibrationProblem& problem, const Window& w,
                                      const WindowResiduals& at) {
   const Eigen::Index N = at.r.size(), G = at.by_global.cols();
@@ -131,6 +145,7 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   const double noise = 3.0 / std::sqrt(static_cast<double>(out.values));
   const MatX inverse = inverse_of(out.information, free);
   out.covariance = out.variance_factor * inverse;
+  out.white_covariance = inverse;
   if (out.autocorrelation > noise) {
     int lost = 1;
     while (lost + 1 < static_cast<int>(out.autocorrelations.size()) && out.autocorrelations[lost] > noise)
@@ -177,17 +192,8 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
       if (!fixed.empty() && fixed[g]) {
         e.identifiable = false;
         e.reason = "held at its start";
-      } else if (p.at_bound(u)) {
-        e.identifiable = false;
-        e.reason =
-            "the fit ran into the bound of what is allowed for it: the data ask for less or more, or for "
-            "nothing";
-      } else if (!(e.standard_error / e.value < kUnknown)) {
-        e.identifiable = false;
-        e.reason =
-            "its standard error is " + number("%.0f %%", 100.0 * e.standard_error / e.value) + " of it";
       } else {
-        e.reason = "known to " + number("%.2g %%", 100.0 * e.standard_error / e.value);
+        judge(p, e);
       }
     } else {
       const bool offset = problem.fit_time_offset && g == P;

@@ -25,7 +25,8 @@ struct ParameterEstimate {
   std::string si_unit;
   double value = 0.0;
   double standard_error = std::numeric_limits<double>::quiet_NaN();
-  double low = std::numeric_limits<double>::quiet_NaN(), high = low;  // Wald interval
+  double low = std::numeric_limits<double>::quiet_NaN(),
+         high = low;  // by curvature, until profiles take its place
   double coordinate_error =
       std::numeric_limits<double>::quiet_NaN();  // of u: the relative error of a logarithm
   bool identifiable = true;
@@ -40,6 +41,7 @@ struct ResidualSeries {
 struct Inference {
   std::vector<ParameterEstimate> parameters;  // then time offset and biases
   MatX information, covariance, correlation;  // in coordinates; of the same
+  MatX white_covariance;                      // inverse information, without s^2
   double variance_factor = 1.0;               // s^2
   double autocorrelation = 0.0;               // of neighbouring residuals
   int lags = 0;                               // L; 0: residuals are taken as white
@@ -51,6 +53,10 @@ struct Inference {
   std::vector<ResidualSeries> residuals;
   std::vector<double> autocorrelations;  // by lag, from 0
 };
+
+// Whether the data know a parameter, by its errors; says it in e.reason. Leaves what was held, or is at a
+// bound, as it is.
+void judge(const FittedParameter& parameter, ParameterEstimate& e);
 
 // Contribution of one window (loss and start state as in the problem) to the information, and its scores
 // sample by sample.

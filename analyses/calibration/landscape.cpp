@@ -53,6 +53,15 @@ double loss_at(const CalibrationProblem& problem, const Globals& at) {
   return loss;
 }
 
+long values_in(const CalibrationProblem& problem) {
+  long values = 0;
+  for (const Window& w : problem.windows)
+    if (!w.held_out)
+      values +=
+          problem.runs[w.run].data.value.middleRows(w.first, w.last - w.first + 1).array().isFinite().count();
+  return values;
+}
+
 bool look_around(const CalibrationProblem& problem, const std::vector<bool>& fixed, int jobs, Globals& at) {
   std::vector<Globals> tried = {at};
   for (int p = 0; p < problem.parameter_count(); ++p)

@@ -16,6 +16,9 @@ CalibrationProblem searched_up_to(const CalibrationProblem& problem, double shar
 // The loss over all windows that count, those from rest alone; start states as they rest.
 double loss_at(const CalibrationProblem& problem, const Globals& at);
 
+// How many readings its windows hold that count.
+long values_in(const CalibrationProblem& problem);
+
 // Whether a step of a few to some thirty percent of one parameter alone leads to a lower place. Moves `at`
 // there.
 bool look_around(const CalibrationProblem& problem, const std::vector<bool>& fixed, int jobs, Globals& at);

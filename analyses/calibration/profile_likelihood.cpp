@@ -3,64 +3,142 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <mutex>
 
 namespace boresight {
+namespace {
+
+// Points on each side, and how much farther than the last the next may be.
+constexpr int kMostPoints = 5;
+constexpr double kFarther = 2.5;
+
+struct Side {
+  const CalibrationProblem& problem;
+  const FitResult& fit;
+  const Inference& inference;
+  const std::vector<bool>& fixed;
+  int parameter;
+  double sign;
+  double rise_wanted;
+
+  const FittedParameter& own() const { return problem.parameters[parameter]; }
+  double clamped(double u) const {
+    return std::clamp(u, own().lowest_coordinate(), own().highest_coordinate());
+  }
+
+  // Residuals that follow one another: the parameter's variance over what white ones would leave.
+  double widened() const {
+    double white = inference.variance_factor, grown = inference.covariance(parameter, parameter);
+    white *= inference.white_covariance(parameter, parameter);
+    return white > 0.0 ? std::max(1.0, grown / white) : 1.0;
+  }
+
+  // Distance from the optimum at which the rise is what is wanted; NaN where a bound or the reach ends it
+  // before. points: distance (signed) and rise of each place tried. found: of every fit.
+  template <typename Found>
+  double crossing(std::vector<std::pair<double, double>>& points, Found&& found) const {
+    const double u0 = fit.globals.u[parameter];
+    const double scale = inference.variance_factor * widened();
+    const VecX line = inference.covariance.col(parameter) / inference.covariance(parameter, parameter);
+    double inside = 0.0, inside_root = 0.0;
+    double at = std::sqrt(rise_wanted) * std::min(std::sqrt(inference.covariance(parameter, parameter)), 1.0);
+    double outside = std::numeric_limits<double>::infinity(), outside_root = 0.0;
+    const double wanted = std::sqrt(rise_wanted);
+    for (int k = 0; k < kMostPoints; ++k) {
+      const double u = clamped(u0 + sign * at);
+      if (std::abs(u - u0) < inside + 1e-9) break;
+      Globals moved = fit.globals;
+      for (int p = 0; p < problem.parameter_count(); ++p)
+        if (std::isfinite(line[p]))
+          moved.u[p] = std::clamp(moved.u[p] + line[p] * (u - u0), problem.parameters[p].lowest_coordinate(),
+                                  problem.parameters[p].highest_coordinate());
+      moved.u[parameter] = u;
+      FitOptions o;
+      o.most_iterations = 6;
+      o.fixed = fixed;
+      o.fixed[parameter] = true;
+      o.cost_tolerance = 1e-5;
+      FitResult there = boresight::fit(problem, moved, fit.states, o);
+      const double root = std::sqrt(std::max(0.0, there.cost - fit.cost) / scale),
+                   distance = std::abs(u - u0);
+      points.emplace_back(u - u0, root * root);
+      found(std::move(there));
+      if (root < wanted) {
+        inside = distance;
+        inside_root = root;
+      } else {
+        outside = distance;
+        outside_root = root;
+      }
+      if (std::abs(root - wanted) < 0.03 * wanted) break;
+      // The root of the rise is nearly straight.
+      at = std::isfinite(outside)
+               ? inside + (outside - inside) * (wanted - inside_root) / (outside_root - inside_root)
+               : std::min(kFarther, wanted / std::max(root, 1e-3)) * distance;
+      if (std::isfinite(outside) && outside - inside < 0.03 * outside) break;
+    }
+    if (std::isfinite(outside))
+      return inside + (outside - inside) * (wanted - inside_root) / (outside_root - inside_root);
+    return inside_root > 0.95 * wanted ? inside * wanted / inside_root
+                                       : std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+}  // namespace
 
 std::vector<Profile> profile_likelihood(const CalibrationProblem& problem, const FitResult& fit,
                                         const Inference& inference, const std::vector<bool>& fixed,
-                                        double confidence, int jobs) {
-  const boost::math::chi_squared one(1.0);
-  const double rise = boost::math::quantile(one, confidence);
+                                        double confidence, int jobs, FitResult& lower) {
+  const double rise = boost::math::quantile(boost::math::chi_squared(1.0), confidence);
   std::vector<int> wanted;
   for (int p = 0; p < problem.parameter_count(); ++p)
     if (!fixed[p]) wanted.push_back(p);
   std::vector<Profile> profiles(wanted.size());
-  in_parallel(static_cast<int>(wanted.size()), jobs, [&](int k) {
-    Profile& profile = profiles[k];
-    profile.parameter = wanted[k];
-    const double deviation = std::min(inference.parameters[wanted[k]].coordinate_error, 1.0);
-    std::vector<std::pair<double, double>> points = {{0.0, 0.0}};
-    for (const double side : {-1.0, 1.0}) {
-      Globals at = fit.globals;
-      std::vector<VecX> states = fit.states;
-      for (const double step : {1.0, 2.0, 3.0}) {
-        const FittedParameter& parameter = problem.parameters[wanted[k]];
-        at.u[wanted[k]] = std::clamp(fit.globals.u[wanted[k]] + side * step * deviation,
-                                     parameter.lowest_coordinate(), parameter.highest_coordinate());
-        FitOptions o;
-        o.most_iterations = 6;
-        o.fixed = fixed;
-        o.fixed[wanted[k]] = true;
-        const FitResult found = boresight::fit(problem, at, states, o);
-        at = found.globals;
-        states = found.states;
-        const double risen = std::max(0.0, found.cost - fit.cost) / inference.variance_factor;
-        points.emplace_back(at.u[wanted[k]] - fit.globals.u[wanted[k]], risen);
-      }
-    }
-    std::sort(points.begin(), points.end());
-    const FittedParameter& parameter = problem.parameters[wanted[k]];
-    const double u0 = fit.globals.u[wanted[k]];
-    for (const auto& [u, risen] : points) {
-      profile.value.push_back(parameter.value(u0 + u));
-      profile.cost_rise.push_back(risen);
-    }
-    // The root of the rise is nearly straight: interpolate in it.
-    const auto crossing = [&](int side) {
-      for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        const auto& [a, ra] = points[i];
-        const auto& [b, rb] = points[i + 1];
-        if (side < 0 ? b > 0.0 : a < 0.0) continue;
-        if ((ra - rise) * (rb - rise) > 0.0) continue;
-        const double sa = std::sqrt(ra), sb = std::sqrt(rb);
-        return parameter.value(u0 + a + (b - a) * (std::sqrt(rise) - sa) / (sb - sa));
-      }
-      return std::numeric_limits<double>::quiet_NaN();
-    };
-    profile.low = crossing(-1);
-    profile.high = crossing(1);
+  std::vector<std::vector<std::pair<double, double>>> points(2 * wanted.size());
+  std::mutex mutex;
+  in_parallel(static_cast<int>(points.size()), jobs, [&](int k) {
+    Profile& profile = profiles[k / 2];
+    const Side side{problem, fit, inference, fixed, wanted[k / 2], k % 2 == 0 ? -1.0 : 1.0, rise};
+    const double distance = side.crossing(points[k], [&](FitResult found) {
+      const std::lock_guard lock(mutex);
+      if (found.cost < lower.cost) lower = std::move(found);
+    });
+    const FittedParameter& parameter = problem.parameters[wanted[k / 2]];
+    (k % 2 == 0 ? profile.low : profile.high) =
+        std::isfinite(distance) ? parameter.value(fit.globals.u[wanted[k / 2]] + side.sign * distance)
+                                : distance;
   });
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    std::vector<std::pair<double, double>> all = {{0.0, 0.0}};
+    for (const std::size_t side : {2 * k, 2 * k + 1})
+      all.insert(all.end(), points[side].begin(), points[side].end());
+    std::sort(all.begin(), all.end());
+    profiles[k].parameter = wanted[k];
+    for (const auto& [u, risen] : all) {
+      profiles[k].value.push_back(problem.parameters[wanted[k]].value(fit.globals.u[wanted[k]] + u));
+      profiles[k].cost_rise.push_back(risen);
+    }
+  }
   return profiles;
+}
+
+void take_intervals(const std::vector<Profile>& profiles, double confidence,
+                    const CalibrationProblem& problem, Inference& inference) {
+  const double reach = std::sqrt(boost::math::quantile(boost::math::chi_squared(1.0), confidence));
+  for (const Profile& profile : profiles) {
+    ParameterEstimate& e = inference.parameters[profile.parameter];
+    if (!std::isfinite(profile.low) || !std::isfinite(profile.high)) continue;
+    const FittedParameter& parameter = problem.parameters[profile.parameter];
+    const double width = parameter.coordinate(profile.high) - parameter.coordinate(profile.low);
+    const double error = 0.5 * width / reach, grow = error / e.coordinate_error;
+    inference.covariance.row(profile.parameter) *= grow;
+    inference.covariance.col(profile.parameter) *= grow;
+    e.standard_error *= grow;
+    e.coordinate_error = error;
+    e.low = profile.low;
+    e.high = profile.high;
+    judge(parameter, e);
+  }
 }
 
 }  // namespace boresight
