@@ -315,8 +315,8 @@ class Calibrator {
     for (int step = 0;; ++step) {
       const Globals at = result_.fit.globals;
       tell("multibody at the optimum", 0.0, "correction " + std::to_string(step + 1));
-      const Readings difference = multibody_difference(problem_, at, options_.jobs);
-      const CorrectionSize size = size_of(problem_, at, difference);
+      MultibodyAt multibody = multibody_at(problem_, at, options_.jobs);
+      const CorrectionSize size = size_of(problem_, at, multibody);
       result_.confirmation = size.confirmation;
       if (step == options_.corrections || settled) return;
       const VecX error = infer_now().covariance.diagonal().cwiseSqrt().head(problem_.parameter_count());
@@ -328,9 +328,17 @@ class Calibrator {
         slopes = multibody_slopes(problem_, at, width, options_.jobs);
       }
       problem_.corrections.clear();
-      for (std::size_t r = 0; r < difference.size(); ++r)
-        problem_.corrections.push_back(
-            {at.u, difference[r], slopes.empty() ? std::vector<MatX>() : slopes[r]});
+      for (std::size_t r = 0; r < problem_.runs.size(); ++r) {
+        ModelCorrection correction{std::move(multibody.difference[r]), {}};
+        if (!slopes.empty())
+          correction.tangent = {at.u,
+                                at.time_offset,
+                                std::move(multibody.reading[r]),
+                                std::move(multibody.by_time[r]),
+                                slopes[r],
+                                std::move(multibody.motion[r])};
+        problem_.corrections.push_back(std::move(correction));
+      }
       refit("corrected by multibody");
       // The landscape is another one now.
       if (step == 0) settle("corrected by multibody");

@@ -164,20 +164,18 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
                                   bool derivatives, WindowResiduals& out) const {
   const CalibrationRun& run = runs[w.run];
   const int n = run.tables->layout.n, P = parameter_count();
-  const ModelCorrection* correction = corrections.empty() ? nullptr : &corrections[w.run];
-  const bool linear = correction && !correction->slope.empty();
-  Globals followed = globals;
-  if (linear) followed.u = correction->at;
-  const std::vector<double> theta = values(followed);
+  const ModelCorrection* correction = corrections.empty() || !w.from_rest ? nullptr : &corrections[w.run];
+  if (correction && correction->tangent) return evaluate_tangent(w, globals, derivatives, out);
+  const std::vector<double> theta = values(globals);
   const VecX scale = state_scale(w);
   MotionRequest request;
   request.start = w.start;
   request.end = w.end;
   request.start_state = state.cwiseProduct(scale);
   request.tolerance = tolerance;
-  request.by_parameters = derivatives && !linear;
+  request.by_parameters = derivatives;
   request.by_start_state = derivatives && !w.from_rest;
-  request.derivative_tolerance = derivatives && !linear ? derivative_tolerance : 0.0;
+  request.derivative_tolerance = derivatives ? derivative_tolerance : 0.0;
   for (int i = w.first; i <= w.last; ++i)
     request.times.push_back(std::clamp(run.data.time[i] + globals.time_offset, w.start, w.end));
   out.motion = follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), run.tables,
@@ -190,7 +188,6 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
     out.by_global.setZero(most, global_count());
     out.by_state.setZero(most, 2 * n);
   }
-  const VecX from_correction = linear ? VecX(globals.u - correction->at) : VecX();
   int m = 0;
   ChannelRows at, later, earlier;
   for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
@@ -205,11 +202,7 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
       const Vec3 vector = at.rows * z;
       const double own = at.size ? vector.norm() : vector[0];
       double model = own;
-      if (correction) {
-        model += correction->offset(w.first + i, column_here);
-        for (std::size_t p = 0; p < correction->slope.size(); ++p)
-          model += correction->slope[p](w.first + i, column_here) * from_correction[p];
-      }
+      if (correction) model += correction->offset(w.first + i, column_here);
       const double bias = globals.bias.size() > 0 ? globals.bias[c] : 0.0;
       out.r[m] = (model + bias - measured) / sigma[c];
       out.sample.push_back(w.first + i);
@@ -218,9 +211,7 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
         const Vec3 along = at.size ? Vec3(vector / std::max(own, 1e-12)) : Vec3::UnitX();
         const Eigen::RowVectorXd by_z = along.transpose() * at.rows / sigma[c];
         for (int p = 0; p < P; ++p)
-          out.by_global(m, p) =
-              linear ? correction->slope[p](w.first + i, column_here) / sigma[c]
-                     : by_z.dot(out.motion.by[i].col(p).head(n)) * parameters[p].slope(globals.u[p]);
+          out.by_global(m, p) = by_z.dot(out.motion.by[i].col(p).head(n)) * parameters[p].slope(globals.u[p]);
         if (!w.from_rest)
           out.by_state.row(m) = by_z * out.motion.by[i].rightCols(2 * n).topRows(n) * scale.asDiagonal();
         int g = P;
@@ -242,6 +233,47 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
     out.by_global.conservativeResize(m, Eigen::NoChange);
     out.by_state.conservativeResize(m, Eigen::NoChange);
   }
+}
+
+void CalibrationProblem::evaluate_tangent(const Window& w, const Globals& globals, bool derivatives,
+                                          WindowResiduals& out) const {
+  const TangentModel& model = *corrections[w.run].tangent;
+  const VecX away = globals.u - model.at;
+  const double later = globals.time_offset - model.time_offset;
+  const int P = parameter_count(), most = (w.last - w.first + 1) * static_cast<int>(channels.size());
+  out.motion = model.motion;
+  out.r.resize(most);
+  out.sample.clear();
+  out.channel.clear();
+  if (derivatives) {
+    out.by_global.setZero(most, global_count());
+    out.by_state.setZero(most, state_size(w));
+  }
+  int m = 0;
+  for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
+    const int k = column(w.run, c);
+    if (k < 0) continue;
+    for (int i = w.first; i <= w.last; ++i) {
+      const double measured = runs[w.run].data.value(i, k);
+      if (!std::isfinite(measured)) continue;
+      double reading = model.reading(i, k) + model.by_time(i, k) * later;
+      for (int p = 0; p < P; ++p) reading += model.slope[p](i, k) * away[p];
+      if (globals.bias.size() > 0) reading += globals.bias[c];
+      out.r[m] = (reading - measured) / sigma[c];
+      out.sample.push_back(i);
+      out.channel.push_back(c);
+      if (derivatives) {
+        for (int p = 0; p < P; ++p) out.by_global(m, p) = model.slope[p](i, k) / sigma[c];
+        if (fit_time_offset) out.by_global(m, P) = model.by_time(i, k) / sigma[c];
+        if (fit_bias) out.by_global(m, P + (fit_time_offset ? 1 : 0) + c) = 1.0 / sigma[c];
+      }
+      ++m;
+    }
+  }
+  out.r.conservativeResize(m);
+  if (!derivatives) return;
+  out.by_global.conservativeResize(m, Eigen::NoChange);
+  out.by_state.conservativeResize(m, Eigen::NoChange);
 }
 
 double CalibrationProblem::cost(const Window& window, const Globals& globals, const VecX& state) const {

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,13 +72,21 @@ struct WindowResiduals {
   SensitiveMotion motion;
 };
 
-// A richer model's readings in place of this one's. Without slopes: this model's, moved by an offset. With
-// them: the richer model's value and slopes at `at`; this model's own motion then stays at `at`, and has no
-// say in the parameters.
+// A richer model in place of this one near `at`: its readings and its slopes. Matrices: samples x the run's
+// channels, SI.
+struct TangentModel {
+  VecX at;  // u
+  double time_offset = 0.0;
+  MatX reading, by_time;
+  std::vector<MatX> slope;  // per parameter, by its u
+  SensitiveMotion motion;   // this model's, for its impacts
+};
+
+// What is known of a richer model, of a run's motion from rest: how far its readings are from this model's;
+// once it is there, its tangent.
 struct ModelCorrection {
-  VecX at;                  // u
-  MatX offset;              // at `at`, richer less this: samples x the run's channels [SI]
-  std::vector<MatX> slope;  // of the richer model, per parameter by its u; empty: this model's
+  MatX offset;  // added to this model's readings
+  std::optional<TangentModel> tangent;
 };
 
 class CalibrationProblem {
@@ -135,6 +144,8 @@ class CalibrationProblem {
   VecX state_at(const Window& window, const Globals& globals, const VecX& state, double t) const;
 
  private:
+  void evaluate_tangent(const Window& window, const Globals& globals, bool derivatives,
+                        WindowResiduals& out) const;
   struct ChannelRows {
     Eigen::Matrix<double, 3, Eigen::Dynamic> rows;  // one used, or three of which the size counts
     bool size = false;

@@ -9,6 +9,19 @@
 namespace boresight {
 namespace {
 
+CalibrationProblem without_corrections(const CalibrationProblem& problem) {
+  CalibrationProblem plain = problem;
+  plain.corrections.clear();
+  return plain;
+}
+
+Readings zeros_for(const CalibrationProblem& problem) {
+  Readings zeros;
+  for (const CalibrationRun& run : problem.runs)
+    zeros.push_back(MatX::Zero(run.data.value.rows(), run.data.value.cols()));
+  return zeros;
+}
+
 // Of window w, its samples x the run's channels.
 MatX window_readings(const CalibrationProblem& problem, const Window& w, const Globals& at) {
   const CalibrationRun& run = problem.runs[w.run];
@@ -18,88 +31,73 @@ MatX window_readings(const CalibrationProblem& problem, const Window& w, const G
                             run.data.channels);
 }
 
-// Less those of the fit's rung, where there are data.
-void subtract_own(const CalibrationProblem& plain, const Window& w, const Globals& at, MatX& readings) {
-  const CalibrationRun& run = plain.runs[w.run];
-  WindowResiduals own;
-  plain.evaluate(w, at, VecX::Zero(plain.state_size(w)), false, own);
-  for (Eigen::Index i = 0; i < own.r.size(); ++i) {
-    const int column = plain.column(w.run, own.channel[i]);
-    const double bias = at.bias.size() > 0 ? at.bias[own.channel[i]] : 0.0;
-    readings(own.sample[i] - w.first, column) -=
-        run.data.value(own.sample[i], column) + own.r[i] * plain.sigma[own.channel[i]] - bias;
-  }
-}
-
-// At each of the points, per run; zero where no window starts from rest.
-std::vector<Readings> at_points(const CalibrationProblem& problem, const std::vector<Globals>& points,
-                                bool less_own, int jobs) {
-  CalibrationProblem plain = problem;
-  plain.corrections.clear();
-  Readings none;
-  for (const CalibrationRun& run : plain.runs)
-    none.push_back(MatX::Zero(run.data.value.rows(), run.data.value.cols()));
-  std::vector<Readings> all(points.size(), none);
-  const int windows = static_cast<int>(plain.windows.size());
-  in_parallel(windows * static_cast<int>(points.size()), jobs, [&](int k) {
-    const Window& w = plain.windows[k % windows];
-    if (!w.from_rest) return;
-    const Globals& point = points[k / windows];
-    MatX readings = window_readings(plain, w, point);
-    if (less_own) subtract_own(plain, w, point, readings);
-    all[k / windows][w.run].middleRows(w.first, w.last - w.first + 1) = readings;
-  });
-  return all;
-}
-
 }  // namespace
 
-Readings multibody_difference(const CalibrationProblem& problem, const Globals& at, int jobs) {
-  return at_points(problem, {at}, true, jobs).front();
+MultibodyAt multibody_at(const CalibrationProblem& problem, const Globals& at, int jobs) {
+  const CalibrationProblem plain = without_corrections(problem);
+  MultibodyAt out{zeros_for(plain), zeros_for(plain), zeros_for(plain), {}};
+  out.motion.resize(plain.runs.size());
+  in_parallel(static_cast<int>(plain.windows.size()), jobs, [&](int k) {
+    const Window& w = plain.windows[k];
+    if (!w.from_rest) return;
+    const MeasuredData& data = plain.runs[w.run].data;
+    const MatX readings = window_readings(plain, w, at);
+    out.reading[w.run].middleRows(w.first, w.last - w.first + 1) = readings;
+    WindowResiduals own;
+    plain.evaluate(w, at, VecX::Zero(plain.state_size(w)), true, own);
+    for (Eigen::Index i = 0; i < own.r.size(); ++i) {
+      const int sample = own.sample[i], channel = own.channel[i], column = plain.column(w.run, channel);
+      const double bias = at.bias.size() > 0 ? at.bias[channel] : 0.0;
+      const double model = data.value(sample, column) + own.r[i] * plain.sigma[channel] - bias;
+      out.difference[w.run](sample, column) = readings(sample - w.first, column) - model;
+      if (plain.fit_time_offset)
+        out.by_time[w.run](sample, column) = own.by_global(i, plain.parameter_count()) * plain.sigma[channel];
+    }
+    out.motion[w.run] = std::move(own.motion);
+  });
+  return out;
 }
 
 std::vector<std::vector<MatX>> multibody_slopes(const CalibrationProblem& problem, const Globals& at,
                                                 const VecX& step, int jobs) {
-  const int P = problem.parameter_count();
-  std::vector<Globals> points;
-  for (int p = 0; p < P; ++p)
-    for (const double side : {1.0, -1.0}) {
-      if (!(step[p] > 0.0)) continue;
-      Globals moved = at;
-      moved.u[p] = std::clamp(at.u[p] + side * step[p], problem.parameters[p].lowest_coordinate(),
-                              problem.parameters[p].highest_coordinate());
-      points.push_back(moved);
-    }
-  const std::vector<Readings> readings = at_points(problem, points, false, jobs);
-  std::vector<std::vector<MatX>> slopes(problem.runs.size());
-  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
-    const MatX& value = problem.runs[r].data.value;
-    slopes[r].assign(P, MatX::Zero(value.rows(), value.cols()));
-    for (int p = 0, k = 0; p < P; ++p) {
-      if (!(step[p] > 0.0)) continue;
-      slopes[r][p] = (readings[k][r] - readings[k + 1][r]) / (points[k].u[p] - points[k + 1].u[p]);
-      k += 2;
-    }
-  }
+  const CalibrationProblem plain = without_corrections(problem);
+  const int P = plain.parameter_count(), windows = static_cast<int>(plain.windows.size());
+  std::vector<std::vector<MatX>> slopes;
+  for (const MatX& zeros : zeros_for(plain)) slopes.emplace_back(P, zeros);
+  in_parallel(windows * P, jobs, [&](int k) {
+    const Window& w = plain.windows[k % windows];
+    const int p = k / windows;
+    if (!w.from_rest || !(step[p] > 0.0)) return;
+    const auto moved = [&](double by) {
+      Globals there = at;
+      there.u[p] = std::clamp(at.u[p] + by, plain.parameters[p].lowest_coordinate(),
+                              plain.parameters[p].highest_coordinate());
+      return there;
+    };
+    const Globals more = moved(step[p]), less = moved(-step[p]);
+    slopes[w.run][p].middleRows(w.first, w.last - w.first + 1) =
+        (window_readings(plain, w, more) - window_readings(plain, w, less)) / (more.u[p] - less.u[p]);
+  });
   return slopes;
 }
 
-CorrectionSize size_of(const CalibrationProblem& problem, const Globals& at, const Readings& difference) {
-  CalibrationProblem multibody = problem;
-  multibody.corrections.clear();
-  for (const MatX& offset : difference) multibody.corrections.push_back({at.u, offset, {}});
+CorrectionSize size_of(const CalibrationProblem& problem, const Globals& at, const MultibodyAt& multibody) {
   CorrectionSize size;
   long count = 0;
   for (const Window& w : problem.windows) {
     if (!w.from_rest) continue;
-    WindowResiduals residuals;
-    multibody.evaluate(w, at, VecX::Zero(problem.state_size(w)), false, residuals);
-    count += residuals.r.size();
-    for (Eigen::Index i = 0; i < residuals.r.size(); ++i) {
-      const int channel = residuals.channel[i];
-      size.confirmation += std::pow(problem.loss.residual(residuals.r[i]), 2);
-      size.difference += std::pow(
-          difference[w.run](residuals.sample[i], problem.column(w.run, channel)) / problem.sigma[channel], 2);
+    for (int c = 0; c < static_cast<int>(problem.channels.size()); ++c) {
+      const int column = problem.column(w.run, c);
+      if (column < 0) continue;
+      const double bias = at.bias.size() > 0 ? at.bias[c] : 0.0;
+      for (int i = w.first; i <= w.last; ++i) {
+        const double measured = problem.runs[w.run].data.value(i, column);
+        if (!std::isfinite(measured)) continue;
+        const double r = (multibody.reading[w.run](i, column) + bias - measured) / problem.sigma[c];
+        size.confirmation += std::pow(problem.loss.residual(r), 2);
+        size.difference += std::pow(multibody.difference[w.run](i, column) / problem.sigma[c], 2);
+        ++count;
+      }
     }
   }
   size.confirmation = std::sqrt(size.confirmation / static_cast<double>(std::max(1L, count)));

@@ -13,8 +13,13 @@ namespace boresight {
 // Per run: samples x its channels [SI], zero where no window starts from rest. Throws ComputationError.
 using Readings = std::vector<MatX>;
 
-// Multibody less the fit's rung (without its corrections), on `jobs` threads.
-Readings multibody_difference(const CalibrationProblem& problem, const Globals& at, int jobs);
+struct MultibodyAt {
+  Readings reading, difference;         // its own; less those of the fit's rung
+  Readings by_time;                     // of the fit's rung [SI/s]; zero unless the time offset is fitted
+  std::vector<SensitiveMotion> motion;  // of the fit's rung
+};
+// On `jobs` threads; the problem's corrections have no say.
+MultibodyAt multibody_at(const CalibrationProblem& problem, const Globals& at, int jobs);
 
 // Multibody's slopes by each parameter's u, by central differences over `step` of it to either side: about a
 // standard error, the width at which they matter. Zero where step is.
@@ -26,6 +31,6 @@ struct CorrectionSize {
   double difference = 0.0;    // rms of the difference, in standard deviations of the noise
   double confirmation = 0.0;  // rms of multibody's own standardised residuals, with the loss
 };
-CorrectionSize size_of(const CalibrationProblem& problem, const Globals& at, const Readings& difference);
+CorrectionSize size_of(const CalibrationProblem& problem, const Globals& at, const MultibodyAt& multibody);
 
 }  // namespace boresight

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 
@@ -101,19 +100,17 @@ TEST(Calibrate, GrossOutliersMoveTheAnswerByLessThanAStandardError) {
 }
 
 TEST(CalibrateLong, FourParametersFromTenRunsOfASecond) {
-  std::vector<double> speeds;
-  for (int r = 0; r < 10; ++r) speeds.push_back(1.5 + 0.15 * r);
-  const Bench bench(speeds, 1.0, false);
+  const Bench bench = four_bar::ten_runs();
   CalibrationProblem problem = bench.problem({}, kFour);
-  const auto start = std::chrono::steady_clock::now();
   const CalibrationResult result = calibrate(problem, options_with(0));
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  std::printf("  ten runs of 1 s at 1 kHz, four parameters, 2 threads: %.1f s\n", seconds);
-  for (const ParameterEstimate& e : result.inference.parameters)
+  for (const ParameterEstimate& e : result.inference.parameters) {
     std::printf("  %s %.5f of the truth, error %.3g %%\n", e.name.c_str(), e.value / bench.truth(e.name),
                 100.0 * e.standard_error / e.value);
-  EXPECT_LT(seconds, 30.0);
-  EXPECT_LT(std::abs(result.inference.parameters[0].value / bench.truth(kFour[0]) - 1.0), 0.01);
+    EXPECT_LT(deviations_off(bench, e), 4.0) << e.name;
+  }
+  EXPECT_NEAR(result.inference.variance_factor, 1.0, 0.1);
+  EXPECT_NEAR(result.inference.parameters[0].value / bench.truth(kFour[0]), 1.0, 0.01);
+  EXPECT_NEAR(result.inference.parameters[2].value / bench.truth(kFour[2]), 1.0, 0.10);
 }
 
 TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) {

@@ -32,7 +32,7 @@ inline MatX own_readings(const std::shared_ptr<const Mechanism>& m, const std::v
                          const std::vector<int>& channels) {
   RunOptions options;
   options.integrator = "dopri5";
-  options.tolerance = 1e-6;
+  options.tolerance = 1e-7;
   options.sample_spacing = t[1] - t[0];
   const RunResult run = make_rung("perturbation", m)->run(m->parameters(), options);
   MatX readings(static_cast<Eigen::Index>(t.size()), static_cast<Eigen::Index>(channels.size()));
@@ -82,5 +82,12 @@ struct Bench {
 inline const std::vector<std::string> kFour = {"clearance.D.radial", "clearance.D.contact.restitution",
                                                "clearance.D.friction.coefficient",
                                                "clearance.D.contact.stiffness_scale"};
+
+// Ten runs of 1 s at 1 kHz, each at its own speed.
+inline Bench ten_runs() {
+  std::vector<double> speeds;
+  for (int r = 0; r < 10; ++r) speeds.push_back(1.5 + 0.15 * r);
+  return Bench(speeds, 1.0, false);
+}
 
 }  // namespace boresight::four_bar
