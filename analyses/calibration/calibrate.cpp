@@ -35,6 +35,8 @@ class Calibrator {
   Calibrator(CalibrationProblem& problem, const CalibrationOptions& options)
       : problem_(problem), options_(options) {
     result_.fixed.assign(problem.parameters.size(), false);
+    // Free windows are short, and jitter has no time to grow in them.
+    if (!follows_from_rest(problem)) loosen(problem);
   }
 
   CalibrationResult run() {
@@ -165,9 +167,10 @@ class Calibrator {
     long evaluations = 0;
   };
 
-  // A loss that noise alone does not explain.
+  // A loss that noise alone does not explain. Free windows find their start states anew at every place, and
+  // settle less finely: theirs does not tell.
   static bool lost(const CalibrationProblem& problem, double cost) {
-    return cost > kLost * static_cast<double>(values_in(problem));
+    return follows_from_rest(problem) && cost > kLost * static_cast<double>(values_in(problem));
   }
 
   // The start given, and others within a factor of two of it (restitution: one in the logit).

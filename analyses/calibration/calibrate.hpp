@@ -22,8 +22,8 @@ struct CalibrationOptions {
   int starts = 4;
   std::uint64_t seed = 1;
   VecX noise;  // per channel of channel_names(), NaN: estimated; empty: all estimated
-  int corrections =
-      4;  // by multibody, at most: they end where one moves nothing; 0: none, and no confirmation
+  // By multibody, at most; they end where one moves nothing. 0: none, and no confirmation.
+  int corrections = 6;
   bool profile = false;
   std::vector<std::string> laws;      // compared by the same data
   std::vector<Candidate> candidates;  // of a next test

@@ -66,7 +66,7 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study,
   };
   plan.starts = static_cast<int>(whole("starts", 1, 1000, 4));
   plan.seed = static_cast<std::uint64_t>(whole("seed", 0, 1LL << 62, 1));
-  plan.corrections = static_cast<int>(whole("corrections", 0, 10, 4));
+  plan.corrections = static_cast<int>(whole("corrections", 0, 10, 6));
   plan.confidence = table.number("confidence", 0.95);
   table.require(plan.confidence > 0.5 && plan.confidence < 1.0, "confidence",
                 "more than 0.5 and less than 1");

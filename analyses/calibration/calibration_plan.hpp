@@ -7,7 +7,7 @@
 //   deviations starts = 4 time_offset = "2 ms"              # the largest; left out: none is fitted
 //   mounting_bias = true
 //   hold_out = "20 %"
-//   corrections = 4                   # by multibody, at most
+//   corrections = 6                   # by multibody, at most
 //   profile = true
 //   laws = ["flores", "hertz"]
 //   noise = { dx = "1 um" }           # of single channels; those left out are estimated
@@ -54,7 +54,7 @@ struct CalibrationPlan {
   double largest_time_offset = 0.0;
   bool mounting_bias = false;
   double hold_out = 0.0;
-  int corrections = 4;
+  int corrections = 6;
   bool profile = true;
   std::vector<std::string> laws;
   VecX noise;

@@ -6,8 +6,6 @@
 namespace boresight {
 namespace {
 
-// A search may jitter by a hundredth of the noise.
-constexpr double kSearchTolerance = 1e-5, kSearchDerivativeTolerance = 1e-3;
 constexpr double kSurprise = 0.5;
 
 // Held parameters have no covariance, and stay.
@@ -32,10 +30,14 @@ bool follows_from_rest(const CalibrationProblem& problem) {
                      [](const Window& w) { return w.from_rest; });
 }
 
+void loosen(CalibrationProblem& problem) {
+  problem.tolerance = 1e-5;
+  problem.derivative_tolerance = 1e-3;
+}
+
 CalibrationProblem searched_up_to(const CalibrationProblem& problem, double share) {
   CalibrationProblem part = problem;
-  part.tolerance = kSearchTolerance;
-  part.derivative_tolerance = kSearchDerivativeTolerance;
+  loosen(part);
   for (Window& w : part.windows) {
     const std::vector<double>& t = problem.runs[w.run].data.time;
     const double end = t[w.first] + share * (t[w.last] - t[w.first]);

@@ -10,6 +10,9 @@ namespace boresight {
 // parameter.
 bool follows_from_rest(const CalibrationProblem& problem);
 
+// Motions no closer than a search needs: residuals may jitter by a hundredth of the noise.
+void loosen(CalibrationProblem& problem);
+
 // The problem with its runs followed up to a share of the whole only, motions no closer than a search needs.
 CalibrationProblem searched_up_to(const CalibrationProblem& problem, double share);
 

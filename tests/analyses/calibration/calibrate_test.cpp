@@ -40,6 +40,31 @@ TEST(Calibrate, RecoversWhatMadeItsOwnRungsData) {
   EXPECT_EQ(result.inference.rank, 4);
 }
 
+TEST(Calibrate, FindsClearanceToOnePercentAndFrictionToTenInMultibodyData) {
+  const Bench bench({2.0, 2.6}, 0.12, true);
+  CalibrationProblem problem = bench.problem({}, kFour);
+  const CalibrationResult result = calibrate(problem, options_with(2));
+  EXPECT_NEAR(result.inference.parameters[0].value / bench.truth(kFour[0]), 1.0, 0.01);
+  EXPECT_NEAR(result.inference.parameters[2].value / bench.truth(kFour[2]), 1.0, 0.10);
+  for (const ParameterEstimate& e : result.inference.parameters)
+    EXPECT_LT(deviations_off(bench, e), 3.5) << e.name;
+  // Multibody itself leaves at the optimum what the noise does.
+  EXPECT_NEAR(result.confirmation, 1.0, 0.1);
+}
+
+TEST(CalibrateLong, GoesOnStartingUntilAStartExplainsTheData) {
+  // With this noise no fit comes near from the first four starts.
+  const Bench bench({2.0, 2.4, 2.8}, 0.2, true);
+  SyntheticRig rig;
+  rig.seed = 1026;
+  CalibrationProblem problem = bench.problem(rig, kFour);
+  CalibrationOptions options = options_with(0);
+  options.starts = 4;
+  const CalibrationResult result = calibrate(problem, options);
+  EXPECT_GT(result.starts.size(), 4u);
+  EXPECT_NEAR(result.inference.variance_factor, 1.0, 0.1);
+}
+
 TEST(Calibrate, FindsHiddenTimeOffsetAndMountingBias) {
   const Bench bench({2.0, 2.6}, 0.12, false);
   SyntheticRig rig;
@@ -113,37 +138,48 @@ TEST(CalibrateLong, FourParametersFromTenRunsOfASecond) {
   EXPECT_NEAR(result.inference.parameters[2].value / bench.truth(kFour[2]), 1.0, 0.10);
 }
 
+// 100 sets: BORESIGHT_CALIBRATION_SETS=100, some ten minutes of one core. BORESIGHT_CALIBRATION_SEED: of the
+// first.
 TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) {
-  const char* asked = std::getenv("BORESIGHT_CALIBRATION_SETS");
-  const int sets = asked ? std::atoi(asked) : 20;
+  const auto number = [](const char* name, int otherwise) {
+    const char* asked = std::getenv(name);
+    return asked ? std::atoi(asked) : otherwise;
+  };
+  const int sets = number("BORESIGHT_CALIBRATION_SETS", 20),
+            first = number("BORESIGHT_CALIBRATION_SEED", 2000);
   const Bench bench({2.0, 2.4, 2.8}, 0.2, true);
-  std::vector<int> inside(4, 0);
-  double worst[4] = {};
-  for (int set = 0; set < sets; ++set) {
+  std::vector<std::vector<ParameterEstimate>> found(sets);
+  in_parallel(sets, 2, [&](int set) {
     SyntheticRig rig;
-    rig.seed = static_cast<std::uint64_t>(set) + 1;
+    rig.seed = static_cast<std::uint64_t>(first) + static_cast<std::uint64_t>(set);
     CalibrationProblem problem = bench.problem(rig, kFour);
-    CalibrationOptions options = options_with(3);
-    options.starts = 4;
-    const CalibrationResult result = calibrate(problem, options);
-    for (int p = 0; p < 4; ++p) {
-      const ParameterEstimate& e = result.inference.parameters[p];
-      const double truth = bench.truth(e.name);
-      inside[p] += e.low <= truth && truth <= e.high;
-      worst[p] = std::max(worst[p], std::abs(e.value / truth - 1.0));
+    CalibrationOptions options;
+    options.profile = true;
+    found[set] = calibrate(problem, options).inference.parameters;
+  });
+  for (int p = 0; p < 4; ++p) {
+    const double truth = bench.truth(kFour[p]);
+    int inside = 0;
+    double worst = 0.0;
+    for (const auto& set : found) {
+      inside += set[p].low <= truth && truth <= set[p].high;
+      worst = std::max(worst, std::abs(set[p].value / truth - 1.0));
+    }
+    std::printf("  %s: truth inside %d of %d intervals of 95 %%, largest error %.3g %%\n", kFour[p].c_str(),
+                inside, sets, 100.0 * worst);
+    // 90 to 99 % of many sets; of few, what chance makes of 95 % (2.5 deviations of the binomial).
+    EXPECT_GE(inside, sets >= 100 ? 0.90 * sets : 0.95 * sets - 2.5 * std::sqrt(0.95 * 0.05 * sets))
+        << kFour[p];
+    if (sets >= 100) {
+      EXPECT_LE(inside, 0.99 * sets) << kFour[p];
+    }
+    if (p == 0) {
+      EXPECT_LE(worst, 0.01);
+    }
+    if (p == 2) {
+      EXPECT_LE(worst, 0.10);
     }
   }
-  int all = 0;
-  for (int p = 0; p < 4; ++p) {
-    std::printf("  %s: truth inside %d of %d intervals of 95 %%, largest error %.3g %%\n", kFour[p].c_str(),
-                inside[p], sets, 100.0 * worst[p]);
-    all += inside[p];
-  }
-  // 90 to 99 % of the sets; a binomial allowance where there are few sets.
-  const double share = all / (4.0 * sets);
-  EXPECT_GE(share, 0.90 - 2.0 * std::sqrt(0.09 / (4.0 * sets)));
-  EXPECT_LE(worst[0], 0.01);
-  EXPECT_LE(worst[2], 0.10);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight_analyses/calibration/calibrate.hpp"
+#include "boresight_analyses/calibration/channel_noise.hpp"
 #include "boresight_analyses/calibration/rig.hpp"
 
 namespace boresight::four_bar {
