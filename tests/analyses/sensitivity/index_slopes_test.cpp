@@ -1,0 +1,73 @@
+// Exact slopes of the indices are what differences of whole motions tend to.
+#include "boresight_analyses/sensitivity/index_slopes.hpp"
+
+#include <gmock/gmock.h>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/mechanism/parameter_path.hpp"
+#include "boresight/rungs/ideal_simulation.hpp"
+
+namespace boresight {
+namespace {
+
+struct Scene {
+  Mechanism mechanism{read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", {})};
+  PreparedScene prepared{mechanism, ideal_motion(mechanism, mechanism.parameters()), mechanism.parameters()};
+  std::vector<ParameterPath> paths;
+  std::vector<double> values;
+
+  Scene() {
+    for (const char* path :
+         {"clearance.A.radial", "clearance.A.contact.restitution", "clearance.A.friction.coefficient"})
+      paths.emplace_back(mechanism.description(), path);
+    for (const ParameterPath& path : paths) values.push_back(path.get(mechanism.parameters()));
+  }
+  IndexSlopes slopes(const std::vector<double>& v, const IndexChoice& index) const {
+    SlopeOptions options;
+    options.end = 8e-3;  // three impacts, none of which grazes
+    options.points = 100;
+    options.start_state = VecX::Zero(6);
+    options.start_state << 2e-5, 1e-5, -1e-5, 0.02, 0.001, 0.03;
+    options.tolerance = 1e-11;
+    options.control_derivatives = true;
+    return index_slopes(
+        mechanism, prepared,
+        [this](const std::vector<double>& x) {
+          Parameters p = mechanism.parameters();
+          for (std::size_t k = 0; k < paths.size(); ++k) paths[k].set(p, x[k]);
+          return p;
+        },
+        v, index, options);
+  }
+  double richardson(std::size_t k, const IndexChoice& index) const {
+    const auto central = [&](double share) {
+      std::vector<double> above = values, below = values;
+      above[k] *= 1.0 + share;
+      below[k] *= 1.0 - share;
+      return (slopes(above, index).value - slopes(below, index).value) / (2.0 * share * values[k]);
+    };
+    const double h = 1e-4;
+    return (4.0 * central(0.5 * h) - central(h)) / 3.0;
+  }
+};
+
+void expect_exact(const Scene& scene, const IndexChoice& index) {
+  const IndexSlopes exact = scene.slopes(scene.values, index);
+  ASSERT_GE(exact.impacts, 2);
+  ASSERT_EQ(exact.grazing, 0);
+  for (std::size_t k = 0; k < scene.values.size(); ++k)
+    EXPECT_NEAR(exact.by[k] / scene.richardson(k, index), 1.0, 1e-6) << index.title() << ", parameter " << k;
+}
+
+TEST(IndexSlopes, OfRmsAndMeanAreThoseOfRichardsonDifferencesThroughImpacts) {
+  const Scene scene;
+  expect_exact(scene, {"position_error", "rms"});
+  expect_exact(scene, {"position_error", "mean"});
+}
+TEST(IndexSlopes, OfAMaximumIsThatOfRichardsonDifferencesWhileNoOtherTimeTakesItsPlace) {
+  expect_exact(Scene(), {"position_error", "max"});
+}
+TEST(IndexSlopes, OfTheLineOfSightAreThoseOfRichardsonDifferences) { expect_exact(Scene(), {"line_of_sight_error", "rms"}); }
+
+}  // namespace
+}  // namespace boresight
