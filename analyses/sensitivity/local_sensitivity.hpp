@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct LocalSensitivity {
   double spread = 0.0;                     // among them, relative to the largest
   bool meaningful = false;
   std::string why_not;                     // in words
+  double exact = std::numeric_limits<double>::quiet_NaN();  // slope of the motion at the medians: exact_slopes.hpp
+  bool exact_agrees = false;               // with the smallest difference, within kSettledSlope
+  std::string exact_note;                  // why there is none, or why it does not agree
 };
 
 struct LocalResult {

@@ -129,13 +129,15 @@ report::Section local_section(const SensitivityStudy& s) {
                                              "slope is given, as there is none.",
                                              100.0 * kSettledSlope),
                       .columns = {{"parameter"}, {"median"}, {"index at 5 %"}, {"index at 95 %"},
-                                  {"slope"}, {"times sd"}, {"means something"}}};
+                                  {"slope"}, {"times sd"}, {"means something"}, {"exact slope of this motion"}}};
   for (const LocalSensitivity& p : s.local.parameters) {
     const double slope = p.derivative.back();
     table.rows.push_back({p.name, readable(p.median, p.si_unit), readable(p.at_low, unit), readable(p.at_high, unit),
                           p.meaningful ? nlohmann::json(fmt::format("{:.4g} {}", slope, per(unit, p.si_unit))) : nlohmann::json("none"),
                           p.meaningful ? nlohmann::json(readable(slope * p.sd, unit)) : nlohmann::json(""),
-                          p.meaningful ? "yes" : "no: " + p.why_not});
+                          p.meaningful ? "yes" : "no: " + p.why_not,
+                          std::isfinite(p.exact) ? fmt::format("{:.4g} {}{}", p.exact, per(unit, p.si_unit), p.exact_agrees ? "" : " (does not agree)")
+                                                 : p.exact_note.empty() ? "perturbation rung only" : p.exact_note});
   }
   section.items.push_back(std::move(table));
   return section;

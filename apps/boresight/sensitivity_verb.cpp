@@ -6,6 +6,7 @@
 
 #include "boresight/io/content_hash.hpp"
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight_analyses/sensitivity/exact_slopes.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
@@ -36,12 +37,13 @@ void write_indices(std::ostream& out, const GlobalSensitivity& global) {
 void write_local(std::ostream& out, const LocalResult& local) {
   out << "parameter,unit,median,sd,low,high,index_at_low,index_at_high";
   for (const char* name : {"half", "quarter", "eighth"}) out << ",step_" << name << ",derivative_" << name;
-  out << ",meaningful\n";
+  out << ",meaningful,exact,exact_agrees\n";
   for (const LocalSensitivity& p : local.parameters) {
     out << csv_field(p.name) << ',' << csv_field(p.si_unit);
     for (const double v : {p.median, p.sd, p.low, p.high, p.at_low, p.at_high}) out << ',' << exact(v);
     for (std::size_t k = 0; k < p.step.size(); ++k) out << ',' << exact(p.step[k]) << ',' << exact(p.derivative[k]);
-    out << ',' << (p.meaningful ? "true" : "false") << '\n';
+    out << ',' << (p.meaningful ? "true" : "false") << ',' << exact(p.exact) << ','
+        << (p.exact_agrees ? "true" : "false") << '\n';
   }
 }
 
@@ -111,6 +113,8 @@ class SensitivityVerb : public Verb {
     if (whole) {
       global = global_sensitivity(plan, store);
       local = local_sensitivity(model, plan.inputs, command.jobs, [] { return interrupted(); });
+      if (!local.interrupted && choice.name == "perturbation")
+        add_exact_slopes(*mechanism, plan.inputs, study.index, run, local);
     }
     progress.clear();
 
@@ -195,8 +199,10 @@ class SensitivityVerb : public Verb {
                                        "the parameters' range without them",
                                        s.global->failed_runs, s.plan.runs(), s.global->failed_rows));
     }
-    for (const LocalSensitivity& p : s.local.parameters)
+    for (const LocalSensitivity& p : s.local.parameters) {
       if (!p.meaningful) warnings.push_back("no slope for " + p.name + ": " + p.why_not);
+      if (std::isfinite(p.exact) && !p.exact_agrees) warnings.push_back(p.name + ": " + p.exact_note);
+    }
     return warnings;
   }
 
@@ -240,6 +246,11 @@ class SensitivityVerb : public Verb {
                                  {"meaningful", p.meaningful}, {"derivative", p.meaningful ? number_json(p.derivative.back()) : Json()},
                                  {"differences", steps}};
         if (!p.meaningful) json["local"][p.name]["why_not"] = p.why_not;
+        if (std::isfinite(p.exact)) {
+          json["local"][p.name]["exact_derivative"] = p.exact;
+          json["local"][p.name]["exact_agrees"] = p.exact_agrees;
+        }
+        if (!p.exact_note.empty()) json["local"][p.name]["exact_note"] = p.exact_note;
       }
       out.write("local.csv", [&](std::ostream& stream) { write_local(stream, s.local); });
       files.emplace_back("local.csv");
