@@ -12,7 +12,8 @@ namespace boresight {
 namespace {
 
 bool of_contacts(const RandomParameter& p) {
-  return std::all_of(p.paths.begin(), p.paths.end(), [](const std::string& path) { return path.rfind("clearance.", 0) == 0; });
+  return std::all_of(p.paths.begin(), p.paths.end(),
+                     [](const std::string& path) { return path.rfind("clearance.", 0) == 0; });
 }
 
 void compare(const IndexSlopes& slopes, LocalSensitivity& p) {
@@ -20,7 +21,8 @@ void compare(const IndexSlopes& slopes, LocalSensitivity& p) {
   p.exact_agrees = p.meaningful && std::abs(p.exact - difference) <= kSettledSlope * size;
   char text[200];
   std::snprintf(text, sizeof text,
-                "the slope of the motion itself, through %d impacts (%d grazing), is %.3g; differences over an eighth of the sd "
+                "the slope of the motion itself, through %d impacts (%d grazing), is %.3g; differences over "
+                "an eighth of the sd "
                 "give %.3g: it holds for smaller changes than the scatter makes",
                 slopes.impacts, slopes.grazing, p.exact, difference);
   if (!p.exact_agrees) p.exact_note = text;

@@ -7,8 +7,8 @@
 
 namespace boresight {
 
-// Fills in `exact`, or why there is none, of every parameter: of contacts only, on the perturbation rung's motion with
-// its contacts located in time. run: the offset at the start.
+// Fills in `exact`, or why there is none, of every parameter: of contacts only, on the perturbation rung's
+// motion with its contacts located in time. run: the offset at the start.
 void add_exact_slopes(const Mechanism& mechanism, const RandomInputs& inputs, const IndexChoice& index,
                       const RunOptions& run, LocalResult& local);
 

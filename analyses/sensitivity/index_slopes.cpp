@@ -29,7 +29,8 @@ double quantity(const PoseError& e, const std::string& name) {
 
 IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepared,
                          const std::function<Parameters(const std::vector<double>&)>& parameters_at,
-                         const std::vector<double>& values, const IndexChoice& index, const SlopeOptions& options) {
+                         const std::vector<double>& values, const IndexChoice& index,
+                         const SlopeOptions& options) {
   const Parameters parameters = parameters_at(values);
   const auto tables = prepared.tables(parameters);
   const Eigen::Index n = tables->layout.n;
@@ -40,11 +41,11 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
   request.control_derivatives = options.control_derivatives;
   request.by_parameters = true;
   for (int k = 0; k <= options.points; ++k) request.times.push_back(request.end * k / options.points);
-  const SensitiveMotion motion = follow_with_sensitivity(mechanism, parameters, tables,
-                                                         contact_numbers(mechanism, parameters_at, values), request);
+  const SensitiveMotion motion = follow_with_sensitivity(
+      mechanism, parameters, tables, contact_numbers(mechanism, parameters_at, values), request);
 
-  // The pose's error is a closed-form function of z: its gradient by central differences of fourth order, relative
-  // truncation some 1e-12 (Fornberg 1988, table 1).
+  // The pose's error is a closed-form function of z: its gradient by central differences of fourth order,
+  // relative truncation some 1e-12 (Fornberg 1988, table 1).
   const std::size_t count = request.times.size();
   std::vector<double> e(count);
   MatX slope = MatX::Zero(static_cast<Eigen::Index>(values.size()), static_cast<Eigen::Index>(count));
@@ -82,8 +83,9 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
       by += share * factor * slope.col(static_cast<Eigen::Index>(k));
     }
   } else {
-    const auto nearest = std::min_element(
-        e.begin(), e.end(), [&](double a, double b) { return std::abs(a - out.value) < std::abs(b - out.value); });
+    const auto nearest = std::min_element(e.begin(), e.end(), [&](double a, double b) {
+      return std::abs(a - out.value) < std::abs(b - out.value);
+    });
     by = slope.col(nearest - e.begin());
   }
   out.by.assign(by.data(), by.data() + by.size());

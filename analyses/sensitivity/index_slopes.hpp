@@ -1,15 +1,16 @@
-// Exact slopes of an index by parameters of the contacts, from one motion of the perturbation rung with its derivatives
-// carried through impacts (sensitive_motion.hpp). With e(t) the error at a time and e' = de/dq,
+// Exact slopes of an index by parameters of the contacts, from one motion of the perturbation rung with its
+// derivatives carried through impacts (sensitive_motion.hpp). With e(t) the error at a time and e' = de/dq,
 //
 //   mean = (1/T) int e dt          d mean / dq = (1/T) int e' dt
 //   rms^2 = (1/T) int e^2 dt       d rms / dq = (1/T) int e e' dt / rms
 //   max = e(t_m)                   d max / dq = e'(t_m), as de/dt = 0 there (or t_m is an end)
 //
-// The integrals are those of the indices themselves (indices.hpp): trapezoids over the points of time. The 99.73 % value
-// is e at one of these, and its slope e' there.
+// The integrals are those of the indices themselves (indices.hpp): trapezoids over the points of time.
+// The 99.73 % value is e at one of these, and its slope e' there.
 //
-// They are slopes of this very motion, in the limit of a vanishing change: over many impacts they grow without bound, as
-// neighbouring motions part, and then say nothing of a finite change. How the maximum moves to another impact they do not see.
+// They are slopes of this very motion, in the limit of a vanishing change: over many impacts they grow
+// without bound, as neighbouring motions part, and then say nothing of a finite change. How the maximum moves
+// to another impact they do not see.
 #pragma once
 
 #include <functional>
@@ -31,15 +32,16 @@ struct SlopeOptions {
 };
 
 struct IndexSlopes {
-  double value = 0.0;              // of the index [SI]
-  std::vector<double> by;          // per parameter [SI]
-  int impacts = 0, grazing = 0;    // grazing: contacts that a change of the parameters may undo
+  double value = 0.0;            // of the index [SI]
+  std::vector<double> by;        // per parameter [SI]
+  int impacts = 0, grazing = 0;  // grazing: contacts that a change of the parameters may undo
 };
 
-// parameters_at: the mechanism's parameters at values > 0 of those varied, which may change numbers of the contacts only
-// (every "clearance." path). Throws ComputationError where the motion cannot be followed.
+// parameters_at: the mechanism's parameters at values > 0 of those varied, which may change numbers of the
+// contacts only (every "clearance." path). Throws ComputationError where the motion cannot be followed.
 IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepared,
                          const std::function<Parameters(const std::vector<double>&)>& parameters_at,
-                         const std::vector<double>& values, const IndexChoice& index, const SlopeOptions& options);
+                         const std::vector<double>& values, const IndexChoice& index,
+                         const SlopeOptions& options);
 
 }  // namespace boresight

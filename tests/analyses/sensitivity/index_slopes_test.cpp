@@ -11,7 +11,8 @@ namespace boresight {
 namespace {
 
 struct Scene {
-  Mechanism mechanism{read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", {})};
+  Mechanism mechanism{
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", {})};
   PreparedScene prepared{mechanism, ideal_motion(mechanism, mechanism.parameters()), mechanism.parameters()};
   std::vector<ParameterPath> paths;
   std::vector<double> values;
@@ -46,7 +47,8 @@ struct Scene {
       below[k] *= 1.0 - share;
       return (slopes(above, index).value - slopes(below, index).value) / (2.0 * share * values[k]);
     };
-    const double h = 2e-4;  // below, the rounding of two motions, above, their curvature outweighs 1e-7 of the slope
+    const double h =
+        2e-4;  // below, the rounding of two motions, above, their curvature outweighs 1e-7 of the slope
     return (4.0 * central(0.5 * h) - central(h)) / 3.0;
   }
 };
@@ -67,7 +69,9 @@ TEST(IndexSlopes, OfRmsAndMeanAreThoseOfRichardsonDifferencesThroughImpacts) {
 TEST(IndexSlopes, OfAMaximumIsThatOfRichardsonDifferencesWhileNoOtherTimeTakesItsPlace) {
   expect_exact(Scene(), {"position_error", "max"});
 }
-TEST(IndexSlopes, OfTheLineOfSightAreThoseOfRichardsonDifferences) { expect_exact(Scene(), {"line_of_sight_error", "rms"}); }
+TEST(IndexSlopes, OfTheLineOfSightAreThoseOfRichardsonDifferences) {
+  expect_exact(Scene(), {"line_of_sight_error", "rms"});
+}
 
 }  // namespace
 }  // namespace boresight
