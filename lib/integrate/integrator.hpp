@@ -120,6 +120,14 @@ class Integrator {
           h = length * control.reject(std::numeric_limits<double>::infinity());
           continue;
         }
+        // The whole step may have passed by luck, with a contact begun and ended inside it.
+        const double cut_error = fixed ? 0.0 : error_norm(method_.error(), y, method_.proposed(), options);
+        if (!(cut_error <= 1.0)) {
+          ++summary_.rejected_by_error;
+          if constexpr (HasGaps<S>) watch_.restore();
+          h = length * control.reject(cut_error);
+          continue;
+        }
       }
       summary_.crossings_below_floor += below_floor;
       const double end = cut ? t_ + length : (remaining <= h * (1.0 + 1e-12) ? t_end : t_ + h);
