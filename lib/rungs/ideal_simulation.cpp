@@ -68,10 +68,9 @@ void set_starting_rates(const Mechanism& mechanism, const std::vector<TimeValue>
 
 std::vector<IdealState> simulate(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion* drives,
                                  const IdealState& start, int steps) {
-  PaperFormulationOptions options;
-  options.with_clearance = false;
-  options.stabilisation = Stabilisation::projection;
-  const auto formulation = make_paper_formulation(mechanism, parameters, drives, options);
+  // Joint coordinates: planar loops, redundant when drawn in space, are none in them, and singular positions are passed
+  // with four digits more than in absolute coordinates.
+  const auto formulation = make_tree_formulation(mechanism, parameters, drives, {.with_clearance = false});
   const std::vector<ContactMemory> none;
   VecX y;
   formulation->start(start, y);
