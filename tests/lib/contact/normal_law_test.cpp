@@ -65,6 +65,35 @@ TEST(Hertz, StiffnessOfTheLiterature) {
   }
 }
 
+// The same steel pair at 0.5 and 0.1 mm: depth under a load, (F / K)^(2/3); a journal of 1 kg at rest in the bottom of its bearing
+// bounces at sqrt(1.5 g / depth).
+TEST(Hertz, DepthUnderALoadAndBounceOfAJournalAtRest) {
+  const NormalLaw wide{6.610198e10, 0.0}, narrow{1.508882e11, 0.0};
+  EXPECT_NEAR(wide.depth_under(10.0) / 2.83916e-7, 1.0, 1e-5);
+  EXPECT_NEAR(wide.depth_under(100.0) / 1.31782e-6, 1.0, 1e-5);
+  EXPECT_NEAR(wide.depth_under(1000.0) / 6.11679e-6, 1.0, 1e-5);
+  const auto bounce = [](const NormalLaw& law, double depth) {
+    EXPECT_NEAR(law.depth_under(9.81) / depth, 1.0, 1e-6);
+    return std::sqrt(law.elastic_slope(law.depth_under(9.81)));
+  };
+  EXPECT_NEAR(bounce(wide, 2.803085e-7) / 7245.393, 1.0, 1e-6);
+  EXPECT_NEAR(bounce(narrow, 1.616873e-7) / 9539.865, 1.0, 1e-6);
+}
+
+// Mass, speed; depth, force and duration of an undamped impact in closed form.
+TEST(Hertz, ImpactsAsItsClosedFormSays) {
+  const NormalLaw law{6.6102e10, 0.0};
+  const double reference[][5] = {{1.0, 0.1, 8.141008e-6, 1535.436, 2.396123e-4},
+                                 {0.1, 1.0, 2.044929e-5, 6112.68, 6.018788e-5},
+                                 {1.0, 1.0, 5.136629e-5, 24335.03, 1.511851e-4}};
+  for (const auto& r : reference) {
+    const Impact hit = impact(law, r[0], r[1], 20000);
+    EXPECT_NEAR(hit.depth / r[2], 1.0, 1e-6);
+    EXPECT_NEAR(hit.force / r[3], 1.0, 1e-6);
+    EXPECT_NEAR(hit.duration / r[4], 1.0, 1e-4);
+  }
+}
+
 TEST(Hertz, ValiditySpeedOfTheDefaultPair) {
   EXPECT_NEAR(validity_speed(ContactParameters{}), 0.0387, 0.00005);  // Eq. 26 for the default aluminium pair
 }
