@@ -18,7 +18,9 @@ enum class StreamPurpose : std::uint64_t {
   within_cell = 4,  // where in its cell a point of a hypercube or a net lies
   resampling = 5,   // bootstrap
   subset = 6,       // chains of subset simulation
-  proposal = 7      // draws of importance sampling, starts of its mixture
+  proposal = 7,     // draws of importance sampling, starts of its mixture
+  budget_value = 8,   // what a member's external errors are
+  budget_course = 9   // and how they go in time
 };
 
 class CounterStream {

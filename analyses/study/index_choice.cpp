@@ -16,10 +16,14 @@ const auto& named(const Names& names, const std::string& wanted) {
 
 const std::vector<QuantityName>& quantity_names() {
   static const std::vector<QuantityName> names = {
-      {"position_error", "m", "position error", &PointingIndices::position_error},
-      {"orientation_error", "rad", "orientation error", &PointingIndices::orientation_error},
-      {"boresight_error", "rad", "boresight error", &PointingIndices::boresight_error},
-      {"line_of_sight_error", "rad", "line-of-sight error", &PointingIndices::line_of_sight_error},
+      {"position_error", "m", "position error", &PointingIndices::position_error,
+       PointingQuantity::position_error},
+      {"orientation_error", "rad", "orientation error", &PointingIndices::orientation_error,
+       PointingQuantity::orientation_error},
+      {"boresight_error", "rad", "boresight error", &PointingIndices::boresight_error,
+       PointingQuantity::boresight_error},
+      {"line_of_sight_error", "rad", "line-of-sight error", &PointingIndices::line_of_sight_error,
+       PointingQuantity::line_of_sight_error},
   };
   return names;
 }
@@ -44,5 +48,7 @@ std::string IndexChoice::title() const {
   return std::string(named(quantity_names(), quantity).title) + ", " +
          named(statistic_names(), statistic).title;
 }
+
+PointingQuantity IndexChoice::kind() const { return named(quantity_names(), quantity).kind; }
 
 }  // namespace boresight

@@ -14,6 +14,7 @@ struct QuantityName {
   const char* si_unit;
   const char* title;  // for people
   Statistics PointingIndices::*statistics;
+  PointingQuantity kind;
 };
 const std::vector<QuantityName>&
 quantity_names();  // position_error, orientation_error, boresight_error, line_of_sight_error
@@ -33,6 +34,7 @@ struct IndexChoice {
   double of(const PointingIndices& indices) const;
   std::string si_unit() const;
   std::string title() const;  // "position error, maximum"
+  PointingQuantity kind() const;
 };
 
 }  // namespace boresight

@@ -2,28 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/step_error.hpp"
 
 namespace boresight {
-namespace {
-
-std::optional<PointingQuantity> quantity_of(const std::string& name) {
-  if (name == "position_error") return PointingQuantity::position_error;
-  if (name == "orientation_error") return PointingQuantity::orientation_error;
-  if (name == "boresight_error") return PointingQuantity::boresight_error;
-  if (name == "line_of_sight_error") return PointingQuantity::line_of_sight_error;
-  return std::nullopt;
-}
-
-}  // namespace
 
 bool LaneSampleModel::serve(const Mechanism& mechanism, const IndexChoice& index, const RunOptions& options) {
   const bool statistic = index.statistic == "max" || index.statistic == "rms" || index.statistic == "mean";
-  return statistic && quantity_of(index.quantity) && PerturbationLanes::serve(mechanism) && options.step == 0.0 &&
+  return statistic && PerturbationLanes::serve(mechanism) && options.step == 0.0 &&
          options.integrator.empty() && options.tolerance == 0.0;
 }
 
@@ -32,7 +20,7 @@ LaneSampleModel::LaneSampleModel(std::shared_ptr<const Mechanism> mechanism, Run
     : mechanism_(std::move(mechanism)),
       parameters_of_(std::move(parameters_of)),
       index_(std::move(index)),
-      lanes_(mechanism_, quantity_of(index_.quantity).value()) {}
+      lanes_(mechanism_, index_.kind()) {}
 
 // What the rung itself estimates (perturbation.cpp), from what the lanes keep: the deviation over the mechanism's size, times
 // how much the mechanism magnifies its offsets.

@@ -18,8 +18,6 @@
 
 namespace boresight {
 
-enum class PointingQuantity { position_error, orientation_error, boresight_error, line_of_sight_error };
-
 // The tolerance at which the default scene's index is converged to 1 % (maximum) and 0.5 % (RMS) at 0.1 to 0.3 mm and 0 to
 // 500 kg; measured in tests/lib/lanes.
 inline constexpr double kLaneTolerance = 1e-3;

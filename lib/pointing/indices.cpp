@@ -17,6 +17,18 @@ Vec3 rotation_vector(Quat q) {
   return (2.0 * std::atan2(sine, q.w()) / sine) * q.vec();
 }
 
+// The turn that takes z to `direction`, about an axis across z.
+Vec3 turn_of_z(const Vec3& direction) {
+  const double sine = std::hypot(direction.x(), direction.y());
+  if (sine == 0.0) return Vec3::Zero();
+  const double angle = std::atan2(sine, direction.z());
+  return angle / sine * Vec3(-direction.y(), direction.x(), 0.0);
+}
+
+Vec3 turn_between(const Vec3& truth, const Vec3& ideal) {
+  return turn_of_z(Quat::FromTwoVectors(ideal, Vec3::UnitZ()) * truth.normalized());
+}
+
 }  // namespace
 
 PoseError pose_error(const Pose& truth, const Pose& ideal, const Vec3& boresight_B) {
@@ -29,6 +41,20 @@ PoseError pose_error(const Pose& truth, const Pose& ideal, const Vec3& boresight
   // A centre of mass at the world origin has no line of sight from there.
   e.line_of_sight = ideal.p.squaredNorm() > 0.0 ? angle_between(truth.p, ideal.p) : 0.0;
   return e;
+}
+
+Vec3 error_vector(PointingQuantity quantity, const Pose& truth, const Pose& ideal, const Vec3& boresight_B) {
+  switch (quantity) {
+    case PointingQuantity::position_error:
+      return truth.p - ideal.p;
+    case PointingQuantity::orientation_error:
+      return ideal.q.conjugate() * rotation_vector(truth.q * ideal.q.conjugate());
+    case PointingQuantity::boresight_error:
+      return turn_between(ideal.q.conjugate() * (truth.q * boresight_B), boresight_B);
+    case PointingQuantity::line_of_sight_error:
+      return ideal.p.squaredNorm() > 0.0 ? turn_between(truth.p, ideal.p) : Vec3::Zero();
+  }
+  return Vec3::Zero();
 }
 
 void StatisticsOverTime::reserve(std::size_t steps) {

@@ -14,6 +14,8 @@
 
 namespace boresight {
 
+enum class PointingQuantity { position_error, orientation_error, boresight_error, line_of_sight_error };
+
 struct Pose {
   Vec3 p = Vec3::Zero();       // p_WB, centre of mass, world [m]
   Quat q = Quat::Identity();   // R_WB
@@ -28,6 +30,15 @@ struct PoseError {
 
 // boresight_B: the pointing axis in body axes, unit length.
 PoseError pose_error(const Pose& truth, const Pose& ideal, const Vec3& boresight_B);
+
+// The same error as a vector whose length is the index, for budgets per axis:
+//   position_error       displacement, world axes [m]
+//   orientation_error    rotation vector from ideal to true, axes of the ideal body [rad]
+//   boresight_error      turn of the pointing axis about the two axes across the ideal one, third component zero [rad]; the
+//                        two are the body's x and y where the pointing axis is its z, and turned with the pointing axis by
+//                        the shortest way from z else
+//   line_of_sight_error  the same of the line from the world origin to the centre of mass, in world axes [rad]
+Vec3 error_vector(PointingQuantity quantity, const Pose& truth, const Pose& ideal, const Vec3& boresight_B);
 
 struct Statistics {
   double max = 0.0, rms = 0.0, mean = 0.0, p9973 = 0.0;  // p9973: the value not exceeded for 99.73 % of the time

@@ -1,0 +1,95 @@
+#include "boresight_analyses/budget/error_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace boresight {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of a duration
+
+std::size_t samples_in(double time, double spacing) {
+  return static_cast<std::size_t>(std::max(0.0, std::round(time / spacing)));
+}
+
+// Means over windows of `width` samples from running sums.
+class WindowMeans {
+ public:
+  WindowMeans(const std::vector<Vec3>& values, std::size_t width) : width_(width) {
+    sums_.reserve(values.size() + 1);
+    sums_.emplace_back(Vec3::Zero());
+    for (const Vec3& v : values) sums_.push_back(sums_.back() + v);
+  }
+  Vec3 from(std::size_t begin) const { return (sums_[begin + width_] - sums_[begin]) / static_cast<double>(width_); }
+
+ private:
+  std::size_t width_;
+  std::vector<Vec3> sums_;
+};
+
+}  // namespace
+
+const char* to_string(ErrorIndex index) {
+  static const char* const names[] = {"APE", "MPE", "RPE", "PDE", "PRE"};
+  return names[static_cast<int>(index)];
+}
+
+const char* title_of(ErrorIndex index) {
+  static const char* const titles[] = {"absolute performance error", "mean performance error", "relative performance error",
+                                       "performance drift error", "performance reproducibility error"};
+  return titles[static_cast<int>(index)];
+}
+
+std::string Windows::missing_for(ErrorIndex index, double duration) const {
+  if (index == ErrorIndex::ape) return "";
+  const double observed = observation_in(duration), slack = kRounding * duration;
+  if (window <= 0.0) return "a window";
+  if (window > observed + slack) return "a window no longer than an observation";
+  if (index == ErrorIndex::pde) {
+    if (separation <= 0.0) return "a separation";
+    if (separation + window > observed + slack) return "separation and window that fit in one observation";
+  }
+  if (index == ErrorIndex::pre) {
+    if (observation <= 0.0) return "an observation";
+    if (revisit_after() < window - slack) return "a revisit of at least the window";
+    if (std::max(revisit_after(), observation) + window > duration + slack) return "two observations in the motion";
+  }
+  return "";
+}
+
+std::vector<Vec3> index_values(ErrorIndex index, const PointingHistory& history, const Windows& windows) {
+  const std::string missing = windows.missing_for(index, history.duration());
+  if (!missing.empty()) throw std::invalid_argument(std::string(to_string(index)) + " needs " + missing);
+  const std::vector<Vec3>& e = history.error;
+  if (index == ErrorIndex::ape) return e;
+
+  const std::size_t width = std::max<std::size_t>(1, samples_in(windows.window, history.spacing));
+  const std::size_t observed =
+      std::min(e.size(), samples_in(windows.observation_in(history.duration()), history.spacing));
+  const WindowMeans means(e, width);
+  std::vector<Vec3> values;
+  if (index == ErrorIndex::pre) {
+    const std::size_t apart = samples_in(windows.revisit_after(), history.spacing);
+    const auto whole = [&](std::size_t begin) { return begin / observed == (begin + width - 1) / observed; };
+    for (std::size_t begin = 0; begin + apart + width <= e.size(); ++begin)
+      if (whole(begin) && whole(begin + apart) && begin / observed != (begin + apart) / observed)
+        values.push_back(means.from(begin + apart) - means.from(begin));
+    return values;
+  }
+  const std::size_t apart = index == ErrorIndex::pde ? samples_in(windows.separation, history.spacing) : 0;
+  const std::size_t stride = index == ErrorIndex::rpe ? std::max<std::size_t>(1, width / 2) : 1;
+  for (std::size_t start = 0; start < e.size(); start += observed) {
+    const std::size_t end = std::min(start + observed, e.size());
+    for (std::size_t begin = start; begin + apart + width <= end; begin += stride) {
+      const Vec3 mean = means.from(begin);
+      if (index == ErrorIndex::mpe) values.push_back(mean);
+      if (index == ErrorIndex::pde) values.push_back(means.from(begin + apart) - mean);
+      if (index == ErrorIndex::rpe)
+        for (std::size_t k = begin; k < begin + width; ++k) values.push_back(e[k] - mean);
+    }
+  }
+  return values;
+}
+
+}  // namespace boresight

@@ -1,0 +1,108 @@
+#include "boresight_analyses/budget/interpretation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "boresight_analyses/statistics/binomial.hpp"
+#include "boresight_analyses/statistics/bounded_mean.hpp"
+#include "boresight_analyses/statistics/independent_samples.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// The least value with at least this share at or below it.
+double quantile_of(const std::vector<double>& ascending, double share) {
+  const double n = static_cast<double>(ascending.size());
+  const double rank = std::ceil(share * n * (1.0 - 1e-12));
+  return ascending[static_cast<std::size_t>(std::clamp(rank, 1.0, n)) - 1];
+}
+
+double share_at_or_below(const std::vector<double>& ascending, double limit) {
+  return static_cast<double>(std::upper_bound(ascending.begin(), ascending.end(), limit) - ascending.begin()) /
+         static_cast<double>(ascending.size());
+}
+
+}  // namespace
+
+const char* to_string(Interpretation interpretation) {
+  static const char* const names[] = {"ensemble", "temporal", "mixed"};
+  return names[static_cast<int>(interpretation)];
+}
+
+EnsembleInTime::EnsembleInTime(std::vector<std::vector<double>> sizes, std::int64_t failed)
+    : sizes_(std::move(sizes)), failed_(failed) {
+  if (sizes_.empty() || sizes_.front().empty()) throw std::invalid_argument("no member has values");
+  for (std::vector<double>& member : sizes_) {
+    if (member.size() != sizes_.front().size()) throw std::invalid_argument("members of unequal length");
+    std::sort(member.begin(), member.end());
+    maxima_.push_back(member.back());
+    pooled_.insert(pooled_.end(), member.begin(), member.end());
+  }
+  std::sort(pooled_.begin(), pooled_.end());
+}
+
+double EnsembleInTime::largest() const { return pooled_.back(); }
+
+double EnsembleInTime::pooled_quantile(double share) const { return quantile_of(pooled_, share); }
+
+std::vector<double> EnsembleInTime::quantiles_in_time(double probability) const {
+  std::vector<double> quantiles;
+  for (const std::vector<double>& member : sizes_) quantiles.push_back(quantile_of(member, probability));
+  return quantiles;
+}
+
+ReportedInterval EnsembleInTime::level(Interpretation interpretation, double probability, double confidence,
+                                       double leave_out) const {
+  if (interpretation == Interpretation::ensemble)
+    return reported(IndependentSamples(maxima_, failed_).quantile(probability, confidence));
+  if (interpretation == Interpretation::temporal) {
+    const IndependentSamples worst(quantiles_in_time(probability), failed_);
+    if (leave_out > 0.0) return reported(worst.quantile(1.0 - leave_out, confidence));
+    const double value = worst.sorted().back();
+    return {value, value, kInfinity, confidence, confidence, false, "the worst of the members seen", Independent::name};
+  }
+  // The bounds hold for any share; the levels at the shares seen there are the interval.
+  const double side = 0.5 * (1.0 + confidence), all = static_cast<double>(members() + failed_);
+  const double seen = static_cast<double>(members()) / all;
+  const double high = mean_that_shows(probability, all, side) / seen;          // failed ones above
+  const double low = (mean_that_denies(probability, all, side) - (1.0 - seen)) / seen;  // failed ones below
+  return {pooled_quantile(probability), low > 0.0 ? pooled_quantile(low) : 0.0, high <= 1.0 ? pooled_quantile(high) : kInfinity,
+          confidence, confidence, false, "Hoeffding's bound of the members' shares of the time", Independent::name};
+}
+
+EnsembleInTime::Compliance EnsembleInTime::compliance(Interpretation interpretation, double limit, double probability,
+                                                      double confidence, double leave_out) const {
+  const std::int64_t all = members() + failed_;
+  Compliance c;
+  if (interpretation == Interpretation::mixed) {
+    c.share = share_at_or_below(pooled_, limit) * static_cast<double>(members()) / static_cast<double>(all);
+    c.shown = bounded_mean_lower(c.share, static_cast<double>(all), confidence);
+    c.met = c.shown >= probability;
+    c.fewest = wilks_one_sided(probability, confidence);
+    return c;
+  }
+  if (interpretation == Interpretation::ensemble) {
+    const auto hits = std::count_if(maxima_.begin(), maxima_.end(), [&](double m) { return m <= limit; });
+    c.share = static_cast<double>(hits) / static_cast<double>(all);
+    c.shown = clopper_pearson_lower(hits, all, confidence);
+    c.met = c.shown >= probability;
+    c.fewest = wilks_one_sided(probability, confidence);
+    return c;
+  }
+  std::vector<double> shares(static_cast<std::size_t>(failed_), 0.0);
+  for (const std::vector<double>& member : sizes_) shares.push_back(share_at_or_below(member, limit));
+  std::sort(shares.begin(), shares.end());
+  const auto hits = std::count_if(shares.begin(), shares.end(), [&](double s) { return s >= probability; });
+  const auto left_out = static_cast<std::size_t>(std::floor(leave_out * static_cast<double>(all)));
+  c.share = shares[std::min(left_out, shares.size() - 1)];
+  c.shown = clopper_pearson_lower(hits, all, confidence);
+  c.met = leave_out > 0.0 ? c.shown >= 1.0 - leave_out : hits == all;
+  c.fewest = leave_out > 0.0 ? wilks_one_sided(1.0 - leave_out, confidence) : 1;
+  return c;
+}
+
+}  // namespace boresight

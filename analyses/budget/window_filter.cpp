@@ -1,0 +1,50 @@
+#include "boresight_analyses/budget/window_filter.hpp"
+
+#include <cmath>
+
+namespace boresight {
+namespace {
+
+double separation_of(ErrorIndex index, const Windows& windows) {
+  return index == ErrorIndex::pre ? windows.revisit_after() : windows.separation;
+}
+
+// 2 (1 - cos x) / x^2
+double mean_of_sinusoid(double x) {
+  const double half = 0.5 * x;
+  const double sinc = half == 0.0 ? 1.0 : std::sin(half) / half;
+  return sinc * sinc;
+}
+
+// x - 1 + exp(-x), for |x|
+double doubly_integrated(double x) {
+  x = std::abs(x);
+  return x < 1e-3 ? x * x * (0.5 - x / 6.0 + x * x / 24.0) : x - 1.0 + std::exp(-x);
+}
+
+// Covariance of two windows' means, their beginnings `apart` (in correlation times, as the window x), over the variance.
+double covariance_of_means(double apart, double x) {
+  return (doubly_integrated(apart + x) - 2.0 * doubly_integrated(apart) + doubly_integrated(apart - x)) / (x * x);
+}
+
+}  // namespace
+
+double kept_of_sinusoid(ErrorIndex index, double angular_frequency, const Windows& windows) {
+  if (index == ErrorIndex::ape) return 1.0;
+  const double mean = mean_of_sinusoid(angular_frequency * windows.window);
+  if (index == ErrorIndex::mpe) return mean;
+  if (index == ErrorIndex::rpe) return 1.0 - mean;
+  const double sine = std::sin(0.5 * angular_frequency * separation_of(index, windows));
+  return 4.0 * sine * sine * mean;
+}
+
+double kept_of_noise(ErrorIndex index, double correlation_time, const Windows& windows) {
+  if (index == ErrorIndex::ape) return 1.0;
+  const double x = windows.window / correlation_time;
+  const double mean = covariance_of_means(0.0, x);
+  if (index == ErrorIndex::mpe) return mean;
+  if (index == ErrorIndex::rpe) return 1.0 - mean;
+  return 2.0 * (mean - covariance_of_means(separation_of(index, windows) / correlation_time, x));
+}
+
+}  // namespace boresight

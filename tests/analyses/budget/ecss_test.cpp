@@ -1,0 +1,147 @@
+// ECSS-E-ST-60-10C (15 November 2008), Control performance: its figures and its worked example.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "boresight_analyses/budget/classical.hpp"
+#include "boresight_analyses/budget/half_cone.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Figure A-5: e = A sin(omega t), A uniform on (0, 10). A quarter of a period holds every |e| equally often. `at`: where in
+// its cell of amplitudes and times a sample lies; the middle integrates best, the upper end holds the quantiles of one alone.
+EnsembleInTime figure_a5(double at) {
+  constexpr int kMembers = 4000, kTimes = 2000;
+  std::vector<std::vector<double>> sizes(kMembers);
+  for (int k = 0; k < kMembers; ++k)
+    for (int i = 0; i < kTimes; ++i)
+      sizes[static_cast<std::size_t>(k)].push_back(10.0 * (k + at) / kMembers * std::sin(0.5 * kPi * (i + at) / kTimes));
+  return EnsembleInTime(std::move(sizes));
+}
+
+TEST(EcssFigureA5, IsReproducedToThePrintedDigits) {
+  const EnsembleInTime ends = figure_a5(1.0), middles = figure_a5(0.5);
+  const auto level = [](const EnsembleInTime& e, Interpretation i, double p) { return e.level(i, p, 0.9).value; };
+  EXPECT_NEAR(level(ends, Interpretation::ensemble, 0.95), 9.500, 5e-4);
+  EXPECT_NEAR(level(ends, Interpretation::ensemble, 0.9973), 9.973, 5e-4);
+  EXPECT_NEAR(level(ends, Interpretation::temporal, 0.95), 9.969, 5e-4);
+  EXPECT_NEAR(level(ends, Interpretation::temporal, 0.9973), 10.000, 5e-4);
+  EXPECT_NEAR(level(middles, Interpretation::mixed, 0.95), 8.154, 5e-4);
+  EXPECT_NEAR(level(middles, Interpretation::mixed, 0.9973), 9.729, 5e-4);
+}
+
+TEST(EcssFigureA5, TheClassicalRuleExceedsTheLargestPossibleErrorAndIsFlaggedWasteful) {
+  const Contributor sinusoid{.name = "A5", .kind = ContributorClass::periodic, .parameter = {make_uniform(0.0, 10.0)}, .period = 1.0};
+  const Moments mixed = moments(sinusoid, 0, ErrorIndex::ape, Interpretation::mixed, {}, 1.0);
+  const std::vector<ClassicalLine> lines = {{"A5", "periodic", "", {mixed}}};
+  const double three_sigma = total_of(lines).axis_level(0, 0.9973);
+  EXPECT_NEAR(three_sigma, 12.25, 5e-3);
+  EXPECT_EQ(standing_of(three_sigma, 9.729), RuleStanding::wasteful);
+  EXPECT_EQ(standing_of(total_of(lines).axis_level(0, 0.95), 8.154), RuleStanding::fair);
+}
+
+TEST(HalfCone, WithOneDeviationAndNoMeanIsRayleighs) {
+  EXPECT_NEAR(equal_axes_factor(0.95, 2), 2.448, 5e-4);
+  EXPECT_NEAR(equal_axes_factor(0.9973, 2), 3.439, 5e-4);
+  EXPECT_NEAR(radius_of(0.9973, std::vector{0.0, 0.0}, std::vector{1.0, 1.0}), 3.4393, 1e-4);
+}
+
+// ECSS-E-ST-60-10C, A.2: the rule is for no mean. Offset 1, deviations (1, 1).
+TEST(HalfCone, WithAnOffsetNeedsTheIntegralAndTheRuleIsUnsafe) {
+  const double exact = radius_of(0.9973, std::vector{1.0, 0.0}, std::vector{1.0, 1.0});
+  EXPECT_NEAR(exact, 4.021, 5e-4);
+  EXPECT_EQ(standing_of(equal_axes_factor(0.9973, 2), exact), RuleStanding::unsafe);
+}
+
+TEST(HalfCone, HoldsForUnequalAxesFixedValuesAndThreeAxes) {
+  const double one = radius_of(0.95, std::vector{0.0, 0.0}, std::vector{1.0, 0.0});
+  EXPECT_NEAR(one, 1.959964, 1e-6);  // one axis alone
+  EXPECT_NEAR(radius_of(0.95, std::vector{3.0, 4.0}, std::vector{0.0, 0.0}), 5.0, 1e-6);
+  const double three = radius_of(0.95, std::vector{0.0, 0.0, 0.0}, std::vector{2.0, 2.0, 2.0});
+  EXPECT_NEAR(three, 2.0 * 2.795483, 1e-5);  // chi with three degrees of freedom: sqrt(7.814728)
+}
+
+// Annex C: a satellite with a star tracker; arcsec; mixed interpretation, 95 %; window of RPE 30 s.
+// The bias of the star tracker is printed as G(0, 6.67), G(0, 3.33): a third of 20 and of 10, its three sigma.
+struct AnnexC {
+  static std::vector<Contributor> contributors() {
+    constexpr double kLong = 1e8, kShort = 1e-3, kWhite = 1e-9;  // periods and correlation time [s] against 30 s
+    const auto delta = [](double v) { return make_discrete({v}, {1.0}); };
+    const auto g = [](double mean, double sd) { return make_normal(mean, sd); };
+    const auto u = [](double low, double high) { return make_uniform(low, high); };
+    return {
+        {.name = "star tracker noise", .kind = ContributorClass::random, .parameter = {delta(10), delta(5), delta(5)}, .correlation_time = kWhite},
+        {.name = "star tracker bias", .kind = ContributorClass::bias, .parameter = {g(0, 20. / 3), g(0, 10. / 3), g(0, 10. / 3)}},
+        {.name = "controller, actuators", .kind = ContributorClass::random, .parameter = {g(1, 3), g(1, 3), g(1, 3)}, .correlation_time = kWhite},
+        {.name = "thermoelastic", .kind = ContributorClass::periodic, .parameter = {u(0, 4), u(0, 4), u(0, 4)}, .period = kLong},
+        {.name = "payload misalignment", .kind = ContributorClass::bias, .parameter = {u(-5, 5), u(-5, 5), u(-5, 5)}},
+        {.name = "targeting", .kind = ContributorClass::periodic, .parameter = {g(0, 5), g(0, 1), g(0, 5)}, .period = kLong},
+        {.name = "flexible modes, slosh", .kind = ContributorClass::periodic, .parameter = {g(0, 3), g(0, 5), g(0, 3)}, .period = kShort}};
+  }
+  static ClassicalTotal total(ErrorIndex index) {
+    std::vector<ClassicalLine> lines;
+    for (const Contributor& c : contributors()) {
+      lines.push_back({c.name, to_string(c.kind), "", {}});
+      for (int axis = 0; axis < 3; ++axis)
+        lines.back().axes.push_back(moments(c, axis, index, Interpretation::mixed, {.window = 30.0}, 1e9));
+    }
+    return total_of(lines);
+  }
+};
+
+TEST(EcssAnnexC, DeviationsOfApeAndRpeAreReproducedToThePrintedDigits) {
+  const ClassicalTotal ape = AnnexC::total(ErrorIndex::ape), rpe = AnnexC::total(ErrorIndex::rpe);
+  const double ape_printed[] = {13.51, 8.37, 8.61}, rpe_printed[] = {10.70, 6.89, 6.28};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(ape.axes[axis].sd, ape_printed[axis], 0.005);
+    EXPECT_NEAR(rpe.axes[axis].sd, rpe_printed[axis], 0.005);
+  }
+}
+
+TEST(EcssAnnexC, LevelsAreReproducedToThePrintedDigits) {
+  const ClassicalTotal ape = AnnexC::total(ErrorIndex::ape), rpe = AnnexC::total(ErrorIndex::rpe);
+  EXPECT_NEAR(ape.axis_level(0, 0.95), 27.01, 0.005);
+  EXPECT_NEAR(ape.axis_level(1, 0.95), 16.75, 0.005);
+  // Printed 17.21, cut off: the axes' variances differ by exactly 4 (12.5 + 4.5 - 0.5 - 12.5), which with y = 16.75 leaves
+  // sqrt(16.745^2 + 16) = 17.216 as the least.
+  EXPECT_NEAR(std::floor(100.0 * ape.axis_level(2, 0.95)) / 100.0, 17.21, 1e-9);
+  EXPECT_NEAR(rpe.axis_level(0, 0.95), 21.40, 0.005);
+  EXPECT_NEAR(rpe.axis_level(1, 0.95), 13.78, 0.005);
+  EXPECT_NEAR(rpe.axis_level(2, 0.95), 12.57, 0.005);
+}
+
+TEST(EcssAnnexC, ApeIsMetAndRpeIsNot) {
+  const ClassicalTotal ape = AnnexC::total(ErrorIndex::ape), rpe = AnnexC::total(ErrorIndex::rpe);
+  const double ape_limit[] = {60, 20, 20}, rpe_limit[] = {30, 10, 10};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_LE(ape.axis_level(axis, 0.95), ape_limit[axis]);
+    EXPECT_EQ(rpe.axis_level(axis, 0.95) <= rpe_limit[axis], axis == 0);
+  }
+}
+
+// Tables B-1 to B-7 as the limits of the exact filters, and the drift.
+TEST(EcssAnnexB, TheTablesOfShortAndLongPeriodsAreLimitsOfTheFilters) {
+  const DistributionPtr a = make_uniform(0.0, 3.0);  // mean 1.5, sd 0.866, rms 1.732, worst 3
+  const Windows windows{.window = 1.0, .separation = 5e5};
+  const auto of = [&](double period, ErrorIndex index, Interpretation i) {
+    const Contributor c{.name = "", .kind = ContributorClass::periodic, .parameter = {a}, .period = period};
+    return moments(c, 0, index, i, windows, 1e9);
+  };
+  // Long, a separation of half the period: the index is twice the sinusoid.
+  EXPECT_NEAR(of(1e6, ErrorIndex::pde, Interpretation::ensemble).mean, 2.0 * 1.5, 1e-9);
+  EXPECT_NEAR(of(1e6, ErrorIndex::pde, Interpretation::ensemble).sd, 2.0 * std::sqrt(0.75), 1e-9);
+  EXPECT_NEAR(of(1e6, ErrorIndex::pde, Interpretation::temporal).sd, std::sqrt(2.0) * 3.0, 1e-9);
+  EXPECT_NEAR(of(1e6, ErrorIndex::pde, Interpretation::mixed).sd, std::sqrt(2.0) * std::sqrt(3.0), 1e-9);
+  EXPECT_NEAR(of(1e6, ErrorIndex::rpe, Interpretation::mixed).sd, 0.0, 1e-5);
+  EXPECT_NEAR(of(1e6, ErrorIndex::mpe, Interpretation::mixed).sd, std::sqrt(1.5), 1e-9);
+  // Short.
+  EXPECT_NEAR(of(1e-5, ErrorIndex::rpe, Interpretation::mixed).sd, std::sqrt(1.5), 1e-5);
+  EXPECT_NEAR(of(1e-5, ErrorIndex::mpe, Interpretation::mixed).sd, 0.0, 1e-5);
+}
+
+}  // namespace
+}  // namespace boresight

@@ -1,0 +1,74 @@
+// The three interpretations on ensembles whose answers are counted by hand, and what their intervals claim.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "boresight_analyses/budget/interpretation.hpp"
+#include "boresight_analyses/random/counter_stream.hpp"
+
+namespace boresight {
+namespace {
+
+// Member k is k / 100 of the time at 2, else at 1; 0 <= k < 100.
+EnsembleInTime stepped(std::int64_t failed = 0) {
+  std::vector<std::vector<double>> sizes;
+  for (int k = 0; k < 100; ++k) {
+    sizes.emplace_back(100, 1.0);
+    for (int i = 0; i < k; ++i) sizes.back()[static_cast<std::size_t>(i)] = 2.0;
+  }
+  return EnsembleInTime(std::move(sizes), failed);
+}
+
+TEST(Interpretation, CountsMembersOrTimeOrBoth) {
+  const EnsembleInTime e = stepped();
+  const auto share = [&](Interpretation i, double leave_out = 0.0) { return e.compliance(i, 1.5, 0.5, 0.9, leave_out).share; };
+  EXPECT_DOUBLE_EQ(share(Interpretation::ensemble), 0.01);         // one member never exceeds
+  EXPECT_DOUBLE_EQ(share(Interpretation::temporal), 0.01);         // the worst is at 2 for 99 % of the time
+  EXPECT_DOUBLE_EQ(share(Interpretation::temporal, 0.25), 0.26);   // without the 25 worst
+  EXPECT_DOUBLE_EQ(share(Interpretation::mixed), 0.505);
+  EXPECT_EQ(e.level(Interpretation::mixed, 0.5, 0.9).value, 1.0);
+  EXPECT_EQ(e.level(Interpretation::mixed, 0.51, 0.9).value, 2.0);
+  EXPECT_EQ(e.level(Interpretation::temporal, 0.5, 0.9, 0.6).value, 1.0);
+  EXPECT_EQ(e.level(Interpretation::temporal, 0.5, 0.9).value, 2.0);
+}
+
+TEST(Interpretation, AFailedMemberCountsAsBad) {
+  const EnsembleInTime e = stepped(100);
+  EXPECT_DOUBLE_EQ(e.compliance(Interpretation::mixed, 3.0, 0.4, 0.9).share, 0.5);
+  EXPECT_DOUBLE_EQ(e.compliance(Interpretation::ensemble, 3.0, 0.4, 0.9).share, 0.5);
+  EXPECT_FALSE(e.compliance(Interpretation::temporal, 3.0, 0.4, 0.9).met);
+  EXPECT_TRUE(std::isinf(e.level(Interpretation::mixed, 0.95, 0.9).high));
+}
+
+TEST(Interpretation, NeedsAsManyMembersAsWilksSays) {
+  const auto constant = [](std::size_t members) { return EnsembleInTime({members, std::vector<double>(10, 1.0)}); };
+  for (const Interpretation i : {Interpretation::ensemble, Interpretation::mixed}) {
+    EXPECT_FALSE(constant(44).compliance(i, 2.0, 0.95, 0.9).met);
+    EXPECT_TRUE(constant(45).compliance(i, 2.0, 0.95, 0.9).met);
+    EXPECT_EQ(constant(44).compliance(i, 2.0, 0.95, 0.9).fewest, 45);
+  }
+}
+
+TEST(Interpretation, TheMixedIntervalHoldsTheLevelAtLeastAsOftenAsItClaims) {
+  // e = A sin(phase), A uniform on (0, 10): 8.154 holds for 95 % (ECSS-E-ST-60-10C, Figure A-5).
+  constexpr int kTrials = 200, kMembers = 60, kTimes = 50;
+  const CounterStream stream(3, StreamPurpose::sample);
+  int held = 0;
+  for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
+    std::vector<std::vector<double>> sizes(kMembers);
+    for (std::uint64_t k = 0; k < kMembers; ++k)
+      for (int i = 0; i < kTimes; ++i)
+        sizes[k].push_back(10.0 * stream.uniform(trial, k) * std::sin(0.5 * M_PI * (i + 0.5) / kTimes));
+    const ReportedInterval level = EnsembleInTime(std::move(sizes)).level(Interpretation::mixed, 0.95, 0.9);
+    held += level.low <= 8.154 && 8.154 <= level.high;
+  }
+  EXPECT_GE(held, 0.9 * kTrials);
+}
+
+TEST(Interpretation, RefusesMembersOfUnequalLengthAndNone) {
+  EXPECT_THROW(EnsembleInTime({{1.0, 2.0}, {1.0}}), std::invalid_argument);
+  EXPECT_THROW(EnsembleInTime({}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace boresight

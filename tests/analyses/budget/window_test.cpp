@@ -1,0 +1,110 @@
+// Indices of sampled histories, held against the exact filters of windows and against errors whose indices are plain.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "boresight_analyses/budget/contributor.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+PointingHistory history_of(double duration, std::size_t samples, const std::function<Vec3(double)>& e) {
+  PointingHistory h{duration / static_cast<double>(samples), {}};
+  for (std::size_t k = 0; k < samples; ++k) h.error.push_back(e((static_cast<double>(k) + 0.5) * h.spacing));
+  return h;
+}
+
+double mean_square(const std::vector<Vec3>& values) {
+  double sum = 0.0;
+  for (const Vec3& v : values) sum += v.squaredNorm();
+  return sum / static_cast<double>(values.size());
+}
+
+// Whole periods of the sinusoid under the windows' beginnings, so that the mean over places is the mean over phases.
+TEST(WindowFilter, IsWhatSampledWindowsKeepOfASinusoid) {
+  for (const double period : {0.05, 0.13, 0.4, 1.0}) {
+    const Windows windows{.window = 0.1, .separation = 0.23, .observation = 0.0, .revisit = 0.0};
+    const double omega = 2.0 * kPi / period;
+    for (const ErrorIndex index : {ErrorIndex::ape, ErrorIndex::mpe, ErrorIndex::rpe, ErrorIndex::pde}) {
+      const double reach = index == ErrorIndex::ape ? 0.0 : index == ErrorIndex::pde ? 0.33 : 0.1;
+      const double whole = std::round(20.0 / period) * period;
+      const auto samples = static_cast<std::size_t>(std::round((whole + reach) / 0.0005));
+      const PointingHistory h = history_of(0.0005 * static_cast<double>(samples), samples,
+                                           [&](double t) { return Vec3(std::sin(omega * t), 0, 0); });
+      EXPECT_NEAR(mean_square(index_values(index, h, windows)), 0.5 * kept_of_sinusoid(index, omega, windows), 0.004)
+          << to_string(index) << ", period " << period;
+    }
+  }
+}
+
+// A history of first-order noise: means over many windows against the autocovariance integrated twice.
+TEST(WindowFilter, IsWhatSampledWindowsKeepOfNoise) {
+  const Windows windows{.window = 0.1, .separation = 0.15};
+  for (const double tau : {0.01, 0.1}) {
+    const Contributor noise{.name = "n", .kind = ContributorClass::random, .parameter = {make_discrete({2.0}, {1.0})}, .correlation_time = tau};
+    PointingHistory h{0.0005, {}};
+    h.error = course(noise, 7, 0, 0, h.spacing, 400'000, windows);
+    for (const ErrorIndex index : {ErrorIndex::ape, ErrorIndex::mpe, ErrorIndex::rpe, ErrorIndex::pde}) {
+      const double expected = 4.0 * kept_of_noise(index, tau, windows);
+      // 200 s hold at least 1000 correlation times.
+      EXPECT_NEAR(mean_square(index_values(index, h, windows)) / expected, 1.0, 0.1) << to_string(index) << ", tau " << tau;
+    }
+  }
+}
+
+TEST(WindowFilter, HasTheLimitsOfShortAndLongWindows) {
+  EXPECT_NEAR(kept_of_sinusoid(ErrorIndex::mpe, 1e-6, {.window = 1.0}), 1.0, 1e-12);
+  EXPECT_NEAR(kept_of_sinusoid(ErrorIndex::mpe, 2.0 * kPi, {.window = 1.0}), 0.0, 1e-12);
+  EXPECT_NEAR(kept_of_noise(ErrorIndex::mpe, 1e6, {.window = 1.0}), 1.0, 1e-6);
+  EXPECT_NEAR(kept_of_noise(ErrorIndex::mpe, 1e-3, {.window = 1.0}), 2e-3, 1e-5);  // 2 tau / window
+  // Two windows far apart share no noise.
+  EXPECT_NEAR(kept_of_noise(ErrorIndex::pde, 0.01, {.window = 1.0, .separation = 5.0}),
+              2.0 * kept_of_noise(ErrorIndex::mpe, 0.01, {.window = 1.0}), 1e-12);
+}
+
+TEST(ErrorIndexOfAHistory, OfABiasIsTheBiasInApeAndMpeAndNothingInTheOthers) {
+  const PointingHistory h = history_of(1.0, 1000, [](double) { return Vec3(1, -2, 3); });
+  const Windows windows{.window = 0.1, .separation = 0.2, .observation = 0.5};
+  for (const ErrorIndex index : kErrorIndices)
+    for (const Vec3& v : index_values(index, h, windows)) {
+      const bool kept = index == ErrorIndex::ape || index == ErrorIndex::mpe;
+      EXPECT_LT((v - (kept ? Vec3(1, -2, 3) : Vec3::Zero())).norm(), 1e-12);
+    }
+}
+
+TEST(ErrorIndexOfAHistory, OfADriftIsTheDriftOverTheSeparation) {
+  const PointingHistory h = history_of(1.0, 1000, [](double t) { return Vec3(2.0 * t, 0, 0); });
+  const Windows windows{.window = 0.1, .separation = 0.2, .observation = 0.5, .revisit = 0.6};
+  for (const Vec3& v : index_values(ErrorIndex::pde, h, windows)) EXPECT_NEAR(v.x(), 0.4, 1e-12);
+  for (const Vec3& v : index_values(ErrorIndex::pre, h, windows)) EXPECT_NEAR(v.x(), 1.2, 1e-12);
+  double most = 0.0;
+  for (const Vec3& v : index_values(ErrorIndex::rpe, h, windows)) most = std::max(most, std::abs(v.x()));
+  EXPECT_NEAR(most, 0.1, 0.002);  // rate times half the window
+}
+
+TEST(ErrorIndexOfAHistory, WindowsStayWithinAnObservationAndPreLooksAcrossTwo) {
+  // One value in the first observation, another in the second: no index within one sees a change.
+  const PointingHistory h = history_of(1.0, 1000, [](double t) { return Vec3(t < 0.5 ? 1.0 : 4.0, 0, 0); });
+  const Windows windows{.window = 0.1, .separation = 0.2, .observation = 0.5};
+  for (const ErrorIndex index : {ErrorIndex::rpe, ErrorIndex::pde})
+    for (const Vec3& v : index_values(index, h, windows)) EXPECT_NEAR(v.x(), 0.0, 1e-12);
+  const std::vector<Vec3> across = index_values(ErrorIndex::pre, h, windows);
+  EXPECT_EQ(across.size(), 401u);
+  for (const Vec3& v : across) EXPECT_NEAR(v.x(), 3.0, 1e-12);
+}
+
+TEST(ErrorIndexOfAHistory, SaysWhatItNeeds) {
+  EXPECT_EQ(Windows{}.missing_for(ErrorIndex::ape, 1.0), "");
+  EXPECT_EQ(Windows{}.missing_for(ErrorIndex::mpe, 1.0), "a window");
+  EXPECT_EQ((Windows{.window = 2.0}.missing_for(ErrorIndex::rpe, 1.0)), "a window no longer than an observation");
+  EXPECT_EQ((Windows{.window = 0.1}.missing_for(ErrorIndex::pde, 1.0)), "a separation");
+  EXPECT_EQ((Windows{.window = 0.1}.missing_for(ErrorIndex::pre, 1.0)), "an observation");
+  EXPECT_EQ((Windows{.window = 0.1, .observation = 0.95}.missing_for(ErrorIndex::pre, 1.0)), "two observations in the motion");
+  EXPECT_THROW(index_values(ErrorIndex::mpe, history_of(1.0, 10, [](double) { return Vec3::Zero(); }), {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace boresight
