@@ -3,6 +3,8 @@
 #include <sqlite3.h>
 
 #include <cmath>
+#include <cstring>
+#include <span>
 
 namespace boresight {
 namespace {
@@ -47,6 +49,9 @@ class Statement {
   void bind(int place, const std::string& text) {
     check(sqlite3_bind_text(statement_, place, text.c_str(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
   }
+  void bind(int place, std::span<const double> doubles) {
+    check(sqlite3_bind_blob64(statement_, place, doubles.data(), doubles.size_bytes(), SQLITE_TRANSIENT));
+  }
   // True: a row is there.
   bool step() {
     const int code = sqlite3_step(statement_);
@@ -62,6 +67,11 @@ class Statement {
   double real(int column) const {
     return sqlite3_column_type(statement_, column) == SQLITE_NULL ? std::numeric_limits<double>::quiet_NaN()
                                                                   : sqlite3_column_double(statement_, column);
+  }
+  std::vector<double> doubles(int column) const {
+    std::vector<double> out(static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)) / sizeof(double));
+    if (!out.empty()) std::memcpy(out.data(), sqlite3_column_blob(statement_, column), out.size() * sizeof(double));
+    return out;
   }
   std::string text(int column) const {
     const unsigned char* found = sqlite3_column_text(statement_, column);
@@ -81,11 +91,12 @@ class Statement {
 
 struct SampleStore::Database {
   sqlite3* handle = nullptr;
-  std::unique_ptr<Statement> insert;
+  std::unique_ptr<Statement> insert, insert_history;
   bool in_transaction = false;
 
   ~Database() {
     insert.reset();
+    insert_history.reset();
     sqlite3_close(handle);
   }
   void execute(const std::filesystem::path& file, const std::string& sql) const {
@@ -233,6 +244,28 @@ void SampleStore::add(const SampleRecord& record) {
   put.bind(++place, record.outcome.message);
   put.step();
   put.reset();
+  if (!record.outcome.history.empty()) add_history(record.number, record.outcome.history);
+}
+
+void SampleStore::add_history(std::uint64_t number, std::span<const double> doubles) {
+  if (!db_->insert_history) {
+    db_->execute(file_, "CREATE TABLE IF NOT EXISTS history(number INTEGER PRIMARY KEY, doubles BLOB NOT NULL)");
+    db_->insert_history = std::make_unique<Statement>(db_->handle, file_, "INSERT OR IGNORE INTO history VALUES (?, ?)");
+  }
+  Statement& put = *db_->insert_history;
+  put.reset();
+  put.bind(1, static_cast<std::int64_t>(number));
+  put.bind(2, doubles);
+  put.step();
+  put.reset();
+}
+
+std::vector<double> SampleStore::history(std::uint64_t number) const {
+  Statement there(db_->handle, file_, "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = 'history'");
+  if (!there.step() || there.integer(0) == 0) return {};
+  Statement get(db_->handle, file_, "SELECT doubles FROM history WHERE number = ?");
+  get.bind(1, static_cast<std::int64_t>(number));
+  return get.step() ? get.doubles(0) : std::vector<double>{};
 }
 
 void SampleStore::commit() {

@@ -9,6 +9,7 @@
 //           sample(number, status, value, one column per random parameter, cpu_seconds, model_error,
 //           discretisation_error,
 //                  rung, message)
+//           history(number, doubles)      of the samples that keep one; native byte order
 #pragma once
 
 #include <cstdint>
@@ -16,6 +17,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -73,7 +75,8 @@ class SampleStore {
 
   void add(const SampleRecord& record);
   void commit();
-  // All samples of another store of the same study; its file is then closed, and removed by the caller. Commits.
+  // All samples of another store of the same study, without histories; its file is then closed, and removed by the caller.
+  // Commits.
   void merge(const std::filesystem::path& other);
 
   std::uint64_t count() const;
@@ -81,12 +84,15 @@ class SampleStore {
   std::vector<NumberRange> missing(std::uint64_t end) const;
   // In ascending order of number, those below `end`.
   void read(std::uint64_t end, const std::function<void(const SampleRecord&)>& each) const;
+  // Of one sample; empty if it kept none. read() leaves them out.
+  std::vector<double> history(std::uint64_t number) const;
 
  private:
   struct Database;
   void open();
   void make_tables(const std::map<std::string, std::string>& facts);
   void read_layout();
+  void add_history(std::uint64_t number, std::span<const double> doubles);
 
   std::filesystem::path file_;
   std::vector<std::string> parameters_;

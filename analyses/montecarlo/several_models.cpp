@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "boresight_analyses/montecarlo/stored_runs.hpp"
+
 namespace boresight {
 namespace {
 
@@ -30,28 +32,17 @@ void complete_samples(const SampleModel& model, const RandomInputs& inputs, cons
     r.first = std::max(r.first, range.first);
     if (r.first < r.end) missing.push_back(r);
   }
-  constexpr std::size_t kCommitEvery = 64;
-  std::size_t waiting = 0;
-  std::atomic<bool> stop{false};
-  const bool whole = compute_samples(model, inputs, design, missing,
-                                     {.jobs = options.jobs,
-                                      .landed =
-                                          [&](std::span<const SampleRecord> records) {
-                                            double cost = 0.0;
-                                            for (const SampleRecord& r : records) {
-                                              store.add(r);
-                                              cost += r.outcome.cpu_seconds;
-                                            }
-                                            if ((waiting += records.size()) >= kCommitEvery) {
-                                              store.commit();
-                                              waiting = 0;
-                                            }
-                                            if (options.progress) options.progress(cost);
-                                            if (options.interrupted && options.interrupted()) stop = true;
-                                            return !stop;
-                                          },
-                                      .stop = &stop});
-  store.commit();
+  const ValuesOf values_of = [&](std::uint64_t number, std::span<double> values) {
+    design.point(number, values);
+    inputs.values(values);
+  };
+  const auto landed = [&](std::span<const SampleRecord> records) {
+    double cost = 0.0;
+    for (const SampleRecord& r : records) cost += r.outcome.cpu_seconds;
+    if (options.progress) options.progress(cost);
+  };
+  const bool whole = store_runs(model, inputs.size(), values_of, missing, store,
+                                {.jobs = options.jobs, .landed = landed, .interrupted = options.interrupted});
   if (!whole) throw MethodInterrupted{};
 }
 

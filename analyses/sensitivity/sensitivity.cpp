@@ -1,9 +1,9 @@
 #include "boresight_analyses/sensitivity/sensitivity.hpp"
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "boresight_analyses/montecarlo/stored_runs.hpp"
 #include "boresight_analyses/statistics/running.hpp"
 
 namespace boresight {
@@ -28,37 +28,23 @@ GlobalSensitivity reported_sensitivity(const SobolIndices<Sampling>& indices, co
 
 bool compute_sensitivity_runs(const SampleModel& model, const SensitivityPlan& plan, SampleStore& store,
                               const SensitivityOptions& options) {
-  using Clock = std::chrono::steady_clock;
-  constexpr auto kCommitEvery = std::chrono::milliseconds(250);
   const std::vector<NumberRange> missing = store.missing(plan.runs());
   SensitivityProgress progress{.total = plan.runs()};
   for (const NumberRange& range : missing) progress.begun_with += range.size();
   progress.begun_with = progress.done = plan.runs() - progress.begun_with;
   RunningMoments moments;
-  std::atomic<bool> stop{false};
-  auto next_commit = Clock::now() + kCommitEvery;
-  SamplingOptions sampling{.jobs = options.jobs, .landed = {}, .stop = &stop};
-  sampling.landed = [&](std::span<const SampleRecord> records) {
+  const auto landed = [&](std::span<const SampleRecord> records) {
     for (const SampleRecord& record : records) {
-      store.add(record);
       ++progress.done;
       if (record.outcome.status == Outcome::Status::done) moments.add(record.outcome.value);
       else ++progress.failed;
     }
-    if (Clock::now() >= next_commit) {
-      store.commit();
-      next_commit = Clock::now() + kCommitEvery;
-    }
     progress.mean_so_far = moments.mean();
     if (options.progress) options.progress(progress);
-    if (options.interrupted && options.interrupted()) stop = true;
-    return !stop;
   };
-  const bool whole = compute_samples(
+  return store_runs(
       model, plan.inputs.size(), [&](std::uint64_t number, std::span<double> values) { plan.values(number, values); }, missing,
-      sampling);
-  store.commit();
-  return whole;
+      store, {.jobs = options.jobs, .landed = landed, .interrupted = options.interrupted});
 }
 
 std::optional<GlobalSensitivity> global_sensitivity(const SensitivityPlan& plan, const SampleStore& store) {

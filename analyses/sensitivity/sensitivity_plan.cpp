@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
@@ -12,54 +11,6 @@ namespace {
 constexpr long long kMostRows = 1LL << 24;
 
 bool power_of_two(std::uint64_t n) { return std::has_single_bit(n); }
-
-// Whether the copula makes parameter `to` depend on the coordinate of `from`.
-bool depends(const RandomInputs& inputs, std::size_t from, std::size_t to) {
-  std::vector<double> low(inputs.size(), 0.3), high = low;
-  high[from] = 0.8;
-  inputs.copula.apply(low);
-  inputs.copula.apply(high);
-  return low[to] != high[to];
-}
-
-void read_groups(Cursor& table, SensitivityPlan& plan) {
-  const std::size_t d = plan.inputs.size();
-  std::vector<std::string> known;
-  for (const RandomParameter& p : plan.inputs.parameters) known.push_back(p.name());
-  std::vector<bool> taken(d, false);
-  if (table.has("groups")) {
-    Cursor groups = table.table("groups");
-    for (const std::string& name : groups.keys()) {
-      std::vector<int> members;
-      for (const std::string& path : groups.texts(name)) {
-        const auto at = std::find(known.begin(), known.end(), path);
-        if (at == known.end())
-          groups.fail_found(name, "\"" + path + "\"", "the parameter of a [[random]] table", nearest_name(path, known));
-        const auto index = static_cast<std::size_t>(at - known.begin());
-        if (taken[index]) groups.fail_found(name, "\"" + path + "\" a second time", "each parameter in one group");
-        taken[index] = true;
-        members.push_back(static_cast<int>(index));
-      }
-      groups.require(!members.empty(), name, "at least one parameter");
-      plan.groups.push_back(std::move(members));
-      plan.names.push_back(name);
-    }
-    groups.finish();
-  }
-  for (std::size_t i = 0; i < d; ++i)
-    if (!taken[i]) {
-      plan.groups.push_back({static_cast<int>(i)});
-      plan.names.push_back(known[i]);
-    }
-  std::vector<std::size_t> group_of(d);
-  for (std::size_t g = 0; g < plan.groups.size(); ++g)
-    for (const int i : plan.groups[g]) group_of[static_cast<std::size_t>(i)] = g;
-  for (std::size_t i = 0; i < d; ++i)
-    for (std::size_t j = 0; j < d; ++j)
-      if (group_of[i] != group_of[j] && depends(plan.inputs, i, j))
-        table.fail_found("groups", known[i] + " and " + known[j] + ", which are correlated, apart",
-                         "correlated parameters in one group");
-}
 
 }  // namespace
 
@@ -111,7 +62,9 @@ SensitivityPlan read_sensitivity_plan(Cursor& root, const Study&, const Mechanis
   plan.inputs = read_random_inputs(root, mechanism, accepts);
   if (net && 2 * plan.inputs.size() > static_cast<std::size_t>(SobolNet::kMostDimensions))
     table.fail("design", "\"random\" for more than " + std::to_string(SobolNet::kMostDimensions / 2) + " random parameters");
-  read_groups(table, plan);
+  NamedGroups groups = read_parameter_groups(table, plan.inputs);
+  plan.groups = std::move(groups.members);
+  plan.names = std::move(groups.names);
   table.finish();
   plan.points = std::make_shared<const Design>(plan.design, static_cast<int>(2 * plan.inputs.size()));
   return plan;

@@ -8,12 +8,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "boresight_analyses/random/parameter_groups.hpp"
 #include "boresight_analyses/statistics/batch_model.hpp"
 
 namespace boresight {
 
-// Coordinates that change together; with one coordinate each, the parameters themselves.
-using ParameterGroups = std::vector<std::vector<int>>;
 ParameterGroups single_parameters(int dimensions);
 
 struct SobolRow {

@@ -37,15 +37,16 @@ MotionMeasures measures_of(const RunResult& result) {
 }  // namespace
 
 RungSampleModel::RungSampleModel(std::string rung, std::shared_ptr<const Mechanism> mechanism,
-                                 ParametersOf parameters_of, IndexChoice index, RunOptions options, bool scene_varies)
+                                 ParametersOf parameters_of, IndexChoice index, RunOptions options, bool scene_varies, KeptOfRun kept)
     : rung_(std::move(rung)),
       mechanism_(std::move(mechanism)),
       parameters_of_(std::move(parameters_of)),
       index_(std::move(index)),
       options_(std::move(options)),
       scene_varies_(scene_varies),
+      kept_(std::move(kept)),
       shared_(make_rung(rung_, mechanism_)) {
-  options_.sample_spacing = 0.0;  // the index is all that is kept
+  options_.sample_spacing = kept_.spacing;
   options_.events = false;
 }
 
@@ -94,6 +95,7 @@ void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outco
     if (result.interrupted) return;
     outcome.value = index_.of(result.index);
     outcome.motion = measures_of(result);
+    if (kept_.spacing > 0.0) outcome.history = kept_.of(result);
     outcome.model_error = result.error.model;
     outcome.discretisation_error = result.error.discretisation;
     outcome.status = Outcome::Status::done;

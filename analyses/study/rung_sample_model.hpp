@@ -17,12 +17,18 @@
 
 namespace boresight {
 
+// What is kept of each run beside its index: Outcome::history, from histories at this spacing.
+struct KeptOfRun {
+  double spacing = 0.0;  // [s]; 0: nothing is kept
+  std::function<std::vector<double>(const RunResult&)> of = {};
+};
+
 class RungSampleModel final : public SampleModel {
  public:
   using ParametersOf = std::function<Parameters(std::span<const double>)>;
 
   RungSampleModel(std::string rung, std::shared_ptr<const Mechanism> mechanism, ParametersOf parameters_of,
-                  IndexChoice index, RunOptions options, bool scene_varies);
+                  IndexChoice index, RunOptions options, bool scene_varies, KeptOfRun kept = {});
 
   std::string rung() const override { return rung_; }
   double step() const override { return options_.step; }
@@ -41,6 +47,7 @@ class RungSampleModel final : public SampleModel {
   IndexChoice index_;
   RunOptions options_;
   bool scene_varies_;
+  KeptOfRun kept_;
   std::unique_ptr<Rung> shared_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Rung>> idle_;  // where the scene varies

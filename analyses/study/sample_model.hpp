@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace boresight {
 
@@ -34,6 +35,7 @@ struct Outcome {
   double model_error = 0.0;           // what the rung thinks of itself, relative: by what it leaves out
   double discretisation_error = 0.0;  // and by its steps
   MotionMeasures motion = {};         // NaN where the model does not say
+  std::vector<double> history = {};   // what else is kept of the motion, in the model's own order; empty for most
 };
 const char* to_string(Outcome::Status status);
 

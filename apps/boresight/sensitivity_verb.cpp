@@ -15,6 +15,7 @@
 #include "report/report.hpp"
 #include "scatter_parts.hpp"
 #include "sensitivity_report.hpp"
+#include "stored_study.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
 #include "verb.hpp"
@@ -83,7 +84,7 @@ class SensitivityVerb : public Verb {
     const OutputDirectory out = OutputDirectory::open(
         command.out, command.verb, command.file,
         identity_of(command, mechanism->description().content_hash, runs.hexadecimal(), options));
-    SampleStore store = open_store(out, plan, study);
+    SampleStore store = open_runs(out, name(), plan.inputs, plan.text(study), resume_);
     const RungChoice choice = rung_for(command, study, mechanism, plan, run, store);
     if (choice.step > 0.0) run.step = choice.step;
     const std::unique_ptr<SampleModel> sampled = sample_model(
@@ -141,42 +142,11 @@ class SensitivityVerb : public Verb {
   }
 
  private:
-  SampleStore open_store(const OutputDirectory& out, const SensitivityPlan& plan, const Study& study) const {
-    const std::filesystem::path file = out.path() / "samples.db";
-    if (std::filesystem::exists(file) && !resume_)
-      throw OutputDirectoryError("--out " + out.path().string() +
-                                 ": holds runs of this study already; --resume goes on with them, another --out begins anew");
-    // Whose folder this is has to be known before the first run is, or a kill would leave an orphan.
-    if (!std::filesystem::exists(out.path() / "summary.json"))
-      write_json(out, "summary.json",
-                 {{"verb", "sensitivity"},
-                  {"version", BORESIGHT_VERSION},
-                  {"interrupted", true},
-                  {"warnings", {"begun and not yet ended: samples.db holds what there is; go on with --resume"}},
-                  {"identity", Json::parse(out.identity().dump())}});
-    ContentHash hash;
-    hash.add(out.identity().dump());
-    hash.add(plan.text(study));
-    return SampleStore(file, {{"study", hash.hexadecimal()}}, names_of(plan.inputs));
-  }
-
-  // A study keeps its rung: the one it was begun with is the one it goes on with.
+  // With the step that all runs share.
   static RungChoice rung_for(const Command& command, const Study& study, const std::shared_ptr<const Mechanism>& mechanism,
                              const SensitivityPlan& plan, const RunOptions& run, const SampleStore& store) {
-    const std::vector<SampleStore::StoredRung> stored = store.rungs();
-    if (!stored.empty()) return {stored.front().name, "chosen when the study was begun", stored.front().step};
-    constexpr double kPilotTrials = 72.0;  // about as many as it makes; it may need fewer
-    Progress progress(command.quiet, kPilotTrials, "trials of the pilot");
-    RungChoice choice = choose_rung({.asked = command.rung,
-                        .accuracy = command.accuracy ? command.accuracy : study.accuracy,
-                        .wants_multibody = !run.formulation.empty() || !run.stabilisation.empty(),
-                        .index = study.index,
-                        .step = run.step,
-                        .progress = [&](int trial) {
-                          progress.update(trial, "finding the cheapest rung that meets the accuracy");
-                          return !interrupted();
-                        }},
-                       mechanism, pilot_samples(plan.inputs, *mechanism));
+    RungChoice choice = rung_of_study(command, study, mechanism, plan.inputs, run, store);
+    if (!store.rungs().empty()) return choice;
     const bool lanes = choice.name == "perturbation" && LaneSampleModel::serve(*mechanism, study.index, run);
     if (lanes) choice.step = 0.0;
     if (!lanes && choice.step == 0.0 && run.step == 0.0)

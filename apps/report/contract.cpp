@@ -186,8 +186,8 @@ void series(const Place& place) {
       }
     }
   }
-  if (place.has("y_low") && style != "area")
-    place.at("y_low").fail("a key", "style area, where a lower edge has a meaning");
+  if (place.has("y_low") && style != "area" && style != "bars")
+    place.at("y_low").fail("a key", "style area or bars, where a lower edge has a meaning");
   if (place.has("text")) {
     same_length(place.at("text"), length, "x");
     texts(place.at("text"));

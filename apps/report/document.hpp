@@ -46,7 +46,7 @@ struct Series {
   Style style = Style::line;
   bool muted = false;      // thin, dashed, neutral: the ideal curve, a reference
   bool hidden = false;     // present in the legend, drawn when asked for
-  Numbers y_low = {};      // area: its lower edge
+  Numbers y_low = {};      // area: its lower edge; bars: where they begin (a waterfall), on the axis of their values
   Numbers error_low = {};  // distances from y, not negative
   Numbers error_high = {};
   Names text = {};  // shown when hovering

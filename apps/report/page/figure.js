@@ -67,8 +67,12 @@ function seriesTraces(chart, series, entry, themeName) {
     case "line+markers":
       return [{ ...common, type: "scatter", mode: style === "markers" ? "markers" : "lines+markers", line,
         marker: { color, size: series.x.length > 300 ? 4 : 7, symbol: symbols[entry.index % symbols.length], opacity: series.x.length > 300 ? 0.55 : 0.95 } }];
-    case "bars":
-      return [{ ...common, type: "bar", orientation: lying ? "h" : "v", marker: { color } }];
+    case "bars": {
+      const bar = { ...common, type: "bar", orientation: lying ? "h" : "v", marker: { color } };
+      if (!series.y_low) return [bar];
+      const along = lying ? "x" : "y"; // steps of a waterfall: from y_low to the value
+      return [{ ...bar, base: series.y_low, [along]: common[along].map((value, i) => value - series.y_low[i]) }];
+    }
     case "histogram":
       return [{ ...common, type: "histogram", y: undefined, nbinsx: series.bins || undefined, marker: { color, opacity: 0.8, line: { color: ground(themeName).surface, width: 0.6 } },
         hovertemplate: `%{x}${xUnit}: %{y}<extra>${plain(series.name)}</extra>` }];
@@ -245,7 +249,7 @@ export function figure(chart, entries, { width, panel = false, themeName = theme
     paper_bgcolor: colors.surface, plot_bgcolor: colors.surface, font: { family: font, color: colors.ink, size: 12 },
     xaxis: { ...axisLayout(chart.x, colors, names.x, xTitle.join("<br>"), values("x")) },
     yaxis: { ...axisLayout(chart.y, colors, names.y, "", values("y")), showspikes: false },
-    shapes, annotations, showlegend: false, barmode: types.has("histogram") ? "overlay" : "group", bargap: types.has("histogram") ? 0.02 : 0.3, boxmode: "group",
+    shapes, annotations, showlegend: false, barmode: types.has("histogram") || (chart.series ?? []).some((series) => series.style === "bars" && series.y_low) ? "overlay" : "group", bargap: types.has("histogram") ? 0.02 : 0.3, boxmode: "group",
     hovermode: lines ? "x unified" : "closest", hoverdistance: 40,
     hoverlabel: { bgcolor: colors.surface, bordercolor: colors.axis, font: { color: colors.ink, size: 12, family: font }, namelength: -1 },
     dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom",

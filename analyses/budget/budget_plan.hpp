@@ -1,0 +1,96 @@
+// What a pointing budget is asked, as the [budget] table of a study file says it:
+//
+//   [budget]
+//   members = 100                # of the ensemble: samples of what [[random]] scatters, with their own external errors
+//   attribution = 24             # of them, how many are run again with each group held and each clearance halved
+//   seed = 1
+//   confidence = 0.9             # of all intervals
+//   sampling = "0.5 ms"          # of the pointing history; left out: a 2000th of the motion
+//   start = "0.1 s"              # what the motion does before is left out
+//   window = "50 ms"             # of MPE, RPE, PDE, PRE
+//   separation = "0.3 s"         # of the two windows of PDE, from beginning to beginning
+//   observation = "0.4 s"        # length of one; left out: the whole motion is one, and there is no PRE
+//   revisit = "0.4 s"            # of the two windows of PRE; left out: one observation
+//   leave_out = 0.05             # share of the members that the temporal interpretation leaves out; left out: none
+//   groups = { contact = ["clearance.F1.contact.restitution", "clearance.F1.friction.coefficient"] }
+//
+//   [[budget.requirement]]       # any number; the first one is what shares and reliefs are about
+//   index = "APE"                # MPE, RPE, PDE, PRE
+//   axis = "half cone"           # or "x", "y"; of position and orientation "x", "y", "z", "total"
+//   interpretation = "mixed"     # ensemble, temporal
+//   limit = "600 arcsec"
+//   probability = 0.95
+//   confidence = 0.9
+//
+//   [[budget.contributor]]       # an error from outside of the clearances
+//   name = "star tracker"
+//   class = "random"             # bias, periodic, drift
+//   distribution = { .. }        # over the members, as in [[random]]: of the bias, of the noise's standard deviation, of the
+//                                # amplitude, of the drift per time; or value = "2 arcsec", the same in all
+//   axes = ["x", "y"]            # left out: all
+//   period = "0.2 s"             # periodic
+//   correlation_time = "1 ms"    # random; left out: the sampling
+//   recalibrated = true          # bias, drift: every observation has another bias, and a drift that begins at zero
+//   group = "thermal"            # contributors of one group vary together
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "boresight_analyses/budget/contributor.hpp"
+#include "boresight_analyses/random/design.hpp"
+#include "boresight_analyses/random/parameter_groups.hpp"
+#include "boresight_analyses/random/random_inputs.hpp"
+#include "boresight_analyses/study/study.hpp"
+
+namespace boresight {
+
+// The axes of a quantity's error vector, and what they make together.
+struct BudgetAxes {
+  std::vector<std::string> names;  // "x", "y", ...
+  std::string total;               // "half cone" of two, "total" of three
+
+  explicit BudgetAxes(PointingQuantity quantity);
+  std::size_t count() const { return names.size(); }
+  const std::string& name(std::size_t axis) const { return axis < names.size() ? names[axis] : total; }  // count(): the total
+  std::vector<std::string> all() const;
+};
+
+struct BudgetRequirement {
+  ErrorIndex index = ErrorIndex::ape;
+  std::size_t axis = 0;  // BudgetAxes::count(): the total
+  Interpretation interpretation = Interpretation::mixed;
+  double limit = 0.0;  // SI; 0: none was asked for
+  double probability = 0.95;
+  double confidence = 0.9;
+};
+
+struct BudgetPlan {
+  std::uint64_t members = 100, attribution = 24;
+  std::uint64_t seed = 1;
+  double confidence = 0.9;
+  double sampling = 0.0, start = 0.0;  // [s]
+  Windows windows;
+  double leave_out = 0.0;
+  RandomInputs inputs;  // none where the study scatters nothing
+  NamedGroups groups;
+  std::vector<BudgetRequirement> requirements;
+  std::vector<Contributor> contributors;
+  double duration = 0.0;  // of the histories: the motion from `start` on [s]
+
+  // What shares and reliefs are about: the first requirement, or the APE of all axes, mixed, 95 %.
+  BudgetRequirement headline(const BudgetAxes& axes) const;
+  // The indices that windows and motion allow, in the order of kErrorIndices.
+  std::vector<ErrorIndex> indices() const;
+  DesignOptions design() const { return {.kind = DesignKind::random, .seed = seed}; }
+  // What decides a member's pointing history but for mechanism and rung; windows, contributors and requirements do not.
+  std::string sample_text(const Study& study) const;
+};
+
+// Throws InputError. `duration`: of the motion [s]; `accepts`: see read_random_inputs.
+BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism, double duration,
+                            const std::function<void(const Setting&)>& accepts);
+
+}  // namespace boresight
