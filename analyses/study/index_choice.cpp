@@ -45,9 +45,11 @@ double IndexChoice::of(const PointingIndices& indices) const {
 std::string IndexChoice::si_unit() const { return named(quantity_names(), quantity).si_unit; }
 
 std::string IndexChoice::title() const {
-  return std::string(named(quantity_names(), quantity).title) + ", " +
+  return quantity_title() + ", " +
          named(statistic_names(), statistic).title;
 }
+
+std::string IndexChoice::quantity_title() const { return named(quantity_names(), quantity).title; }
 
 PointingQuantity IndexChoice::kind() const { return named(quantity_names(), quantity).kind; }
 

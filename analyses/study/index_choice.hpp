@@ -34,6 +34,7 @@ struct IndexChoice {
   double of(const PointingIndices& indices) const;
   std::string si_unit() const;
   std::string title() const;  // "position error, maximum"
+  std::string quantity_title() const;  // "position error"
   PointingQuantity kind() const;
 };
 

@@ -15,6 +15,7 @@ namespace boresight::app {
   VERB(match)                 \
   VERB(allocate)              \
   VERB(calibrate)             \
+  VERB(budget)                \
   VERB(export)                \
   VERB(laws)
 

@@ -1,0 +1,126 @@
+// boresight budget as a user calls it: answers, exit statuses, what is written, going on after a kill.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "program.hpp"
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class BudgetProgram : public Program {
+ protected:
+  void study(const std::string& more, const std::string& members = "20") const {
+    std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << mechanism_ << R"("
+[index]
+quantity = "boresight_error"
+[[random]]
+parameter = "clearance.F1.radial"
+distribution = { uniform = { min = "0.08 mm", max = "0.12 mm" } }
+[budget]
+attribution = 4
+sampling = "0.2 ms"
+window = "2 ms"
+members = )" << members << '\n' << more;
+  }
+  static std::vector<std::string> arguments(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> all = {"budget", "study.toml", "--set", "motion.duration=20ms", "--set", "clearance.F1.axes=free",
+                                    "--rung", "quasistatic", "--out", "out"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  static std::string requirement(const std::string& limit) {
+    return "[[budget.requirement]]\nlimit = \"" + limit + "\"\nprobability = 0.8\nconfidence = 0.9\n";
+  }
+};
+
+TEST_F(BudgetProgram, AnswersARequirementThatIsMetAndWritesWhatItSays) {
+  study(requirement("1 deg") + "[[budget.contributor]]\nname = \"mounting\"\nclass = \"bias\"\nvalue = \"60 arcsec\"\n");
+  const Ended ended = call(arguments());
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("APE, half cone, mixed, 80 %"), HasSubstr("arcsec"), HasSubstr("met")));
+  const auto summary = json("out/summary.json");
+  EXPECT_TRUE(summary["requirements"][0]["met"].get<bool>());
+  EXPECT_EQ(summary["levels"].size(), 3u * 3u * 3u);  // APE, MPE, RPE; three axes; three interpretations
+  double share = 0.0;
+  for (const auto& c : summary["contributions"]) share += c["share"].get<double>();
+  EXPECT_NEAR(share, 1.0, 1e-9);
+  EXPECT_EQ(summary["tighten_first"][0]["name"], "F1");
+  // Every number's source is named, with where it comes from.
+  for (const auto& level : summary["levels"]) {
+    const auto& source = summary["sources"][level["source"].get<std::string>()];
+    EXPECT_EQ(source["store"], "samples.db");
+    EXPECT_EQ(source["seed"], summary["seed"]);
+    EXPECT_EQ(source["study_hash"], summary["study"]["hash"]);
+    EXPECT_EQ(source["mechanism_hash"], summary["mechanism"]["hash"]);
+    EXPECT_EQ(source["rung"], "quasistatic");
+  }
+  EXPECT_THAT(text("out/report.html"), AllOf(HasSubstr("Classical table"), HasSubstr("What to tighten first")));
+  EXPECT_THAT(text("out/levels.csv"), HasSubstr("\nRPE,half cone,temporal,"));
+}
+
+TEST_F(BudgetProgram, AnswersNoWhereARequirementIsNotMetAndReusesTheRuns) {
+  study(requirement("1 deg"));
+  ASSERT_EQ(call(arguments({"--quiet"})).status, 0);
+  const auto before = json("out/summary.json");
+  study(requirement("1 arcsec"));
+  EXPECT_EQ(call(arguments({"--quiet"})).status, 2);  // whose results are these? --resume says so
+  const Ended ended = call(arguments({"--resume"}));
+  EXPECT_EQ(ended.status, 1) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("of them stored already"), HasSubstr("above the limit")));
+  EXPECT_EQ(json("out/summary.json")["levels"][0]["value"], before["levels"][0]["value"]);
+}
+
+TEST_F(BudgetProgram, GivesTheSameBitsOnAnyNumberOfThreads) {
+  study("[[budget.contributor]]\nname = \"noise\"\nclass = \"random\"\nvalue = \"5 arcsec\"\n");
+  ASSERT_EQ(call(arguments({"--quiet", "--jobs", "1"})).status, 0);
+  const std::string one = text("out/levels.csv");
+  std::filesystem::remove_all(folder_ / "out");
+  ASSERT_EQ(call(arguments({"--quiet", "--jobs", "3"})).status, 0);
+  EXPECT_EQ(text("out/levels.csv"), one);
+}
+
+TEST_F(BudgetProgram, GoesOnAfterAKill) {
+  study("", "4000");
+  const pid_t child = start(arguments({"--quiet", "--jobs", "1"}));
+  std::error_code none;
+  // The first commit is a quarter of a second after the first run.
+  for (int k = 0; k < 2000; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const auto size = std::filesystem::file_size(folder_ / "out/samples.db-wal", none);
+    if (!none && size > 200'000) break;
+  }
+  kill(child, SIGKILL);
+  ASSERT_EQ(wait_for(child).status, 128 + SIGKILL);
+  EXPECT_EQ(json("out/summary.json")["verb"], "budget");
+  study("", "20");
+  const Ended again = call(arguments({"--resume"}));
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("of them stored already"));
+}
+
+TEST_F(BudgetProgram, MistakesAreOneLine) {
+  study("[[budget.requirement]]\nindex = \"PDE\"\nlimit = \"1 arcsec\"\n");
+  const Ended ended = call(arguments());
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("study.toml:"), HasSubstr("a separation, which PDE needs")));
+}
+
+TEST_F(BudgetProgram, SaysWhyParallelAxesLeaveNothingToBudget) {
+  study("");
+  std::vector<std::string> parallel = arguments();
+  parallel[5] = "clearance.F1.axes=parallel";
+  const Ended ended = call(parallel);
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("axes = \"free\" lets them tilt"));
+}
+
+}  // namespace
+}  // namespace boresight::app
