@@ -117,8 +117,8 @@ class Maker {
     BudgetLevel l{.index = t.index, .interpretation = t.interpretation, .axis = axis};
     l.level = sizes.level(t.interpretation, probability, confidence, plan_.leave_out);
     const bool total = axis == axes_.count();
-    l.by_rule = total ? t.total.radius_by_rule(probability) : t.total.axis_level(axis, probability);
-    if (total) l.integrated = t.total.radius_integrated(probability);
+    l.by_rule = total ? t.total.radius_by_rule(t.interpretation, probability) : t.total.axis_level(axis, probability);
+    if (total && t.interpretation != Interpretation::ensemble) l.integrated = t.total.radius_integrated(probability);
     l.standing = standing_of(l.by_rule, l.level.value);
     return l;
   }

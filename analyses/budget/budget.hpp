@@ -25,7 +25,7 @@ struct BudgetLevel {
   std::size_t axis = 0;  // BudgetAxes::count(): the total
   ReportedInterval level = {};
   double by_rule = 0.0;                  // of the classical table
-  std::optional<double> integrated = {};  // of the total: the Gaussian with the table's moments
+  std::optional<double> integrated = {};  // of the total, but for maxima: the Gaussian with the table's moments
   RuleStanding standing = RuleStanding::fair;  // of the rule
 };
 

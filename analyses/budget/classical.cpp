@@ -11,8 +11,12 @@ double ClassicalTotal::axis_level(std::size_t axis, double probability) const {
   return std::abs(axes[axis].mean) + coverage_factor(probability) * axes[axis].sd;
 }
 
-double ClassicalTotal::radius_by_rule(double probability) const {
+double ClassicalTotal::radius_by_rule(Interpretation interpretation, double probability) const {
   double square = 0.0;
+  if (interpretation == Interpretation::ensemble) {
+    for (std::size_t a = 0; a < axes.size(); ++a) square += std::pow(axis_level(a, probability), 2);
+    return std::sqrt(square);
+  }
   for (const Moments& m : axes) square += m.sd * m.sd;
   const auto n = static_cast<double>(axes.size());
   return std::sqrt(square / n) * equal_axes_factor(probability, static_cast<int>(axes.size()));

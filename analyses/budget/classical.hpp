@@ -3,7 +3,8 @@
 //   means add linearly; standard deviations linearly within a group of correlated contributors, and groups (and those that
 //   belong to none) by the root of the sum of squares
 //   one axis:   |mean| + n_P sd
-//   half cone:  sd sqrt(-2 ln(1 - P)), sd the root mean square of the axes', as if there were no mean
+//   half cone:  sd sqrt(-2 ln(1 - P)), sd the root mean square of the axes', as if there were no mean; of the ensemble
+//               interpretation, whose means are those of maxima, the root of the sum of the axes' levels squared
 //
 // The rules hold for Gaussian errors without a mean across. Whether they did is only seen against a simulation.
 #pragma once
@@ -25,7 +26,7 @@ struct ClassicalTotal {
   std::vector<Moments> axes;
 
   double axis_level(std::size_t axis, double probability) const;
-  double radius_by_rule(double probability) const;  // of the half cone, or of the length of three axes
+  double radius_by_rule(Interpretation interpretation, double probability) const;  // of two axes or three
   double radius_integrated(double probability) const;  // the Gaussian with these moments, mean and all (half_cone.hpp)
 };
 ClassicalTotal total_of(std::span<const ClassicalLine> lines);

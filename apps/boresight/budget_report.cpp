@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "pilot_parts.hpp"
@@ -28,7 +29,7 @@ std::string interval_text(const BudgetStudy& s, const ReportedInterval& i) {
 
 std::string standing_text(RuleStanding standing, double by_rule, double simulated) {
   if (simulated <= 0.0) return "fair";
-  return fmt::format("{}: {:+.0f} %", to_string(standing), 100.0 * (by_rule / simulated - 1.0));
+  return fmt::format("{}, {:+.0f} %", to_string(standing), 100.0 * (by_rule / simulated - 1.0));
 }
 
 const BudgetLevel& headline_level(const Budget& b) {
@@ -54,20 +55,33 @@ report::Table requirement_table(const BudgetStudy& s, const Budget& b) {
   return table;
 }
 
+// Numbers of a column; what is rounding beside the largest is zero.
+nlohmann::json cell(double value, const DisplayUnit& unit, double largest) {
+  constexpr double kRoundingShare = 1e-9;
+  if (!std::isfinite(value)) return nullptr;
+  return std::abs(value) < kRoundingShare * largest ? 0.0 : value * unit.per_si;
+}
+
 report::Table level_table(const BudgetStudy& s, const Budget& b) {
   const BudgetAxes axes = s.axes();
-  report::Table table{.title = "Levels, simulated and by rule",
-                      .caption = fmt::format("Levels that hold with {}. By rule: one axis |mean| + n_P sd, the {} by the rule for equal axes "
-                                             "without a mean; integrated: the Gaussian with the table's means and deviations. Unsafe: the "
-                                             "rule is more than {:.0f} % below what was simulated; wasteful: more than {:.0f} % above.",
-                                             percent(b.headline.probability), axes.total, 100.0 * (1.0 - kUnsafeBelow),
-                                             100.0 * (kWastefulAbove - 1.0)),
-                      .columns = {{"Index"}, {"Axis"}, {"Interpretation"}, {"Simulated"}, {fmt::format("{} interval", percent(s.plan.confidence))},
-                                  {"By rule"}, {"The rule is"}, {"Integrated"}, {"Source"}}};
+  double largest = 0.0;
+  for (const BudgetLevel& l : b.levels) largest = std::max(largest, l.level.value);
+  const DisplayUnit unit = unit_of(s, largest);
+  report::Table table{.title = "Levels in " + unit.name + ", simulated and by rule",
+                      .caption = fmt::format("Levels that hold with {}; from and to: their {} interval. By rule: one axis |mean| + n_P sd, "
+                                             "the {} by the rule for equal axes without a mean; integrated: the Gaussian with the table's "
+                                             "means and deviations. Unsafe: the rule is more than {:.0f} % below what was simulated; "
+                                             "wasteful: more than {:.0f} % above. Sources: {}, of the rule {}.",
+                                             percent(b.headline.probability), percent(s.plan.confidence), axes.total,
+                                             100.0 * (1.0 - kUnsafeBelow), 100.0 * (kWastefulAbove - 1.0), kFromMembers, kFromClasses),
+                      .columns = {{"Index, axis"}, {"Interpretation"}, {"Simulated"}, {"from"}, {"to"}, {"By rule", "", "right"},
+                                  {"The rule is"}, {"Integrated"}}};
+  const auto number = [&](double value) { return cell(value, unit, largest); };
   for (const BudgetLevel& l : b.levels)
-    table.rows.push_back({to_string(l.index), axes.name(l.axis), to_string(l.interpretation), budget_value(s, l.level.value),
-                          interval_text(s, l.level), budget_value(s, l.by_rule), standing_text(l.standing, l.by_rule, l.level.value),
-                          l.integrated ? budget_value(s, *l.integrated) : "", std::string(kFromMembers) + ", rule " + kFromClasses});
+    table.rows.push_back({std::string(to_string(l.index)) + " " + axes.name(l.axis), to_string(l.interpretation), number(l.level.value),
+                          number(l.level.low), number(l.level.high), number(l.by_rule),
+                          standing_text(l.standing, l.by_rule, l.level.value),
+                          l.integrated ? number(*l.integrated) : nlohmann::json()});
   return table;
 }
 
@@ -137,6 +151,7 @@ report::Chart waterfall_chart(const BudgetStudy& s, const Budget& b) {
     at += c.share;
   }
   steps.push_back({"level", 0.0, 1.0, 7});
+  double nearest = 0.0, farthest = 1.0;
   for (const auto& [color, name] : std::vector<std::pair<int, std::string>>{
            {1, "clearances"}, {3, "scatter"}, {8, "together"}, {5, "external"}, {7, "level"}}) {
     report::Series series{.name = name, .style = report::Style::bars, .color = color};
@@ -147,16 +162,21 @@ report::Chart waterfall_chart(const BudgetStudy& s, const Budget& b) {
       series.y_low.push_back(step.from * level * unit.per_si);
       x.push_back(step.to * level * unit.per_si);
       y.push_back(step.name);
-      series.text.push_back(fmt::format("{:+.3g} {} ({})", (step.to - step.from) * level * unit.per_si, unit.name,
-                                        readable_share(step.to - step.from)));
+      series.text.push_back(budget_value(s, (step.to - step.from) * level));
+      farthest = std::max({farthest, step.from, step.to});
+      nearest = std::min({nearest, step.from, step.to});
     }
     if (x.empty()) continue;
     series.x = x;
     series.y = y;
     chart.series.push_back(std::move(series));
   }
-  if (!b.requirements.empty())
+  if (!b.requirements.empty()) {
     chart.lines.push_back({'x', b.headline.limit * unit.per_si, "limit " + budget_value(s, b.headline.limit)});
+    farthest = std::max(farthest, b.headline.limit / level);
+  }
+  constexpr double kRoomForText = 0.15;
+  chart.x.range = {(nearest < 0.0 ? nearest - kRoomForText : 0.0) * level * unit.per_si, (farthest + kRoomForText) * level * unit.per_si};
   return chart;
 }
 
@@ -187,26 +207,48 @@ report::Table relief_table(const BudgetStudy& s, const Budget& b) {
   return table;
 }
 
-std::string course_text(const BudgetStudy& s, const ClassicalLine& line) {
-  for (const Contributor& c : s.plan.contributors)
-    if (c.name == line.name) {
-      std::string text;
-      if (c.kind == ContributorClass::periodic) text = "period " + readable(c.period, "s");
-      if (c.kind == ContributorClass::random) text = "correlation time " + readable(c.correlation_time, "s");
-      if (c.recalibrated) text = "recalibrated";
-      for (const DistributionPtr& d : c.parameter)
-        if (d) return (text.empty() ? "" : text + "; ") + d->text() + " in " + s.study.index.si_unit();
-    }
-  if (line.kind == kScatterKind) {
-    const auto at = std::find(s.plan.groups.names.begin(), s.plan.groups.names.end(), line.name) - s.plan.groups.names.begin();
-    std::string text;
-    for (const int i : s.plan.groups.members[static_cast<std::size_t>(at)]) {
+std::string spread_text(const Distribution& d, const std::function<std::string(double)>& text) {
+  if (d.sd() == 0.0) return text(d.mean()) + " in all";
+  std::string out = fmt::format("mean {}, sd {}", text(d.mean()), text(d.sd()));
+  if (std::isfinite(d.lowest()) && std::isfinite(d.highest())) out += fmt::format(", from {} to {}", text(d.lowest()), text(d.highest()));
+  return out;
+}
+
+report::Table contributor_table(const BudgetStudy& s) {
+  report::Table table{.title = "Contributors",
+                      .caption = "What is in the budget: clearances follow from the motion, scatter from what the study draws per member, "
+                                 "the others from outside as the study gives them.",
+                      .columns = {{"Contributor"}, {"Class"}, {"Course in time"}, {"Over the members"}, {"Axes"}, {"Source"}}};
+  const MechanismDescription& m = s.mechanism.description();
+  for (const ClearanceDescription& c : m.clearances)
+    table.rows.push_back({m.joints[static_cast<std::size_t>(c.joint)].name, kClearanceKind,
+                          "the motion's own, " + readable(s.mechanism.duration(), "s"),
+                          fmt::format("radial {}, axial {} where nothing else is drawn", readable(c.parameters.radial, "m"),
+                                      readable(c.parameters.axial, "m")),
+                          "all", kFromNominal});
+  for (std::size_t g = 0; g < s.plan.groups.names.size(); ++g) {
+    std::string spread;
+    for (const int i : s.plan.groups.members[g]) {
       const RandomParameter& p = s.plan.inputs.parameters[static_cast<std::size_t>(i)];
-      text += (text.empty() ? "" : "; ") + p.name() + " ~ " + p.distribution->text().substr(0, 80);
+      spread += (spread.empty() ? "" : "; ") + (p.name() == s.plan.groups.names[g] ? "" : p.name() + ": ") +
+                spread_text(*p.distribution, [&](double v) { return readable(v, p.si_unit); });
     }
-    return text;
+    table.rows.push_back({s.plan.groups.names[g], kScatterKind, "fixed in a member", spread, "all", kFromAttribution});
   }
-  return "period " + readable(s.mechanism.duration(), "s") + ", the motion's";
+  for (const Contributor& c : s.plan.contributors) {
+    std::string axes, spread, in_time = c.kind == ContributorClass::bias ? "constant" : "linear";
+    if (c.recalibrated) in_time += ", anew with every observation";
+    if (c.kind == ContributorClass::periodic) in_time = "period " + readable(c.period, "s");
+    if (c.kind == ContributorClass::random) in_time = "correlation time " + readable(c.correlation_time, "s");
+    for (std::size_t a = 0; a < s.axes().count(); ++a) {
+      if (!c.parameter[a]) continue;
+      axes += (axes.empty() ? "" : ", ") + s.axes().names[a];
+      const std::string per = c.kind == ContributorClass::drift ? "/s" : "";
+      spread = spread_text(*c.parameter[a], [&](double v) { return budget_value(s, v) + per; });
+    }
+    table.rows.push_back({c.name, to_string(c.kind), in_time, spread, axes, kFromClasses});
+  }
+  return table;
 }
 
 report::Table classical_table(const BudgetStudy& s, const ClassicalTable& t) {
@@ -218,7 +260,7 @@ report::Table classical_table(const BudgetStudy& s, const ClassicalTable& t) {
                       .caption = "Means add linearly, deviations by root sum of squares, linearly within a group. Clearances: the "
                                  "motion at the medians, one joint open at a time. Scatter: what mean and variance lose with the group "
                                  "held at its medians. Others: by their class, with exact window filters.",
-                      .columns = {{"Contributor"}, {"Class"}, {"Period, distribution"}, {"Group"}}};
+                      .columns = {{"Contributor"}, {"Class"}, {"Group"}}};
   for (const std::string& name : axes.names) {
     table.columns.push_back({"mean " + name, unit.name});
     table.columns.push_back({"sd " + name, unit.name});
@@ -226,16 +268,16 @@ report::Table classical_table(const BudgetStudy& s, const ClassicalTable& t) {
   table.columns.push_back({"Source"});
   const auto row = [&](std::vector<nlohmann::json> cells, const std::vector<Moments>& moments, const char* source) {
     for (const Moments& m : moments) {
-      cells.emplace_back(m.mean * unit.per_si);
-      cells.emplace_back(m.sd * unit.per_si);
+      cells.push_back(cell(m.mean, unit, largest));
+      cells.push_back(cell(m.sd, unit, largest));
     }
     cells.emplace_back(source);
     table.rows.push_back(std::move(cells));
   };
   for (const ClassicalLine& line : t.lines)
-    row({line.name, line.kind, course_text(s, line), line.group}, line.axes,
+    row({line.name, line.kind, line.group}, line.axes,
         line.kind == kClearanceKind ? kFromNominal : line.kind == kScatterKind ? kFromAttribution : kFromClasses);
-  row({"total", "", "", ""}, t.total.axes, kFromClasses);
+  row({"total", "", ""}, t.total.axes, kFromClasses);
   return table;
 }
 
@@ -374,10 +416,11 @@ std::string budget_verdict(const BudgetStudy& s) {
   }
   const auto met = std::count_if(b.requirements.begin(), b.requirements.end(), [](const auto& r) { return r.compliance.met; });
   std::string text = b.requirements.size() == 1 ? "" : fmt::format("{} of {} requirements met. ", met, b.requirements.size());
-  text += requirement_sentence(s, b.requirements.front()) + ".";
+  const auto unmet = std::find_if(b.requirements.begin(), b.requirements.end(), [](const auto& r) { return !r.compliance.met; });
+  text += requirement_sentence(s, unmet == b.requirements.end() ? b.requirements.front() : *unmet) + ".";
   if (!b.reliefs.empty() && b.reliefs.front().gain() > 0.0)
-    text += fmt::format(" Tighten first: {} ({} takes off {}).", b.reliefs.front().name, b.reliefs.front().action,
-                        budget_value(s, b.reliefs.front().gain()));
+    text += fmt::format(" Tighten first: {}; {} takes {} off the {} {}.", b.reliefs.front().name, b.reliefs.front().action,
+                        budget_value(s, b.reliefs.front().gain()), to_string(b.headline.index), s.axes().name(b.headline.axis));
   return text;
 }
 
@@ -420,10 +463,11 @@ report::Document budget_report(const BudgetStudy& s) {
   if (!b.contributions.empty())
     document.sections.push_back({.id = "contributions",
                                  .title = "Who contributes, and what to tighten first",
-                                 .intro = "All of " + level_title(s.axes(), b.headline.index, b.headline.axis, b.headline.interpretation,
+                                 .intro = "Shares and gains are of the first requirement: " + level_title(s.axes(), b.headline.index, b.headline.axis, b.headline.interpretation,
                                                                   b.headline.probability) + ".",
                                  .items = {waterfall_chart(s, b), contribution_table(s, b), relief_table(s, b)}});
-  report::Section classical{.id = "classical", .title = "Simulated, and the classical table", .intro = counted_unsafe(b), .items = {level_table(s, b)}};
+  report::Section classical{.id = "classical", .title = "Simulated, and the classical table", .intro = counted_unsafe(b),
+                            .items = {level_table(s, b), contributor_table(s)}};
   for (const ClassicalTable& t : b.tables)
     if (t.interpretation == b.headline.interpretation) classical.items.emplace_back(classical_table(s, t));
   document.sections.push_back(std::move(classical));

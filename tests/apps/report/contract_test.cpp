@@ -77,7 +77,7 @@ TEST(Contract, RefusesChartsThatCannotBeDrawnAsMeant) {
                              {"/series/0/x", 3, "an array"},
                              {"/series/0/y", {1, "two"}, "a number or null"},
                              {"/series/0/error_low", {1, -1}, "not negative"},
-                             {"/series/0/y_low", {1, 1}, "style area"},
+                             {"/series/0/y_low", {1, 1}, "style area or bars"},
                              {"/series/0/style", "histogram", "no y"},
                              {"/series/0/text", {"one"}, "2, as in x"},
                              {"/series", json::array(), "series, heatmap"},
