@@ -49,7 +49,8 @@ double mean_product(const std::vector<Vec3>& a, const std::vector<Vec3>& b, cons
 
 class Maker {
  public:
-  Maker(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity, const SampleStore& store)
+  Maker(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,
+        const SampleStore& store)
       : plan_(plan), runs_(runs), axes_(quantity), ensemble_(plan, runs, store) {
     for (const ClearanceDescription& c : mechanism.description().clearances)
       joints_.push_back(mechanism.description().joints[static_cast<std::size_t>(c.joint)].name);
@@ -108,8 +109,9 @@ class Maker {
   }
 
   static const ClassicalTable& table(const Budget& b, ErrorIndex index, Interpretation interpretation) {
-    return *std::find_if(b.tables.begin(), b.tables.end(),
-                         [&](const ClassicalTable& t) { return t.index == index && t.interpretation == interpretation; });
+    return *std::find_if(b.tables.begin(), b.tables.end(), [&](const ClassicalTable& t) {
+      return t.index == index && t.interpretation == interpretation;
+    });
   }
 
   BudgetLevel level(const EnsembleInTime& sizes, const ClassicalTable& t, std::size_t axis, double probability,
@@ -125,8 +127,10 @@ class Maker {
 
   RequirementAnswer answer(const BudgetRequirement& asked, const EnsembleInTime& sizes, const Budget& b) const {
     return {.asked = asked,
-            .level = level(sizes, table(b, asked.index, asked.interpretation), asked.axis, asked.probability, asked.confidence),
-            .compliance = sizes.compliance(asked.interpretation, asked.limit, asked.probability, asked.confidence, plan_.leave_out)};
+            .level = level(sizes, table(b, asked.index, asked.interpretation), asked.axis, asked.probability,
+                           asked.confidence),
+            .compliance = sizes.compliance(asked.interpretation, asked.limit, asked.probability, asked.confidence,
+                                           plan_.leave_out)};
   }
 
   // Members of the attribution for which both runs are there; the mechanism's part alone, of one index.
@@ -148,7 +152,8 @@ class Maker {
       t.lines.push_back({joints_[j], kClearanceKind, "", std::vector<Moments>(axes_.count())});
       if (alone_[j].error.empty()) continue;
       const Values values = {index_values(index, alone_[j], plan_.windows)};
-      for (Eigen::Index a = 0; a < axes; ++a) t.lines.back().axes[static_cast<std::size_t>(a)] = moments_of(values, a, interpretation);
+      for (Eigen::Index a = 0; a < axes; ++a)
+        t.lines.back().axes[static_cast<std::size_t>(a)] = moments_of(values, a, interpretation);
     }
     for (std::size_t g = 0; g < runs_.groups(); ++g) {
       t.lines.push_back({plan_.groups.names[g], kScatterKind, "", {}});
@@ -225,11 +230,14 @@ class Maker {
       };
       b.reliefs.push_back({name, action, at(before), at(after)});
     };
-    for (std::size_t j = 0; j < joints_.size(); ++j) add(joints_[j], "half the clearance", {.halved = static_cast<int>(j)});
-    for (std::size_t g = 0; g < runs_.groups(); ++g) add(plan_.groups.names[g], "no scatter", {.held = static_cast<int>(g)});
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      add(joints_[j], "half the clearance", {.halved = static_cast<int>(j)});
+    for (std::size_t g = 0; g < runs_.groups(); ++g)
+      add(plan_.groups.names[g], "no scatter", {.held = static_cast<int>(g)});
     for (std::size_t i = 0; i < plan_.contributors.size(); ++i)
       add(plan_.contributors[i].name, "half of it", {.external = static_cast<int>(i)});
-    std::stable_sort(b.reliefs.begin(), b.reliefs.end(), [](const Relief& x, const Relief& y) { return x.gain() > y.gain(); });
+    std::stable_sort(b.reliefs.begin(), b.reliefs.end(),
+                     [](const Relief& x, const Relief& y) { return x.gain() > y.gain(); });
   }
 
   const BudgetPlan& plan_;
@@ -247,7 +255,8 @@ class Maker {
 }  // namespace
 
 bool Budget::met() const {
-  return std::all_of(requirements.begin(), requirements.end(), [](const RequirementAnswer& r) { return r.compliance.met; });
+  return std::all_of(requirements.begin(), requirements.end(),
+                     [](const RequirementAnswer& r) { return r.compliance.met; });
 }
 
 Budget budget_of(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,

@@ -1,12 +1,13 @@
 // A pointing budget: what the members' histories say, and beside it the classical table.
 //
-// A member is one drawing of what scatters: its motion on a rung, and its external errors added to it in time. The levels are
-// counted from these histories. The classical table has a line per clearance joint (alone, at the medians), per group of random
-// parameters (what the moments of the error lose where the group is held at its medians) and per external contributor.
+// A member is one drawing of what scatters: its motion on a rung, and its external errors added to it in time. The
+// levels are counted from these histories. The classical table has a line per clearance joint (alone, at the medians),
+// per group of random parameters (what the moments of the error lose where the group is held at its medians) and per
+// external contributor.
 //
-// Shares are of the mean square of the headline's index v over members and time, in the sense of Euler's allocation (Tasche
-// 1999): E[v_i v] / E[v v] of errors that add up in time, which external ones and joints do; of a group what the mean square
-// loses where the group is held. They add up to 1 with what joints and groups only make together.
+// Shares are of the mean square of the headline's index v over members and time, in the sense of Euler's allocation
+// (Tasche 1999): E[v_i v] / E[v v] of errors that add up in time, which external ones and joints do; of a group what
+// the mean square loses where the group is held. They add up to 1 with what joints and groups only make together.
 #pragma once
 
 #include <functional>
@@ -24,8 +25,8 @@ struct BudgetLevel {
   Interpretation interpretation = Interpretation::mixed;
   std::size_t axis = 0;  // BudgetAxes::count(): the total
   ReportedInterval level = {};
-  double by_rule = 0.0;                  // of the classical table
-  std::optional<double> integrated = {};  // of the total, but for maxima: the Gaussian with the table's moments
+  double by_rule = 0.0;                        // of the classical table
+  std::optional<double> integrated = {};       // of the total, but for maxima: the Gaussian with the table's moments
   RuleStanding standing = RuleStanding::fair;  // of the rule
 };
 
@@ -59,15 +60,15 @@ struct Relief {
 struct Budget {
   BudgetRequirement headline;
   std::int64_t members = 0, failed = 0;
-  std::uint64_t attribution = 0;  // members, with all their variants
+  std::uint64_t attribution = 0;    // members, with all their variants
   std::vector<BudgetLevel> levels;  // of every index, interpretation and axis, at the headline's probability
   std::vector<ClassicalTable> tables;
   std::vector<RequirementAnswer> requirements;
-  double mean_square = 0.0;             // of the headline's index
-  std::vector<Contribution> contributions;  // external, joints, groups, together
-  std::vector<Relief> reliefs;              // largest gain first
-  std::vector<PointingHistory> shown;       // of the first members, everything together
-  PointingHistory nominal;                  // of the mechanism at its medians, alone
+  double mean_square = 0.0;                         // of the headline's index
+  std::vector<Contribution> contributions;          // external, joints, groups, together
+  std::vector<Relief> reliefs;                      // largest gain first
+  std::vector<PointingHistory> shown;               // of the first members, everything together
+  PointingHistory nominal;                          // of the mechanism at its medians, alone
   std::vector<std::vector<double>> headline_sizes;  // per member over time
 
   bool met() const;  // every requirement
@@ -77,7 +78,8 @@ struct Budget {
 inline constexpr const char* kClearanceKind = "clearance";
 inline constexpr const char* kScatterKind = "scatter";
 
-// From a store that holds all runs. Throws ComputationError where no member, or not the nominal motion, could be followed.
+// From a store that holds all runs. Throws ComputationError where no member, or not the nominal motion, could be
+// followed.
 Budget budget_of(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,
                  const SampleStore& store);
 

@@ -10,7 +10,7 @@
 namespace boresight {
 namespace {
 
-constexpr long long kMostMembers = 20'000;     // whose histories are held at once
+constexpr long long kMostMembers = 20'000;  // whose histories are held at once
 constexpr double kMostHistorySamples = 100'000;
 constexpr double kUsualHistorySamples = 2000.0;
 
@@ -58,7 +58,8 @@ BudgetRequirement read_requirement(Cursor& table, const BudgetPlan& plan, const 
   BudgetRequirement r;
   r.index = chosen(table, "index", kErrorIndices, "APE");
   const std::string missing = plan.windows.missing_for(r.index, plan.duration);
-  if (!missing.empty()) table.fail("index", std::string("in [budget] ") + missing + ", which " + to_string(r.index) + " needs");
+  if (!missing.empty())
+    table.fail("index", std::string("in [budget] ") + missing + ", which " + to_string(r.index) + " needs");
   r.axis = read_axis(table, "axis", axes);
   r.interpretation = chosen(table, "interpretation", kInterpretations, "mixed");
   r.limit = table.quantity("limit", unit);
@@ -70,7 +71,8 @@ BudgetRequirement read_requirement(Cursor& table, const BudgetPlan& plan, const 
   return r;
 }
 
-Contributor read_contributor(Cursor& table, const BudgetPlan& plan, const BudgetAxes& axes, const SiUnit& unit, const SiUnit& rate) {
+Contributor read_contributor(Cursor& table, const BudgetPlan& plan, const BudgetAxes& axes, const SiUnit& unit,
+                             const SiUnit& rate) {
   table.only({"name", "class", "distribution", "value", "axes", "period", "correlation_time", "recalibrated", "group"});
   constexpr ContributorClass kClasses[] = {ContributorClass::bias, ContributorClass::random, ContributorClass::periodic,
                                            ContributorClass::drift};
@@ -81,7 +83,8 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, const Budget
   const bool periodic = c.kind == ContributorClass::periodic, random = c.kind == ContributorClass::random;
 
   const SiUnit& of = c.kind == ContributorClass::drift ? rate : unit;
-  if (table.has("value") == table.has("distribution")) table.fail("distribution", "a distribution, or a value, and not both");
+  if (table.has("value") == table.has("distribution"))
+    table.fail("distribution", "a distribution, or a value, and not both");
   DistributionPtr parameter;
   if (table.has("value")) {
     parameter = make_discrete({table.quantity("value", of)}, {1.0});
@@ -93,17 +96,20 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, const Budget
   table.require(!named.empty(), "axes", "at least one axis");
   for (const std::string& name : named) {
     const auto at = std::find(axes.names.begin(), axes.names.end(), name);
-    if (at == axes.names.end()) table.fail_found("axes", "\"" + name + "\"", "an axis of the error", nearest_name(name, axes.names));
+    if (at == axes.names.end())
+      table.fail_found("axes", "\"" + name + "\"", "an axis of the error", nearest_name(name, axes.names));
     c.parameter[static_cast<std::size_t>(at - axes.names.begin())] = parameter;
   }
 
   if (table.has("period") && !periodic) table.fail("period", "a period with class = \"periodic\" only");
   if (periodic && !table.has("period")) table.fail("period", "a period, which class = \"periodic\" needs");
-  if (table.has("correlation_time") && !random) table.fail("correlation_time", "a correlation time with class = \"random\" only");
+  if (table.has("correlation_time") && !random)
+    table.fail("correlation_time", "a correlation time with class = \"random\" only");
   c.period = positive_time(table, "period", 0.0);
   c.correlation_time = positive_time(table, "correlation_time", plan.sampling);
   c.recalibrated = table.boolean("recalibrated", false);
-  if (c.recalibrated && (periodic || random)) table.fail("recalibrated", "this with class = \"bias\" or \"drift\" only");
+  if (c.recalibrated && (periodic || random))
+    table.fail("recalibrated", "this with class = \"bias\" or \"drift\" only");
   c.group = table.text("group", "");
   table.finish();
   return c;
@@ -173,8 +179,8 @@ std::string BudgetPlan::sample_text(const Study& study) const {
 BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism, double duration,
                             const std::function<void(const Setting&)>& accepts) {
   Cursor table = root.table("budget");
-  table.only({"members", "attribution", "seed", "confidence", "sampling", "start", "window", "separation", "observation",
-              "revisit", "leave_out", "groups", "requirement", "contributor"});
+  table.only({"members", "attribution", "seed", "confidence", "sampling", "start", "window", "separation",
+              "observation", "revisit", "leave_out", "groups", "requirement", "contributor"});
   BudgetPlan plan;
   plan.members = count(table, "members", 2, kMostMembers, static_cast<long long>(plan.members));
   const auto most = static_cast<long long>(plan.members);
@@ -199,9 +205,11 @@ BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDes
     plan.contributors.push_back(read_contributor(entry, plan, axes, unit, rate));
     const std::string& name = plan.contributors.back().name;
     for (std::size_t i = 0; i + 1 < plan.contributors.size(); ++i)
-      if (plan.contributors[i].name == name) entry.fail_found("name", "\"" + name + "\" a second time", "each contributor once");
+      if (plan.contributors[i].name == name)
+        entry.fail_found("name", "\"" + name + "\" a second time", "each contributor once");
   }
-  for (Cursor& entry : table.tables("requirement")) plan.requirements.push_back(read_requirement(entry, plan, axes, unit));
+  for (Cursor& entry : table.tables("requirement"))
+    plan.requirements.push_back(read_requirement(entry, plan, axes, unit));
   table.finish();
   return plan;
 }

@@ -25,7 +25,8 @@
 //   [[budget.contributor]]       # an error from outside of the clearances
 //   name = "star tracker"
 //   class = "random"             # bias, periodic, drift
-//   distribution = { .. }        # over the members, as in [[random]]: of the bias, of the noise's standard deviation, of the
+//   distribution = { .. }        # over the members, as in [[random]]: of the bias, of the noise's standard deviation,
+//   of the
 //                                # amplitude, of the drift per time; or value = "2 arcsec", the same in all
 //   axes = ["x", "y"]            # left out: all
 //   period = "0.2 s"             # periodic
@@ -54,7 +55,9 @@ struct BudgetAxes {
 
   explicit BudgetAxes(PointingQuantity quantity);
   std::size_t count() const { return names.size(); }
-  const std::string& name(std::size_t axis) const { return axis < names.size() ? names[axis] : total; }  // count(): the total
+  const std::string& name(std::size_t axis) const {
+    return axis < names.size() ? names[axis] : total;
+  }  // count(): the total
   std::vector<std::string> all() const;
 };
 

@@ -13,14 +13,16 @@ BudgetRuns::BudgetRuns(const BudgetPlan& plan, const Mechanism& mechanism)
       joints_(static_cast<std::size_t>(mechanism.clearances())),
       rows_(plan.inputs.size() > 0 ? plan.members : 1),
       attribution_(std::min(rows_, plan.attribution)) {
-  if (plan.inputs.size() > 0) design_ = std::make_unique<const Design>(plan.design(), static_cast<int>(plan.inputs.size()));
+  if (plan.inputs.size() > 0)
+    design_ = std::make_unique<const Design>(plan.design(), static_cast<int>(plan.inputs.size()));
 }
 
 std::uint64_t BudgetRuns::count() const { return first() + attribution_ * slots() + (rows_ - attribution_); }
 
 std::vector<NumberRange> BudgetRuns::missing(const SampleStore& store) const {
   std::vector<NumberRange> needed = {{0, drawn(attribution_)}};
-  for (std::uint64_t member = attribution_; member < rows_; ++member) needed.push_back({drawn(member), drawn(member) + 1});
+  for (std::uint64_t member = attribution_; member < rows_; ++member)
+    needed.push_back({drawn(member), drawn(member) + 1});
   std::vector<NumberRange> out;
   std::size_t at = 0;
   for (const NumberRange& gap : store.missing(needed.back().end)) {
@@ -53,25 +55,28 @@ void BudgetRuns::values(std::uint64_t number, std::span<double> values) const {
   const Variant v = variant(number);
   constexpr double kMedian = 0.5;
   if (v.nominal) {
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = plan_.inputs.parameters[i].distribution->quantile(kMedian);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = plan_.inputs.parameters[i].distribution->quantile(kMedian);
     return;
   }
   design_->point(v.member, values);
   plan_.inputs.values(values);
   if (v.group >= 0)
     for (const int i : plan_.groups.members[static_cast<std::size_t>(v.group)])
-      values[static_cast<std::size_t>(i)] = plan_.inputs.parameters[static_cast<std::size_t>(i)].distribution->quantile(kMedian);
+      values[static_cast<std::size_t>(i)] =
+          plan_.inputs.parameters[static_cast<std::size_t>(i)].distribution->quantile(kMedian);
 }
 
 BudgetModel::BudgetModel(const std::string& rung, std::shared_ptr<const Mechanism> mechanism, const BudgetPlan& plan,
                          const BudgetRuns& runs, IndexChoice index, const RunOptions& options, bool scene_varies)
     : runs_(runs) {
-  const auto model = [&](const std::shared_ptr<const Mechanism>& of, const RungSampleModel::ParametersOf& parameters_of) {
+  const auto model = [&](const std::shared_ptr<const Mechanism>& of,
+                         const RungSampleModel::ParametersOf& parameters_of) {
     return std::make_unique<RungSampleModel>(
         rung, of, parameters_of, index, options, scene_varies,
         KeptOfRun{plan.sampling, [of, &plan, kind = index.kind()](const RunResult& run) {
-                                return history_on_grid(run, kind, of->boresight_B(), plan);
-                              }});
+                    return history_on_grid(run, kind, of->boresight_B(), plan);
+                  }});
   };
   const auto drawn = [mechanism, &plan](std::span<const double> values) {
     return plan.inputs.parameters_with(*mechanism, values);
@@ -81,11 +86,12 @@ BudgetModel::BudgetModel(const std::string& rung, std::shared_ptr<const Mechanis
   for (std::size_t j = 0; joints > 1 && j < joints; ++j) {
     MechanismDescription alone = mechanism->description();
     alone.clearances = {alone.clearances[j]};
-    models_.push_back(model(std::make_shared<const Mechanism>(std::move(alone)), [drawn, j](std::span<const double> values) {
-      Parameters p = drawn(values);
-      p.clearance = {p.clearance[j]};
-      return p;
-    }));
+    models_.push_back(
+        model(std::make_shared<const Mechanism>(std::move(alone)), [drawn, j](std::span<const double> values) {
+          Parameters p = drawn(values);
+          p.clearance = {p.clearance[j]};
+          return p;
+        }));
   }
   for (std::size_t j = 0; j < joints; ++j)
     models_.push_back(model(mechanism, [drawn, j](std::span<const double> values) {
@@ -102,7 +108,8 @@ std::string BudgetModel::rung() const { return models_.front()->rung(); }
 double BudgetModel::step() const { return models_.front()->step(); }
 std::string BudgetModel::leaves_out() const { return models_.front()->leaves_out(); }
 
-void BudgetModel::evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>& stop) const {
+void BudgetModel::evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                           const std::atomic<bool>& stop) const {
   for (std::size_t k = 0; k < samples.size() && !stop; ++k) {
     const BudgetRuns::Variant v = runs_.variant(samples[k].number);
     const std::size_t joints = runs_.joints(), alone = joints > 1 ? joints : 0;
@@ -113,7 +120,8 @@ void BudgetModel::evaluate(std::span<const Sample> samples, std::span<Outcome> o
   }
 }
 
-std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Vec3& boresight_B, const BudgetPlan& plan) {
+std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Vec3& boresight_B,
+                                    const BudgetPlan& plan) {
   const std::vector<PoseSample>& samples = run.boresight.samples;
   const auto size = static_cast<std::size_t>(std::max(1.0, std::round(plan.duration / plan.sampling)));
   std::vector<double> out;
@@ -139,7 +147,8 @@ std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quant
 PointingHistory stored_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan) {
   const std::vector<double> doubles = store.history(number);
   PointingHistory history{plan.sampling, {}};
-  for (std::size_t k = 0; k + 2 < doubles.size(); k += 3) history.error.emplace_back(doubles[k], doubles[k + 1], doubles[k + 2]);
+  for (std::size_t k = 0; k + 2 < doubles.size(); k += 3)
+    history.error.emplace_back(doubles[k], doubles[k + 1], doubles[k + 2]);
   return history;
 }
 

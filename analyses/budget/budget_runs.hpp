@@ -2,11 +2,12 @@
 //
 //   0                        the mechanism with every scattered parameter at its median
 //   1 .. joints              the same with one clearance alone, the other joints ideal (only where there are several)
-//   then per member          as it is drawn; per group of parameters, the same with the group at its medians; per clearance
+//   then per member          as it is drawn; per group of parameters, the same with the group at its medians; per
+//   clearance
 //                            joint, the same with the clearance halved, radial and axial
 //
-// All members are run as drawn; the first `attribution` of them in all variants. Where nothing scatters the one member is the
-// mechanism itself.
+// All members are run as drawn; the first `attribution` of them in all variants. Where nothing scatters the one member
+// is the mechanism itself.
 #pragma once
 
 #include <memory>
@@ -55,19 +56,20 @@ class BudgetRuns {
   std::unique_ptr<const Design> design_;  // none where nothing scatters
 };
 
-// The model of these runs: Outcome::history holds the error vector at the plan's sampling from its start on, component by
-// component within a sample; the value is the quantity's maximum over every step of the run.
+// The model of these runs: Outcome::history holds the error vector at the plan's sampling from its start on, component
+// by component within a sample; the value is the quantity's maximum over every step of the run.
 class BudgetModel final : public SampleModel {
  public:
-  BudgetModel(const std::string& rung, std::shared_ptr<const Mechanism> mechanism, const BudgetPlan& plan, const BudgetRuns& runs,
-              IndexChoice index, const RunOptions& options, bool scene_varies);
+  BudgetModel(const std::string& rung, std::shared_ptr<const Mechanism> mechanism, const BudgetPlan& plan,
+              const BudgetRuns& runs, IndexChoice index, const RunOptions& options, bool scene_varies);
   ~BudgetModel() override;
 
   std::string rung() const override;
   double step() const override;
   std::string leaves_out() const override;
   std::size_t batch() const override { return 1; }
-  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>& stop) const override;
+  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                const std::atomic<bool>& stop) const override;
 
  private:
   const BudgetRuns& runs_;
@@ -75,7 +77,8 @@ class BudgetModel final : public SampleModel {
 };
 
 // Error vectors out of a run's samples onto the grid of the plan.
-std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Vec3& boresight_B, const BudgetPlan& plan);
+std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Vec3& boresight_B,
+                                    const BudgetPlan& plan);
 // What the store holds of a run; empty if it failed.
 PointingHistory stored_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan);
 

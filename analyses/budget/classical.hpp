@@ -1,9 +1,8 @@
 // The classical table: contributors by their moments, added up by rule (ECSS-E-ST-60-10C, 5.2; Annex A.2).
 //
-//   means add linearly; standard deviations linearly within a group of correlated contributors, and groups (and those that
-//   belong to none) by the root of the sum of squares
-//   one axis:   |mean| + n_P sd
-//   half cone:  sd sqrt(-2 ln(1 - P)), sd the root mean square of the axes', as if there were no mean; of the ensemble
+//   means add linearly; standard deviations linearly within a group of correlated contributors, and groups (and those
+//   that belong to none) by the root of the sum of squares one axis:   |mean| + n_P sd half cone:  sd sqrt(-2 ln(1 -
+//   P)), sd the root mean square of the axes', as if there were no mean; of the ensemble
 //               interpretation, whose means are those of maxima, the root of the sum of the axes' levels squared
 //
 // The rules hold for Gaussian errors without a mean across. Whether they did is only seen against a simulation.

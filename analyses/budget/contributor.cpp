@@ -28,7 +28,8 @@ Moments of_bias(const Contributor& c, const Ensemble& e, ErrorIndex index, Inter
   if (index == ErrorIndex::rpe || index == ErrorIndex::pde) return {};
   if (index == ErrorIndex::pre) {
     if (!c.recalibrated) return {};
-    return interpretation == Interpretation::temporal ? Moments{e.high - e.low, 0.0} : Moments{0.0, std::sqrt(2.0) * e.sd};
+    return interpretation == Interpretation::temporal ? Moments{e.high - e.low, 0.0}
+                                                      : Moments{0.0, std::sqrt(2.0) * e.sd};
   }
   return interpretation == Interpretation::temporal ? Moments{e.worst_signed(), 0.0} : Moments{e.mean, e.sd};
 }
@@ -99,8 +100,8 @@ Moments moments(const Contributor& c, int axis, ErrorIndex index, Interpretation
   return {};
 }
 
-std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t member, std::uint64_t stream, double spacing,
-                         std::size_t samples, const Windows& windows) {
+std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t member, std::uint64_t stream,
+                         double spacing, std::size_t samples, const Windows& windows) {
   constexpr std::uint64_t kAxes = 4;  // places a stream has for an observation
   const CounterStream value(seed, StreamPurpose::budget_value), in_time(seed, StreamPurpose::budget_course);
   const double observation = windows.observation_in(spacing * static_cast<double>(samples));

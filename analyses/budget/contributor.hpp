@@ -26,7 +26,8 @@ const char* to_string(ContributorClass kind);
 struct Contributor {
   std::string name;
   ContributorClass kind = ContributorClass::bias;
-  std::array<DistributionPtr, 3> parameter = {};  // of the ensemble, per axis; none where it does not act [SI; drift: per s]
+  std::array<DistributionPtr, 3> parameter =
+      {};                         // of the ensemble, per axis; none where it does not act [SI; drift: per s]
   double period = 0.0;            // periodic [s]
   double correlation_time = 0.0;  // random [s]
   bool recalibrated = false;      // with every observation a bias is another one, and a drift begins at zero
@@ -37,17 +38,18 @@ struct Moments {
   double mean = 0.0, sd = 0.0;
 };
 
-// Mean and standard deviation to enter in the budget of one index, by interpretation (ECSS-E-ST-60-10C, Tables B-1 to B-7),
-// with the filters of window_filter.hpp where the standard only tells short from long periods:
+// Mean and standard deviation to enter in the budget of one index, by interpretation (ECSS-E-ST-60-10C, Tables B-1 to
+// B-7), with the filters of window_filter.hpp where the standard only tells short from long periods:
 //   ensemble   of the largest size over time; of noise three times its deviation
-//   temporal   over time, with the worst case of the ensemble parameter: the end of its distribution, or three deviations
-//   mixed      over both; the variance of the conditional mean is part of it (law of total variance), which the standard's
+//   temporal   over time, with the worst case of the ensemble parameter: the end of its distribution, or three
+//   deviations mixed      over both; the variance of the conditional mean is part of it (law of total variance), which
+//   the standard's
 //              integral leaves out
 Moments moments(const Contributor& contributor, int axis, ErrorIndex index, Interpretation interpretation,
                 const Windows& windows, double duration);
 
-// Its course in one member: a function of (seed, member) alone. `stream`: contributors of one group share it, and with it what
-// they draw.
+// Its course in one member: a function of (seed, member) alone. `stream`: contributors of one group share it, and with
+// it what they draw.
 std::vector<Vec3> course(const Contributor& contributor, std::uint64_t seed, std::uint64_t member, std::uint64_t stream,
                          double spacing, std::size_t samples, const Windows& windows);
 // Stream of each contributor: its place, or that of the first one of its group.

@@ -33,8 +33,8 @@ const PointingHistory* BudgetEnsemble::mechanism(std::uint64_t member, const Mem
 
 PointingHistory BudgetEnsemble::external(std::uint64_t member, std::size_t contributor) const {
   const std::size_t samples = histories_.empty() ? 0 : histories_.begin()->second.error.size();
-  return {plan_.sampling, course(plan_.contributors[contributor], plan_.seed, member, streams_[contributor], plan_.sampling, samples,
-                                 plan_.windows)};
+  return {plan_.sampling, course(plan_.contributors[contributor], plan_.seed, member, streams_[contributor],
+                                 plan_.sampling, samples, plan_.windows)};
 }
 
 PointingHistory BudgetEnsemble::total(std::uint64_t member, const MemberVariant& variant) const {

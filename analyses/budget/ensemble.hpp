@@ -12,11 +12,13 @@ namespace boresight {
 // One component of an error vector, or its length.
 class AxisOf {
  public:
-  AxisOf(std::size_t axis, std::size_t count) : first_(axis < count ? axis : 0), end_(axis < count ? axis + 1 : count) {}
+  AxisOf(std::size_t axis, std::size_t count)
+      : first_(axis < count ? axis : 0), end_(axis < count ? axis + 1 : count) {}
   double size(const Vec3& e) const { return std::sqrt(product(e, e)); }
   double product(const Vec3& a, const Vec3& b) const {
     double sum = 0.0;
-    for (std::size_t k = first_; k < end_; ++k) sum += a[static_cast<Eigen::Index>(k)] * b[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = first_; k < end_; ++k)
+      sum += a[static_cast<Eigen::Index>(k)] * b[static_cast<Eigen::Index>(k)];
     return sum;
   }
 

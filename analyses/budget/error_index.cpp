@@ -36,8 +36,9 @@ const char* to_string(ErrorIndex index) {
 }
 
 const char* title_of(ErrorIndex index) {
-  static const char* const titles[] = {"absolute performance error", "mean performance error", "relative performance error",
-                                       "performance drift error", "performance reproducibility error"};
+  static const char* const titles[] = {"absolute performance error", "mean performance error",
+                                       "relative performance error", "performance drift error",
+                                       "performance reproducibility error"};
   return titles[static_cast<int>(index)];
 }
 

@@ -1,10 +1,11 @@
-// The error indices of ECSS-E-ST-60-10C (2008), 3.2.6 to 3.2.11, straight from a sampled history e(t) of the error vector:
+// The error indices of ECSS-E-ST-60-10C (2008), 3.2.6 to 3.2.11, straight from a sampled history e(t) of the error
+// vector:
 //
 //   APE  absolute performance error         e(t)
 //   MPE  mean performance error             mean of e over a window
 //   RPE  relative performance error         e(t) less the mean over a window that t lies in
-//   PDE  performance drift error            mean over a later window less that over an earlier one, within one observation
-//   PRE  performance reproducibility error  the same, the two windows in different observations
+//   PDE  performance drift error            mean over a later window less that over an earlier one, within one
+//   observation PRE  performance reproducibility error  the same, the two windows in different observations
 //
 // All are linear in e, so the index of a sum of errors is the sum of their indices.
 #pragma once
@@ -43,9 +44,10 @@ struct Windows {
   std::string missing_for(ErrorIndex index, double duration) const;
 };
 
-// Every value that the index takes in the history: APE one per sample; MPE, PDE, PRE one per place of the (first) window; RPE
-// one per place of the window and sample in it. Windows do not cross from one observation into the next. They begin at every
-// sample, for RPE at every half window. Throws std::invalid_argument where missing_for() has something to say.
+// Every value that the index takes in the history: APE one per sample; MPE, PDE, PRE one per place of the (first)
+// window; RPE one per place of the window and sample in it. Windows do not cross from one observation into the next.
+// They begin at every sample, for RPE at every half window. Throws std::invalid_argument where missing_for() has
+// something to say.
 std::vector<Vec3> index_values(ErrorIndex index, const PointingHistory& history, const Windows& windows);
 
 }  // namespace boresight

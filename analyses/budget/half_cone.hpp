@@ -1,8 +1,8 @@
 // How large a Gaussian error vector gets: the half cone of two axes, the length of three.
 //
 // The rule of thumb takes one standard deviation for all axes and no mean: r = s sqrt(chi^2_k(P)), for two axes
-// s sqrt(-2 ln(1 - P)) (Rayleigh). With a mean or unequal axes it is wrong, unsafe with a mean: with deviations (1, 1) and a
-// mean of 1 the 99.73 % radius is 4.021, not 3.439. Here the density is integrated.
+// s sqrt(-2 ln(1 - P)) (Rayleigh). With a mean or unequal axes it is wrong, unsafe with a mean: with deviations (1, 1)
+// and a mean of 1 the 99.73 % radius is 4.021, not 3.439. Here the density is integrated.
 #pragma once
 
 #include <span>

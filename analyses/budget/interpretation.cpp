@@ -68,10 +68,16 @@ ReportedInterval EnsembleInTime::level(Interpretation interpretation, double pro
   // The bounds hold for any share; the levels at the shares seen there are the interval.
   const double side = 0.5 * (1.0 + confidence), all = static_cast<double>(members() + failed_);
   const double seen = static_cast<double>(members()) / all;
-  const double high = mean_that_shows(probability, all, side) / seen;          // failed ones above
+  const double high = mean_that_shows(probability, all, side) / seen;                   // failed ones above
   const double low = (mean_that_denies(probability, all, side) - (1.0 - seen)) / seen;  // failed ones below
-  return {pooled_quantile(probability), low > 0.0 ? pooled_quantile(low) : 0.0, high <= 1.0 ? pooled_quantile(high) : kInfinity,
-          confidence, confidence, false, "Hoeffding's bound of the members' shares of the time", Independent::name};
+  return {pooled_quantile(probability),
+          low > 0.0 ? pooled_quantile(low) : 0.0,
+          high <= 1.0 ? pooled_quantile(high) : kInfinity,
+          confidence,
+          confidence,
+          false,
+          "Hoeffding's bound of the members' shares of the time",
+          Independent::name};
 }
 
 EnsembleInTime::Compliance EnsembleInTime::compliance(Interpretation interpretation, double limit, double probability,

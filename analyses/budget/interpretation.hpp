@@ -6,9 +6,9 @@
 //   mixed      over members and time together
 //
 // Members are independent of each other, the values within one are not. So intervals count members: of the ensemble
-// interpretation by order statistics and Clopper and Pearson, of the mixed one by Hoeffding's bound for the members' shares of
-// the time, of the temporal one by the share of members that N of N seen shows (Wilks). A member that failed has no values
-// and counts as bad, as in IndependentSamples.
+// interpretation by order statistics and Clopper and Pearson, of the mixed one by Hoeffding's bound for the members'
+// shares of the time, of the temporal one by the share of members that N of N seen shows (Wilks). A member that failed
+// has no values and counts as bad, as in IndependentSamples.
 #pragma once
 
 #include <vector>
@@ -18,12 +18,14 @@
 namespace boresight {
 
 enum class Interpretation { ensemble, temporal, mixed };
-inline constexpr Interpretation kInterpretations[] = {Interpretation::ensemble, Interpretation::temporal, Interpretation::mixed};
+inline constexpr Interpretation kInterpretations[] = {Interpretation::ensemble, Interpretation::temporal,
+                                                      Interpretation::mixed};
 const char* to_string(Interpretation interpretation);
 
 class EnsembleInTime {
  public:
-  // sizes[k]: |e| of member k over time, equally many of every member. Throws std::invalid_argument otherwise, or without any.
+  // sizes[k]: |e| of member k over time, equally many of every member. Throws std::invalid_argument otherwise, or
+  // without any.
   explicit EnsembleInTime(std::vector<std::vector<double>> sizes, std::int64_t failed = 0);
 
   std::int64_t members() const { return static_cast<std::int64_t>(maxima_.size()); }  // with values
@@ -31,12 +33,13 @@ class EnsembleInTime {
   double largest() const;
 
   // The level that holds with this probability.
-  ReportedInterval level(Interpretation interpretation, double probability, double confidence, double leave_out = 0.0) const;
+  ReportedInterval level(Interpretation interpretation, double probability, double confidence,
+                         double leave_out = 0.0) const;
 
   struct Compliance {
     bool met = false;
-    double share = 0.0;     // of members (ensemble), of the time of the worst member counted (temporal), of both (mixed)
-    double shown = 0.0;     // ensemble, mixed: at least this share, at the confidence; temporal: of the members do as well
+    double share = 0.0;  // of members (ensemble), of the time of the worst member counted (temporal), of both (mixed)
+    double shown = 0.0;  // ensemble, mixed: at least this share, at the confidence; temporal: of the members do as well
     std::int64_t fewest = 0;  // members it takes to show it if none is ever above the limit
   };
   // Whether it stays at or below the limit with this probability, at this confidence, one-sided.

@@ -22,7 +22,8 @@ double doubly_integrated(double x) {
   return x < 1e-3 ? x * x * (0.5 - x / 6.0 + x * x / 24.0) : x - 1.0 + std::exp(-x);
 }
 
-// Covariance of two windows' means, their beginnings `apart` (in correlation times, as the window x), over the variance.
+// Covariance of two windows' means, their beginnings `apart` (in correlation times, as the window x), over the
+// variance.
 double covariance_of_means(double apart, double x) {
   return (doubly_integrated(apart + x) - 2.0 * doubly_integrated(apart) + doubly_integrated(apart - x)) / (x * x);
 }

@@ -2,7 +2,8 @@
 // approximations of the handbook.
 //
 // ESSB-HB-E-003 (ESA Pointing Error Engineering Handbook, 2011), 8: with x = omega times the window,
-//   |F_MPE|^2 = 2 (1 - cos x) / x^2      |F_RPE|^2 = 1 - |F_MPE|^2      |F_PDE|^2 = 2 (1 - cos omega separation) |F_MPE|^2
+//   |F_MPE|^2 = 2 (1 - cos x) / x^2      |F_RPE|^2 = 1 - |F_MPE|^2      |F_PDE|^2 = 2 (1 - cos omega separation)
+//   |F_MPE|^2
 // are the factors of a sinusoid's mean square. Noise with autocovariance s^2 exp(-|t| / tau), first order, keeps of its
 // variance in a window's mean, with x = window / tau (the autocovariance integrated twice),
 //   2 (x - 1 + exp(-x)) / x^2

@@ -4,8 +4,8 @@
 
 namespace boresight {
 
-bool store_runs(const SampleModel& model, std::size_t parameters, const ValuesOf& values_of, const std::vector<NumberRange>& numbers,
-                SampleStore& store, const StoredRunsOptions& options) {
+bool store_runs(const SampleModel& model, std::size_t parameters, const ValuesOf& values_of,
+                const std::vector<NumberRange>& numbers, SampleStore& store, const StoredRunsOptions& options) {
   using Clock = std::chrono::steady_clock;
   constexpr auto kCommitEvery = std::chrono::milliseconds(250);
   std::atomic<bool> stop{false};
@@ -20,7 +20,8 @@ bool store_runs(const SampleModel& model, std::size_t parameters, const ValuesOf
     if (options.interrupted && options.interrupted()) stop = true;
     return !stop;
   };
-  const bool whole = compute_samples(model, parameters, values_of, numbers, {.jobs = options.jobs, .landed = landed, .stop = &stop});
+  const bool whole =
+      compute_samples(model, parameters, values_of, numbers, {.jobs = options.jobs, .landed = landed, .stop = &stop});
   store.commit();
   return whole;
 }

@@ -15,9 +15,9 @@ struct StoredRunsOptions {
   std::function<bool()> interrupted = {};                          // asked after every batch
 };
 
-// Computes the runs of these numbers and adds them to the store, committing four times a second and at the end. Returns false
-// if it was interrupted; the store then holds what there is.
-bool store_runs(const SampleModel& model, std::size_t parameters, const ValuesOf& values_of, const std::vector<NumberRange>& numbers,
-                SampleStore& store, const StoredRunsOptions& options);
+// Computes the runs of these numbers and adds them to the store, committing four times a second and at the end. Returns
+// false if it was interrupted; the store then holds what there is.
+bool store_runs(const SampleModel& model, std::size_t parameters, const ValuesOf& values_of,
+                const std::vector<NumberRange>& numbers, SampleStore& store, const StoredRunsOptions& options);
 
 }  // namespace boresight

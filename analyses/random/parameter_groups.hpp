@@ -2,8 +2,8 @@
 //
 //   groups = { contact = ["clearance.F1.contact.restitution", "clearance.F1.friction.coefficient"] }
 //
-// A parameter in no group is a group by itself; parameters that are correlated belong in one group, as what they do cannot be
-// told apart.
+// A parameter in no group is a group by itself; parameters that are correlated belong in one group, as what they do
+// cannot be told apart.
 #pragma once
 
 #include <string>

@@ -29,7 +29,8 @@ struct BudgetStudy {
   BudgetAxes axes() const { return BudgetAxes(study.index.kind()); }
 };
 
-// What a number was made from. Every table of the report and every entry of summary.json names one of them by its letter.
+// What a number was made from. Every table of the report and every entry of summary.json names one of them by its
+// letter.
 struct BudgetSource {
   const char* letter;
   std::string what;
@@ -42,7 +43,8 @@ inline constexpr const char* kFromAttribution = "A";
 inline constexpr const char* kFromClasses = "C";
 
 // "APE, half cone, mixed, 95 %": of a level or a requirement.
-std::string level_title(const BudgetAxes& axes, ErrorIndex index, std::size_t axis, Interpretation interpretation, double probability);
+std::string level_title(const BudgetAxes& axes, ErrorIndex index, std::size_t axis, Interpretation interpretation,
+                        double probability);
 // Angles in arcsec, lengths in the unit that suits them.
 std::string budget_value(const BudgetStudy& study, double value);
 std::string requirement_sentence(const BudgetStudy& study, const RequirementAnswer& answer);

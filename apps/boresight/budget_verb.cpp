@@ -29,10 +29,11 @@ constexpr double kNothing = 1e-9;
 struct RunsSeen {
   std::uint64_t failed = 0;
   double largest = 0.0;  // of the quantity over every step of the members' runs
+  double missed = 0.0;   // the largest share of a run's maximum that its sampled history has not; 0 if it begins late
   double model_error = 0.0, discretisation_error = 0.0;  // means
 };
 
-RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs) {
+RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs, const BudgetPlan& plan) {
   RunsSeen seen;
   double done = 0.0;
   store.read(runs.drawn(runs.rows()), [&](const SampleRecord& r) {
@@ -44,6 +45,10 @@ RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs) {
     seen.model_error += r.outcome.model_error;
     seen.discretisation_error += r.outcome.discretisation_error;
     seen.largest = std::max(seen.largest, r.outcome.value);
+    if (plan.start > 0.0 || r.outcome.value < kNothing) return;
+    double sampled = 0.0;
+    for (const Vec3& e : stored_history(store, r.number, plan).error) sampled = std::max(sampled, e.norm());
+    seen.missed = std::max(seen.missed, 1.0 - sampled / r.outcome.value);
   });
   seen.model_error /= std::max(1.0, done);
   seen.discretisation_error /= std::max(1.0, done);
@@ -63,10 +68,11 @@ void write_classical(std::ostream& out, const BudgetStudy& s, const Budget& b) {
   out << "index,interpretation,contributor,class,group,axis,mean,sd\n";
   for (const ClassicalTable& t : b.tables) {
     const std::string begin = std::string(to_string(t.index)) + ',' + to_string(t.interpretation) + ',';
-    const auto row = [&](const std::string& name, const std::string& kind, const std::string& group, const std::vector<Moments>& axes) {
+    const auto row = [&](const std::string& name, const std::string& kind, const std::string& group,
+                         const std::vector<Moments>& axes) {
       for (std::size_t a = 0; a < axes.size(); ++a)
-        out << begin << csv_field(name) << ',' << csv_field(kind) << ',' << csv_field(group) << ',' << s.axes().name(a) << ','
-            << exact(axes[a].mean) << ',' << exact(axes[a].sd) << '\n';
+        out << begin << csv_field(name) << ',' << csv_field(kind) << ',' << csv_field(group) << ',' << s.axes().name(a)
+            << ',' << exact(axes[a].mean) << ',' << exact(axes[a].sd) << '\n';
     };
     for (const ClassicalLine& line : t.lines) row(line.name, line.kind, line.group, line.axes);
     row("total", "total", "", t.total.axes);
@@ -75,7 +81,8 @@ void write_classical(std::ostream& out, const BudgetStudy& s, const Budget& b) {
 
 void write_contributions(std::ostream& out, const Budget& b) {
   out << "contribution,kind,share\n";
-  for (const Contribution& c : b.contributions) out << csv_field(c.name) << ',' << csv_field(c.kind) << ',' << exact(c.share) << '\n';
+  for (const Contribution& c : b.contributions)
+    out << csv_field(c.name) << ',' << csv_field(c.kind) << ',' << exact(c.share) << '\n';
 }
 
 Json level_json(const BudgetStudy& s, const BudgetLevel& l, double probability) {
@@ -111,11 +118,16 @@ Json budget_json(const BudgetStudy& s, const Budget& b) {
     json["requirements"].push_back(std::move(one));
   }
   json["contributions"] = Json::array();
-  for (const Contribution& c : b.contributions) json["contributions"].push_back({{"name", c.name}, {"kind", c.kind}, {"share", number_json(c.share)}});
+  for (const Contribution& c : b.contributions)
+    json["contributions"].push_back({{"name", c.name}, {"kind", c.kind}, {"share", number_json(c.share)}});
   json["tighten_first"] = Json::array();
   for (const Relief& r : b.reliefs)
-    json["tighten_first"].push_back(
-        {{"name", r.name}, {"if", r.action}, {"before", r.before}, {"after", r.after}, {"gain", r.gain()}, {"source", kFromAttribution}});
+    json["tighten_first"].push_back({{"name", r.name},
+                                     {"if", r.action},
+                                     {"before", r.before},
+                                     {"after", r.after},
+                                     {"gain", r.gain()},
+                                     {"source", kFromAttribution}});
   return json;
 }
 
@@ -125,7 +137,8 @@ class BudgetVerb : public Verb {
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "pointing budget: APE, MPE, RPE, PDE, PRE; ensemble, temporal, mixed"; }
   std::string example() const override {
-    return "boresight budget examples/3-rrcpr/budget.toml --rung perturbation --integrator rosenbrock";
+    return "boresight budget examples/3-rrcpr/budget.toml --set clearance.F1.axes=free --rung perturbation "
+           "--integrator rosenbrock";
   }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);
@@ -161,11 +174,13 @@ class BudgetVerb : public Verb {
     if (choice.step > 0.0 && (run.integrator.empty() || run.integrator == "rk4")) run.step = choice.step;
     run = options_on(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run);
     const BudgetRuns runs(plan, *mechanism);
-    const BudgetModel model(choice.name, mechanism, plan, runs, study.index, run, scene_varies(plan.inputs));
+    const BudgetModel model(choice.name, mechanism, plan, runs, {study.index.quantity, "max"}, run,
+                            scene_varies(plan.inputs));
     store.use_rung(model.rung(), model.step());
     note_origin(store, study, *mechanism, plan);
 
-    const bool whole = with_options_checked(run, [&] { return compute(command, study, *mechanism, plan, runs, model, store); });
+    const bool whole =
+        with_options_checked(run, [&] { return compute(command, study, *mechanism, plan, runs, model, store); });
     std::optional<Budget> budget;
     if (whole) budget = budget_of(plan, runs, *mechanism, study.index.kind(), store);
     BudgetStudy result{.command = command,
@@ -178,7 +193,7 @@ class BudgetVerb : public Verb {
                        .warnings = {},
                        .leaves_out = model.leaves_out(),
                        .step = model.step()};
-    const RunsSeen seen = runs_seen(store, runs);
+    const RunsSeen seen = runs_seen(store, runs, plan);
     if (budget) result.warnings = warnings_of(result, seen);
     write(result, seen, out, watch);
     if (!command.quiet) print(result, out);
@@ -205,9 +220,9 @@ class BudgetVerb : public Verb {
     for (const NumberRange& range : missing) begun_with -= range.size();
     done = begun_with;
     if (!command.quiet) {
-      fmt::print("{}: {} members on the {} rung, {} runs ({} members with {} groups held and {} clearances halved){}\n", mechanism.name(),
-                 plan.members, model.rung(), runs.count(), runs.attribution(), runs.groups(), runs.joints(),
-                 begun_with > 0 ? fmt::format(", {} of them stored already", begun_with) : "");
+      fmt::print("{}: {} members on the {} rung, {} runs ({} members with {} groups held and {} clearances halved){}\n",
+                 mechanism.name(), plan.members, model.rung(), runs.count(), runs.attribution(), runs.groups(),
+                 runs.joints(), begun_with > 0 ? fmt::format(", {} of them stored already", begun_with) : "");
       std::fflush(stdout);
     }
     Progress progress(command.quiet, static_cast<double>(runs.count()), "runs");
@@ -220,12 +235,13 @@ class BudgetVerb : public Verb {
         if (r.outcome.value > largest) largest = r.outcome.value;
       }
       progress.update_from(static_cast<double>(begun_with), static_cast<double>(done),
-                           "largest " + study.index.quantity_title() + " so far " + readable(largest, study.index.si_unit()) +
+                           "largest " + study.index.quantity_title() + " so far " +
+                               readable(largest, study.index.si_unit()) +
                                (failed > 0 ? fmt::format(", {} failed", failed) : ""));
     };
-    const bool whole =
-        store_runs(model, plan.inputs.size(), [&](std::uint64_t number, std::span<double> values) { runs.values(number, values); },
-                   missing, store, {.jobs = command.jobs, .landed = landed, .interrupted = [] { return interrupted(); }});
+    const bool whole = store_runs(
+        model, plan.inputs.size(), [&](std::uint64_t number, std::span<double> values) { runs.values(number, values); },
+        missing, store, {.jobs = command.jobs, .landed = landed, .interrupted = [] { return interrupted(); }});
     progress.clear();
     return whole;
   }
@@ -234,22 +250,29 @@ class BudgetVerb : public Verb {
     const Budget& b = *s.budget;
     std::vector<std::string> warnings;
     if (seen.failed > 0)
-      warnings.push_back(fmt::format("{} of {} runs failed; a member whose own run failed counts as bad in every answer", seen.failed, s.runs.count()));
-    double sampled = 0.0;
-    for (const PointingHistory& h : b.shown)
-      for (const Vec3& e : h.error) sampled = std::max(sampled, e.norm());
+      warnings.push_back(
+          fmt::format("{} of {} runs failed; a member whose own run failed counts as bad in every answer", seen.failed,
+                      s.runs.count()));
     if (seen.largest < kNothing && s.runs.joints() > 0)
       warnings.push_back("the clearances make no " + s.study.index.quantity_title() +
-                         " beyond rounding: where journal and sleeve axes are kept parallel they turn nothing; axes = \"free\" lets them tilt");
+                         " beyond rounding: where journal and sleeve axes are kept parallel they turn nothing; axes = "
+                         "\"free\" lets them tilt");
+    constexpr double kMuchMissed = 0.01;
+    if (seen.missed > kMuchMissed)
+      warnings.push_back(
+          fmt::format("the sampled histories miss up to {} of a run's largest error; a finer `sampling` finds it",
+                      readable_share(seen.missed)));
     for (const RequirementAnswer& r : b.requirements)
       if (!r.compliance.met && b.members < r.compliance.fewest)
-        warnings.push_back(fmt::format("{} cannot be shown with {} members, whatever they give: it takes {}",
-                                       level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability),
-                                       b.members, r.compliance.fewest));
+        warnings.push_back(
+            fmt::format("{} cannot be shown with {} members, whatever they give: it takes {}",
+                        level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability),
+                        b.members, r.compliance.fewest));
     for (const RequirementAnswer& r : b.requirements)
       if (r.rule_says_met() && r.margin() < 0.0)
-        warnings.push_back(fmt::format("{}: the classical rule would have said met",
-                                       level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability)));
+        warnings.push_back(fmt::format(
+            "{}: the classical rule would have said met",
+            level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability)));
     return warnings;
   }
 
@@ -284,7 +307,8 @@ class BudgetVerb : public Verb {
     std::vector<std::string> files = {"summary.json", "samples.db", "report.html"};
     if (s.budget) {
       json.update(budget_json(s, *s.budget));
-      json["error"] = {{"rung", seen.model_error}, {"discretisation", seen.discretisation_error}};
+      json["error"] = {
+          {"rung", seen.model_error}, {"discretisation", seen.discretisation_error}, {"sampling", seen.missed}};
       out.write("levels.csv", [&](std::ostream& stream) { write_levels(stream, s, *s.budget); });
       out.write("classical.csv", [&](std::ostream& stream) { write_classical(stream, s, *s.budget); });
       out.write("contributions.csv", [&](std::ostream& stream) { write_contributions(stream, *s.budget); });

@@ -10,12 +10,13 @@
 
 namespace boresight::app {
 
-SampleStore open_runs(const OutputDirectory& out, const std::string& verb, const RandomInputs& inputs, const std::string& text,
-                      bool resume) {
+SampleStore open_runs(const OutputDirectory& out, const std::string& verb, const RandomInputs& inputs,
+                      const std::string& text, bool resume) {
   const std::filesystem::path file = out.path() / "samples.db";
   if (std::filesystem::exists(file) && !resume)
-    throw OutputDirectoryError("--out " + out.path().string() +
-                               ": holds runs of this study already; --resume goes on with them, another --out begins anew");
+    throw OutputDirectoryError(
+        "--out " + out.path().string() +
+        ": holds runs of this study already; --resume goes on with them, another --out begins anew");
   // Whose folder this is has to be known before the first run is, or a kill would leave an orphan.
   if (!std::filesystem::exists(out.path() / "summary.json"))
     write_json(out, "summary.json",

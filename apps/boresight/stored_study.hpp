@@ -13,10 +13,11 @@
 
 namespace boresight::app {
 
-// Opens samples.db in the folder of results, and says in summary.json whose it is before the first run lands. `text`: what
-// decides a run beside the folder's identity. Throws OutputDirectoryError where it is there and --resume was not asked for.
-SampleStore open_runs(const OutputDirectory& out, const std::string& verb, const RandomInputs& inputs, const std::string& text,
-                      bool resume);
+// Opens samples.db in the folder of results, and says in summary.json whose it is before the first run lands. `text`:
+// what decides a run beside the folder's identity. Throws OutputDirectoryError where it is there and --resume was not
+// asked for.
+SampleStore open_runs(const OutputDirectory& out, const std::string& verb, const RandomInputs& inputs,
+                      const std::string& text, bool resume);
 
 // A study keeps its rung: the one it was begun with is the one it goes on with.
 RungChoice rung_of_study(const Command& command, const Study& study, const std::shared_ptr<const Mechanism>& mechanism,

@@ -13,8 +13,10 @@ using testing::HasSubstr;
 
 class BudgetPlanTest : public testing::Test {
  protected:
-  BudgetPlan read(const std::string& table, const std::string& quantity = "boresight_error", bool scatter = true) const {
-    const std::string random = scatter ? "[[random]]\nparameter = \"clearance.F1.radial\"\ndistribution = { fit = \"20 H7/g6\" }\n" : "";
+  BudgetPlan read(const std::string& table, const std::string& quantity = "boresight_error",
+                  bool scatter = true) const {
+    const std::string random =
+        scatter ? "[[random]]\nparameter = \"clearance.F1.radial\"\ndistribution = { fit = \"20 H7/g6\" }\n" : "";
     Document document = Document::from_text(random + "[budget]\n" + table, "study.toml");
     Cursor root(document);
     Study study;
@@ -81,7 +83,10 @@ TEST_F(BudgetPlanTest, WithoutRequirementItIsAboutTheApeOfTheHalfConeOrOfTheWhol
 
 TEST_F(BudgetPlanTest, WindowsRequirementsAndContributorsDoNotChangeTheRuns) {
   const std::string one = read("members = 20\n").sample_text({});
-  EXPECT_EQ(read("members = 40\nwindow = \"50 ms\"\n[[budget.contributor]]\nname = \"b\"\nclass = \"bias\"\nvalue = \"1 arcsec\"\n").sample_text({}), one);
+  EXPECT_EQ(read("members = 40\nwindow = \"50 ms\"\n[[budget.contributor]]\nname = \"b\"\nclass = \"bias\"\nvalue = "
+                 "\"1 arcsec\"\n")
+                .sample_text({}),
+            one);
   EXPECT_NE(read("members = 20\nseed = 2\n").sample_text({}), one);
   EXPECT_NE(read("members = 20\nsampling = \"1 ms\"\n").sample_text({}), one);
   EXPECT_NE(read("members = 20\nstart = \"0.1 s\"\n").sample_text({}), one);
@@ -109,7 +114,9 @@ TEST_F(BudgetPlanTest, MistakesAreOneLineWithFileLineAndKey) {
   says(contributor + "class = \"bias\"\nvalue = \"1 arcsec\"\nperiod = \"1 s\"\n", "periodic");
   says(contributor + "class = \"drift\"\nvalue = \"1 arcsec\"\n", "an angular rate");
   says(contributor + "class = \"bias\"\nvalue = \"1 arcsec\"\naxes = [\"q\"]\n", "an axis of the error");
-  says(contributor + "class = \"bias\"\nvalue = \"1 arcsec\"\n" + contributor + "class = \"bias\"\nvalue = \"1 arcsec\"\n", "a second time");
+  says(contributor + "class = \"bias\"\nvalue = \"1 arcsec\"\n" + contributor +
+           "class = \"bias\"\nvalue = \"1 arcsec\"\n",
+       "a second time");
 }
 
 }  // namespace

@@ -22,8 +22,10 @@ class BudgetTest : public testing::Test {
 
   BudgetPlan read(const std::string& table) const {
     Document document = Document::from_text(
-        "[[random]]\nparameter = \"clearance.F1.radial\"\ndistribution = { uniform = { min = \"0.05 mm\", max = \"0.15 mm\" } }\n"
-        "[budget]\nmembers = 60\nattribution = 60\nsampling = \"10 ms\"\n" + table,
+        "[[random]]\nparameter = \"clearance.F1.radial\"\ndistribution = { uniform = { min = \"0.05 mm\", max = \"0.15 "
+        "mm\" } }\n"
+        "[budget]\nmembers = 60\nattribution = 60\nsampling = \"10 ms\"\n" +
+            table,
         "study.toml");
     Cursor root(document);
     Study study;
@@ -35,7 +37,8 @@ class BudgetTest : public testing::Test {
   static Vec3 shape(double t) { return {10.0, 20.0 * std::sin(2.0 * M_PI * t), 0.0}; }
 
   // Stores every run of the plan but those members' that fail.
-  void store_runs_of(const BudgetPlan& plan, const BudgetRuns& runs, SampleStore& store, std::uint64_t failing = 0) const {
+  void store_runs_of(const BudgetPlan& plan, const BudgetRuns& runs, SampleStore& store,
+                     std::uint64_t failing = 0) const {
     for (const NumberRange& range : runs.missing(store))
       for (std::uint64_t number = range.first; number < range.end; ++number) {
         SampleRecord record{.number = number, .inputs = {0.0}, .outcome = {}};
@@ -80,7 +83,8 @@ TEST_F(BudgetTest, LevelsAreThoseOfTheHistories) {
   const Budget b = budget("");
   // The clearance is uniform from 0.05 to 0.15 mm: x in all interpretations is ten times it, constant in time.
   EXPECT_NEAR(level(b, ErrorIndex::ape, Interpretation::ensemble, 0).level.value, 10 * 1.45e-4, 1e-4);
-  EXPECT_NEAR(level(b, ErrorIndex::ape, Interpretation::temporal, 1).level.value, 20 * 1.5e-4 * std::sin(0.475 * M_PI), 1e-4);
+  EXPECT_NEAR(level(b, ErrorIndex::ape, Interpretation::temporal, 1).level.value, 20 * 1.5e-4 * std::sin(0.475 * M_PI),
+              1e-4);
   const BudgetLevel& cone = level(b, ErrorIndex::ape, Interpretation::ensemble, 2);
   EXPECT_NEAR(cone.level.value, std::hypot(10.0, 20.0) * 1.45e-4, 2e-4);
   // A mean across: the rule for half cones looks past it.

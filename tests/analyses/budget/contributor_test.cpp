@@ -1,4 +1,5 @@
-// A contributor's course in time has the moments that its class has by formula, and begins anew where it is recalibrated.
+// A contributor's course in time has the moments that its class has by formula, and begins anew where it is
+// recalibrated.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,12 +14,18 @@ constexpr std::size_t kSamples = 100;
 const Windows kWindows{.window = 0.1, .separation = 0.25, .observation = 0.5, .revisit = 0.6};
 
 Contributor contributor(ContributorClass kind, bool recalibrated = false) {
-  return {.name = "c", .kind = kind, .parameter = {make_normal(1.0, 0.5)}, .period = 0.08, .correlation_time = 0.03, .recalibrated = recalibrated};
+  return {.name = "c",
+          .kind = kind,
+          .parameter = {make_normal(1.0, 0.5)},
+          .period = 0.08,
+          .correlation_time = 0.03,
+          .recalibrated = recalibrated};
 }
 
 TEST(Contributor, HasInItsCoursesTheMomentsOfItsClass) {
   for (const bool recalibrated : {false, true})
-    for (const ContributorClass kind : {ContributorClass::bias, ContributorClass::random, ContributorClass::periodic, ContributorClass::drift}) {
+    for (const ContributorClass kind :
+         {ContributorClass::bias, ContributorClass::random, ContributorClass::periodic, ContributorClass::drift}) {
       const Contributor c = contributor(kind, recalibrated);
       for (const ErrorIndex index : kErrorIndices) {
         double sum = 0.0, squares = 0.0, count = 0.0;
@@ -32,9 +39,10 @@ TEST(Contributor, HasInItsCoursesTheMomentsOfItsClass) {
         }
         const Moments expected = moments(c, 0, index, Interpretation::mixed, kWindows, 1.0);
         const double mean = sum / count, sd = std::sqrt(std::max(0.0, squares / count - mean * mean));
-        const std::string what = std::string(to_string(kind)) + ' ' + to_string(index) + (recalibrated ? ", recalibrated" : "");
-        // 3000 members scatter by 2 % of themselves; ten samples stand for a window, and MPE, RPE, PDE of an APE of 1 are seen
-        // at the window's places, of which a drift's first and last hold less of the motion.
+        const std::string what =
+            std::string(to_string(kind)) + ' ' + to_string(index) + (recalibrated ? ", recalibrated" : "");
+        // 3000 members scatter by 2 % of themselves; ten samples stand for a window, and MPE, RPE, PDE of an APE of 1
+        // are seen at the window's places, of which a drift's first and last hold less of the motion.
         EXPECT_NEAR(mean, expected.mean, 0.04) << what;
         EXPECT_NEAR(sd, expected.sd, 0.05) << what;
       }
@@ -72,7 +80,8 @@ TEST(ClassicalTable, TwoCorrelatedNoisesAreUnsafeByRootSumSquareAndFairAsAGroup)
   const std::vector<std::uint64_t> streams = streams_of(pair);
   std::vector<std::vector<double>> sizes(100);
   for (std::uint64_t member = 0; member < sizes.size(); ++member) {
-    const auto first = course(pair[0], 2, member, streams[0], kSpacing, 400, {}), second = course(pair[1], 2, member, streams[1], kSpacing, 400, {});
+    const auto first = course(pair[0], 2, member, streams[0], kSpacing, 400, {}),
+               second = course(pair[1], 2, member, streams[1], kSpacing, 400, {});
     for (std::size_t k = 0; k < first.size(); ++k) sizes[member].push_back(std::abs(first[k].x() + second[k].x()));
   }
   const double simulated = EnsembleInTime(std::move(sizes)).level(Interpretation::mixed, 0.95, 0.9).value;

@@ -12,14 +12,16 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Figure A-5: e = A sin(omega t), A uniform on (0, 10). A quarter of a period holds every |e| equally often. `at`: where in
-// its cell of amplitudes and times a sample lies; the middle integrates best, the upper end holds the quantiles of one alone.
+// Figure A-5: e = A sin(omega t), A uniform on (0, 10). A quarter of a period holds every |e| equally often. `at`:
+// where in its cell of amplitudes and times a sample lies; the middle integrates best, the upper end holds the
+// quantiles of one alone.
 EnsembleInTime figure_a5(double at) {
   constexpr int kMembers = 4000, kTimes = 2000;
   std::vector<std::vector<double>> sizes(kMembers);
   for (int k = 0; k < kMembers; ++k)
     for (int i = 0; i < kTimes; ++i)
-      sizes[static_cast<std::size_t>(k)].push_back(10.0 * (k + at) / kMembers * std::sin(0.5 * kPi * (i + at) / kTimes));
+      sizes[static_cast<std::size_t>(k)].push_back(10.0 * (k + at) / kMembers *
+                                                   std::sin(0.5 * kPi * (i + at) / kTimes));
   return EnsembleInTime(std::move(sizes));
 }
 
@@ -35,7 +37,8 @@ TEST(EcssFigureA5, IsReproducedToThePrintedDigits) {
 }
 
 TEST(EcssFigureA5, TheClassicalRuleExceedsTheLargestPossibleErrorAndIsFlaggedWasteful) {
-  const Contributor sinusoid{.name = "A5", .kind = ContributorClass::periodic, .parameter = {make_uniform(0.0, 10.0)}, .period = 1.0};
+  const Contributor sinusoid{
+      .name = "A5", .kind = ContributorClass::periodic, .parameter = {make_uniform(0.0, 10.0)}, .period = 1.0};
   const Moments mixed = moments(sinusoid, 0, ErrorIndex::ape, Interpretation::mixed, {}, 1.0);
   const std::vector<ClassicalLine> lines = {{"A5", "periodic", "", {mixed}}};
   const double three_sigma = total_of(lines).axis_level(0, 0.9973);
@@ -74,13 +77,30 @@ struct AnnexC {
     const auto g = [](double mean, double sd) { return make_normal(mean, sd); };
     const auto u = [](double low, double high) { return make_uniform(low, high); };
     return {
-        {.name = "star tracker noise", .kind = ContributorClass::random, .parameter = {delta(10), delta(5), delta(5)}, .correlation_time = kWhite},
-        {.name = "star tracker bias", .kind = ContributorClass::bias, .parameter = {g(0, 20. / 3), g(0, 10. / 3), g(0, 10. / 3)}},
-        {.name = "controller, actuators", .kind = ContributorClass::random, .parameter = {g(1, 3), g(1, 3), g(1, 3)}, .correlation_time = kWhite},
-        {.name = "thermoelastic", .kind = ContributorClass::periodic, .parameter = {u(0, 4), u(0, 4), u(0, 4)}, .period = kLong},
+        {.name = "star tracker noise",
+         .kind = ContributorClass::random,
+         .parameter = {delta(10), delta(5), delta(5)},
+         .correlation_time = kWhite},
+        {.name = "star tracker bias",
+         .kind = ContributorClass::bias,
+         .parameter = {g(0, 20. / 3), g(0, 10. / 3), g(0, 10. / 3)}},
+        {.name = "controller, actuators",
+         .kind = ContributorClass::random,
+         .parameter = {g(1, 3), g(1, 3), g(1, 3)},
+         .correlation_time = kWhite},
+        {.name = "thermoelastic",
+         .kind = ContributorClass::periodic,
+         .parameter = {u(0, 4), u(0, 4), u(0, 4)},
+         .period = kLong},
         {.name = "payload misalignment", .kind = ContributorClass::bias, .parameter = {u(-5, 5), u(-5, 5), u(-5, 5)}},
-        {.name = "targeting", .kind = ContributorClass::periodic, .parameter = {g(0, 5), g(0, 1), g(0, 5)}, .period = kLong},
-        {.name = "flexible modes, slosh", .kind = ContributorClass::periodic, .parameter = {g(0, 3), g(0, 5), g(0, 3)}, .period = kShort}};
+        {.name = "targeting",
+         .kind = ContributorClass::periodic,
+         .parameter = {g(0, 5), g(0, 1), g(0, 5)},
+         .period = kLong},
+        {.name = "flexible modes, slosh",
+         .kind = ContributorClass::periodic,
+         .parameter = {g(0, 3), g(0, 5), g(0, 3)},
+         .period = kShort}};
   }
   static ClassicalTotal total(ErrorIndex index) {
     std::vector<ClassicalLine> lines;
@@ -106,8 +126,8 @@ TEST(EcssAnnexC, LevelsAreReproducedToThePrintedDigits) {
   const ClassicalTotal ape = AnnexC::total(ErrorIndex::ape), rpe = AnnexC::total(ErrorIndex::rpe);
   EXPECT_NEAR(ape.axis_level(0, 0.95), 27.01, 0.005);
   EXPECT_NEAR(ape.axis_level(1, 0.95), 16.75, 0.005);
-  // Printed 17.21, cut off: the axes' variances differ by exactly 4 (12.5 + 4.5 - 0.5 - 12.5), which with y = 16.75 leaves
-  // sqrt(16.745^2 + 16) = 17.216 as the least.
+  // Printed 17.21, cut off: the axes' variances differ by exactly 4 (12.5 + 4.5 - 0.5 - 12.5), which with y = 16.75
+  // leaves sqrt(16.745^2 + 16) = 17.216 as the least.
   EXPECT_NEAR(std::floor(100.0 * ape.axis_level(2, 0.95)) / 100.0, 17.21, 1e-9);
   EXPECT_NEAR(rpe.axis_level(0, 0.95), 21.40, 0.005);
   EXPECT_NEAR(rpe.axis_level(1, 0.95), 13.78, 0.005);

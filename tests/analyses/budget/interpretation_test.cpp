@@ -1,9 +1,10 @@
 // The three interpretations on ensembles whose answers are counted by hand, and what their intervals claim.
+#include "boresight_analyses/budget/interpretation.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "boresight_analyses/budget/interpretation.hpp"
 #include "boresight_analyses/random/counter_stream.hpp"
 
 namespace boresight {
@@ -21,10 +22,12 @@ EnsembleInTime stepped(std::int64_t failed = 0) {
 
 TEST(Interpretation, CountsMembersOrTimeOrBoth) {
   const EnsembleInTime e = stepped();
-  const auto share = [&](Interpretation i, double leave_out = 0.0) { return e.compliance(i, 1.5, 0.5, 0.9, leave_out).share; };
-  EXPECT_DOUBLE_EQ(share(Interpretation::ensemble), 0.01);         // one member never exceeds
-  EXPECT_DOUBLE_EQ(share(Interpretation::temporal), 0.01);         // the worst is at 2 for 99 % of the time
-  EXPECT_DOUBLE_EQ(share(Interpretation::temporal, 0.25), 0.26);   // without the 25 worst
+  const auto share = [&](Interpretation i, double leave_out = 0.0) {
+    return e.compliance(i, 1.5, 0.5, 0.9, leave_out).share;
+  };
+  EXPECT_DOUBLE_EQ(share(Interpretation::ensemble), 0.01);        // one member never exceeds
+  EXPECT_DOUBLE_EQ(share(Interpretation::temporal), 0.01);        // the worst is at 2 for 99 % of the time
+  EXPECT_DOUBLE_EQ(share(Interpretation::temporal, 0.25), 0.26);  // without the 25 worst
   EXPECT_DOUBLE_EQ(share(Interpretation::mixed), 0.505);
   EXPECT_EQ(e.level(Interpretation::mixed, 0.5, 0.9).value, 1.0);
   EXPECT_EQ(e.level(Interpretation::mixed, 0.51, 0.9).value, 2.0);

@@ -44,13 +44,17 @@ TEST(WindowFilter, IsWhatSampledWindowsKeepOfASinusoid) {
 TEST(WindowFilter, IsWhatSampledWindowsKeepOfNoise) {
   const Windows windows{.window = 0.1, .separation = 0.15};
   for (const double tau : {0.01, 0.1}) {
-    const Contributor noise{.name = "n", .kind = ContributorClass::random, .parameter = {make_discrete({2.0}, {1.0})}, .correlation_time = tau};
+    const Contributor noise{.name = "n",
+                            .kind = ContributorClass::random,
+                            .parameter = {make_discrete({2.0}, {1.0})},
+                            .correlation_time = tau};
     PointingHistory h{0.0005, {}};
     h.error = course(noise, 7, 0, 0, h.spacing, 400'000, windows);
     for (const ErrorIndex index : {ErrorIndex::ape, ErrorIndex::mpe, ErrorIndex::rpe, ErrorIndex::pde}) {
       const double expected = 4.0 * kept_of_noise(index, tau, windows);
       // 200 s hold at least 1000 correlation times.
-      EXPECT_NEAR(mean_square(index_values(index, h, windows)) / expected, 1.0, 0.1) << to_string(index) << ", tau " << tau;
+      EXPECT_NEAR(mean_square(index_values(index, h, windows)) / expected, 1.0, 0.1)
+          << to_string(index) << ", tau " << tau;
     }
   }
 }
@@ -102,8 +106,10 @@ TEST(ErrorIndexOfAHistory, SaysWhatItNeeds) {
   EXPECT_EQ((Windows{.window = 2.0}.missing_for(ErrorIndex::rpe, 1.0)), "a window no longer than an observation");
   EXPECT_EQ((Windows{.window = 0.1}.missing_for(ErrorIndex::pde, 1.0)), "a separation");
   EXPECT_EQ((Windows{.window = 0.1}.missing_for(ErrorIndex::pre, 1.0)), "an observation");
-  EXPECT_EQ((Windows{.window = 0.1, .observation = 0.95}.missing_for(ErrorIndex::pre, 1.0)), "two observations in the motion");
-  EXPECT_THROW(index_values(ErrorIndex::mpe, history_of(1.0, 10, [](double) { return Vec3::Zero(); }), {}), std::invalid_argument);
+  EXPECT_EQ((Windows{.window = 0.1, .observation = 0.95}.missing_for(ErrorIndex::pre, 1.0)),
+            "two observations in the motion");
+  EXPECT_THROW(index_values(ErrorIndex::mpe, history_of(1.0, 10, [](double) { return Vec3::Zero(); }), {}),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -22,6 +22,26 @@ SampleRecord record(std::uint64_t number, double value = 1.5) {
   return r;
 }
 
+TEST(SampleStore, KeepsHistoriesBesideTheSamplesThatHaveOne) {
+  const Folder folder("histories");
+  const std::vector<double> history = {1.0 / 3.0, -0.0, 1e-300};
+  {
+    auto store = open_sum_store(folder);
+    EXPECT_TRUE(store->history(1).empty());  // before there is any
+    SampleRecord with = record(1);
+    with.outcome.history = history;
+    store->add(with);
+    store->add(record(2));
+    with.outcome.history = {7.0};
+    store->add(with);  // a number is stored once
+    store->commit();
+  }
+  const auto again = open_sum_store(folder);
+  EXPECT_EQ(again->history(1), history);
+  EXPECT_TRUE(again->history(2).empty());
+  EXPECT_EQ(again->count(), 2u);
+}
+
 TEST(SampleStore, GivesBackEveryBitInTheOrderOfNumbers) {
   const Folder folder("bits");
   {

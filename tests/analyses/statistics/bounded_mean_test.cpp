@@ -1,4 +1,6 @@
 // Hoeffding's bound of a bounded mean: its known limits, and that it holds.
+#include "boresight_analyses/statistics/bounded_mean.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 
 #include "boresight_analyses/random/counter_stream.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
-#include "boresight_analyses/statistics/bounded_mean.hpp"
 
 namespace boresight {
 namespace {
@@ -39,7 +40,8 @@ TEST(BoundedMean, HoldsAtLeastAsOftenAsItsConfidence) {
   int held = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     double sum = 0.0;  // of sqrt(u), whose mean is 2/3
-    for (int k = 0; k < kSamples; ++k) sum += std::sqrt(stream.uniform(static_cast<std::uint64_t>(trial), static_cast<std::uint64_t>(k)));
+    for (int k = 0; k < kSamples; ++k)
+      sum += std::sqrt(stream.uniform(static_cast<std::uint64_t>(trial), static_cast<std::uint64_t>(k)));
     held += bounded_mean_lower(sum / kSamples, kSamples, 0.9) <= 2.0 / 3.0;
   }
   EXPECT_GE(held, 0.9 * kTrials);

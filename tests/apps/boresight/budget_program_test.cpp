@@ -30,8 +30,9 @@ window = "2 ms"
 members = )" << members << '\n' << more;
   }
   static std::vector<std::string> arguments(const std::vector<std::string>& more = {}) {
-    std::vector<std::string> all = {"budget", "study.toml", "--set", "motion.duration=20ms", "--set", "clearance.F1.axes=free",
-                                    "--rung", "quasistatic", "--out", "out"};
+    std::vector<std::string> all = {
+        "budget",      "study.toml", "--set", "motion.duration=20ms", "--set", "clearance.F1.axes=free", "--rung",
+        "quasistatic", "--out",      "out"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -41,7 +42,8 @@ members = )" << members << '\n' << more;
 };
 
 TEST_F(BudgetProgram, AnswersARequirementThatIsMetAndWritesWhatItSays) {
-  study(requirement("1 deg") + "[[budget.contributor]]\nname = \"mounting\"\nclass = \"bias\"\nvalue = \"60 arcsec\"\n");
+  study(requirement("1 deg") +
+        "[[budget.contributor]]\nname = \"mounting\"\nclass = \"bias\"\nvalue = \"60 arcsec\"\n");
   const Ended ended = call(arguments());
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_THAT(ended.out, AllOf(HasSubstr("APE, half cone, mixed, 80 %"), HasSubstr("arcsec"), HasSubstr("met")));
@@ -103,6 +105,24 @@ TEST_F(BudgetProgram, GoesOnAfterAKill) {
   const Ended again = call(arguments({"--resume"}));
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_THAT(again.out, HasSubstr("of them stored already"));
+}
+
+// Twelve joints that follow one motion: their errors add up in time, and are anything but independent.
+TEST_F(BudgetProgram, ClearancesThatFollowOneMotionAddUpAndRootSumSquareIsUnsafe) {
+  std::ofstream(folder_ / "study.toml")
+      << "format = 1\nmechanism = \"" BORESIGHT_EXAMPLES "/3-rrcpr/twelve-joints.toml\"\n"
+      << "[index]\nquantity = \"position_error\"\n[budget]\nmembers = 2\nsampling = \"1 ms\"\n";
+  const Ended ended = call(
+      {"budget", "study.toml", "--set", "motion.duration=20ms", "--rung", "quasistatic", "--out", "out", "--quiet"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const auto summary = json("out/summary.json");
+  ASSERT_EQ(summary["contributions"].size(), 13u);
+  EXPECT_EQ(summary["contributions"][12]["name"], "together");
+  EXPECT_NEAR(summary["contributions"][12]["share"].get<double>(), 0.0, 0.01);
+  for (std::size_t k = 0; k < 12; ++k) EXPECT_GT(summary["contributions"][k]["share"].get<double>(), 0.02);
+  for (const auto& level : summary["levels"])
+    if (level["index"] == "APE" && level["axis"] == "total" && level["interpretation"] == "mixed")
+      EXPECT_EQ(level["rule_is"], "unsafe");
 }
 
 TEST_F(BudgetProgram, MistakesAreOneLine) {
