@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -139,6 +140,35 @@ void read_times(Cursor& table, BudgetPlan& plan, double duration) {
   fits("revisit", ErrorIndex::pre);
 }
 
+// What scatters: the study's [[random]] tables, or those of a calibration's posterior.
+void read_scatter(Cursor& root, Cursor& table, BudgetPlan& plan, const Study& study,
+                  const MechanismDescription& mechanism, const std::function<void(const Setting&)>& accepts) {
+  if (table.has("posterior")) {
+    if (root.has("random")) table.fail("posterior", "a posterior, or [[random]] tables, and not both");
+    const std::filesystem::path named = table.text("posterior");
+    plan.posterior = named.is_absolute()
+                         ? named.string()
+                         : (std::filesystem::path(study.file).parent_path() / named).lexically_normal().string();
+    Document document = Document::from_file(plan.posterior);
+    plan.posterior_hash = document.content_hash();
+    Cursor posterior(document);
+    posterior.only({"random", "correlation"});
+    plan.inputs = read_random_inputs(posterior, mechanism, accepts);
+  } else if (root.has("random")) {
+    plan.inputs = read_random_inputs(root, mechanism, accepts);
+  } else {
+    if (table.has("groups")) table.fail("groups", "[[random]] tables, whose parameters are grouped");
+    return;
+  }
+  if (plan.posterior.empty() || table.has("groups")) {
+    plan.groups = read_parameter_groups(table, plan.inputs);
+    return;
+  }
+  // What one fit estimated is correlated, and one group.
+  plan.groups = {{{}}, {"calibrated parameters"}};
+  for (std::size_t i = 0; i < plan.inputs.size(); ++i) plan.groups.members[0].push_back(static_cast<int>(i));
+}
+
 }  // namespace
 
 BudgetAxes::BudgetAxes(PointingQuantity quantity) {
@@ -180,7 +210,7 @@ BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDes
                             const std::function<void(const Setting&)>& accepts) {
   Cursor table = root.table("budget");
   table.only({"members", "attribution", "seed", "confidence", "sampling", "start", "window", "separation",
-              "observation", "revisit", "leave_out", "groups", "requirement", "contributor"});
+              "observation", "revisit", "leave_out", "posterior", "groups", "requirement", "contributor"});
   BudgetPlan plan;
   plan.members = count(table, "members", 2, kMostMembers, static_cast<long long>(plan.members));
   const auto most = static_cast<long long>(plan.members);
@@ -192,12 +222,7 @@ BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDes
   plan.leave_out = table.number("leave_out", 0.0);
   table.require(plan.leave_out >= 0.0 && plan.leave_out < 1.0, "leave_out", "0 or more and less than 1");
   read_times(table, plan, duration);
-  if (root.has("random")) {
-    plan.inputs = read_random_inputs(root, mechanism, accepts);
-    plan.groups = read_parameter_groups(table, plan.inputs);
-  } else if (table.has("groups")) {
-    table.fail("groups", "[[random]] tables, whose parameters are grouped");
-  }
+  read_scatter(root, table, plan, study, mechanism, accepts);
   const BudgetAxes axes(study.index.kind());
   const bool angle = study.index.si_unit() == "rad";
   const SiUnit unit = angle ? kAngle : kLength, rate = angle ? kAngularRate : kSpeed;

@@ -12,6 +12,7 @@
 //   observation = "0.4 s"        # length of one; left out: the whole motion is one, and there is no PRE
 //   revisit = "0.4 s"            # of the two windows of PRE; left out: one observation
 //   leave_out = 0.05             # share of the members that the temporal interpretation leaves out; left out: none
+//   posterior = "results/calibrate/posterior.toml"   # what scatters is what a calibration knows, instead of [[random]]
 //   groups = { contact = ["clearance.F1.contact.restitution", "clearance.F1.friction.coefficient"] }
 //
 //   [[budget.requirement]]       # any number; the first one is what shares and reliefs are about
@@ -77,7 +78,9 @@ struct BudgetPlan {
   double sampling = 0.0, start = 0.0;  // [s]
   Windows windows;
   double leave_out = 0.0;
-  RandomInputs inputs;  // none where the study scatters nothing
+  RandomInputs inputs;    // none where the study scatters nothing
+  std::string posterior;  // the file that they were read from, and its hash; "": the study itself
+  std::string posterior_hash;
   NamedGroups groups;
   std::vector<BudgetRequirement> requirements;
   std::vector<Contributor> contributors;

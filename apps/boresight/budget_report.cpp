@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <numbers>
 
@@ -264,7 +266,8 @@ report::Table contributor_table(const BudgetStudy& s) {
       spread += (spread.empty() ? "" : "; ") + (p.name() == s.plan.groups.names[g] ? "" : p.name() + ": ") +
                 spread_text(*p.distribution, [&](double v) { return readable(v, p.si_unit); });
     }
-    table.rows.push_back({s.plan.groups.names[g], kScatterKind, "fixed in a member", spread, "all", kFromAttribution});
+    table.rows.push_back({s.plan.groups.names[g], kScatterKind, "fixed in a member", spread, "all",
+                          s.plan.posterior.empty() ? kFromAttribution : kFromCalibration});
   }
   for (const Contributor& c : s.plan.contributors) {
     std::string axes, spread, in_time = c.kind == ContributorClass::bias ? "constant" : "linear";
@@ -430,16 +433,33 @@ std::vector<BudgetSource> budget_sources(const BudgetStudy& s) {
   const std::string to = " to ";
   const std::uint64_t slots = 1 + r.groups() + r.joints();
   const std::string every = slots > 1 && r.rows() > 1 ? fmt::format(", one in {}", slots) : "";
-  return {{kFromMembers,
-           fmt::format("the {} members: the mechanism as drawn, with each member's external errors", s.plan.members),
-           std::to_string(r.drawn(0)) + to + std::to_string(r.drawn(r.rows() - 1)) + every},
-          {kFromNominal, "the mechanism with every scattered parameter at its median; of several clearances each alone",
-           r.drawn(0) == 1 ? "0" : "0" + to + std::to_string(r.drawn(0) - 1)},
-          {kFromAttribution,
-           fmt::format("the first {} members in all variants: groups held, clearances halved", r.attribution()),
-           std::to_string(r.drawn(0)) + to + std::to_string(r.drawn(r.attribution()) - 1)},
-          {kFromClasses,
-           "formulas of ECSS-E-ST-60-10C from the study's contributors, and the clearances' and groups' moments", ""}};
+  std::vector<BudgetSource> sources = {
+      {kFromMembers,
+       fmt::format("the {} members: the mechanism as drawn, with each member's external errors", s.plan.members),
+       std::to_string(r.drawn(0)) + to + std::to_string(r.drawn(r.rows() - 1)) + every},
+      {kFromNominal, "the mechanism with every scattered parameter at its median; of several clearances each alone",
+       r.drawn(0) == 1 ? "0" : "0" + to + std::to_string(r.drawn(0) - 1)},
+      {kFromAttribution,
+       fmt::format("the first {} members in all variants: groups held, clearances halved", r.attribution()),
+       std::to_string(r.drawn(0)) + to + std::to_string(r.drawn(r.attribution()) - 1)},
+      {kFromClasses,
+       "formulas of ECSS-E-ST-60-10C from the study's contributors, and the clearances' and groups' moments", ""}};
+  if (!s.plan.posterior.empty())
+    sources.push_back({kFromCalibration, "what scatters: " + posterior_origin(s.plan), ""});
+  return sources;
+}
+
+std::string posterior_origin(const BudgetPlan& plan) {
+  const std::string file = plan.posterior + " (" + plan.posterior_hash.substr(0, 12) + ")";
+  std::ifstream stream(std::filesystem::path(plan.posterior).parent_path() / "summary.json");
+  const nlohmann::json made_by = nlohmann::json::parse(stream, nullptr, false);
+  if (made_by.is_discarded() || made_by.value("verb", "") != "calibrate" || !made_by.contains("data"))
+    return file + "; no calibrate's summary.json is beside it, so which data made it is not known";
+  std::string data;
+  for (const nlohmann::json& one : made_by["data"]) data += (data.empty() ? "" : ", ") + one.get<std::string>();
+  return fmt::format("{}, fitted by {} ({}) to the data {} ({})", file, made_by["study"]["file"].get<std::string>(),
+                     made_by["study"]["hash"].get<std::string>().substr(0, 12), data,
+                     made_by["identity"]["options"]["data"].get<std::string>().substr(0, 12));
 }
 
 std::string level_title(const BudgetAxes& axes, ErrorIndex index, std::size_t axis, Interpretation interpretation,

@@ -41,6 +41,10 @@ inline constexpr const char* kFromMembers = "M";
 inline constexpr const char* kFromNominal = "N";
 inline constexpr const char* kFromAttribution = "A";
 inline constexpr const char* kFromClasses = "C";
+inline constexpr const char* kFromCalibration = "P";  // what scatters, where it was read from a posterior
+
+// Which calibration a posterior is from, and which data that saw: from the summary beside it. Without one it says so.
+std::string posterior_origin(const BudgetPlan& plan);
 
 // "APE, half cone, mixed, 95 %": of a level or a requirement.
 std::string level_title(const BudgetAxes& axes, ErrorIndex index, std::size_t axis, Interpretation interpretation,

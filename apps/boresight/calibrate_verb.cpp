@@ -120,6 +120,8 @@ class CalibrateVerb : public Verb {
     Json json = common_summary(s.command, s.mechanism, s.rung, watch, {}, r.interrupted, out);
     json["seed"] = s.plan.seed;
     json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    json["data"] = Json::array();
+    for (const CalibrationRun& run : s.problem.runs) json["data"].push_back(run.data.file);
     json["objective"] = number(r.fit.cost);
     json["converged"] = r.fit.converged;
     json["reason"] = r.fit.reason;

@@ -107,6 +107,44 @@ TEST_F(BudgetProgram, GoesOnAfterAKill) {
   EXPECT_THAT(again.out, HasSubstr("of them stored already"));
 }
 
+TEST_F(BudgetProgram, OfACalibratedPosteriorSaysWhichDataItComesFrom) {
+  std::filesystem::create_directories(folder_ / "calibration");
+  std::ofstream(folder_ / "calibration/posterior.toml") << R"(
+[[random]]
+parameter = "clearance.F1.radial"
+distribution = { lognormal = { median = "0.1 mm", factor = 1.05 } }
+[[random]]
+parameter = "clearance.F1.contact.restitution"
+distribution = { uniform = { min = 0.7, max = 0.9 } }
+[[correlation]]
+parameters = ["clearance.F1.radial", "clearance.F1.contact.restitution"]
+coefficient = 0.4
+)";
+  const std::string study = "format = 1\nmechanism = \"" + mechanism_ + R"("
+[index]
+quantity = "boresight_error"
+[budget]
+members = 4
+posterior = "calibration/posterior.toml"
+)";
+  std::ofstream(folder_ / "study.toml") << study;
+  ASSERT_EQ(call(arguments({"--quiet"})).status, 0);
+  EXPECT_THAT(json("out/summary.json")["sources"]["P"]["what"].get<std::string>(), HasSubstr("is not known"));
+  std::ofstream(folder_ / "calibration/summary.json")
+      << R"({"verb": "calibrate", "study": {"file": "rig.toml", "hash": "aa11"}, "data": ["monday.csv", "friday.csv"],
+             "identity": {"options": {"data": "bb22"}}})";
+  ASSERT_EQ(call(arguments({"--quiet", "--resume"})).status, 0);
+  EXPECT_THAT(json("out/summary.json")["sources"]["P"]["what"].get<std::string>(),
+              AllOf(HasSubstr("rig.toml (aa11)"), HasSubstr("monday.csv, friday.csv (bb22)")));
+  EXPECT_THAT(text("out/report.html"), HasSubstr("monday.csv"));
+  EXPECT_EQ(json("out/summary.json")["contributions"][1]["name"], "calibrated parameters");  // correlated: one group
+  std::ofstream(folder_ / "study.toml") << study << "[[random]]\nparameter = \"payload.mass\"\n"
+                                        << "distribution = { uniform = { min = \"0 kg\", max = \"1 kg\" } }\n";
+  const Ended both = call(arguments());
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, HasSubstr("and not both"));
+}
+
 // Twelve joints that follow one motion: their errors add up in time, and are anything but independent.
 TEST_F(BudgetProgram, ClearancesThatFollowOneMotionAddUpAndRootSumSquareIsUnsafe) {
   std::ofstream(folder_ / "study.toml")
