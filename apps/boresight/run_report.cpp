@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "mechanism_view.hpp"
 #include "pilot_parts.hpp"
 #include "report_parts.hpp"
 #include "tables.hpp"
@@ -250,13 +251,14 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
     errors.items.push_back(difference_panels(overlay));
   }
   document.sections.push_back(std::move(errors));
-  if (!result.time.empty())
-    document.sections.push_back(
-        {.id = "motion",
-         .title = "Motion",
-         .items = {motion_panels(mechanism, overlay,
-                                 "Displacement of the centre of mass, Z-Y-X Euler angles from home, and "
-                                 "accelerations in world axes: the panels of Sun et al., Fig. 6.")}});
+  if (!result.time.empty()) {
+    report::Section motion{.id = "motion", .title = "Motion"};
+    if (!result.frames.empty()) motion.items.push_back(mechanism_view(mechanism, result));
+    motion.items.push_back(motion_panels(mechanism, overlay,
+                                         "Displacement of the centre of mass, Z-Y-X Euler angles from home, and "
+                                         "accelerations in world axes: the panels of Sun et al., Fig. 6."));
+    document.sections.push_back(std::move(motion));
+  }
   if (mechanism.clearances() > 0) {
     report::Section contact{.id = "contact", .title = "Contact", .items = {contact_table(overlay)}};
     if (!result.time.empty()) contact.items.push_back(contact_strip(mechanism, result));

@@ -13,6 +13,7 @@
 #include "boresight/rungs/rung.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
+#include "mechanism_view.hpp"
 #include "montecarlo_study.hpp"
 #include "nonlinear_section.hpp"
 #include "progress.hpp"
@@ -138,6 +139,7 @@ class RunVerb : public Verb {
 
     const std::size_t finer = history_refinement(mechanism->duration(), options.sample_spacing);
     options.sample_spacing /= static_cast<double>(finer);
+    options.frame_spacing = view_frame_spacing(*mechanism);
     Progress progress(command.quiet, mechanism->duration(), "s of motion");
     options.progress = [&](const RunProgress& p) {
       progress.update(p.t, "position error so far " + readable(p.position_error_max_so_far, "m"));
@@ -228,6 +230,7 @@ class RunVerb : public Verb {
     options.integrator = "";
     options.tolerance = 0.0;
     options.pose_bodies.clear();
+    options.frame_spacing = 0.0;
     try {
       other.result = make_rung(name, mechanism)->run(mechanism->parameters(), options);
     } catch (const ComputationError& failure) {

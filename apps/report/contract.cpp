@@ -343,9 +343,68 @@ void strip(const Place& place) {
   }
 }
 
+// An index of the view's points.
+void point_index(const Place& place, std::size_t points) {
+  if (!place.value.is_number_integer() || place.value.get<double>() < 0.0 || place.value.get<double>() >= static_cast<double>(points))
+    place.fail(place.found(), "the index of one of the " + std::to_string(points) + " points");
+}
+
+void view_point(const Place& place, std::size_t instants) {
+  object(place, {"x", "y", "z"}, {"dx", "dy", "dz"});
+  for (const char* key : {"x", "y", "z", "dx", "dy", "dz"}) {
+    if (!place.has(key)) continue;
+    const Place track = place.at(key);
+    array(track);
+    if (track.value.size() != 1) same_length(track, instants, "time, or one number for a point at rest");
+    for (std::size_t i = 0; i < track.value.size(); ++i) finite(track.at(i));
+  }
+}
+
+void view_joint(const Place& place, std::size_t points) {
+  object(place, {"name", "first", "second"}, {"tip", "second_tip", "clearance"});
+  text(place.at("name"), false);
+  for (const char* key : {"first", "second", "tip", "second_tip"})
+    if (place.has(key)) point_index(place.at(key), points);
+  if (!place.has("clearance")) return;
+  object(place.at("clearance"), {"radial", "axial"}, {});
+  for (const char* key : {"radial", "axial"}) finite(place.at("clearance").at(key), 0);
+  if (!place.has("tip")) place.fail("no key 'tip'", "tip: a clearance needs the sleeve's axis");
+}
+
+void view(const Place& place) {
+  object(place, {"kind", "title", "unit", "time", "points", "bodies", "joints", "rays"}, {"caption"});
+  text(place.at("title"), false);
+  text_where_given(place, {"caption"});
+  text(place.at("unit"), false);
+  const Place time = place.at("time"), points = place.at("points");
+  for (const char* key : {"time", "points", "bodies", "joints", "rays"}) array(place.at(key));
+  if (time.value.empty()) time.fail("no instant", "at least one");
+  for (std::size_t i = 0; i < time.value.size(); ++i)
+    finite(time.at(i), i > 0 ? time.value[i - 1].get<double>() : -std::numeric_limits<double>::infinity());
+  if (points.value.empty()) points.fail("no point", "at least one");
+  for (std::size_t i = 0; i < points.value.size(); ++i) view_point(points.at(i), time.value.size());
+  for (std::size_t i = 0; i < place.at("bodies").value.size(); ++i) {
+    const Place body = place.at("bodies").at(i);
+    object(body, {"name", "points"}, {"closed", "muted"});
+    text(body.at("name"), false);
+    flag_where_given(body, {"closed", "muted"});
+    array(body.at("points"));
+    for (std::size_t k = 0; k < body.at("points").value.size(); ++k)
+      point_index(body.at("points").at(k), points.value.size());
+  }
+  for (std::size_t i = 0; i < place.at("joints").value.size(); ++i)
+    view_joint(place.at("joints").at(i), points.value.size());
+  for (std::size_t i = 0; i < place.at("rays").value.size(); ++i) {
+    const Place ray = place.at("rays").at(i);
+    object(ray, {"name", "from", "to"}, {});
+    text(ray.at("name"), false);
+    for (const char* key : {"from", "to"}) point_index(ray.at(key), points.value.size());
+  }
+}
+
 void item(const Place& place) {
   if (!place.value.is_object() || !place.has("kind")) place.fail(place.found(), "an item with a kind");
-  one_of(place.at("kind"), {"text", "table", "findings", "chart", "panels", "strip"});
+  one_of(place.at("kind"), {"text", "table", "findings", "chart", "panels", "strip", "view"});
   const auto& kind = place.value["kind"].get_ref<const std::string&>();
   if (kind == "text") {
     object(place, {"kind", "text"}, {});
@@ -356,6 +415,7 @@ void item(const Place& place) {
   if (kind == "chart") chart(place);
   if (kind == "panels") panels(place);
   if (kind == "strip") strip(place);
+  if (kind == "view") view(place);
 }
 
 void fact(const Place& place) {
@@ -425,11 +485,25 @@ void round_lists(json& object, Words keys) {
     if (object.contains(key)) round_numbers(object[key]);
 }
 
+// Of a picture five digits are more than anyone sees; deviations have digits of their own.
+void round_track(json& point) {
+  for (const char* key : {"x", "y", "z", "dx", "dy", "dz"}) {
+    if (!point.contains(key)) continue;
+    double size = 0.0;
+    for (const json& entry : point[key]) size = std::max(size, std::abs(entry.get<double>()));
+    if (size == 0.0) continue;
+    const double unit = std::pow(10.0, std::floor(std::log10(size)) - 4.0);
+    for (json& entry : point[key]) entry = round_to(std::round(entry.get<double>() / unit) * unit, 6);
+  }
+}
+
 void round_item(json& item) {
   if (item["kind"] == "panels") {
     for (json& panel : item["panels"]) round_item(panel);
   } else if (item["kind"] == "strip") {
     for (json& row : item["rows"]) round_lists(row, {"start", "end"});
+  } else if (item["kind"] == "view") {
+    for (json& point : item["points"]) round_track(point);
   } else if (item["kind"] == "chart") {
     if (item.contains("series")) {
       for (json& one : item["series"]) round_lists(one, {"x", "y", "y_low", "error_low", "error_high"});

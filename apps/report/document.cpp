@@ -182,6 +182,34 @@ void to_json(json& json, const Strip& strip) {
   set(json, "caption", strip.caption);
 }
 
+void to_json(json& json, const ViewPoint& point) {
+  json = {{"x", point.x}, {"y", point.y}, {"z", point.z}};
+  set(json, "dx", point.dx);
+  set(json, "dy", point.dy);
+  set(json, "dz", point.dz);
+}
+
+void to_json(json& json, const ViewBody& body) {
+  json = {{"name", body.name}, {"points", body.points}};
+  set(json, "closed", body.closed);
+  set(json, "muted", body.muted);
+}
+
+void to_json(json& json, const ViewJoint& joint) {
+  json = {{"name", joint.name}, {"first", joint.first}, {"second", joint.second}};
+  if (joint.tip >= 0) json["tip"] = joint.tip;
+  if (joint.second_tip >= 0) json["second_tip"] = joint.second_tip;
+  if (joint.clearance) json["clearance"] = {{"radial", joint.clearance->radial}, {"axial", joint.clearance->axial}};
+}
+
+void to_json(json& json, const ViewRay& ray) { json = {{"name", ray.name}, {"from", ray.from}, {"to", ray.to}}; }
+
+void to_json(json& json, const View& view) {
+  json = {{"kind", "view"},        {"title", view.title},   {"unit", view.unit}, {"time", view.time},
+          {"points", view.points}, {"bodies", view.bodies}, {"rays", view.rays}, {"joints", view.joints}};
+  set(json, "caption", view.caption);
+}
+
 void to_json(json& json, const Section& section) {
   json = {{"id", section.id}, {"title", section.title}, {"items", json::array()}};
   set(json, "intro", section.intro);

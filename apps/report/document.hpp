@@ -152,7 +152,54 @@ struct Strip {
   std::vector<StripRow> rows = {};
 };
 
-using Item = std::variant<Text, Table, Findings, Chart, Panels, Strip>;
+// A point of the moving mechanism, world axes: where it would be ideally, and how far it is from there. One number for each
+// instant of the view, or one alone for a point at rest; no deviation: none.
+struct ViewPoint {
+  Numbers x = {}, y = {}, z = {};
+  Numbers dx = {}, dy = {}, dz = {};
+};
+
+// Points joined by a line; indices of View::points, as in what follows.
+struct ViewBody {
+  std::string name = {};
+  std::vector<int> points = {};
+  bool closed = false;  // back to the first point
+  bool muted = false;   // the ground
+};
+
+// The room a journal has: its centre from the sleeve's.
+struct ViewClearance {
+  double radial = 0.0, axial = 0.0;
+};
+
+// tip: a point along the axis, moving with the first body (-1: no axis). Where there is clearance the first body carries
+// the sleeve, and second_tip moves with the journal.
+struct ViewJoint {
+  std::string name = {};
+  int first = 0, second = 0;
+  int tip = -1, second_tip = -1;
+  std::optional<ViewClearance> clearance = {};
+};
+
+// Where a body points.
+struct ViewRay {
+  std::string name = {};
+  int from = 0, to = 0;
+};
+
+// The mechanism in motion, its deviation exaggerated by the reader. All lengths in one unit.
+struct View {
+  std::string title = {};
+  std::string caption = {};
+  std::string unit = {};  // of all lengths
+  Numbers time = {};      // [s]
+  std::vector<ViewPoint> points = {};
+  std::vector<ViewBody> bodies = {};
+  std::vector<ViewJoint> joints = {};
+  std::vector<ViewRay> rays = {};
+};
+
+using Item = std::variant<Text, Table, Findings, Chart, Panels, Strip, View>;
 
 struct Section {
   std::string id = {};  // small letters, digits, '-'; what a link to it ends with
@@ -207,6 +254,11 @@ void to_json(nlohmann::json& json, const Findings& findings);
 void to_json(nlohmann::json& json, const State& state);
 void to_json(nlohmann::json& json, const StripRow& row);
 void to_json(nlohmann::json& json, const Strip& strip);
+void to_json(nlohmann::json& json, const ViewPoint& point);
+void to_json(nlohmann::json& json, const ViewBody& body);
+void to_json(nlohmann::json& json, const ViewJoint& joint);
+void to_json(nlohmann::json& json, const ViewRay& ray);
+void to_json(nlohmann::json& json, const View& view);
 void to_json(nlohmann::json& json, const Section& section);
 void to_json(nlohmann::json& json, const Fact& fact);
 void to_json(nlohmann::json& json, const Verdict& verdict);

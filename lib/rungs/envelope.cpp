@@ -135,8 +135,8 @@ class Envelope final : public SceneRung {
       bound.rotation = now.pose_gain.bottomRows<3>() * z;
       recorder.accept(now.t, displaced.at_rest(mechanism().boresight_body(), acceleration), acceleration, &bound);
       if (!recorder.sampling()) continue;
-      for (std::size_t k = 0; k < options.pose_bodies.size(); ++k) {
-        const BodyMotion body = displaced.at_rest(options.pose_bodies[k], acceleration);
+      for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {
+        const BodyMotion body = displaced.at_rest(recorder.bodies_wanted()[k], acceleration);
         recorder.sample_body(static_cast<int>(k), body, acceleration);
       }
       for (std::size_t c = 0; c < joints.size(); ++c)

@@ -6,7 +6,8 @@ namespace boresight {
 
 MotionRecorder::MotionRecorder(const Mechanism& mechanism, const IdealMotion& ideal, const RunOptions& options,
                                double expected_steps)
-    : mechanism_(mechanism), ideal_(ideal), spacing_(options.sample_spacing) {
+    : mechanism_(mechanism), ideal_(ideal), spacing_(options.sample_spacing), frame_spacing_(options.frame_spacing),
+      bodies_of_sample_(options.pose_bodies), bodies_of_frame_(options.pose_bodies) {
   indices_.reserve(static_cast<std::size_t>(std::clamp(expected_steps, 16.0, 1e7)) + 2);
   result_.boresight.body = mechanism.boresight_body();
   result_.boresight.name = mechanism.description().bodies[mechanism.boresight_body()].name;
@@ -16,6 +17,7 @@ MotionRecorder::MotionRecorder(const Mechanism& mechanism, const IdealMotion& id
     history.name = mechanism.description().bodies[body].name;
     result_.others.push_back(std::move(history));
   }
+  for (int body = 0; body < mechanism.bodies(); ++body) bodies_of_frame_.push_back(body);
   result_.clearances.resize(mechanism.clearances());
 }
 
@@ -46,6 +48,11 @@ const PoseError& MotionRecorder::accept(double t, const BodyMotion& body, const 
   result_.platform_acceleration_max = result_.platform_acceleration_max.cwiseMax(acceleration.head<3>().cwiseAbs());
   result_.end_time = t;
   sampling_ = wants_sample(t);
+  framing_ = sampling_ && frame_spacing_ > 0.0 && t >= next_frame_ - kSlack * frame_spacing_;
+  if (framing_) {
+    while (next_frame_ <= t + kSlack * frame_spacing_) next_frame_ += frame_spacing_;
+    result_.frames.push_back({.sample = result_.time.size(), .pose = {}, .ideal = {}});
+  }
   if (sampling_) {
     while (next_sample_ <= t + kSlack * spacing_) next_sample_ += spacing_;
     result_.time.push_back(t);
@@ -55,8 +62,15 @@ const PoseError& MotionRecorder::accept(double t, const BodyMotion& body, const 
   return error_;
 }
 
-void MotionRecorder::sample_body(int other, const BodyMotion& body, const BodyAcceleration& acceleration) {
-  BodyHistory& history = result_.others[other];
+void MotionRecorder::sample_body(int wanted, const BodyMotion& body, const BodyAcceleration& acceleration) {
+  const std::size_t asked_for = result_.others.size();
+  if (static_cast<std::size_t>(wanted) >= asked_for) {
+    const BodyMotion ideal = ideal_.body(t_, bodies_of_frame_[wanted]);
+    result_.frames.back().pose.push_back({body.p, Quat(body.R)});
+    result_.frames.back().ideal.push_back({ideal.p, Quat(ideal.R)});
+    return;
+  }
+  BodyHistory& history = result_.others[wanted];
   history.samples.push_back(pose_sample(history.body, body, acceleration));
 }
 

@@ -21,7 +21,9 @@ class MotionRecorder {
   bool wants_sample(double t) const { return spacing_ > 0.0 && t >= next_sample_ - kSlack * spacing_; }
   // True if the state accepted last is to be sampled: then call the two below, bodies first.
   bool sampling() const { return sampling_; }
-  void sample_body(int other, const BodyMotion& body, const BodyAcceleration& acceleration);  // other: index in pose_bodies
+  // The bodies to sample then: those asked for, and all of them where the sample is a frame.
+  const std::vector<int>& bodies_wanted() const { return framing_ ? bodies_of_frame_ : bodies_of_sample_; }
+  void sample_body(int wanted, const BodyMotion& body, const BodyAcceleration& acceleration);  // wanted: index in those
   void sample_clearance(int clearance, const JournalMotion<double>& motion,
                         const std::array<ContactState<double>, kContactPlaces>& contact);
 
@@ -34,8 +36,9 @@ class MotionRecorder {
 
   const Mechanism& mechanism_;
   const IdealMotion& ideal_;
-  double spacing_, next_sample_ = 0.0, t_ = 0.0, position_error_max_ = 0.0;
-  bool sampling_ = false;
+  double spacing_, next_sample_ = 0.0, frame_spacing_, next_frame_ = 0.0, t_ = 0.0, position_error_max_ = 0.0;
+  bool sampling_ = false, framing_ = false;
+  std::vector<int> bodies_of_sample_, bodies_of_frame_;
   IndicesOverTime indices_;
   PoseError error_;
   RunResult result_;

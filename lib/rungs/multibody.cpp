@@ -126,7 +126,7 @@ class Multibody final : public Rung {
       bristles.release(memory, y.tail(bristles.size()));
       derivative(t, y, method.first_slope());
       drift = std::max(drift, formulation->violation());
-      record(*formulation, bodies_of(y), t, trackers, recorder, options);
+      record(*formulation, bodies_of(y), t, trackers, recorder);
       if (std::any_of(trackers.begin(), trackers.end(), [](const ContactTracker& c) { return c.touching(); })) {
         if (compliance.size() == 0 || i - compliance_age >= compliance_every) {
           compliance = formulation->offset_compliance();
@@ -194,7 +194,7 @@ class Multibody final : public Rung {
         drift = std::max(drift, formulation->violation());
       }
       system.observe(t, state, whole);
-      record_motion(*formulation, state, t, recorder, options);
+      record_motion(*formulation, state, t, recorder);
       interrupted =
           ++points % 1024 == 0 && options.progress && !options.progress({t, duration, recorder.position_error_max()});
       return !interrupted;
@@ -279,21 +279,21 @@ class Multibody final : public Rung {
   }
 
   void record(Formulation& formulation, const VecX& y, double t, std::vector<ContactTracker>& trackers,
-              MotionRecorder& recorder, const RunOptions& options) const {
-    record_motion(formulation, y, t, recorder, options);
+              MotionRecorder& recorder) const {
+    record_motion(formulation, y, t, recorder);
     for (std::size_t c = 0; c < trackers.size(); ++c)
       trackers[c].observe_forces(formulation.forces().contact(static_cast<int>(c)).contact);
   }
 
-  void record_motion(Formulation& formulation, const VecX& y, double t, MotionRecorder& recorder,
-                     const RunOptions& options) const {
+  void record_motion(Formulation& formulation, const VecX& y, double t, MotionRecorder& recorder) const {
     const std::vector<BodyMotion>& bodies = formulation.bodies(t, y);
     const std::vector<BodyAcceleration>& acceleration = formulation.acceleration();
     const int b = mechanism_->boresight_body();
     recorder.accept(t, bodies[b], acceleration[b]);
     if (!recorder.sampling()) return;
-    for (std::size_t k = 0; k < options.pose_bodies.size(); ++k)
-      recorder.sample_body(static_cast<int>(k), bodies[options.pose_bodies[k]], acceleration[options.pose_bodies[k]]);
+    const std::vector<int>& wanted = recorder.bodies_wanted();
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+      recorder.sample_body(static_cast<int>(k), bodies[wanted[k]], acceleration[wanted[k]]);
     const ForceElements& forces = formulation.forces();
     for (int c = 0; c < forces.clearances(); ++c)
       recorder.sample_clearance(c, forces.motion(c), forces.contact(c).contact);

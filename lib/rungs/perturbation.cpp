@@ -98,7 +98,7 @@ class Perturbation final : public SceneRung {
           if (h * stiffest.angular_frequency > limit) throw UnstableStep(mechanism, stiffest, t, h);
         }
       }
-      record(prepared, options, t, y, method.first_slope(), system, recorder, nonlinearity);
+      record(prepared, t, y, method.first_slope(), system, recorder, nonlinearity);
       if (i == steps) break;
       if (options.progress && i % 4096 == 0 && !options.progress({t, duration, recorder.position_error_max()})) {
         interrupted = true;
@@ -139,7 +139,7 @@ class Perturbation final : public SceneRung {
                        integration_options(system, parameters, options), [&](double t, const VecX& state, bool) {
                          system.derivative(t, state, slope);
                          system.observe(t);
-                         record(prepared, options, t, state, slope, system, recorder, nonlinearity);
+                         record(prepared, t, state, slope, system, recorder, nonlinearity);
                          interrupted = ++points % 4096 == 0 && options.progress &&
                                        !options.progress({t, duration, recorder.position_error_max()});
                          return !interrupted;
@@ -210,7 +210,7 @@ class Perturbation final : public SceneRung {
     compliance = B * A * B.transpose();
   }
 
-  void record(const PreparedScene& prepared, const RunOptions& options, double t, const VecX& y, const VecX& slope,
+  void record(const PreparedScene& prepared, double t, const VecX& y, const VecX& slope,
               const PerturbationSystem& system, MotionRecorder& recorder, Nonlinearity& nonlinearity) const {
     const Eigen::Index n = system.layout().n;
     const DisplacedBodies displaced(prepared, t, y.head(n));
@@ -218,8 +218,8 @@ class Perturbation final : public SceneRung {
     BodyMotion body = displaced.moving(mechanism().boresight_body(), y.segment(n, n), slope.segment(n, n), a);
     nonlinearity.add(recorder.accept(t, body, a), y.head(n), mechanism().characteristic_length());
     if (!recorder.sampling()) return;
-    for (std::size_t k = 0; k < options.pose_bodies.size(); ++k) {
-      body = displaced.moving(options.pose_bodies[k], y.segment(n, n), slope.segment(n, n), a);
+    for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {
+      body = displaced.moving(recorder.bodies_wanted()[k], y.segment(n, n), slope.segment(n, n), a);
       recorder.sample_body(static_cast<int>(k), body, a);
     }
     for (std::size_t c = 0; c < system.motion().size(); ++c)

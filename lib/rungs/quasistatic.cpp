@@ -44,8 +44,8 @@ class Quasistatic final : public SceneRung {
       BodyMotion body = displaced.at_rest(mechanism().boresight_body(), acceleration);
       recorder.accept(now.t, body, acceleration);
       if (!recorder.sampling()) continue;
-      for (std::size_t k = 0; k < options.pose_bodies.size(); ++k) {
-        body = displaced.at_rest(options.pose_bodies[k], acceleration);
+      for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {
+        body = displaced.at_rest(recorder.bodies_wanted()[k], acceleration);
         recorder.sample_body(static_cast<int>(k), body, acceleration);
       }
       for (std::size_t c = 0; c < joints.size(); ++c)

@@ -1,6 +1,7 @@
 // What one motion on one rung gives: the indices, the contacts, the histories, and what it cost. SI throughout.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -57,6 +58,12 @@ struct BodyHistory {
   std::vector<PoseSample> samples;  // one per entry of RunResult::time
 };
 
+// Where every body is at one sample, for pictures of the motion.
+struct Frame {
+  std::size_t sample = 0;         // index in RunResult::time
+  std::vector<Pose> pose, ideal;  // per body of the mechanism
+};
+
 struct RunCost {
   std::int64_t steps = 0, rejected_steps = 0, evaluations = 0;
   double cpu_seconds = 0.0, wall_seconds = 0.0;
@@ -87,6 +94,7 @@ struct RunResult {
   std::vector<double> time;                              // sample times [s]
   BodyHistory boresight;                                 // of the boresight body
   std::vector<BodyHistory> others;                       // bodies asked for besides
+  std::vector<Frame> frames;                             // in the order of time, where asked for
   std::vector<std::vector<ClearanceSample>> clearances;  // [clearance][sample]
   std::vector<ContactEvent> events;                      // in the order of their starts
   std::vector<std::string> warnings;

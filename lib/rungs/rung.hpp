@@ -27,6 +27,7 @@ struct RunOptions {
   double step = 0.0;            // [s]; 0: the rung's own choice
   double sample_spacing = 1e-3;  // spacing of the histories [s]; 0: no histories
   std::vector<int> pose_bodies;  // further bodies whose poses are kept
+  double frame_spacing = 0.0;    // of the frames, each at a sample [s]; 0: none
   bool events = true;            // keep one ContactEvent per contact
 
   // Rungs that follow the motion: integrator_choice.hpp.

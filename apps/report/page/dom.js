@@ -32,6 +32,8 @@ export const icons = {
   copy: "M6 5.5h7v8H6zM10 5.5v-3H3v8h3",
   theme: "M13 9.8A5.6 5.6 0 016.2 3a5.6 5.6 0 106.8 6.8z",
   print: "M4.5 6V2.5h7V6M4.5 11.5h-2V6h11v5.5h-2M4.5 9.5h7v4h-7z",
+  play: "M5 3.2v9.6l7.5-4.8z",
+  pause: "M5.2 3.5v9M10.8 3.5v9",
   reset: "M3 8a5 5 0 105-5H4.5M6.5 1L4.3 3l2.2 2",
 };
 

@@ -6,6 +6,7 @@ import { announceReady } from "./drawing.js";
 import { shown } from "./numbers.js";
 import { findingsItem, tableItem } from "./table.js";
 import { theme, toggleTheme } from "./theme.js";
+import { viewItem } from "./view.js";
 
 const report = JSON.parse(document.getElementById("document").textContent);
 
@@ -16,6 +17,7 @@ const kinds = {
   chart: chartItem,
   panels: panelsItem,
   strip: stripItem,
+  view: viewItem,
 };
 
 function fact({ label, value, unit, note }) {
