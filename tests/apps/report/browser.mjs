@@ -46,8 +46,8 @@ function expect(holds, what) {
 // A fresh profile in a temporary folder, removed by the driver when the browser closes.
 const browser = await chromium.launch({ executablePath, headless: true, args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"] });
 
-async function open(name, { width, height = 900, dark = false, javaScriptEnabled = true }) {
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", javaScriptEnabled, acceptDownloads: true });
+async function open(name, { width, height = 900, dark = false, still = false, javaScriptEnabled = true }) {
+  const context = await browser.newContext({ reducedMotion: still ? "reduce" : "no-preference", viewport: { width, height }, colorScheme: dark ? "dark" : "light", javaScriptEnabled, acceptDownloads: true });
   const page = await context.newPage();
   const label = `${name} ${width} ${dark ? "dark" : "light"}`;
   const noise = [];
@@ -74,6 +74,12 @@ async function looksWhole(page, label) {
   const found = await page.evaluate(() => {
     const problems = [];
     if (document.documentElement.scrollWidth > innerWidth) problems.push(`the page is ${document.documentElement.scrollWidth} wide`);
+    for (const stage of document.querySelectorAll(".stage")) {
+      const box = stage.getBoundingClientRect();
+      const lines = [...stage.querySelectorAll("path")].filter((path) => path.getAttribute("stroke-width") === "3").map((path) => path.getBoundingClientRect()).filter((at) => at.width);
+      if (!lines.length) problems.push("a view without bodies");
+      if (lines.some((at) => at.left < box.left || at.right > box.right || at.top < box.top || at.bottom > box.bottom)) problems.push("a view's bodies leave its picture");
+    }
     const plots = [...document.querySelectorAll(".plot")];
     if (!plots.length) problems.push("no plot at all");
     for (const plot of plots) {
@@ -113,7 +119,7 @@ async function everyKind(width, dark) {
     named: [...document.querySelectorAll("button")].every((one) => (one.textContent.trim() || one.getAttribute("aria-label"))),
   }));
   expect(shown.dark === (dark ? "dark" : "light"), `${label}: follows the system's colours`);
-  expect(shown.plots === 19 && shown.drawn === shown.plots, `${label}: draws all 19 plots, found ${shown.drawn} of ${shown.plots}`);
+  expect(shown.plots === 21 && shown.drawn === shown.plots, `${label}: draws all 19 plots and 2 views, found ${shown.drawn} of ${shown.plots}`);
   expect(shown.titled && shown.named, `${label}: every figure and button has a name`);
   await close();
 }
@@ -223,6 +229,99 @@ async function interaction() {
   await close();
 }
 
+// The view: still where motion is not wanted, moving where it is; slider, mouse and keys change what is drawn.
+async function moving() {
+  const { page, label, close } = await open("every-kind", { width: 1440, still: true });
+  await drawAll(page);
+  const view = page.locator('figure[aria-label="The mechanism in motion"]');
+  const stage = view.locator(".stage");
+  await stage.scrollIntoViewIfNeeded();
+  const drawing = () => stage.evaluate((one) => [...one.querySelectorAll("path")].map((path) => path.getAttribute("d")).join());
+  // How wide the joint's play is drawn, in pixels.
+  const ring = () => stage.evaluate((one) => [...one.querySelectorAll("path")].find((path) => path.getAttribute("stroke-width") === "1.8").getBBox().width);
+  await page.waitForTimeout(300);
+  const first = await drawing();
+  await page.waitForTimeout(200);
+  expect(await drawing() === first, `${label}: nothing moves by itself where the reader wants no motion`);
+
+  // Keys turn it, and turn it back.
+  await stage.focus();
+  for (const key of ["ArrowLeft", "ArrowUp", "+"]) {
+    const before = await drawing();
+    await page.keyboard.press(key);
+    expect(await drawing() !== before, `${label}: ${key} changes the view`);
+  }
+  expect(await view.getByRole("button", { name: "Turn back" }).isVisible(), `${label}: a turned view can be turned back`);
+  await page.keyboard.press("0");
+  expect(await drawing() === first, `${label}: 0 turns the view back`);
+
+  // The slider: twice the exaggeration, twice the play; its value is written out.
+  const slider = view.getByRole("slider", { name: "Exaggeration of the deviation" });
+  const setTo = (times) => slider.evaluate((one, value) => { one.value = String(Math.log10(value)); one.dispatchEvent(new Event("input", { bubbles: true })); }, times);
+  await setTo(100);
+  const at100 = await ring();
+  expect((await view.locator(".controls output").last().textContent()).endsWith("100"), `${label}: the exaggeration is written out`);
+  expect(await slider.getAttribute("aria-valuetext") === "100 times", `${label}: the slider says its value`);
+  expect((await view.locator(".note").textContent()).includes("drawn as 10"), `${label}: what 0.1 mm is drawn as: ${await view.locator(".note").textContent()}`);
+  await setTo(400);
+  const at400 = await ring();
+  expect(at400 > 2 * at100, `${label}: four times the exaggeration draws a ring more than twice as wide, found ${at100} and ${at400} pixels`);
+  await slider.focus();
+  const before = await drawing();
+  await page.keyboard.press("ArrowLeft");
+  expect(await drawing() !== before, `${label}: the slider answers to the keyboard`);
+
+  // Time, drag, legend.
+  const time = view.getByRole("slider", { name: "Time" });
+  await time.evaluate((one) => { one.value = "20"; one.dispatchEvent(new Event("input", { bubbles: true })); });
+  expect((await view.locator(".controls output").first().textContent()).startsWith("1.00"), `${label}: the time is written out: ${await view.locator(".controls output").first().textContent()}`);
+  const place = await stage.boundingBox();
+  const still = await drawing();
+  await page.mouse.move(place.x + 300, place.y + 200);
+  await page.mouse.down();
+  await page.mouse.move(place.x + 380, place.y + 230, { steps: 3 });
+  await page.mouse.up();
+  expect(await drawing() !== still, `${label}: dragging turns the view`);
+  await view.getByRole("button", { name: "Turn back" }).click();
+  expect(await drawing() === still, `${label}: the button turns it back`);
+  await view.locator(".key", { hasText: "ideal" }).click();
+  expect(await drawing() !== still, `${label}: the legend hides the ideal mechanism`);
+
+  // Play and pause, by button and by the space bar.
+  await view.getByRole("button", { name: "Play the motion" }).click();
+  const playing = await drawing();
+  await page.waitForTimeout(400);
+  expect(await drawing() !== playing, `${label}: it plays`);
+  await stage.focus();
+  await page.keyboard.press(" ");
+  expect(await view.getByRole("button", { name: "Play the motion" }).isVisible(), `${label}: the space bar pauses`);
+  const paused = await drawing();
+  await page.waitForTimeout(200);
+  expect(await drawing() === paused, `${label}: paused, it rests`);
+
+  const [download] = await Promise.all([page.waitForEvent("download"), view.locator(".tool", { hasText: "PNG" }).click()]);
+  await download.saveAs(path.join(pictures, "view.png"));
+  expect(fs.statSync(path.join(pictures, "view.png")).size > 15000, `${label}: the picture holds something`);
+  const rest = page.locator('figure[aria-label="Without clearance"]');
+  expect(await rest.getByRole("slider").count() === 0 && await rest.getByRole("button", { name: /Play/ }).count() === 0, `${label}: a view of one instant without deviation has nothing to play or exaggerate`);
+  await close();
+
+  const live = await open("every-kind", { width: 390, dark: true });
+  const other = live.page.locator('figure[aria-label="The mechanism in motion"] .stage');
+  await other.scrollIntoViewIfNeeded();
+  await live.page.waitForTimeout(300);
+  const seen = () => other.evaluate((one) => one.innerHTML);
+  const then = await seen();
+  await live.page.waitForTimeout(300);
+  expect(await seen() !== then, `${live.label}: it plays by itself in sight`);
+  await live.page.emulateMedia({ media: "print" });
+  await live.page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  const printed = await seen();
+  await live.page.waitForTimeout(300);
+  expect(await seen() === printed, `${live.label}: paper has one still picture`);
+  await live.close();
+}
+
 async function printing() {
   const { page, label, close } = await open("every-kind", { width: 1440, dark: true });
   await page.pdf({ path: path.join(pictures, "print.pdf"), format: "A4", preferCSSPageSize: false });
@@ -274,6 +373,7 @@ async function withoutScript() {
 try {
   for (const width of [1440, 390]) for (const dark of [false, true]) await everyKind(width, dark);
   await interaction();
+  await moving();
   await printing();
   await hostile();
   await manyCharts();

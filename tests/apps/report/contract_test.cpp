@@ -126,6 +126,34 @@ TEST(Contract, RefusesStripsWithUnknownStatesOrTimeRunningBack) {
   EXPECT_NE(refusal(with_item(strip(0.5, "free"))).find("end[0]"), std::string::npos);
 }
 
+json small_view() {
+  View view{.title = "V", .unit = "mm", .time = {0, 1}};
+  view.points = {{.x = {0}, .y = {0}, .z = {0}}, {.x = {1, 2}, .y = {3, 4}, .z = {5, 6}, .dx = {0, 1}, .dy = {0, 0}, .dz = {0, 0}}};
+  view.bodies = {{.name = "rod", .points = {0, 1}}};
+  view.joints = {{.name = "F1", .first = 0, .second = 1, .tip = 1, .clearance = ViewClearance{0.1, 0.0}}};
+  return view;
+}
+
+TEST(Contract, TakesThePointsOfAViewAtRestOrForEachInstant) {
+  json view = small_view();
+  EXPECT_EQ(refusal(with_item(view)), "accepted");
+  view["points"][1]["y"] = {1.0, 2.0, 3.0};
+  EXPECT_NE(refusal(with_item(view)).find("points[1].y: found 3 values, expected 2, as in time"), std::string::npos);
+  view["points"][1]["y"] = {1.0, NAN};
+  EXPECT_NE(refusal(with_item(view)).find("points[1].y[1]"), std::string::npos);
+}
+
+TEST(Contract, RefusesViewsOfPointsThatAreNotThere) {
+  json view = small_view();
+  view["bodies"][0]["points"] = {0, 2};
+  EXPECT_NE(refusal(with_item(view)).find("bodies[0].points[1]: found 2, expected the index of one of the 2 points"), std::string::npos);
+  view = small_view();
+  view["joints"][0]["tip"] = -1;
+  EXPECT_NE(refusal(with_item(view)).find("joints[0].tip: found -1"), std::string::npos);
+  view["joints"][0].erase("tip");
+  EXPECT_NE(refusal(with_item(view)).find("a clearance needs the sleeve's axis"), std::string::npos);
+}
+
 TEST(Contract, RefusesSectionsThatCannotBeLinkedTo) {
   Document document{.title = "T", .sections = {{.id = "a", .title = "A"}, {.id = "a", .title = "B"}}};
   EXPECT_NE(refusal(document).find("'a' a second time"), std::string::npos);
@@ -161,6 +189,15 @@ TEST(Rounding, MakesGapsOfWhatIsNoNumber) {
   const Numbers y = rounded_y({1.0, NAN, INFINITY, -INFINITY});
   EXPECT_EQ(y[0], 1.0);
   for (int i = 1; i < 4; ++i) EXPECT_TRUE(std::isnan(y[i]));
+}
+
+TEST(Rounding, GivesDeviationsOfAViewDigitsOfTheirOwn) {
+  json view = small_view();
+  view["points"][1]["x"] = {123.456789, 1e-7};
+  view["points"][1]["dx"] = {1.23456789e-5, -3.3e-8};
+  const json point = rounded(with_item(view))["sections"][0]["items"][0]["points"][1];
+  EXPECT_EQ(point["x"], (Numbers{123.46, 0.0}));
+  EXPECT_EQ(point["dx"], (Numbers{1.2346e-5, -3.3e-8}));
 }
 
 TEST(Rounding, LeavesTablesInFull) {

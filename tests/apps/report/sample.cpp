@@ -241,6 +241,56 @@ Section words() {
           .items = {Text{"A paragraph.\n\nAnother one."}, table, lengthy, findings}};
 }
 
+// A crank turns, a rod hangs on it with clearance, and carries a plate that points up.
+View crank(const std::string& name) {
+  View view{.title = name, .caption = "The journal goes round in its sleeve.", .unit = "mm", .time = range(0, 2, 41)};
+  const auto point = [&](auto place, double off) {
+    ViewPoint made;
+    for (const double t : view.time) {
+      const std::array<double, 3> p = place(t);
+      made.x.push_back(p[0]), made.y.push_back(p[1]), made.z.push_back(p[2]);
+      if (off == 0.0) continue;
+      made.dx.push_back(off * std::cos(9 * t)), made.dy.push_back(0.0), made.dz.push_back(off * std::sin(9 * t) * (0.5 + 0.5 * t));
+    }
+    view.points.push_back(made);
+  };
+  const auto turning = [](double x, double y, double z) {
+    return [=](double t) {
+      return std::array<double, 3>{x + 80 * std::cos(pi * t), y, z + 80 * std::sin(pi * t)};
+    };
+  };
+  view.points.push_back({.x = {0}, .y = {0}, .z = {0}});
+  view.points.push_back({.x = {300}, .y = {0}, .z = {0}});
+  view.points.push_back({.x = {0}, .y = {20}, .z = {0}});  // along the ground's axis
+  point(turning(0, 0, 0), 0.0);                             // 3: the crank's end
+  point(turning(0, 20, 0), 0.0);
+  point(turning(0, 0, 0), 0.1);  // 5: the journal
+  point(turning(0, 20, 0), 0.1);
+  point(turning(150, -40, 90), 0.1);  // 7 to 9: the plate
+  point(turning(150, 40, 90), 0.1);
+  point(turning(220, 0, 90), 0.1);
+  point(turning(170, 0, 90), 0.1);
+  point(turning(170, 0, 200), 0.2);  // 11: where it points
+  view.bodies = {{.name = "ground", .points = {0, 1}, .muted = true},
+                 {.name = "crank", .points = {0, 3}},
+                 {.name = "rod", .points = {5, 7}},
+                 {.name = "plate", .points = {7, 8, 9}, .closed = true}};
+  view.joints = {{.name = "O", .first = 0, .second = 0, .tip = 2},
+                 {.name = name, .first = 3, .second = 5, .tip = 4, .second_tip = 6, .clearance = ViewClearance{0.1, 0.05}},
+                 {.name = "S", .first = 7, .second = 7}};
+  view.rays = {{.name = "boresight", .from = 10, .to = 11}};
+  return view;
+}
+
+Section moving() {
+  View ideal = crank("Without clearance");
+  for (ViewPoint& point : ideal.points) point.dx = point.dy = point.dz = {};
+  ideal.joints.erase(ideal.joints.begin() + 1);
+  ideal.time = {0};
+  for (ViewPoint& point : ideal.points) point.x.resize(1), point.y.resize(1), point.z.resize(1);
+  return {.id = "moving", .title = "The mechanism", .items = {crank("The mechanism in motion"), ideal}};
+}
+
 }  // namespace
 
 Document every_kind() {
@@ -257,7 +307,7 @@ Document every_kind() {
                 {"Constraint drift", 3.2e-11, "m"}},
       .warnings = {"2 impacts at F3 were faster than the contact law's validity (0.62 m/s against 0.48 m/s)",
                    "The motion passes 1.3° from a singularity at t = 0.62 s"},
-      .sections = {charts(), multiples(), maps(), words()},
+      .sections = {charts(), multiples(), maps(), words(), moving()},
       .provenance = {{"Version", "0.1.0"},
                      {"Mechanism", "3-rrcpr.toml, sha256 91d0c2f7b8a8e4d3f6e5"},
                      {"Seed", 1},
@@ -285,7 +335,7 @@ Document hostile() {
           .sections = {{.id = "hostile",
                         .title = text,
                         .intro = text,
-                        .items = {Text{text}, chart, table, findings, strip}}},
+                        .items = {Text{text}, chart, table, findings, strip, crank(text)}}},
           .provenance = {{text, text}}};
 }
 

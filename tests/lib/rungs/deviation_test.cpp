@@ -166,5 +166,31 @@ TEST(SceneRungs, KeepThePosesOfOtherBodies) {
   }
 }
 
+TEST(SceneRungs, KeepFramesOfAllBodiesWithoutChangingAnything) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "0.01 s"}}));
+  for (const std::string& name : rung_names()) {
+    RunOptions options;
+    options.sample_spacing = 5e-4;
+    options.pose_bodies = {mechanism->body_index("rod1")};
+    const RunResult plain = make_rung(name, mechanism)->run(mechanism->parameters(), options);
+    EXPECT_TRUE(plain.frames.empty());
+    options.frame_spacing = 2e-3;
+    const RunResult result = make_rung(name, mechanism)->run(mechanism->parameters(), options);
+    EXPECT_EQ(result.index.position_error.rms, plain.index.position_error.rms) << name;
+    EXPECT_EQ(result.time, plain.time) << name;
+    ASSERT_EQ(result.frames.size(), 6u) << name;
+    for (std::size_t f = 0; f < result.frames.size(); ++f) {
+      const Frame& frame = result.frames[f];
+      EXPECT_NEAR(result.time[frame.sample], 2e-3 * static_cast<double>(f), 1e-4) << name;
+      ASSERT_EQ(frame.pose.size(), static_cast<std::size_t>(mechanism->bodies())) << name;
+      ASSERT_EQ(frame.ideal.size(), frame.pose.size()) << name;
+      const BodyHistory &platform = result.boresight, &rod = result.others[0];
+      EXPECT_EQ(frame.pose[platform.body].p, platform.samples[frame.sample].pose.p) << name;
+      EXPECT_EQ(frame.pose[rod.body].p, rod.samples[frame.sample].pose.p) << name;
+      EXPECT_EQ(frame.ideal[rod.body].p, rod.samples[frame.sample].ideal.p) << name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace boresight
