@@ -7,6 +7,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/perturbation_system.hpp"
+#include "boresight/rungs/predictability.hpp"
 
 namespace boresight {
 namespace {
@@ -28,10 +29,20 @@ void compare(const IndexSlopes& slopes, LocalSensitivity& p) {
   if (!p.exact_agrees) p.exact_note = text;
 }
 
+std::string beyond(const Predictability& horizon, double duration) {
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "withheld: the motion is predictable for %.3g s of its %.3g s only (impacts part motions that start a "
+                "picometre apart), and beyond that its slope says nothing of any change that could be made",
+                horizon.horizon, duration);
+  return text;
+}
+
 }  // namespace
 
-void add_exact_slopes(const Mechanism& mechanism, const RandomInputs& inputs, const IndexChoice& index,
+void add_exact_slopes(const std::shared_ptr<const Mechanism>& shared, const RandomInputs& inputs, const IndexChoice& index,
                       const RunOptions& run, LocalResult& local) {
+  const Mechanism& mechanism = *shared;
   std::vector<double> medians, values;
   std::vector<std::size_t> varied;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -52,10 +63,16 @@ void add_exact_slopes(const Mechanism& mechanism, const RandomInputs& inputs, co
   if (varied.empty()) return;
   try {
     const Parameters at_medians = inputs.parameters_with(mechanism, medians);
+    const Predictability horizon = measure_predictability(shared, at_medians);
+    if (horizon.measured && horizon.parted) throw ComputationError(beyond(horizon, mechanism.duration()));
     const PreparedScene prepared(mechanism, ideal_motion(mechanism, at_medians), at_medians);
     const PerturbationSystem system(mechanism, at_medians, prepared.tables(at_medians), false);
     if (system.has_bristles()) throw ComputationError("bristles of LuGre friction carry no derivatives");
     SlopeOptions options;
+    // Steps that serve the motion alone leave its derivatives to grow where a journal rests on its sleeve: there they
+    // stand at the limit of stability, which only the derivatives' own error tells.
+    options.tolerance = 1e-6;
+    options.control_derivatives = true;
     options.start_state = VecX::Zero(2 * system.layout().n);
     options.start_state.head(system.layout().n).setConstant(run.start_offset);
     const auto parameters_at = [&](const std::vector<double>& v) {

@@ -38,7 +38,7 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
   request.end = options.end > 0.0 ? options.end : mechanism.duration();
   request.start_state = options.start_state.size() > 0 ? options.start_state : VecX::Zero(2 * n);
   request.tolerance = options.tolerance;
-  request.control_derivatives = options.control_derivatives;
+  request.derivative_tolerance = options.control_derivatives ? options.tolerance : 0.0;
   request.by_parameters = true;
   for (int k = 0; k <= options.points; ++k) request.times.push_back(request.end * k / options.points);
   const SensitiveMotion motion = follow_with_sensitivity(

@@ -115,7 +115,7 @@ class SensitivityVerb : public Verb {
       global = global_sensitivity(plan, store);
       local = local_sensitivity(model, plan.inputs, command.jobs, [] { return interrupted(); });
       if (!local.interrupted && choice.name == "perturbation")
-        add_exact_slopes(*mechanism, plan.inputs, study.index, run, local);
+        add_exact_slopes(mechanism, plan.inputs, study.index, run, local);
     }
     progress.clear();
 
