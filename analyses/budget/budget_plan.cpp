@@ -7,11 +7,12 @@
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/random/read_distribution.hpp"
+#include "boresight_analyses/study/plan_values.hpp"
 
 namespace boresight {
 namespace {
 
-constexpr long long kMostMembers = 20'000;  // whose histories are held at once
+constexpr long long kMostMembers = 5'000;  // whose histories are held at once
 constexpr double kMostHistorySamples = 100'000;
 constexpr double kUsualHistorySamples = 2000.0;
 
@@ -29,23 +30,11 @@ auto chosen(Cursor& table, const std::string& key, const Values& values, const s
   return values[std::find(names.begin(), names.end(), name) - names.begin()];
 }
 
-double share(Cursor& table, const std::string& key, double otherwise) {
-  const double value = table.number(key, otherwise);
-  table.require(value > 0.0 && value < 1.0, key, "more than 0 and less than 1");
-  return value;
-}
-
 double positive_time(Cursor& table, const std::string& key, double otherwise) {
   if (!table.has(key)) return otherwise;
   const double time = table.quantity(key, kDuration);
   table.require(time > 0.0, key, "more than 0");
   return time;
-}
-
-std::uint64_t count(Cursor& table, const std::string& key, long long least, long long most, long long otherwise) {
-  const long long value = table.integer(key, otherwise);
-  table.require(value >= least && value <= most, key, std::to_string(least) + " to " + std::to_string(most));
-  return static_cast<std::uint64_t>(value);
 }
 
 std::size_t read_axis(Cursor& table, const std::string& key, const BudgetAxes& axes) {
@@ -65,8 +54,8 @@ BudgetRequirement read_requirement(Cursor& table, const BudgetPlan& plan, const 
   r.interpretation = chosen(table, "interpretation", kInterpretations, "mixed");
   r.limit = table.quantity("limit", unit);
   table.require(r.limit > 0.0, "limit", "more than 0");
-  r.probability = share(table, "probability", r.probability);
-  r.confidence = share(table, "confidence", r.confidence);
+  r.probability = share_of(table, "probability", r.probability);
+  r.confidence = share_of(table, "confidence", r.confidence);
   table.require(r.confidence > 0.5, "confidence", "more than 0.5 and less than 1");
   table.finish();
   return r;
@@ -212,13 +201,11 @@ BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDes
   table.only({"members", "attribution", "seed", "confidence", "sampling", "start", "window", "separation",
               "observation", "revisit", "leave_out", "posterior", "groups", "requirement", "contributor"});
   BudgetPlan plan;
-  plan.members = count(table, "members", 2, kMostMembers, static_cast<long long>(plan.members));
+  plan.members = count_of(table, "members", 2, kMostMembers, static_cast<long long>(plan.members));
   const auto most = static_cast<long long>(plan.members);
-  plan.attribution = count(table, "attribution", 2, most, std::min(most, static_cast<long long>(plan.attribution)));
-  const long long seed = table.integer("seed", 1);
-  table.require(seed >= 0, "seed", "a whole number, 0 or more");
-  plan.seed = static_cast<std::uint64_t>(seed);
-  plan.confidence = share(table, "confidence", plan.confidence);
+  plan.attribution = count_of(table, "attribution", 2, most, std::min(most, static_cast<long long>(plan.attribution)));
+  plan.seed = seed_of(table);
+  plan.confidence = share_of(table, "confidence", plan.confidence);
   plan.leave_out = table.number("leave_out", 0.0);
   table.require(plan.leave_out >= 0.0 && plan.leave_out < 1.0, "leave_out", "0 or more and less than 1");
   read_times(table, plan, duration);

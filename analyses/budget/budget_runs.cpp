@@ -102,8 +102,6 @@ BudgetModel::BudgetModel(const std::string& rung, std::shared_ptr<const Mechanis
     }));
 }
 
-BudgetModel::~BudgetModel() = default;
-
 std::string BudgetModel::rung() const { return models_.front()->rung(); }
 double BudgetModel::step() const { return models_.front()->step(); }
 std::string BudgetModel::leaves_out() const { return models_.front()->leaves_out(); }

@@ -62,7 +62,6 @@ class BudgetModel final : public SampleModel {
  public:
   BudgetModel(const std::string& rung, std::shared_ptr<const Mechanism> mechanism, const BudgetPlan& plan,
               const BudgetRuns& runs, IndexChoice index, const RunOptions& options, bool scene_varies);
-  ~BudgetModel() override;
 
   std::string rung() const override;
   double step() const override;

@@ -45,8 +45,6 @@ EnsembleInTime::EnsembleInTime(std::vector<std::vector<double>> sizes, std::int6
   std::sort(pooled_.begin(), pooled_.end());
 }
 
-double EnsembleInTime::largest() const { return pooled_.back(); }
-
 double EnsembleInTime::pooled_quantile(double share) const { return quantile_of(pooled_, share); }
 
 std::vector<double> EnsembleInTime::quantiles_in_time(double probability) const {

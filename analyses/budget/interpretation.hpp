@@ -30,7 +30,6 @@ class EnsembleInTime {
 
   std::int64_t members() const { return static_cast<std::int64_t>(maxima_.size()); }  // with values
   std::int64_t failed() const { return failed_; }
-  double largest() const;
 
   // The level that holds with this probability.
   ReportedInterval level(Interpretation interpretation, double probability, double confidence,

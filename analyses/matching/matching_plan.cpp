@@ -5,6 +5,7 @@
 
 #include "boresight/io/units.hpp"
 #include "boresight_analyses/optimise/minimise.hpp"
+#include "boresight_analyses/study/plan_values.hpp"
 
 namespace boresight {
 namespace {
@@ -97,9 +98,7 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
     for (const char* key : {"samples", "confirm"})
       if (table.has(key))
         table.fail(key, std::string(key) + " with over = \"mean\", \"quantile\" or \"worst\" only");
-  const long long seed = table.integer("seed", 1);
-  table.require(seed >= 0, "seed", "a whole number, 0 or more");
-  plan.seed = static_cast<std::uint64_t>(seed);
+  plan.seed = seed_of(table);
   plan.evaluations = count(table, "evaluations", 1, 1'000'000, plan.evaluations);
   plan.tolerance = table.number("tolerance", plan.tolerance);
   table.require(plan.tolerance > 0.0 && plan.tolerance < 1.0, "tolerance", "more than 0 and less than 1");

@@ -6,23 +6,14 @@
 #include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/rung.hpp"
+#include "boresight_analyses/study/plan_values.hpp"
 
 namespace boresight {
 namespace {
 
-double share(Cursor& table, const std::string& key, double otherwise) {
-  const double value = table.number(key, otherwise);
-  table.require(value > 0.0 && value < 1.0, key, "more than 0 and less than 1");
-  return value;
-}
+constexpr long long kMostPerReplicate = 1'000'000;
 
 SiUnit unit_of_index(const std::string& si_unit) { return si_unit == "rad" ? kAngle : kLength; }
-
-std::uint64_t count(Cursor& table, const std::string& key, long long least, long long otherwise) {
-  const long long value = table.integer(key, otherwise);
-  table.require(value >= least && value <= 1'000'000, key, std::to_string(least) + " to 1000000");
-  return static_cast<std::uint64_t>(value);
-}
 
 StopRule read_stop(Cursor table) {
   table.only({"width", "of", "time"});
@@ -87,8 +78,8 @@ Requirement read_requirement(Cursor table, const Study& study) {
   Requirement r;
   r.limit = table.quantity("limit", unit_of_index(study.index.si_unit()));
   table.require(r.limit > 0.0, "limit", "more than 0");
-  r.probability = share(table, "probability", r.probability);
-  r.confidence = share(table, "confidence", r.confidence);
+  r.probability = share_of(table, "probability", r.probability);
+  r.confidence = share_of(table, "confidence", r.confidence);
   table.require(r.confidence > 0.5, "confidence", "more than 0.5 and less than 1");
   table.finish();
   return r;
@@ -125,9 +116,7 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
   table.require(samples >= 1 && static_cast<std::uint64_t>(samples) <= kMostMonteCarloSamples, "samples",
                 "1 to " + std::to_string(kMostMonteCarloSamples));
   plan.samples = static_cast<std::uint64_t>(samples);
-  const long long seed = table.integer("seed", 1);
-  table.require(seed >= 0, "seed", "a whole number, 0 or more");
-  plan.design.seed = static_cast<std::uint64_t>(seed);
+  plan.design.seed = seed_of(table);
 
   const std::string design = table.choice("design", {"random", "lhs", "sobol"}, "random");
   for (const DesignKind kind : {DesignKind::random, DesignKind::lhs, DesignKind::sobol})
@@ -136,8 +125,9 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
     table.fail("strata", "strata with design = \"lhs\" only");
   if (table.has("replicates") && plan.design.kind != DesignKind::sobol)
     table.fail("replicates", "replicates with design = \"sobol\" only");
-  plan.design.strata = count(table, "strata", 2, static_cast<long long>(plan.design.strata));
-  plan.design.replicates = count(table, "replicates", 2, static_cast<long long>(plan.design.replicates));
+  plan.design.strata = count_of(table, "strata", 2, kMostPerReplicate, static_cast<long long>(plan.design.strata));
+  plan.design.replicates =
+      count_of(table, "replicates", 2, kMostPerReplicate, static_cast<long long>(plan.design.replicates));
   const std::uint64_t unit = plan.design.kind == DesignKind::lhs     ? plan.design.strata
                              : plan.design.kind == DesignKind::sobol ? plan.design.replicates
                                                                      : 1;
@@ -147,7 +137,7 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
                               std::to_string(unit) + "), at least twice: " +
                               std::to_string(std::max<std::uint64_t>(2, (plan.samples + unit - 1) / unit) * unit));
 
-  plan.confidence = share(table, "confidence", plan.confidence);
+  plan.confidence = share_of(table, "confidence", plan.confidence);
   if (table.has("requirement")) plan.requirement = read_requirement(table.table("requirement"), study);
   if (table.has("stop")) plan.stop = read_stop(table.table("stop"));
   if (table.has("fidelities")) plan.fidelities = read_fidelities(table.table("fidelities"));

@@ -250,7 +250,8 @@ void SampleStore::add(const SampleRecord& record) {
 void SampleStore::add_history(std::uint64_t number, std::span<const double> doubles) {
   if (!db_->insert_history) {
     db_->execute(file_, "CREATE TABLE IF NOT EXISTS history(number INTEGER PRIMARY KEY, doubles BLOB NOT NULL)");
-    db_->insert_history = std::make_unique<Statement>(db_->handle, file_, "INSERT OR IGNORE INTO history VALUES (?, ?)");
+    db_->insert_history =
+        std::make_unique<Statement>(db_->handle, file_, "INSERT OR IGNORE INTO history VALUES (?, ?)");
   }
   Statement& put = *db_->insert_history;
   put.reset();

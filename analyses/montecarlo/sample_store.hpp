@@ -75,8 +75,8 @@ class SampleStore {
 
   void add(const SampleRecord& record);
   void commit();
-  // All samples of another store of the same study, without histories; its file is then closed, and removed by the caller.
-  // Commits.
+  // All samples of another store of the same study, without histories; its file is then closed, and removed by the
+  // caller. Commits.
   void merge(const std::filesystem::path& other);
 
   std::uint64_t count() const;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/study/plan_values.hpp"
 
 namespace boresight {
 namespace {
@@ -43,9 +43,7 @@ SensitivityPlan read_sensitivity_plan(Cursor& root, const Study&, const Mechanis
   const long long rows = table.integer("samples");
   table.require(rows >= 16 && rows <= kMostRows, "samples", "16 to " + std::to_string(kMostRows));
   plan.rows = static_cast<std::uint64_t>(rows);
-  const long long seed = table.integer("seed", 1);
-  table.require(seed >= 0, "seed", "a whole number, 0 or more");
-  plan.design.seed = static_cast<std::uint64_t>(seed);
+  plan.design.seed = seed_of(table);
   const bool net = table.choice("design", {"sobol", "random"}, "sobol") == "sobol";
   plan.design.kind = net ? DesignKind::sobol : DesignKind::random;
   if (table.has("replicates") && !net) table.fail("replicates", "replicates with design = \"sobol\" only");
@@ -57,8 +55,7 @@ SensitivityPlan read_sensitivity_plan(Cursor& root, const Study&, const Mechanis
     table.fail("samples", "replicates (" + std::to_string(replicates) + ") times a power of two, for example " +
                               std::to_string(size * plan.design.replicates));
   }
-  plan.confidence = table.number("confidence", 0.95);
-  table.require(plan.confidence > 0.0 && plan.confidence < 1.0, "confidence", "more than 0 and less than 1");
+  plan.confidence = share_of(table, "confidence", 0.95);
   plan.inputs = read_random_inputs(root, mechanism, accepts);
   if (net && 2 * plan.inputs.size() > static_cast<std::size_t>(SobolNet::kMostDimensions))
     table.fail("design", "\"random\" for more than " + std::to_string(SobolNet::kMostDimensions / 2) + " random parameters");

@@ -37,7 +37,8 @@ MotionMeasures measures_of(const RunResult& result) {
 }  // namespace
 
 RungSampleModel::RungSampleModel(std::string rung, std::shared_ptr<const Mechanism> mechanism,
-                                 ParametersOf parameters_of, IndexChoice index, RunOptions options, bool scene_varies, KeptOfRun kept)
+                                 ParametersOf parameters_of, IndexChoice index, RunOptions options,
+                                 bool scene_varies, KeptOfRun kept)
     : rung_(std::move(rung)),
       mechanism_(std::move(mechanism)),
       parameters_of_(std::move(parameters_of)),

@@ -417,6 +417,18 @@ report::Table source_table(const BudgetStudy& s) {
   return table;
 }
 
+std::string index_titles(const BudgetPlan& plan) {
+  std::string text;
+  for (const ErrorIndex index : plan.indices())
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", to_string(index), title_of(index));
+  text += ".";
+  const Windows& w = plan.windows;
+  if (w.window > 0.0) text += " Windows of " + readable(w.window, "s");
+  if (w.separation > 0.0) text += ", separated by " + readable(w.separation, "s");
+  if (w.observation > 0.0) text += ", within observations of " + readable(w.observation, "s");
+  return w.window > 0.0 ? text + "." : text;
+}
+
 std::string counted_unsafe(const Budget& b) {
   const auto count = [&](RuleStanding standing) {
     return std::count_if(b.levels.begin(), b.levels.end(),
@@ -453,13 +465,17 @@ std::string posterior_origin(const BudgetPlan& plan) {
   const std::string file = plan.posterior + " (" + plan.posterior_hash.substr(0, 12) + ")";
   std::ifstream stream(std::filesystem::path(plan.posterior).parent_path() / "summary.json");
   const nlohmann::json made_by = nlohmann::json::parse(stream, nullptr, false);
-  if (made_by.is_discarded() || made_by.value("verb", "") != "calibrate" || !made_by.contains("data"))
+  if (!made_by.is_object() || made_by.value("verb", nlohmann::json()) != "calibrate" || !made_by.contains("data"))
     return file + "; no calibrate's summary.json is beside it, so which data made it is not known";
+  const auto named = [&](const char* pointer) {
+    const nlohmann::json found = made_by.value(nlohmann::json::json_pointer(pointer), nlohmann::json("unknown"));
+    return found.is_string() ? found.get<std::string>() : found.dump();
+  };
   std::string data;
-  for (const nlohmann::json& one : made_by["data"]) data += (data.empty() ? "" : ", ") + one.get<std::string>();
-  return fmt::format("{}, fitted by {} ({}) to the data {} ({})", file, made_by["study"]["file"].get<std::string>(),
-                     made_by["study"]["hash"].get<std::string>().substr(0, 12), data,
-                     made_by["identity"]["options"]["data"].get<std::string>().substr(0, 12));
+  for (const nlohmann::json& one : made_by["data"])
+    data += (data.empty() ? "" : ", ") + (one.is_string() ? one.get<std::string>() : one.dump());
+  return fmt::format("{}, fitted by {} ({}) to the data {} ({})", file, named("/study/file"),
+                     named("/study/hash").substr(0, 12), data, named("/identity/options/data").substr(0, 12));
 }
 
 std::string level_title(const BudgetAxes& axes, ErrorIndex index, std::size_t axis, Interpretation interpretation,
@@ -548,7 +564,7 @@ report::Document budget_report(const BudgetStudy& s) {
                             .note = standing_text(headline.standing, headline.by_rule, headline.level.value)});
   document.facts.push_back({.label = "Members", .value = b.members, .note = fmt::format("{} failed", b.failed)});
 
-  report::Section answers{.id = "answer", .title = "The budget", .items = {}};
+  report::Section answers{.id = "answer", .title = "The budget", .intro = index_titles(s.plan), .items = {}};
   if (!b.requirements.empty()) answers.items.emplace_back(requirement_table(s, b));
   answers.items.emplace_back(level_chart(s, b));
   document.sections.push_back(std::move(answers));

@@ -34,9 +34,9 @@ PoseError pose_error(const Pose& truth, const Pose& ideal, const Vec3& boresight
 // The same error as a vector whose length is the index, for budgets per axis:
 //   position_error       displacement, world axes [m]
 //   orientation_error    rotation vector from ideal to true, axes of the ideal body [rad]
-//   boresight_error      turn of the pointing axis about the two axes across the ideal one, third component zero [rad]; the
-//                        two are the body's x and y where the pointing axis is its z, and turned with the pointing axis by
-//                        the shortest way from z else
+//   boresight_error      turn of the pointing axis about the two axes across the ideal one, third component zero [rad];
+//                        the two are the body's x and y where its z points, else these turned the shortest way from z
+//                        to the pointing axis
 //   line_of_sight_error  the same of the line from the world origin to the centre of mass, in world axes [rad]
 Vec3 error_vector(PointingQuantity quantity, const Pose& truth, const Pose& ideal, const Vec3& boresight_B);
 

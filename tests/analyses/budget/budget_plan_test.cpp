@@ -98,7 +98,7 @@ TEST_F(BudgetPlanTest, MistakesAreOneLineWithFileLineAndKey) {
   };
   const std::string requirement = "[[budget.requirement]]\nlimit = \"1 arcsec\"\n";
   const std::string contributor = "[[budget.contributor]]\nname = \"a\"\n";
-  says("members = 1\n", "2 to 20000");
+  says("members = 1\n", "2 to 5000");
   says("wndow = \"1 s\"\n", "window");
   says("window = \"2 s\"\n", "no longer than an observation");
   says("separation = \"0.2 s\"\n", "a window");
