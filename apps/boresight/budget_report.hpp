@@ -25,6 +25,7 @@ struct BudgetStudy {
   std::vector<std::string> warnings;
   std::string leaves_out;
   double step = 0.0;  // of the runs [s]; 0: their own
+  double model_error = 0.0, discretisation_error = 0.0;  // what the rung thinks of itself, relative, mean over the runs
 
   BudgetAxes axes() const { return BudgetAxes(study.index.kind()); }
 };

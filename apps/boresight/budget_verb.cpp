@@ -194,6 +194,8 @@ class BudgetVerb : public Verb {
                        .leaves_out = model.leaves_out(),
                        .step = model.step()};
     const RunsSeen seen = runs_seen(store, runs, plan);
+    result.model_error = seen.model_error;
+    result.discretisation_error = seen.discretisation_error;
     if (budget) result.warnings = warnings_of(result, seen);
     write(result, seen, out, watch);
     if (!command.quiet) print(result, out);

@@ -158,9 +158,11 @@ TEST_F(BudgetProgram, ClearancesThatFollowOneMotionAddUpAndRootSumSquareIsUnsafe
   EXPECT_EQ(summary["contributions"][12]["name"], "together");
   EXPECT_NEAR(summary["contributions"][12]["share"].get<double>(), 0.0, 0.01);
   for (std::size_t k = 0; k < 12; ++k) EXPECT_GT(summary["contributions"][k]["share"].get<double>(), 0.02);
-  for (const auto& level : summary["levels"])
-    if (level["index"] == "APE" && level["axis"] == "total" && level["interpretation"] == "mixed")
+  for (const auto& level : summary["levels"]) {
+    if (level["index"] == "APE" && level["axis"] == "total" && level["interpretation"] == "mixed") {
       EXPECT_EQ(level["rule_is"], "unsafe");
+    }
+  }
 }
 
 TEST_F(BudgetProgram, MistakesAreOneLine) {
