@@ -11,6 +11,9 @@ namespace {
 
 constexpr int kPad = 8;  // lanes of the widest register
 constexpr std::size_t kScenesKept = 64;  // of different masses
+// The linear systems of an implicit step grow with the cube of the coordinates, three to five a joint: with twelve joints explicit
+// steps of single samples are cheaper.
+constexpr int kMostJoints = 4;
 
 // G at t, 3 x n: the index to first order is |G z|.
 MatX index_gain(const Mechanism& mechanism, const PreparedScene& prepared, PointingQuantity quantity, double t) {
@@ -53,6 +56,7 @@ struct PerturbationLanes::Cache {
 
 bool PerturbationLanes::serve(const Mechanism& mechanism) {
   const MechanismDescription& m = mechanism.description();
+  if (mechanism.clearances() > kMostJoints) return false;
   for (int c = 0; c < mechanism.clearances(); ++c) {
     const JournalInSleeve law(m.clearances[c], m.joints[m.clearances[c].joint].type, mechanism.parameters().clearance[c]);
     if (law.radial_law.curve != ElasticCurve::point || law.sticks) return false;

@@ -24,7 +24,8 @@ inline constexpr double kLaneTolerance = 1e-3;
 
 class PerturbationLanes {
  public:
-  // Whether the mechanism's laws have lanes: Hertz's geometry with any damping factor, modified Coulomb friction or none.
+  // Whether lanes pay: few joints with clearance, and laws that have lanes: Hertz's geometry with any damping factor, modified
+  // Coulomb friction or none.
   static bool serve(const Mechanism& mechanism);
   // Throws ComputationError near a singular pose, as the rung does.
   PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity);

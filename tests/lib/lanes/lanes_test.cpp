@@ -144,6 +144,11 @@ TEST(Lanes, RefuseLawsThatTheyDoNotHave) {
   EXPECT_FALSE(PerturbationLanes::serve(*scenes::build(std::move(d))));
 }
 
+TEST(Lanes, RefuseMechanismsOfManyJointsWithClearance) {
+  EXPECT_FALSE(PerturbationLanes::serve(
+      *scenes::build(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/twelve-joints.toml", {}))));
+}
+
 // The index at the default tolerance against its converged value: RK4 at 2 us, medians over three neighbouring steps.
 TEST(LanesLong, MeetOnePercentOverClearancesAndLoads) {
   for (const double c : {1e-4, 2e-4, 3e-4})
