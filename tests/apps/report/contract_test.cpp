@@ -43,6 +43,16 @@ TEST(Contract, AcceptsTheSmallestDocument) {
   EXPECT_EQ(refusal({{"title", "T"}, {"sections", json::array()}}), "accepted");
 }
 
+TEST(Contract, AcceptsBarsThatBeginSomewhere) {
+  json chart = small_chart();
+  chart["series"][0] = {{"name", "steps"}, {"style", "bars"}, {"x", {2.0, 3.0}}};
+  chart["series"][0]["y"] = {"first", "second"};
+  chart["series"][0]["y_low"] = {0.0, 2.0};
+  EXPECT_EQ(refusal(with_item(chart)), "accepted");
+  chart["series"][0]["y_low"] = {0.0};
+  EXPECT_NE(refusal(with_item(chart)).find("y_low: found 1 values, expected 2, as in x"), std::string::npos);
+}
+
 TEST(Contract, NamesThePlaceOfSeriesOfUnequalLength) {
   json chart = small_chart();
   chart["series"][0]["y"] = {1.0, 2.0, 3.0};
