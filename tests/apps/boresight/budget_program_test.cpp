@@ -90,19 +90,29 @@ TEST_F(BudgetProgram, GivesTheSameBitsOnAnyNumberOfThreads) {
 
 TEST_F(BudgetProgram, GoesOnAfterAKill) {
   study("", "4000");
-  const pid_t child = start(arguments({"--quiet", "--jobs", "1"}));
+  std::vector<std::string> moving = arguments({"--quiet", "--jobs", "1"});
+  moving[7] = "perturbation";  // slow enough that the log grows by commits alone, four a second
+  const pid_t child = start(moving);
   std::error_code none;
-  // Notes on the study come first, some hundred kilobytes of log; a megabyte holds runs that are committed.
-  for (int k = 0; k < 2000; ++k) {
+  std::uintmax_t size = 0;
+  auto last = std::chrono::steady_clock::now();
+  // The log grows after a pause of a tenth of a second: now and then for notes on the study, then for runs.
+  for (int k = 0, grown = 0; k < 4000 && grown < 4; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    const auto size = std::filesystem::file_size(folder_ / "out/samples.db-wal", none);
-    if (!none && size > 1'000'000) break;
+    const auto now = std::filesystem::file_size(folder_ / "out/samples.db-wal", none);
+    if (none || now == size) continue;
+    const auto at = std::chrono::steady_clock::now();
+    grown += size > 0 && at - last > std::chrono::milliseconds(100);
+    size = now;
+    last = at;
   }
   kill(child, SIGKILL);
   ASSERT_EQ(wait_for(child).status, 128 + SIGKILL);
   EXPECT_EQ(json("out/summary.json")["verb"], "budget");
   study("", "20");
-  const Ended again = call(arguments({"--resume"}));
+  moving = arguments({"--resume"});
+  moving[7] = "perturbation";
+  const Ended again = call(moving);
   ASSERT_EQ(again.status, 0) << again.err;
   EXPECT_THAT(again.out, HasSubstr("of them stored already"));
 }
