@@ -111,7 +111,8 @@ export function scene(item) {
     set(rings, { d: drawn(shown.play, loose.map((joint) => half(joint) + room(joint)).join("")), stroke: green, "stroke-width": 1.8 });
     set(journals, { d: drawn(shown.play, loose.map((joint) => dot(real[joint.second], 3.6)).join("")), fill: green, stroke: colors.surface, "stroke-width": 1 });
     loose.forEach((joint, i) => {
-      set(names[i], { x: f(real[joint.first].x + 9), y: f(real[joint.first].y - 9), fill: colors.ink, stroke: colors.surface, visibility: shown.play ? "visible" : "hidden" });
+      const beside = 6 + 0.8 * Math.min(exaggeration * joint.clearance.radial * view.size, 60);
+      set(names[i], { x: f(real[joint.first].x + beside), y: f(real[joint.first].y - beside), fill: colors.ink, stroke: colors.surface, visibility: shown.play ? "visible" : "hidden" });
     });
     set(rays, { d: drawn(shown.boresight, item.rays.map(({ from, to }) => line(real[from], real[to])).join("")), stroke: orange, "stroke-width": 2.4 });
     set(heads, { d: drawn(shown.boresight, item.rays.map(({ from, to }) => arrow(real[from], real[to]) + dot(real[from], 3)).join("")), fill: orange, stroke: orange });

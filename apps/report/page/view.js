@@ -113,7 +113,7 @@ export function viewItem(item) {
 
   // ---- turning
 
-  const turnedBack = tool("Turn back", `Turn ${item.title} back`, icons.reset, () => turn(homeTurn));
+  const turnedBack = tool("Turn back", `Turn back ${item.title}`, icons.reset, () => turn(homeTurn));
   turnedBack.hidden = true;
   function turn(change) {
     Object.assign(state.turn, change);

@@ -262,7 +262,7 @@ async function moving() {
   const at100 = await ring();
   expect((await view.locator(".controls output").last().textContent()).endsWith("100"), `${label}: the exaggeration is written out`);
   expect(await slider.getAttribute("aria-valuetext") === "100 times", `${label}: the slider says its value`);
-  expect((await view.locator(".note").textContent()).includes("drawn as 10"), `${label}: what 0.1 mm is drawn as: ${await view.locator(".note").textContent()}`);
+  expect((await view.locator(".note").textContent()).includes("0.1\u2009mm, drawn as 10\u2009mm"), `${label}: what 0.1 mm is drawn as: ${await view.locator(".note").textContent()}`);
   await setTo(400);
   const at400 = await ring();
   expect(at400 > 2 * at100, `${label}: four times the exaggeration draws a ring more than twice as wide, found ${at100} and ${at400} pixels`);

@@ -250,7 +250,7 @@ View crank(const std::string& name) {
       const std::array<double, 3> p = place(t);
       made.x.push_back(p[0]), made.y.push_back(p[1]), made.z.push_back(p[2]);
       if (off == 0.0) continue;
-      made.dx.push_back(off * std::cos(9 * t)), made.dy.push_back(0.0), made.dz.push_back(off * std::sin(9 * t) * (0.5 + 0.5 * t));
+      made.dx.push_back(off * std::cos(9 * t)), made.dy.push_back(0.0), made.dz.push_back(off * std::sin(9 * t) * (0.25 + 0.25 * t));
     }
     view.points.push_back(made);
   };
