@@ -13,7 +13,7 @@ namespace {
 constexpr double kMmPerM = 1e3;
 constexpr double kNowhere = 1e-12;  // a deviation that is rounding [m]
 constexpr double kSamePlace = 1e-9;  // of the mechanism's size
-constexpr double kTip = 0.05;        // half the length of an axis, of the mechanism's size
+constexpr double kTip = 0.035;       // half the length of an axis, of the mechanism's size
 constexpr double kRay = 0.4;         // length of the boresight, likewise
 
 // A point fixed in a body.

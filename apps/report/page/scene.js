@@ -38,16 +38,17 @@ function arrow(from, to) {
   return `${line(corner(1), to, corner(-1))}z`;
 }
 
-// Lines on the floor, a round number apart: they give the picture its depth.
-function floor(frame, project) {
-  const step = 10 ** Math.floor(Math.log10(frame.around || 1));
-  const spacing = [0.2, 0.5, 1, 2, 5].map((k) => k * step).find((one) => frame.around / one <= 5) ?? step;
-  const reach = Math.ceil(frame.around / spacing) * spacing;
-  const [x0, y0] = frame.center.map((value) => Math.round(value / spacing) * spacing);
-  let path = "";
-  for (let k = -reach; k <= reach + 1e-9 * reach; k += spacing) {
-    path += line(project([x0 + k, y0 - reach, frame.least[2]]), project([x0 + k, y0 + reach, frame.least[2]]));
-    path += line(project([x0 - reach, y0 + k, frame.least[2]]), project([x0 + reach, y0 + k, frame.least[2]]));
+// A round floor with lines a round number apart: it gives the picture its depth.
+function floor({ around, center, least }, project) {
+  const step = 10 ** Math.floor(Math.log10(around || 1));
+  const spacing = [0.2, 0.5, 1, 2, 5].map((k) => k * step).find((one) => around / one <= 5) ?? step;
+  const at = (x, y) => project([x, y, least[2]]);
+  let path = `${line(...Array.from({ length: 72 }, (_, i) => at(center[0] + around * Math.cos((Math.PI * i) / 36), center[1] + around * Math.sin((Math.PI * i) / 36))))}z`;
+  for (const [k, along] of [[0, (fixed, free) => at(fixed, free)], [1, (fixed, free) => at(free, fixed)]]) {
+    for (let i = Math.ceil((center[k] - around) / spacing); i * spacing <= center[k] + around; ++i) {
+      const half = Math.sqrt(Math.max(0, around ** 2 - (i * spacing - center[k]) ** 2));
+      path += line(along(i * spacing, center[1 - k] - half), along(i * spacing, center[1 - k] + half));
+    }
   }
   return path;
 }

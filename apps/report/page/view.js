@@ -42,7 +42,7 @@ export function viewItem(item) {
   const usual = mostDrawn > 0 ? Math.max(1, round125((0.12 * size) / mostDrawn, false)) : 1;
   const greatest = mostDrawn > 0 ? Math.max(10, round125((0.5 * size) / mostDrawn, true)) : 1;
   const still = { at: worst };
-  const state = { at: worst, exaggeration: usual, turn: { ...homeTurn }, shown: { ideal: true, real: true, boresight: true, play: true } };
+  const state = { at: worst, exaggeration: usual, turn: { ...homeTurn }, shown: { ideal: mostDrawn > 0, real: true, boresight: true, play: true } };
   let playing = false, wanted = !reduced.matches && last > 0, inSight = false, width = 0, clock = null;
 
   const made = scene(item);
@@ -150,7 +150,7 @@ export function viewItem(item) {
   const measure = element("p", { class: "note" });
   measure.hidden = mostDrawn === 0;
   const keys = [
-    { name: "ideal", key: "ideal", series: { style: "line", muted: true }, index: 0 },
+    ...(mostDrawn > 0 ? [{ name: "ideal", key: "ideal", series: { style: "line", muted: true }, index: 0 }] : []),
     { name: mostDrawn > 0 ? "with clearance" : "bodies", key: "real", series: { style: "line" }, index: 0 },
     ...(item.rays.length ? [{ name: "boresight", key: "boresight", series: { style: "line" }, index: 1 }] : []),
     ...(item.joints.some((joint) => joint.clearance) ? [{ name: "play of the joints", key: "play", series: { style: "line" }, index: 2 }] : []),
