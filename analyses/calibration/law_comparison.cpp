@@ -39,6 +39,8 @@ LawScore law_score(const CalibrationProblem& problem, const std::string& law, co
     for (ClearanceDescription& c : description.clearances) c.contact_law = law;
     run.mechanism = std::make_shared<const Mechanism>(std::move(description));
   }
+  // A tangent is that of the law it was taken with.
+  for (ModelCorrection& correction : other.corrections) correction.tangent.reset();
   const FitResult found = fit(other, start, {}, options);
   // Hertz's law has no restitution.
   const double parameters = law == "hertz" ? other.global_count() - 1.0 : other.global_count();

@@ -11,6 +11,7 @@ namespace {
 // Points on each side, and how much farther than the last the next may be.
 constexpr int kMostPoints = 5;
 constexpr double kFarther = 2.5;
+constexpr double kClose = 0.03;  // relative, of the root of the rise
 
 struct Side {
   const CalibrationProblem& problem;
@@ -33,54 +34,63 @@ struct Side {
     return white > 0.0 ? std::max(1.0, grown / white) : 1.0;
   }
 
+  // The root of the rise at u, all others fitted anew from the line on which they follow it.
+  template <typename Found>
+  double root_at(double u, Found&& found) const {
+    const double away = u - fit.globals.u[parameter];
+    const VecX line = inference.covariance.col(parameter) / inference.covariance(parameter, parameter);
+    Globals moved = fit.globals;
+    for (int p = 0; p < problem.parameter_count(); ++p)
+      if (std::isfinite(line[p]))
+        moved.u[p] = std::clamp(moved.u[p] + line[p] * away, problem.parameters[p].lowest_coordinate(),
+                                problem.parameters[p].highest_coordinate());
+    moved.u[parameter] = u;
+    FitOptions o;
+    o.most_iterations = 6;
+    o.fixed = fixed;
+    o.fixed[parameter] = true;
+    o.cost_tolerance = 1e-5;
+    FitResult there = boresight::fit(problem, moved, fit.states, o);
+    const double risen = there.cost - fit.cost;
+    found(std::move(there));
+    return std::sqrt(std::max(0.0, risen) / (inference.variance_factor * widened()));
+  }
+
   // Distance from the optimum at which the rise is what is wanted; NaN where a bound or the reach ends it
-  // before. points: distance (signed) and rise of each place tried. found: of every fit.
+  // before. points: distance (signed) and rise of each place tried, and of one half way there, which shows
+  // the shape. found: of every fit.
   template <typename Found>
   double crossing(std::vector<std::pair<double, double>>& points, Found&& found) const {
-    const double u0 = fit.globals.u[parameter];
-    const double scale = inference.variance_factor * widened();
-    const VecX line = inference.covariance.col(parameter) / inference.covariance(parameter, parameter);
+    const double u0 = fit.globals.u[parameter], wanted = std::sqrt(rise_wanted);
     double inside = 0.0, inside_root = 0.0;
-    double at = std::sqrt(rise_wanted) * std::min(std::sqrt(inference.covariance(parameter, parameter)), 1.0);
     double outside = std::numeric_limits<double>::infinity(), outside_root = 0.0;
-    const double wanted = std::sqrt(rise_wanted);
-    for (int k = 0; k < kMostPoints; ++k) {
-      const double u = clamped(u0 + sign * at);
-      if (std::abs(u - u0) < inside + 1e-9) break;
-      Globals moved = fit.globals;
-      for (int p = 0; p < problem.parameter_count(); ++p)
-        if (std::isfinite(line[p]))
-          moved.u[p] = std::clamp(moved.u[p] + line[p] * (u - u0), problem.parameters[p].lowest_coordinate(),
-                                  problem.parameters[p].highest_coordinate());
-      moved.u[parameter] = u;
-      FitOptions o;
-      o.most_iterations = 6;
-      o.fixed = fixed;
-      o.fixed[parameter] = true;
-      o.cost_tolerance = 1e-5;
-      FitResult there = boresight::fit(problem, moved, fit.states, o);
-      const double root = std::sqrt(std::max(0.0, there.cost - fit.cost) / scale),
-                   distance = std::abs(u - u0);
-      points.emplace_back(u - u0, root * root);
-      found(std::move(there));
-      if (root < wanted) {
-        inside = distance;
-        inside_root = root;
-      } else {
-        outside = distance;
-        outside_root = root;
-      }
-      if (std::abs(root - wanted) < 0.03 * wanted) break;
-      // The root of the rise is nearly straight.
-      at = std::isfinite(outside)
-               ? inside + (outside - inside) * (wanted - inside_root) / (outside_root - inside_root)
-               : std::min(kFarther, wanted / std::max(root, 1e-3)) * distance;
-      if (std::isfinite(outside) && outside - inside < 0.03 * outside) break;
-    }
-    if (std::isfinite(outside))
+    // The root of the rise is nearly straight.
+    const auto between = [&] {
       return inside + (outside - inside) * (wanted - inside_root) / (outside_root - inside_root);
-    return inside_root > 0.95 * wanted ? inside * wanted / inside_root
-                                       : std::numeric_limits<double>::quiet_NaN();
+    };
+    double at = wanted * std::min(std::sqrt(inference.covariance(parameter, parameter)), 1.0);
+    for (int k = 0; k < kMostPoints; ++k) {
+      const double u = clamped(u0 + sign * at), distance = std::abs(u - u0);
+      if (distance < inside + 1e-9) break;
+      const double root = root_at(u, found);
+      points.emplace_back(u - u0, root * root);
+      (root < wanted ? inside : outside) = distance;
+      (root < wanted ? inside_root : outside_root) = root;
+      const bool bracketed = std::isfinite(outside);
+      if (std::abs(root - wanted) < kClose * wanted || (bracketed && outside - inside < kClose * outside))
+        break;
+      at = bracketed ? between() : std::min(kFarther, wanted / std::max(root, 1e-3)) * distance;
+    }
+    double reached = std::numeric_limits<double>::quiet_NaN();
+    if (std::isfinite(outside))
+      reached = between();
+    else if (inside_root > 0.95 * wanted)
+      reached = inside * wanted / inside_root;
+    if (std::isfinite(reached)) {
+      const double root = root_at(u0 + 0.5 * sign * reached, found);
+      points.emplace_back(0.5 * sign * reached, root * root);
+    }
+    return reached;
   }
 };
 

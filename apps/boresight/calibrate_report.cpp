@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
@@ -22,32 +23,24 @@ std::string short_name(const std::string& path) {
 report::Table estimate_table(const CalibrationStudy& s) {
   report::Table table{
       .title = "Estimates",
-      .caption = fmt::format("Intervals at {} confidence from the information matrix; by profile where the "
-                             "likelihood was followed. SI units.",
-                             readable_share(s.plan.confidence)),
-      .columns = {{"Parameter"},
-                  {"Value"},
-                  {"Standard error"},
-                  {"Low"},
-                  {"High"},
-                  {"Profile low"},
-                  {"Profile high"},
-                  {"Unit"},
-                  {"Identifiable"},
-                  {"Why"}}};
+      .caption =
+          fmt::format("Intervals at {} confidence: where the loss itself has risen by as much (profile), "
+                      "else by its curvature.",
+                      readable_share(s.plan.confidence)),
+      .columns = {{"Parameter"}, {"Value"}, {"Standard error"}, {"Interval"}, {"By"}, {"Verdict"}}};
   for (std::size_t k = 0; k < s.result.inference.parameters.size(); ++k) {
     const ParameterEstimate& e = s.result.inference.parameters[k];
-    nlohmann::json low, high;
-    for (const Profile& p : s.result.profiles)
-      if (p.parameter == static_cast<int>(k)) {
-        low = cell(p.low);
-        high = cell(p.high);
-      }
-    const bool known = e.identifiable;
-    const auto shown = [&](double v) { return known ? cell(v) : nlohmann::json(); };
-    table.rows.push_back({short_name(e.name), shown(e.value), shown(e.standard_error), shown(e.low),
-                          shown(e.high), known ? low : nlohmann::json(), known ? high : nlohmann::json(),
-                          e.si_unit == "1" ? "" : e.si_unit, known, e.reason});
+    const bool profiled =
+        std::any_of(s.result.profiles.begin(), s.result.profiles.end(), [&](const Profile& p) {
+          return p.parameter == static_cast<int>(k) && std::isfinite(p.low) && std::isfinite(p.high);
+        });
+    if (e.identifiable)
+      table.rows.push_back({short_name(e.name), readable(e.value, e.si_unit),
+                            readable(e.standard_error, e.si_unit),
+                            readable(e.low, e.si_unit) + " to " + readable(e.high, e.si_unit),
+                            profiled ? "profile" : "curvature", e.reason});
+    else
+      table.rows.push_back({short_name(e.name), "none", "", "", "", "not identifiable: " + e.reason});
   }
   return table;
 }
@@ -166,15 +159,17 @@ report::Panels profile_panels(const CalibrationStudy& s) {
           "How much worse the fit becomes when one parameter is held and all others are fitted anew. "
           "The line: where the interval ends.",
       .columns = 2};
+  const double rise = boost::math::quantile(boost::math::chi_squared(1.0), s.plan.confidence);
   for (const Profile& p : s.result.profiles) {
+    const double estimate = s.result.inference.parameters[p.parameter].value;
     report::Chart chart{.title = short_name(s.problem.parameters[p.parameter].path),
-                        .x = {"value", s.problem.parameters[p.parameter].si_unit == "1"
-                                           ? ""
-                                           : s.problem.parameters[p.parameter].si_unit},
-                        .y = {"rise"},
-                        .lines = {{'y', 3.841, "95 %"}}};
+                        .x = {"change of the value", "%"},
+                        .y = {"rise of the loss"},
+                        .lines = {{'y', rise, readable_share(s.plan.confidence)}}};
     report::Series line{.name = "rise", .style = report::Style::line_markers};
-    line.x = p.value;
+    report::Numbers change;
+    for (double v : p.value) change.push_back(100.0 * (v / estimate - 1.0));
+    line.x = change;
     line.y = p.cost_rise;
     chart.series = {line};
     panels.panels.push_back(chart);
@@ -183,18 +178,20 @@ report::Panels profile_panels(const CalibrationStudy& s) {
 }
 
 report::Table starts_table(const CalibrationStudy& s) {
-  report::Table table{.title = "Starts",
-                      .caption = "Tried on the first part of every run; the cheapest went on.",
-                      .columns = {{"Start"}}};
-  for (const FittedParameter& p : s.problem.parameters)
-    table.columns.push_back({short_name(p.path) + " from"});
-  for (const FittedParameter& p : s.problem.parameters) table.columns.push_back({short_name(p.path) + " to"});
+  report::Table table{
+      .title = "Starts",
+      .caption = "Tried on the first part of every run: where from, where to. The cheapest went on.",
+      .columns = {{"Start"}}};
+  for (const FittedParameter& p : s.problem.parameters) table.columns.push_back({short_name(p.path)});
   table.columns.push_back({"Cost"});
   for (std::size_t k = 0; k < s.result.starts.size(); ++k) {
+    const StartFound& start = s.result.starts[k];
     std::vector<nlohmann::json> row = {static_cast<double>(k + 1)};
-    for (double v : s.result.starts[k].from) row.push_back(cell(v));
-    for (double v : s.result.starts[k].to) row.push_back(cell(v));
-    row.push_back(cell(s.result.starts[k].cost));
+    for (std::size_t p = 0; p < start.from.size(); ++p) {
+      const std::string& unit = s.problem.parameters[p].si_unit;
+      row.push_back(readable(start.from[p], unit) + " to " + readable(start.to[p], unit));
+    }
+    row.push_back(cell(start.cost));
     table.rows.push_back(row);
   }
   return table;
@@ -273,7 +270,9 @@ report::Document calibrate_report(const CalibrationStudy& s) {
   if (!s.result.corrections.empty()) {
     report::Table steps{
         .title = "Corrections by multibody",
-        .caption = "Multibody less perturbation at the optimum, taken off the data; then the fit goes on.",
+        .caption =
+            "Multibody less perturbation at the optimum (rms) enters the model, from the second step on with "
+            "multibody's own slopes; then the fit goes on.",
         .columns = {{"Step"}, {"Difference", "deviations"}, {"Largest shift of a parameter", "%"}}};
     for (std::size_t k = 0; k < s.result.corrections.size(); ++k)
       steps.rows.push_back({static_cast<double>(k + 1), cell(s.result.corrections[k].difference),

@@ -124,6 +124,17 @@ TEST(Calibrate, GrossOutliersMoveTheAnswerByLessThanAStandardError) {
   }
 }
 
+TEST(Calibrate, PrefersTheLawThatMadeTheData) {
+  const Bench bench({2.0, 2.6}, 0.12, true);
+  CalibrationProblem problem = bench.problem({}, kFour);
+  CalibrationOptions options = options_with(2);
+  options.laws = {"hertz", "flores"};
+  const std::vector<LawScore> laws = calibrate(problem, options).laws;
+  ASSERT_EQ(laws.size(), 2u);
+  EXPECT_GT(laws[0].difference, 10.0);
+  EXPECT_EQ(laws[1].difference, 0.0);
+}
+
 TEST(CalibrateLong, FourParametersFromTenRunsOfASecond) {
   const Bench bench = four_bar::ten_runs();
   CalibrationProblem problem = bench.problem({}, kFour);
