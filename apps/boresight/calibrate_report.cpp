@@ -20,6 +20,21 @@ std::string short_name(const std::string& path) {
   return path.starts_with("clearance.") ? path.substr(first + 1) : path;
 }
 
+// With as many decimals as its error gives a meaning to.
+std::string known_to(double value, double error, const std::string& si_unit) {
+  const DisplayUnit unit = display_unit(si_unit, std::abs(value));
+  const double shown_error = error * unit.per_si;
+  if (!(shown_error > 0.0) || !std::isfinite(shown_error)) return readable(value, si_unit);
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(shown_error))), 0, 12);
+  const std::string name = si_unit == "1" ? "" : " " + unit.name;
+  return fmt::format("{:.{}f}{}", value * unit.per_si, decimals, name);
+}
+
+std::string interval_of(const ParameterEstimate& e) {
+  return known_to(e.low, e.standard_error, e.si_unit) + " to " +
+         known_to(e.high, e.standard_error, e.si_unit);
+}
+
 report::Table estimate_table(const CalibrationStudy& s) {
   report::Table table{
       .title = "Estimates",
@@ -36,8 +51,7 @@ report::Table estimate_table(const CalibrationStudy& s) {
         });
     if (e.identifiable)
       table.rows.push_back({short_name(e.name), readable(e.value, e.si_unit),
-                            readable(e.standard_error, e.si_unit),
-                            readable(e.low, e.si_unit) + " to " + readable(e.high, e.si_unit),
+                            readable(e.standard_error, e.si_unit), interval_of(e),
                             profiled ? "profile" : "curvature", e.reason});
     else
       table.rows.push_back({short_name(e.name), "none", "", "", "", "not identifiable: " + e.reason});
@@ -215,17 +229,17 @@ report::Document calibrate_report(const CalibrationStudy& s) {
     if (e.name.starts_with("clearance."))
       document.facts.push_back(
           {short_name(e.name),
-           e.identifiable ? readable(e.value, e.si_unit) : std::string("not identifiable"), "",
-           e.identifiable ? readable(e.low, e.si_unit) + " to " + readable(e.high, e.si_unit) : e.reason});
+           e.identifiable ? known_to(e.value, e.standard_error, e.si_unit) : std::string("not identifiable"),
+           "", e.identifiable ? interval_of(e) : e.reason});
   report::Section answer{.id = "answer", .title = "What the data say"};
   std::string words;
   for (const std::string& sentence : s.result.verdict) words += (words.empty() ? "" : "\n\n") + sentence;
   words += fmt::format(
-      "\n\nThe fit {} after {} iterations, {} evaluations of windows. {} values, {} unknowns; the noise is "
+      "\n\nThe fit {}; {} evaluations of windows. {} values, {} unknowns; the noise is "
       "{:.3g} times "
       "what was taken for it.",
-      s.result.fit.reason, s.result.fit.iterations, s.result.evaluations, inference.values,
-      inference.unknowns, std::sqrt(inference.variance_factor));
+      s.result.fit.reason, s.result.evaluations, inference.values, inference.unknowns,
+      std::sqrt(inference.variance_factor));
   if (s.result.confirmation >= 0.0)
     words += fmt::format(
         "\n\nConfirmed on multibody: its motion at the optimum leaves residuals of {:.3g} standard "
