@@ -95,7 +95,7 @@ export function scene(item) {
     const order = bodies.map((body) => [depth(body), body]).sort((a, b) => a[0] - b[0]);
     order.forEach(([, body], i) => {
       const d = drawn(shown.real, outline(body, real));
-      set(slots[i].halo, { d, stroke: colors.surface, "stroke-width": 6.5 });
+      set(slots[i].halo, { d, stroke: colors.surface, "stroke-width": 6.5, "stroke-linecap": "butt" });
       set(slots[i].line, { d, stroke: blue, "stroke-width": 3, fill: body.closed ? blue : "none", "fill-opacity": 0.12 });
     });
     // What slides is joined by a thin line: the axis between the two parts.
