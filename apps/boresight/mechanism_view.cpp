@@ -11,7 +11,7 @@ namespace boresight::app {
 namespace {
 
 constexpr double kMmPerM = 1e3;
-constexpr double kNowhere = 1e-12;  // a deviation that is rounding [m]
+constexpr double kNowhere = 1e-12;   // a deviation that is rounding [m]
 constexpr double kSamePlace = 1e-9;  // of the mechanism's size
 constexpr double kTip = 0.035;       // half the length of an axis, of the mechanism's size
 constexpr double kRay = 0.4;         // length of the boresight, likewise
@@ -53,11 +53,14 @@ class ViewBuilder {
 
  private:
   std::string caption() const {
-    std::string text = fmt::format("{} instants of the motion, on the {} rung.", result_.frames.size(), result_.rung);
+    std::string text =
+        fmt::format("{} instants of the motion, on the {} rung.", result_.frames.size(), result_.rung);
     if (mechanism_.clearances() > 0)
       text +=
-          " Each point is moved off its ideal place by its deviation times the exaggeration: joints without clearance stay "
-          "closed, and bodies look strained where the exaggeration is large. A ring is the room of a journal's centre in its "
+          " Each point is moved off its ideal place by its deviation times the exaggeration: joints without "
+          "clearance stay "
+          "closed, and bodies look strained where the exaggeration is large. A ring is the room of a "
+          "journal's centre in its "
           "sleeve, the dot the journal's centre, both exaggerated alike.";
     return text;
   }
@@ -66,7 +69,7 @@ class ViewBuilder {
     report::ViewPoint track;
     report::Numbers* const place[] = {&track.x, &track.y, &track.z};
     report::Numbers* const deviation[] = {&track.dx, &track.dy, &track.dz};
-    const auto put = [](report::Numbers* const (&into)[3], const Vec3& value) {
+    const auto put = [](report::Numbers* const(&into)[3], const Vec3& value) {
       for (int k = 0; k < 3; ++k) into[k]->push_back(kMmPerM * value[k]);
     };
     if (point.body == kGround) {
@@ -121,7 +124,8 @@ class ViewBuilder {
       drawn.points.push_back(add({body, Vec3::Zero()}));
     if (corners.size() > 2) {
       Eigen::Matrix3Xd centred(3, corners.size());
-      for (std::size_t i = 0; i < corners.size(); ++i) centred.col(static_cast<Eigen::Index>(i)) = corners[i].second;
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        centred.col(static_cast<Eigen::Index>(i)) = corners[i].second;
       centred.colwise() -= Vec3(centred.rowwise().mean());
       const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(centred, Eigen::ComputeThinU);
       const Eigen::Matrix3Xd along = svd.matrixU().transpose() * centred;

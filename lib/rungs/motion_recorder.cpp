@@ -4,10 +4,14 @@
 
 namespace boresight {
 
-MotionRecorder::MotionRecorder(const Mechanism& mechanism, const IdealMotion& ideal, const RunOptions& options,
-                               double expected_steps)
-    : mechanism_(mechanism), ideal_(ideal), spacing_(options.sample_spacing), frame_spacing_(options.frame_spacing),
-      bodies_of_sample_(options.pose_bodies), bodies_of_frame_(options.pose_bodies) {
+MotionRecorder::MotionRecorder(const Mechanism& mechanism, const IdealMotion& ideal,
+                               const RunOptions& options, double expected_steps)
+    : mechanism_(mechanism),
+      ideal_(ideal),
+      spacing_(options.sample_spacing),
+      frame_spacing_(options.frame_spacing),
+      bodies_of_sample_(options.pose_bodies),
+      bodies_of_frame_(options.pose_bodies) {
   indices_.reserve(static_cast<std::size_t>(std::clamp(expected_steps, 16.0, 1e7)) + 2);
   result_.boresight.body = mechanism.boresight_body();
   result_.boresight.name = mechanism.description().bodies[mechanism.boresight_body()].name;
@@ -21,7 +25,8 @@ MotionRecorder::MotionRecorder(const Mechanism& mechanism, const IdealMotion& id
   result_.clearances.resize(mechanism.clearances());
 }
 
-PoseSample MotionRecorder::pose_sample(int body, const BodyMotion& motion, const BodyAcceleration& acceleration) const {
+PoseSample MotionRecorder::pose_sample(int body, const BodyMotion& motion,
+                                       const BodyAcceleration& acceleration) const {
   BodyAcceleration ideal_acceleration;
   const BodyMotion ideal = ideal_.body(t_, body, &ideal_acceleration);
   PoseSample s;
@@ -37,15 +42,17 @@ PoseSample MotionRecorder::pose_sample(int body, const BodyMotion& motion, const
   return s;
 }
 
-const PoseError& MotionRecorder::accept(double t, const BodyMotion& body, const BodyAcceleration& acceleration,
-                                        const PoseError* bound) {
+const PoseError& MotionRecorder::accept(double t, const BodyMotion& body,
+                                        const BodyAcceleration& acceleration, const PoseError* bound) {
   t_ = t;
   const int index = mechanism_.boresight_body();
   const BodyMotion ideal = ideal_.body(t, index);
-  error_ = bound ? *bound : pose_error({body.p, Quat(body.R)}, {ideal.p, Quat(ideal.R)}, mechanism_.boresight_B());
+  error_ =
+      bound ? *bound : pose_error({body.p, Quat(body.R)}, {ideal.p, Quat(ideal.R)}, mechanism_.boresight_B());
   indices_.add(t, error_);
   position_error_max_ = std::max(position_error_max_, error_.position);
-  result_.platform_acceleration_max = result_.platform_acceleration_max.cwiseMax(acceleration.head<3>().cwiseAbs());
+  result_.platform_acceleration_max =
+      result_.platform_acceleration_max.cwiseMax(acceleration.head<3>().cwiseAbs());
   result_.end_time = t;
   sampling_ = wants_sample(t);
   framing_ = sampling_ && frame_spacing_ > 0.0 && t >= next_frame_ - kSlack * frame_spacing_;

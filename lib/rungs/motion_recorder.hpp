@@ -1,5 +1,5 @@
-// Turns accepted states into a RunResult: indices over every step, samples at the spacing asked for, peaks, clearances.
-// Shared by all rungs.
+// Turns accepted states into a RunResult: indices over every step, samples at the spacing asked for, peaks,
+// clearances. Shared by all rungs.
 #pragma once
 
 #include "boresight/mechanism/ideal_motion.hpp"
@@ -11,10 +11,11 @@ namespace boresight {
 class MotionRecorder {
  public:
   // expected_steps: to reserve room for the indices.
-  MotionRecorder(const Mechanism& mechanism, const IdealMotion& ideal, const RunOptions& options, double expected_steps);
+  MotionRecorder(const Mechanism& mechanism, const IdealMotion& ideal, const RunOptions& options,
+                 double expected_steps);
 
-  // One accepted state: motion and acceleration of the boresight body. Returns the pose error. bound: errors to count
-  // instead of those of this pose (a rung that bounds each index on its own).
+  // One accepted state: motion and acceleration of the boresight body. Returns the pose error. bound: errors
+  // to count instead of those of this pose (a rung that bounds each index on its own).
   const PoseError& accept(double t, const BodyMotion& body, const BodyAcceleration& acceleration,
                           const PoseError* bound = nullptr);
   // Whether a state at t, accepted next, will be sampled.
@@ -23,7 +24,8 @@ class MotionRecorder {
   bool sampling() const { return sampling_; }
   // The bodies to sample then: those asked for, and all of them where the sample is a frame.
   const std::vector<int>& bodies_wanted() const { return framing_ ? bodies_of_frame_ : bodies_of_sample_; }
-  void sample_body(int wanted, const BodyMotion& body, const BodyAcceleration& acceleration);  // wanted: index in those
+  void sample_body(int wanted, const BodyMotion& body,
+                   const BodyAcceleration& acceleration);  // wanted: index in those
   void sample_clearance(int clearance, const JournalMotion<double>& motion,
                         const std::array<ContactState<double>, kContactPlaces>& contact);
 
@@ -31,7 +33,8 @@ class MotionRecorder {
   RunResult finish();
 
  private:
-  static constexpr double kSlack = 1e-6;  // of the spacing, so that rounding of t does not shift a sample by a step
+  static constexpr double kSlack =
+      1e-6;  // of the spacing, so that rounding of t does not shift a sample by a step
   PoseSample pose_sample(int body, const BodyMotion& motion, const BodyAcceleration& acceleration) const;
 
   const Mechanism& mechanism_;

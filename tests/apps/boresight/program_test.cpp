@@ -83,6 +83,7 @@ TEST_F(ProgramTest, ARunLeavesWhatTheInterfacePromises) {
   EXPECT_EQ(ended.err, "");
   EXPECT_THAT(ended.out, AllOf(HasSubstr("position error"), HasSubstr("out/report.html")));
   EXPECT_THAT(files("out"), ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
+  EXPECT_THAT(text("out/report.html"), AllOf(HasSubstr("\"kind\":\"view\""), HasSubstr("boresight of ")));
   const auto summary = json("out/summary.json");
   for (const char* key : {"verb", "mechanism", "version", "rung", "seed", "cpu_seconds", "wall_seconds",
                           "warnings", "index", "contact", "platform_acceleration_max", "constraint_drift"})
