@@ -345,7 +345,8 @@ void strip(const Place& place) {
 
 // An index of the view's points.
 void point_index(const Place& place, std::size_t points) {
-  if (!place.value.is_number_integer() || place.value.get<double>() < 0.0 || place.value.get<double>() >= static_cast<double>(points))
+  if (!place.value.is_number_integer() || place.value.get<double>() < 0.0 ||
+      place.value.get<double>() >= static_cast<double>(points))
     place.fail(place.found(), "the index of one of the " + std::to_string(points) + " points");
 }
 

@@ -152,8 +152,8 @@ struct Strip {
   std::vector<StripRow> rows = {};
 };
 
-// A point of the moving mechanism, world axes: where it would be ideally, and how far it is from there. One number for each
-// instant of the view, or one alone for a point at rest; no deviation: none.
+// A point of the moving mechanism, world axes: where it would be ideally, and how far it is from there. One
+// number for each instant of the view, or one alone for a point at rest; no deviation: none.
 struct ViewPoint {
   Numbers x = {}, y = {}, z = {};
   Numbers dx = {}, dy = {}, dz = {};
@@ -172,8 +172,8 @@ struct ViewClearance {
   double radial = 0.0, axial = 0.0;
 };
 
-// tip: a point along the axis, moving with the first body (-1: no axis). Where there is clearance the first body carries
-// the sleeve, and second_tip moves with the journal.
+// tip: a point along the axis, moving with the first body (-1: no axis). Where there is clearance the first
+// body carries the sleeve, and second_tip moves with the journal.
 struct ViewJoint {
   std::string name = {};
   int first = 0, second = 0;

@@ -138,7 +138,8 @@ TEST(Contract, RefusesStripsWithUnknownStatesOrTimeRunningBack) {
 
 json small_view() {
   View view{.title = "V", .unit = "mm", .time = {0, 1}};
-  view.points = {{.x = {0}, .y = {0}, .z = {0}}, {.x = {1, 2}, .y = {3, 4}, .z = {5, 6}, .dx = {0, 1}, .dy = {0, 0}, .dz = {0, 0}}};
+  view.points = {{.x = {0}, .y = {0}, .z = {0}},
+                 {.x = {1, 2}, .y = {3, 4}, .z = {5, 6}, .dx = {0, 1}, .dy = {0, 0}, .dz = {0, 0}}};
   view.bodies = {{.name = "rod", .points = {0, 1}}};
   view.joints = {{.name = "F1", .first = 0, .second = 1, .tip = 1, .clearance = ViewClearance{0.1, 0.0}}};
   return view;
@@ -156,7 +157,9 @@ TEST(Contract, TakesThePointsOfAViewAtRestOrForEachInstant) {
 TEST(Contract, RefusesViewsOfPointsThatAreNotThere) {
   json view = small_view();
   view["bodies"][0]["points"] = {0, 2};
-  EXPECT_NE(refusal(with_item(view)).find("bodies[0].points[1]: found 2, expected the index of one of the 2 points"), std::string::npos);
+  EXPECT_NE(refusal(with_item(view))
+                .find("bodies[0].points[1]: found 2, expected the index of one of the 2 points"),
+            std::string::npos);
   view = small_view();
   view["joints"][0]["tip"] = -1;
   EXPECT_NE(refusal(with_item(view)).find("joints[0].tip: found -1"), std::string::npos);

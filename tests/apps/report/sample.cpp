@@ -250,7 +250,8 @@ View crank(const std::string& name) {
       const std::array<double, 3> p = place(t);
       made.x.push_back(p[0]), made.y.push_back(p[1]), made.z.push_back(p[2]);
       if (off == 0.0) continue;
-      made.dx.push_back(off * std::cos(9 * t)), made.dy.push_back(0.0), made.dz.push_back(off * std::sin(9 * t) * (0.25 + 0.25 * t));
+      made.dx.push_back(off * std::cos(9 * t)), made.dy.push_back(0.0),
+          made.dz.push_back(off * std::sin(9 * t) * (0.25 + 0.25 * t));
     }
     view.points.push_back(made);
   };
@@ -276,7 +277,12 @@ View crank(const std::string& name) {
                  {.name = "rod", .points = {5, 7}},
                  {.name = "plate", .points = {7, 8, 9}, .closed = true}};
   view.joints = {{.name = "O", .first = 0, .second = 0, .tip = 2},
-                 {.name = name, .first = 3, .second = 5, .tip = 4, .second_tip = 6, .clearance = ViewClearance{0.1, 0.05}},
+                 {.name = name,
+                  .first = 3,
+                  .second = 5,
+                  .tip = 4,
+                  .second_tip = 6,
+                  .clearance = ViewClearance{0.1, 0.05}},
                  {.name = "S", .first = 7, .second = 7}};
   view.rays = {{.name = "boresight", .from = 10, .to = 11}};
   return view;
