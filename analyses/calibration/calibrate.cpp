@@ -22,6 +22,10 @@ constexpr double kLost = 1.25;
 constexpr int kMostBatches = 6;
 constexpr std::size_t kMostGrown = 3;
 
+// A place lower by this share of s^2, come by along a profile, is gone to, and the profile taken anew. Below
+// it the interval is at most a tenth too wide.
+constexpr double kLower = 1.0;
+
 // Rounds of looking into other valleys, and descents in each.
 constexpr int kMostSettlings = 4, kDescents = 2;
 
@@ -229,6 +233,13 @@ class Calibrator {
         at = found.globals;
         if (share > 0.4) look_around(searched_up_to(problem_, share), result_.fixed, options_.jobs, at);
       }
+    if (follows_from_rest(problem_)) {
+      const FitResult found =
+          fit(searched_up_to(problem_, 1.0), at, {}, fit_options("whole data", 20, options_.jobs));
+      result_.evaluations += found.evaluations;
+      if (found.interrupted) throw Interrupted{};
+      at = found.globals;
+    }
     note(fit(problem_, at, {}, fit_options("whole data", 30, options_.jobs)));
     settle("whole data");
   }
@@ -262,7 +273,7 @@ class Calibrator {
       FitResult lower = result_.fit;
       result_.profiles = profile_likelihood(problem_, result_.fit, result_.inference, result_.fixed,
                                             options_.confidence, options_.jobs, lower);
-      if (!(lower.cost < result_.fit.cost - 0.1 * result_.inference.variance_factor)) break;
+      if (!(lower.cost < result_.fit.cost - kLower * result_.inference.variance_factor)) break;
       note(fit(problem_, lower.globals, lower.states, fit_options("from a lower place", 15, options_.jobs)));
       result_.inference = infer_now();
     }

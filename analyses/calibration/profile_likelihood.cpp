@@ -5,13 +5,15 @@
 #include <cmath>
 #include <mutex>
 
+#include "boresight_analyses/calibration/landscape.hpp"
+
 namespace boresight {
 namespace {
 
 // Points on each side, and how much farther than the last the next may be.
 constexpr int kMostPoints = 5;
 constexpr double kFarther = 2.5;
-constexpr double kClose = 0.03;  // relative, of the root of the rise
+constexpr double kClose = 0.1;  // relative, of the root of the rise: from there on it is taken as straight
 
 struct Side {
   const CalibrationProblem& problem;
@@ -21,6 +23,7 @@ struct Side {
   int parameter;
   double sign;
   double rise_wanted;
+  bool from_rest;
 
   const FittedParameter& own() const { return problem.parameters[parameter]; }
   double clamped(double u) const {
@@ -34,7 +37,8 @@ struct Side {
     return white > 0.0 ? std::max(1.0, grown / white) : 1.0;
   }
 
-  // The root of the rise at u, all others fitted anew from the line on which they follow it.
+  // The root of the rise at u, all others fitted anew from the line on which they follow it: there a parabola
+  // has its least, and one iteration shows what is left to gain.
   template <typename Found>
   double root_at(double u, Found&& found) const {
     const double away = u - fit.globals.u[parameter];
@@ -46,10 +50,10 @@ struct Side {
                                 problem.parameters[p].highest_coordinate());
     moved.u[parameter] = u;
     FitOptions o;
-    o.most_iterations = 6;
+    // Start states have to follow, each by itself.
+    o.most_iterations = from_rest ? 1 : 6;
     o.fixed = fixed;
     o.fixed[parameter] = true;
-    o.cost_tolerance = 1e-5;
     FitResult there = boresight::fit(problem, moved, fit.states, o);
     const double risen = there.cost - fit.cost;
     found(std::move(there));
@@ -57,8 +61,7 @@ struct Side {
   }
 
   // Distance from the optimum at which the rise is what is wanted; NaN where a bound or the reach ends it
-  // before. points: distance (signed) and rise of each place tried, and of one half way there, which shows
-  // the shape. found: of every fit.
+  // before. points: distance (signed) and rise of each place tried. found: of every fit.
   template <typename Found>
   double crossing(std::vector<std::pair<double, double>>& points, Found&& found) const {
     const double u0 = fit.globals.u[parameter], wanted = std::sqrt(rise_wanted);
@@ -76,21 +79,12 @@ struct Side {
       points.emplace_back(u - u0, root * root);
       (root < wanted ? inside : outside) = distance;
       (root < wanted ? inside_root : outside_root) = root;
+      if (std::abs(root - wanted) < kClose * wanted) return distance * wanted / root;
       const bool bracketed = std::isfinite(outside);
-      if (std::abs(root - wanted) < kClose * wanted || (bracketed && outside - inside < kClose * outside))
-        break;
+      if (bracketed && outside - inside < kClose * outside) break;
       at = bracketed ? between() : std::min(kFarther, wanted / std::max(root, 1e-3)) * distance;
     }
-    double reached = std::numeric_limits<double>::quiet_NaN();
-    if (std::isfinite(outside))
-      reached = between();
-    else if (inside_root > 0.95 * wanted)
-      reached = inside * wanted / inside_root;
-    if (std::isfinite(reached)) {
-      const double root = root_at(u0 + 0.5 * sign * reached, found);
-      points.emplace_back(0.5 * sign * reached, root * root);
-    }
-    return reached;
+    return std::isfinite(outside) ? between() : std::numeric_limits<double>::quiet_NaN();
   }
 };
 
@@ -108,7 +102,10 @@ std::vector<Profile> profile_likelihood(const CalibrationProblem& problem, const
   std::mutex mutex;
   in_parallel(static_cast<int>(points.size()), jobs, [&](int k) {
     Profile& profile = profiles[k / 2];
-    const Side side{problem, fit, inference, fixed, wanted[k / 2], k % 2 == 0 ? -1.0 : 1.0, rise};
+    const Side side{problem,       fit,
+                    inference,     fixed,
+                    wanted[k / 2], k % 2 == 0 ? -1.0 : 1.0,
+                    rise,          follows_from_rest(problem)};
     const double distance = side.crossing(points[k], [&](FitResult found) {
       const std::lock_guard lock(mutex);
       if (found.cost < lower.cost) lower = std::move(found);

@@ -167,24 +167,27 @@ report::Panels residual_checks(const CalibrationStudy& s) {
 }
 
 report::Panels profile_panels(const CalibrationStudy& s) {
-  report::Panels panels{
-      .title = "Profile likelihood",
-      .caption =
-          "How much worse the fit becomes when one parameter is held and all others are fitted anew. "
-          "The line: where the interval ends.",
-      .columns = 2};
+  report::Panels panels{.title = "Profile likelihood",
+                        .caption =
+                            "How much worse the fit becomes when one parameter is held and all others are "
+                            "fitted anew: the root of the "
+                            "rise of the loss, straight where the loss is a parabola. "
+                            "The line: where the interval ends.",
+                        .columns = 2};
   const double rise = boost::math::quantile(boost::math::chi_squared(1.0), s.plan.confidence);
   for (const Profile& p : s.result.profiles) {
     const double estimate = s.result.inference.parameters[p.parameter].value;
     report::Chart chart{.title = short_name(s.problem.parameters[p.parameter].path),
                         .x = {"change of the value", "%"},
-                        .y = {"rise of the loss"},
-                        .lines = {{'y', rise, readable_share(s.plan.confidence)}}};
+                        .y = {"root of the rise"},
+                        .lines = {{'y', std::sqrt(rise), readable_share(s.plan.confidence)}}};
     report::Series line{.name = "rise", .style = report::Style::line_markers};
     report::Numbers change;
     for (double v : p.value) change.push_back(100.0 * (v / estimate - 1.0));
     line.x = change;
-    line.y = p.cost_rise;
+    report::Numbers root;
+    for (double v : p.cost_rise) root.push_back(std::sqrt(v));
+    line.y = root;
     chart.series = {line};
     panels.panels.push_back(chart);
   }
