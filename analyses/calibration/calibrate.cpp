@@ -16,9 +16,7 @@ namespace {
 
 struct Interrupted {};
 
-// A fit is lost where its loss is above that of noise by this factor (noise from neighbouring samples). Then
-// more batches of starts are tried, and more of them followed to the end.
-constexpr double kLost = 1.25;
+// Where no start leads to residuals like noise, more batches are tried, and more of them followed to the end.
 constexpr int kMostBatches = 6;
 constexpr std::size_t kMostGrown = 3;
 
@@ -154,13 +152,13 @@ class Calibrator {
       try_starts(part, std::max(1, options_.starts), tried);
       std::sort(tried.begin(), tried.end(),
                 [](const Descent& a, const Descent& b) { return a.cost < b.cost; });
-    } while (lost(part, tried.front().cost) &&
+    } while (leaves_more_than_noise(part, tried.front().to) &&
              static_cast<int>(tried.size()) < kMostBatches * options_.starts);
     FitResult best;
     for (std::size_t s = 0; s < tried.size() && s < kMostGrown; ++s) {
       grow(tried[s].to, 0.25);
       if (s == 0 || result_.fit.cost < best.cost) best = result_.fit;
-      if (!lost(problem_, best.cost)) break;
+      if (!leaves_more_than_noise(problem_, best.globals)) break;
     }
     result_.fit = best;
   }
@@ -170,12 +168,6 @@ class Calibrator {
     double cost = 0.0;
     long evaluations = 0;
   };
-
-  // A loss that noise alone does not explain. Free windows find their start states anew at every place, and
-  // settle less finely: theirs does not tell.
-  static bool lost(const CalibrationProblem& problem, double cost) {
-    return follows_from_rest(problem) && cost > kLost * static_cast<double>(values_in(problem));
-  }
 
   // The start given, and others within a factor of two of it (restitution: one in the logit).
   Globals start(int number) const {

@@ -55,13 +55,19 @@ double loss_at(const CalibrationProblem& problem, const Globals& at) {
   return loss;
 }
 
-long values_in(const CalibrationProblem& problem) {
-  long values = 0;
-  for (const Window& w : problem.windows)
-    if (!w.held_out)
-      values +=
-          problem.runs[w.run].data.value.middleRows(w.first, w.last - w.first + 1).array().isFinite().count();
-  return values;
+bool leaves_more_than_noise(const CalibrationProblem& problem, const Globals& at) {
+  constexpr double kQuartile = 1.1503;  // of a normal deviate's size
+  std::vector<double> sizes;
+  for (const Window& w : problem.windows) {
+    if (!w.from_rest || w.held_out) continue;
+    WindowResiduals residuals;
+    problem.evaluate(w, at, VecX::Zero(problem.state_size(w)), false, residuals);
+    for (const double r : residuals.r) sizes.push_back(std::abs(r));
+  }
+  if (sizes.empty()) return false;
+  const auto quartile = sizes.begin() + static_cast<std::ptrdiff_t>(3 * sizes.size() / 4);
+  std::nth_element(sizes.begin(), quartile, sizes.end());
+  return *quartile > 1.25 * kQuartile;
 }
 
 bool look_around(const CalibrationProblem& problem, const std::vector<bool>& fixed, int jobs, Globals& at) {

@@ -65,6 +65,17 @@ TEST(CalibrateLong, GoesOnStartingWhereNoStartExplainsTheData) {
   EXPECT_EQ(calibrate(doubted, options).starts.size(), 6u);
 }
 
+TEST(CalibrateLong, ExplainsDataOfWhichItsFirstStartsLeadAstray) {
+  // With this noise the best of four starts on the first eighth lies in a valley of three times the stiffness.
+  const Bench bench({2.0, 2.4, 2.8}, 0.2, true);
+  SyntheticRig rig;
+  rig.seed = 1026;
+  CalibrationProblem problem = bench.problem(rig, kFour);
+  CalibrationOptions options = options_with(0);
+  options.starts = 4;
+  EXPECT_NEAR(calibrate(problem, options).inference.variance_factor, 1.0, 0.1);
+}
+
 TEST(Calibrate, FindsHiddenTimeOffsetAndMountingBias) {
   const Bench bench({2.0, 2.6}, 0.12, false);
   SyntheticRig rig;
@@ -108,7 +119,7 @@ TEST(Calibrate, RestitutionIsNotIdentifiableWithoutImpacts) {
 }
 
 TEST(Calibrate, GrossOutliersMoveTheAnswerByLessThanAStandardError) {
-  const Bench bench({2.0, 2.4, 2.8}, 0.16, false);
+  const Bench bench({2.0, 2.6}, 0.12, false);
   const auto answer = [&](double share) {
     SyntheticRig rig;
     rig.outliers = share;
