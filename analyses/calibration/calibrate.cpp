@@ -16,9 +16,9 @@ namespace {
 
 struct Interrupted {};
 
-// Where no start leads to residuals like noise, more batches are tried, and more of them followed to the end.
-constexpr int kMostBatches = 6;
-constexpr std::size_t kMostGrown = 3;
+// Where no start leads to residuals like noise, more batches are tried, and more of them followed.
+constexpr int kMostStarts = 24;
+constexpr int kMostFollowed = 6;
 
 // A place lower by this share of s^2, come by along a profile, is gone to, and the profile taken anew. Below
 // it the interval is at most a tenth too wide.
@@ -143,24 +143,31 @@ class Calibrator {
     result_.fit = std::move(fit);
   }
 
-  // Starts on a short horizon, and from the best of them on to the whole; from the next best where that one
-  // has lost its way.
+  // Starts on a short horizon, and from the best of them on to the whole; from the next best, and from more
+  // starts, where that one loses its way. Where all do, the model does not explain the data, and the best
+  // start's fit stands.
   void search() {
     const CalibrationProblem part = searched_up_to(problem_, 0.125);
+    const auto cheaper = [](const Descent& a, const Descent& b) { return a.cost < b.cost; };
     std::vector<Descent> tried;
-    do {
-      try_starts(part, std::max(1, options_.starts), tried);
-      std::sort(tried.begin(), tried.end(),
-                [](const Descent& a, const Descent& b) { return a.cost < b.cost; });
-    } while (leaves_more_than_noise(part, tried.front().to) &&
-             static_cast<int>(tried.size()) < kMostBatches * options_.starts);
-    FitResult best;
-    for (std::size_t s = 0; s < tried.size() && s < kMostGrown; ++s) {
-      grow(tried[s].to, 0.25);
-      if (s == 0 || result_.fit.cost < best.cost) best = result_.fit;
-      if (!leaves_more_than_noise(problem_, best.globals)) break;
+    std::size_t next = 0;
+    std::optional<FitResult> best;
+    for (int followed = 0; followed < kMostFollowed; ++followed) {
+      while (static_cast<int>(tried.size()) < kMostStarts &&
+             (next == tried.size() || leaves_more_than_noise(part, tried[next].to))) {
+        try_starts(part, std::max(1, options_.starts), tried);
+        std::sort(tried.begin() + static_cast<std::ptrdiff_t>(next), tried.end(), cheaper);
+      }
+      if (next == tried.size()) break;
+      if (!grow(tried[next++].to, true)) continue;
+      if (!best || result_.fit.cost < best->cost) best = result_.fit;
+      if (!leaves_more_than_noise(problem_, best->globals)) break;
     }
-    result_.fit = best;
+    if (!best) {
+      grow(std::min_element(tried.begin(), tried.end(), cheaper)->to, false);
+      best = result_.fit;
+    }
+    result_.fit = *best;
   }
 
   struct Descent {
@@ -213,18 +220,21 @@ class Calibrator {
     }
   }
 
-  void grow(Globals at, double share) {
-    if (follows_from_rest(problem_))
-      for (; share < 0.99; share *= 2.0) {
-        FitOptions o = fit_options("horizon " + std::to_string(static_cast<int>(100.0 * share)) + " %", 10,
-                                   options_.jobs);
-        o.cost_tolerance = 1e-5;
-        const FitResult found = fit(searched_up_to(problem_, share), at, {}, o);
-        result_.evaluations += found.evaluations;
-        if (found.interrupted) throw Interrupted{};
-        at = found.globals;
-        if (share > 0.4) look_around(searched_up_to(problem_, share), result_.fixed, options_.jobs, at);
-      }
+  // On a horizon that doubles from a quarter to the whole. give_up: returns false as soon as the place is
+  // lost.
+  bool grow(Globals at, bool give_up) {
+    for (double share = 0.25; share < 0.99 && follows_from_rest(problem_); share *= 2.0) {
+      FitOptions o =
+          fit_options("horizon " + std::to_string(static_cast<int>(100.0 * share)) + " %", 10, options_.jobs);
+      o.cost_tolerance = 1e-5;
+      const CalibrationProblem part = searched_up_to(problem_, share);
+      const FitResult found = fit(part, at, {}, o);
+      result_.evaluations += found.evaluations;
+      if (found.interrupted) throw Interrupted{};
+      at = found.globals;
+      if (share > 0.4) look_around(part, result_.fixed, options_.jobs, at);
+      if (give_up && leaves_more_than_noise(part, at)) return false;
+    }
     if (follows_from_rest(problem_)) {
       const FitResult found =
           fit(searched_up_to(problem_, 1.0), at, {}, fit_options("whole data", 20, options_.jobs));
@@ -234,6 +244,7 @@ class Calibrator {
     }
     note(fit(problem_, at, {}, fit_options("whole data", 30, options_.jobs)));
     settle("whole data");
+    return true;
   }
 
   // Goes on from other valleys until none leads lower.

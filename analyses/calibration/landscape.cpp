@@ -38,6 +38,9 @@ void loosen(CalibrationProblem& problem) {
 CalibrationProblem searched_up_to(const CalibrationProblem& problem, double share) {
   CalibrationProblem part = problem;
   loosen(part);
+  // A loss that levels off has no pull from afar: redescending estimates start from monotone ones (Maronna,
+  // Martin and Yohai 2006, Robust Statistics).
+  if (part.loss.kind == Loss::cauchy) part.loss.kind = Loss::huber;
   for (Window& w : part.windows) {
     const std::vector<double>& t = problem.runs[w.run].data.time;
     const double end = t[w.first] + share * (t[w.last] - t[w.first]);
@@ -56,18 +59,27 @@ double loss_at(const CalibrationProblem& problem, const Globals& at) {
 }
 
 bool leaves_more_than_noise(const CalibrationProblem& problem, const Globals& at) {
+  constexpr double kFollowing = 0.35;
   constexpr double kQuartile = 1.1503;  // of a normal deviate's size
-  std::vector<double> sizes;
   for (const Window& w : problem.windows) {
     if (!w.from_rest || w.held_out) continue;
     WindowResiduals residuals;
     problem.evaluate(w, at, VecX::Zero(problem.state_size(w)), false, residuals);
-    for (const double r : residuals.r) sizes.push_back(std::abs(r));
+    VecX sizes = residuals.r.cwiseAbs();
+    if (sizes.size() == 0) continue;
+    const Eigen::Index quartile = 3 * sizes.size() / 4;
+    std::nth_element(sizes.begin(), sizes.begin() + quartile, sizes.end());
+    if (sizes[quartile] > 1.25 * kQuartile) return true;
+    // A window's residuals come channel by channel.
+    double square = 0.0, product = 0.0;
+    const VecX clipped = residuals.r.cwiseMax(-3.0).cwiseMin(3.0);
+    for (Eigen::Index i = 0; i < clipped.size(); ++i) {
+      square += clipped[i] * clipped[i];
+      if (i > 0 && residuals.channel[i] == residuals.channel[i - 1]) product += clipped[i] * clipped[i - 1];
+    }
+    if (product > kFollowing * square) return true;
   }
-  if (sizes.empty()) return false;
-  const auto quartile = sizes.begin() + static_cast<std::ptrdiff_t>(3 * sizes.size() / 4);
-  std::nth_element(sizes.begin(), quartile, sizes.end());
-  return *quartile > 1.25 * kQuartile;
+  return false;
 }
 
 bool look_around(const CalibrationProblem& problem, const std::vector<bool>& fixed, int jobs, Globals& at) {

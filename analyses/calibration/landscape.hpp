@@ -19,8 +19,9 @@ CalibrationProblem searched_up_to(const CalibrationProblem& problem, double shar
 // The loss over all windows that count, those from rest alone; start states as they rest.
 double loss_at(const CalibrationProblem& problem, const Globals& at);
 
-// Whether the residuals there are larger than the noise makes them: their upper quartile, which a tenth of
-// gross outliers moves by a fifth only, by more than a quarter.
+// Whether the residuals of any run are not those of noise there: their upper quartile is larger by more than
+// a quarter, or neighbours follow one another (a stretch that the motion does not meet). Gross outliers, a
+// tenth of the readings, do neither.
 bool leaves_more_than_noise(const CalibrationProblem& problem, const Globals& at);
 
 // Whether a step of a few to some thirty percent of one parameter alone leads to a lower place. Moves `at`

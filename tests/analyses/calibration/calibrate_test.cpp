@@ -129,7 +129,7 @@ TEST(Calibrate, GrossOutliersMoveTheAnswerByLessThanAStandardError) {
   };
   const auto clean = answer(0.0), spoilt = answer(0.1);
   for (std::size_t p = 0; p < clean.size(); ++p) {
-    std::printf("  %s moved by %.2f standard errors\n", clean[p].name.c_str(),
+    std::printf("  %s %.5g, %.5g; moved by %.2f standard errors\n", clean[p].name.c_str(), clean[p].value, spoilt[p].value,
                 std::abs(spoilt[p].value - clean[p].value) / clean[p].standard_error);
     EXPECT_LT(std::abs(spoilt[p].value - clean[p].value), clean[p].standard_error) << clean[p].name;
   }
