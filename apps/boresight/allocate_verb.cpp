@@ -6,7 +6,6 @@
 
 #include "allocate_report.hpp"
 #include "boresight/io/content_hash.hpp"
-#include "boresight/io/mechanism_file.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
@@ -15,6 +14,7 @@
 #include "readable.hpp"
 #include "report/report.hpp"
 #include "scatter_parts.hpp"
+#include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
 #include "verb.hpp"
@@ -116,17 +116,10 @@ class AllocateVerb : public Verb {
 
   int execute(const Command& command) override {
     const Stopwatch watch;
-    Document document = Document::from_file(command.file);
-    Cursor root(document);
-    const Study study = read_study(root, document.content_hash());
-    const auto mechanism =
-        std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, command.settings));
-    const AllocationPlan plan =
-        read_allocation_plan(root, study, mechanism->description(), [&](const Setting& setting) {
-          std::vector<Setting> settings = command.settings;
-          settings.push_back(setting);
-          const Mechanism tried(read_mechanism(study.mechanism_file, settings));
-        });
+    StudyInput input(command.file, command.settings);
+    const Study& study = input.study;
+    const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
+    const AllocationPlan plan = read_allocation_plan(input.root, study, mechanism->description(), input.trial);
     check_rung_name(command.rung);
     motion_.check_rung(command.rung);
     const RunOptions asked = motion_.run_options(*mechanism);

@@ -5,7 +5,6 @@
 #include <ostream>
 
 #include "boresight/io/content_hash.hpp"
-#include "boresight/io/mechanism_file.hpp"
 #include "boresight_analyses/montecarlo/stored_runs.hpp"
 #include "budget_report.hpp"
 #include "exit_status.hpp"
@@ -16,6 +15,7 @@
 #include "report/report.hpp"
 #include "scatter_parts.hpp"
 #include "stored_study.hpp"
+#include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
 #include "verb.hpp"
@@ -147,16 +147,11 @@ class BudgetVerb : public Verb {
 
   int execute(const Command& command) override {
     const Stopwatch watch;
-    Document document = Document::from_file(command.file);
-    Cursor root(document);
-    const Study study = read_study(root, document.content_hash());
-    const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, command.settings));
+    StudyInput input(command.file, command.settings);
+    const Study& study = input.study;
+    const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
     const BudgetPlan plan =
-        read_budget_plan(root, study, mechanism->description(), mechanism->duration(), [&](const Setting& setting) {
-          std::vector<Setting> settings = command.settings;
-          settings.push_back(setting);
-          const Mechanism tried(read_mechanism(study.mechanism_file, settings));
-        });
+        read_budget_plan(input.root, study, mechanism->description(), mechanism->duration(), input.trial);
     check_rung_name(command.rung);
     motion_.check_rung(command.rung);
     RunOptions run = motion_.run_options(*mechanism);

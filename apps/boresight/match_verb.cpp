@@ -6,7 +6,6 @@
 #include <ostream>
 
 #include "boresight/io/content_hash.hpp"
-#include "boresight/io/mechanism_file.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
@@ -16,6 +15,7 @@
 #include "readable.hpp"
 #include "report/report.hpp"
 #include "scatter_parts.hpp"
+#include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
 #include "verb.hpp"
@@ -82,17 +82,10 @@ class MatchVerb : public Verb {
 
   int execute(const Command& command) override {
     const Stopwatch watch;
-    Document document = Document::from_file(command.file);
-    Cursor root(document);
-    const Study study = read_study(root, document.content_hash());
-    const auto mechanism =
-        std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, command.settings));
-    const MatchingPlan plan =
-        read_matching_plan(root, study, mechanism->description(), [&](const Setting& setting) {
-          std::vector<Setting> settings = command.settings;
-          settings.push_back(setting);
-          const Mechanism tried(read_mechanism(study.mechanism_file, settings));
-        });
+    StudyInput input(command.file, command.settings);
+    const Study& study = input.study;
+    const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
+    const MatchingPlan plan = read_matching_plan(input.root, study, mechanism->description(), input.trial);
     check_rung_name(command.rung);
     motion_.check_rung(command.rung);
     const RunOptions asked = motion_.run_options(*mechanism);
@@ -106,7 +99,7 @@ class MatchVerb : public Verb {
         identity_of(command, mechanism->description().content_hash, samples.hexadecimal(), options));
 
     const std::vector<Parameters> corners = corners_of(plan, *mechanism);
-    const RungChoice choice = rung_for(command, study, mechanism, corners, asked);
+    const RungChoice choice = choose_rung_of_scatter(command, study, asked, mechanism, corners);
     const std::string upper = next_rung_up(choice.name);
     const auto parameters_of = [mechanism, &plan](std::span<const double> values) {
       return plan.parameters_with(*mechanism, values);
@@ -192,24 +185,6 @@ class MatchVerb : public Verb {
 
  private:
   static constexpr std::uint64_t kFreshSeed = 1'000'003;
-
-  static RungChoice rung_for(const Command& command, const Study& study,
-                             const std::shared_ptr<const Mechanism>& mechanism,
-                             const std::vector<Parameters>& corners, const RunOptions& run) {
-    constexpr double kPilotTrials = 72.0;
-    Progress progress(command.quiet, kPilotTrials, "trials of the pilot");
-    return choose_rung({.asked = command.rung,
-                        .accuracy = command.accuracy ? command.accuracy : study.accuracy,
-                        .wants_multibody = !run.formulation.empty() || !run.stabilisation.empty(),
-                        .index = study.index,
-                        .step = run.step,
-                        .progress =
-                            [&](int trial) {
-                              progress.update(trial, "finding the cheapest rung that meets the accuracy");
-                              return !interrupted();
-                            }},
-                       mechanism, corners);
-  }
 
   static std::vector<std::string> warnings_of(const MatchingPlan& plan, const MatchingResult& result) {
     std::vector<std::string> warnings;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "boresight/io/mechanism_file.hpp"
+#include "study_input.hpp"
 
 namespace boresight::app {
 
@@ -33,17 +33,11 @@ std::vector<Setting> MonteCarloQuestion::settings_of_sample(std::uint64_t number
 }
 
 MonteCarloQuestion read_montecarlo_question(const std::string& file, const std::vector<Setting>& settings) {
-  Document document = Document::from_file(file);
-  Cursor root(document);
+  StudyInput input(file, settings);
   MonteCarloQuestion question;
-  question.study = read_study(root, document.content_hash());
-  question.mechanism = std::make_shared<const Mechanism>(read_mechanism(question.study.mechanism_file, settings));
-  question.plan =
-      read_montecarlo_plan(root, question.study, question.mechanism->description(), [&](const Setting& setting) {
-        std::vector<Setting> all = settings;
-        all.push_back(setting);
-        const Mechanism tried(read_mechanism(question.study.mechanism_file, all));
-      });
+  question.plan = read_montecarlo_plan(input.root, input.study, input.mechanism->description(), input.trial);
+  question.study = std::move(input.study);
+  question.mechanism = std::move(input.mechanism);
   return question;
 }
 

@@ -6,7 +6,6 @@
 #include <ostream>
 
 #include "boresight/io/content_hash.hpp"
-#include "boresight/io/mechanism_file.hpp"
 #include "boresight_analyses/montecarlo/montecarlo.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
@@ -19,6 +18,7 @@
 #include "report/report.hpp"
 #include "scatter_parts.hpp"
 #include "several_rungs.hpp"
+#include "study_input.hpp"
 #include "summary.hpp"
 #include "verb.hpp"
 
@@ -161,19 +161,8 @@ class MonteCarloVerb : public Verb {
                              SampleStore& store) {
     const std::vector<SampleStore::StoredRung> stored = store.rungs();
     if (!stored.empty()) return {stored.front().name, store.fact("rung_why"), stored.front().step};
-    constexpr double kPilotTrials = 72.0;  // about as many as it makes; it may need fewer
-    Progress progress(command.quiet, kPilotTrials, "trials of the pilot");
-    RungChoice choice = choose_rung({.asked = command.rung,
-                                     .accuracy = command.accuracy ? command.accuracy : question.study.accuracy,
-                                     .wants_multibody = !run.formulation.empty() || !run.stabilisation.empty(),
-                                     .index = question.study.index,
-                                     .step = run.step,
-                                     .progress =
-                                         [&](int trial) {
-                                           progress.update(trial, "finding the cheapest rung that meets the accuracy");
-                                           return !interrupted();
-                                         }},
-                                    question.mechanism, pilot_samples(question.plan.inputs, *question.mechanism));
+    RungChoice choice = choose_rung_of_scatter(command, question.study, run, question.mechanism,
+                                               pilot_samples(question.plan.inputs, *question.mechanism));
     // Lanes choose each sample's steps by its error; what else runs takes one step for all samples.
     const bool lanes = choice.name == "perturbation" && LaneSampleModel::serve(*question.mechanism, question.study.index, run);
     if (lanes) choice.step = 0.0;

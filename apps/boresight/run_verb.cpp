@@ -20,6 +20,7 @@
 #include "readable.hpp"
 #include "report/report.hpp"
 #include "run_report.hpp"
+#include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
 #include "verb.hpp"
@@ -145,21 +146,13 @@ class RunVerb : public Verb {
       progress.update(p.t, "position error so far " + readable(p.position_error_max_so_far, "m"));
       return !interrupted();
     };
-    Progress pilot_progress(command.quiet, kPilotTrials, "trials of the pilot");
-    const RungChoice choice =
-        choose_rung({.asked = command.rung,
-                     .accuracy = command.accuracy,
-                     .wants_multibody = motion_.asks_for_multibody(),
-                     .index = index,
-                     .step = options.step,
-                     .integrators = true,
-                     .progress =
-                         [&](int trial) {
-                           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
-                           return !interrupted();
-                         }},
-                    mechanism, {mechanism->parameters()});
-    pilot_progress.clear();
+    const RungChoice choice = choose_rung_in_sight(command,
+                                                   {.accuracy = command.accuracy,
+                                                    .wants_multibody = motion_.asks_for_multibody(),
+                                                    .index = index,
+                                                    .step = options.step,
+                                                    .integrators = true},
+                                                   kPilotTrials, mechanism, {mechanism->parameters()});
     apply(choice, options);
 
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
@@ -239,7 +232,6 @@ class RunVerb : public Verb {
     return other;
   }
 
-  static constexpr double kPilotTrials = 24.0;  // about as many as it makes; it may need fewer
   MotionOptions motion_;
   bool compare_ = false;
   std::string index_ = "position_error.max", nonlinear_;

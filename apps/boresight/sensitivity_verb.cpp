@@ -5,7 +5,6 @@
 #include <ostream>
 
 #include "boresight/io/content_hash.hpp"
-#include "boresight/io/mechanism_file.hpp"
 #include "boresight_analyses/sensitivity/exact_slopes.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "exit_status.hpp"
@@ -16,6 +15,7 @@
 #include "scatter_parts.hpp"
 #include "sensitivity_report.hpp"
 #include "stored_study.hpp"
+#include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
 #include "verb.hpp"
@@ -63,17 +63,10 @@ class SensitivityVerb : public Verb {
 
   int execute(const Command& command) override {
     const Stopwatch watch;
-    Document document = Document::from_file(command.file);
-    Cursor root(document);
-    const Study study = read_study(root, document.content_hash());
-    const auto mechanism =
-        std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, command.settings));
-    const SensitivityPlan plan =
-        read_sensitivity_plan(root, study, mechanism->description(), [&](const Setting& setting) {
-          std::vector<Setting> settings = command.settings;
-          settings.push_back(setting);
-          const Mechanism tried(read_mechanism(study.mechanism_file, settings));
-        });
+    StudyInput input(command.file, command.settings);
+    const Study& study = input.study;
+    const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
+    const SensitivityPlan plan = read_sensitivity_plan(input.root, study, mechanism->description(), input.trial);
     check_rung_name(command.rung);
     RunOptions run = motion_.run_options(*mechanism);
 

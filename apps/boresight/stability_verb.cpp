@@ -12,6 +12,7 @@
 #include "readable.hpp"
 #include "report/report.hpp"
 #include "stability_report.hpp"
+#include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
 #include "verb.hpp"
@@ -170,11 +171,7 @@ class StabilityVerb : public Verb {
       progress.update(100.0 * share, what);
       return !interrupted();
     };
-    options.reread = [&](const Setting& setting) {
-      std::vector<Setting> settings = command.settings;
-      settings.push_back(setting);
-      const Mechanism tried(read_mechanism(command.file, settings));
-    };
+    options.reread = trial_of(command.file, command.settings);
     const StabilityResult result = find_stability(mechanism, options);
 
     write_json(out, "summary.json", summary_of(command, *mechanism, result, watch, out));

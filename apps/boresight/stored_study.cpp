@@ -3,9 +3,8 @@
 #include <filesystem>
 
 #include "boresight/io/content_hash.hpp"
-#include "interruption.hpp"
-#include "progress.hpp"
 #include "scatter_parts.hpp"
+#include "study_input.hpp"
 #include "summary.hpp"
 
 namespace boresight::app {
@@ -35,19 +34,7 @@ RungChoice rung_of_study(const Command& command, const Study& study, const std::
                          const RandomInputs& inputs, const RunOptions& run, const SampleStore& store) {
   const std::vector<SampleStore::StoredRung> stored = store.rungs();
   if (!stored.empty()) return {stored.front().name, "chosen when the study was begun", stored.front().step};
-  constexpr double kPilotTrials = 72.0;  // about as many as it makes; it may need fewer
-  Progress progress(command.quiet, kPilotTrials, "trials of the pilot");
-  return choose_rung({.asked = command.rung,
-                      .accuracy = command.accuracy ? command.accuracy : study.accuracy,
-                      .wants_multibody = !run.formulation.empty() || !run.stabilisation.empty(),
-                      .index = study.index,
-                      .step = run.step,
-                      .progress =
-                          [&](int trial) {
-                            progress.update(trial, "finding the cheapest rung that meets the accuracy");
-                            return !interrupted();
-                          }},
-                     mechanism, pilot_samples(inputs, *mechanism));
+  return choose_rung_of_scatter(command, study, run, mechanism, pilot_samples(inputs, *mechanism));
 }
 
 }  // namespace boresight::app

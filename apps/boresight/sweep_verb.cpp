@@ -3,7 +3,6 @@
 
 #include <ostream>
 
-#include "boresight/io/mechanism_file.hpp"
 #include "boresight/rungs/rung.hpp"
 #include "boresight_analyses/study/study.hpp"
 #include "boresight_analyses/sweep/sweep.hpp"
@@ -12,6 +11,7 @@
 #include "progress.hpp"
 #include "readable.hpp"
 #include "report/report.hpp"
+#include "study_input.hpp"
 #include "summary.hpp"
 #include "sweep_report.hpp"
 #include "tables.hpp"
@@ -115,16 +115,10 @@ class SweepVerb : public Verb {
 
   int execute(const Command& command) override {
     const Stopwatch watch;
-    Document document = Document::from_file(command.file);
-    Cursor root(document);
-    const Study study = read_study(root, document.content_hash());
-    const auto mechanism =
-        std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, command.settings));
-    const SweepPlan plan = read_sweep_plan(root, mechanism->description(), [&](const Setting& setting) {
-      std::vector<Setting> settings = command.settings;
-      settings.push_back(setting);
-      const Mechanism tried(read_mechanism(study.mechanism_file, settings));
-    });
+    StudyInput input(command.file, command.settings);
+    const Study& study = input.study;
+    const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
+    const SweepPlan plan = read_sweep_plan(input.root, mechanism->description(), input.trial);
     check_rung_name(command.rung);
     motion_.check_rung(command.rung);
     SweepOptions options;
@@ -141,23 +135,15 @@ class SweepVerb : public Verb {
             : 0.0;
     options.run.events = histories;
 
-    constexpr double kPilotTrials = 24.0;  // about as many as it makes; it may need fewer
-    Progress pilot_progress(command.quiet, kPilotTrials, "trials of the pilot");
     // The grid's first and last corner: what is true of both is taken to be true between them.
-    const RungChoice choice =
-        choose_rung({.asked = command.rung,
-                     .accuracy = command.accuracy ? command.accuracy : study.accuracy,
-                     .wants_multibody = motion_.asks_for_multibody(),
-                     .index = study.index,
-                     .step = options.run.step,
-                     .integrators = true,
-                     .progress =
-                         [&](int trial) {
-                           pilot_progress.update(trial, "finding the cheapest rung that meets the accuracy");
-                           return !interrupted();
-                         }},
-                    mechanism, {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
-    pilot_progress.clear();
+    const RungChoice choice = choose_rung_in_sight(
+        command,
+        {.accuracy = command.accuracy ? command.accuracy : study.accuracy,
+         .wants_multibody = motion_.asks_for_multibody(),
+         .index = study.index,
+         .step = options.run.step,
+         .integrators = true},
+        kPilotTrials, mechanism, {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
     apply(choice, options.run);
 
     Progress progress(command.quiet, static_cast<double>(plan.points()), "points");

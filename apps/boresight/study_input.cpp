@@ -1,0 +1,45 @@
+#include "study_input.hpp"
+
+#include "boresight/io/mechanism_file.hpp"
+#include "interruption.hpp"
+#include "progress.hpp"
+
+namespace boresight::app {
+
+std::function<void(const Setting&)> trial_of(const std::string& mechanism_file, const std::vector<Setting>& settings) {
+  return [mechanism_file, settings](const Setting& setting) {
+    std::vector<Setting> all = settings;
+    all.push_back(setting);
+    const Mechanism tried(read_mechanism(mechanism_file, all));
+  };
+}
+
+StudyInput::StudyInput(const std::string& file, const std::vector<Setting>& settings)
+    : document(Document::from_file(file)),
+      root(document),
+      study(read_study(root, document.content_hash())),
+      mechanism(std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, settings))),
+      trial(trial_of(study.mechanism_file, settings)) {}
+
+RungChoice choose_rung_in_sight(const Command& command, RungQuestion question, double trials,
+                                const std::shared_ptr<const Mechanism>& mechanism, const std::vector<Parameters>& samples) {
+  Progress progress(command.quiet, trials, "trials of the pilot");
+  question.asked = command.rung;
+  question.progress = [&](int trial) {
+    progress.update(trial, "finding the cheapest rung that meets the accuracy");
+    return !interrupted();
+  };
+  return choose_rung(question, mechanism, samples);
+}
+
+RungChoice choose_rung_of_scatter(const Command& command, const Study& study, const RunOptions& run,
+                                  const std::shared_ptr<const Mechanism>& mechanism, const std::vector<Parameters>& samples) {
+  return choose_rung_in_sight(command,
+                              {.accuracy = command.accuracy ? command.accuracy : study.accuracy,
+                               .wants_multibody = !run.formulation.empty() || !run.stabilisation.empty(),
+                               .index = study.index,
+                               .step = run.step},
+                              kPilotTrialsOfScatter, mechanism, samples);
+}
+
+}  // namespace boresight::app

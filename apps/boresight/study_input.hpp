@@ -1,0 +1,44 @@
+// A study file as the verbs take it: opened, with its mechanism as --set leaves it; and the rung that its questions are put to.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "boresight/io/cursor.hpp"
+#include "boresight/io/document.hpp"
+#include "boresight/mechanism/mechanism.hpp"
+#include "boresight_analyses/study/rung_choice.hpp"
+#include "boresight_analyses/study/study.hpp"
+#include "command.hpp"
+
+namespace boresight::app {
+
+// A check that the mechanism takes one further setting, on top of `settings`: it throws InputError where it does not.
+std::function<void(const Setting&)> trial_of(const std::string& mechanism_file, const std::vector<Setting>& settings);
+
+struct StudyInput {
+  // Throws InputError.
+  StudyInput(const std::string& file, const std::vector<Setting>& settings);
+  StudyInput(const StudyInput&) = delete;
+  StudyInput& operator=(const StudyInput&) = delete;
+
+  Document document;
+  Cursor root;  // stands at what the verb's own plan reads
+  Study study;
+  std::shared_ptr<const Mechanism> mechanism;
+  std::function<void(const Setting&)> trial;
+};
+
+// choose_rung() with the pilot's progress shown, and Ctrl-C heeded. question: `asked` and `progress` are filled in here.
+// trials: about as many as the pilot makes; it may need fewer.
+RungChoice choose_rung_in_sight(const Command& command, RungQuestion question, double trials,
+                                const std::shared_ptr<const Mechanism>& mechanism, const std::vector<Parameters>& samples);
+inline constexpr double kPilotTrials = 24.0, kPilotTrialsOfScatter = 72.0;
+
+// The same for a study whose parameters vary: at these samples of them.
+RungChoice choose_rung_of_scatter(const Command& command, const Study& study, const RunOptions& run,
+                                  const std::shared_ptr<const Mechanism>& mechanism, const std::vector<Parameters>& samples);
+
+}  // namespace boresight::app
