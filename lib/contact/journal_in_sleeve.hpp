@@ -58,7 +58,14 @@ struct JournalInSleeveT {
 
   // Penetration of every place only; used to see where contacts stand without their forces.
   template <typename M>
-  void gaps(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const;
+  void gaps(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const {
+    if (tilts)
+      tilted.gaps(motion, contact);
+    else
+      parallel_gaps(motion, contact);
+  }
+  template <typename M>
+  void parallel_gaps(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const;
 
   // The radial contact of a parallel journal: its normal, and how deep it is.
   template <typename M>
@@ -75,8 +82,8 @@ struct JournalInSleeveT {
 
   // The axial one of the face at side * L_b/2, without its force.
   template <typename M>
-  ContactState<M> face_contact(const JournalMotion<M>& m, double side) const {
-    return {T(-side) * m.e.y() - axial_clearance, T(-side) * m.e_dot.y(), M(0.0)};
+  ContactState<M> face_contact(const JournalMotion<M>& m, const T& side) const {
+    return {-side * m.e.y() - axial_clearance, -side * m.e_dot.y(), M(0.0)};
   }
 
   template <typename M, typename Friction, typename Out>
@@ -98,14 +105,14 @@ struct JournalInSleeve : JournalInSleeveT<double> {
 
 template <typename T>
 template <typename M>
-void JournalInSleeveT<T>::gaps(const JournalMotion<M>& m, std::array<ContactState<M>, kContactPlaces>& contact) const {
-  if (tilts) return tilted.gaps(m, contact);
+void JournalInSleeveT<T>::parallel_gaps(const JournalMotion<M>& m,
+                                        std::array<ContactState<M>, kContactPlaces>& contact) const {
   for (ContactState<M>& c : contact) c = {M(-1.0), M(0.0), M(0.0)};
   const Radial<M> at = radial_contact(m);
   contact[static_cast<int>(ContactPlace::radial)] = {at.penetration, at.rate, M(0.0)};
   if (!has_faces) return;
-  contact[static_cast<int>(ContactPlace::axial_minus)] = face_contact(m, -1.0);
-  contact[static_cast<int>(ContactPlace::axial_plus)] = face_contact(m, 1.0);
+  contact[static_cast<int>(ContactPlace::axial_minus)] = face_contact(m, T(-1.0));
+  contact[static_cast<int>(ContactPlace::axial_plus)] = face_contact(m, T(1.0));
 }
 
 template <typename T>
@@ -136,24 +143,28 @@ void JournalInSleeveT<T>::parallel_wrench(const JournalMotion<M>& m, const std::
   }
   keep_contact(out, ContactPlace::radial, radial);
   if (!has_faces) return;
-  for (const auto& [place, side] : {std::pair{ContactPlace::axial_minus, -1.0}, std::pair{ContactPlace::axial_plus, 1.0}}) {
-    ContactState<M> face = face_contact(m, side);
-    if (any(face.penetration > T(0.0))) {
-      face.normal_force = face_stiffness * positive_part(face.penetration);
-      // At M = (0, side L_b/2, 0): edot + w x (M - e), its part across the axis.
-      const M lever = T(side) * half_length - m.e.y();
-      const M vx = m.e_dot.x() - m.w.y() * m.e.z() - m.w.z() * lever;
-      const M vz = m.e_dot.z() + m.w.x() * lever + m.w.y() * m.e.x();
-      const auto [fx, fz] = traction(static_cast<int>(place), face.normal_force, vx, vz);
-      out.force.x() += fx;
-      out.force.y() += T(side) * face.normal_force;
-      out.force.z() += fz;
-      // M x F.
-      out.moment.x() += T(side) * half_length * fz;
-      out.moment.z() -= T(side) * half_length * fx;
-    }
-    keep_contact(out, place, face);
-  }
+  for (const auto& [place, side] : {std::pair{ContactPlace::axial_minus, -1.0}, std::pair{ContactPlace::axial_plus, 1.0}})
+    keep_contact(out, place, face_contact(m, T(side)));
+  // Only the face that the journal is nearer to can touch.
+  const auto at_minus = m.e.y() > T(0.0);
+  const T side = select(at_minus, T(-1.0), T(1.0));
+  const ContactPlace place = any(at_minus) ? ContactPlace::axial_minus : ContactPlace::axial_plus;  // of lanes: none of a law's business
+  ContactState<M> face = face_contact(m, side);
+  if (!any(face.penetration > T(0.0))) return;
+  face.normal_force = face_stiffness * positive_part(face.penetration);
+  // At M = (0, side L_b/2, 0): edot + w x (M - e), its part across the axis.
+  const T centre = side * half_length;
+  const M lever = centre - m.e.y();
+  const M vx = m.e_dot.x() - m.w.y() * m.e.z() - m.w.z() * lever;
+  const M vz = m.e_dot.z() + m.w.x() * lever + m.w.y() * m.e.x();
+  const auto [fx, fz] = traction(static_cast<int>(place), face.normal_force, vx, vz);
+  out.force.x() += fx;
+  out.force.y() += side * face.normal_force;
+  out.force.z() += fz;
+  // M x F.
+  out.moment.x() += centre * fz;
+  out.moment.z() -= centre * fx;
+  keep_contact(out, place, face);
 }
 
 }  // namespace boresight

@@ -33,7 +33,7 @@ RingForce<T> ring_contact(const S& stiffness, const T& depth, const T& swing) {
   const auto partial = swing > depth;         // part of the ring is free
   const auto touches = swing + depth > zero;  // some of it is not
   // The ratio is only looked at where contact is partial; elsewhere any value inside (-1, 1) does.
-  const T ratio = select(partial, select(touches, -depth / select(partial, T(swing + S(1e-300)), one), zero), zero);
+  const T ratio = select(partial, select(touches, -depth / select(partial, T(swing + S(TinyLength<T>::square)), one), zero), zero);
   const T inside = select(ratio < one, select(ratio > T(-1.0), ratio, zero), zero);
   const T a = acos(inside), sine = sqrt(one - inside * inside);
   const S per_pi = stiffness * S(1.0 / std::numbers::pi);

@@ -1,13 +1,23 @@
 # Each kernel is compiled for its own processor and chosen when the program runs (lane_kernels.cpp). No fused multiply-add
 # and no reordering: all kernels give the same bits. Square roots need not set errno, which would keep them out of registers.
+# There are only finite numbers and one zero, so that what is multiplied by a derivative known to be zero falls away; whether a
+# step has left them is told by the bits (is_finite()).
 set(kernels scalar sse2 avx2 avx512)
 foreach(kernel IN LISTS kernels)
   list(APPEND kernel_files ${CMAKE_CURRENT_LIST_DIR}/lanes_${kernel}.cpp)
 endforeach()
-set_property(SOURCE ${kernel_files} TARGET_DIRECTORY lanes APPEND PROPERTY COMPILE_OPTIONS -ffp-contract=off -fno-math-errno -fno-trapping-math -Wno-psabi)
+set_property(SOURCE ${kernel_files} TARGET_DIRECTORY lanes
+             APPEND PROPERTY COMPILE_OPTIONS -ffp-contract=off -fno-math-errno -fno-trapping-math
+             -ffinite-math-only -fno-signed-zeros -Wno-psabi)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lanes_avx2.cpp TARGET_DIRECTORY lanes APPEND PROPERTY COMPILE_OPTIONS -march=x86-64-v3)
   set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lanes_avx512.cpp TARGET_DIRECTORY lanes
                APPEND PROPERTY COMPILE_OPTIONS -march=x86-64-v4 -mtune=icelake-server -mprefer-vector-width=512)
+  include(CheckCXXCompilerFlag)
+  check_cxx_compiler_flag("-mmove-max=512 -mstore-max=512" BORESIGHT_HAS_MOVE_MAX)  # GCC 12: copies of structs by whole registers
+  if(BORESIGHT_HAS_MOVE_MAX)
+    set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lanes_avx512.cpp TARGET_DIRECTORY lanes
+                 APPEND PROPERTY COMPILE_OPTIONS -mmove-max=512 -mstore-max=512)
+  endif()
   target_compile_definitions(lanes PRIVATE BORESIGHT_X86_LANES)
 endif()  # elsewhere the compiler's generic vectors serve, and the wide kernels are built but not offered

@@ -1,6 +1,8 @@
 // What goes into the lane integrator and what comes out: plain numbers only, shared by the code of every instruction set.
 #pragma once
 
+#include <type_traits>
+
 #include "boresight/contact/journal_in_sleeve.hpp"
 #include "boresight/integrate/rosenbrock_tables.hpp"
 #include "boresight/rungs/scene_layout.hpp"
@@ -18,13 +20,22 @@ struct LanePlaces {
 // The functions of time of one scene and one set of masses (SceneTables), with the gain of the index behind them.
 struct LaneScene {
   const SceneLayout* layout = nullptr;
-  const double* coefficients = nullptr;  // [cell][power 0..3][width]: cubics in s, 0 <= s <= 1 across a cell
+  const double* in_double = nullptr;     // [cell][power 0..3][width]: cubics in s, 0 <= s <= 1 across a cell
+  const float* in_single = nullptr;      // the same rounded
   int cells = 0;
   int width = 0;                         // columns, padded to whole registers
   int gain = 0;                          // first column of G (3 x n, row by row): the index is |G z|
-  double spacing = 0.0;                  // of the cells [s]
+  double per_spacing = 0.0;              // cells a second
   double duration = 0.0;                 // [s]
   const LanePlaces* places = nullptr;    // per clearance
+
+  template <typename Real>
+  const Real* coefficients() const {
+    if constexpr (std::is_same_v<Real, float>)
+      return in_single;
+    else
+      return in_double;
+  }
 };
 
 struct LaneJob {

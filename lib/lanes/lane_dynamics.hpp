@@ -7,6 +7,7 @@
 
 #include "boresight/lanes/lane_batch.hpp"
 #include "boresight/lanes/lane_laws.hpp"
+#include "boresight/lanes/lane_layouts.hpp"
 #include "boresight/lanes/lane_numbers.hpp"
 #include "boresight/math/dual.hpp"
 #include "boresight/math/lanes.hpp"
@@ -14,55 +15,56 @@
 
 namespace boresight {
 
-// N: number of coordinates, 0 if known only when running.
-template <typename T, int N>
+// Layout: one of lane_layouts.hpp.
+template <typename T, typename Layout>
 class LaneDynamics {
  public:
+  static constexpr int N = Layout::kCount;
+
   LaneDynamics(const SceneLayout& layout, const JournalInSleeve* first_sample) : at(layout) {
     for (std::size_t c = 0; c < at.joints.size(); ++c) laws.push_back(in_all_lanes<T>(first_sample[c]));
     impact_speed.resize(at.joints.size());
     for (auto& speeds : impact_speed) speeds.fill(T(1e-3));
-    shape(force_, count());
-    shape(force_change_, count());
-    shape(gradient_z_, count() * count());
-    shape(gradient_v_, count() * count());
   }
 
   int count() const { return N > 0 ? N : at.n; }
 
   [[gnu::flatten]] void acceleration(const T* row, const T* z, const T* v, T* a) {
-    const int n = count();
-    for (int i = 0; i < n; ++i) force_[i] = T(0.0);
-    for (std::size_t c = 0; c < laws.size(); ++c) {
+    LaneVector<T, N> force;
+    for (int i = 0; i < count(); ++i) force[i] = T(0.0);
+    for (std::size_t c = 0; c < at.joints.size(); ++c) {
       const JournalMotion<T> motion = journal_motion(at, at.joints[c], row, z, v);
-      JournalLoad<T> wrench;
-      laws[c].wrench(motion, impact_speed[c], wrench);
-      add_generalised_force(at, at.joints[c], row, motion, wrench, force_.data());
+      JournalLoad<T> load;
+      load_of(c, motion, load);
+      add_generalised_force(at, at.joints[c], row, motion, load, force.data());
     }
-    coordinate_acceleration(at, row, z, v, force_.data(), a);
+    coordinate_acceleration(at, row, z, v, force.data(), a);
   }
 
   // a, its derivatives by z and v (n x n, row by row), and by time at the rate `change` of the row.
   void linearise(const T* row, const T* change, const T* z, const T* v, T* a, T* a_z, T* a_v, T* a_t) {
     const int n = count();
-    for (int i = 0; i < n; ++i) force_[i] = force_change_[i] = T(0.0);
-    for (int i = 0; i < n * n; ++i) gradient_z_[i] = gradient_v_[i] = T(0.0);
-    for (std::size_t c = 0; c < laws.size(); ++c) {
-      if (at.joints[c].tilts)
-        add_joint<13>(c, row, change, z, v);
+    Load of;
+    for (int i = 0; i < n; ++i) of.force[i] = of.change[i] = T(0.0);
+    for (int i = 0; i < n * n; ++i) of.by_z[i] = of.by_v[i] = T(0.0);
+    for (std::size_t c = 0; c < at.joints.size(); ++c) {
+      if constexpr (Layout::kParallel)
+        add_joint<7>(c, row, change, z, v, of);
+      else if (at.joints[c].tilts)
+        add_joint<13>(c, row, change, z, v, of);
       else
-        add_joint<7>(c, row, change, z, v);
+        add_joint<7>(c, row, change, z, v, of);
     }
-    coordinate_acceleration(at, row, z, v, force_.data(), a);
-    coordinate_acceleration(at, change, z, v, force_.data(), a_t);
+    coordinate_acceleration(at, row, z, v, of.force.data(), a);
+    coordinate_acceleration(at, change, z, v, of.force.data(), a_t);
     for (int i = 0; i < n; ++i) {
-      for (int k = 0; k < n; ++k) a_t[i] += row[at.A + i * n + k] * force_change_[k];
+      for (int k = 0; k < n; ++k) a_t[i] += row[at.A + i * n + k] * of.change[k];
       for (int j = 0; j < n; ++j) {
         T by_z(0.0), by_v = -row[at.AC + i * n + j];
         if (at.stiff) by_z = -row[at.AK + i * n + j];
         for (int k = 0; k < n; ++k) {
-          by_z += row[at.A + i * n + k] * gradient_z_[k * n + j];
-          by_v += row[at.A + i * n + k] * gradient_v_[k * n + j];
+          by_z += row[at.A + i * n + k] * of.by_z[k * n + j];
+          by_v += row[at.A + i * n + k] * of.by_v[k * n + j];
         }
         a_z[i * n + j] = by_z;
         a_v[i * n + j] = by_v;
@@ -72,21 +74,41 @@ class LaneDynamics {
 
   // Gaps and their rates, of every place of every joint.
   void contacts(const T* row, const T* z, const T* v, std::array<ContactState<T>, kContactPlaces>* out) const {
-    for (std::size_t c = 0; c < laws.size(); ++c) laws[c].gaps(journal_motion(at, at.joints[c], row, z, v), out[c]);
+    for (std::size_t c = 0; c < at.joints.size(); ++c) {
+      const JournalMotion<T> motion = journal_motion(at, at.joints[c], row, z, v);
+      if constexpr (Layout::kParallel)
+        laws[c].parallel_gaps(motion, out[c]);
+      else
+        laws[c].gaps(motion, out[c]);
+    }
   }
 
-  const SceneLayout& at;
+  const Layout at;
   std::vector<JournalInSleeveT<T>> laws;
   std::vector<std::array<T, kContactPlaces>> impact_speed;
 
  private:
+  // The generalised force, its derivatives by z and v, and its rate of change with the scene alone.
+  struct Load {
+    LaneVector<T, N> force, change;
+    LaneMatrix<T, N> by_z, by_v;
+  };
+
+  template <typename M>
+  void load_of(std::size_t c, const JournalMotion<M>& motion, JournalLoad<M>& load) const {
+    if constexpr (Layout::kParallel)
+      laws[c].parallel_wrench(motion, impact_speed[c], SlidingFriction<T>{laws[c].friction}, load);
+    else
+      laws[c].wrench(motion, impact_speed[c], load);
+  }
+
   // K numbers of a joint's motion: offsets, their rates, spins.
   template <int K>
-  [[gnu::flatten]] void add_joint(std::size_t c, const T* row, const T* change, const T* z, const T* v) {
+  [[gnu::flatten]] void add_joint(std::size_t c, const T* row, const T* change, const T* z, const T* v, Load& of) const {
     using D = Dual<T, K>;
     constexpr bool tilts = K == 13;
     constexpr int offsets = tilts ? 5 : 3, spins = tilts ? 3 : 1;
-    const SceneLayout::Joint& joint = at.joints[c];
+    const auto& joint = at.joints[c];
     const int n = count();
     const JournalMotion<T> m = journal_motion(at, joint, row, z, v);
 
@@ -103,7 +125,7 @@ class LaneDynamics {
       }
     for (int k = 0; k < spins; ++k) motion.w[tilts ? k : 1] = D(m.w[tilts ? k : 1], 2 * offsets + k);
     JournalLoad<D> wrench;
-    laws[c].wrench(motion, impact_speed[c], wrench);
+    load_of(c, motion, wrench);
 
     // The wrench as the coordinates see it: its force, and its moment about the journal's centre.
     const auto moment = [&](int i) {
@@ -111,19 +133,19 @@ class LaneDynamics {
       return wrench.moment[i] - (motion.e[j] * wrench.force[k] - motion.e[k] * wrench.force[j]);
     };
     const auto into_force = [&](int j, const D& part) {
-      force_[j] += part.a;
-      add_gradient<offsets, spins>(joint, row, j, part);
+      of.force[j] += part.a;
+      add_gradient<offsets, spins>(joint, row, part, &of.by_z[j * n], &of.by_v[j * n]);
     };
     for (int k = 0; k < 3; ++k) {
       const int source = joint.source[k];
       if (source >= 0) {
         into_force(source, wrench.force[k]);
-        force_change_[source] += rate_of<offsets, spins>(joint, change, z, v, wrench.force[k]);
+        of.change[source] += rate_of<offsets, spins>(joint, change, z, v, wrench.force[k]);
       } else {
         const int first = source == DeviationCoordinates::kDependent ? joint.dependent + k * n : joint.slide_gain;
         for (int j = 0; j < n; ++j) {
           into_force(j, row[first + j] * wrench.force[k]);
-          force_change_[j] += row[first + j] * rate_of<offsets, spins>(joint, change, z, v, wrench.force[k]) +
+          of.change[j] += row[first + j] * rate_of<offsets, spins>(joint, change, z, v, wrench.force[k]) +
                               change[first + j] * wrench.force[k].a;
         }
       }
@@ -134,16 +156,15 @@ class LaneDynamics {
       for (int j = 0; j < n; ++j) {
         const int gain = joint.spin_gain + i * n + j;
         into_force(j, row[gain] * part);
-        force_change_[j] += row[gain] * rate + change[gain] * part.a;
+        of.change[j] += row[gain] * rate + change[gain] * part.a;
       }
     }
   }
 
-  // Of the j-th generalised force, to which `part` is added.
-  template <int offsets, int spins, typename D>
-  void add_gradient(const SceneLayout::Joint& joint, const T* row, int j, const D& part) {
+  // Of a generalised force, to which `part` is added.
+  template <int offsets, int spins, typename Joint, typename D>
+  void add_gradient(const Joint& joint, const T* row, const D& part, T* by_z, T* by_v) const {
     const int n = count();
-    T *by_z = &gradient_z_[j * n], *by_v = &gradient_v_[j * n];
     for (int k = 0; k < offsets; ++k) {
       const int source = joint.source[k];
       const T &d = part.v[k], &d_rate = part.v[offsets + k];
@@ -167,8 +188,8 @@ class LaneDynamics {
   }
 
   // Rate of change of `part` with the scene alone: z and v held.
-  template <int offsets, int spins, typename D>
-  T rate_of(const SceneLayout::Joint& joint, const T* change, const T* z, const T* v, const D& part) const {
+  template <int offsets, int spins, typename Joint, typename D>
+  T rate_of(const Joint& joint, const T* change, const T* z, const T* v, const D& part) const {
     const int n = count();
     T rate(0.0);
     for (int k = 0; k < offsets; ++k) {
@@ -195,9 +216,6 @@ class LaneDynamics {
     }
     return rate;
   }
-
-  LaneNumbers<T, N> force_, force_change_;
-  LaneNumbers<T, N * N> gradient_z_, gradient_v_;
 };
 
 }  // namespace boresight

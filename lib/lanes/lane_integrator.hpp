@@ -7,6 +7,7 @@
 // Control of the step: Hairer and Wanner (1996), section IV.8, with the exponent 1/4 of methods of order 4(3).
 #pragma once
 
+#include "boresight/lanes/lane_clock.hpp"
 #include "boresight/lanes/lane_contacts.hpp"
 #include "boresight/lanes/lane_rosenbrock.hpp"
 #include "boresight/lanes/lane_rows.hpp"
@@ -14,10 +15,11 @@
 
 namespace boresight {
 
-template <int W, typename Target, int N>
+// T: lanes of single or double precision.
+template <typename T, typename Layout>
 class LaneIntegrator {
  public:
-  using T = Lanes<W, Target>;
+  static constexpr int W = T::kWidth, N = Layout::kCount;
   using Mask = typename T::Mask;
 
   LaneIntegrator(const LaneJob& first, const LaneSettings& settings)
@@ -30,9 +32,6 @@ class LaneIntegrator {
         row_(static_cast<std::size_t>(width_)),
         new_row_(row_),
         change_(row_) {
-    for (auto* numbers : {&z_, &v_, &new_z_, &new_v_, &middle_z_, &slowest_, &settled_}) shape(*numbers, count());
-    shape(error_, 2 * count());
-    shape(tolerance_, 2 * count());
     jobs_of_.fill(nullptr);
   }
 
@@ -81,15 +80,14 @@ class LaneIntegrator {
       tolerance_[count() + k].set(l, 1.0 / job.tolerance[count() + k]);
       slowest_[k].set(l, job.tolerance[count() + k] / job.tolerance[k]);
     }
-    for (std::size_t c = 0; c < dynamics_.laws.size(); ++c) {
+    for (std::size_t c = 0; c < dynamics_.at.joints.size(); ++c) {
       set_lane(dynamics_.laws[c], l, job.joints[c]);
       contacts_.tolerance[c].set(l, job.gap_tolerance[c]);
       contacts_.slowest[c].set(l, job.joints[c].minimum_impact_speed);
     }
-    t_.set(l, 0.0);
+    clock_.set(l, 0.0, job.scene->duration);
     contact_since_.set(l, 0.0);
     h_.set(l, settings_.first_step);
-    end_time_.set(l, job.scene->duration);
     for (T* x : {&statistics_.value, &statistics_.max, &statistics_.time_of_max, &statistics_.integral, &statistics_.square,
                  &touching_time_, &deepest_, &impacts_, &steps_, &rejected_})
       x->set(l, 0.0);
@@ -106,15 +104,14 @@ class LaneIntegrator {
       z_[k].set(l, 0.0);
       v_[k].set(l, 0.0);
     }
-    t_.set(l, 0.0);
+    clock_.set(l, 0.0, 1.0);
     h_.set(l, settings_.first_step);
-    end_time_.set(l, 1.0);
     running_.set(l, false);
   }
 
   // Rows and gaps of lanes that stand at the start of their motion.
   void read_starts(const Mask& lanes) {
-    scene_rows(scenes_.data(), t_, width_, new_row_.data());
+    scene_rows(scenes_.data(), clock_.times(), width_, new_row_.data());
     for (int k = 0; k < width_; ++k) row_[k] = select(lanes, new_row_[k], row_[k]);
     dynamics_.contacts(new_row_.data(), z_.data(), v_.data(), contacts_.end.data());
     for (int l = 0; l < W; ++l)
@@ -123,11 +120,9 @@ class LaneIntegrator {
 
   void attempt() {
     const int n = count();
-    const T left = end_time_ - t_;
-    const Mask last = !(h_ < left);
-    T h = select(last, left, h_);
-    const T new_t = select(last, end_time_, t_ + h);
-    scene_rows(scenes_.data(), new_t, width_, new_row_.data());
+    T h = h_;
+    clock_.aim(h);
+    scene_rows(scenes_.data(), clock_.next(), width_, new_row_.data());
     for (int k = 0; k < width_; ++k) change_[k] = new_row_[k] - row_[k];
     method_.step(dynamics_, row_.data(), change_.data(), h, z_.data(), v_.data(), new_z_.data(), new_v_.data(), error_.data());
     dynamics_.contacts(new_row_.data(), new_z_.data(), new_v_.data(), contacts_.end.data());
@@ -137,7 +132,7 @@ class LaneIntegrator {
     Mask finite = Mask::all(true);
     for (int k = 0; k < 2 * n; ++k) {
       const T scaled = abs(error_[k]) * tolerance_[k];
-      finite = finite & (scaled < T(1e100));
+      finite = finite & is_finite(scaled);
       error = larger(scaled, error);
     }
     const T share = contacts_.first_beginning(h);
@@ -166,10 +161,10 @@ class LaneIntegrator {
       v_[k] = select(accepted, new_v_[k], v_[k]);
     }
     for (int k = 0; k < width_; ++k) row_[k] = select(accepted, new_row_[k], row_[k]);
-    t_ = select(accepted, new_t, t_);
-    contact_since_ = select(accepted & (began | was_open), t_, contact_since_);
+    clock_.advance(accepted);
+    contact_since_ = select(accepted & (began | was_open), clock_.now(), contact_since_);
     gave_up_ = running_ & ((h_ < T(settings_.smallest_step)) | (steps_ + rejected_ >= T(double(settings_.most_steps))));
-    ends_ = (accepted & last) | gave_up_;
+    ends_ = (running_ & clock_.ended()) | gave_up_;
   }
 
   // While a contact begins and ends, an error of a rate lives on in the flight that follows. One that has lasted for tens of its
@@ -179,7 +174,7 @@ class LaneIntegrator {
     const int n = count();
     for (int k = 0; k < n; ++k) settled_[k] = error_[n + k];
     const T stiffest = method_.offsets_of_rate_errors(slowest_.data(), settled_.data());
-    const Mask settled = contacts_.touching() & ((t_ - contact_since_) * stiffest > T(kSettledAngle));
+    const Mask settled = contacts_.touching() & ((clock_.now() - contact_since_) * stiffest > T(kSettledAngle));
     for (int k = 0; k < n; ++k)
       error_[n + k] = select(settled, T(1.0 / kSettledShare) * settled_[k] * slowest_[k], error_[n + k]);
   }
@@ -191,15 +186,15 @@ class LaneIntegrator {
     const T end = index_value(n, &new_row_[gain_], new_z_.data());
     for (int k = gain_; k < gain_ + 3 * n; ++k) change_[k] = row_[k] + T(0.5) * change_[k];
     const T middle = index_value(n, &change_[gain_], middle_z_.data());
-    statistics_.add(accepted, t_, h, middle, end);
+    statistics_.add(accepted, clock_.now(), h, middle, end);
     touching_time_ = select(accepted & contacts_.touching(), touching_time_ + h, touching_time_);
     deepest_ = select(accepted, larger(deepest_, contacts_.deepest(h)), deepest_);
   }
 
   void finish(int l) {
     LaneOutcome& out = *outcomes_of_[l];
-    const double t = t_.lane(l), duration = end_time_.lane(l);
-    out.status = t >= duration ? LaneStatus::done
+    const double t = clock_.now(l);
+    out.status = clock_.ended(l) ? LaneStatus::done
                  : h_.lane(l) < settings_.smallest_step ? LaneStatus::step_too_small
                                                         : LaneStatus::too_many_steps;
     out.t = t;
@@ -220,16 +215,17 @@ class LaneIntegrator {
   static constexpr double kSettledAngle = 200.0, kSettledShare = 1.0 / 3.0;
 
   LaneSettings settings_;
-  LaneDynamics<T, N> dynamics_;
+  LaneDynamics<T, Layout> dynamics_;
   int width_, gain_;
   LaneContacts<T> contacts_;
-  LaneRosenbrock<T, N> method_;
+  LaneRosenbrock<T, Layout> method_;
   std::vector<T> row_, new_row_, change_;
-  LaneNumbers<T, N> z_, v_, new_z_, new_v_, middle_z_;
-  LaneNumbers<T, N> slowest_, settled_;  // rates' tolerances over offsets' [1/s]; offsets that rates' errors lead to
-  LaneNumbers<T, 2 * N> error_, tolerance_;
+  LaneVector<T, N> z_, v_, new_z_, new_v_, middle_z_;
+  LaneVector<T, N> slowest_, settled_;  // rates' tolerances over offsets' [1/s]; offsets that rates' errors lead to
+  std::array<T, 2 * std::tuple_size_v<LaneVector<T, N>>> error_, tolerance_;  // of offsets, then of rates
   LaneStatistics<T> statistics_;
-  T t_{0.0}, h_{1.0}, end_time_{1.0}, entry_{1.0};
+  LaneClock<T> clock_;
+  T h_{1.0}, entry_{1.0};
   T contact_since_{0.0}, touching_time_{0.0}, deepest_{0.0}, impacts_{0.0}, steps_{0.0}, rejected_{0.0};
   Mask running_ = Mask::all(false), rejected_before_ = running_, entering_ = running_, gave_up_ = running_, ends_ = running_;
   std::array<const LaneJob*, W> jobs_of_;

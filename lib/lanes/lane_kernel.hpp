@@ -5,14 +5,17 @@
 
 namespace boresight {
 
-template <int W, typename Target>
+template <int W, typename Target, typename Real>
 void lane_kernel(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
   if (count == 0) return;
-  switch (jobs[0].scene->layout->n) {
-    case 3: return LaneIntegrator<W, Target, 3>(jobs[0], settings).run(jobs, count, outcomes);
-    case 5: return LaneIntegrator<W, Target, 5>(jobs[0], settings).run(jobs, count, outcomes);
-    default: return LaneIntegrator<W, Target, 0>(jobs[0], settings).run(jobs, count, outcomes);
-  }
+  using T = Lanes<W, Target, Real>;
+  const SceneLayout& layout = *jobs[0].scene->layout;
+  if (SingleRevoluteLayout::describes(layout))
+    LaneIntegrator<T, SingleRevoluteLayout>(jobs[0], settings).run(jobs, count, outcomes);
+  else if (layout.n == 5)
+    LaneIntegrator<T, SizedLayout<5>>(jobs[0], settings).run(jobs, count, outcomes);
+  else
+    LaneIntegrator<T, SizedLayout<0>>(jobs[0], settings).run(jobs, count, outcomes);
 }
 
 }  // namespace boresight

@@ -1,14 +1,21 @@
-// The kernels, one an instruction set. All give the same bits; they differ in how many samples go side by side.
+// The kernels, one an instruction set and precision. All of one precision give the same bits; they differ in how many samples go
+// side by side.
 #pragma once
 
 #include "boresight/lanes/lane_batch.hpp"
 
 namespace boresight {
 
+enum class LanePrecision { single_precision, double_precision };
+
 void run_lanes_scalar(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
 void run_lanes_sse2(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
 void run_lanes_avx2(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
 void run_lanes_avx512(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
+void run_lanes_scalar_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
+void run_lanes_sse2_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
+void run_lanes_avx2_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
+void run_lanes_avx512_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
 
 struct LaneTarget {
   const char* name;
@@ -17,6 +24,6 @@ struct LaneTarget {
 };
 
 // Those that this processor has, widest first; the scalar one is always there.
-const std::vector<LaneTarget>& lane_targets();
+const std::vector<LaneTarget>& lane_targets(LanePrecision precision);
 
 }  // namespace boresight

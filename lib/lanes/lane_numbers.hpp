@@ -1,23 +1,19 @@
-// Arrays of lanes: of a size known when compiling, so that loops over few coordinates unroll, or of one known when running.
+// Arrays of lanes over the coordinates: of a size known when compiling, so that loops over few of them unroll and their numbers
+// stay in registers, or with room for the most that lanes take.
 #pragma once
 
 #include <array>
-#include <type_traits>
-#include <vector>
 
 namespace boresight {
 
-template <typename T, int Fixed>
-using LaneNumbers = std::conditional_t<(Fixed > 0), std::array<T, (Fixed > 0 ? Fixed : 1)>, std::vector<T>>;
+// The linear systems of an implicit step grow with the cube of the coordinates, three to five a joint: with twelve joints
+// explicit steps of single samples are cheaper.
+inline constexpr int kMostLaneJoints = 4, kMostLaneCoordinates = 5 * kMostLaneJoints;
 
-// All zero.
-template <typename T, std::size_t Fixed>
-void shape(std::array<T, Fixed>& numbers, int) {
-  for (T& x : numbers) x = T(0.0);
-}
-template <typename T>
-void shape(std::vector<T>& numbers, int size) {
-  numbers.assign(static_cast<std::size_t>(size), T(0.0));
-}
+// N: number of coordinates, 0 if known only when running. Not zero from the start.
+template <typename T, int N>
+using LaneVector = std::array<T, N == 0 ? kMostLaneCoordinates : N>;
+template <typename T, int N>
+using LaneMatrix = std::array<T, N == 0 ? kMostLaneCoordinates * kMostLaneCoordinates : N * N>;  // n x n, row by row
 
 }  // namespace boresight

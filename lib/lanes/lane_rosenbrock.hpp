@@ -11,80 +11,80 @@
 
 namespace boresight {
 
-template <typename T, int N>
+template <typename T, typename Layout>
 class LaneRosenbrock {
  public:
+  static constexpr int N = Layout::kCount;
   static constexpr int kMostStages = 6;
 
-  LaneRosenbrock(const RosenbrockTable& table, const LaneDynamics<T, N>& dynamics, int width)
+  LaneRosenbrock(const RosenbrockTable& table, const LaneDynamics<T, Layout>& dynamics, int width)
       : table_(table), n_(dynamics.count()), row_(static_cast<std::size_t>(width)) {
     for (int i = 0; i < table.stages; ++i) {
       moves_[i] = i > 0 && (table.alpha[i] != table.alpha[i - 1]);
       for (int j = 0; j < i; ++j) {
-        a_[i][j] = RosenbrockTable::entry(table.a, i, j);
-        c_[i][j] = RosenbrockTable::entry(table.c, i, j);
-        moves_[i] = moves_[i] || a_[i][j] != (j < i - 1 ? a_[i - 1][j] : 0.0);
+        const double a = RosenbrockTable::entry(table.a, i, j);
+        moves_[i] = moves_[i] || a != (j < i - 1 ? RosenbrockTable::entry(table.a, i - 1, j) : 0.0);
+        a_[i][j] = static_cast<typename T::Number>(a);
+        c_[i][j] = static_cast<typename T::Number>(RosenbrockTable::entry(table.c, i, j));
       }
     }
-    for (auto* numbers : {&stage_z_, &stage_v_, &slope_, &r_z_, &r_v_, &a_t_}) shape(*numbers, count());
-    for (auto& u : u_z_) shape(u, count());
-    for (auto& u : u_v_) shape(u, count());
-    for (auto* numbers : {&a_z_, &a_v_, &lu_}) shape(*numbers, count() * count());
   }
 
   // From (z, v) over h; row: the scene at the start, change: its change over the step (both dynamics.at.width numbers).
   // new_z, new_v and the error of each (z, then v) come out.
-  void step(LaneDynamics<T, N>& dynamics, const T* row, const T* change, const T& h, const T* z, const T* v, T* new_z,
+  void step(LaneDynamics<T, Layout>& dynamics, const T* row, const T* change, const T& h, const T* z, const T* v, T* new_z,
             T* new_v, T* error) {
     const int n = count();
     const T per_h = T(1.0) / h, sigma = per_h * T(1.0 / table_.gamma), inverse = h * T(table_.gamma);
     const int width = dynamics.at.width;
+    LaneVector<T, N> slope, a_t, stage_z, stage_v, r_z, r_v;
+    std::array<LaneVector<T, N>, kMostStages> u_z, u_v;
     for (int k = 0; k < width; ++k) row_[k] = change[k] * per_h;
-    dynamics.linearise(row, row_.data(), z, v, slope_.data(), a_z_.data(), a_v_.data(), a_t_.data());
+    dynamics.linearise(row, row_.data(), z, v, slope.data(), a_z_.data(), a_v_.data(), a_t.data());
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
         lu_[i * n + j] = -a_v_[i * n + j] - a_z_[i * n + j] * inverse;
         if (i == j) lu_[i * n + j] += sigma;
       }
     decompose();
-    const T* stage_v = v;
+    const T* rate = v;
     for (int i = 0; i < table_.stages; ++i) {
       if (moves_[i]) {
         for (int k = 0; k < n; ++k) {
-          stage_z_[k] = z[k];
-          stage_v_[k] = v[k];
+          stage_z[k] = z[k];
+          stage_v[k] = v[k];
           for (int j = 0; j < i; ++j) {
-            stage_z_[k] += T(a_[i][j]) * u_z_[j][k];
-            stage_v_[k] += T(a_[i][j]) * u_v_[j][k];
+            stage_z[k] += T(a_[i][j]) * u_z[j][k];
+            stage_v[k] += T(a_[i][j]) * u_v[j][k];
           }
         }
-        stage_v = stage_v_.data();
+        rate = stage_v.data();
         const T share(table_.alpha[i]);
         if (table_.alpha[i] != table_.alpha[i - 1])
           for (int k = 0; k < width; ++k) row_[k] = row[k] + share * change[k];
-        dynamics.acceleration(row_.data(), stage_z_.data(), stage_v_.data(), slope_.data());
+        dynamics.acceleration(row_.data(), stage_z.data(), stage_v.data(), slope.data());
       }
       const T time_part = T(table_.d[i]) * h;
       for (int k = 0; k < n; ++k) {
         T by_z(0.0), by_v(0.0);
         for (int j = 0; j < i; ++j) {
-          by_z += T(c_[i][j]) * u_z_[j][k];
-          by_v += T(c_[i][j]) * u_v_[j][k];
+          by_z += T(c_[i][j]) * u_z[j][k];
+          by_v += T(c_[i][j]) * u_v[j][k];
         }
-        r_z_[k] = stage_v[k] + per_h * by_z;
-        r_v_[k] = slope_[k] + per_h * by_v + time_part * a_t_[k];
+        r_z[k] = rate[k] + per_h * by_z;
+        r_v[k] = slope[k] + per_h * by_v + time_part * a_t[k];
       }
-      solve(inverse, u_z_[i].data(), u_v_[i].data());
+      solve(inverse, r_z, r_v, u_z[i], u_v[i]);
     }
     for (int k = 0; k < n; ++k) {
       new_z[k] = z[k];
       new_v[k] = v[k];
       error[k] = error[n + k] = T(0.0);
       for (int i = 0; i < table_.stages; ++i) {
-        new_z[k] += T(table_.m[i]) * u_z_[i][k];
-        new_v[k] += T(table_.m[i]) * u_v_[i][k];
-        error[k] += T(table_.e[i]) * u_z_[i][k];
-        error[n + k] += T(table_.e[i]) * u_v_[i][k];
+        new_z[k] += T(table_.m[i]) * u_z[i][k];
+        new_v[k] += T(table_.m[i]) * u_v[i][k];
+        error[k] += T(table_.e[i]) * u_z[i][k];
+        error[n + k] += T(table_.e[i]) * u_v[i][k];
       }
     }
   }
@@ -134,24 +134,27 @@ class LaneRosenbrock {
     }
   }
 
-  void solve(const T& inverse, T* u_z, T* u_v) const {
+  void solve(const T& inverse, const LaneVector<T, N>& r_z, const LaneVector<T, N>& r_v, LaneVector<T, N>& u_z,
+             LaneVector<T, N>& u_v) const {
     const int n = count();
+    LaneVector<T, N> x;
     for (int i = 0; i < n; ++i) {
-      u_v[i] = r_v_[i];
-      for (int j = 0; j < n; ++j) u_v[i] += a_z_[i * n + j] * (r_z_[j] * inverse);
+      x[i] = r_v[i];
+      for (int j = 0; j < n; ++j) x[i] += a_z_[i * n + j] * (r_z[j] * inverse);
     }
-    substitute(u_v);
-    for (int i = 0; i < n; ++i) u_z[i] = (r_z_[i] + u_v[i]) * inverse;
+    substitute(x.data());
+    for (int i = 0; i < n; ++i) {
+      u_v[i] = x[i];
+      u_z[i] = (r_z[i] + x[i]) * inverse;
+    }
   }
 
   const RosenbrockTable& table_;
   int n_;
-  double a_[kMostStages][kMostStages] = {}, c_[kMostStages][kMostStages] = {};
+  typename T::Number a_[kMostStages][kMostStages] = {}, c_[kMostStages][kMostStages] = {};  // in the lanes' own precision
   bool moves_[kMostStages] = {};
   std::vector<T> row_;
-  LaneNumbers<T, N> stage_z_, stage_v_, slope_, r_z_, r_v_, a_t_;
-  std::array<LaneNumbers<T, N>, kMostStages> u_z_, u_v_;
-  LaneNumbers<T, N * N> a_z_, a_v_, lu_;
+  LaneMatrix<T, N> a_z_, a_v_, lu_;
 };
 
 }  // namespace boresight

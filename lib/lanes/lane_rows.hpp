@@ -12,10 +12,10 @@
 
 namespace boresight {
 
-template <int W, typename Target, int distance = W / 2>
-inline void turn_over(Lanes<W, Target>* block) {
+template <int W, typename Target, typename Real, int distance = W / 2>
+inline void turn_over(Lanes<W, Target, Real>* block) {
   if constexpr (W > 1 && distance > 0) {
-    typename Register<W>::Integers lower{}, upper{};
+    typename Register<W, Real>::Integers lower{}, upper{};
     for (int p = 0; p < W; ++p) {
       lower[p] = (p & distance) == 0 ? p : W + p - distance;
       upper[p] = (p & distance) == 0 ? p + distance : W + p;
@@ -26,34 +26,35 @@ inline void turn_over(Lanes<W, Target>* block) {
       block[i].v = __builtin_shuffle(a, b, lower);
       block[i + distance].v = __builtin_shuffle(a, b, upper);
     }
-    turn_over<W, Target, distance / 2>(block);
+    turn_over<W, Target, Real, distance / 2>(block);
   }
 }
 
-// scenes: per lane. out: `width` numbers, a multiple of W. A lane without a scene is left as it was given by the lane before it.
-template <int W, typename Target>
-void scene_rows(const LaneScene* const* scenes, const Lanes<W, Target>& t, int width, Lanes<W, Target>* out) {
-  using Vector = typename Register<W>::Doubles;
-  const double* cell[W];
-  double share[W];
+// scenes, t: per lane. out: `width` numbers, a multiple of W. A lane without a scene is left as it was given by the lane before
+// it.
+template <int W, typename Target, typename Real>
+void scene_rows(const LaneScene* const* scenes, const double* t, int width, Lanes<W, Target, Real>* out) {
+  using Vector = typename Register<W, Real>::Numbers;
+  const Real* cell[W];
+  Real share[W];
   for (int l = 0; l < W; ++l) {
     const LaneScene& scene = *scenes[l];
-    const double x = t.lane(l) / scene.spacing;
+    const double x = t[l] * scene.per_spacing;
     const int k = std::clamp(static_cast<int>(x), 0, scene.cells - 1);
-    share[l] = x - k;
-    cell[l] = scene.coefficients + static_cast<std::size_t>(k) * 4 * width;
+    share[l] = static_cast<Real>(x - k);
+    cell[l] = scene.coefficients<Real>() + static_cast<std::size_t>(k) * 4 * width;
   }
-  const auto load = [](const double* from) {
+  const auto load = [](const Real* from) {
     Vector v;
     __builtin_memcpy(&v, from, sizeof v);
     return v;
   };
   for (int first = 0; first < width; first += W) {
     for (int l = 0; l < W; ++l) {
-      const double *c0 = cell[l] + first, *c1 = c0 + width, *c2 = c1 + width, *c3 = c2 + width;
+      const Real *c0 = cell[l] + first, *c1 = c0 + width, *c2 = c1 + width, *c3 = c2 + width;
       out[first + l].v = load(c0) + share[l] * (load(c1) + share[l] * (load(c2) + share[l] * load(c3)));
     }
-    turn_over<W, Target>(out + first);
+    turn_over(out + first);
   }
 }
 

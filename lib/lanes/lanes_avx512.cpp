@@ -7,7 +7,11 @@ struct Avx512;
 }  // namespace
 
 void run_lanes_avx512(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
-  lane_kernel<8, Avx512>(jobs, count, settings, outcomes);
+  lane_kernel<8, Avx512, double>(jobs, count, settings, outcomes);
+}
+
+void run_lanes_avx512_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
+  lane_kernel<16, Avx512, float>(jobs, count, settings, outcomes);
 }
 
 }  // namespace boresight

@@ -7,7 +7,11 @@ struct Scalar;
 }  // namespace
 
 void run_lanes_scalar(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
-  lane_kernel<1, Scalar>(jobs, count, settings, outcomes);
+  lane_kernel<1, Scalar, double>(jobs, count, settings, outcomes);
+}
+
+void run_lanes_scalar_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
+  lane_kernel<1, Scalar, float>(jobs, count, settings, outcomes);
 }
 
 }  // namespace boresight

@@ -7,7 +7,11 @@ struct Sse2;
 }  // namespace
 
 void run_lanes_sse2(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
-  lane_kernel<2, Sse2>(jobs, count, settings, outcomes);
+  lane_kernel<2, Sse2, double>(jobs, count, settings, outcomes);
+}
+
+void run_lanes_sse2_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
+  lane_kernel<4, Sse2, float>(jobs, count, settings, outcomes);
 }
 
 }  // namespace boresight

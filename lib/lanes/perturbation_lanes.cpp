@@ -4,16 +4,14 @@
 #include <list>
 #include <mutex>
 
+#include "boresight/lanes/lane_numbers.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
 
 namespace boresight {
 namespace {
 
-constexpr int kPad = 8;  // lanes of the widest register
+constexpr int kPad = 16;  // lanes of the widest register
 constexpr std::size_t kScenesKept = 64;  // of different masses
-// The linear systems of an implicit step grow with the cube of the coordinates, three to five a joint: with twelve joints explicit
-// steps of single samples are cheaper.
-constexpr int kMostJoints = 4;
 
 // G at t, 3 x n: the index to first order is |G z|.
 MatX index_gain(const Mechanism& mechanism, const PreparedScene& prepared, PointingQuantity quantity, double t) {
@@ -40,7 +38,8 @@ struct PerturbationLanes::Prepared {
   Parameters parameters;
   std::shared_ptr<const PreparedScene> scene;
   std::shared_ptr<const SceneTables> tables;
-  std::vector<double> storage;
+  std::vector<double> in_double;
+  std::vector<float> in_single;
   std::vector<LanePlaces> places;
   VecX acceleration;  // root mean square of the ideal reactions' accelerations of each coordinate
   LaneScene lane;
@@ -56,7 +55,7 @@ struct PerturbationLanes::Cache {
 
 bool PerturbationLanes::serve(const Mechanism& mechanism) {
   const MechanismDescription& m = mechanism.description();
-  if (mechanism.clearances() > kMostJoints) return false;
+  if (mechanism.clearances() > kMostLaneJoints) return false;
   for (int c = 0; c < mechanism.clearances(); ++c) {
     const JournalInSleeve law(m.clearances[c], m.joints[m.clearances[c].joint].type, mechanism.parameters().clearance[c]);
     if (law.radial_law.curve != ElasticCurve::point || law.sticks) return false;
@@ -113,17 +112,19 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
   lane.gain = dynamics.width();
   lane.width = (dynamics.width() + 3 * n + kPad - 1) / kPad * kPad;
   lane.cells = dynamics.cells();
-  lane.spacing = dynamics.spacing();
+  lane.per_spacing = 1.0 / dynamics.spacing();
   lane.duration = mechanism_->duration();
   lane.layout = &p->tables->layout;
-  p->storage.assign(static_cast<std::size_t>(lane.cells) * 4 * lane.width, 0.0);
+  p->in_double.assign(static_cast<std::size_t>(lane.cells) * 4 * lane.width, 0.0);
   for (int cell = 0; cell < lane.cells; ++cell)
     for (int power = 0; power < 4; ++power) {
-      double* to = &p->storage[(static_cast<std::size_t>(cell) * 4 + power) * lane.width];
+      double* to = &p->in_double[(static_cast<std::size_t>(cell) * 4 + power) * lane.width];
       std::copy_n(dynamics.cell(cell) + power * dynamics.width(), dynamics.width(), to);
       std::copy_n(gain.cell(cell) + power * gain.width(), gain.width(), to + lane.gain);
     }
-  lane.coefficients = p->storage.data();
+  p->in_single.assign(p->in_double.begin(), p->in_double.end());
+  lane.in_double = p->in_double.data();
+  lane.in_single = p->in_single.data();
 
   for (int c = 0; c < mechanism_->clearances(); ++c) {
     const ClearanceDescription& clearance = mechanism_->description().clearances[c];
@@ -148,7 +149,7 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
 }
 
 void PerturbationLanes::run(std::span<const Parameters> samples, std::span<LaneOutcome> outcomes, double tolerance) const {
-  run(lane_targets().front(), samples, outcomes, tolerance);
+  run(lane_targets(lane_precision(tolerance)).front(), samples, outcomes, tolerance);
 }
 
 void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters> samples, std::span<LaneOutcome> outcomes,

@@ -22,6 +22,13 @@ namespace boresight {
 // 500 kg; measured in tests/lib/lanes.
 inline constexpr double kLaneTolerance = 1e-3;
 
+// Down to this tolerance single precision is enough: its rounding, some 1e-6 of a contact's force, stays far below the error
+// that a step may have. Half the numbers' size is twice the lanes. Measured in tests/lib/lanes.
+inline constexpr double kSinglePrecisionTolerance = 2e-4;
+constexpr LanePrecision lane_precision(double tolerance) {
+  return tolerance < kSinglePrecisionTolerance ? LanePrecision::double_precision : LanePrecision::single_precision;
+}
+
 class PerturbationLanes {
  public:
   // Whether lanes pay: few joints with clearance, and laws that have lanes: Hertz's geometry with any damping factor, modified

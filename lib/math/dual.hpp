@@ -6,6 +6,7 @@
 #pragma once
 
 #include <concepts>
+#include <utility>
 
 #include "boresight/math/types.hpp"
 #include "boresight/math/scalar.hpp"
@@ -21,9 +22,7 @@ struct Dual {
   Dual(double value)  // NOLINT: a constant
     requires(!std::same_as<T, double>)
       : Dual(T(value)) {}
-  Dual(const T& value) : a(value) {       // NOLINT
-    for (T& d : v) d = T(0.0);
-  }
+  Dual(const T& value) : Dual(each(value, [](int) { return T(0.0); })) {}  // NOLINT
   // The k-th of the N others.
   Dual(const T& value, int k) : Dual(value) { v[k] = T(1.0); }
 
@@ -92,6 +91,14 @@ struct Dual {
   }
 
  private:
+  // Without a loop: compilers keep a struct's numbers in registers where every index is a constant from the start.
+  template <typename F, int... K>
+  static Dual written_out(const T& value, F derivative, std::integer_sequence<int, K...>) {
+    Dual result;
+    result.a = value;
+    ((result.v[K] = derivative(K)), ...);
+    return result;
+  }
   template <typename Condition>
   static T choose(const Condition& where, const T& x, const T& y) {
     return select(where, x, y);
@@ -103,12 +110,12 @@ struct Dual {
   }
   template <typename F>
   static Dual each(const T& value, F derivative) {
-    Dual result;
-    result.a = value;
-    for (int k = 0; k < N; ++k) result.v[k] = derivative(k);
-    return result;
+    return written_out(value, derivative, std::make_integer_sequence<int, N>());
   }
 };
+
+template <typename T, int N>
+struct TinyLength<Dual<T, N>> : TinyLength<T> {};
 
 }  // namespace boresight
 

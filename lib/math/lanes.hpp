@@ -1,10 +1,11 @@
 // Several samples side by side in one SIMD register: a scalar for the templates of the contact laws and the dynamics.
 //
-// Lanes<W, Target> behaves like double; comparisons give a LaneMask, to be used through select() and any() (scalar.hpp).
-// W is the number of doubles of a register, Target a tag of the instruction set that the translation unit is compiled for:
-// it makes every template instance a different type, so that code made for one processor is never linked into another's.
+// Lanes<W, Target, Real> behaves like Real, double or float; comparisons give a LaneMask, to be used through select() and any()
+// (scalar.hpp). W is how many of them a register holds, Target a tag of the instruction set that the translation unit is
+// compiled for: it makes every template instance a different type, so that code made for one processor is never linked into
+// another's.
 // Sums and products are rounded one by one (no fused multiply-add, see lib/lanes/CMakeLists.txt), square roots and quotients
-// exactly: a lane gives the same bits as plain double does, on every instruction set.
+// exactly: a lane gives the same bits as one number of its kind does, on every instruction set.
 #pragma once
 
 #include <cmath>
@@ -20,17 +21,19 @@
 
 namespace boresight {
 
-// The doubles of one register, and the integers that a comparison of them gives.
-template <int W>
+// The numbers of one register, and the integers that a comparison of them gives.
+template <int W, typename Real>
 struct Register {
-  using Doubles [[gnu::vector_size(W * 8)]] = double;
-  using Integers [[gnu::vector_size(W * 8)]] = std::int64_t;
+  using Integer = std::conditional_t<sizeof(Real) == 8, std::int64_t, std::int32_t>;
+  using Numbers [[gnu::vector_size(W * sizeof(Real))]] = Real;
+  using Integers [[gnu::vector_size(W * sizeof(Real))]] = Integer;
 };
 // One lane: plain numbers.
-template <>
-struct Register<1> {
-  using Doubles = double;
-  using Integers = std::int64_t;
+template <typename Real>
+struct Register<1, Real> {
+  using Integer = std::conditional_t<sizeof(Real) == 8, std::int64_t, std::int32_t>;
+  using Numbers = Real;
+  using Integers = Integer;
 };
 
 // Element i of a register, and a comparison as a mask of integers.
@@ -48,23 +51,27 @@ void set_element(V& v, int i, X x) {
   else
     v[i] = x;
 }
-template <typename M>
+template <typename Integer, typename M>
 auto as_mask(const M& compared) {
   if constexpr (std::is_same_v<M, bool>)
-    return static_cast<std::int64_t>(compared ? -1 : 0);
+    return static_cast<Integer>(compared ? -1 : 0);
   else
     return compared;
 }
 
 // Which lanes a comparison holds in: a bit each where the processor has registers for that, else a whole integer each.
-template <int W, typename Target>
+template <int W, typename Target, typename Real>
 struct LaneMask {
+  static constexpr int kBytes = W * static_cast<int>(sizeof(Real));
 #if defined(__AVX512F__)
-  static constexpr bool kBits = W == 8;
+  static constexpr bool kBits = kBytes == 64;
 #else
   static constexpr bool kBits = false;
 #endif
-  using Storage = std::conditional_t<kBits, std::uint8_t, typename Register<W>::Integers>;
+  using Bits = std::conditional_t<W == 16, std::uint16_t, std::uint8_t>;
+  using Integer = typename Register<W, Real>::Integer;
+  using Storage = std::conditional_t<kBits, Bits, typename Register<W, Real>::Integers>;
+  static constexpr Bits kAllBits = static_cast<Bits>(~Bits{});
 
   LaneMask() = default;
   explicit LaneMask(Storage wanted)
@@ -72,7 +79,7 @@ struct LaneMask {
       : m(wanted) {}
   static LaneMask all(bool on) {
     if constexpr (kBits)
-      return LaneMask(static_cast<std::uint8_t>(on ? 0xff : 0));
+      return LaneMask(on ? kAllBits : Bits{});
     else
       return LaneMask(Storage{} - (on ? 1 : 0));
   }
@@ -84,9 +91,9 @@ struct LaneMask {
   }
   void set(int i, bool on) {
     if constexpr (kBits)
-      m = static_cast<std::uint8_t>(on ? m | (1 << i) : m & ~(1 << i));
+      m = static_cast<Bits>(on ? m | (1 << i) : m & ~(1 << i));
     else
-      set_element(m, i, std::int64_t{on ? -1 : 0});
+      set_element(m, i, Integer{on ? -1 : 0});
   }
 
   friend LaneMask operator&(const LaneMask& a, const LaneMask& b) { return LaneMask(static_cast<Storage>(a.m & b.m)); }
@@ -97,35 +104,36 @@ struct LaneMask {
   Storage m;
 };
 
-template <int W, typename Target>
-inline bool any(const LaneMask<W, Target>& mask) {
-#if defined(__AVX512F__)
-  if constexpr (W == 8) return mask.m != 0;
-#endif
+template <int W, typename Target, typename Real>
+inline bool any(const LaneMask<W, Target, Real>& mask) {
+  using Mask = LaneMask<W, Target, Real>;
+  if constexpr (Mask::kBits) return mask.m != 0;
 #if defined(__AVX__)
-  if constexpr (W == 4) return _mm256_movemask_pd((__m256d)mask.m) != 0;
+  if constexpr (Mask::kBytes == 32) return _mm256_movemask_ps((__m256)mask.m) != 0;
 #endif
 #if defined(__SSE2__)
-  if constexpr (W == 2) return _mm_movemask_pd((__m128d)mask.m) != 0;
+  if constexpr (Mask::kBytes == 16) return _mm_movemask_ps((__m128)mask.m) != 0;
 #endif
   bool found = false;
   for (int i = 0; i < W; ++i) found = found || mask.lane(i);
   return found;
 }
 
-template <int W, typename Target>
+template <int W, typename Target, typename Real = double>
 struct Lanes {
-  using Vector = typename Register<W>::Doubles;
-  using Mask = LaneMask<W, Target>;
+  using Vector = typename Register<W, Real>::Numbers;
+  using Mask = LaneMask<W, Target, Real>;
+  using Number = Real;
   static constexpr int kWidth = W;
+  static constexpr bool kSingle = std::is_same_v<Real, float>;
 
   Lanes() = default;
-  Lanes(double all) : v(all - Vector{}) {}  // NOLINT: a number is the same number in every lane
+  Lanes(double all) : v(static_cast<Real>(all) - Vector{}) {}  // NOLINT: a number is the same number in every lane
   explicit Lanes(Vector wanted)
-    requires(W > 1)
+    requires(!std::is_arithmetic_v<Vector>)
       : v(wanted) {}
-  double lane(int i) const { return element(v, i); }
-  void set(int i, double x) { set_element(v, i, x); }
+  Real lane(int i) const { return element(v, i); }
+  void set(int i, double x) { set_element(v, i, static_cast<Real>(x)); }
 
   Lanes& operator+=(const Lanes& b) { return v += b.v, *this; }
   Lanes& operator-=(const Lanes& b) { return v -= b.v, *this; }
@@ -138,50 +146,73 @@ struct Lanes {
   friend Lanes operator-(const Lanes& a) { return Lanes(-a.v); }
   friend Mask operator>(const Lanes& a, const Lanes& b) {
 #if defined(__AVX512F__)
-    if constexpr (W == 8) return Mask(_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_GT_OQ));
+    if constexpr (Mask::kBits && kSingle) return Mask(_mm512_cmp_ps_mask((__m512)a.v, (__m512)b.v, _CMP_GT_OQ));
+    if constexpr (Mask::kBits && !kSingle) return Mask(_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_GT_OQ));
 #endif
-    if constexpr (!Mask::kBits) return Mask(as_mask(a.v > b.v));
+    if constexpr (!Mask::kBits) return Mask(as_mask<typename Mask::Integer>(a.v > b.v));
   }
   friend Mask operator<(const Lanes& a, const Lanes& b) {
 #if defined(__AVX512F__)
-    if constexpr (W == 8) return Mask(_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LT_OQ));
+    if constexpr (Mask::kBits && kSingle) return Mask(_mm512_cmp_ps_mask((__m512)a.v, (__m512)b.v, _CMP_LT_OQ));
+    if constexpr (Mask::kBits && !kSingle) return Mask(_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LT_OQ));
 #endif
-    if constexpr (!Mask::kBits) return Mask(as_mask(a.v < b.v));
+    if constexpr (!Mask::kBits) return Mask(as_mask<typename Mask::Integer>(a.v < b.v));
   }
   friend Mask operator>=(const Lanes& a, const Lanes& b) {
 #if defined(__AVX512F__)
-    if constexpr (W == 8) return Mask(_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_GE_OQ));
+    if constexpr (Mask::kBits && kSingle) return Mask(_mm512_cmp_ps_mask((__m512)a.v, (__m512)b.v, _CMP_GE_OQ));
+    if constexpr (Mask::kBits && !kSingle) return Mask(_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_GE_OQ));
 #endif
-    if constexpr (!Mask::kBits) return Mask(as_mask(a.v >= b.v));
+    if constexpr (!Mask::kBits) return Mask(as_mask<typename Mask::Integer>(a.v >= b.v));
   }
   friend Mask operator<=(const Lanes& a, const Lanes& b) {
 #if defined(__AVX512F__)
-    if constexpr (W == 8) return Mask(_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LE_OQ));
+    if constexpr (Mask::kBits && kSingle) return Mask(_mm512_cmp_ps_mask((__m512)a.v, (__m512)b.v, _CMP_LE_OQ));
+    if constexpr (Mask::kBits && !kSingle) return Mask(_mm512_cmp_pd_mask((__m512d)a.v, (__m512d)b.v, _CMP_LE_OQ));
 #endif
-    if constexpr (!Mask::kBits) return Mask(as_mask(a.v <= b.v));
+    if constexpr (!Mask::kBits) return Mask(as_mask<typename Mask::Integer>(a.v <= b.v));
   }
 
   friend Lanes select(const Mask& where, const Lanes& a, const Lanes& b) {
 #if defined(__AVX512F__)
-    if constexpr (W == 8) return Lanes((Vector)_mm512_mask_blend_pd(where.m, (__m512d)b.v, (__m512d)a.v));
+    if constexpr (Mask::kBits && kSingle) return Lanes((Vector)_mm512_mask_blend_ps(where.m, (__m512)b.v, (__m512)a.v));
+    if constexpr (Mask::kBits && !kSingle) return Lanes((Vector)_mm512_mask_blend_pd(where.m, (__m512d)b.v, (__m512d)a.v));
 #endif
     if constexpr (!Mask::kBits) return Lanes(where.m ? a.v : b.v);
   }
   friend Lanes sqrt(const Lanes& a) {
-#if defined(__AVX512F__)
-    if constexpr (W == 8) return Lanes((Vector)_mm512_maskz_sqrt_pd(0xff, (__m512d)a.v));  // GCC warns of the plain one
+    [[maybe_unused]] constexpr int kBytes = Mask::kBytes;
+#if defined(__AVX512F__)  // with a mask, for GCC warns of the plain ones
+    if constexpr (kBytes == 64 && kSingle) return Lanes((Vector)_mm512_maskz_sqrt_ps(Mask::kAllBits, (__m512)a.v));
+    if constexpr (kBytes == 64 && !kSingle) return Lanes((Vector)_mm512_maskz_sqrt_pd(Mask::kAllBits, (__m512d)a.v));
 #endif
 #if defined(__AVX__)
-    if constexpr (W == 4) return Lanes((Vector)_mm256_sqrt_pd((__m256d)a.v));
+    if constexpr (kBytes == 32 && kSingle) return Lanes((Vector)_mm256_sqrt_ps((__m256)a.v));
+    if constexpr (kBytes == 32 && !kSingle) return Lanes((Vector)_mm256_sqrt_pd((__m256d)a.v));
 #endif
 #if defined(__SSE2__)
-    if constexpr (W == 2) return Lanes((Vector)_mm_sqrt_pd((__m128d)a.v));
+    if constexpr (kBytes == 16 && kSingle) return Lanes((Vector)_mm_sqrt_ps((__m128)a.v));
+    if constexpr (kBytes == 16 && !kSingle) return Lanes((Vector)_mm_sqrt_pd((__m128d)a.v));
 #endif
     Lanes root;
-    for (int i = 0; i < W; ++i) root.set(i, __builtin_sqrt(a.lane(i)));
+    for (int i = 0; i < W; ++i) root.set(i, std::sqrt(a.lane(i)));
     return root;
   }
-  friend Lanes abs(const Lanes& a) { return Lanes(a.v < 0.0 ? -a.v : a.v); }
+  // Neither infinite nor not a number; by the bits, for compilers may be told that there are only finite numbers.
+  friend Mask is_finite(const Lanes& a) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+    constexpr int kNotFinite = 0x99;  // quiet and signalling, positive and negative
+    if constexpr (Mask::kBits && kSingle) return !Mask(_mm512_fpclass_ps_mask((__m512)a.v, kNotFinite));
+    if constexpr (Mask::kBits && !kSingle) return !Mask(_mm512_fpclass_pd_mask((__m512d)a.v, kNotFinite));
+#endif
+    using Integer = typename Mask::Integer;
+    constexpr Integer kExponent = kSingle ? Integer{0x7f800000} : static_cast<Integer>(0x7ff0000000000000);
+    if constexpr (!Mask::kBits) {
+      const auto bits = __builtin_bit_cast(typename Register<W, Real>::Integers, a.v);
+      return Mask(as_mask<Integer>((bits & kExponent) != kExponent));
+    }
+  }
+  friend Lanes abs(const Lanes& a) { return Lanes(a.v < Real(0) ? -a.v : a.v); }
   // One lane after the other: met on the rim of a tilted cap only.
   friend Lanes acos(const Lanes& a) {
     Lanes angle;
@@ -192,21 +223,24 @@ struct Lanes {
   Vector v;
 };
 
-template <int W, typename Target>
-inline Lanes<W, Target> larger(const Lanes<W, Target>& a, const Lanes<W, Target>& b) {
+template <int W, typename Target, typename Real>
+inline Lanes<W, Target, Real> larger(const Lanes<W, Target, Real>& a, const Lanes<W, Target, Real>& b) {
   return select(a > b, a, b);
 }
-template <int W, typename Target>
-inline Lanes<W, Target> smaller(const Lanes<W, Target>& a, const Lanes<W, Target>& b) {
+template <int W, typename Target, typename Real>
+inline Lanes<W, Target, Real> smaller(const Lanes<W, Target, Real>& a, const Lanes<W, Target, Real>& b) {
   return select(a < b, a, b);
 }
+
+template <int W, typename Target>
+struct TinyLength<Lanes<W, Target, float>> : TinyLength<float> {};
 
 }  // namespace boresight
 
 namespace Eigen {
-template <int W, typename Target>
-struct NumTraits<boresight::Lanes<W, Target>> : NumTraits<double> {
-  using Real = boresight::Lanes<W, Target>;
+template <int W, typename Target, typename Scalar>
+struct NumTraits<boresight::Lanes<W, Target, Scalar>> : NumTraits<Scalar> {
+  using Real = boresight::Lanes<W, Target, Scalar>;
   using NonInteger = Real;
   using Nested = Real;
   using Literal = double;

@@ -21,11 +21,21 @@ inline T positive_part(const T& x) {
   return select(x > T(0.0), x, T(0.0));
 }
 
+// What stands in for no length where a direction is asked for: its square is still a number of the scalar's kind.
+template <typename T>
+struct TinyLength {
+  static constexpr double square = 1e-60;
+};
+template <>
+struct TinyLength<float> {
+  static constexpr double square = 1e-30;
+};
+
 // Length from its square, with a derivative everywhere: a vector of no length has some tiny one, and so a direction.
 template <typename T>
 inline T length_from_square(const T& square) {
   using std::sqrt;
-  return sqrt(select(square > T(0.0), square, T(1e-60)));
+  return sqrt(select(square > T(TinyLength<T>::square), square, T(TinyLength<T>::square)));
 }
 
 // Scalars with powers and exponentials, which laws off the common path need; a lane type may do without.

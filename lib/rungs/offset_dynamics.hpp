@@ -10,9 +10,8 @@
 namespace boresight {
 
 // How a journal moves, from the coordinates and the scene (one row of its table) at that time.
-template <typename T, typename S>
-JournalMotion<T> journal_motion(const SceneLayout& at, const SceneLayout::Joint& joint, const S* scene, const T* z,
-                                const T* rate) {
+template <typename Layout, typename Joint, typename T, typename S>
+JournalMotion<T> journal_motion(const Layout& at, const Joint& joint, const S* scene, const T* z, const T* rate) {
   std::array<T, 5> offset, offset_rate;
   for (int k = 0; k < joint.offsets; ++k) {
     const int source = joint.source[k];
@@ -53,9 +52,9 @@ JournalMotion<T> journal_motion(const SceneLayout& at, const SceneLayout::Joint&
 }
 
 // Adds a joint's wrench to the generalised force (n numbers).
-template <typename T, typename S>
-void add_generalised_force(const SceneLayout& at, const SceneLayout::Joint& joint, const S* scene,
-                           const JournalMotion<T>& motion, const JournalLoad<T>& wrench, T* force) {
+template <typename Layout, typename Joint, typename T, typename S>
+void add_generalised_force(const Layout& at, const Joint& joint, const S* scene, const JournalMotion<T>& motion,
+                           const JournalLoad<T>& wrench, T* force) {
   for (int k = 0; k < 3; ++k) {
     const int source = joint.source[k];
     if (source >= 0) {
@@ -76,8 +75,8 @@ void add_generalised_force(const SceneLayout& at, const SceneLayout::Joint& join
 }
 
 // zddot from the generalised contact force.
-template <typename T, typename S>
-void coordinate_acceleration(const SceneLayout& at, const S* scene, const T* z, const T* rate, const T* force,
+template <typename Layout, typename T, typename S>
+void coordinate_acceleration(const Layout& at, const S* scene, const T* z, const T* rate, const T* force,
                              T* acceleration) {
   for (int i = 0; i < at.n; ++i) {
     T sum(scene[at.Ar + i]);

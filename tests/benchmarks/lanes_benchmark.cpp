@@ -71,12 +71,15 @@ void sample_on_lanes(benchmark::State& state, const LaneTarget& target) {
 }
 
 [[maybe_unused]] const bool registered = [] {
-  for (const LaneTarget& target : lane_targets())
-    benchmark::RegisterBenchmark((std::string("sample/") + target.name).c_str(),
-                                 [target](benchmark::State& state) { sample_on_lanes(state, target); })
-        ->UseManualTime()
-        ->Iterations(5)
-        ->Unit(benchmark::kMillisecond);
+  for (const LanePrecision precision : {LanePrecision::single_precision, LanePrecision::double_precision})
+    for (const LaneTarget& target : lane_targets(precision)) {
+      const char* digits = precision == LanePrecision::single_precision ? "single" : "double";
+      benchmark::RegisterBenchmark((std::string("sample/") + digits + "/" + target.name).c_str(),
+                                   [target](benchmark::State& state) { sample_on_lanes(state, target); })
+          ->UseManualTime()
+          ->Iterations(5)
+          ->Unit(benchmark::kMillisecond);
+    }
   return true;
 }();
 

@@ -131,7 +131,7 @@ class Comparing {
     for (double tolerance : kTolerances) {
       const Way way{.rung = "perturbation", .tolerance = tolerance};
       add({.program = "perturbation on lanes",
-           .way = std::string("a sample of ") + std::to_string(kBatch) + ", " + lane_targets().front().name,
+           .way = std::string("a sample of ") + std::to_string(kBatch) + ", " + lane_targets(LanePrecision::single_precision).front().name,
            .fineness = fineness(way),
            .ours = true,
            .measured = measure_lanes(lanes, parameters_, tolerance)});
