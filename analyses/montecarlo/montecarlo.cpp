@@ -8,6 +8,7 @@
 
 #include "boresight_analyses/montecarlo/estimates.hpp"
 #include "boresight_analyses/montecarlo/sampling.hpp"
+#include "boresight_analyses/study/portion.hpp"
 
 namespace boresight {
 namespace {
@@ -190,7 +191,7 @@ MonteCarloResult run_montecarlo(const SampleModel& model, const MonteCarloPlan& 
         std::uint64_t all = 0;
         for (const NumberRange& range : work.blocks) all += range.size();
         const std::uint64_t batch =
-            std::max<std::uint64_t>(1, model.batch()) * static_cast<std::uint64_t>(options.jobs);
+            least_portion(model.batch()) * static_cast<std::uint64_t>(options.jobs);
         const std::uint64_t fair = all / (16 * static_cast<std::uint64_t>(ranks.size()));
         work.blocks =
             blocks_of(work.blocks, std::clamp<std::uint64_t>(fair, batch, std::max<std::uint64_t>(batch, 65536)));

@@ -8,16 +8,21 @@
 #include <exception>
 #include <mutex>
 
+#include "boresight_analyses/study/portion.hpp"
+
 namespace boresight {
 namespace {
 
 // Hands out the numbers of the ranges, ascending, a few at a time and never across two ranges.
 class Numbers {
  public:
-  explicit Numbers(const std::vector<NumberRange>& ranges) : ranges_(ranges) {}
+  explicit Numbers(const std::vector<NumberRange>& ranges) : ranges_(ranges) {
+    for (const NumberRange& range : ranges) left_ += range.size();
+  }
 
-  NumberRange next(std::uint64_t most) {
+  NumberRange next(std::uint64_t batch, int workers) {
     const std::scoped_lock lock(mutex_);
+    const std::uint64_t most = portion(batch, left_, workers);
     while (range_ < ranges_.size() && at_ >= ranges_[range_].size()) {
       ++range_;
       at_ = 0;
@@ -26,6 +31,7 @@ class Numbers {
     const std::uint64_t first = ranges_[range_].first + at_;
     const std::uint64_t end = std::min(first + most, ranges_[range_].end);
     at_ += end - first;
+    left_ -= end - first;
     return {first, end};
   }
 
@@ -33,7 +39,7 @@ class Numbers {
   const std::vector<NumberRange>& ranges_;
   std::mutex mutex_;
   std::size_t range_ = 0;
-  std::uint64_t at_ = 0;
+  std::uint64_t at_ = 0, left_ = 0;
 };
 
 }  // namespace
@@ -56,12 +62,13 @@ bool compute_samples(const SampleModel& model, std::size_t parameters, const Val
   const std::atomic<bool> never{false};
   const std::atomic<bool>& stop = options.stop != nullptr ? *options.stop : never;
 
+  const int jobs = std::max(1, options.jobs);
   const auto work = [&] {
     std::vector<SampleRecord> records;
     std::vector<Sample> samples;
     std::vector<Outcome> outcomes;
     while (!no_more && !stop) {
-      const NumberRange batch = numbers.next(model.batch());
+      const NumberRange batch = numbers.next(model.batch(), jobs);
       if (batch.size() == 0) return;
       const std::size_t n = batch.size();
       records.assign(n, {});
@@ -93,7 +100,6 @@ bool compute_samples(const SampleModel& model, std::size_t parameters, const Val
     }
   };
 
-  const int jobs = std::max(1, options.jobs);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(jobs));
   tbb::task_arena arena(jobs);
   arena.execute([&] {
@@ -103,7 +109,7 @@ bool compute_samples(const SampleModel& model, std::size_t parameters, const Val
     group.wait();
   });
   if (fault) std::rethrow_exception(fault);
-  return all_reached && numbers.next(1).size() == 0;
+  return all_reached && numbers.next(1, 1).size() == 0;
 }
 
 }  // namespace boresight

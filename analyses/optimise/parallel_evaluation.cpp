@@ -10,6 +10,8 @@
 #include <mutex>
 #include <thread>
 
+#include "boresight_analyses/study/portion.hpp"
+
 namespace boresight {
 
 std::vector<Outcome> evaluate_all(const SampleModel& model, const std::vector<std::vector<double>>& values,
@@ -17,13 +19,17 @@ std::vector<Outcome> evaluate_all(const SampleModel& model, const std::vector<st
   const std::size_t n = values.size();
   std::vector<Outcome> outcomes(n);
   std::atomic<bool> stop{false};
-  std::atomic<std::size_t> next{0};
+  std::size_t next = 0;
   std::mutex mutex;
   std::exception_ptr fault;
   const auto work = [&] {
-    const std::size_t most = std::max<std::size_t>(1, model.batch());
     for (;;) {
-      const std::size_t first = next.fetch_add(most), end = std::min(n, first + most);
+      std::size_t first, end;
+      {
+        const std::scoped_lock lock(mutex);
+        first = next;
+        next = end = std::min(n, first + portion(model.batch(), n - first, options.jobs));
+      }
       if (first >= n || stop) return;
       std::vector<Sample> samples;
       for (std::size_t k = first; k < end; ++k) samples.push_back({k, values[k]});

@@ -16,10 +16,11 @@ bool LaneSampleModel::serve(const Mechanism& mechanism, const IndexChoice& index
 }
 
 LaneSampleModel::LaneSampleModel(std::shared_ptr<const Mechanism> mechanism, RungSampleModel::ParametersOf parameters_of,
-                                 IndexChoice index)
+                                 IndexChoice index, bool scene_varies)
     : mechanism_(std::move(mechanism)),
       parameters_of_(std::move(parameters_of)),
       index_(std::move(index)),
+      scene_varies_(scene_varies),
       lanes_(mechanism_, index_.kind()) {}
 
 // What the rung itself estimates (perturbation.cpp), from what the lanes keep: the deviation over the mechanism's size, times
@@ -76,7 +77,7 @@ std::unique_ptr<SampleModel> sample_model(const std::string& rung, std::shared_p
                                           RungSampleModel::ParametersOf parameters_of, IndexChoice index, RunOptions options,
                                           bool scene_varies) {
   if (rung == "perturbation" && LaneSampleModel::serve(*mechanism, index, options))
-    return std::make_unique<LaneSampleModel>(std::move(mechanism), std::move(parameters_of), std::move(index));
+    return std::make_unique<LaneSampleModel>(std::move(mechanism), std::move(parameters_of), std::move(index), scene_varies);
   return std::make_unique<RungSampleModel>(rung, std::move(mechanism), std::move(parameters_of), std::move(index),
                                            std::move(options), scene_varies);
 }

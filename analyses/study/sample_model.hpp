@@ -45,7 +45,7 @@ class SampleModel {
   virtual std::string rung() const = 0;
   virtual double step() const = 0;  // of its integration [s]; 0: its own choice
   virtual std::string leaves_out() const = 0;
-  virtual std::size_t batch() const = 0;  // the number of samples it likes to be given at once
+  virtual std::size_t batch() const = 0;  // the number of samples it likes to be given at once: see portion.hpp
   // outcomes.size() == samples.size(). What goes wrong in a sample is an outcome, not an exception. Once `stop` is set
   // it returns soon; samples cut short are then not_reached.
   virtual void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,

@@ -22,6 +22,7 @@ class LaneClock {
   // A step of h from now, or of what is left where that is less; next() is where it leads.
   void aim(T& h) {
     Numbers step = spread(h);
+#pragma GCC unroll 1
     for (int l = 0; l < W; ++l) {
       const double left = end_[l] - now_[l], wanted = step[l];
       next_[l] = wanted < left ? now_[l] + wanted : end_[l];
@@ -32,17 +33,20 @@ class LaneClock {
   template <typename Mask>
   void advance(const Mask& lanes) {
     const Numbers chosen = spread(select(lanes, T(1.0), T(0.0)));
+#pragma GCC unroll 1
     for (int l = 0; l < W; ++l) now_[l] = chosen[l] > 0 ? next_[l] : now_[l];
   }
 
   T now() const {
     Numbers t;
+#pragma GCC unroll 1
     for (int l = 0; l < W; ++l) t[l] = static_cast<Number>(now_[l]);
     return gather(t);
   }
   // Whether the end is reached.
   typename T::Mask ended() const {
     Numbers left;
+#pragma GCC unroll 1
     for (int l = 0; l < W; ++l) left[l] = static_cast<Number>(now_[l] < end_[l] ? 1.0 : 0.0);
     return gather(left) < T(0.5);
   }

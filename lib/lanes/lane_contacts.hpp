@@ -91,12 +91,12 @@ class LaneContacts {
   std::vector<T> slowest;     // minimum impact speed [m/s]
 
  private:
-  // Newton's method kept inside a shrinking bracket; six rounds leave less of the step than the tolerance is worth.
+  // Newton's method kept inside a shrinking bracket; four rounds leave less of the step than the tolerance is worth.
   static T crossing(const ContactState<T>& a, const ContactState<T>& b, const T& h, const T& wanted) {
     const T g0 = a.penetration - wanted, g1 = b.penetration - wanted, d0 = h * a.rate, d1 = h * b.rate;
     const T c2 = T(3.0) * (g1 - g0) - T(2.0) * d0 - d1, c3 = T(2.0) * (g0 - g1) + d0 + d1;
     T low(0.0), high(1.0), s = g0 / (g0 - g1);
-    for (int round = 0; round < 6; ++round) {
+    for (int round = 0; round < 4; ++round) {
       const T value = g0 + s * (d0 + s * (c2 + s * c3)), slope = d0 + s * (T(2.0) * c2 + s * T(3.0) * c3);
       const Mask beyond = value > T(0.0);
       high = select(beyond, s, high);

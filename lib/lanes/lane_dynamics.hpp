@@ -10,6 +10,7 @@
 #include "boresight/lanes/lane_layouts.hpp"
 #include "boresight/lanes/lane_numbers.hpp"
 #include "boresight/math/dual.hpp"
+#include "boresight/math/each_index.hpp"
 #include "boresight/math/lanes.hpp"
 #include "boresight/rungs/offset_dynamics.hpp"
 
@@ -42,7 +43,7 @@ class LaneDynamics {
   }
 
   // a, its derivatives by z and v (n x n, row by row), and by time at the rate `change` of the row.
-  void linearise(const T* row, const T* change, const T* z, const T* v, T* a, T* a_z, T* a_v, T* a_t) {
+  [[gnu::flatten]] void linearise(const T* row, const T* change, const T* z, const T* v, T* a, T* a_z, T* a_v, T* a_t) {
     const int n = count();
     Load of;
     for (int i = 0; i < n; ++i) of.force[i] = of.change[i] = T(0.0);
@@ -57,19 +58,19 @@ class LaneDynamics {
     }
     coordinate_acceleration(at, row, z, v, of.force.data(), a);
     coordinate_acceleration(at, change, z, v, of.force.data(), a_t);
-    for (int i = 0; i < n; ++i) {
-      for (int k = 0; k < n; ++k) a_t[i] += row[at.A + i * n + k] * of.change[k];
-      for (int j = 0; j < n; ++j) {
+    each_index<N>(n, [&](auto i) {
+      each_index<N>(n, [&](auto k) { a_t[i] += row[at.inverse_mass(i, k)] * of.change[k]; });
+      each_index<N>(n, [&](auto j) {
         T by_z(0.0), by_v = -row[at.AC + i * n + j];
         if (at.stiff) by_z = -row[at.AK + i * n + j];
-        for (int k = 0; k < n; ++k) {
-          by_z += row[at.A + i * n + k] * of.by_z[k * n + j];
-          by_v += row[at.A + i * n + k] * of.by_v[k * n + j];
-        }
+        each_index<N>(n, [&](auto k) {
+          by_z += row[at.inverse_mass(i, k)] * of.by_z[k * n + j];
+          by_v += row[at.inverse_mass(i, k)] * of.by_v[k * n + j];
+        });
         a_z[i * n + j] = by_z;
         a_v[i * n + j] = by_v;
-      }
-    }
+      });
+    });
   }
 
   // Gaps and their rates, of every place of every joint.
@@ -113,17 +114,17 @@ class LaneDynamics {
     const JournalMotion<T> m = journal_motion(at, joint, row, z, v);
 
     JournalMotion<D> motion;
-    for (int k = 0; k < 3; ++k) {
+    each_index<3>(3, [&](auto k) {
       motion.e[k] = D(m.e[k], k);
       motion.e_dot[k] = D(m.e_dot[k], offsets + k);
       motion.w[k] = D(0.0);
-    }
+    });
     if constexpr (tilts)
-      for (int k = 0; k < 2; ++k) {
+      each_index<2>(2, [&](auto k) {
         motion.slope[k] = D(m.slope[k], 3 + k);
         motion.slope_rate[k] = D(m.slope_rate[k], offsets + 3 + k);
-      }
-    for (int k = 0; k < spins; ++k) motion.w[tilts ? k : 1] = D(m.w[tilts ? k : 1], 2 * offsets + k);
+      });
+    each_index<spins>(spins, [&](auto k) { motion.w[tilts ? k : 1] = D(m.w[tilts ? k : 1], 2 * offsets + k); });
     JournalLoad<D> wrench;
     load_of(c, motion, wrench);
 
@@ -136,7 +137,7 @@ class LaneDynamics {
       of.force[j] += part.a;
       add_gradient<offsets, spins>(joint, row, part, &of.by_z[j * n], &of.by_v[j * n]);
     };
-    for (int k = 0; k < 3; ++k) {
+    each_index<3>(3, [&](auto k) {
       const int source = joint.source[k];
       if (source >= 0) {
         into_force(source, wrench.force[k]);
@@ -146,26 +147,26 @@ class LaneDynamics {
         for (int j = 0; j < n; ++j) {
           into_force(j, row[first + j] * wrench.force[k]);
           of.change[j] += row[first + j] * rate_of<offsets, spins>(joint, change, z, v, wrench.force[k]) +
-                              change[first + j] * wrench.force[k].a;
+                          change[first + j] * wrench.force[k].a;
         }
       }
-    }
-    for (int i = 0; i < spins; ++i) {
+    });
+    each_index<spins>(spins, [&](auto i) {
       const D part = moment(tilts ? i : 1);
       const T rate = rate_of<offsets, spins>(joint, change, z, v, part);
-      for (int j = 0; j < n; ++j) {
+      each_index<N>(n, [&](auto j) {
         const int gain = joint.spin_gain + i * n + j;
         into_force(j, row[gain] * part);
         of.change[j] += row[gain] * rate + change[gain] * part.a;
-      }
-    }
+      });
+    });
   }
 
   // Of a generalised force, to which `part` is added.
   template <int offsets, int spins, typename Joint, typename D>
   void add_gradient(const Joint& joint, const T* row, const D& part, T* by_z, T* by_v) const {
     const int n = count();
-    for (int k = 0; k < offsets; ++k) {
+    each_index<offsets>(offsets, [&](auto k) {
       const int source = joint.source[k];
       const T &d = part.v[k], &d_rate = part.v[offsets + k];
       if (source >= 0) {
@@ -180,11 +181,11 @@ class LaneDynamics {
       } else {
         for (int i = 0; i < n; ++i) by_v[i] += d_rate * row[joint.slide_gain + i];
       }
-    }
-    for (int s = 0; s < spins; ++s) {
+    });
+    each_index<spins>(spins, [&](auto s) {
       const T& d = part.v[2 * offsets + s];
-      for (int i = 0; i < n; ++i) by_v[i] += d * row[joint.spin_gain + s * n + i];
-    }
+      each_index<N>(n, [&](auto i) { by_v[i] += d * row[joint.spin_gain + s * n + i]; });
+    });
   }
 
   // Rate of change of `part` with the scene alone: z and v held.
@@ -192,9 +193,9 @@ class LaneDynamics {
   T rate_of(const Joint& joint, const T* change, const T* z, const T* v, const D& part) const {
     const int n = count();
     T rate(0.0);
-    for (int k = 0; k < offsets; ++k) {
+    each_index<offsets>(offsets, [&](auto k) {
       const int source = joint.source[k];
-      if (source >= 0) continue;
+      if (source >= 0) return;
       T by_offset(0.0), by_rate(0.0);
       if (source == DeviationCoordinates::kDependent) {
         const T *B = change + joint.dependent + k * n, *B_rate = B + joint.offsets * n;
@@ -208,12 +209,12 @@ class LaneDynamics {
         for (int i = 0; i < n; ++i) by_rate += change[joint.slide_gain + i] * v[i];
       }
       rate += part.v[k] * by_offset + part.v[offsets + k] * by_rate;
-    }
-    for (int s = 0; s < spins; ++s) {
+    });
+    each_index<spins>(spins, [&](auto s) {
       T spin = change[joint.spin + s];
-      for (int i = 0; i < n; ++i) spin += change[joint.spin_gain + s * n + i] * v[i];
+      each_index<N>(n, [&](auto i) { spin += change[joint.spin_gain + s * n + i] * v[i]; });
       rate += part.v[2 * offsets + s] * spin;
-    }
+    });
     return rate;
   }
 };

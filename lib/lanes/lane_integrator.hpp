@@ -68,6 +68,7 @@ class LaneIntegrator {
 
  private:
   int count() const { return dynamics_.count(); }
+  int used() const { return dynamics_.at.width + 3 * count(); }  // of a row's columns
 
   void begin(int l, const LaneJob& job, LaneOutcome& outcome) {
     jobs_of_[l] = &job;
@@ -112,7 +113,7 @@ class LaneIntegrator {
   // Rows and gaps of lanes that stand at the start of their motion.
   void read_starts(const Mask& lanes) {
     scene_rows(scenes_.data(), clock_.times(), width_, new_row_.data());
-    for (int k = 0; k < width_; ++k) row_[k] = select(lanes, new_row_[k], row_[k]);
+    for (int k = 0; k < used(); ++k) row_[k] = select(lanes, new_row_[k], row_[k]);
     dynamics_.contacts(new_row_.data(), z_.data(), v_.data(), contacts_.end.data());
     for (int l = 0; l < W; ++l)
       if (lanes.lane(l)) contacts_.restart(l, dynamics_.impact_speed);
@@ -123,7 +124,7 @@ class LaneIntegrator {
     T h = h_;
     clock_.aim(h);
     scene_rows(scenes_.data(), clock_.next(), width_, new_row_.data());
-    for (int k = 0; k < width_; ++k) change_[k] = new_row_[k] - row_[k];
+    for (int k = 0; k < used(); ++k) change_[k] = new_row_[k] - row_[k];
     method_.step(dynamics_, row_.data(), change_.data(), h, z_.data(), v_.data(), new_z_.data(), new_v_.data(), error_.data());
     dynamics_.contacts(new_row_.data(), new_z_.data(), new_v_.data(), contacts_.end.data());
 
@@ -160,7 +161,7 @@ class LaneIntegrator {
       z_[k] = select(accepted, new_z_[k], z_[k]);
       v_[k] = select(accepted, new_v_[k], v_[k]);
     }
-    for (int k = 0; k < width_; ++k) row_[k] = select(accepted, new_row_[k], row_[k]);
+    for (int k = 0; k < used(); ++k) row_[k] = select(accepted, new_row_[k], row_[k]);
     clock_.advance(accepted);
     contact_since_ = select(accepted & (began | was_open), clock_.now(), contact_since_);
     gave_up_ = running_ & ((h_ < T(settings_.smallest_step)) | (steps_ + rejected_ >= T(double(settings_.most_steps))));

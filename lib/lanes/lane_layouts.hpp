@@ -22,13 +22,15 @@ struct SingleRevoluteLayout {
   static constexpr bool kParallel = true;
   struct Joint {
     static constexpr bool tilts = false, slides = false;
-    static constexpr int offsets = 3, spins = 1, spin = 21, spin_gain = 22, slide = 25, slide_gain = 25, dependent = 25;
+    static constexpr int offsets = 3, spins = 1, spin = 18, spin_gain = 19, slide = 22, slide_gain = 22, dependent = 22;
     static constexpr std::array<int, 3> source = {0, 1, 2};
   };
   static constexpr int n = 3;
   static constexpr bool stiff = false;
-  static constexpr int A = 0, Ar = 9, AC = 12, AK = 21, width = 25;
+  static constexpr int A = 0, Ar = 6, AC = 9, AK = 18, width = 22;
   static constexpr std::array<Joint, 1> joints = {};
+
+  static constexpr int inverse_mass(int i, int j) { return A + upper_triangle(n, i, j); }
 
   explicit SingleRevoluteLayout(const SceneLayout&) {}
   static bool describes(const SceneLayout& at) {

@@ -24,7 +24,7 @@ struct Dual {
       : Dual(T(value)) {}
   Dual(const T& value) : Dual(each(value, [](int) { return T(0.0); })) {}  // NOLINT
   // The k-th of the N others.
-  Dual(const T& value, int k) : Dual(value) { v[k] = T(1.0); }
+  Dual(const T& value, int k) : Dual(each(value, [k](int i) { return T(i == k ? 1.0 : 0.0); })) {}
 
   Dual& operator+=(const Dual& b) { return *this = *this + b; }
   Dual& operator-=(const Dual& b) { return *this = *this - b; }

@@ -229,7 +229,9 @@ void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, 
   const Eigen::LLT<MatX> cholesky(M);
   if (cholesky.info() != Eigen::Success)
     throw ComputationError("the reduced mass is not positive at t = " + std::to_string(knot.state.t) + " s");
-  append(row, MatX(cholesky.solve(MatX::Identity(n, n))));
+  const MatX inverse = cholesky.solve(MatX::Identity(n, n));
+  for (int i = 0; i < n; ++i)
+    for (int j = i; j < n; ++j) row.push_back(inverse(i, j));
   append(row, VecX(cholesky.solve(r)));
   append(row, MatX(cholesky.solve(C)));
   if (layout_.stiff) append(row, knot.stiffness);

@@ -32,7 +32,7 @@ namespace boresight {
 // The scene for one set of masses and one gravity, ready to integrate.
 struct SceneTables {
   SceneLayout layout;
-  // Per time, row by row: A = M_r^-1, A r, A C, (A K), then the joints' parts: see SceneLayout.
+  // Per time, row by row: A = M_r^-1 (its upper triangle), A r, A C, (A K), then the joints' parts: see SceneLayout.
   TimeTable dynamics;
 };
 

@@ -80,8 +80,8 @@ void coordinate_acceleration(const Layout& at, const S* scene, const T* z, const
                              T* acceleration) {
   for (int i = 0; i < at.n; ++i) {
     T sum(scene[at.Ar + i]);
-    const S *A = scene + at.A + i * at.n, *AC = scene + at.AC + i * at.n;
-    for (int j = 0; j < at.n; ++j) sum += T(A[j]) * force[j] - T(AC[j]) * rate[j];
+    const S* AC = scene + at.AC + i * at.n;
+    for (int j = 0; j < at.n; ++j) sum += T(scene[at.inverse_mass(i, j)]) * force[j] - T(AC[j]) * rate[j];
     if (at.stiff) {
       const S* AK = scene + at.AK + i * at.n;
       for (int j = 0; j < at.n; ++j) sum -= T(AK[j]) * z[j];

@@ -185,7 +185,6 @@ class Perturbation final : public SceneRung {
 
   // How forces on the offsets accelerate the offsets: B A B^T, with B picking coordinates where offsets are such.
   static void offset_compliance(const SceneLayout& at, const OffsetLayout& offsets, const double* row, MatX& compliance) {
-    const Eigen::Map<const MatX> A(row + at.A, at.n, at.n);  // symmetric: rows and columns read the same
     compliance.setZero(offsets.size(), offsets.size());
     bool dependent = false;
     for (int c = 0; c < offsets.clearances(); ++c) dependent = dependent || at.joints[c].has_dependent;
@@ -196,7 +195,7 @@ class Perturbation final : public SceneRung {
             for (int j = 0; j < at.joints[d].offsets; ++j)
               if (at.joints[c].source[i] >= 0 && at.joints[d].source[j] >= 0)
                 compliance(offsets.joint(c).first + i, offsets.joint(d).first + j) =
-                    A(at.joints[c].source[i], at.joints[d].source[j]);
+                    row[at.inverse_mass(at.joints[c].source[i], at.joints[d].source[j])];
       return;
     }
     MatX B = MatX::Zero(offsets.size(), at.n);
@@ -207,6 +206,8 @@ class Perturbation final : public SceneRung {
         if (source == DeviationCoordinates::kDependent)
           B.row(to) = Eigen::Map<const Eigen::RowVectorXd>(row + at.joints[c].dependent + i * at.n, at.n);
       }
+    MatX A;
+    at.inverse_mass(row, A);
     compliance = B * A * B.transpose();
   }
 

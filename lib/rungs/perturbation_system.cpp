@@ -127,7 +127,8 @@ void PerturbationSystem::jacobian(double t, const VecX& y, MatX& J) const {
   using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
   J.setZero();
   J.topRightCorner(n, n).setIdentity();
-  J.bottomRows(n).noalias() = Rows(scene + at.A, n, n) * force_gradient_;
+  at.inverse_mass(scene, inverse_mass_);
+  J.bottomRows(n).noalias() = inverse_mass_ * force_gradient_;
   J.bottomRightCorner(n, n) -= Rows(scene + at.AC, n, n);
   if (at.stiff) J.bottomLeftCorner(n, n) -= Rows(scene + at.AK, n, n);
 }

@@ -65,7 +65,7 @@ class PerturbationSystem {
   mutable double row_time_ = -1.0;
   mutable VecX force_;
   mutable std::array<ContactState<double>, kContactPlaces> contact_;
-  mutable MatX gain_, virtual_gain_, force_gradient_;
+  mutable MatX gain_, virtual_gain_, force_gradient_, inverse_mass_;
 };
 
 }  // namespace boresight

@@ -8,6 +8,9 @@
 
 namespace boresight {
 
+// Where entry (i, j) of a symmetric matrix lies, of which the upper triangle is kept row by row.
+constexpr int upper_triangle(int n, int i, int j) { return i <= j ? i * n - i * (i - 1) / 2 + j - i : upper_triangle(n, j, i); }
+
 struct SceneLayout {
   struct Joint {
     bool tilts = false, slides = false;
@@ -27,7 +30,7 @@ struct SceneLayout {
   SceneLayout(const OffsetLayout& offsets, const DeviationCoordinates& coordinates, bool with_stiffness)
       : n(coordinates.count()), stiff(with_stiffness) {
     A = 0;
-    Ar = A + n * n;
+    Ar = A + n * (n + 1) / 2;
     AC = Ar + n;
     AK = AC + n * n;
     width = AK + (stiff ? n * n : 0);
@@ -54,6 +57,15 @@ struct SceneLayout {
       j.dependent = take(j.has_dependent ? 2 * j.offsets * n : 0);
       joints.push_back(j);
     }
+  }
+
+  // Column of A(i, j).
+  int inverse_mass(int i, int j) const { return A + upper_triangle(n, i, j); }
+  // A as a matrix, from one row.
+  void inverse_mass(const double* row, MatX& matrix) const {
+    matrix.resize(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) matrix(i, j) = row[inverse_mass(i, j)];
   }
 
   int n = 0;           // coordinates

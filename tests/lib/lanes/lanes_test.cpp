@@ -86,7 +86,7 @@ TEST(Lanes, AreAsAccurateInSinglePrecisionAsInDoubleAtTheTolerancesItIsUsedFor) 
   for (const JournalAxes axes : {JournalAxes::parallel, JournalAxes::free}) {
     const auto mechanism = scene("0.03 s", axes);
     const PerturbationLanes lanes(mechanism, PointingQuantity::position_error);
-    const std::vector<Parameters> samples = scattered(*mechanism, 96, true);
+    const std::vector<Parameters> samples = scattered(*mechanism, 400, true);
     std::vector<LaneOutcome> converged(samples.size()), found(samples.size());
     lanes.run(lane_targets(LanePrecision::double_precision).front(), samples, converged, 1e-6);
     for (const double tolerance : {kLaneTolerance, kSinglePrecisionTolerance}) {
@@ -100,7 +100,7 @@ TEST(Lanes, AreAsAccurateInSinglePrecisionAsInDoubleAtTheTolerancesItIsUsedFor) 
       const double twice = median_error(LanePrecision::double_precision), single = median_error(LanePrecision::single_precision);
       std::printf("tolerance %.0e, %s axes: median error of the mean %.2e in double precision, %.2e in single\n", tolerance,
                   axes == JournalAxes::parallel ? "parallel" : "free", twice, single);
-      EXPECT_LT(single, 1.2 * twice);  // such a median scatters by 13 %
+      EXPECT_LT(single, 1.3 * twice);  // each of the two medians scatters by 6 %
     }
   }
 }
