@@ -75,9 +75,9 @@ struct JournalInSleeveT {
   template <typename M>
   Radial<M> radial_contact(const JournalMotion<M>& m) const {
     // A concentric journal has no normal; length_from_square gives it some.
-    const M distance = length_from_square(M(m.e.x() * m.e.x() + m.e.z() * m.e.z())), inverse = T(1.0) / distance;
+    const M distance = length_from_square(fused(M(m.e.x()), M(m.e.x()), M(m.e.z() * m.e.z()))), inverse = T(1.0) / distance;
     const M nx = m.e.x() * inverse, nz = m.e.z() * inverse;
-    return {nx, nz, distance - radial_clearance, m.e_dot.x() * nx + m.e_dot.z() * nz};
+    return {nx, nz, distance - radial_clearance, fused(M(m.e_dot.x()), nx, M(m.e_dot.z() * nz))};
   }
 
   // The axial one of the face at side * L_b/2, without its force.

@@ -1,5 +1,6 @@
-# Each kernel is compiled for its own processor and chosen when the program runs (lane_kernels.cpp). No fused multiply-add
-# and no reordering: all kernels give the same bits. Square roots need not set errno, which would keep them out of registers.
+# Each kernel is compiled for its own processor and chosen when the program runs (lane_kernels.cpp). No reordering, and no fused
+# multiply-add but where fused() asks for it: the kernels of processors that have one give the same bits, and so do those of
+# processors that have none. Square roots need not set errno, which would keep them out of registers.
 # There are only finite numbers and one zero, so that what is multiplied by a derivative known to be zero falls away; whether a
 # step has left them is told by the bits (is_finite()).
 set(kernels scalar sse2 avx2 avx512)

@@ -59,13 +59,13 @@ class LaneDynamics {
     coordinate_acceleration(at, row, z, v, of.force.data(), a);
     coordinate_acceleration(at, change, z, v, of.force.data(), a_t);
     each_index<N>(n, [&](auto i) {
-      each_index<N>(n, [&](auto k) { a_t[i] += row[at.inverse_mass(i, k)] * of.change[k]; });
+      each_index<N>(n, [&](auto k) { a_t[i] = fused(row[at.inverse_mass(i, k)], of.change[k], a_t[i]); });
       each_index<N>(n, [&](auto j) {
         T by_z(0.0), by_v = -row[at.AC + i * n + j];
         if (at.stiff) by_z = -row[at.AK + i * n + j];
         each_index<N>(n, [&](auto k) {
-          by_z += row[at.inverse_mass(i, k)] * of.by_z[k * n + j];
-          by_v += row[at.inverse_mass(i, k)] * of.by_v[k * n + j];
+          by_z = fused(row[at.inverse_mass(i, k)], of.by_z[k * n + j], by_z);
+          by_v = fused(row[at.inverse_mass(i, k)], of.by_v[k * n + j], by_v);
         });
         a_z[i * n + j] = by_z;
         a_v[i * n + j] = by_v;
@@ -157,7 +157,7 @@ class LaneDynamics {
       each_index<N>(n, [&](auto j) {
         const int gain = joint.spin_gain + i * n + j;
         into_force(j, row[gain] * part);
-        of.change[j] += row[gain] * rate + change[gain] * part.a;
+        of.change[j] = fused(row[gain], rate, fused(change[gain], part.a, of.change[j]));
       });
     });
   }
@@ -184,7 +184,7 @@ class LaneDynamics {
     });
     each_index<spins>(spins, [&](auto s) {
       const T& d = part.v[2 * offsets + s];
-      each_index<N>(n, [&](auto i) { by_v[i] += d * row[joint.spin_gain + s * n + i]; });
+      each_index<N>(n, [&](auto i) { by_v[i] = fused(d, row[joint.spin_gain + s * n + i], by_v[i]); });
     });
   }
 
@@ -212,7 +212,7 @@ class LaneDynamics {
     });
     each_index<spins>(spins, [&](auto s) {
       T spin = change[joint.spin + s];
-      each_index<N>(n, [&](auto i) { spin += change[joint.spin_gain + s * n + i] * v[i]; });
+      each_index<N>(n, [&](auto i) { spin = fused(change[joint.spin_gain + s * n + i], v[i], spin); });
       rate += part.v[2 * offsets + s] * spin;
     });
     return rate;

@@ -9,12 +9,13 @@ std::vector<LaneTarget> targets_of([[maybe_unused]] bool single) {
   __builtin_cpu_init();
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("fma"))
-    found.push_back(single ? LaneTarget{"AVX-512", 16, run_lanes_avx512_single} : LaneTarget{"AVX-512", 8, run_lanes_avx512});
+    found.push_back(single ? LaneTarget{"AVX-512", 16, true, run_lanes_avx512_single}
+                           : LaneTarget{"AVX-512", 8, true, run_lanes_avx512});
   if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))
-    found.push_back(single ? LaneTarget{"AVX2", 8, run_lanes_avx2_single} : LaneTarget{"AVX2", 4, run_lanes_avx2});
-  found.push_back(single ? LaneTarget{"SSE2", 4, run_lanes_sse2_single} : LaneTarget{"SSE2", 2, run_lanes_sse2});
+    found.push_back(single ? LaneTarget{"AVX2", 8, true, run_lanes_avx2_single} : LaneTarget{"AVX2", 4, true, run_lanes_avx2});
+  found.push_back(single ? LaneTarget{"SSE2", 4, false, run_lanes_sse2_single} : LaneTarget{"SSE2", 2, false, run_lanes_sse2});
 #endif
-  found.push_back({"scalar", 1, single ? run_lanes_scalar_single : run_lanes_scalar});
+  found.push_back({"scalar", 1, false, single ? run_lanes_scalar_single : run_lanes_scalar});
   return found;
 }
 

@@ -1,5 +1,5 @@
-// The kernels, one an instruction set and precision. All of one precision give the same bits; they differ in how many samples go
-// side by side.
+// The kernels, one an instruction set and precision. Of one precision all that fuse give the same bits, and
+// all that do not; they differ in how many samples go side by side.
 #pragma once
 
 #include "boresight/lanes/lane_batch.hpp"
@@ -20,6 +20,7 @@ void run_lanes_avx512_single(const LaneJob* jobs, long count, const LaneSettings
 struct LaneTarget {
   const char* name;
   int lanes;
+  bool fuses;  // with fused multiply-adds
   LaneKernel kernel;
 };
 

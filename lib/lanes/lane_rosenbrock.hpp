@@ -20,6 +20,8 @@ class LaneRosenbrock {
   LaneRosenbrock(const RosenbrockTable& table, const LaneDynamics<T, Layout>& dynamics, int width)
       : table_(table), n_(dynamics.count()), row_(static_cast<std::size_t>(width)) {
     for (int i = 0; i < table.stages; ++i) {
+      m_[i] = static_cast<typename T::Number>(table.m[i]);
+      e_[i] = static_cast<typename T::Number>(table.e[i]);
       moves_[i] = i > 0 && (table.alpha[i] != table.alpha[i - 1]);
       for (int j = 0; j < i; ++j) {
         const double a = RosenbrockTable::entry(table.a, i, j);
@@ -43,7 +45,7 @@ class LaneRosenbrock {
     dynamics.linearise(row, row_.data(), z, v, slope.data(), a_z_.data(), a_v_.data(), a_t.data());
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
-        lu_[i * n + j] = -a_v_[i * n + j] - a_z_[i * n + j] * inverse;
+        lu_[i * n + j] = fused(-a_z_[i * n + j], inverse, -a_v_[i * n + j]);
         if (i == j) lu_[i * n + j] += sigma;
       }
     decompose();
@@ -54,25 +56,25 @@ class LaneRosenbrock {
           stage_z[k] = z[k];
           stage_v[k] = v[k];
           for (int j = 0; j < i; ++j) {
-            stage_z[k] += T(a_[i][j]) * u_z[j][k];
-            stage_v[k] += T(a_[i][j]) * u_v[j][k];
+            stage_z[k] = fused(T(a_[i][j]), u_z[j][k], stage_z[k]);
+            stage_v[k] = fused(T(a_[i][j]), u_v[j][k], stage_v[k]);
           }
         }
         rate = stage_v.data();
         const T share(table_.alpha[i]);
         if (table_.alpha[i] != table_.alpha[i - 1])
-          for (int k = 0; k < width; ++k) row_[k] = row[k] + share * change[k];
+          for (int k = 0; k < width; ++k) row_[k] = fused(share, change[k], row[k]);
         dynamics.acceleration(row_.data(), stage_z.data(), stage_v.data(), slope.data());
       }
       const T time_part = T(table_.d[i]) * h;
       for (int k = 0; k < n; ++k) {
         T by_z(0.0), by_v(0.0);
         for (int j = 0; j < i; ++j) {
-          by_z += T(c_[i][j]) * u_z[j][k];
-          by_v += T(c_[i][j]) * u_v[j][k];
+          by_z = fused(T(c_[i][j]), u_z[j][k], by_z);
+          by_v = fused(T(c_[i][j]), u_v[j][k], by_v);
         }
-        r_z[k] = rate[k] + per_h * by_z;
-        r_v[k] = slope[k] + per_h * by_v + time_part * a_t[k];
+        r_z[k] = fused(per_h, by_z, rate[k]);
+        r_v[k] = fused(time_part, a_t[k], fused(per_h, by_v, slope[k]));
       }
       solve(inverse, r_z, r_v, u_z[i], u_v[i]);
     }
@@ -81,10 +83,10 @@ class LaneRosenbrock {
       new_v[k] = v[k];
       error[k] = error[n + k] = T(0.0);
       for (int i = 0; i < table_.stages; ++i) {
-        new_z[k] += T(table_.m[i]) * u_z[i][k];
-        new_v[k] += T(table_.m[i]) * u_v[i][k];
-        error[k] += T(table_.e[i]) * u_z[i][k];
-        error[n + k] += T(table_.e[i]) * u_v[i][k];
+        new_z[k] = fused(T(m_[i]), u_z[i][k], new_z[k]);
+        new_v[k] = fused(T(m_[i]), u_v[i][k], new_v[k]);
+        error[k] = fused(T(e_[i]), u_z[i][k], error[k]);
+        error[n + k] = fused(T(e_[i]), u_v[i][k], error[n + k]);
       }
     }
   }
@@ -100,7 +102,7 @@ class LaneRosenbrock {
     const T inverse = T(1.0) / stiffest;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
-        lu_[i * n + j] = -a_v_[i * n + j] - a_z_[i * n + j] * inverse;
+        lu_[i * n + j] = fused(-a_z_[i * n + j], inverse, -a_v_[i * n + j]);
         if (i == j) lu_[i * n + j] += s[i];
       }
     decompose();
@@ -119,7 +121,7 @@ class LaneRosenbrock {
       for (int i = k + 1; i < n; ++i) {
         const T factor = lu_[i * n + k] * lu_[k * n + k];
         lu_[i * n + k] = factor;
-        for (int j = k + 1; j < n; ++j) lu_[i * n + j] -= factor * lu_[k * n + j];
+        for (int j = k + 1; j < n; ++j) lu_[i * n + j] = fused(-factor, lu_[k * n + j], lu_[i * n + j]);
       }
     }
   }
@@ -127,9 +129,9 @@ class LaneRosenbrock {
   void substitute(T* x) const {
     const int n = count();
     for (int i = 1; i < n; ++i)
-      for (int j = 0; j < i; ++j) x[i] -= lu_[i * n + j] * x[j];
+      for (int j = 0; j < i; ++j) x[i] = fused(-lu_[i * n + j], x[j], x[i]);
     for (int i = n - 1; i >= 0; --i) {
-      for (int j = i + 1; j < n; ++j) x[i] -= lu_[i * n + j] * x[j];
+      for (int j = i + 1; j < n; ++j) x[i] = fused(-lu_[i * n + j], x[j], x[i]);
       x[i] = x[i] * lu_[i * n + i];
     }
   }
@@ -140,7 +142,7 @@ class LaneRosenbrock {
     LaneVector<T, N> x;
     for (int i = 0; i < n; ++i) {
       x[i] = r_v[i];
-      for (int j = 0; j < n; ++j) x[i] += a_z_[i * n + j] * (r_z[j] * inverse);
+      for (int j = 0; j < n; ++j) x[i] = fused(a_z_[i * n + j], r_z[j] * inverse, x[i]);
     }
     substitute(x.data());
     for (int i = 0; i < n; ++i) {
@@ -152,6 +154,7 @@ class LaneRosenbrock {
   const RosenbrockTable& table_;
   int n_;
   typename T::Number a_[kMostStages][kMostStages] = {}, c_[kMostStages][kMostStages] = {};  // in the lanes' own precision
+  typename T::Number m_[kMostStages] = {}, e_[kMostStages] = {};
   bool moves_[kMostStages] = {};
   std::vector<T> row_;
   LaneMatrix<T, N> a_z_, a_v_, lu_;

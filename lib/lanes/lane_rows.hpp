@@ -34,7 +34,7 @@ inline void turn_over(Lanes<W, Target, Real>* block) {
 // it.
 template <int W, typename Target, typename Real>
 void scene_rows(const LaneScene* const* scenes, const double* t, int width, Lanes<W, Target, Real>* out) {
-  using Vector = typename Register<W, Real>::Numbers;
+  using T = Lanes<W, Target, Real>;
   const Real* cell[W];
   Real share[W];
   for (int l = 0; l < W; ++l) {
@@ -45,14 +45,15 @@ void scene_rows(const LaneScene* const* scenes, const double* t, int width, Lane
     cell[l] = scene.coefficients<Real>() + static_cast<std::size_t>(k) * 4 * width;
   }
   const auto load = [](const Real* from) {
-    Vector v;
-    __builtin_memcpy(&v, from, sizeof v);
-    return v;
+    T numbers;
+    __builtin_memcpy(&numbers.v, from, sizeof numbers.v);
+    return numbers;
   };
   for (int first = 0; first < width; first += W) {
     for (int l = 0; l < W; ++l) {
       const Real *c0 = cell[l] + first, *c1 = c0 + width, *c2 = c1 + width, *c3 = c2 + width;
-      out[first + l].v = load(c0) + share[l] * (load(c1) + share[l] * (load(c2) + share[l] * load(c3)));
+      const T s(share[l]);
+      out[first + l] = fused(s, fused(s, fused(s, load(c3), load(c2)), load(c1)), load(c0));
     }
     turn_over(out + first);
   }

@@ -39,8 +39,8 @@ T index_value(int n, const T* gain, const T* z) {
   T square(0.0);
   for (int i = 0; i < 3; ++i) {
     T x(0.0);
-    for (int j = 0; j < n; ++j) x += gain[i * n + j] * z[j];
-    square += x * x;
+    for (int j = 0; j < n; ++j) x = fused(gain[i * n + j], z[j], x);
+    square = fused(x, x, square);
   }
   return sqrt(square);
 }

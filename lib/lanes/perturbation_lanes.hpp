@@ -6,7 +6,8 @@
 // Where the rung itself (make_rung("perturbation", ...)) gives a whole pointing history, this gives the statistics of one
 // index and a summary of the contacts. The index is |G(t) z|, first order in the deviation z: against the rung's own, which
 // displaces the bodies by finite turns, it differs by the deviation squared (1e-6 of the index where that is 1 mrad).
-// A sample's outcome is the same to the last bit whatever runs beside it, on every instruction set and for any split of the
+// A sample's outcome is the same to the last bit whatever runs beside it, on every processor with fused multiply-adds (AVX2 or
+// later; those without agree among each other) and for any split of the
 // samples into calls (with contacts on a tilted rim: on processors whose C library gives the same arc cosine).
 #pragma once
 

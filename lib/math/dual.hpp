@@ -40,11 +40,11 @@ struct Dual {
     return each(-x.a, [&](int k) { return -x.v[k]; });
   }
   friend Dual operator*(const Dual& x, const Dual& y) {
-    return each(x.a * y.a, [&](int k) { return x.v[k] * y.a + x.a * y.v[k]; });
+    return each(x.a * y.a, [&](int k) { return fused(x.v[k], y.a, x.a * y.v[k]); });
   }
   friend Dual operator/(const Dual& x, const Dual& y) {
     const T inverse = T(1.0) / y.a, q = x.a * inverse;
-    return each(q, [&](int k) { return (x.v[k] - q * y.v[k]) * inverse; });
+    return each(q, [&, minus = -q](int k) { return fused(minus, y.v[k], x.v[k]) * inverse; });
   }
   // With a constant: fewer operations than with a Dual whose derivatives are zero.
   friend Dual operator+(const Dual& x, const T& c) { return plus(x, x.a + c); }

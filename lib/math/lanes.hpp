@@ -4,8 +4,8 @@
 // (scalar.hpp). W is how many of them a register holds, Target a tag of the instruction set that the translation unit is
 // compiled for: it makes every template instance a different type, so that code made for one processor is never linked into
 // another's.
-// Sums and products are rounded one by one (no fused multiply-add, see lib/lanes/CMakeLists.txt), square roots and quotients
-// exactly: a lane gives the same bits as one number of its kind does, on every instruction set.
+// Sums and products are rounded one by one but in fused(), square roots and quotients exactly: a lane gives the same bits as
+// its neighbours do, on every instruction set that has a fused multiply-add, and on every one that has none.
 #pragma once
 
 #include <cmath>
@@ -179,6 +179,18 @@ struct Lanes {
     if constexpr (Mask::kBits && !kSingle) return Lanes((Vector)_mm512_mask_blend_pd(where.m, (__m512d)b.v, (__m512d)a.v));
 #endif
     if constexpr (!Mask::kBits) return Lanes(where.m ? a.v : b.v);
+  }
+  friend Lanes fused(const Lanes& a, const Lanes& b, const Lanes& c) {
+    [[maybe_unused]] constexpr int kBytes = Mask::kBytes;
+#if defined(__AVX512F__)
+    if constexpr (kBytes == 64 && kSingle) return Lanes((Vector)_mm512_fmadd_ps((__m512)a.v, (__m512)b.v, (__m512)c.v));
+    if constexpr (kBytes == 64 && !kSingle) return Lanes((Vector)_mm512_fmadd_pd((__m512d)a.v, (__m512d)b.v, (__m512d)c.v));
+#endif
+#if defined(__FMA__)
+    if constexpr (kBytes == 32 && kSingle) return Lanes((Vector)_mm256_fmadd_ps((__m256)a.v, (__m256)b.v, (__m256)c.v));
+    if constexpr (kBytes == 32 && !kSingle) return Lanes((Vector)_mm256_fmadd_pd((__m256d)a.v, (__m256d)b.v, (__m256d)c.v));
+#endif
+    return Lanes(a.v * b.v + c.v);
   }
   friend Lanes sqrt(const Lanes& a) {
     [[maybe_unused]] constexpr int kBytes = Mask::kBytes;

@@ -15,6 +15,12 @@ inline T select(bool condition, const T& when_true, const T& when_false) {
   return condition ? when_true : when_false;
 }
 
+// a b + c. Lanes round it once where the processor can; plain numbers round the product first.
+template <typename T>
+inline T fused(const T& a, const T& b, const T& c) {
+  return a * b + c;
+}
+
 // max(x, 0) by value; the derivative of an inactive branch is zero.
 template <typename T>
 inline T positive_part(const T& x) {

@@ -45,7 +45,7 @@ JournalMotion<T> journal_motion(const Layout& at, const Joint& joint, const S* s
   for (int i = 0; i < joint.spins; ++i) {
     T spin(scene[joint.spin + i]);
     const S* gain = scene + joint.spin_gain + i * at.n;
-    for (int j = 0; j < at.n; ++j) spin += T(gain[j]) * rate[j];
+    for (int j = 0; j < at.n; ++j) spin = fused(T(gain[j]), rate[j], spin);
     m.w[joint.tilts ? i : 1] = spin;
   }
   return m;
@@ -70,7 +70,7 @@ void add_generalised_force(const Layout& at, const Joint& joint, const S* scene,
   for (int i = 0; i < joint.spins; ++i) {
     const S* gain = scene + joint.spin_gain + i * at.n;
     const T& m = moment[joint.tilts ? i : 1];
-    for (int j = 0; j < at.n; ++j) force[j] += T(gain[j]) * m;
+    for (int j = 0; j < at.n; ++j) force[j] = fused(T(gain[j]), m, force[j]);
   }
 }
 
@@ -81,10 +81,11 @@ void coordinate_acceleration(const Layout& at, const S* scene, const T* z, const
   for (int i = 0; i < at.n; ++i) {
     T sum(scene[at.Ar + i]);
     const S* AC = scene + at.AC + i * at.n;
-    for (int j = 0; j < at.n; ++j) sum += T(scene[at.inverse_mass(i, j)]) * force[j] - T(AC[j]) * rate[j];
+    for (int j = 0; j < at.n; ++j)
+      sum = fused(T(scene[at.inverse_mass(i, j)]), force[j], fused(T(-AC[j]), rate[j], sum));
     if (at.stiff) {
       const S* AK = scene + at.AK + i * at.n;
-      for (int j = 0; j < at.n; ++j) sum -= T(AK[j]) * z[j];
+      for (int j = 0; j < at.n; ++j) sum = fused(T(-AK[j]), z[j], sum);
     }
     acceleration[i] = sum;
   }

@@ -1,6 +1,7 @@
 // Many samples side by side give what each gives alone, on every instruction set, and what the rung itself gives.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "boresight/lanes/perturbation_lanes.hpp"
@@ -46,9 +47,12 @@ void expect_same_bits(JournalAxes axes, PointingQuantity quantity, LanePrecision
   const PerturbationLanes lanes(mechanism, quantity);
   const std::vector<Parameters> samples = scattered(*mechanism, 21, true);
   std::vector<LaneOutcome> alone(samples.size());
-  const LaneTarget& one = lane_targets(precision).front();
-  for (std::size_t k = 0; k < samples.size(); ++k) lanes.run(one, {&samples[k], 1}, {&alone[k], 1});
+  const LaneTarget* first = nullptr;
   for (const LaneTarget& target : lane_targets(precision)) {
+    if (first == nullptr || first->fuses != target.fuses) {
+      first = &target;
+      for (std::size_t k = 0; k < samples.size(); ++k) lanes.run(target, {&samples[k], 1}, {&alone[k], 1});
+    }
     std::vector<LaneOutcome> together(samples.size());
     lanes.run(target, samples, together);
     for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -59,7 +63,7 @@ void expect_same_bits(JournalAxes axes, PointingQuantity quantity, LanePrecision
   }
 }
 
-TEST(Lanes, GiveTheSameBitsAloneAndTogetherOnEveryInstructionSet) {
+TEST(Lanes, GiveTheSameBitsAloneAndTogetherOnEveryInstructionSetThatFusesOrDoesNot) {
   for (const LanePrecision precision : {LanePrecision::single_precision, LanePrecision::double_precision})
     expect_same_bits(JournalAxes::parallel, PointingQuantity::position_error, precision);
 }
@@ -80,9 +84,9 @@ TEST(Lanes, GiveTheSameBitsInAnyOrderOfTheSamples) {
   for (std::size_t k = 0; k < samples.size(); ++k) EXPECT_TRUE(forth[k] == back[samples.size() - 1 - k]) << k;
 }
 
-// Rounding flips a step's acceptance here and there, and then single precision makes another error than double, not a larger one:
-// medians over samples against the converged motion.
-TEST(Lanes, AreAsAccurateInSinglePrecisionAsInDoubleAtTheTolerancesItIsUsedFor) {
+// Rounding flips a step's acceptance here and there, and then single precision makes another error than double, and fused sums of
+// products another one than plain ones, but no larger one: medians over samples against the converged motion.
+TEST(Lanes, AreAsAccurateInEitherPrecisionWithAndWithoutFusedSumsAtTheTolerancesTheyAreUsedFor) {
   for (const JournalAxes axes : {JournalAxes::parallel, JournalAxes::free}) {
     const auto mechanism = scene("0.03 s", axes);
     const PerturbationLanes lanes(mechanism, PointingQuantity::position_error);
@@ -90,19 +94,41 @@ TEST(Lanes, AreAsAccurateInSinglePrecisionAsInDoubleAtTheTolerancesItIsUsedFor) 
     std::vector<LaneOutcome> converged(samples.size()), found(samples.size());
     lanes.run(lane_targets(LanePrecision::double_precision).front(), samples, converged, 1e-6);
     for (const double tolerance : {kLaneTolerance, kSinglePrecisionTolerance}) {
-      const auto median_error = [&](LanePrecision precision) {
-        lanes.run(lane_targets(precision).front(), samples, found, tolerance);
+      const auto median_error = [&](const LaneTarget& target) {
+        lanes.run(target, samples, found, tolerance);
         std::vector<double> errors;
         for (std::size_t k = 0; k < samples.size(); ++k) errors.push_back(std::abs(found[k].mean / converged[k].mean - 1.0));
         std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
         return errors[errors.size() / 2];
       };
-      const double twice = median_error(LanePrecision::double_precision), single = median_error(LanePrecision::single_precision);
-      std::printf("tolerance %.0e, %s axes: median error of the mean %.2e in double precision, %.2e in single\n", tolerance,
-                  axes == JournalAxes::parallel ? "parallel" : "free", twice, single);
-      EXPECT_LT(single, 1.3 * twice);  // each of the two medians scatters by 6 %
+      const std::vector<LaneTarget>&single = lane_targets(LanePrecision::single_precision),
+            &twice = lane_targets(LanePrecision::double_precision);
+      const double expected = median_error(twice.back());  // scalar, nothing fused
+      for (const LaneTarget& target : {twice.front(), single.front(), single.back()}) {
+        const double error = median_error(target);
+        std::printf("tolerance %.0e, %s axes: median error of the mean %.2e in double precision, %.2e on %d lanes of %s\n",
+                    tolerance, axes == JournalAxes::parallel ? "parallel" : "free", expected, error, target.lanes, target.name);
+        EXPECT_LT(error, 1.3 * expected);  // each of the two medians scatters by 6 %
+      }
     }
   }
+}
+
+// A sample that leaves the numbers gives up, and nobody beside it notices.
+TEST(Lanes, GiveUpASampleWithoutNumbersAndNoOther) {
+  const auto mechanism = scene("0.01 s");
+  const PerturbationLanes lanes(mechanism, PointingQuantity::position_error);
+  std::vector<Parameters> samples = scattered(*mechanism, 5, false);
+  std::vector<LaneOutcome> sound(samples.size()), spoilt(samples.size());
+  for (const LanePrecision precision : {LanePrecision::single_precision, LanePrecision::double_precision})
+    for (const LaneTarget& target : lane_targets(precision)) {
+      std::vector<Parameters> bad = samples;
+      bad[2].clearance[0].radial = std::numeric_limits<double>::quiet_NaN();
+      lanes.run(target, samples, sound);
+      lanes.run(target, bad, spoilt);
+      EXPECT_EQ(spoilt[2].status, LaneStatus::step_too_small) << target.name;
+      for (const std::size_t k : {0, 1, 3, 4}) EXPECT_TRUE(spoilt[k] == sound[k]) << target.name << ", sample " << k;
+    }
 }
 
 TEST(Lanes, TakeDoublePrecisionForTolerancesThatSingleCannotHold) {

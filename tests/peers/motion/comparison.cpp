@@ -16,7 +16,7 @@ constexpr double kNeighbours[] = {1.0, 0.985, 0.97};
 constexpr double kTolerances[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
 // A batch that a Monte Carlo run would hand over: clearances spread by 5 % to both sides, the first one the
 // scene's own.
-constexpr int kBatch = 64;
+constexpr int kBatch = 1024;  // as many as Monte Carlo hands out
 constexpr double kSpread = 0.05;
 
 struct OneRun {
