@@ -72,8 +72,9 @@ class Matching {
       p.lower.push_back(v.to_search(v.from));
       p.upper.push_back(v.to_search(v.to));
     }
-    p.objective = [this, objective](std::span<const double> x, std::span<double>) {
+    p.objective = [this, objective](std::span<const double> x, std::span<double> gradient) {
       const MatchingVisit v = visit(design_at(x));
+      if (!gradient.empty()) slopes_at(x, v.design, gradient);
       const double value = objective ? objective->of(evaluator_->at(v.design)) : v.objective;
       return std::isfinite(value) ? value : 10.0 * largest_;
     };
@@ -86,6 +87,14 @@ class Matching {
         return excess(*further, evaluator_->at(design_at(x)));
       });
     return p;
+  }
+
+  // Where a descent by gradients meets a design without.
+  struct NoSlopes {};
+  void slopes_at(std::span<const double> x, const std::vector<double>& design, std::span<double> gradient) {
+    const std::optional<std::vector<double>> slopes = options_.slopes(design, no_slopes_);
+    if (!slopes) throw NoSlopes{};
+    for (std::size_t i = 0; i < x.size(); ++i) gradient[i] = (*slopes)[i] * plan_.variables[i].slope_of_search(x[i]);
   }
 
   MinimisationOptions search_options(bool global, int evaluations) const {
@@ -104,9 +113,19 @@ class Matching {
     stage_ = "descent from " + name;
     MinimisationProblem p = problem(nullptr, nullptr);
     p.start = place_of(from);
-    const Minimum m = minimise(p, search_options(false, evaluations));
+    MinimisationOptions o = search_options(false, evaluations);
+    Minimum m;
+    p.gradients = options_.slopes && no_slopes_.empty() && (plan_.local == "auto" || plan_.wants_gradients());
+    if (!p.gradients && plan_.wants_gradients()) o.local = "auto";
+    try {
+      m = minimise(p, o);
+    } catch (const NoSlopes&) {
+      p.gradients = false;
+      o.local = "auto";
+      m = minimise(p, o);
+    }
     if (m.interrupted) throw EvaluationInterrupted{};
-    result_.descents.push_back({name, from, design_at(m.x), m.objective, m.evaluations, m.converged, false});
+    result_.descents.push_back({name, from, design_at(m.x), m.objective, m.evaluations, m.converged, false, m.local});
     result_.local = m.local;
     const bool better = result_.design.empty() || m.violation < result_.violation ||
                         (m.violation == result_.violation && m.objective < result_.objective);
@@ -139,10 +158,13 @@ class Matching {
       descend(starts[k], "start " + std::to_string(k + 1), plan_.evaluations);
     // Any place seen on the way counts, the corners of the search included.
     best_of_visits();
-    result_.why += "; then " + result_.local +
-                   (result_.local == "bobyqa" ? ", which models the objective by a quadratic"
-                                              : ", which needs no gradients") +
-                   ": impacts leave no derivatives to go by";
+    result_.why += "; then " + result_.local;
+    if (result_.local == "slsqp" || result_.local == "mma") {
+      result_.why += ", which goes by gradients: every motion on the way had exact slopes to its end";
+      return;
+    }
+    result_.why += result_.local == "bobyqa" ? ", which models the objective by a quadratic" : ", which needs no gradients";
+    result_.why += ": " + (no_slopes_.empty() ? options_.no_slopes : no_slopes_);
   }
 
   void best_of_visits() {
@@ -301,6 +323,7 @@ class Matching {
       // On from there, on the better rung.
       DesignEvaluator* before = evaluator_;
       evaluator_ = &confirm;
+      if (options_.slopes) no_slopes_ = "slopes are those of the perturbation rung";
       const MatchingResult cheap = result_;
       result_.design.clear();
       descend(cheap.design, "the optimum, on " + rung, std::max(8, plan_.evaluations / 3));
@@ -345,6 +368,7 @@ class Matching {
   const MatchingOptions& options_;
   MatchingResult result_;
   std::string stage_;
+  std::string no_slopes_;  // why descents no longer go by gradients
   double largest_ = 0.0;
   bool on_confirming_rung_ = false;
 };

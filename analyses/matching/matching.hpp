@@ -2,10 +2,12 @@
 //
 // The whole box is searched once, then a descent goes out from its best place and from each of the user's
 // starts; they are held against each other. The winner is confirmed with other random numbers on the next
-// rung up; where that disagrees a descent goes on there.
+// rung up; where that disagrees a descent goes on there. Descents go by gradients where motions have them to
+// their end.
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,7 @@ struct MatchingDescent {
   int evaluations = 0;
   bool converged = false;
   bool agrees = false;  // its end is as good as the best one, as far as the samples can tell
+  std::string algorithm = {};
 };
 
 struct MatchingMap {
@@ -77,6 +80,9 @@ struct MatchingResult {
 struct MatchingOptions {
   double accuracy = 0.01;  // within which a confirmation agrees, beside the samples' own scatter
   double confidence = 0.95;
+  // Of the objective by each variable [SI] at a design; none where there is none there, and why. Empty: `no_slopes` says why.
+  std::function<std::optional<std::vector<double>>(const std::vector<double>& design, std::string& why)> slopes = {};
+  std::string no_slopes = "impacts leave no derivatives to go by";
   std::function<bool()> interrupted = {};
   std::function<void(const MatchingResult&)> progress = {};  // after each evaluation
 };

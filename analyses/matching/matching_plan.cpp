@@ -4,6 +4,7 @@
 #include <set>
 
 #include "boresight/io/units.hpp"
+#include "boresight_analyses/matching/design_slopes.hpp"
 #include "boresight_analyses/optimise/minimise.hpp"
 #include "boresight_analyses/study/plan_values.hpp"
 
@@ -103,9 +104,7 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
   plan.tolerance = table.number("tolerance", plan.tolerance);
   table.require(plan.tolerance > 0.0 && plan.tolerance < 1.0, "tolerance", "more than 0 and less than 1");
   plan.global = table.choice("global", global_algorithms(), "auto");
-  std::vector<std::string> descents = local_algorithms();
-  std::erase_if(descents, [](const std::string& name) { return name == "slsqp" || name == "mma"; });
-  plan.local = table.choice("local", descents, "auto");
+  plan.local = table.choice("local", local_algorithms(), "auto");
   plan.map = count(table, "map", 0, 200, plan.map);
   if (plan.map == 1) table.fail("map", "0, or 2 to 200");
   plan.front = count(table, "front", 0, 100, plan.front);
@@ -121,6 +120,9 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
     table.fail("variable", "at least one [[match.variable]] table: what may be chosen");
   const std::size_t n = plan.variables.size();
   if (plan.local == "bobyqa" && n < 2) table.fail("local", "cobyla: bobyqa wants two variables or more");
+  if (plan.wants_gradients())
+    if (const std::string why = why_no_slopes(plan); !why.empty())
+      table.fail("local", "cobyla or bobyqa, which need no gradients: " + why);
   if (!plan.constraints.empty()) {
     if (plan.local == "bobyqa") table.fail("local", "cobyla: bobyqa takes no constraints");
     if (plan.global == "crs2" || plan.global == "mlsl")

@@ -46,6 +46,8 @@ struct MatchingPlan {
   std::string global = "auto", local = "auto";
   int map = 9, front = 5;
 
+  bool wants_gradients() const { return local == "slsqp" || local == "mma"; }
+
   // The designs that descents begin from: the k-th start of every variable, the middle where it has none.
   std::vector<std::vector<double>> starts() const;
   Parameters parameters_with(const Mechanism& mechanism, std::span<const double> design_then_random) const;

@@ -8,6 +8,7 @@
 namespace boresight {
 
 double DesignVariable::to_search(double value) const { return log ? std::log(value) : value; }
+double DesignVariable::slope_of_search(double x) const { return log ? std::exp(x) : 1.0; }
 double DesignVariable::from_search(double x) const {
   const double value = log ? std::exp(x) : x;
   return std::min(std::max(value, from), to);  // the logarithm's rounding

@@ -31,6 +31,7 @@ struct DesignVariable {
   // The search's own scale.
   double to_search(double value) const;
   double from_search(double x) const;
+  double slope_of_search(double x) const;  // d value / d x
 };
 
 // Throws InputError. `accepts`: see read_random_inputs; asked of both bounds.

@@ -158,7 +158,20 @@ class Search {
   }
   static double objective_of(const std::vector<double>& u, std::vector<double>& gradient, void* data) {
     Search& s = *static_cast<Search*>(data);
-    return s.guarded([&] { return s.evaluate(u, gradient.empty() ? nullptr : gradient.data()); });
+    return s.guarded([&] {
+      const double value = s.evaluate(u, gradient.empty() ? nullptr : gradient.data());
+      if (gradient.empty()) return value;
+      // SLSQP and MMA begin as if the objective bent by 1 over the box, and end where steps are short: an objective of
+      // tenths of a millimetre would never set out. Scaled, the first step is initial_step long.
+      if (s.scale_ == 0.0) {
+        double square = 0.0;
+        for (std::size_t i = 0; i < u.size(); ++i)
+          if (!(u[i] <= 0.0 && gradient[i] > 0.0) && !(u[i] >= 1.0 && gradient[i] < 0.0)) square += gradient[i] * gradient[i];
+        s.scale_ = square > 0.0 ? s.options_.initial_step / std::sqrt(square) : 1.0;
+      }
+      for (double& slope : gradient) slope *= s.scale_;
+      return value * s.scale_;
+    });
   }
   static double constraint_of(const std::vector<double>& u, std::vector<double>& gradient, void* data) {
     const auto& bound = *static_cast<Bound*>(data);
@@ -173,6 +186,7 @@ class Search {
 
   void attempt(const Algorithm& a, std::vector<double> from, int evaluations, bool global) {
     if (evaluations <= 0) return;
+    scale_ = 0.0;
     const auto n = static_cast<unsigned>(problem_.size());
     nlopt::opt optimiser(problem_.constraints.empty() ? a.plain : a.constrained, n);
     optimiser.set_lower_bounds(0.0);
@@ -227,6 +241,7 @@ class Search {
   std::vector<double> gradient_, best_;
   Minimum result_;
   double best_value_ = 0.0, best_violation_ = 0.0, best_excess_ = 0.0;
+  double scale_ = 0.0;  // of the objective, for algorithms that go by gradients; 0: not known yet
   int evaluations_ = 0;
   bool seen_ = false;
   std::exception_ptr fault_;

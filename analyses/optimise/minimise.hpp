@@ -36,7 +36,7 @@ struct MinimisationOptions {
   int local_evaluations = 100;         // and of the local one
   double tolerance = 1e-4;             // of the variables, as a share of their ranges: where the descent ends
   double constraint_tolerance = 1e-8;  // see above
-  double initial_step = 0.1;           // of a descent without gradients, as a share of the ranges
+  double initial_step = 0.1;           // the first step of a descent, as a share of the ranges
   unsigned long seed = 1;              // of the searches that draw random points
   std::function<bool()> interrupted = {};  // looked at before each evaluation
 };

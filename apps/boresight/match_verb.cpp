@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "boresight/io/content_hash.hpp"
+#include "boresight_analyses/matching/design_slopes.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
@@ -151,19 +152,22 @@ class MatchVerb : public Verb {
         std::pow(plan.map, std::min<double>(2.0, static_cast<double>(plan.variables.size()))) +
         12.0 * plan.front;
     Progress progress(command.quiet, designs, "designs");
+    MatchingOptions how;
+    how.accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.01);
+    how.interrupted = [] { return interrupted(); };
+    how.progress = [&](const MatchingResult& r) {
+      std::string estimate = r.visits.back().stage;
+      if (!r.design.empty())
+        estimate += "; best so far " + readable(r.objective, plan.objective.si_unit(study.index)) + " at " + design_text(plan, r.design);
+      progress.update(std::min(designs, static_cast<double>(r.visits.size())), estimate);
+    };
+    how.no_slopes = choice.name == "perturbation" ? why_no_slopes(plan) : "slopes are those of the perturbation rung";
+    if (how.no_slopes.empty())
+      how.slopes = [slopes = DesignSlopes(mechanism, plan, study.index, run)](const std::vector<double>& design, std::string& why) {
+        return slopes.at(design, why);
+      };
     const MatchingResult result = with_options_checked(run, [&] {
-      return run_matching(
-          plan, evaluator, upper_evaluator.get(), upper,
-          {.accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.01),
-           .interrupted = [] { return interrupted(); },
-           .progress =
-               [&](const MatchingResult& r) {
-                 std::string estimate = r.visits.back().stage;
-                 if (!r.design.empty())
-                   estimate += "; best so far " + readable(r.objective, plan.objective.si_unit(study.index)) +
-                               " at " + design_text(plan, r.design);
-                 progress.update(std::min(designs, static_cast<double>(r.visits.size())), estimate);
-               }});
+      return run_matching(plan, evaluator, upper_evaluator.get(), upper, how);
     });
     progress.clear();
     const MatchStudy matched{.command = command,

@@ -1,6 +1,10 @@
 // Matching on models whose optimum is known.
 #include "boresight_analyses/matching/matching.hpp"
 
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight_analyses/matching/design_slopes.hpp"
+#include "boresight_analyses/study/rung_sample_model.hpp"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -69,6 +73,111 @@ TEST(Matching, ReachesTheSameAnswerFromThreeStarts) {
   ASSERT_EQ(r.descents.size(), 4U);  // from the box and from each start
   for (const MatchingDescent& d : r.descents) EXPECT_TRUE(d.agrees) << d.from;
   EXPECT_EQ(r.map.x.size(), 6U);  // the grid, and the optimum in its place
+}
+
+// Slopes of Valley, and how often they were asked for.
+MatchingOptions with_slopes(int& asked) {
+  MatchingOptions options;
+  options.no_slopes.clear();
+  options.slopes = [&asked](const std::vector<double>& design, std::string&) {
+    ++asked;
+    return std::optional(std::vector{2.0 * (design[0] - 3.0)});
+  };
+  return options;
+}
+
+TEST(Matching, GoesByGradientsWhereThereAreAny) {
+  const Valley model;
+  DesignEvaluator plain(model, nullptr, nullptr, {});
+  const MatchingResult without = run_matching(plan(), plain, nullptr, "", {});
+  for (const char* local : {"auto", "mma"}) {
+    MatchingPlan p = plan();
+    p.local = local;
+    DesignEvaluator evaluator(model, nullptr, nullptr, {});
+    int asked = 0;
+    const MatchingResult r = run_matching(p, evaluator, nullptr, "", with_slopes(asked));
+    EXPECT_TRUE(r.converged);
+    EXPECT_NEAR(r.design[0], 3.0, 1e-3);
+    EXPECT_EQ(r.local, std::string(local) == "auto" ? "slsqp" : "mma");
+    EXPECT_GT(asked, 0);
+    for (std::size_t k = 0; k < r.descents.size(); ++k) {
+      EXPECT_TRUE(r.descents[k].agrees) << r.descents[k].from;
+      EXPECT_LE(r.descents[k].evaluations, without.descents[k].evaluations) << r.descents[k].from;
+    }
+    EXPECT_NE(r.why.find("gradients"), std::string::npos) << r.why;
+  }
+}
+
+// Friction has an optimum inside: little lets the journal bounce on, much carries it along the bore. On the mechanism itself, over
+// a motion short enough to have slopes.
+TEST(Matching, GradientsOfTheMechanismLeadToTheOptimumThatASearchWithoutFinds) {
+  const auto mechanism = std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml", {{"motion.duration", "20 ms"}, {"clearance.F1.contact.restitution", "0.95"}}));
+  MatchingPlan p;
+  DesignVariable v;
+  v.paths = {"clearance.F1.friction.coefficient"};
+  v.si_unit = "1";
+  v.places.emplace_back(mechanism->description(), v.paths[0]);
+  v.from = 0.005;
+  v.to = 0.2;
+  v.starts = {0.02};
+  p.variables = {v};
+  p.global = "none";
+  p.tolerance = 1e-3;
+  p.map = p.front = 0;
+  const IndexChoice index{.quantity = "position_error", .statistic = "rms"};
+  const RungSampleModel model(
+      "perturbation", mechanism, [&](std::span<const double> values) { return p.parameters_with(*mechanism, values); }, index, {},
+      false);
+  MatchingResult with, without;
+  const auto solve = [&](bool gradients) {
+    MatchingOptions options;
+    ASSERT_EQ(why_no_slopes(p), "");
+    if (gradients)
+      options.slopes = [slopes = DesignSlopes(mechanism, p, index, {})](const std::vector<double>& design, std::string& why) {
+        return slopes.at(design, why);
+      };
+    DesignEvaluator evaluator(model, nullptr, nullptr, {});
+    (gradients ? with : without) = run_matching(p, evaluator, nullptr, "", options);
+  };
+  solve(true);
+  solve(false);
+  EXPECT_EQ(with.local, "slsqp") << with.why;
+  EXPECT_EQ(without.local, "cobyla");
+  EXPECT_GT(with.design[0], 0.01);
+  EXPECT_LT(with.design[0], 0.1);
+  EXPECT_NEAR(with.objective, without.objective, 1e-4 * without.objective);
+}
+
+TEST(Matching, GoesByGradientsOfALogarithmicVariable) {
+  const Valley model;
+  MatchingPlan p = plan();
+  p.variables[0].from = 0.1;
+  p.variables[0].log = true;
+  DesignEvaluator evaluator(model, nullptr, nullptr, {});
+  int asked = 0;
+  const MatchingResult r = run_matching(p, evaluator, nullptr, "", with_slopes(asked));
+  EXPECT_EQ(r.local, "slsqp");
+  EXPECT_NEAR(r.design[0], 3.0, 1e-3);
+}
+
+TEST(Matching, GoesOnWithoutGradientsWhereTheyEndAndSaysWhy) {
+  const Valley model;
+  const MatchingPlan p = plan();
+  DesignEvaluator evaluator(model, nullptr, nullptr, {});
+  int asked = 0;
+  MatchingOptions options = with_slopes(asked);
+  const auto everywhere = options.slopes;
+  options.slopes = [everywhere](const std::vector<double>& design, std::string& why) {
+    why = design[0] > 9.0 ? "motions part" : "";
+    return design[0] > 9.0 ? std::nullopt : everywhere(design, why);
+  };
+  const MatchingResult r = run_matching(p, evaluator, nullptr, "", options);
+  EXPECT_TRUE(r.converged);
+  EXPECT_NEAR(r.design[0], 3.0, 2e-3);
+  EXPECT_EQ(r.descents.front().algorithm, "slsqp");
+  EXPECT_EQ(r.descents.back().algorithm, "cobyla");  // from 9.5
+  EXPECT_NE(r.why.find("motions part"), std::string::npos) << r.why;
 }
 
 TEST(Matching, KeepsAConstraintAndSaysThatItIsActive) {
