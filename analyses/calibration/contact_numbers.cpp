@@ -1,24 +1,13 @@
 #include "boresight_analyses/calibration/contact_numbers.hpp"
 
 namespace boresight {
-namespace {
-
-std::vector<JournalInSleeve> joints_of(const Mechanism& mechanism, const Parameters& parameters) {
-  std::vector<JournalInSleeve> joints;
-  const MechanismDescription& m = mechanism.description();
-  for (int c = 0; c < mechanism.clearances(); ++c)
-    joints.emplace_back(m.clearances[c], m.joints[m.clearances[c].joint].type, parameters.clearance[c]);
-  return joints;
-}
-
-}  // namespace
 
 ContactNumbers contact_numbers(const Mechanism& mechanism,
                                const std::function<Parameters(const std::vector<double>&)>& parameters_at,
                                const std::vector<double>& values) {
   static constexpr double kStep = 1e-2;
   static constexpr std::array<double, 4> kWeight = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
-  ContactNumbers out{joints_of(mechanism, parameters_at(values)), {}, values};
+  ContactNumbers out{clearance_joints(mechanism.description(), parameters_at(values)), {}, values};
   for (std::size_t p = 0; p < values.size(); ++p) {
     out.by.emplace_back(out.joints.size());
     for (auto& numbers : out.by.back()) numbers.fill(0.0);
@@ -26,7 +15,7 @@ ContactNumbers contact_numbers(const Mechanism& mechanism,
       for (const double side : {1.0, -1.0}) {
         std::vector<double> moved = values;
         moved[p] = values[p] * std::exp(side * kStep * static_cast<double>(k + 1));
-        std::vector<JournalInSleeve> joints = joints_of(mechanism, parameters_at(moved));
+        std::vector<JournalInSleeve> joints = clearance_joints(mechanism.description(), parameters_at(moved));
         for (std::size_t c = 0; c < joints.size(); ++c) {
           const auto number = numbers_of<double>(joints[c]);
           for (int i = 0; i < kContactNumbers; ++i)

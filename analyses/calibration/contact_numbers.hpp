@@ -13,43 +13,10 @@
 #include <functional>
 #include <vector>
 
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/contact/contact_numbers.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 
 namespace boresight {
-
-inline constexpr int kContactNumbers = 26;
-
-// The numbers of a contact that a parameter may change, always in the same order.
-template <typename T>
-std::array<T*, kContactNumbers> numbers_of(JournalInSleeveT<T>& j) {
-  return {&j.radial_clearance,
-          &j.axial_clearance,
-          &j.bore_radius,
-          &j.half_length,
-          &j.radial_law.stiffness,
-          &j.radial_law.damping_factor,
-          &j.radial_law.length,
-          &j.radial_law.exponent,
-          &j.radial_law.dashpot,
-          &j.face_stiffness,
-          &j.friction.coefficient,
-          &j.friction.static_speed,
-          &j.friction.dynamic_speed,
-          &j.friction.stiction,
-          &j.friction.stribeck_speed,
-          &j.tilted.radial_clearance,
-          &j.tilted.axial_clearance,
-          &j.tilted.bore_radius,
-          &j.tilted.half_length,
-          &j.tilted.ring_radius,
-          &j.tilted.face_stiffness,
-          &j.tilted.end_law.stiffness,
-          &j.tilted.end_law.damping_factor,
-          &j.tilted.end_law.length,
-          &j.tilted.end_law.exponent,
-          &j.tilted.end_law.dashpot};
-}
 
 struct ContactNumbers {
   std::vector<JournalInSleeve> joints;  // per clearance

@@ -4,18 +4,23 @@
 
 #include <stdexcept>
 
+#include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/rungs/rung.hpp"
+
 namespace boresight::app {
 namespace {
 
 // Options that take one of a few words.
 struct Words {
   const char* option;
-  const char* words;
+  std::string words;
 };
-constexpr Words kWords[] = {{"--rung", "auto envelope quasistatic perturbation multibody"},
-                            {"--integrator", "rk4 dopri5 rosenbrock generalized-alpha"},
-                            {"--formulation", "tree paper"},
-                            {"--stabilisation", "baumgarte projection"}};
+std::vector<Words> options_with_words() {
+  return {{"--rung", fmt::format("auto {}", fmt::join(rung_names(), " "))},
+          {"--integrator", fmt::format("{}", fmt::join(integrator_names(), " "))},
+          {"--formulation", "tree paper"},
+          {"--stabilisation", "baumgarte projection"}};
+}
 
 std::vector<const CLI::App*> verbs_of(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
@@ -35,7 +40,7 @@ std::string bash(const CLI::App& app) {
     cases += fmt::format("    {}) options=\"{}\" ;;\n", verb->get_name(), fmt::join(options_of(*verb), " "));
   }
   std::string words;
-  for (const Words& w : kWords)
+  for (const Words& w : options_with_words())
     words += fmt::format("    {}) COMPREPLY=($(compgen -W \"{}\" -- \"$current\")); return ;;\n", w.option, w.words);
   return fmt::format(R"(_boresight() {{
   local current="${{COMP_WORDS[COMP_CWORD]}}" previous="${{COMP_WORDS[COMP_CWORD-1]}}" options=""
@@ -72,7 +77,7 @@ std::string fish(const CLI::App& app) {
     for (const CLI::Option* option : verb->get_options())
       for (const std::string& name : option->get_lnames()) {
         std::string words;
-        for (const Words& w : kWords)
+        for (const Words& w : options_with_words())
           if (w.option == "--" + name) words = fmt::format(" -x -a '{}'", w.words);
         script += fmt::format("complete -c boresight -n '__fish_seen_subcommand_from {}' -l {} -d {}{}\n", verb->get_name(), name,
                               in_fish_quotes(option->get_description()), words);

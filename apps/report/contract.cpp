@@ -1,140 +1,16 @@
 #include "report/contract.hpp"
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <initializer_list>
-#include <limits>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "report/place.hpp"
+
 namespace boresight::report {
 namespace {
 
-using nlohmann::json;
-using Words = std::initializer_list<const char*>;
-
-// One value of the document and where it stands, so that every message can say so.
-struct Place {
-  const json& value;
-  std::string path;
-
-  [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
-    throw std::invalid_argument("report document: " + (path.empty() ? std::string("(root)") : path) +
-                                ": found " + found + ", expected " + expected);
-  }
-  // What stands here, short enough for one line of message.
-  std::string found() const {
-    std::string text = value.is_object()  ? "an object"
-                       : value.is_array() ? "an array of " + std::to_string(value.size())
-                                          : value.dump(-1, ' ', false, json::error_handler_t::replace);
-    return text.size() > 60 ? text.substr(0, 57) + "..." : text;
-  }
-  bool has(const char* key) const { return value.contains(key); }
-  Place at(const char* key) const { return {value.at(key), path.empty() ? key : path + "." + key}; }
-  Place at(std::size_t i) const { return {value.at(i), path + "[" + std::to_string(i) + "]"}; }
-};
-
-std::string listed(Words words) {
-  std::string text;
-  for (const char* word : words) text += (text.empty() ? "" : ", ") + std::string(word);
-  return text;
-}
-
-void object(const Place& place, Words required, Words optional) {
-  if (!place.value.is_object()) place.fail(place.found(), "an object with " + listed(required));
-  for (const char* key : required) {
-    if (!place.has(key)) place.fail("no key '" + std::string(key) + "'", "the keys " + listed(required));
-  }
-  const auto is = [](const std::string& name) { return [&name](const char* key) { return name == key; }; };
-  for (const auto& [name, value] : place.value.items()) {
-    if (std::none_of(required.begin(), required.end(), is(name)) &&
-        std::none_of(optional.begin(), optional.end(), is(name))) {
-      place.fail("unknown key '" + name + "'",
-                 listed(required) + (optional.size() ? "; or, where wanted, " + listed(optional) : ""));
-    }
-  }
-}
-
-void text(const Place& place, bool may_be_empty = true) {
-  if (!place.value.is_string()) place.fail(place.found(), "text");
-  if (!may_be_empty && place.value.get_ref<const std::string&>().empty())
-    place.fail("empty text", "some text");
-}
-void text_where_given(const Place& place, Words keys) {
-  for (const char* key : keys)
-    if (place.has(key)) text(place.at(key));
-}
-
-void flag_where_given(const Place& place, Words keys) {
-  for (const char* key : keys) {
-    if (place.has(key) && !place.at(key).value.is_boolean())
-      place.at(key).fail(place.at(key).found(), "true or false");
-  }
-}
-
-void one_of(const Place& place, Words words) {
-  text(place);
-  const auto& word = place.value.get_ref<const std::string&>();
-  if (std::none_of(words.begin(), words.end(), [&](const char* w) { return word == w; })) {
-    place.fail("'" + word + "'", "one of " + listed(words));
-  }
-}
-
-void finite(const Place& place, double least = -std::numeric_limits<double>::infinity(),
-            double most = std::numeric_limits<double>::infinity()) {
-  if (!place.value.is_number() || !std::isfinite(place.value.get<double>()))
-    place.fail(place.found(), "a finite number");
-  const double number = place.value.get<double>();
-  if (number < least || number > most) {
-    const auto end = [](double limit) {
-      return std::isfinite(limit) ? json(limit).dump() : std::string("any");
-    };
-    place.fail(place.found(), "a number from " + end(least) + " to " + end(most));
-  }
-}
-
-void array(const Place& place) {
-  if (!place.value.is_array()) place.fail(place.found(), "an array");
-}
-
-void same_length(const Place& place, std::size_t length, const char* as_in) {
-  array(place);
-  if (place.value.size() != length) {
-    place.fail(std::to_string(place.value.size()) + " values", std::to_string(length) + ", as in " + as_in);
-  }
-}
-
-// null is a gap; NaN and infinity become null when written.
-void numbers(const Place& place) {
-  array(place);
-  for (std::size_t i = 0; i < place.value.size(); ++i) {
-    if (!place.value[i].is_number() && !place.value[i].is_null())
-      place.at(i).fail(place.at(i).found(), "a number or null");
-  }
-}
-void texts(const Place& place) {
-  array(place);
-  for (std::size_t i = 0; i < place.value.size(); ++i) text(place.at(i));
-}
-// Along an axis: all numbers, or all names of categories.
-void numbers_or_names(const Place& place) {
-  array(place);
-  if (!place.value.empty() && place.value[0].is_string())
-    texts(place);
-  else
-    numbers(place);
-}
-
-void each(const Place& place, const char* key, void (*check_one)(const Place&)) {
-  if (!place.has(key)) return;
-  const Place list = place.at(key);
-  array(list);
-  for (std::size_t i = 0; i < list.value.size(); ++i) check_one(list.at(i));
-}
+using namespace checks;
 
 void axis(const Place& place) {
   object(place, {"label"}, {"unit", "log", "range"});
@@ -446,75 +322,6 @@ void section(const Place& place) {
   each(place, "items", item);
 }
 
-// ---- rounding
-
-double round_to(double value, int digits) {
-  char buffer[48];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific, digits - 1).ptr;
-  double result = value;
-  std::from_chars(buffer, end, result);
-  return result;
-}
-
-void round_numbers(json& list) {
-  double least = std::numeric_limits<double>::infinity(), most = -least, size = 0.0;
-  for (const json& entry : list) {
-    if (!entry.is_number()) continue;
-    const double number = entry.get<double>();
-    if (!std::isfinite(number)) continue;
-    least = std::min(least, number);
-    most = std::max(most, number);
-    size = std::max(size, std::abs(number));
-  }
-  int digits = 7;
-  const double span = most - least;
-  if (span > 0.0 && span < 1e-3 * size)
-    digits = std::min(17, digits + static_cast<int>(std::ceil(std::log10(size / span))));
-  for (json& entry : list) {
-    if (!entry.is_number_float()) continue;
-    const double number = entry.get<double>();
-    if (!std::isfinite(number))
-      entry = nullptr;
-    else
-      entry = round_to(number, digits);
-  }
-}
-
-void round_lists(json& object, Words keys) {
-  for (const char* key : keys)
-    if (object.contains(key)) round_numbers(object[key]);
-}
-
-// Of a picture five digits are more than anyone sees; deviations have digits of their own.
-void round_track(json& point) {
-  for (const char* key : {"x", "y", "z", "dx", "dy", "dz"}) {
-    if (!point.contains(key)) continue;
-    double size = 0.0;
-    for (const json& entry : point[key]) size = std::max(size, std::abs(entry.get<double>()));
-    if (size == 0.0) continue;
-    const double unit = std::pow(10.0, std::floor(std::log10(size)) - 4.0);
-    for (json& entry : point[key]) entry = round_to(std::round(entry.get<double>() / unit) * unit, 6);
-  }
-}
-
-void round_item(json& item) {
-  if (item["kind"] == "panels") {
-    for (json& panel : item["panels"]) round_item(panel);
-  } else if (item["kind"] == "strip") {
-    for (json& row : item["rows"]) round_lists(row, {"start", "end"});
-  } else if (item["kind"] == "view") {
-    for (json& point : item["points"]) round_track(point);
-  } else if (item["kind"] == "chart") {
-    if (item.contains("series")) {
-      for (json& one : item["series"]) round_lists(one, {"x", "y", "y_low", "error_low", "error_high"});
-    }
-    if (!item.contains("heatmap")) return;
-    round_lists(item["heatmap"], {"x", "y"});
-    for (json& row : item["heatmap"]["z"]) round_numbers(row);
-  }
-}
-
 }  // namespace
 
 void check(const json& document) {
@@ -537,14 +344,6 @@ void check(const json& document) {
     if (!ids.insert(id).second)
       root.at("sections").at(i).at("id").fail("'" + id + "' a second time", "an id of its own");
   }
-}
-
-json rounded(const json& document) {
-  json result = document;
-  for (json& section : result["sections"]) {
-    for (json& item : section["items"]) round_item(item);
-  }
-  return result;
 }
 
 }  // namespace boresight::report

@@ -53,4 +53,13 @@ double JournalInSleeve::elastic_energy(const JournalMotion<double>& motion) cons
   return energy;
 }
 
+std::vector<JournalInSleeve> clearance_joints(const MechanismDescription& mechanism, const Parameters& parameters) {
+  std::vector<JournalInSleeve> joints;
+  for (std::size_t c = 0; c < mechanism.clearances.size(); ++c) {
+    const ClearanceDescription& clearance = mechanism.clearances[c];
+    joints.emplace_back(clearance, mechanism.joints[clearance.joint].type, parameters.clearance[c]);
+  }
+  return joints;
+}
+
 }  // namespace boresight

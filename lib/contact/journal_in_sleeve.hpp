@@ -101,6 +101,9 @@ struct JournalInSleeve : JournalInSleeveT<double> {
   double elastic_energy(const JournalMotion<double>& motion) const;
 };
 
+// Of every clearance of a mechanism.
+std::vector<JournalInSleeve> clearance_joints(const MechanismDescription& mechanism, const Parameters& parameters);
+
 // ---------------------------------------------------------------------------------------------------------------------
 
 template <typename T>

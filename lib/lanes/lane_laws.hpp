@@ -3,21 +3,9 @@
 
 #include <array>
 
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/contact/contact_numbers.hpp"
 
 namespace boresight {
-
-// The numbers that a sample may vary.
-template <typename T>
-std::array<T*, 18> law_numbers(JournalInSleeveT<T>& law) {
-  TiltedJournalT<T>& t = law.tilted;
-  return {&law.radial_clearance,    &law.axial_clearance,      &law.bore_radius,
-          &law.half_length,         &law.radial_law.stiffness, &law.radial_law.damping_factor,
-          &law.face_stiffness,      &law.friction.coefficient, &law.friction.static_speed,
-          &law.friction.dynamic_speed, &t.radial_clearance,    &t.axial_clearance,
-          &t.bore_radius,           &t.half_length,            &t.ring_radius,
-          &t.end_law.stiffness,     &t.end_law.damping_factor, &t.face_stiffness};
-}
 
 // What is the same for all samples, and every lane the numbers of `law`.
 template <typename T>
@@ -29,8 +17,8 @@ JournalInSleeveT<T> in_all_lanes(JournalInSleeve law) {
   out.tilted.slides = law.tilted.slides;
   // Without friction the coefficient is zero: the common law does.
   out.friction.kind = law.friction.kind == FrictionKind::none ? FrictionKind::modified_coulomb : law.friction.kind;
-  const auto from = law_numbers<double>(law);
-  const auto to = law_numbers<T>(out);
+  const auto from = numbers_of<double>(law);
+  const auto to = numbers_of<T>(out);
   for (std::size_t i = 0; i < to.size(); ++i) *to[i] = T(*from[i]);
   out.tilted.friction = out.friction;
   return out;
@@ -38,8 +26,8 @@ JournalInSleeveT<T> in_all_lanes(JournalInSleeve law) {
 
 template <typename T>
 void set_lane(JournalInSleeveT<T>& out, int lane, JournalInSleeve law) {
-  const auto from = law_numbers<double>(law);
-  const auto to = law_numbers<T>(out);
+  const auto from = numbers_of<double>(law);
+  const auto to = numbers_of<T>(out);
   for (std::size_t i = 0; i < to.size(); ++i) to[i]->set(lane, *from[i]);
   out.tilted.friction = out.friction;
 }

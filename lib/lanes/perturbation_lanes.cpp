@@ -56,8 +56,7 @@ struct PerturbationLanes::Cache {
 bool PerturbationLanes::serve(const Mechanism& mechanism) {
   const MechanismDescription& m = mechanism.description();
   if (mechanism.clearances() > kMostLaneJoints) return false;
-  for (int c = 0; c < mechanism.clearances(); ++c) {
-    const JournalInSleeve law(m.clearances[c], m.joints[m.clearances[c].joint].type, mechanism.parameters().clearance[c]);
+  for (const JournalInSleeve& law : clearance_joints(m, mechanism.parameters())) {
     if (law.radial_law.curve != ElasticCurve::point || law.sticks) return false;
     if (law.friction.kind != FrictionKind::modified_coulomb && law.friction.kind != FrictionKind::none) return false;
   }
@@ -126,9 +125,7 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
   lane.in_double = p->in_double.data();
   lane.in_single = p->in_single.data();
 
-  for (int c = 0; c < mechanism_->clearances(); ++c) {
-    const ClearanceDescription& clearance = mechanism_->description().clearances[c];
-    const JournalInSleeve law(clearance, mechanism_->description().joints[clearance.joint].type, parameters.clearance[c]);
+  for (const JournalInSleeve& law : clearance_joints(mechanism_->description(), parameters)) {
     LanePlaces places;
     for (ContactPlace place : law.places()) places.place[places.count++] = place;
     p->places.push_back(places);
@@ -154,7 +151,6 @@ void PerturbationLanes::run(std::span<const Parameters> samples, std::span<LaneO
 
 void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters> samples, std::span<LaneOutcome> outcomes,
                             double tolerance) const {
-  const MechanismDescription& m = mechanism_->description();
   std::vector<std::shared_ptr<const Prepared>> prepared;
   std::vector<std::vector<JournalInSleeve>> joints;
   std::vector<std::vector<double>> tolerances;
@@ -163,13 +159,12 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
     prepared.push_back(prepared_for(sample));
     const Prepared& p = *prepared.back();
     const SceneLayout& at = p.tables->layout;
-    auto& own = joints.emplace_back();
+    const std::vector<JournalInSleeve>& own = joints.emplace_back(clearance_joints(mechanism_->description(), sample));
     // Scale of each coordinate: of an offset its clearance, of a slope the slope that crosses it.
     VecX scale = VecX::Zero(at.n);
     std::vector<double> gap;
     for (int c = 0; c < mechanism_->clearances(); ++c) {
-      own.emplace_back(m.clearances[c], m.joints[m.clearances[c].joint].type, sample.clearance[c]);
-      const JournalInSleeve& law = own.back();
+      const JournalInSleeve& law = own[c];
       const double clearance = law.has_faces ? std::min(law.radial_clearance, law.axial_clearance) : law.radial_clearance;
       gap.push_back(1e-5 * clearance);
       for (int k = 0; k < at.joints[c].offsets; ++k) {

@@ -92,9 +92,10 @@ std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const
   // suddenly applied to an elastic contact reaches. All joints together bound the frequency of each.
   const OffsetLayout layout(mechanism);
   VecX root_stiffness = VecX::Zero(layout.size());
+  const std::vector<JournalInSleeve> laws = clearance_joints(m, parameters);
   for (int c = 0; c < n; ++c) {
     const OffsetLayout::Joint& at = layout.joint(c);
-    const JournalInSleeve law(m.clearances[c], m.joints[m.clearances[c].joint].type, parameters.clearance[c]);
+    const JournalInSleeve& law = laws[c];
     ContactFrequency f;
     f.joint = m.joints[m.clearances[c].joint].name;
     f.hertz_stiffness = law.radial_law.curve == ElasticCurve::point ? law.radial_law.stiffness : 0.0;

@@ -8,14 +8,6 @@
 namespace boresight {
 namespace {
 
-std::vector<JournalInSleeve> joints_of(const Mechanism& mechanism, const Parameters& parameters) {
-  std::vector<JournalInSleeve> joints;
-  const MechanismDescription& m = mechanism.description();
-  for (int c = 0; c < mechanism.clearances(); ++c)
-    joints.emplace_back(m.clearances[c], m.joints[m.clearances[c].joint].type, parameters.clearance[c]);
-  return joints;
-}
-
 std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::vector<JournalInSleeve>& joints,
                                         bool keep_events) {
   std::vector<ContactTracker> trackers;
@@ -54,7 +46,7 @@ void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const d
 PerturbationSystem::PerturbationSystem(const Mechanism& mechanism, const Parameters& parameters,
                                        std::shared_ptr<const SceneTables> tables, bool keep_events)
     : tables_(std::move(tables)),
-      joints_(joints_of(mechanism, parameters)),
+      joints_(clearance_joints(mechanism.description(), parameters)),
       trackers_(trackers_of(mechanism, joints_, keep_events)),
       bristles_(joints_),
       contacts_(joints_, trackers_),
