@@ -1,7 +1,8 @@
 // The slider-crank of Flores et al. (2006) with clearance between rod and slider, event by event.
 //
-// The figures were computed for this project with two formulations of their own (two coordinates in long double,
-// extrapolated; Cartesian coordinates with multipliers), which agree on the first four impacts to ten digits.
+// The figures were computed for this project with two formulations of their own (two coordinates in long
+// double, extrapolated; Cartesian coordinates with multipliers), which agree on the first four impacts to ten
+// digits.
 #include <gtest/gtest.h>
 
 #include "boresight/rungs/ideal_simulation.hpp"
@@ -17,7 +18,8 @@ using scenes::SliderCrankInTwoCoordinates;
 enum Body { kCrankBody, kRodBody, kSliderBody };
 
 MechanismDescription example(const std::vector<Setting>& settings = {}) {
-  return read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/flores-slider-crank/flores-slider-crank.toml", settings);
+  return read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/flores-slider-crank/flores-slider-crank.toml",
+                        settings);
 }
 
 RunResult follow(MechanismDescription description, double sample = 1e-4, double step = 1e-7) {
@@ -30,7 +32,8 @@ RunResult follow(MechanismDescription description, double sample = 1e-4, double 
 }
 
 struct Event {
-  double start, normal, speed, sliding, duration, depth, force, end_speed;  // normal in degrees, sliding of the surfaces
+  double start, normal, speed, sliding, duration, depth, force,
+      end_speed;  // normal in degrees, sliding of the surfaces
 };
 const Event kReference[] = {
     {2.272860320398e-4, 177.912104, 4.385783145, -2.121412, 5.343723e-5, 7.795222e-5, 45872.275, 3.911492579},
@@ -46,8 +49,8 @@ const Event kReference[] = {
     {3.871314910775e-3, 33.495238, 2.174331811, 0.537249, 4.690416e-5, 3.324948e-5, 12775.88, 1.823611855},
     {4.080193387848e-3, -21.358370, 1.821980396, -0.987327, 7.343032e-5, 4.552920e-5, 20494.37, 1.470795960}};
 
-// Where on the bore the journal touches at t [degrees], and how fast their surfaces slide there: from the poses on either
-// side of t, which the contact has not moved yet by more than (step)^2.
+// Where on the bore the journal touches at t [degrees], and how fast their surfaces slide there: from the
+// poses on either side of t, which the contact has not moved yet by more than (step)^2.
 struct Touch {
   double normal, sliding;
 };
@@ -89,7 +92,8 @@ TEST(FloresSliderCrank, StrikesWhereAndAsHardAsTwoIndependentFormulationsSay) {
     EXPECT_NEAR(at.normal, r.normal, 1e-3) << "impact " << k + 1;
     EXPECT_NEAR(at.sliding, r.sliding, 1e-4) << "impact " << k + 1;
   }
-  // Where the first impact is hardest, the slider accelerates with its share of force over mass along the guide.
+  // Where the first impact is hardest, the slider accelerates with its share of force over mass along the
+  // guide.
   std::size_t hardest = 0;
   for (std::size_t k = 0; k < result.time.size(); ++k)
     if (result.clearances[0][k].normal_force > result.clearances[0][hardest].normal_force) hardest = k;
@@ -118,7 +122,8 @@ TEST(FloresSliderCrank, FollowsTheTwelveImpactsOfTheReference) {
 
 // The same with Flores' law.
 TEST(FloresSliderCrank, WithFloresLawStrikesAsHardAsComputedIndependently) {
-  const RunResult result = follow(example({{"motion.duration", "0.8 ms"}, {"clearance.B.contact.law", "flores"}}));
+  const RunResult result =
+      follow(example({{"motion.duration", "0.8 ms"}, {"clearance.B.contact.law", "flores"}}));
   ASSERT_GE(result.events.size(), 3u);
   EXPECT_NEAR(result.events[0].max_penetration / 7.725263e-5, 1.0, 1e-5);
   EXPECT_NEAR(result.events[0].max_force / 45448.0, 1.0, 1e-5);
@@ -130,7 +135,8 @@ TEST(FloresSliderCrank, WithFloresLawStrikesAsHardAsComputedIndependently) {
 }
 
 TEST(FloresSliderCrank, WithoutDampingStrikesAsComputedIndependently) {
-  const RunResult elastic = follow(example({{"motion.duration", "0.7 ms"}, {"clearance.B.contact.law", "hertz"}}));
+  const RunResult elastic =
+      follow(example({{"motion.duration", "0.7 ms"}, {"clearance.B.contact.law", "hertz"}}));
   ASSERT_GE(elastic.events.size(), 2u);
   EXPECT_NEAR(elastic.events[0].max_penetration / 8.106744e-5, 1.0, 1e-5);
   EXPECT_NEAR(elastic.events[0].max_force / 48248.54, 1.0, 1e-5);
@@ -140,10 +146,11 @@ TEST(FloresSliderCrank, WithoutDampingStrikesAsComputedIndependently) {
 
 const double kLankaraniNikravesh = 0.75 * (1.0 - 0.9 * 0.9);
 
-// The reference takes friction at the journal's own radius; what the two-coordinate formulation says about it below
-// therefore rests on its numbers to every digit that the kinks of the friction's ramp leave.
+// The reference takes friction at the journal's own radius; what the two-coordinate formulation says about it
+// below therefore rests on its numbers to every digit that the kinks of the friction's ramp leave.
 TEST(FloresSliderCrank, WithFrictionIsTheReferenceWhereFrictionActsAtTheJournalsRadius) {
-  SliderCrankInTwoCoordinates hand(kLankaraniNikravesh, true, [](double) { return SliderCrankInTwoCoordinates::kJournal; });
+  SliderCrankInTwoCoordinates hand(kLankaraniNikravesh, true,
+                                   [](double) { return SliderCrankInTwoCoordinates::kJournal; });
   const auto events = hand.events(0.9e-3, 2e-8);
   ASSERT_GE(events.size(), 3u);
   EXPECT_NEAR(events[0].force / 45922.94, 1.0, 1e-6);
@@ -154,9 +161,10 @@ TEST(FloresSliderCrank, WithFrictionIsTheReferenceWhereFrictionActsAtTheJournals
   EXPECT_NEAR(events[2].speed / 2.167520217, 1.0, 1e-6);
 }
 
-// Here friction acts on both bodies at one point, on the bore, so that no angular momentum leaks: its lever about the
-// journal's centre is R_j less the penetration (0.8 % at most). With that lever and nothing else changed, the formulation of
-// the test above moves the second impact by 2.8e-5 and the third by 2.0e-4 of its time, its speed by 6e-4.
+// Here friction acts on both bodies at one point, on the bore, so that no angular momentum leaks: its lever
+// about the journal's centre is R_j less the penetration (0.8 % at most). With that lever and nothing else
+// changed, the formulation of the test above moves the second impact by 2.8e-5 and the third by 2.0e-4 of its
+// time, its speed by 6e-4.
 TEST(FloresSliderCrank, WithFrictionIsTheReferenceWithFrictionMovedToTheBore) {
   MechanismDescription rubbing = example({{"motion.duration", "0.9 ms"}});
   rubbing.clearances[0].friction_law = "modified-coulomb";
@@ -165,8 +173,8 @@ TEST(FloresSliderCrank, WithFrictionIsTheReferenceWithFrictionMovedToTheBore) {
   friction.static_speed = 1e-3;
   friction.dynamic_speed = 1e-2;
   const RunResult rough = follow(std::move(rubbing), 1e-4, 5e-8);  // the ramp's kinks cost the step its order
-  SliderCrankInTwoCoordinates hand(kLankaraniNikravesh, true,
-                                   [](double depth) { return SliderCrankInTwoCoordinates::kJournal - depth; });
+  SliderCrankInTwoCoordinates hand(
+      kLankaraniNikravesh, true, [](double depth) { return SliderCrankInTwoCoordinates::kJournal - depth; });
   const auto events = hand.events(0.9e-3, 2e-8);
   ASSERT_GE(events.size(), 3u);
   ASSERT_GE(rough.events.size(), 3u);
@@ -179,7 +187,8 @@ TEST(FloresSliderCrank, WithFrictionIsTheReferenceWithFrictionMovedToTheBore) {
   }
 }
 
-// The ideal mechanism in closed form, at 5000 rpm: slider, force between rod and slider, moment that turns the crank.
+// The ideal mechanism in closed form, at 5000 rpm: slider, force between rod and slider, moment that turns
+// the crank.
 TEST(FloresSliderCrank, HasTheClosedFormOfItsIdealMotion) {
   const Mechanism mechanism(example());
   const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
@@ -209,7 +218,8 @@ TEST(FloresSliderCrank, HasTheClosedFormOfItsIdealMotion) {
                          m.bodies[kSliderBody].mass * slider.v.dot(slider_a.head<3>());
     const double moment = power / SliderCrankInTwoCoordinates::kSpeed;
     largest_moment = std::max(largest_moment, moment), smallest_moment = std::min(smallest_moment, moment);
-    // Along the guide the pin pushes the slider; across it, it turns the rod about its crank pin, which accelerates.
+    // Along the guide the pin pushes the slider; across it, it turns the rod about its crank pin, which
+    // accelerates.
     const double fx = m.bodies[kSliderBody].mass * slider_a[0];
     const Vec3 to_pin = slider.p - rod.p, to_crank = -to_pin;  // the rod's centre is its middle
     const Vec3 moment_about_crank = Vec3(0.0, 0.0, m.bodies[kRodBody].inertia(2, 2) * rod_a[5]) +

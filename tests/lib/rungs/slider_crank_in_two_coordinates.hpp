@@ -1,9 +1,10 @@
-// The slider-crank of Flores et al. (2006) with clearance between rod and slider, written a second time by hand: two
-// coordinates (the rod's angle, the slider's position), a crank that turns evenly, no gravity, nothing shared with the
-// library. What differs from one author to the next, the lever of friction on the journal, is an argument.
+// The slider-crank of Flores et al. (2006) with clearance between rod and slider, written a second time by
+// hand: two coordinates (the rod's angle, the slider's position), a crank that turns evenly, no gravity,
+// nothing shared with the library. What differs from one author to the next, the lever of friction on the
+// journal, is an argument.
 //
-// With the lever R_j it gives the numbers of the reference computed with two other formulations (long double; Cartesian
-// coordinates with multipliers) digit for digit.
+// With the lever R_j it gives the numbers of the reference computed with two other formulations (long double;
+// Cartesian coordinates with multipliers) digit for digit.
 #pragma once
 
 #include <algorithm>
@@ -18,16 +19,18 @@ namespace boresight::scenes {
 class SliderCrankInTwoCoordinates {
  public:
   struct Event {
-    double start, speed, angle, sliding;  // [s], [m/s], of the journal's contact from the bearing's centre [rad], [m/s]
+    double start, speed, angle,
+        sliding;  // [s], [m/s], of the journal's contact from the bearing's centre [rad], [m/s]
     double depth = 0.0, force = 0.0, end_speed = 0.0, duration = 0.0;  // [m], [N], [m/s], [s]
   };
 
-  // damping_factor: h of F = K d^1.5 (1 + h d' / d'_0). friction: 0.03 ramped from 1 to 10 mm/s where asked for.
-  // lever: from the journal's centre to where friction acts, of the penetration [m].
+  // damping_factor: h of F = K d^1.5 (1 + h d' / d'_0). friction: 0.03 ramped from 1 to 10 mm/s where asked
+  // for. lever: from the journal's centre to where friction acts, of the penetration [m].
   SliderCrankInTwoCoordinates(double damping_factor, bool friction, std::function<double(double)> lever)
       : h_(damping_factor), mu_(friction ? 0.03 : 0.0), lever_(std::move(lever)) {}
 
-  // Contacts begun and ended before `duration` [s]: RK4 with a uniform step, cut at each contact's start and end.
+  // Contacts begun and ended before `duration` [s]: RK4 with a uniform step, cut at each contact's start and
+  // end.
   std::vector<Event> events(double duration, double step) {
     State y = {0.0, kCrank + kRod, -kCrank * kSpeed / kRod, 0.0};  // the ideal mechanism, in line
     std::vector<Event> out;
@@ -65,9 +68,10 @@ class SliderCrankInTwoCoordinates {
     return out;
   }
 
-  static constexpr double kBearing = 0.01, kClearance = 0.5e-3, kJournal = kBearing - kClearance;  // radii [m]
-  static constexpr double kCrank = 0.05, kRod = 0.12;                                             // lengths [m]
-  static constexpr double kSpeed = 2.0 * std::numbers::pi * 5000.0 / 60.0;                        // [rad/s]
+  static constexpr double kBearing = 0.01, kClearance = 0.5e-3,
+                          kJournal = kBearing - kClearance;                 // radii [m]
+  static constexpr double kCrank = 0.05, kRod = 0.12;                       // lengths [m]
+  static constexpr double kSpeed = 2.0 * std::numbers::pi * 5000.0 / 60.0;  // [rad/s]
 
  private:
   using State = std::array<double, 4>;  // rod's angle, slider's position, their rates
@@ -97,7 +101,8 @@ class SliderCrankInTwoCoordinates {
     constexpr double rod_mass = 0.21, rod_inertia = 2.5e-4, slider_mass = 0.14;
     const Contact c = contact(t, y);
     const double fx = -c.normal * c.nx - c.friction * c.ny, fz = -c.normal * c.ny + c.friction * c.nx;
-    const double ax = -kCrank * kSpeed * kSpeed * std::cos(kSpeed * t), az = -kCrank * kSpeed * kSpeed * std::sin(kSpeed * t);
+    const double ax = -kCrank * kSpeed * kSpeed * std::cos(kSpeed * t),
+                 az = -kCrank * kSpeed * kSpeed * std::sin(kSpeed * t);
     const double sine = std::sin(y[0]), cosine = std::cos(y[0]);
     // About the crank pin, which accelerates.
     const double moment = kRod * (cosine * fz - sine * fx) + lever_(std::max(c.depth, 0.0)) * c.friction -
@@ -111,8 +116,8 @@ class SliderCrankInTwoCoordinates {
       for (int i = 0; i < 4; ++i) z[i] += by * k[i];
       return z;
     };
-    const State a = rate(t, y), b = rate(t + 0.5 * step, moved(a, 0.5 * step)), c = rate(t + 0.5 * step, moved(b, 0.5 * step)),
-                d = rate(t + step, moved(c, step));
+    const State a = rate(t, y), b = rate(t + 0.5 * step, moved(a, 0.5 * step)),
+                c = rate(t + 0.5 * step, moved(b, 0.5 * step)), d = rate(t + step, moved(c, step));
     State out = y;
     for (int i = 0; i < 4; ++i) out[i] += step / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]);
     return out;
