@@ -1,6 +1,7 @@
 // Bodies that turn in space: Euler's equations for a free body, and a heavy top.
 #include <gtest/gtest.h>
 
+#include "boresight/rungs/rung.hpp"
 #include "scenes.hpp"
 #include "stepper.hpp"
 
@@ -116,6 +117,32 @@ TEST(HeavyTop, PrecessesAndNutatesAsComputedIndependently) {
     EXPECT_NEAR((top.at(2.0, h).p - Vec3(-0.1504168227, -0.7241655916, -0.6730222696)).norm(), 0.0, 1e-9);
     EXPECT_NEAR(top.energy() / 5435.696790866, 1.0, 1e-10);
   }
+}
+
+// The example files hold both in gimbals without weight.
+RunResult example(const std::string& name, double step, double spacing) {
+  const auto mechanism =
+      scenes::build(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/" + name + "/" + name + ".toml"));
+  RunOptions options;
+  options.step = step;
+  options.sample_spacing = spacing;
+  return make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
+}
+
+TEST(FreeBody, TumblesTheSameInAGimbalWithoutWeight) {
+  const RunResult result = example("free-body", 1e-3, 1.0);
+  const Quat now = result.boresight.samples[1].pose.q, later = result.boresight.samples[10].pose.q;
+  expect_turned(now, 0.6874647330, 0.1752015920, 0.5407172524, 0.4520193536, 1e-9);
+  expect_turned(later, 0.4625454406, -0.3143351451, 0.0494296313, 0.8275275485, 1e-9);
+}
+
+TEST(HeavyTop, MovesTheSameInAGimbalWithoutWeight) {
+  const RunResult result = example("heavy-top", 1e-4, 0.1);
+  const std::vector<PoseSample>& s = result.boresight.samples;
+  expect_turned(s[2].pose.q, -0.70827915, 0.43878109, 0.5457284, 0.08939975, 1e-8);
+  EXPECT_NEAR((s[5].pose.p - Vec3(-0.7024682971, -0.0211651847, -0.7114002577)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((s[10].pose.p - Vec3(0.1733439641, 0.6400885921, -0.7484907911)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((s[20].pose.p - Vec3(-0.1504168227, -0.7241655916, -0.6730222696)).norm(), 0.0, 1e-9);
 }
 
 }  // namespace
