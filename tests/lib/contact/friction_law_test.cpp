@@ -132,8 +132,8 @@ TEST(LuGre, KeepsItsSteadyForceWhereTheStepCannotFollowTheBristles) {
 }
 
 // Block on a belt of 0.1 m/s held by a spring of 2 N/m, static and kinetic friction 1.5 and 1 N. With
-// Coulomb's friction: first slip at 7.5 s, period 7.611259 s, turning at 0.759808 and 0.240192 m, at most
-// 0.367423 m/s against the belt. LuGre's bristles creep while they bend, and break away early: stiffer ones come closer.
+// Coulomb's friction: first slip at 7.5 s, period 7.611259 s, turning at 0.759808 and 0.240192 m, back with at most
+// 0.367423 m/s. LuGre's bristles creep while they bend, and break away early: stiffer ones come closer.
 TEST(LuGre, SticksAndSlipsOnABeltAsCoulombsFrictionDoesTheMoreTheStifferItsBristles) {
   struct Figures {
     double first = 0.0, period = 0.0, highest = 0.0, lowest = 1.0, slowest = 0.0;

@@ -5,12 +5,13 @@
 #include "boresight/rungs/multibody.hpp"
 #include "scenes.hpp"
 #include "stepper.hpp"
+#include "tree_formulation_scenes.hpp"
 
 namespace boresight {
 namespace {
 
+using scenes::at_home;
 using scenes::formulate;
-using scenes::home_at_rest;
 using scenes::Stepper;
 
 // All six drives let go: the platform falls on its legs, the journal rattles elastically.
@@ -23,7 +24,7 @@ void expect_energy_kept(bool paper, JournalAxes axes) {
   const Mechanism mechanism(description);
   const auto relative_loss = [&](double h) {
     const auto formulation = formulate(paper, mechanism);
-    Stepper stepper(*formulation, home_at_rest(mechanism));
+    Stepper stepper(*formulation, at_home(mechanism));
     const double before = formulation->energy(0.0, stepper.y);
     double kinetic_scale = 0.0;
     while (stepper.t < 0.1 - 0.5 * h) stepper.step(h);
@@ -55,7 +56,7 @@ void expect_momenta_kept(bool paper, JournalAxes axes) {
   description.clearances[0].axes = axes;
   const Mechanism mechanism(description);
   const auto formulation = formulate(paper, mechanism);
-  IdealState start = home_at_rest(mechanism);
+  IdealState start = at_home(mechanism);
   // A push that the constraints allow: the whole system translates and turns, and one leg's projection does
   // the rest.
   for (std::size_t b = 0; b < start.bodies.size(); ++b) {

@@ -4,6 +4,7 @@
 #include "boresight/rungs/rung.hpp"
 #include "scenes.hpp"
 #include "stepper.hpp"
+#include "tree_formulation_scenes.hpp"
 
 namespace boresight {
 namespace {
@@ -30,7 +31,7 @@ struct Turning {
 struct Follower {
   Follower(bool paper, const MechanismDescription& description, const Vec3& fixed, const Vec3& w)
       : mechanism(description), formulation(scenes::formulate(paper, mechanism)) {
-    IdealState start = scenes::home_at_rest(mechanism);
+    IdealState start = scenes::at_home(mechanism);
     start.bodies[0].w = w;
     start.bodies[0].v = w.cross(start.bodies[0].p - fixed);
     stepper = std::make_unique<scenes::Stepper>(*formulation, start);

@@ -4,6 +4,7 @@
 
 #include "scenes.hpp"
 #include "stepper.hpp"
+#include "tree_formulation_scenes.hpp"
 
 namespace boresight {
 namespace {
@@ -56,7 +57,7 @@ constexpr double kAngle = 0.02;
 double frequency(bool paper, double clearance, double friction) {
   const Mechanism mechanism(journal(clearance, friction));
   const auto formulation = scenes::formulate(paper, mechanism);
-  IdealState start = scenes::home_at_rest(mechanism);
+  IdealState start = scenes::at_home(mechanism);
   const double radius = clearance + depth_at_rest(clearance) * std::cbrt(std::pow(std::cos(kAngle), 2.0));
   start.bodies[0].p = radius * Vec3(std::sin(kAngle), 0.0, -std::cos(kAngle));
   scenes::Stepper stepper(*formulation, start);

@@ -48,14 +48,6 @@ struct Stepper {
   std::vector<ContactMemory> memory;
 };
 
-inline IdealState home_at_rest(const Mechanism& mechanism) {
-  IdealState s;
-  for (const BodyDescription& b : mechanism.description().bodies)
-    s.bodies.push_back({b.center_of_mass, b.axes, {}, {}});
-  s.acceleration.assign(s.bodies.size(), Vec6::Zero());
-  return s;
-}
-
 inline std::unique_ptr<Formulation> formulate(bool paper, const Mechanism& mechanism) {
   if (paper)
     return make_paper_formulation(mechanism, mechanism.parameters(), nullptr,
