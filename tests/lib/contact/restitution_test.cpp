@@ -49,20 +49,22 @@ TEST(ContactLaws, ReturnTheRestitutionThatTheoryForesees) {
     }
 }
 
-// EXUDYN's contactSphereSphereTest prints what it integrates, of a linear spring (exponent 1) and an impact at 10 m/s: the
-// relation does not know the exponent, nor the speed.
+// EXUDYN's contactSphereSphereTest prints what it integrates, of a linear spring (exponent 1) and an impact
+// at 10 m/s: the relation does not know the exponent, nor the speed.
 TEST(ContactLaws, ReturnWhatExudynPrintsForALinearSpring) {
   struct Row {
     const char* name;
     double asked, returned;
   };
-  for (const Row& row : {Row{"hunt-crossley", .9, .90903}, Row{"hunt-crossley", .8, .83290}, Row{"hunt-crossley", .5, .66298},
-                         Row{"hunt-crossley", .3, .58132}, Row{"hunt-crossley", .1, .51586}, Row{"gonthier", .3, .30424},
-                         Row{"gonthier", .1, .10099}, Row{"carvalho-martins", .9, .90002},
-                         Row{"carvalho-martins", .8, .80002}, Row{"carvalho-martins", .5, .50018}}) {
+  for (const Row& row :
+       {Row{"hunt-crossley", .9, .90903}, Row{"hunt-crossley", .8, .83290}, Row{"hunt-crossley", .5, .66298},
+        Row{"hunt-crossley", .3, .58132}, Row{"hunt-crossley", .1, .51586}, Row{"gonthier", .3, .30424},
+        Row{"gonthier", .1, .10099}, Row{"carvalho-martins", .9, .90002}, Row{"carvalho-martins", .8, .80002},
+        Row{"carvalho-martins", .5, .50018}}) {
     NormalLaw law{1e9, normal_law(row.name).damping_factor(row.asked)};
     law.curve = ElasticCurve::linear;
-    EXPECT_NEAR(impact(law, 1.0, 10.0, 3000).restitution, row.returned, 5e-5) << row.name << " asked for " << row.asked;
+    EXPECT_NEAR(impact(law, 1.0, 10.0, 3000).restitution, row.returned, 5e-5)
+        << row.name << " asked for " << row.asked;
   }
 }
 

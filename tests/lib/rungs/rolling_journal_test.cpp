@@ -75,7 +75,7 @@ double frequency(bool paper, double clearance, double friction) {
 // Of a swing of that angle over an infinitely small one.
 const double kAmplitude = 1.0 - kAngle * kAngle / 16.0;
 
-TEST(JournalInItsBearing, SlidesLikeAPendulumAsLongAsTheClearance) {
+TEST(JournalInItsBearing, SlidesLikeAPendulumOfTheClearancesLength) {
   for (const auto& [clearance, rigid] : {std::pair{0.5e-3, 140.07}, std::pair{0.1e-3, 313.21}})
     for (const bool paper : {false, true}) {
       const double length = clearance + depth_at_rest(clearance), w = frequency(paper, clearance, 0.0);
