@@ -72,6 +72,7 @@ TEST(Baumgarte, LimitsOfTheoryAreThoseOfTheTable) {
   EXPECT_NEAR(theoretical_growth(rk4, 1.0, 1.0), 0.375, 1e-6);
   EXPECT_NEAR(theoretical_growth(rk4, 0.5, 0.5), 0.606771, 1e-6);
   EXPECT_NEAR(theoretical_growth(rk4, 0.1, 0.1), 0.904838, 1e-6);
+  EXPECT_NEAR(theoretical_growth(rk4, 0.05, 0.05), 0.951229, 1e-6);
   EXPECT_NEAR(theoretical_growth(rk4, 5e-5, 5e-5), 0.99995, 1e-8);
 }
 

@@ -146,7 +146,7 @@ TEST(JointRows, AllRowsVanishAtHome) {
   for (JointType type : kTypes) {
     const Mechanism mechanism(two_bodies(type, false, nullptr, false));
     std::vector<BodyMotion> home;
-    for (const BodyDescription& b : mechanism.description().bodies) home.push_back({b.center_of_mass, b.axes, {}, {}});
+    for (const BodyDescription& b : mechanism.description().bodies) home.push_back({b.center_of_mass, b.axes, Vec3::Zero(), Vec3::Zero()});
     JointRows rows;
     JointConstraint(mechanism, 0, ClearanceRows::closed, true).evaluate(home, {}, rows);
     EXPECT_LT(rows.value.lpNorm<Eigen::Infinity>(), 1e-15) << to_string(type);

@@ -1,66 +1,18 @@
-// What Newton's equations keep: energy where nothing dissipates, momentum where nothing pushes from outside, and the
-// integrator's order where nothing impacts.
+// What Newton's equations keep: energy where nothing dissipates, momentum where nothing pushes from outside,
+// and the integrator's order where nothing impacts.
 #include <gtest/gtest.h>
 
-#include "boresight/integrate/explicit_runge_kutta.hpp"
-#include "boresight/rungs/contact_tracker.hpp"
-#include "boresight/rungs/formulation.hpp"
-#include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/multibody.hpp"
 #include "scenes.hpp"
+#include "stepper.hpp"
+#include "tree_formulation_scenes.hpp"
 
 namespace boresight {
 namespace {
 
-// Steps a formulation by hand, contacts latched as the rung does it.
-struct Stepper {
-  Stepper(const Mechanism& m, Formulation& f, const IdealState& start) : formulation(f), method(classical_rk4(), f.state_size()) {
-    f.start(start, y);
-    for (int c = 0; c < f.forces().clearances(); ++c) trackers.emplace_back(c, "joint", f.forces().joint(c), false);
-    memory.resize(trackers.size());
-    (void)m;
-    accept();
-  }
-  void accept() {
-    std::array<ContactState<double>, kContactPlaces> contact;
-    for (std::size_t c = 0; c < trackers.size(); ++c) {
-      const int k = static_cast<int>(c);
-      formulation.forces().joint(k).gaps(formulation.forces().journal_motion(k, formulation.bodies(t, y)), contact);
-      contacts += trackers[c].accept(t, contact);
-      memory[c] = trackers[c].memory();
-    }
-  }
-  void step(double h) {
-    const auto derivative = [&](double time, const VecX& state, VecX& dy) {
-      formulation.derivative(time, state, memory, dy);
-    };
-    derivative(t, y, method.first_slope());
-    method.step(t, h, y, derivative);
-    t += h;
-    formulation.settle(t, y);
-    accept();
-  }
-  Formulation& formulation;
-  ExplicitRungeKutta method;
-  VecX y;
-  double t = 0.0;
-  int contacts = 0;
-  std::vector<ContactTracker> trackers;
-  std::vector<ContactMemory> memory;
-};
-
-IdealState home_at_rest(const Mechanism& mechanism) {
-  IdealState s;
-  for (const BodyDescription& b : mechanism.description().bodies) s.bodies.push_back({b.center_of_mass, b.axes, {}, {}});
-  s.acceleration.assign(s.bodies.size(), Vec6::Zero());
-  return s;
-}
-
-std::unique_ptr<Formulation> make(bool paper, const Mechanism& mechanism) {
-  if (paper)
-    return make_paper_formulation(mechanism, mechanism.parameters(), nullptr, {.stabilisation = Stabilisation::projection});
-  return make_tree_formulation(mechanism, mechanism.parameters(), nullptr, {});
-}
+using scenes::at_home;
+using scenes::formulate;
+using scenes::Stepper;
 
 // All six drives let go: the platform falls on its legs, the journal rattles elastically.
 void expect_energy_kept(bool paper, JournalAxes axes) {
@@ -71,8 +23,8 @@ void expect_energy_kept(bool paper, JournalAxes axes) {
   description.clearances[0].axes = axes;
   const Mechanism mechanism(description);
   const auto relative_loss = [&](double h) {
-    const auto formulation = make(paper, mechanism);
-    Stepper stepper(mechanism, *formulation, home_at_rest(mechanism));
+    const auto formulation = formulate(paper, mechanism);
+    Stepper stepper(*formulation, at_home(mechanism));
     const double before = formulation->energy(0.0, stepper.y);
     double kinetic_scale = 0.0;
     while (stepper.t < 0.1 - 0.5 * h) stepper.step(h);
@@ -103,16 +55,17 @@ void expect_momenta_kept(bool paper, JournalAxes axes) {
       if (description.joints[j].name == "F1") c.joint = static_cast<int>(j);
   description.clearances[0].axes = axes;
   const Mechanism mechanism(description);
-  const auto formulation = make(paper, mechanism);
-  IdealState start = home_at_rest(mechanism);
-  // A push that the constraints allow: the whole system translates and turns, and one leg's projection does the rest.
+  const auto formulation = formulate(paper, mechanism);
+  IdealState start = at_home(mechanism);
+  // A push that the constraints allow: the whole system translates and turns, and one leg's projection does
+  // the rest.
   for (std::size_t b = 0; b < start.bodies.size(); ++b) {
     const Vec3 w(0.3, -0.2, 0.5);
     start.bodies[b].w = w;
     start.bodies[b].v = Vec3(0.1, 0.2, -0.1) + w.cross(start.bodies[b].p);
   }
   start.bodies[mechanism.boresight_body()].v += Vec3(0.3, -0.1, 0.2);
-  Stepper stepper(mechanism, *formulation, start);
+  Stepper stepper(*formulation, start);
   formulation->settle(0.0, stepper.y);
   const std::vector<MassProperties> mass = mechanism.mass_properties(mechanism.parameters());
   const auto momenta = [&] {
@@ -121,15 +74,16 @@ void expect_momenta_kept(bool paper, JournalAxes axes) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const Vec3 p = mass[b].mass * bodies[b].v;
       sum.head<3>() += p;
-      sum.tail<3>() += bodies[b].p.cross(p) + bodies[b].R * mass[b].inertia * bodies[b].R.transpose() * bodies[b].w;
+      sum.tail<3>() +=
+          bodies[b].p.cross(p) + bodies[b].R * mass[b].inertia * bodies[b].R.transpose() * bodies[b].w;
     }
     return sum;
   };
   const Vec6 before = momenta();
   for (int k = 0; k < 4000; ++k) stepper.step(2e-5);
   EXPECT_GT(stepper.contacts, 2) << "the scene must impact";
-  // RK4 keeps what is linear in the state to rounding, as linear momentum is in absolute coordinates; angular momentum, and
-  // both in joint coordinates, to its own order: (w h)^4 a step, far below 1e-8 in all.
+  // RK4 keeps what is linear in the state to rounding, as linear momentum is in absolute coordinates; angular
+  // momentum, and both in joint coordinates, to its own order: (w h)^4 a step, far below 1e-8 in all.
   EXPECT_LT((momenta() - before).head<3>().norm(), (paper ? 1e-11 : 1e-8) * before.head<3>().norm());
   EXPECT_LT((momenta() - before).tail<3>().norm(), (paper ? 1e-9 : 1e-8) * before.tail<3>().norm());
 }
@@ -141,9 +95,8 @@ TEST(Formulations, KeepTheMomentaOfAFloatingSystemWithFrictionAndImpacts) {
 
 TEST(Multibody, ConvergesWithOrderFourBeforeTheFirstContact) {
   // A gap so wide that the journal flies for the whole run.
-  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "0.016 s"},
-                                                      {"clearance.F1.radial", "5 mm"},
-                                                      {"clearance.F1.axial", "5 mm"}}));
+  const auto mechanism = scenes::build(scenes::rrcpr(
+      {{"motion.duration", "0.016 s"}, {"clearance.F1.radial", "5 mm"}, {"clearance.F1.axial", "5 mm"}}));
   const auto rung = make_multibody(mechanism);
   const auto end = [&](double h) {
     RunOptions options;
