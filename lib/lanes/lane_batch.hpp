@@ -60,7 +60,7 @@ struct LaneOutcome {
 
 struct LaneSettings {
   const RosenbrockTable* method = nullptr;
-  double longest_step = 2e-3;   // [s]: the scene's numbers are taken as straight lines across a step
+  double longest_step = 4e-3;   // [s]: the scene's numbers are taken as straight lines across a step
   double first_step = 1e-6;     // [s]
   double smallest_step = 1e-13; // [s]
   long most_steps = 10'000'000;

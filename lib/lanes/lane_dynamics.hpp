@@ -24,6 +24,7 @@ class LaneDynamics {
 
   LaneDynamics(const SceneLayout& layout, const JournalInSleeve* first_sample) : at(layout) {
     for (std::size_t c = 0; c < at.joints.size(); ++c) laws.push_back(in_all_lanes<T>(first_sample[c]));
+    acting = laws;
     impact_speed.resize(at.joints.size());
     for (auto& speeds : impact_speed) speeds.fill(T(1e-3));
   }
@@ -86,6 +87,7 @@ class LaneDynamics {
 
   const Layout at;
   std::vector<JournalInSleeveT<T>> laws;
+  std::vector<JournalInSleeveT<T>> acting;  // in the step at hand: what is open at its start is out of reach (LaneContacts)
   std::vector<std::array<T, kContactPlaces>> impact_speed;
 
  private:
@@ -98,9 +100,9 @@ class LaneDynamics {
   template <typename M>
   void load_of(std::size_t c, const JournalMotion<M>& motion, JournalLoad<M>& load) const {
     if constexpr (Layout::kParallel)
-      laws[c].parallel_wrench(motion, impact_speed[c], SlidingFriction<T>{laws[c].friction}, load);
+      acting[c].parallel_wrench(motion, impact_speed[c], SlidingFriction<T>{acting[c].friction}, load);
     else
-      laws[c].wrench(motion, impact_speed[c], load);
+      acting[c].wrench(motion, impact_speed[c], load);
   }
 
   // K numbers of a joint's motion: offsets, their rates, spins.

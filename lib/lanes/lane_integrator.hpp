@@ -83,6 +83,7 @@ class LaneIntegrator {
     }
     for (std::size_t c = 0; c < dynamics_.at.joints.size(); ++c) {
       set_lane(dynamics_.laws[c], l, job.joints[c]);
+      set_lane(dynamics_.acting[c], l, job.joints[c]);
       contacts_.tolerance[c].set(l, job.gap_tolerance[c]);
       contacts_.slowest[c].set(l, job.joints[c].minimum_impact_speed);
     }
@@ -117,6 +118,7 @@ class LaneIntegrator {
     dynamics_.contacts(new_row_.data(), z_.data(), v_.data(), contacts_.end.data());
     for (int l = 0; l < W; ++l)
       if (lanes.lane(l)) contacts_.restart(l, dynamics_.impact_speed);
+    contacts_.act(dynamics_.laws, dynamics_.acting);
   }
 
   void attempt() {
@@ -162,6 +164,7 @@ class LaneIntegrator {
       v_[k] = select(accepted, new_v_[k], v_[k]);
     }
     for (int k = 0; k < used(); ++k) row_[k] = select(accepted, new_row_[k], row_[k]);
+    contacts_.act(dynamics_.laws, dynamics_.acting);
     clock_.advance(accepted);
     contact_since_ = select(accepted & (began | was_open), clock_.now(), contact_since_);
     gave_up_ = running_ & ((h_ < T(settings_.smallest_step)) | (steps_ + rejected_ >= T(double(settings_.most_steps))));

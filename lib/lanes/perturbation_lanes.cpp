@@ -11,6 +11,9 @@ namespace boresight {
 namespace {
 
 constexpr int kPad = 16;  // lanes of the widest register
+// A contact begins this close to where the journal meets the sleeve, as a share of the clearance: a tenth of what the default
+// tolerance lets a step err by.
+constexpr double kGapShare = 1e-4;
 constexpr std::size_t kScenesKept = 64;  // of different masses
 
 // G at t, 3 x n: the index to first order is |G z|.
@@ -166,7 +169,7 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
     for (int c = 0; c < mechanism_->clearances(); ++c) {
       const JournalInSleeve& law = own[c];
       const double clearance = law.has_faces ? std::min(law.radial_clearance, law.axial_clearance) : law.radial_clearance;
-      gap.push_back(1e-5 * clearance);
+      gap.push_back(kGapShare * clearance);
       for (int k = 0; k < at.joints[c].offsets; ++k) {
         const int source = at.joints[c].source[k];
         if (source < 0) continue;
