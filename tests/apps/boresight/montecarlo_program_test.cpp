@@ -224,10 +224,11 @@ TEST_F(MonteCarloRanks, TwoRanksGiveTheTableOfOneProcess) {
 TEST_F(MonteCarloRanks, ARankThatIsKilledCostsOnlyWhatItHadNotStored) {
   study("long.toml", 25000);
   const std::string whole = csv_of("long.toml", "whole");
-  // The shell of rank 1 kills its program from outside after a while.
+  // The shell of rank 1 kills its program from outside once samples are being stored.
   const std::string script = (folder_ / "rank.sh").string();
   std::ofstream(script) << "if [ \"$OMPI_COMM_WORLD_RANK\" = 1 ]; then '" BORESIGHT_PROGRAM
-                           "' \"$@\" & child=$!; sleep 0.6; kill -9 $child; wait $child; else exec '" BORESIGHT_PROGRAM
+                           "' \"$@\" & child=$!; for k in $(seq 200); do ls out/*.db > /dev/null 2>&1 && break; sleep 0.05; done; "
+                           "sleep 0.2; kill -9 $child; wait $child; else exec '" BORESIGHT_PROGRAM
                            "' \"$@\"; fi\n";
   std::string command = "cd '" + folder_.string() +
                         "' && OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" BORESIGHT_MPIEXEC
