@@ -5,9 +5,7 @@
 #include <cstdio>
 
 #include "boresight/mechanism/error.hpp"
-#include "boresight/rungs/ideal_simulation.hpp"
-#include "boresight/rungs/perturbation_system.hpp"
-#include "boresight/rungs/predictability.hpp"
+#include "boresight_analyses/sensitivity/predictable_slopes.hpp"
 
 namespace boresight {
 namespace {
@@ -27,15 +25,6 @@ void compare(const IndexSlopes& slopes, LocalSensitivity& p) {
                 "give %.3g: it holds for smaller changes than the scatter makes",
                 slopes.impacts, slopes.grazing, p.exact, difference);
   if (!p.exact_agrees) p.exact_note = text;
-}
-
-std::string beyond(const Predictability& horizon, double duration) {
-  char text[240];
-  std::snprintf(text, sizeof text,
-                "withheld: the motion is predictable for %.3g s of its %.3g s only (impacts part motions that start a "
-                "picometre apart), and beyond that its slope says nothing of any change that could be made",
-                horizon.horizon, duration);
-  return text;
 }
 
 }  // namespace
@@ -62,25 +51,12 @@ void add_exact_slopes(const std::shared_ptr<const Mechanism>& shared, const Rand
   }
   if (varied.empty()) return;
   try {
-    const Parameters at_medians = inputs.parameters_with(mechanism, medians);
-    const Predictability horizon = measure_predictability(shared, at_medians);
-    if (horizon.measured && horizon.parted) throw ComputationError(beyond(horizon, mechanism.duration()));
-    const PreparedScene prepared(mechanism, ideal_motion(mechanism, at_medians), at_medians);
-    const PerturbationSystem system(mechanism, at_medians, prepared.tables(at_medians), false);
-    if (system.has_bristles()) throw ComputationError("bristles of LuGre friction carry no derivatives");
-    SlopeOptions options;
-    // Steps that serve the motion alone leave its derivatives to grow where a journal rests on its sleeve: there they
-    // stand at the limit of stability, which only the derivatives' own error tells.
-    options.tolerance = 1e-6;
-    options.control_derivatives = true;
-    options.start_state = VecX::Zero(2 * system.layout().n);
-    options.start_state.head(system.layout().n).setConstant(run.start_offset);
     const auto parameters_at = [&](const std::vector<double>& v) {
       std::vector<double> all = medians;
       for (std::size_t k = 0; k < varied.size(); ++k) all[varied[k]] = v[k];
       return inputs.parameters_with(mechanism, all);
     };
-    const IndexSlopes slopes = index_slopes(mechanism, prepared, parameters_at, values, index, options);
+    const IndexSlopes slopes = predictable_slopes(shared, parameters_at, values, index, run.start_offset);
     for (std::size_t k = 0; k < varied.size(); ++k) {
       LocalSensitivity& s = local.parameters[varied[k]];
       s.exact = slopes.by[k];

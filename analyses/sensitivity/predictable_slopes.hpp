@@ -1,0 +1,15 @@
+// Slopes of an index that say something of changes one can make: of motions that stay predictable to their end.
+#pragma once
+
+#include "boresight_analyses/sensitivity/index_slopes.hpp"
+
+namespace boresight {
+
+// As index_slopes(), from rest with all offsets at start_offset [m]. Throws ComputationError, which says why there are none:
+// impacts part the motion's neighbours before its end (predictability.hpp), bristles carry no derivatives, or the motion cannot
+// be followed.
+IndexSlopes predictable_slopes(const std::shared_ptr<const Mechanism>& mechanism,
+                               const std::function<Parameters(const std::vector<double>&)>& parameters_at,
+                               const std::vector<double>& values, const IndexChoice& index, double start_offset);
+
+}  // namespace boresight
