@@ -8,7 +8,7 @@ namespace boresight {
 
 // The linear systems of an implicit step grow with the cube of the coordinates, three to five a joint: with twelve joints
 // explicit steps of single samples are cheaper.
-inline constexpr int kMostLaneJoints = 4, kMostLaneCoordinates = 5 * kMostLaneJoints;
+inline constexpr int kMostLaneJoints = 4, kMostLaneCoordinates = 5 * kMostLaneJoints;  // see serve()
 
 // N: number of coordinates, 0 if known only when running. Not zero from the start.
 template <typename T, int N>

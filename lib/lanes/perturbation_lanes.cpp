@@ -3,6 +3,7 @@
 #include <cmath>
 #include <list>
 #include <mutex>
+#include <stdexcept>
 
 #include "boresight/lanes/lane_numbers.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
@@ -59,6 +60,8 @@ struct PerturbationLanes::Cache {
 bool PerturbationLanes::serve(const Mechanism& mechanism) {
   const MechanismDescription& m = mechanism.description();
   if (mechanism.clearances() > kMostLaneJoints) return false;
+  // Every coordinate is an offset or a freedom that nothing drives.
+  if (OffsetLayout(mechanism).size() + undriven_freedoms(mechanism) > kMostLaneCoordinates) return false;
   for (const JournalInSleeve& law : clearance_joints(m, mechanism.parameters())) {
     if (law.radial_law.curve != ElasticCurve::point || law.sticks) return false;
     if (law.friction.kind != FrictionKind::modified_coulomb && law.friction.kind != FrictionKind::none) return false;
@@ -109,6 +112,7 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
   p->tables = std::make_shared<const SceneTables>(p->scene->scene().tables(parameters));
   const TimeTable &dynamics = p->tables->dynamics, &gain = *gain_table;
   const int n = p->tables->layout.n;
+  if (n > kMostLaneCoordinates) throw std::logic_error("lanes do not serve this mechanism: ask serve() first");
 
   LaneScene& lane = p->lane;
   lane.gain = dynamics.width();

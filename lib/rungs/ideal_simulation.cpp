@@ -103,14 +103,18 @@ double difference(const std::vector<IdealState>& coarse, const std::vector<Ideal
 
 }  // namespace
 
-bool is_kinematic(const Mechanism& mechanism) {
-  if (mechanism.description().motion.pose) return true;
-  if (!mechanism.description().initial_rates.empty()) return false;
+int undriven_freedoms(const Mechanism& mechanism) {
+  if (mechanism.description().motion.pose) return 0;
   std::vector<TimeValue> laws(mechanism.joints());
   ConstraintSystem system(mechanism, {.clearance = ClearanceRows::closed});
   system.evaluate(home_state(mechanism).bodies, laws);
   const RankAnalysis rank = analyse_rank(mechanism, system, false);
-  return rank.rank == rank.columns;
+  return static_cast<int>(rank.columns - rank.rank);
+}
+
+bool is_kinematic(const Mechanism& mechanism) {
+  if (mechanism.description().motion.pose) return true;
+  return mechanism.description().initial_rates.empty() && undriven_freedoms(mechanism) == 0;
 }
 
 IdealMotion ideal_motion(const Mechanism& mechanism, const Parameters& parameters) {

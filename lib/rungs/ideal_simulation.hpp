@@ -6,6 +6,9 @@
 
 namespace boresight {
 
+// How many freedoms of the mechanism without clearance nothing drives, at home.
+int undriven_freedoms(const Mechanism& mechanism);
+
 // Whether everything is driven, so that no parameter changes the ideal motion.
 bool is_kinematic(const Mechanism& mechanism);
 

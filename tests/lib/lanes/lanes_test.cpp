@@ -5,6 +5,7 @@
 #include <random>
 
 #include "boresight/lanes/perturbation_lanes.hpp"
+#include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/rung.hpp"
 #include "scenes.hpp"
 
@@ -217,6 +218,24 @@ TEST(Lanes, RefuseLawsThatTheyDoNotHave) {
 TEST(Lanes, RefuseMechanismsOfManyJointsWithClearance) {
   EXPECT_FALSE(PerturbationLanes::serve(
       *scenes::build(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/twelve-joints.toml", {}))));
+}
+
+// Freedoms that nothing drives are coordinates besides the offsets.
+TEST(Lanes, RefuseMoreCoordinatesThanTheyHaveRoomFor) {
+  MechanismDescription d =
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/double-four-bar/double-four-bar.toml", {});
+  ClearanceDescription clearance = scenes::rrcpr().clearances[0];
+  for (int j = 0; j < 4; ++j) {
+    ASSERT_EQ(d.joints[j].type, JointType::revolute);
+    clearance.joint = j;
+    clearance.journal = d.joints[j].second;
+    d.clearances.push_back(clearance);
+  }
+  const Mechanism parallel(d);
+  EXPECT_EQ(undriven_freedoms(parallel), 1);
+  EXPECT_TRUE(PerturbationLanes::serve(parallel));  // 12 offsets and 1
+  for (ClearanceDescription& c : d.clearances) c.axes = JournalAxes::free;
+  EXPECT_FALSE(PerturbationLanes::serve(Mechanism(d)));  // 20 and 1
 }
 
 // The index at the default tolerance against its converged value: RK4 at 2 us, medians over three neighbouring steps.
