@@ -151,7 +151,8 @@ void JournalInSleeveT<T>::parallel_wrench(const JournalMotion<M>& m, const std::
   // Only the face that the journal is nearer to can touch.
   const auto at_minus = m.e.y() > T(0.0);
   const T side = select(at_minus, T(-1.0), T(1.0));
-  const ContactPlace place = any(at_minus) ? ContactPlace::axial_minus : ContactPlace::axial_plus;  // of lanes: none of a law's business
+  // Laws that look at it (LuGre's bristles) have no lanes.
+  const ContactPlace place = any(at_minus) ? ContactPlace::axial_minus : ContactPlace::axial_plus;
   ContactState<M> face = face_contact(m, side);
   if (!any(face.penetration > T(0.0))) return;
   face.normal_force = face_stiffness * positive_part(face.penetration);
