@@ -158,14 +158,14 @@ class MatchVerb : public Verb {
     how.progress = [&](const MatchingResult& r) {
       std::string estimate = r.visits.back().stage;
       if (!r.design.empty())
-        estimate += "; best so far " + readable(r.objective, plan.objective.si_unit(study.index)) + " at " + design_text(plan, r.design);
+        estimate += "; best so far " + readable(r.objective, plan.objective.si_unit(study.index)) + " at " +
+                    design_text(plan, r.design);
       progress.update(std::min(designs, static_cast<double>(r.visits.size())), estimate);
     };
     how.no_slopes = choice.name == "perturbation" ? why_no_slopes(plan) : "slopes are those of the perturbation rung";
     if (how.no_slopes.empty())
-      how.slopes = [slopes = DesignSlopes(mechanism, plan, study.index, run)](const std::vector<double>& design, std::string& why) {
-        return slopes.at(design, why);
-      };
+      how.slopes = [slopes = DesignSlopes(mechanism, plan, study.index, run)](
+                       const std::vector<double>& design, std::string& why) { return slopes.at(design, why); };
     const MatchingResult result = with_options_checked(run, [&] {
       return run_matching(plan, evaluator, upper_evaluator.get(), upper, how);
     });

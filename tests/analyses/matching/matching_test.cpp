@@ -112,7 +112,8 @@ TEST(Matching, GoesByGradientsWhereThereAreAny) {
 // a motion short enough to have slopes.
 TEST(Matching, GradientsOfTheMechanismLeadToTheOptimumThatASearchWithoutFinds) {
   const auto mechanism = std::make_shared<const Mechanism>(
-      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml", {{"motion.duration", "20 ms"}, {"clearance.F1.contact.restitution", "0.95"}}));
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml",
+                     {{"motion.duration", "20 ms"}, {"clearance.F1.contact.restitution", "0.95"}}));
   MatchingPlan p;
   DesignVariable v;
   v.paths = {"clearance.F1.friction.coefficient"};
