@@ -14,6 +14,13 @@
 #include "boresight/math/lanes.hpp"
 #include "boresight/rungs/offset_dynamics.hpp"
 
+// What a kernel calls becomes part of it; but under the sanitisers, whose checks make functions of this size too large to compile.
+#ifdef __SANITIZE_ADDRESS__
+#define BORESIGHT_FLATTEN
+#else
+#define BORESIGHT_FLATTEN [[gnu::flatten]]
+#endif
+
 namespace boresight {
 
 // Layout: one of lane_layouts.hpp.
@@ -31,7 +38,7 @@ class LaneDynamics {
 
   int count() const { return N > 0 ? N : at.n; }
 
-  [[gnu::flatten]] void acceleration(const T* row, const T* z, const T* v, T* a) {
+  BORESIGHT_FLATTEN void acceleration(const T* row, const T* z, const T* v, T* a) {
     LaneVector<T, N> force;
     for (int i = 0; i < count(); ++i) force[i] = T(0.0);
     for (std::size_t c = 0; c < at.joints.size(); ++c) {
@@ -44,7 +51,7 @@ class LaneDynamics {
   }
 
   // a, its derivatives by z and v (n x n, row by row), and by time at the rate `change` of the row.
-  [[gnu::flatten]] void linearise(const T* row, const T* change, const T* z, const T* v, T* a, T* a_z, T* a_v, T* a_t) {
+  BORESIGHT_FLATTEN void linearise(const T* row, const T* change, const T* z, const T* v, T* a, T* a_z, T* a_v, T* a_t) {
     const int n = count();
     Load of;
     for (int i = 0; i < n; ++i) of.force[i] = of.change[i] = T(0.0);
@@ -107,7 +114,7 @@ class LaneDynamics {
 
   // K numbers of a joint's motion: offsets, their rates, spins.
   template <int K>
-  [[gnu::flatten]] void add_joint(std::size_t c, const T* row, const T* change, const T* z, const T* v, Load& of) const {
+  BORESIGHT_FLATTEN void add_joint(std::size_t c, const T* row, const T* change, const T* z, const T* v, Load& of) const {
     using D = Dual<T, K>;
     constexpr bool tilts = K == 13;
     constexpr int offsets = tilts ? 5 : 3, spins = tilts ? 3 : 1;

@@ -11,22 +11,32 @@
 namespace boresight {
 namespace {
 
-MechanismDescription chain(double duration) {
+struct State {
+  double q1, q2, u1, u2, y, vy;  // crank and rod [rad], [rad/s]; height of the block [m], [m/s]
+};
+constexpr State kStart{0.0, 0.0, 150.0, -75.0, 0.0, 0.0};
+
+// The block turns with nothing and stays level. lift: pushes the block up, through its centre [N].
+MechanismDescription chain(const State& start, double lift) {
+  constexpr double crank = 0.153, rod = 0.306;  // lengths [m]
+  const Vec3 along_crank(std::cos(start.q1), std::sin(start.q1), 0.0), along_rod(std::cos(start.q2), std::sin(start.q2), 0.0);
+  const Vec3 crank_pin = crank * along_crank, block_pin = crank_pin + rod * along_rod;
   MechanismDescription m;
-  m.name = "crank, rod and block before the first contact";
+  m.name = "crank, rod and block in flight";
   m.gravity = Vec3(0.0, -9.81, 0.0);
   const struct {
     const char* name;
-    double mass, inertia, from, center;
-    double rate;  // relative to the body before it: 150, -75 and 0 rad/s in all
-  } links[] = {{"crank", 0.038, 7.4e-5, 0.0, 0.0765, 150.0},
-               {"rod", 0.038, 5.9e-4, 0.153, 0.306, -225.0},
-               {"block", 0.076, 2.7e-6, 0.459, 0.459, 75.0}};
+    double mass, inertia;
+    Vec3 from, center;
+    double rate;  // relative to the body before it
+  } links[] = {{"crank", 0.038, 7.4e-5, Vec3::Zero(), 0.5 * crank_pin, start.u1},
+               {"rod", 0.038, 5.9e-4, crank_pin, 0.5 * (crank_pin + block_pin), start.u2 - start.u1},
+               {"block", 0.076, 2.7e-6, block_pin, block_pin, -start.u2}};
   for (int k = 0; k < 3; ++k) {
     BodyDescription b;
     b.name = links[k].name;
     b.mass = links[k].mass;
-    b.center_of_mass = Vec3(links[k].center, 0.0, 0.0);
+    b.center_of_mass = links[k].center;
     b.inertia = links[k].inertia * Mat3::Identity();
     if (k == 2) b.boresight = Vec3::UnitX();
     m.bodies.push_back(b);
@@ -34,19 +44,22 @@ MechanismDescription chain(double duration) {
     j.name = std::string("joint ") + links[k].name;
     j.first = k - 1;
     j.second = k;
-    j.point = Vec3(links[k].from, 0.0, 0.0);
+    j.point = links[k].from;
     m.joints.push_back(j);
     m.initial_rates.push_back({k, InitialRateDescription::Freedom::angle, links[k].rate, {}});
   }
-  m.motion.duration = duration;
+  LoadDescription load;
+  load.body = 2;
+  load.point = block_pin;
+  for (int axis = 0; axis < 3; ++axis) load.force[axis] = std::make_shared<ConstantFunction>(axis == 1 ? lift : 0.0);
+  m.loads.push_back(load);
   return m;
 }
 
-struct State {
-  double q1, q2, u1, u2, y, vy;  // crank and rod [rad], [rad/s]; height of the block [m], [m/s]
-};
-State after(double t) {
-  const auto mechanism = scenes::build(chain(t));
+State after(double t, const State& start = kStart, double lift = 0.0) {
+  MechanismDescription description = chain(start, lift);
+  description.motion.duration = t;
+  const auto mechanism = scenes::build(std::move(description));
   RunOptions options;
   options.step = t / 1000;
   options.sample_spacing = t;
@@ -55,8 +68,8 @@ State after(double t) {
   const PoseSample &crank = result.others[0].samples.back(), &rod = result.others[1].samples.back(),
                    &block = result.boresight.samples.back();
   EXPECT_NEAR(block.w.z(), 0.0, 1e-8);  // nothing turns it
-  const auto angle = [](const PoseSample& s) { return 2.0 * std::atan2(s.pose.q.z(), s.pose.q.w()); };
-  return {angle(crank), angle(rod), crank.w.z(), rod.w.z(), block.pose.p.y(), block.v.y()};
+  const auto turned = [](const PoseSample& s) { return 2.0 * std::atan2(s.pose.q.z(), s.pose.q.w()); };
+  return {start.q1 + turned(crank), start.q2 + turned(rod), crank.w.z(), rod.w.z(), block.pose.p.y(), block.v.y()};
 }
 
 TEST(SliderCrankWithPlayInItsGuide, FliesAsComputedUntilItsBlockTouches) {
@@ -77,6 +90,21 @@ TEST(SliderCrankWithPlayInItsGuide, FliesAsComputedUntilItsBlockTouches) {
   EXPECT_NEAR(s.u2, -49.330789962, 1e-6);
   EXPECT_NEAR(s.y, 1e-3, 1e-9);
   EXPECT_NEAR(s.vy, .841612322, 1e-7);
+}
+
+// Both upper corners strike the guide at once, e = 0.4, without friction: the impulse reverses the block's rise. Here it is a
+// force over a nanosecond, from which the change without it is taken off.
+TEST(SliderCrankWithPlayInItsGuide, LeavesItsFirstImpactAsComputed) {
+  const State before{.355304455028, -.171509540940, 109.557681543, -49.330789962, 1e-3, .841612322};
+  constexpr double kMoment = 1e-9, kUnit = 1e-3;  // [s], [N s]
+  const State free = after(kMoment, before);
+  const double gained = after(kMoment, before, -kUnit / kMoment).vy - free.vy;
+  const double impulse = -(1.0 + 0.4) * before.vy / gained * kUnit;
+  EXPECT_NEAR(impulse, .110790030, 1e-8);
+  const State rebound = after(kMoment, before, -impulse / kMoment);
+  EXPECT_NEAR(rebound.vy - free.vy, -1.4 * before.vy, 1e-8);
+  EXPECT_NEAR(rebound.u1 - free.u1, 108.793728561 - before.u1, 1e-6);
+  EXPECT_NEAR(rebound.u2 - free.u2, -52.875187875 - before.u2, 1e-6);
 }
 
 }  // namespace
