@@ -8,11 +8,6 @@
 #include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
-#ifdef __SANITIZE_ADDRESS__
-// CLN never frees 26 bytes that it allocates while it is loaded; every program that links it would end with status 1.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libcln.so"; }
-#endif
-
 namespace boresight {
 
 using GiNaC::ex;

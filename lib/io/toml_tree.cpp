@@ -1,5 +1,8 @@
 #include "boresight/io/toml_tree.hpp"
 
+// toml++ asserts (and lets Clang assume) what a damaged file breaks, `a = [ } ]`; its own error paths answer for that.
+#undef NDEBUG
+#define TOML_ASSERT(expr) static_assert(true)
 #include <toml++/toml.h>
 
 #include <algorithm>

@@ -353,6 +353,8 @@ TEST(ErrorLine, GivesTheLineOfAFaultInTheToml) {
        R"~(f.toml:34: found a fault in the TOML (Error while parsing table header: expected ']', saw '\n'), expected TOML 1.0)~"},
       {"mass = \"1 kg\"", "mass = ",
        R"~(f.toml:6: found a fault in the TOML (Error while parsing key-value pair: expected value, saw '\n'), expected TOML 1.0)~"},
+      {"mass = \"1 kg\"", "mass = [ } ]",
+       R"~(f.toml:6: found a fault in the TOML (Error while parsing value: could not determine value type), expected TOML 1.0)~"},
   });
 }
 
