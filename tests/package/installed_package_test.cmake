@@ -1,4 +1,4 @@
-# Called by ctest with BUILD, SOURCE, COMPILER.
+# Called by ctest with BUILD, SOURCE, COMPILER, FLAGS.
 set(work ${BUILD}/installed-package)
 file(REMOVE_RECURSE ${work})
 function(call)
@@ -10,7 +10,7 @@ function(call)
 endfunction()
 
 call(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/prefix)
-call(${CMAKE_COMMAND} -S ${SOURCE}/examples/library -B ${work}/build -DCMAKE_PREFIX_PATH=${work}/prefix -DCMAKE_CXX_COMPILER=${COMPILER})
+call(${CMAKE_COMMAND} -S ${SOURCE}/examples/library -B ${work}/build -DCMAKE_PREFIX_PATH=${work}/prefix -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}")
 call(${CMAKE_COMMAND} --build ${work}/build)
 call(${work}/build/play_and_pointing ${SOURCE}/examples/four-bar/four-bar.toml)
 string(REGEX MATCHALL "nominal +[0-9.]+ arcsec" lines "${out}")
