@@ -36,7 +36,7 @@ void series(const Place& place) {
   text(place.at("name"), false);
   if (place.has("style")) {
     one_of(place.at("style"),
-           {"line", "dash", "markers", "line+markers", "steps", "bars", "area", "histogram", "box"});
+           {"line", "dash", "markers", "line+markers", "dash+markers", "steps", "bars", "area", "histogram", "box"});
   }
   flag_where_given(place, {"muted", "hidden"});
   const std::string style = place.value.value("style", "line");

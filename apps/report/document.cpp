@@ -42,6 +42,8 @@ const char* to_string(Style style) {
       return "markers";
     case Style::line_markers:
       return "line+markers";
+    case Style::dash_markers:
+      return "dash+markers";
     case Style::steps:
       return "steps";
     case Style::bars:

@@ -36,7 +36,7 @@ struct Axis {
 
 // histogram counts x and has no y; box draws one box per distinct x from its y values; area fills from y_low
 // (else zero) to y.
-enum class Style { line, dash, markers, line_markers, steps, bars, area, histogram, box };
+enum class Style { line, dash, markers, line_markers, dash_markers, steps, bars, area, histogram, box };
 const char* to_string(Style style);
 
 struct Series {

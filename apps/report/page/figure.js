@@ -65,8 +65,9 @@ function seriesTraces(chart, series, entry, themeName) {
   switch (style) {
     case "markers":
     case "line+markers":
+    case "dash+markers":
       return [{ ...common, type: "scatter", mode: style === "markers" ? "markers" : "lines+markers", line,
-        marker: { color, size: series.x.length > 300 ? 4 : 7, symbol: symbols[entry.index % symbols.length], opacity: series.x.length > 300 ? 0.55 : 0.95 } }];
+        marker: { color, size: series.x.length > 300 ? 4 : 7, symbol: symbols[entry.index % symbols.length].name, opacity: series.x.length > 300 ? 0.55 : 0.95 } }];
     case "bars": {
       const bar = { ...common, type: "bar", orientation: lying ? "h" : "v", marker: { color } };
       if (!series.y_low) return [bar];

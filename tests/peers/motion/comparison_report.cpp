@@ -72,7 +72,7 @@ report::Chart chart_of(const Comparison& all, double accuracy) {
       y.push_back(100.0 * drawn(p.error));
       series.text.push_back(p.fineness);
       series.color = color_of(p);
-      if (!p.ours && !p.stands_alone) series.style = report::Style::dash;
+      if (!p.ours && !p.stands_alone) series.style = report::Style::dash_markers;
     }
     if (x.empty()) continue;
     series.x = std::move(x);
