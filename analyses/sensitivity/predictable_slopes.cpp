@@ -26,7 +26,8 @@ IndexSlopes predictable_slopes(const std::shared_ptr<const Mechanism>& mechanism
                                const std::vector<double>& values, const IndexChoice& index, double start_offset) {
   const Parameters parameters = parameters_at(values);
   const Predictability horizon = measure_predictability(mechanism, parameters);
-  if (horizon.measured && horizon.parted) throw ComputationError(beyond(horizon, mechanism->duration()));
+  if (!horizon.measured) throw ComputationError(horizon.refusal);
+  if (horizon.parted) throw ComputationError(beyond(horizon, mechanism->duration()));
   const PreparedScene prepared(*mechanism, ideal_motion(*mechanism, parameters), parameters);
   const PerturbationSystem system(*mechanism, parameters, prepared.tables(parameters), false);
   if (system.has_bristles()) throw ComputationError("bristles of LuGre friction carry no derivatives");
