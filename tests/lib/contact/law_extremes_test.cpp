@@ -1,8 +1,7 @@
-// Every pair of a contact and a friction law, at the ends of what a mechanism file may say of a joint and of how a journal can
-// move in it: forces, moments and their derivatives by the motion stay finite.
-#include <gtest/gtest.h>
-
+// Every pair of a contact and a friction law, at the ends of what a mechanism file may say of a joint and of
+// how a journal can move in it: forces, moments and their derivatives by the motion stay finite.
 #include <ceres/jet.h>
+#include <gtest/gtest.h>
 
 #include "boresight/contact/contact_tangent.hpp"
 
@@ -46,8 +45,9 @@ std::vector<Joint> joints_at_the_ends() {
                 p.friction.static_speed = 0.0;
                 p.friction.dynamic_speed = 1e-9;
                 p.friction.stribeck_speed = 1e-9;
-                out.push_back({std::string(normal.name) + ", " + friction.name + (axes == JournalAxes::free ? ", free" : ", parallel") +
-                                   ", e " + std::to_string(restitution) + ", mu " + std::to_string(rub),
+                out.push_back({std::string(normal.name) + ", " + friction.name +
+                                   (axes == JournalAxes::free ? ", free" : ", parallel") + ", e " +
+                                   std::to_string(restitution) + ", mu " + std::to_string(rub),
                                JournalInSleeve(d, JointType::revolute, p)});
               }
   return out;
@@ -56,11 +56,13 @@ std::vector<Joint> joints_at_the_ends() {
 // At the centre, just not touching, just touching, deep; at rest, drifting, fast.
 std::vector<std::array<double, 13>> motions(double radial) {
   std::vector<std::array<double, 13>> out;
-  for (const double offset : {0.0, radial, radial * (1.0 + 1e-15), radial + 1e-15, radial + 1e-9, radial + 1e-4})
+  for (const double offset :
+       {0.0, radial, radial * (1.0 + 1e-15), radial + 1e-15, radial + 1e-9, radial + 1e-4})
     for (const double along : {0.0, radial + 1e-6, -1e-4})
       for (const double speed : {0.0, 1e-12, -0.1, 1e3})
         for (const double slope : {0.0, 1e-3})
-          out.push_back({offset, along, 0.0, speed, speed, -speed, 0.0, 1e2 * speed, speed, slope, -slope, slope * speed, 0.0});
+          out.push_back({offset, along, 0.0, speed, speed, -speed, 0.0, 1e2 * speed, speed, slope, -slope,
+                         slope * speed, 0.0});
   return out;
 }
 
@@ -82,13 +84,17 @@ template <typename T>
 bool is_finite(const JournalWrench<T>& wrench) {
   bool all = true;
   for (int i = 0; i < 3; ++i) all = all && is_finite(wrench.force[i]) && is_finite(wrench.moment[i]);
-  for (const ContactState<T>& c : wrench.contact) all = all && is_finite(c.penetration) && is_finite(c.rate) && is_finite(c.normal_force);
+  for (const ContactState<T>& c : wrench.contact)
+    all = all && is_finite(c.penetration) && is_finite(c.rate) && is_finite(c.normal_force);
   return all;
 }
 
 TEST(EveryPairOfLaws, StaysFiniteAtTheEndsOfWhatAFileMaySay) {
   int pressing = 0;
-  for (const Joint& joint : joints_at_the_ends())
+  for (const Joint& joint : joints_at_the_ends()) {
+    for (const double speed : {0.0, 1e-300, 1e-9, 1e3})
+      ASSERT_TRUE(std::isfinite(joint.numbers.friction.force_per_velocity(speed)))
+          << joint.name << " at " << speed;
     for (const double impact_speed : {1e-9, 10.0})
       for (const std::array<double, 13>& x : motions(joint.numbers.radial_clearance)) {
         std::array<double, kContactPlaces> impact_speeds;
@@ -110,14 +116,15 @@ TEST(EveryPairOfLaws, StaysFiniteAtTheEndsOfWhatAFileMaySay) {
           for (int i = 0; i < 13; ++i) jets[i] = Jet(x[i], i);
           JournalWrench<Jet> with_slopes;
           joint.numbers.wrench(as_motion(jets), impact_speeds, with_slopes);
-          ASSERT_TRUE(is_finite(with_slopes)) << joint.name << ": a derivative, at offset " << x[0] << ", " << x[1] << ", speed "
-                                              << x[3] << ", slope " << x[9];
+          ASSERT_TRUE(is_finite(with_slopes)) << joint.name << ": a derivative, at offset " << x[0] << ", "
+                                              << x[1] << ", speed " << x[3] << ", slope " << x[9];
         }
         pressing += wrench.force.norm() > 0.0;
         ASSERT_TRUE(std::isfinite(joint.numbers.elastic_energy(motion))) << joint.name;
         const ContactTangent tangent = contact_tangent(joint.numbers, motion);
         for (int c = 0; c < tangent.count; ++c) ASSERT_TRUE(tangent.column[c].n.allFinite()) << joint.name;
       }
+  }
   EXPECT_GT(pressing, 10000);
 }
 
