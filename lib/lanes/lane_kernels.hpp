@@ -24,7 +24,7 @@ struct LaneTarget {
   LaneKernel kernel;
 };
 
-// Those that this processor has, widest first; the scalar one is always there.
+// Those that were built and this processor runs, widest first. Throws ComputationError where there are none.
 const std::vector<LaneTarget>& lane_targets(LanePrecision precision);
 
 }  // namespace boresight
