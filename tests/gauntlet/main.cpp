@@ -1,0 +1,163 @@
+// boresight_gauntlet: generated mechanisms and those of files through every rung, integrator and verb. README.md.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+#include <mutex>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "generator.hpp"
+#include "table.hpp"
+#include "trial.hpp"
+
+namespace boresight::gauntlet {
+namespace {
+
+struct Entry {
+  std::string name, family, text;
+};
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error("cannot read " + file.string());
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// Several scenes at once, each in its own process; verdicts in the order of the scenes.
+std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, const TrialOptions& options, int jobs) {
+  std::vector<Verdict> verdicts(scenes.size());
+  struct Running {
+    pid_t process;
+    int file;
+    std::size_t scene;
+    std::string text;
+  };
+  std::vector<Running> running;
+  std::size_t next = 0;
+  while (next < scenes.size() || !running.empty()) {
+    while (next < scenes.size() && static_cast<int>(running.size()) < jobs) {
+      int ends[2];
+      if (pipe(ends) != 0) throw std::runtime_error("no pipe");
+      fflush(nullptr);
+      const pid_t child = fork();
+      if (child < 0) throw std::runtime_error("no process");
+      if (child == 0) {
+        close(ends[0]);
+        const Entry entry = scenes[next]();
+        const std::string text = to_json(try_scene(entry.name, entry.family, entry.text, options)).dump();
+        for (std::size_t done = 0; done < text.size();) {
+          const ssize_t n = write(ends[1], text.data() + done, text.size() - done);
+          if (n <= 0) _exit(1);
+          done += static_cast<std::size_t>(n);
+        }
+        _exit(0);
+      }
+      close(ends[1]);
+      running.push_back({child, ends[0], next++, {}});
+    }
+    std::vector<pollfd> waits;
+    for (const Running& r : running) waits.push_back({r.file, POLLIN, 0});
+    poll(waits.data(), waits.size(), -1);
+    for (std::size_t k = waits.size(); k-- > 0;) {
+      if (waits[k].revents == 0) continue;
+      Running& r = running[k];
+      char buffer[1 << 16];
+      const ssize_t n = read(r.file, buffer, sizeof buffer);
+      if (n > 0) {
+        r.text.append(buffer, static_cast<std::size_t>(n));
+        continue;
+      }
+      close(r.file);
+      int status = 0;
+      waitpid(r.process, &status, 0);
+      const Json json = Json::parse(r.text, nullptr, false);
+      Verdict& v = verdicts[r.scene];
+      if (json.is_discarded()) {
+        v.scene = fmt::format("scene {} of this call", r.scene);
+        v.faults.push_back({"crash", "the gauntlet itself", fmt::format("status {}", status)});
+      } else {
+        v = verdict_from(json);
+      }
+      print_faults(v);
+      fflush(stdout);
+      running.erase(running.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  }
+  return verdicts;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Mechanisms from seeds and files through every rung, integrator and verb");
+  std::uint64_t from = 1, count = 0;
+  int jobs = 1;
+  std::vector<std::string> files, write;
+  std::string save;
+  bool corpus = false;
+  TrialOptions options;
+  options.program = BORESIGHT_PROGRAM;
+  app.add_option("--from", from, "first seed");
+  app.add_option("--count", count, "how many seeds");
+  app.add_option("--jobs", jobs, "scenes at once");
+  app.add_option("--scene", files, "mechanism files")->check(CLI::ExistingFile);
+  app.add_flag("--corpus", corpus, "the archetypes of tests/gauntlet/corpus");
+  app.add_option("--write", write, "SEED FILE: writes the mechanism file of a seed")->expected(2);
+  app.add_option("--save", save, "folder for the mechanism files of scenes with faults");
+  app.add_option("--cpu", options.limits.cpu_seconds, "limit of one stage, s of CPU")->capture_default_str();
+  app.add_flag("--auto", options.automatic, "`run --accuracy` by the program, against the reference");
+  app.add_flag("--verbs", options.verbs, "a small study of every verb");
+  app.add_option("--program", options.program, "the boresight program");
+  app.add_flag("--integrators,!--no-integrators", options.integrators, "all integrators, or each rung's own only");
+  app.add_flag("--invariances,!--no-invariances", options.invariances, "the drawing moved, turned, renamed, reordered, in other units");
+  CLI11_PARSE(app, argc, argv);
+
+  if (!write.empty()) {
+    std::ofstream(write[1]) << generate(std::stoull(write[0])).toml();
+    return 0;
+  }
+  std::vector<std::function<Entry()>> scenes;
+  if (corpus)
+    for (const auto& entry : std::filesystem::directory_iterator(GAUNTLET_CORPUS))
+      if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  std::sort(files.begin(), files.end());
+  for (const std::string& file : files)
+    scenes.push_back([file] { return Entry{file, "file", text_of(file)}; });
+  for (std::uint64_t seed = from; seed < from + count; ++seed)
+    scenes.push_back([seed] {
+      const Scene scene = generate(seed);
+      return Entry{fmt::format("seed {}", seed), scene.family, scene.toml()};
+    });
+  const std::vector<Verdict> verdicts = try_all(scenes, options, jobs);
+  print_table(verdicts);
+  if (!save.empty()) {
+    std::filesystem::create_directories(save);
+    for (std::size_t k = 0; k < scenes.size(); ++k)
+      if (!verdicts[k].faults.empty()) {
+        const Entry entry = scenes[k]();
+        std::string name = std::filesystem::path(entry.name).stem().string();
+        std::replace(name.begin(), name.end(), ' ', '-');
+        std::ofstream(std::filesystem::path(save) / (name + ".toml")) << entry.text;
+      }
+  }
+  const bool wrong = std::any_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return !v.faults.empty(); });
+  return wrong ? 1 : 0;
+}
+
+}  // namespace
+}  // namespace boresight::gauntlet
+
+int main(int argc, char** argv) {
+  try {
+    return boresight::gauntlet::run(argc, argv);
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "boresight_gauntlet: {}\n", e.what());
+    return 2;
+  }
+}

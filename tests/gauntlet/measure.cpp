@@ -1,0 +1,109 @@
+#include "measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/rungs/integrator_choice.hpp"
+
+namespace boresight::gauntlet {
+namespace {
+
+// Every number that a result holds; remembers the name of the first that is not finite.
+class FiniteCheck {
+ public:
+  void see(const char* name, double x) {
+    if (name_.empty() && !std::isfinite(x)) name_ = name;
+  }
+  void see(const char* name, const Vec3& x) {
+    for (double each : x) see(name, each);
+  }
+  const std::string& first() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
+void see_statistics(FiniteCheck& check, const char* name, const Statistics& s) {
+  for (double x : {s.max, s.rms, s.mean, s.p9973, s.time_of_max}) check.see(name, x);
+}
+
+void see_history(FiniteCheck& check, const BodyHistory& history) {
+  for (const PoseSample& s : history.samples) {
+    check.see("pose", s.pose.p);
+    check.see("pose", Vec3(s.pose.q.vec()));
+    check.see("error", s.error.displacement);
+    check.see("error", s.error.rotation);
+    check.see("velocity", s.v);
+    check.see("angular velocity", s.w);
+    check.see("acceleration", s.a);
+    check.see("angular acceleration", s.alpha);
+  }
+}
+
+std::string first_not_finite(const RunResult& r) {
+  FiniteCheck check;
+  see_statistics(check, "position error", r.index.position_error);
+  see_statistics(check, "orientation error", r.index.orientation_error);
+  see_statistics(check, "boresight error", r.index.boresight_error);
+  for (const ContactSummary& c : r.contact)
+    for (double x : {c.contact_fraction, c.max_penetration, c.max_force, c.max_impact_speed}) check.see("contact summary", x);
+  check.see("platform acceleration", r.platform_acceleration_max);
+  check.see("constraint drift", r.constraint_drift);
+  check.see("error estimate, model", r.error.model);
+  check.see("error estimate, discretisation", r.error.discretisation);
+  see_history(check, r.boresight);
+  for (const BodyHistory& h : r.others) see_history(check, h);
+  for (const auto& clearance : r.clearances)
+    for (const ClearanceSample& s : clearance) {
+      check.see("offset", s.offset);
+      check.see("penetration", s.penetration);
+      check.see("normal force", s.normal_force);
+    }
+  for (const ContactEvent& e : r.events)
+    for (double x : {e.start, e.start_speed, e.duration, e.max_penetration, e.max_force, e.end_speed}) check.see("event", x);
+  return check.first();
+}
+
+RunOptions options_of(const Asked& asked, const Mechanism& mechanism) {
+  RunOptions options;
+  options.step = asked.step;
+  options.integrator = asked.integrator;
+  options.formulation = asked.formulation;
+  options.start_offset = asked.start_offset;
+  options.sample_spacing = mechanism.duration() / 50.0;
+  return options;
+}
+
+}  // namespace
+
+Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked) {
+  const RunResult r = make_rung(asked.rung, mechanism)->run(mechanism->parameters(), options_of(asked, *mechanism));
+  double deepest = 0.0;
+  for (const ContactSummary& c : r.contact) deepest = std::max(deepest, c.max_penetration);
+  const double play = smallest_clearance(mechanism->parameters());
+  const PointingIndices& i = r.index;
+  return {{"figure", {i.position_error.max, i.position_error.rms, i.boresight_error.max, i.boresight_error.rms, i.orientation_error.max, i.orientation_error.rms}},
+          {"model", r.error.model},
+          {"discretisation", r.error.discretisation},
+          {"basis", r.error.basis},
+          {"step", r.cost.steps > 0 ? mechanism->duration() / static_cast<double>(r.cost.steps) : 0.0},
+          {"deepest", play > 0.0 ? deepest / play : 0.0},
+          {"not_finite", first_not_finite(r)},
+          {"cpu", r.cost.cpu_seconds}};
+}
+
+Measured measured(const Json& json) {
+  Measured m;
+  m.not_finite = json.at("not_finite");
+  if (!m.not_finite.empty()) return m;  // JSON has no infinity: nothing else can be relied on
+  for (std::size_t k = 0; k < kFigures.size(); ++k) m.figure[k] = json.at("figure").at(k);
+  m.model = json.at("model");
+  m.discretisation = json.at("discretisation");
+  m.basis = json.at("basis");
+  m.step = json.at("step");
+  m.deepest = json.at("deepest");
+  m.cpu_seconds = json.at("cpu");
+  return m;
+}
+
+}  // namespace boresight::gauntlet

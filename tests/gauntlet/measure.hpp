@@ -1,0 +1,45 @@
+// What one run of a rung says, as numbers to compare and to send between processes.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "boresight/mechanism/mechanism.hpp"
+#include "boresight/rungs/rung.hpp"
+#include "sandbox.hpp"
+
+namespace boresight::gauntlet {
+
+// The figures that rungs are compared by.
+inline constexpr std::array<const char*, 6> kFigures = {"position max", "position rms", "boresight max", "boresight rms", "orientation max", "orientation rms"};
+
+struct Asked {
+  std::string rung, integrator = {}, formulation = {};
+  double step = 0.0;
+  double start_offset = 0.0;
+  std::string label() const { return rung + (formulation.empty() ? "" : " " + formulation) + (integrator.empty() ? "" : " " + integrator); }
+};
+
+// One figure each of kFigures, what the run says of its error, and the first number that is not finite ("" if none).
+struct Measured {
+  std::array<double, kFigures.size()> figure{};
+  double model = 0.0, discretisation = 0.0;
+  double step = 0.0;              // mean [s]
+  double deepest = 0.0;           // deepest penetration over the smallest play [-]
+  std::string basis, not_finite;
+  double cpu_seconds = 0.0;
+  double stated() const { return model + discretisation; }
+};
+
+Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked);
+Measured measured(const Json& json);
+
+// Total momentum of a mechanism that nothing holds, over its motion: the largest change over the sum of the bodies' parts.
+Json momentum_change(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked);
+
+// Energy of the mechanism without play, by both formulations: the largest change over the largest kinetic energy and the
+// change that damping does not explain. Only for mechanisms that nothing drives and no load acts on.
+Json energy_change(const std::shared_ptr<const Mechanism>& mechanism);
+
+}  // namespace boresight::gauntlet
