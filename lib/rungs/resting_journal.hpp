@@ -4,10 +4,12 @@
 //   xi_rad = (c_r + (|r_rad| / K)^(2/3)) r_rad / |r_rad|           Hertz, pressed against the bore
 //   xi_ax  = sign(r_ax) (c_a + |r_ax| / K_c)                        once |r_ax| exceeds what friction holds, mu |r_rad|;
 //                                                                   until then the journal stays where it was axially
-// A journal that may tilt also carries a couple g on its slopes. Its two ends are statically determined,
-//   R+ + R- = r_rad,   R+ - R- = 2 g / L_b   (a slide e_y adds e_y r_rad to g),
-// each rests at c_r + (|R| / (K/2))^(2/3) along its force, and where they rest gives centre and slope. The axial load on a
-// tilted face acts off the axis (ring_contact.hpp), which takes its share of g: iterated.
+// A journal that may tilt also carries a couple g on its slopes. It rests where its elastic energy less the work of the load,
+//   V(e, sigma) = U_ends + U_rings - r . e - g . sigma,
+// is least (tilted_journal.hpp has the contacts). V is convex, so there is one such place, or a set of places between which
+// no force decides: the one nearest to where the journal was. The ends and the faces share the couple as their stiffness
+// decides: under an axial load a cap stands evenly on its face until the couple lifts its edge.
+// Friction holds the axial place as above, by the forces of both ends.
 #pragma once
 
 #include <array>
