@@ -38,7 +38,7 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
     : mechanism_(mechanism),
       offsets_(mechanism),
       coordinates_(mechanism, ideal),
-      layout_(offsets_, coordinates_, coordinates_.leftover() > 0) {
+      layout_(offsets_, coordinates_, coordinates_.leftover() > 0 || !mechanism.description().springs.empty()) {
   const MechanismDescription& m = mechanism.description();
   std::vector<Element> fixed;
   for (int b = 0; b < mechanism.bodies(); ++b) fixed.push_back({.body = b, .inertia = m.bodies[b].inertia});
@@ -114,7 +114,7 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
   MatX B_rate = -coordinates_.offsets_per_coordinate(before);
   coordinates_.gain(middle + kRateStep, after);
   B_rate = (B_rate + coordinates_.offsets_per_coordinate(after)) / (2.0 * kRateStep);
-  const MatX T_rate = (after - before) / (2.0 * kRateStep);
+  knot.T_rate = (after - before) / (2.0 * kRateStep);
   coordinates_.gain(t, knot.T);
   knot.B = coordinates_.offsets_per_coordinate(knot.T);
   ideal.state(t, knot.state);
@@ -122,8 +122,10 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
   knot.elements.assign(groups_.size() * element_size(), 0.0);
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (const Element& element : groups_[g])
-      add_element(element, knot.T, T_rate, knot.state, &knot.elements[g * element_size()]);
-  if (layout_.stiff) {
+      add_element(element, knot.T, knot.T_rate, knot.state, &knot.elements[g * element_size()]);
+  for (const SpringDescription& spring : mechanism_.description().springs)
+    knot.springs.push_back(spring_gain(mechanism_.description(), spring, knot.state, knot.T, knot.T_rate));
+  if (coordinates_.leftover() > 0) {
     MatX M, C;
     VecX r;
     assemble(parameters, knot, M, C, r);
@@ -210,6 +212,7 @@ void ClearanceScene::assemble(const Parameters& parameters, const Knot& knot, Ma
     r += units * (Eigen::Map<const VecX>(e + 2 * n * n, n) +
                   Eigen::Map<const MatX>(e + 2 * n * n + n, n, 3) * parameters.gravity);
   }
+  for (std::size_t s = 0; s < knot.springs.size(); ++s) C += knot.springs[s].damping(parameters.spring[s]);
   if (mechanism_.description().springs.empty() && mechanism_.description().loads.empty()) return;
   ForceElements forces(mechanism_, parameters, false);
   std::vector<Vec6> wrench(mechanism_.bodies(), Vec6::Zero());
@@ -219,6 +222,16 @@ void ClearanceScene::assemble(const Parameters& parameters, const Knot& knot, Ma
 
 void ClearanceScene::assemble(const Parameters& parameters, int knot, MatX& M, MatX& C, VecX& r) const {
   assemble(parameters, knots_[knot], M, C, r);
+}
+
+MatX ClearanceScene::spring_stiffness(const Parameters& parameters, const Knot& knot) const {
+  MatX K = MatX::Zero(layout_.n, layout_.n);
+  for (std::size_t s = 0; s < knot.springs.size(); ++s) K += knot.springs[s].stiffness(parameters.spring[s]);
+  return K;
+}
+
+MatX ClearanceScene::spring_stiffness(const Parameters& parameters, int knot) const {
+  return spring_stiffness(parameters, knots_[knot]);
 }
 
 void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row) const {
@@ -234,7 +247,10 @@ void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, 
     for (int j = i; j < n; ++j) row.push_back(inverse(i, j));
   append(row, VecX(cholesky.solve(r)));
   append(row, MatX(cholesky.solve(C)));
-  if (layout_.stiff) append(row, knot.stiffness);
+  if (coordinates_.leftover() > 0)
+    append(row, knot.stiffness);
+  else if (layout_.stiff)
+    append(row, MatX(cholesky.solve(spring_stiffness(parameters, knot))));
   row.insert(row.end(), knot.joints.begin(), knot.joints.end());
 }
 
@@ -248,6 +264,12 @@ SceneTables ClearanceScene::tables(const Parameters& parameters) const {
 TimeTable ClearanceScene::pose_gain(int body) const {
   std::vector<double> values;
   for (const Knot& knot : knots_) append(values, MatX(knot.T.middleRows<6>(6 * body)));
+  return TimeTable(spacing_, 6 * layout_.n, values);
+}
+
+TimeTable ClearanceScene::pose_gain_rate(int body) const {
+  std::vector<double> values;
+  for (const Knot& knot : knots_) append(values, MatX(knot.T_rate.middleRows<6>(6 * body)));
   return TimeTable(spacing_, 6 * layout_.n, values);
 }
 

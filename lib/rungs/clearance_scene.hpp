@@ -10,9 +10,10 @@
 //
 // 2 Tdot is the Coriolis part (the offsets ride on moving bodies); - w x T stands in the turning rows only: with
 // R = exp(theta) R_ideal the angular acceleration is alpha_ideal + thetaddot + thetadot x w_ideal to first order in theta.
-// K, forces that change with the deviation itself, matters where the ideal mechanism has freedoms of its own (a pendulum):
-// there alone it is kept, by differences of the multibody formulation. Between offsets held by contact it is below a percent
-// of the contact forces and left out.
+// K, forces that change with the deviation itself. Springs and dampers bring theirs (spring_gains.hpp): k and what their pull does
+// as it turns, and D in C. What gravity, inertia and loads add (their geometric stiffness) matters where the ideal mechanism has
+// freedoms of its own (a pendulum): there alone it is kept, by differences of the multibody formulation. Between offsets held
+// by contact it is to the contact forces as the offsets to the mechanism's size, and part of the model error (perturbation.cpp).
 // The generalised contact force of a joint is its whole wrench on the journal: the force along the offset, the moment
 // through what z does to the relative spin, w_rel = w_ideal + S zdot, and on a cylindrical joint the axial friction through
 // what it does to the slide, slide_ideal + Y zdot. No number of a contact changes any of this. Masses and gravity enter
@@ -26,6 +27,7 @@
 
 #include "boresight/math/time_table.hpp"
 #include "boresight/rungs/scene_layout.hpp"
+#include "boresight/rungs/spring_gains.hpp"
 
 namespace boresight {
 
@@ -55,6 +57,10 @@ class ClearanceScene {
   SceneTables tables(const Parameters& parameters) const;
   // E of one body: 6 x n, row by row, over time.
   TimeTable pose_gain(int body) const;
+  // Its rate of change, likewise.
+  TimeTable pose_gain_rate(int body) const;
+  // What springs and dampers oppose to z at a knot: T^T K T, with the part of dampers whose stretch rate z changes.
+  MatX spring_stiffness(const Parameters& parameters, int knot) const;
   // M_r, C and r of these parameters at a knot.
   void assemble(const Parameters& parameters, int knot, MatX& M, MatX& C, VecX& r) const;
   // E of the boresight body at a knot, 6 x n; offsets per coordinate there, B.
@@ -71,15 +77,17 @@ class ClearanceScene {
   };
   struct Knot {
     IdealState state;
-    MatX T, B;
+    MatX T, T_rate, B;
     std::vector<double> joints;    // the joints' part of a row
     std::vector<double> elements;  // per element group: M (n n), C (n n), r (n), r per unit of gravity (n 3)
-    MatX stiffness;                // A K, where kept
+    std::vector<SpringGain> springs;
+    MatX stiffness;                // A K, where by differences
   };
   Knot knot_at(double t, const IdealMotion& ideal, const Parameters& parameters);
   void add_joints(const MatX& T, const MatX& B_rate, Knot& knot) const;
   void add_element(const Element& element, const MatX& T, const MatX& T_rate, const IdealState& state, double* out) const;
   void assemble(const Parameters& parameters, const Knot& knot, MatX& M, MatX& C, VecX& r) const;
+  MatX spring_stiffness(const Parameters& parameters, const Knot& knot) const;
   void append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row) const;
   double interpolation_error(const std::vector<double>& rows) const;
   int element_size() const { return 2 * layout_.n * layout_.n + 4 * layout_.n; }

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include <Eigen/Eigenvalues>
+
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/contact_report.hpp"
@@ -52,12 +54,37 @@ class Perturbation final : public SceneRung {
   }
 
   // Share of the stable step of the joints' contacts taken together, at twice the largest ideal reaction: what a load
-  // suddenly applied to an elastic contact reaches.
+  // suddenly applied to an elastic contact reaches. Springs and dampers beside them add their own rate.
   double own_step(const PreparedScene& prepared, const Parameters& parameters) const {
-    double step = std::min(kPaperStep, mechanism().duration() / 100.0);
-    for (const ContactFrequency& c : analyse_contacts(mechanism(), parameters, prepared.ideal()))
-      if (c.largest_stable_step > 0.0) step = std::min(step, kShareOfStableStep * c.largest_stable_step);
-    return step;
+    double step = std::min(kPaperStep, mechanism().duration() / 100.0), fastest = 0.0;
+    for (const ContactFrequency& c : analyse_contacts(mechanism(), parameters, prepared.ideal())) {
+      if (!(c.largest_stable_step > 0.0)) continue;
+      step = std::min(step, kShareOfStableStep * c.largest_stable_step);
+      fastest = std::max(fastest, 1.0 / c.largest_stable_step);
+    }
+    if (mechanism().description().springs.empty()) return step;
+    const double springs = fastest_rate(*prepared.tables(parameters)) / classical_rk4().real_limit;
+    return std::min(step, kShareOfStableStep / (fastest + springs));
+  }
+
+  // Largest rate of the deviation between contacts [1/s]: of z'' = -A K z - A C z', frozen at instants along the motion.
+  static double fastest_rate(const SceneTables& tables) {
+    constexpr int kInstants = 41;
+    using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+    const SceneLayout& at = tables.layout;
+    const int n = at.n;
+    const double duration = tables.dynamics.spacing() * tables.dynamics.cells();
+    std::vector<double> row(at.width);
+    MatX S = MatX::Zero(2 * n, 2 * n);
+    S.topRightCorner(n, n).setIdentity();
+    double fastest = 0.0;
+    for (int k = 0; k < kInstants; ++k) {
+      tables.dynamics.at(duration * k / (kInstants - 1), row.data());
+      if (at.stiff) S.bottomLeftCorner(n, n) = -Rows(row.data() + at.AK, n, n);
+      S.bottomRightCorner(n, n) = -Rows(row.data() + at.AC, n, n);
+      fastest = std::max(fastest, Eigen::EigenSolver<MatX>(S, false).eigenvalues().cwiseAbs().maxCoeff());
+    }
+    return fastest;
   }
 
   RunResult integrate(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options,

@@ -1,5 +1,6 @@
 #include "boresight/rungs/scene_rung.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include "boresight/mechanism/error.hpp"
@@ -7,6 +8,18 @@
 #include "boresight/rungs/ideal_simulation.hpp"
 
 namespace boresight {
+namespace {
+
+// Rates of change of a table's functions.
+void slopes_at(const TimeTable& table, double t, double* out) {
+  const double x = t / table.spacing();
+  const int k = std::clamp(static_cast<int>(x), 0, table.cells() - 1), width = table.width();
+  const double s = x - k, *c = table.cell(k) + width;
+  for (int j = 0; j < width; ++j)
+    out[j] = (c[j] + s * (2.0 * c[width + j] + s * 3.0 * c[2 * width + j])) / table.spacing();
+}
+
+}  // namespace
 
 bool same_scene(const Parameters& a, const Parameters& b) {
   if (a.gravity != b.gravity || a.payload_mass != b.payload_mass || a.body_mass != b.body_mass) return false;
@@ -35,27 +48,39 @@ const TimeTable& PreparedScene::pose_gain(int body) const {
   return found != pose_gain_.end() ? found->second : pose_gain_.emplace(body, scene_.pose_gain(body)).first->second;
 }
 
-DisplacedBodies::PoseGain DisplacedBodies::gain(int body) const {
+const TimeTable& PreparedScene::pose_gain_rate(int body) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = pose_gain_rate_.find(body);
+  return found != pose_gain_rate_.end() ? found->second
+                                        : pose_gain_rate_.emplace(body, scene_.pose_gain_rate(body)).first->second;
+}
+
+DisplacedBodies::PoseGain DisplacedBodies::gain(const TimeTable& table) const {
   PoseGain E(6, z_.size());
-  prepared_.pose_gain(body).at(t_, E.data());
+  table.at(t_, E.data());
   return E;
 }
 
 BodyMotion DisplacedBodies::at_rest(int body, BodyAcceleration& acceleration) const {
   BodyMotion motion = prepared_.ideal().body(t_, body, &acceleration);
-  displace(motion, gain(body) * z_);
+  displace(motion, gain(prepared_.pose_gain(body)) * z_);
   return motion;
 }
 
 BodyMotion DisplacedBodies::moving(int body, const Eigen::Ref<const VecX>& z_dot, const Eigen::Ref<const VecX>& z_ddot,
                                    BodyAcceleration& acceleration) const {
-  const PoseGain E = gain(body);
+  const TimeTable& rates = prepared_.pose_gain_rate(body);
+  const PoseGain E = gain(prepared_.pose_gain(body)), E_dot = gain(rates);
+  PoseGain E_ddot(6, z_.size());
+  slopes_at(rates, t_, E_ddot.data());
   BodyMotion motion = prepared_.ideal().body(t_, body, &acceleration);
-  displace(motion, E * z_);
-  const Vec6 rate = E * z_dot;
+  const Vec3 w = motion.w, alpha = acceleration.tail<3>();
+  const Vec6 x = E * z_, rate = E * z_dot + E_dot * z_;
+  displace(motion, x);
   motion.v += rate.head<3>();
-  motion.w += rate.tail<3>();
-  acceleration += E * z_ddot;
+  motion.w += rate.tail<3>() + x.tail<3>().cross(w);
+  acceleration += E * z_ddot + 2.0 * E_dot * z_dot + E_ddot * z_;
+  acceleration.tail<3>() += rate.tail<3>().cross(w) + x.tail<3>().cross(alpha);
   return motion;
 }
 

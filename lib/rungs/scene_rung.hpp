@@ -25,6 +25,8 @@ class PreparedScene {
   std::shared_ptr<const SceneTables> tables(const Parameters& parameters) const;
   // E of a body over time: 6 x n, row by row.
   const TimeTable& pose_gain(int body) const;
+  // Its rate of change, likewise.
+  const TimeTable& pose_gain_rate(int body) const;
 
  private:
   IdealMotion ideal_;
@@ -32,10 +34,14 @@ class PreparedScene {
   mutable std::mutex mutex_;
   mutable Parameters tabled_;
   mutable std::shared_ptr<const SceneTables> tables_;
-  mutable std::map<int, TimeTable> pose_gain_;
+  mutable std::map<int, TimeTable> pose_gain_, pose_gain_rate_;
 };
 
-// Bodies of the ideal motion displaced by the deviation E z, at one instant.
+// Bodies of the ideal motion displaced by the deviation E z, at one instant: x = E z moves the body, its turning part theta
+// makes R = exp(theta) R_ideal. To first order in theta
+//   v = v_ideal + x'       w = w_ideal + theta' + theta x w_ideal
+//   a = a_ideal + x''  alpha = alpha_ideal + theta'' + theta' x w_ideal + theta x alpha_ideal
+// with x' = E z' + E' z and x'' = E z'' + 2 E' z' + E'' z.
 class DisplacedBodies {
  public:
   DisplacedBodies(const PreparedScene& prepared, double t, const Eigen::Ref<const VecX>& z)
@@ -49,7 +55,7 @@ class DisplacedBodies {
 
  private:
   using PoseGain = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
-  PoseGain gain(int body) const;
+  PoseGain gain(const TimeTable& table) const;
 
   const PreparedScene& prepared_;
   double t_;
