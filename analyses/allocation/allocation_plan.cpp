@@ -148,7 +148,7 @@ Parameters AllocationPlan::parameters_with(const Mechanism& mechanism, std::span
 }
 
 std::string AllocationPlan::sample_text(const Study& study) const {
-  std::string text = "index " + study.index.quantity + "." + study.index.statistic + "\nseed " +
+  std::string text = "index " + study.index.text() + "\nseed " +
                      std::to_string(seed) + " confirm " + std::to_string(confirm) + "\n";
   for (const AllocationJoint& joint : joints)
     for (const std::string& path : joint.paths) text += path + (&path == &joint.paths.back() ? "\n" : " ");

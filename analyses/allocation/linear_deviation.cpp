@@ -11,12 +11,12 @@ namespace {
 double size_of(const double* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 // The vector whose length is the quantity, to first order.
-Vec3 error_vector(const PoseSample& sample, const std::string& quantity, const Vec3& boresight_B) {
+Vec3 error_vector(const PoseSample& sample, const std::string& quantity, const Pointing& pointing) {
   if (quantity == "orientation_error") return sample.error.rotation;
-  if (quantity == "boresight_error") return sample.error.rotation.cross(sample.ideal.q * boresight_B);
+  if (quantity == "boresight_error") return sample.error.rotation.cross(sample.ideal.q * pointing.boresight_B);
   if (quantity == "line_of_sight_error") {
-    const Vec3 along = sample.ideal.p.normalized();
-    return (sample.error.displacement - along * along.dot(sample.error.displacement)) / sample.ideal.p.norm();
+    const Eigen::Matrix<double, 3, 6> gain = pointing.line_of_sight.value().gain(sample.ideal);
+    return gain.leftCols<3>() * sample.error.displacement + gain.rightCols<3>() * sample.error.rotation;
   }
   return sample.error.displacement;
 }
@@ -126,9 +126,9 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
                                       const std::vector<double>& probe, const IndexChoice& index,
                                       std::size_t instants, double& misfit) {
   const auto rung = make_rung("quasistatic", mechanism);
-  const Vec3 boresight_B = mechanism->boresight_B();
   RunOptions options;
   options.events = false;
+  options.start = index.start;
   options.sample_spacing = mechanism->duration() / static_cast<double>(instants);
   // Error vectors of a run, all instants in a row.
   std::vector<double> time;
@@ -141,7 +141,7 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
     time = result.time;
     std::vector<double> out;
     for (const PoseSample& sample : result.boresight.samples) {
-      const Vec3 e = error_vector(sample, index.quantity, boresight_B);
+      const Vec3 e = error_vector(sample, index.quantity, mechanism->pointing());
       out.insert(out.end(), {e.x(), e.y(), e.z()});
     }
     return out;

@@ -105,8 +105,8 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, const Budget
   return c;
 }
 
-void read_times(Cursor& table, BudgetPlan& plan, double duration) {
-  plan.start = table.quantity("start", kDuration, 0.0);
+void read_times(Cursor& table, BudgetPlan& plan, double index_start, double duration) {
+  plan.start = table.quantity("start", kDuration, index_start);
   table.require(plan.start >= 0.0 && plan.start < duration, "start", "0 or more, and before the end of the motion");
   plan.duration = duration - plan.start;
   plan.sampling = positive_time(table, "sampling", duration / kUsualHistorySamples);
@@ -208,7 +208,7 @@ BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDes
   plan.confidence = share_of(table, "confidence", plan.confidence);
   plan.leave_out = table.number("leave_out", 0.0);
   table.require(plan.leave_out >= 0.0 && plan.leave_out < 1.0, "leave_out", "0 or more and less than 1");
-  read_times(table, plan, duration);
+  read_times(table, plan, study.index.start, duration);
   read_scatter(root, table, plan, study, mechanism, accepts);
   const BudgetAxes axes(study.index.kind());
   const bool angle = study.index.si_unit() == "rad";

@@ -75,7 +75,7 @@ BudgetModel::BudgetModel(const std::string& rung, std::shared_ptr<const Mechanis
     return std::make_unique<RungSampleModel>(
         rung, of, parameters_of, index, options, scene_varies,
         KeptOfRun{plan.sampling, [of, &plan, kind = index.kind()](const RunResult& run) {
-                    return history_on_grid(run, kind, of->boresight_B(), plan);
+                    return history_on_grid(run, kind, of->pointing(), plan);
                   }});
   };
   const auto drawn = [mechanism, &plan](std::span<const double> values) {
@@ -118,7 +118,7 @@ void BudgetModel::evaluate(std::span<const Sample> samples, std::span<Outcome> o
   }
 }
 
-std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Vec3& boresight_B,
+std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Pointing& pointing,
                                     const BudgetPlan& plan) {
   const std::vector<PoseSample>& samples = run.boresight.samples;
   const auto size = static_cast<std::size_t>(std::max(1.0, std::round(plan.duration / plan.sampling)));
@@ -127,7 +127,7 @@ std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quant
   std::size_t at = 0;
   constexpr double kSlack = 1e-6;  // of the sampling: rounding of t
   const auto error = [&](std::size_t k) {
-    return error_vector(quantity, samples[k].pose, samples[k].ideal, boresight_B);
+    return error_vector(quantity, samples[k].pose, samples[k].ideal, pointing);
   };
   for (std::size_t k = 0; k < size; ++k) {
     const double t = plan.start + static_cast<double>(k) * plan.sampling;

@@ -76,7 +76,7 @@ class BudgetModel final : public SampleModel {
 };
 
 // Error vectors out of a run's samples onto the grid of the plan.
-std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Vec3& boresight_B,
+std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Pointing& pointing,
                                     const BudgetPlan& plan);
 // What the store holds of a run; empty if it failed.
 PointingHistory stored_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan);

@@ -54,6 +54,7 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study,
     table.require(plan.window > 0.0, "window", "more than 0, or \"whole\"");
   }
   plan.from_rest = table.choice("start", {"rest", "free"}, "rest") == "rest";
+  plan.data_from = study.index.start;
   const std::string loss = table.choice("loss", {"none", "huber", "cauchy"}, "huber");
   plan.loss.kind = loss == "none" ? Loss::none : loss == "huber" ? Loss::huber : Loss::cauchy;
   plan.loss.scale = table.number("loss_scale", loss == "cauchy" ? 2.4 : 2.0);
@@ -126,7 +127,15 @@ CalibrationProblem calibration_problem(
   CalibrationProblem problem;
   for (const PlannedRun& run : plan.runs)
     problem.runs.emplace_back(run.name, mechanism_with(run.settings), read_measured_data(run.data));
+  for (CalibrationRun& run : problem.runs)
+    for (std::size_t i = 0; i < run.data.time.size() && run.data.time[i] < plan.data_from; ++i)
+      run.data.value.row(static_cast<Eigen::Index>(i)).setConstant(std::numeric_limits<double>::quiet_NaN());
   const Mechanism& mechanism = *problem.runs.front().mechanism;
+  for (const CalibrationRun& run : problem.runs)
+    for (int channel : run.data.channels)
+      if (channel_names()[channel].name == std::string("line_of_sight_error") && !mechanism.pointing().line_of_sight)
+        throw InputError({run.data.file, 1}, "line_of_sight_error", "it of a mechanism that names no target",
+                         "a [pointing] table with a target or a distance in " + mechanism.description().origin.file);
   for (int c = 0; c < mechanism.clearances(); ++c) {
     const ClearanceDescription& clearance = mechanism.description().clearances[c];
     if (JournalInSleeve(clearance, mechanism.description().joints[clearance.joint].type, clearance.parameters)

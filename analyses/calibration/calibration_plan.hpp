@@ -2,7 +2,7 @@
 //
 //   [calibrate]
 //   window = "whole"                  # or a time, "20 ms": see calibration_problem.hpp
-//   start = "rest"                    # where a run's first window begins: in the ideal pose ("rest") or
+//   start = "rest"                    # where a run's first window begins: as the file starts ("rest") or
 //   anywhere ("free") loss = "huber"                    # "none", "cauchy"; loss_scale: in standard
 //   deviations starts = 4 time_offset = "2 ms"              # the largest; left out: none is fitted
 //   mounting_bias = true
@@ -47,6 +47,7 @@ struct PlannedRun {
 struct CalibrationPlan {
   double window = std::numeric_limits<double>::infinity();
   bool from_rest = true;
+  double data_from = 0.0;  // readings before are left out, though the motion is followed from its start [s]
   ResidualLoss loss;
   int starts = 4;
   std::uint64_t seed = 1;

@@ -6,6 +6,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
+#include "boresight_analyses/calibration/start_slopes.hpp"
 
 namespace boresight {
 
@@ -144,10 +145,7 @@ void CalibrationProblem::channel_rows(const CalibrationRun& run, int kind, doubl
   if (kind == 9 || kind == 10) return;
   const BodyMotion ideal = run.prepared->ideal().body(t, body);
   if (kind == 12) {
-    // The angle at the origin: the part of the displacement across the line of sight.
-    const double distance = ideal.p.norm();
-    const Vec3 along = ideal.p / distance;
-    out.rows = (Mat3::Identity() - along * along.transpose()) / distance * E.topRows<3>();
+    out.rows = run.mechanism->pointing().line_of_sight.value().gain({ideal.p, Quat(ideal.R)}) * E;
     return;
   }
   const Vec3 axis = ideal.R * run.mechanism->boresight_B();
@@ -158,6 +156,17 @@ void CalibrationProblem::channel_rows(const CalibrationRun& run, int kind, doubl
     out.rows = turned;
   else
     out.rows.row(0) = turned.row(kind - 6);
+}
+
+void CalibrationProblem::set_start(const Window& w, const std::vector<double>& values, const VecX& state, bool derivatives,
+                                   MotionRequest& request) const {
+  request.start_state = state.cwiseProduct(state_scale(w));
+  if (!w.from_rest) return;
+  const CalibrationRun& run = runs[w.run];
+  const StartSlopes start = start_slopes(
+      *run.mechanism, *run.tables, [&](const std::vector<double>& x) { return parameters_at(w.run, x); }, values, derivatives);
+  request.start_state += start.state;
+  request.start_by_parameters = start.by;
 }
 
 void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const VecX& state,
@@ -171,7 +180,7 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
   MotionRequest request;
   request.start = w.start;
   request.end = w.end;
-  request.start_state = state.cwiseProduct(scale);
+  set_start(w, theta, state, derivatives, request);
   request.tolerance = tolerance;
   request.by_parameters = derivatives;
   request.by_start_state = derivatives && !w.from_rest;

@@ -54,7 +54,7 @@ struct Window {
   int first = 0, last = 0;        // samples, inclusive
   double start = 0.0, end = 0.0;  // of the motion followed [s]
   bool held_out = false;
-  bool from_rest = false;  // starts at the ideal pose and with it; no start state is estimated
+  bool from_rest = false;  // starts as the mechanism's file says; no start state is estimated
 };
 
 // What all windows share, in the coordinates of the fit.
@@ -107,7 +107,7 @@ class CalibrationProblem {
   double derivative_tolerance = 1e-4;
 
   // Collects the channels, cuts the windows. from_rest: a run's first window starts at t = 0 where the model
-  // does, in the ideal pose. Throws InputError where the data reach beyond the motion.
+  // does, its journals where the mechanism's file has them. Throws InputError where the data reach beyond the motion.
   void prepare(double window_length, bool from_rest);
 
   int parameter_count() const { return static_cast<int>(parameters.size()); }
@@ -144,6 +144,9 @@ class CalibrationProblem {
   VecX state_at(const Window& window, const Globals& globals, const VecX& state, double t) const;
 
  private:
+  // Into request: what a window's motion starts with.
+  void set_start(const Window& window, const std::vector<double>& values, const VecX& state, bool derivatives,
+                 MotionRequest& request) const;
   void evaluate_tangent(const Window& window, const Globals& globals, bool derivatives,
                         WindowResiduals& out) const;
   struct ChannelRows {

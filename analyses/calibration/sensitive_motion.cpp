@@ -77,6 +77,9 @@ struct Follower {
     for (int d = 0; d < W; ++d)
       if (const int i = first + d - by_parameters; i >= 0 && i < n2 && first + d < count)
         Y[n2 + W * i + d] = 1.0;
+    if (request.start_by_parameters.size() > 0)
+      for (int d = 0; d < W && first + d < by_parameters; ++d)
+        for (int i = 0; i < n2; ++i) Y[n2 + W * i + d] = request.start_by_parameters(i, first + d);
     IntegrationOptions held = options(Y.size());
     if (request.derivative_tolerance > 0.0) {
       const double share = request.derivative_tolerance / request.tolerance;

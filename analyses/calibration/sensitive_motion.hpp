@@ -55,6 +55,7 @@ struct SensitiveMotion {
 struct MotionRequest {
   double start = 0.0, end = 0.0;  // [s]
   VecX start_state;               // 2n
+  MatX start_by_parameters;       // 2n x parameters: how it follows them; empty: not at all
   std::vector<double> times;      // within [start, end], rising [s]
   bool by_parameters = false;     // directions 0 .. parameters-1
   bool by_start_state = false;    // the next 2n directions

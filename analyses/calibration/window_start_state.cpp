@@ -47,7 +47,7 @@ VecX CalibrationProblem::state_at(const Window& w, const Globals& globals, const
   request.start = w.start;
   request.end = t;
   request.times = {t};
-  request.start_state = state.cwiseProduct(state_scale(w));
+  set_start(w, theta, state, false, request);
   request.tolerance = tolerance;
   return follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), run.tables,
                                  contact_numbers_at(w.run, theta), request)

@@ -62,7 +62,7 @@ Parameters MatchingPlan::parameters_with(const Mechanism& mechanism, std::span<c
 }
 
 std::string MatchingPlan::sample_text(const Study& study) const {
-  std::string text = "index " + study.index.quantity + "." + study.index.statistic + "\nseed " +
+  std::string text = "index " + study.index.text() + "\nseed " +
                      std::to_string(seed) + " samples " + std::to_string(samples) + " confirm " +
                      std::to_string(confirm) + "\n";
   for (const DesignVariable& v : variables) {

@@ -92,7 +92,7 @@ const std::vector<Headline>& headlines() {
 }
 
 std::string MonteCarloPlan::sample_text(const Study& study) const {
-  std::string text = inputs.text + design.text() + "\nindex " + study.index.quantity + "." + study.index.statistic + "\n";
+  std::string text = inputs.text + design.text() + "\nindex " + study.index.text() + "\n";
   // The budget divides the samples: another one is another study.
   if (fidelities) {
     text += "fidelities";

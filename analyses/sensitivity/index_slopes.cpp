@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "boresight_analyses/calibration/sensitive_motion.hpp"
+#include "boresight_analyses/calibration/start_slopes.hpp"
 
 namespace boresight {
 namespace {
@@ -14,7 +15,7 @@ PoseError error_of(const Mechanism& mechanism, const PreparedScene& prepared, do
   const int body = mechanism.boresight_body();
   const BodyMotion ideal = prepared.ideal().body(t, body);
   const BodyMotion truth = DisplacedBodies(prepared, t, z).at_rest(body, unused);
-  return pose_error({truth.p, Quat(truth.R)}, {ideal.p, Quat(ideal.R)}, mechanism.boresight_B());
+  return pose_error({truth.p, Quat(truth.R)}, {ideal.p, Quat(ideal.R)}, mechanism.pointing());
 }
 
 double quantity(const PoseError& e, const std::string& name) {
@@ -36,11 +37,15 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
   const Eigen::Index n = tables->layout.n;
   MotionRequest request;
   request.end = options.end > 0.0 ? options.end : mechanism.duration();
-  request.start_state = options.start_state.size() > 0 ? options.start_state : VecX::Zero(2 * n);
+  const StartSlopes start = start_slopes(mechanism, *tables, parameters_at, values, true);
+  const bool own_start = options.start_state.size() == 0;
+  request.start_state = own_start ? start.state : options.start_state;
+  request.start_state.head(n).array() += options.start_offset;
+  if (own_start) request.start_by_parameters = start.by;
   request.tolerance = options.tolerance;
   request.derivative_tolerance = options.control_derivatives ? options.tolerance : 0.0;
   request.by_parameters = true;
-  for (int k = 0; k <= options.points; ++k) request.times.push_back(request.end * k / options.points);
+  for (int k = 0; k <= options.points; ++k) request.times.push_back(index.start + (request.end - index.start) * k / options.points);
   const SensitiveMotion motion = follow_with_sensitivity(
       mechanism, parameters, tables, contact_numbers(mechanism, parameters_at, values), request);
 
@@ -49,7 +54,7 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
   const std::size_t count = request.times.size();
   std::vector<double> e(count);
   MatX slope = MatX::Zero(static_cast<Eigen::Index>(values.size()), static_cast<Eigen::Index>(count));
-  IndicesOverTime indices;
+  IndicesOverTime indices(mechanism.pointing().line_of_sight.has_value());
   for (std::size_t k = 0; k < count; ++k) {
     const double t = request.times[k];
     const auto column = static_cast<Eigen::Index>(k);

@@ -25,7 +25,8 @@ namespace boresight {
 
 struct SlopeOptions {
   double end = 0.0;                  // [s]; 0: the mechanism's duration
-  VecX start_state;                  // offsets and rates; empty: at rest and ideal
+  VecX start_state;                  // offsets and rates, of no parameter; empty: as the file has the journals start
+  double start_offset = 0.0;         // of every coordinate besides [m, or rad]
   int points = 4000;                 // of time
   double tolerance = 1e-3;           // of a step, over the smallest clearance
   bool control_derivatives = false;  // hold the derivatives to it too

@@ -36,8 +36,7 @@ IndexSlopes predictable_slopes(const std::shared_ptr<const Mechanism>& mechanism
   // limit of stability, which only the derivatives' own error tells.
   options.tolerance = 1e-6;
   options.control_derivatives = true;
-  options.start_state = VecX::Zero(2 * system.layout().n);
-  options.start_state.head(system.layout().n).setConstant(start_offset);
+  options.start_offset = start_offset;
   return index_slopes(*mechanism, prepared, parameters_at, values, index, options);
 }
 

@@ -26,7 +26,7 @@ void SensitivityPlan::values(std::uint64_t number, std::span<double> values) con
 }
 
 std::string SensitivityPlan::text(const Study& study) const {
-  std::string text = inputs.text + design.text() + "\nindex " + study.index.quantity + "." + study.index.statistic + "\n";
+  std::string text = inputs.text + design.text() + "\nindex " + study.index.text() + "\n";
   for (const auto& group : groups) {
     text += "group";
     for (const int i : group) text += " " + std::to_string(i);

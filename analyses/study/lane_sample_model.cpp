@@ -21,7 +21,7 @@ LaneSampleModel::LaneSampleModel(std::shared_ptr<const Mechanism> mechanism, Run
       parameters_of_(std::move(parameters_of)),
       index_(std::move(index)),
       scene_varies_(scene_varies),
-      lanes_(mechanism_, index_.kind()) {}
+      lanes_(mechanism_, index_.kind(), index_.start) {}
 
 // What the rung itself estimates (perturbation.cpp), from what the lanes keep: the deviation over the mechanism's size, times
 // how much the mechanism magnifies its offsets.

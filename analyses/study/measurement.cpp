@@ -53,6 +53,7 @@ Measurement measure(const Rung& rung, const Parameters& parameters, const Way& w
     for (double share : kNeighbours) {
       if (options.advance && !options.advance()) throw MeasurementInterrupted{};
       RunOptions run = way.options();
+      run.start = options.index.start;
       const bool fixed = way.integrator.empty() || way.integrator == "rk4";
       // Once the rung has chosen its own step, the neighbours are neighbours of that.
       if (fixed && run.step == 0.0) run.step = out.step;

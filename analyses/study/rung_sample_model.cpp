@@ -28,7 +28,8 @@ MotionMeasures measures_of(const RunResult& result) {
   MotionMeasures m{.free_flight_share = 0.0, .impacts_per_second = 0.0, .peak_acceleration = 0.0};
   for (const ContactSummary& joint : result.contact) {
     m.free_flight_share = std::max(m.free_flight_share, 1.0 - joint.contact_fraction);
-    if (result.end_time > 0.0) m.impacts_per_second += static_cast<double>(joint.impacts) / result.end_time;
+    if (result.end_time > result.start)
+      m.impacts_per_second += static_cast<double>(joint.impacts) / (result.end_time - result.start);
   }
   m.peak_acceleration = result.platform_acceleration_max.cwiseAbs().maxCoeff();
   return m;
@@ -49,6 +50,7 @@ RungSampleModel::RungSampleModel(std::string rung, std::shared_ptr<const Mechani
       shared_(make_rung(rung_, mechanism_)) {
   options_.sample_spacing = kept_.spacing;
   options_.events = false;
+  options_.start = index_.start;
 }
 
 void RungSampleModel::evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,

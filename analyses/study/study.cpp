@@ -1,7 +1,10 @@
 #include "boresight_analyses/study/study.hpp"
 
+#include <cstdio>
 #include <filesystem>
 #include <vector>
+
+#include "boresight/mechanism/error.hpp"
 
 namespace boresight {
 namespace {
@@ -39,12 +42,35 @@ Study read_study(Cursor& root, const std::string& content_hash) {
   }
   if (root.has("index")) {
     Cursor index = root.table("index");
-    index.only({"quantity", "statistic"});
+    index.only({"quantity", "statistic", "start"});
+    study.index_origin = index.origin("quantity");
+    study.start_origin = index.origin("start");
     study.index.quantity = index.choice("quantity", names_of(quantity_names()), study.index.quantity);
     study.index.statistic = index.choice("statistic", names_of(statistic_names()), study.index.statistic);
+    study.index.start = index.quantity("start", kDuration, 0.0);
+    index.require(study.index.start >= 0.0, "start", "a time of zero or more");
     index.finish();
   }
   return study;
+}
+
+void check_line_of_sight(const IndexChoice& index, const Mechanism& mechanism, const Origin& origin, const std::string& key) {
+  if (index.kind() != PointingQuantity::line_of_sight_error || mechanism.pointing().line_of_sight) return;
+  throw InputError(origin, key, "\"line_of_sight_error\" of a mechanism that names no target",
+                   "a [pointing] table with a target or a distance in " + mechanism.description().origin.file);
+}
+
+void check_start(double start, const Mechanism& mechanism, const Origin& origin, const std::string& key) {
+  if (start < mechanism.duration()) return;
+  char found[80], expected[80];
+  std::snprintf(found, sizeof found, "%.6g s", start);
+  std::snprintf(expected, sizeof expected, "a time before the motion's end at %.6g s", mechanism.duration());
+  throw InputError(origin, key, found, expected);
+}
+
+void check_index(const Study& study, const Mechanism& mechanism) {
+  check_line_of_sight(study.index, mechanism, study.index_origin, "index.quantity");
+  check_start(study.index.start, mechanism, study.start_origin, "index.start");
 }
 
 }  // namespace boresight

@@ -169,7 +169,7 @@ class BudgetVerb : public Verb {
     if (choice.step > 0.0 && (run.integrator.empty() || run.integrator == "rk4")) run.step = choice.step;
     run = options_on(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run);
     const BudgetRuns runs(plan, *mechanism);
-    const BudgetModel model(choice.name, mechanism, plan, runs, {study.index.quantity, "max"}, run,
+    const BudgetModel model(choice.name, mechanism, plan, runs, {study.index.quantity, "max", plan.start}, run,
                             scene_varies(plan.inputs));
     store.use_rung(model.rung(), model.step());
     note_origin(store, study, *mechanism, plan);

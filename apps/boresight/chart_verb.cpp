@@ -143,6 +143,8 @@ class ChartVerb : public Verb {
                    "of a mechanism, whose file names none: position_error.max, boresight_error.rms, ...")
         ->type_name("QUANTITY.STATISTIC")
         ->capture_default_str();
+    app.add_option("--start", start_, "the index leaves out what the motion does before; a study says so itself")
+        ->type_name("TIME");
     app.add_option("--time", time_, "of CPU in all; ways for which none is left are named")
         ->type_name("TIME")
         ->capture_default_str();
@@ -159,19 +161,26 @@ class ChartVerb : public Verb {
     std::string mechanism_file = command.file, study_hash;
     Document document = Document::from_file(command.file);
     Cursor root(document);
+    std::optional<Study> study;
     if (root.has("mechanism")) {
-      const Study study = read_study(root, document.content_hash());
-      mechanism_file = study.mechanism_file;
-      study_hash = study.content_hash;
-      options.index = study.index;
-      if (!accuracy) accuracy = study.accuracy;
+      study = read_study(root, document.content_hash());
+      mechanism_file = study->mechanism_file;
+      study_hash = study->content_hash;
+      options.index = study->index;
+      if (!accuracy) accuracy = study->accuracy;
     }
     const auto mechanism =
         std::make_shared<const Mechanism>(read_mechanism(mechanism_file, command.settings));
+    if (!start_.empty()) options.index.start = positive_quantity("--start", start_, kDuration);
+    if (study)
+      check_index(*study, *mechanism);
+    else
+      check_line_of_sight(options.index, *mechanism, {"command line", 0}, "--index");
+    check_start(options.index.start, *mechanism, {"command line", 0}, "--start");
     const OutputDirectory out =
         OutputDirectory::open(command.out, command.verb, command.file,
                               identity_of(command, mechanism->description().content_hash, study_hash,
-                                          {{"index", index_}, {"time", time_}}));
+                                          {{"index", index_ + (start_.empty() ? "" : " from " + start_)}, {"time", time_}}));
     Progress progress(command.quiet, 100.0, "%");
     options.progress = [&](double share, const std::string& what) {
       progress.update(100.0 * share, what);
@@ -192,7 +201,7 @@ class ChartVerb : public Verb {
   }
 
  private:
-  std::string index_ = "position_error.max", time_ = "60 s";
+  std::string index_ = "position_error.max", time_ = "60 s", start_;
 };
 
 }  // namespace

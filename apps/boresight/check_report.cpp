@@ -6,6 +6,7 @@
 
 #include "boresight/contact/law_range.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/ideal_simulation.hpp"
 #include "report_parts.hpp"
 
 namespace boresight::app {
@@ -104,6 +105,23 @@ void add_law_notes(const Mechanism& mechanism, CheckResult& result) {
   }
 }
 
+// Where the journals start: centred as the file says, or how far off the middle of their sleeves.
+void add_start_note(const Mechanism& mechanism, CheckResult& result) {
+  if (mechanism.description().journals == JournalStart::centred) {
+    result.notes.emplace_back("journals start in the middle of their sleeves, as the file says");
+    return;
+  }
+  result.start = starting_journals(mechanism, mechanism.parameters(), ideal_motion(mechanism, mechanism.parameters()));
+  if (!result.start.warning.empty()) {
+    result.notes.push_back(result.start.warning);
+    return;
+  }
+  std::string text;
+  for (const StartingJournals::Journal& j : result.start.journals)
+    text += (text.empty() ? "" : ", ") + j.joint + " " + readable(j.offset.norm(), "m");
+  result.notes.push_back("journals start at rest under the loads of t = 0, off the middle of their sleeves: " + text);
+}
+
 }  // namespace
 
 CheckResult check_mechanism(const Mechanism& mechanism) {
@@ -121,6 +139,7 @@ CheckResult check_mechanism(const Mechanism& mechanism) {
     try {
       result.contacts = analyse_contacts(mechanism, mechanism.parameters());
       add_law_notes(mechanism, result);
+      add_start_note(mechanism, result);
     } catch (const ComputationError& error) {
       result.findings.emplace_back(error.what());
     }

@@ -7,6 +7,7 @@
 
 #include "boresight/mechanism/kinematic_report.hpp"
 #include "boresight/rungs/contact_report.hpp"
+#include "boresight/rungs/starting_journals.hpp"
 #include "command.hpp"
 #include "report/document.hpp"
 
@@ -16,6 +17,7 @@ namespace boresight::app {
 struct CheckResult {
   KinematicReport kinematics;
   std::vector<ContactFrequency> contacts;  // empty where the ideal motion cannot be followed
+  StartingJournals start;
   std::vector<std::string> findings;       // what stands in the way, most serious first; empty: nothing
   std::vector<std::string> notes;          // worth knowing, but no obstacle
 };

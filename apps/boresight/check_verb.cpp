@@ -27,6 +27,13 @@ Json contacts_json(const std::vector<ContactFrequency>& contacts) {
   return json;
 }
 
+Json start_json(const CheckResult& result) {
+  Json json = Json::object();
+  for (const StartingJournals::Journal& j : result.start.journals)
+    json[j.joint] = {{"offset", vector_json(j.offset)}, {"slope", vector_json(j.slope)}};
+  return json;
+}
+
 Json kinematics_json(const KinematicReport& k) {
   Json lost = Json::array();
   for (const LostMotion& l : k.lost)
@@ -81,6 +88,7 @@ class CheckVerb : public Verb {
     json["notes"] = result.notes;
     json["kinematics"] = kinematics_json(result.kinematics);
     json["contacts"] = contacts_json(result.contacts);
+    if (!result.start.journals.empty()) json["start"] = start_json(result);
     json["files"] = {"summary.json", "conditioning.csv", "report.html"};
     write_json(out, "summary.json", json);
     out.write("conditioning.csv", [&](std::ostream& s) {

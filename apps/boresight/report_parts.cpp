@@ -1,6 +1,7 @@
 #include "report_parts.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <functional>
 
@@ -171,6 +172,7 @@ report::Panels error_panels(const std::vector<Overlay>& overlays) {
       {"Line-of-sight error", "rad", [](const PoseSample& s) { return s.error.line_of_sight; }},
   };
   for (const Entry& entry : entries) {
+    if (&entry == &entries[3] && !overlays.front().result->index.has_line_of_sight) continue;
     const double most = largest_over(overlays, entry.value);
     if (most < kRounding) {
       panels.caption +=
@@ -185,9 +187,23 @@ report::Panels error_panels(const std::vector<Overlay>& overlays) {
   return panels;
 }
 
+// Of every error in the table, and from when on they count.
+std::string definitions(const std::vector<Overlay>& overlays) {
+  const RunResult& first = *overlays.front().result;
+  std::string text;
+  if (first.start > 0.0) text += " What the motion does before " + readable(first.start, "s") + " is left out.";
+  for (const QuantityName& quantity : quantity_names()) {
+    if (quantity.kind == PointingQuantity::line_of_sight_error && !first.index.has_line_of_sight) continue;
+    std::string title = quantity.title;
+    title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(title.front())));
+    text += " " + title + ": " + quantity.definition;
+  }
+  return text;
+}
+
 report::Table index_table(const std::vector<Overlay>& overlays) {
   report::Table table{.title = "Indices",
-                      .caption = "Statistics over time, from every accepted step. Angles also in arcseconds.",
+                      .caption = "Statistics over time, from every accepted step. Angles also in arcseconds." + definitions(overlays),
                       .columns = {{"Motion"},
                                   {"Error"},
                                   {"Maximum"},
@@ -200,6 +216,7 @@ report::Table index_table(const std::vector<Overlay>& overlays) {
   if (one) table.columns.erase(table.columns.begin());
   for (const Overlay& overlay : overlays) {
     for (const QuantityName& quantity : quantity_names()) {
+      if (quantity.kind == PointingQuantity::line_of_sight_error && !overlay.result->index.has_line_of_sight) continue;
       const Statistics& s = overlay.result->index.*quantity.statistics;
       const auto text = [&](double value) { return readable(value, quantity.si_unit); };
       std::vector<nlohmann::json> row = {overlay.name, quantity.title, text(s.max),   s.time_of_max,

@@ -22,10 +22,11 @@ std::vector<report::Fact> headline(const RunResult& result) {
       {.label = "Boresight error, maximum",
        .value = readable(index.boresight_error.max, "rad"),
        .note = readable_arcsec(index.boresight_error.max)},
-      {.label = "Line-of-sight error, maximum",
-       .value = readable(index.line_of_sight_error.max, "rad"),
-       .note = readable_arcsec(index.line_of_sight_error.max)},
   };
+  if (index.has_line_of_sight)
+    facts.push_back({.label = "Line-of-sight error, maximum",
+                     .value = readable(index.line_of_sight_error.max, "rad"),
+                     .note = readable_arcsec(index.line_of_sight_error.max)});
   for (const ContactSummary& c : result.contact)
     facts.push_back({.label = c.joint + ", in contact",
                      .value = readable_share(c.contact_fraction),

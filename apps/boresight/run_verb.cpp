@@ -40,9 +40,11 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
   fmt::print("  boresight error      max {:>10}   RMS {:>10}   ({} max)\n",
              readable(index.boresight_error.max, "rad"), readable(index.boresight_error.rms, "rad"),
              readable_arcsec(index.boresight_error.max));
-  fmt::print("  line-of-sight error  max {:>10}   RMS {:>10}   ({} max)\n",
-             readable(index.line_of_sight_error.max, "rad"), readable(index.line_of_sight_error.rms, "rad"),
-             readable_arcsec(index.line_of_sight_error.max));
+  if (index.has_line_of_sight)
+    fmt::print("  line-of-sight error  max {:>10}   RMS {:>10}   ({} max)\n",
+               readable(index.line_of_sight_error.max, "rad"), readable(index.line_of_sight_error.rms, "rad"),
+               readable_arcsec(index.line_of_sight_error.max));
+  if (result.start > 0.0) fmt::print("  from {} on\n", readable(result.start, "s"));
   for (const ContactSummary& c : result.contact)
     fmt::print("  {}: in contact {} of the time, {} impacts, penetration up to {}, force up to {}\n", c.joint,
                readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"),
@@ -68,6 +70,8 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const RungCh
   Json json = common_summary(command, mechanism, rung, watch, result.warnings, result.interrupted, out);
   json["formulation"] = result.formulation;
   json["integrator"] = result.integrator;
+  json["start"] = result.start;
+  json["settled_from"] = result.settled_from;
   json["end_time"] = result.end_time;
   json["index"] = index_json(result.index);
   json["contact"] = contact_json(result.contact);
@@ -113,6 +117,8 @@ class RunVerb : public Verb {
     app.add_option("--nonlinear", nonlinear_,
                    "the drive's period: adds Poincaré sections, phase portraits and the largest Lyapunov exponent")
         ->type_name("PERIOD");
+    app.add_option("--start", start_, "indices, contact counts and peaks leave out what the motion does before")
+        ->type_name("TIME");
     app.add_option("--index", index_, "what --accuracy is about: position_error.max, boresight_error.rms, ...")
         ->type_name("QUANTITY.STATISTIC")
         ->capture_default_str();
@@ -125,8 +131,12 @@ class RunVerb : public Verb {
     check_rung_name(command.rung);
     motion_.check_rung(command.rung);
     RunOptions options = motion_.run_options(*mechanism);
-    const IndexChoice index = index_named("--index", index_);
+    IndexChoice index = index_named("--index", index_);
+    index.start = options.start = start_.empty() ? replayed_start_ : positive_quantity("--start", start_, kDuration);
+    check_line_of_sight(index, *mechanism, {"command line", 0}, "--index");
+    check_start(index.start, *mechanism, {"command line", 0}, "--start");
     Json identity = motion_.identity();
+    if (index.start > 0.0) identity["start"] = index.start;
     double period = 0.0;
     if (!nonlinear_.empty()) {
       period = positive_quantity("--nonlinear", nonlinear_, kDuration);
@@ -204,6 +214,7 @@ class RunVerb : public Verb {
       command.settings.push_back(setting);
     if (!command.accuracy && asked.rung == "auto") command.accuracy = question.study.accuracy;
     index_ = question.study.index.quantity + "." + question.study.index.statistic;
+    replayed_start_ = question.study.index.start;
     return command;
   }
 
@@ -234,7 +245,8 @@ class RunVerb : public Verb {
 
   MotionOptions motion_;
   bool compare_ = false;
-  std::string index_ = "position_error.max", nonlinear_;
+  std::string index_ = "position_error.max", nonlinear_, start_;
+  double replayed_start_ = 0.0;  // of a study's index [s]
   std::string sample_number_;
 };
 

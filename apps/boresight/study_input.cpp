@@ -19,7 +19,9 @@ StudyInput::StudyInput(const std::string& file, const std::vector<Setting>& sett
       root(document),
       study(read_study(root, document.content_hash())),
       mechanism(std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, settings))),
-      trial(trial_of(study.mechanism_file, settings)) {}
+      trial(trial_of(study.mechanism_file, settings)) {
+  check_index(study, *mechanism);
+}
 
 RungChoice choose_rung_in_sight(const Command& command, RungQuestion question, double trials,
                                 const std::shared_ptr<const Mechanism>& mechanism, const std::vector<Parameters>& samples) {

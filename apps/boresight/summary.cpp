@@ -40,6 +40,7 @@ Json common_summary(const Command& command, const Mechanism& mechanism, const Ru
   json["wall_seconds"] = watch.wall_seconds();
   json["interrupted"] = interrupted;
   json["warnings"] = warnings;
+  json["definitions"] = definitions_json(mechanism.pointing().line_of_sight.has_value());
   json["identity"] = Json::parse(out.identity().dump());
   return json;
 }
@@ -54,7 +55,16 @@ Json statistics_json(const Statistics& s) {
 Json index_json(const PointingIndices& index) {
   Json json;
   for (const QuantityName& quantity : quantity_names())
-    json[quantity.name] = statistics_json(index.*quantity.statistics);
+    if (quantity.kind != PointingQuantity::line_of_sight_error || index.has_line_of_sight)
+      json[quantity.name] = statistics_json(index.*quantity.statistics);
+  return json;
+}
+
+Json definitions_json(bool has_line_of_sight) {
+  Json json;
+  for (const QuantityName& quantity : quantity_names())
+    if (quantity.kind != PointingQuantity::line_of_sight_error || has_line_of_sight) json[quantity.name] = quantity.definition;
+  for (const StatisticName& statistic : statistic_names()) json[statistic.name] = statistic.definition;
   return json;
 }
 

@@ -26,13 +26,14 @@ class Stopwatch {
   double cpu_;
 };
 
-// verb, mechanism, version, rung and why, seed, cost, warnings, identity.
+// verb, mechanism, version, rung and why, seed, cost, warnings, definitions, identity.
 Json common_summary(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
                     const Stopwatch& watch, const std::vector<std::string>& warnings, bool interrupted,
                     const OutputDirectory& out);
 
 Json statistics_json(const Statistics& statistics);
 Json index_json(const PointingIndices& index);                  // per quantity: max, rms, mean, p99.73
+Json definitions_json(bool has_line_of_sight);                  // a sentence per quantity and statistic
 Json contact_json(const std::vector<ContactSummary>& contact);  // per joint
 Json vector_json(const Vec3& vector);                           // [x, y, z]
 

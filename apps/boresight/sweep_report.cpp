@@ -87,7 +87,7 @@ std::string rotations_note(const SweepResult& result) {
 report::Section index_section(const Study& study, const SweepPlan& plan, const SweepResult& result) {
   report::Section section{.id = "index",
                           .title = "The index against the parameter",
-                          .intro = "The study's index is the " + study.index.title() + "."};
+                          .intro = "The study's index is the " + study.index.title() + ". " + study.index.definition()};
   report::Panels panels{.title = "Index", .caption = rotations_note(result), .columns = 2};
   const auto of = [](const char* quantity, const char* statistic) {
     return [choice = IndexChoice{quantity, statistic}](const RunResult& r) { return choice.of(r.index); };
@@ -99,7 +99,8 @@ report::Section index_section(const Study& study, const SweepPlan& plan, const S
     panels.panels.push_back(against_parameter(
         "Boresight error", "boresight error", "rad", plan, result,
         {{"maximum", of("boresight_error", "max")}, {"RMS", of("boresight_error", "rms")}}));
-  panels.panels.push_back(against_parameter(
+  if (!result.points.empty() && result.points.front().result.index.has_line_of_sight)
+    panels.panels.push_back(against_parameter(
       "Line-of-sight error", "line-of-sight error", "rad", plan, result,
       {{"maximum", of("line_of_sight_error", "max")}, {"RMS", of("line_of_sight_error", "rms")}}));
   section.items.push_back(std::move(panels));

@@ -123,6 +123,7 @@ class SweepVerb : public Verb {
     motion_.check_rung(command.rung);
     SweepOptions options;
     options.run = motion_.run_options(*mechanism);
+    options.run.start = study.index.start;
     options.jobs = command.jobs;
     const OutputDirectory out = OutputDirectory::open(
         command.out, command.verb, command.file,

@@ -11,7 +11,7 @@ namespace {
 MechanismDescription read(Document& document) {
   Cursor root(document);
   root.only({"format", "name", "gravity", "body", "payload", "pattern", "joint", "motion", "clearance", "initial", "spring",
-             "load"});
+             "load", "pointing"});
   MechanismDescription mechanism;
   mechanism.origin = {document.filename(), 0};
   mechanism.content_hash = document.content_hash();
@@ -35,9 +35,11 @@ MechanismDescription read(Document& document) {
   mechanism.motion = read_motion(motion, mechanism);
   for (Cursor& spring : sections.springs) mechanism.springs.push_back(read_spring(spring, mechanism));
   for (Cursor& load : sections.loads) mechanism.loads.push_back(read_load(load, mechanism));
-  if (root.has("initial")) {
-    Cursor initial = root.table("initial");
-    mechanism.initial_rates = read_initial(initial, mechanism);
+  Cursor initial = root.table_or_empty("initial");
+  read_initial(initial, mechanism);
+  if (root.has("pointing")) {
+    Cursor pointing = root.table("pointing");
+    mechanism.line_of_sight = read_pointing(pointing, mechanism);
   }
   root.finish();
   document.refuse_unused_settings();

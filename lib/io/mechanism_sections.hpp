@@ -24,7 +24,9 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
 SpringDescription read_spring(Cursor& cursor, const MechanismDescription& so_far);
 LoadDescription read_load(Cursor& cursor, const MechanismDescription& so_far);
 MotionDescription read_motion(Cursor& cursor, const MechanismDescription& so_far);
-std::vector<InitialRateDescription> read_initial(Cursor& cursor, const MechanismDescription& so_far);
+// Into `mechanism`: starting rates, and where journals start.
+void read_initial(Cursor& cursor, MechanismDescription& mechanism);
+LineOfSightDescription read_pointing(Cursor& cursor, const MechanismDescription& so_far);
 
 // The name under `key`, checked to be usable in paths: not empty, none of . * = , { } or quotes, no control characters.
 std::string read_name(Cursor& cursor, const std::string& key);

@@ -178,7 +178,10 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
 
   // A cylindrical joint slides along its axis: no caps, no axial clearance, and no ends unless the journal may tilt.
   ClearanceParameters& p = clearance.parameters;
-  const bool caps = joint.type == JointType::revolute || cursor.has("axial");
+  const bool caps = joint.type == JointType::revolute;
+  if (!caps && cursor.has("axial"))
+    cursor.fail_found("axial", "it on " + in_quotes(joint.name) + ", a cylindrical joint",
+                      "no axial clearance: the journal slides through its sleeve and has no end faces");
   p.radial = positive(cursor, "radial", kLength);
   p.journal_radius = positive(cursor, "journal_radius", kLength);
   if (caps) {

@@ -100,12 +100,11 @@ MotionDescription read_motion(Cursor& cursor, const MechanismDescription& so_far
   return motion;
 }
 
-std::vector<InitialRateDescription> read_initial(Cursor& cursor, const MechanismDescription& so_far) {
+namespace {
+
+std::vector<InitialRateDescription> read_rates(Cursor& table, const MechanismDescription& so_far) {
   using Freedom = InitialRateDescription::Freedom;
-  cursor.only({"rates"});
   std::vector<InitialRateDescription> rates;
-  if (!cursor.has("rates")) return rates;
-  Cursor table = cursor.table("rates");
 
   const auto read_one = [&](Cursor& where, const std::string& key, const std::string& name, const std::string& freedom) {
     InitialRateDescription rate;
@@ -145,8 +144,46 @@ std::vector<InitialRateDescription> read_initial(Cursor& cursor, const Mechanism
     read_one(table, key, key.substr(0, dot), dot == std::string::npos ? "" : key.substr(dot + 1));
   }
   table.finish();
-  cursor.finish();
   return rates;
+}
+
+}  // namespace
+
+void read_initial(Cursor& cursor, MechanismDescription& mechanism) {
+  cursor.only({"rates", "journals"});
+  const bool centred = cursor.choice("journals", {"rest", "centred"}, "centred") == "centred";
+  mechanism.journals = centred ? JournalStart::centred : JournalStart::rest;
+  if (cursor.has("rates")) {
+    Cursor rates = cursor.table("rates");
+    mechanism.initial_rates = read_rates(rates, mechanism);
+  }
+  cursor.finish();
+}
+
+LineOfSightDescription read_pointing(Cursor& cursor, const MechanismDescription& so_far) {
+  cursor.only({"target", "distance", "from"});
+  const auto body = std::find_if(so_far.bodies.begin(), so_far.bodies.end(), [](const auto& b) { return b.boresight.has_value(); });
+  LineOfSightDescription sight;
+  sight.origin = cursor.origin();
+  sight.from = cursor.has("from") ? cursor.vector("from", kLength) : body->center_of_mass;
+  const bool target = cursor.has("target"), distance = cursor.has("distance");
+  if (target && distance) cursor.fail_found("distance", "both a target and a distance", "one of the two");
+  if (!target && !distance) {
+    throw InputError(cursor.origin(), cursor.path("target"), "nothing",
+                     "a target, such as [\"0 m\", \"0 m\", \"5 m\"], or a distance along the boresight");
+  }
+  if (distance) {
+    const double length = cursor.quantity("distance", kLength);
+    cursor.require(length > 0.0, "distance", "a length above zero");
+    sight.target = sight.from + length * *body->boresight;
+  } else {
+    sight.target = cursor.vector("target", kLength);
+    // What rounding leaves of two equal points is no line.
+    const double size = std::max(sight.from.norm(), sight.target.norm());
+    cursor.require((sight.target - sight.from).norm() > 1e-9 * size, "target", "a point away from the reference point (from)");
+  }
+  cursor.finish();
+  return sight;
 }
 
 }  // namespace boresight

@@ -42,6 +42,7 @@ struct LaneJob {
   const LaneScene* scene = nullptr;
   const JournalInSleeve* joints = nullptr;  // one per clearance
   const double* tolerance = nullptr;        // 2 n: largest error of one step, of each z, then of each zdot
+  const double* start = nullptr;            // n: z at the start; zdot is zero there
   const double* gap_tolerance = nullptr;    // one per clearance [m]: a contact begins this close to its located start
 };
 
@@ -50,7 +51,7 @@ enum class LaneStatus { done, step_too_small, too_many_steps };
 struct LaneOutcome {
   LaneStatus status = LaneStatus::done;
   double t = 0.0;  // reached [s]
-  // Of the index over time.
+  // Of the index over time, from LaneSettings::start on.
   double max = 0.0, time_of_max = 0.0, mean = 0.0, mean_square = 0.0;
   double touching_time = 0.0;    // with any contact [s]
   double max_penetration = 0.0;  // [m]
@@ -59,6 +60,7 @@ struct LaneOutcome {
 };
 
 struct LaneSettings {
+  double start = 0.0;           // [s]: of the statistics of the index
   const RosenbrockTable* method = nullptr;
   double longest_step = 4e-3;   // [s]: the scene's numbers are taken as straight lines across a step
   double first_step = 1e-6;     // [s]

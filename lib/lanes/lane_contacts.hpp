@@ -90,12 +90,12 @@ class LaneContacts {
     return depth;
   }
 
-  // A lane starts anew, all contacts open, from end's states.
+  // A lane starts anew from end's states. What rests there has not struck: it counts as no impact, and has the least speed.
   void restart(int lane, std::vector<std::array<T, kContactPlaces>>& impact_speed) {
     for (std::size_t c = 0; c < start.size(); ++c)
       for (ContactPlace place : places_[c]) {
         const int k = static_cast<int>(place);
-        touching_[c][k].set(lane, false);
+        touching_[c][k].set(lane, end[c][k].penetration.lane(lane) > -tolerance[c].lane(lane));
         impact_speed[c][k].set(lane, slowest[c].lane(lane));
         start[c][k].penetration.set(lane, end[c][k].penetration.lane(lane));
         start[c][k].rate.set(lane, end[c][k].rate.lane(lane));

@@ -75,7 +75,7 @@ class LaneIntegrator {
     outcomes_of_[l] = &outcome;
     scenes_[l] = job.scene;
     for (int k = 0; k < count(); ++k) {
-      z_[k].set(l, 0.0);
+      z_[k].set(l, job.start ? job.start[k] : 0.0);
       v_[k].set(l, 0.0);
       tolerance_[k].set(l, 1.0 / job.tolerance[k]);
       tolerance_[count() + k].set(l, 1.0 / job.tolerance[count() + k]);
@@ -115,6 +115,7 @@ class LaneIntegrator {
   void read_starts(const Mask& lanes) {
     scene_rows(scenes_.data(), clock_.times(), width_, new_row_.data());
     for (int k = 0; k < used(); ++k) row_[k] = select(lanes, new_row_[k], row_[k]);
+    statistics_.begin(lanes, index_value(count(), &new_row_[gain_], z_.data()), settings_.start == 0.0);
     dynamics_.contacts(new_row_.data(), z_.data(), v_.data(), contacts_.end.data());
     for (int l = 0; l < W; ++l)
       if (lanes.lane(l)) contacts_.restart(l, dynamics_.impact_speed);
@@ -190,7 +191,10 @@ class LaneIntegrator {
     const T end = index_value(n, &new_row_[gain_], new_z_.data());
     for (int k = gain_; k < gain_ + 3 * n; ++k) change_[k] = row_[k] + T(0.5) * change_[k];
     const T middle = index_value(n, &change_[gain_], middle_z_.data());
-    statistics_.add(accepted, clock_.now(), h, middle, end);
+    if (settings_.start > 0.0)
+      statistics_.add_from(T(settings_.start), accepted, clock_.now(), h, middle, end);
+    else
+      statistics_.add(accepted, clock_.now(), h, middle, end);
     touching_time_ = select(accepted & contacts_.touching(), touching_time_ + h, touching_time_);
     deepest_ = select(accepted, larger(deepest_, contacts_.deepest(h)), deepest_);
   }
@@ -204,8 +208,9 @@ class LaneIntegrator {
     out.t = t;
     out.max = statistics_.max.lane(l);
     out.time_of_max = statistics_.time_of_max.lane(l);
-    out.mean = t > 0.0 ? statistics_.integral.lane(l) / t : 0.0;
-    out.mean_square = t > 0.0 ? statistics_.square.lane(l) / t : 0.0;
+    const double counted = t - settings_.start;
+    out.mean = counted > 0.0 ? statistics_.integral.lane(l) / counted : 0.0;
+    out.mean_square = counted > 0.0 ? statistics_.square.lane(l) / counted : 0.0;
     out.touching_time = touching_time_.lane(l);
     out.max_penetration = deepest_.lane(l);
     out.impacts = static_cast<long>(impacts_.lane(l));

@@ -1,7 +1,8 @@
 // Maximum, mean and mean square of the index |G z| over time, one sample a lane.
 //
 // A step gives the value at its middle (z by the cubic through both ends' z and zdot) and at its end; the integrals are
-// Simpson's, the maximum that of the parabola through three values.
+// Simpson's, the maximum that of the parabola through three values. What comes before a start is left out: of a step across it
+// the part behind it counts, on that parabola.
 #pragma once
 
 #include "boresight/lanes/lane_numbers.hpp"
@@ -13,6 +14,27 @@ template <typename T>
 struct LaneStatistics {
   T value{0.0};  // at the last accepted time
   T max{0.0}, time_of_max{0.0}, integral{0.0}, square{0.0};
+
+  // The index at the start of the motion.
+  template <typename Mask>
+  void begin(const Mask& lanes, const T& at_start, bool counts) {
+    value = select(lanes, at_start, value);
+    if (counts) max = select(lanes, at_start, max);
+  }
+
+  // As add(), from `start` on.
+  template <typename Mask>
+  void add_from(const T& start, const Mask& accepted, const T& t, const T& h, const T& middle, const T& end) {
+    const T before = larger(T(0.0), smaller(T(1.0), (start - t) / h));  // share of the step
+    const Mask across = accepted & (before > T(0.0));
+    const T slope = T(4.0) * middle - T(3.0) * value - end, bend = T(2.0) * (value + end - T(2.0) * middle);
+    const auto at = [&](const T& s) { return value + s * (slope + s * bend); };
+    const T rest = T(1.0) - before;
+    value = select(across, at(before), value);
+    const T middle_of_rest = select(across, at(before + T(0.5) * rest), middle);
+    add(accepted & (before < T(1.0)), t + before * h, rest * h, middle_of_rest, end);
+    value = select(accepted, end, value);
+  }
 
   template <typename Mask>
   void add(const Mask& accepted, const T& t, const T& h, const T& middle, const T& end) {

@@ -7,6 +7,7 @@
 
 #include "boresight/lanes/lane_numbers.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/rungs/resting_start.hpp"
 
 namespace boresight {
 namespace {
@@ -33,7 +34,8 @@ MatX index_gain(const Mechanism& mechanism, const PreparedScene& prepared, Point
   };
   const BodyMotion ideal = prepared.ideal().body(t, mechanism.boresight_body());
   if (quantity == PointingQuantity::boresight_error) return across(ideal.R * mechanism.boresight_B(), E.bottomRows(3));
-  return across(ideal.p / ideal.p.squaredNorm(), E.topRows(3));
+  if (!mechanism.pointing().line_of_sight) throw std::logic_error("no line of sight: the mechanism names no target");
+  return mechanism.pointing().line_of_sight->gain({ideal.p, Quat(ideal.R)}) * E;
 }
 
 }  // namespace
@@ -45,6 +47,7 @@ struct PerturbationLanes::Prepared {
   std::vector<double> in_double;
   std::vector<float> in_single;
   std::vector<LanePlaces> places;
+  std::vector<double> start_row;  // of the scene's numbers, at t = 0
   VecX acceleration;  // root mean square of the ideal reactions' accelerations of each coordinate
   LaneScene lane;
 };
@@ -69,8 +72,8 @@ bool PerturbationLanes::serve(const Mechanism& mechanism) {
   return mechanism.clearances() > 0;
 }
 
-PerturbationLanes::PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity)
-    : mechanism_(std::move(mechanism)), quantity_(quantity), cache_(std::make_unique<Cache>()) {
+PerturbationLanes::PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity, double start)
+    : mechanism_(std::move(mechanism)), quantity_(quantity), start_(start), cache_(std::make_unique<Cache>()) {
   prepared_for(mechanism_->parameters());
 }
 PerturbationLanes::~PerturbationLanes() = default;
@@ -139,6 +142,8 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
   }
   lane.places = p->places.data();
 
+  p->start_row.resize(dynamics.width());
+  dynamics.at(0.0, p->start_row.data());
   p->acceleration = VecX::Zero(n);
   for (int cell = 0; cell < lane.cells; ++cell)
     for (int k = 0; k < n; ++k) {
@@ -161,6 +166,7 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
   std::vector<std::shared_ptr<const Prepared>> prepared;
   std::vector<std::vector<JournalInSleeve>> joints;
   std::vector<std::vector<double>> tolerances;
+  std::vector<VecX> starts;
   std::vector<LaneJob> jobs;
   for (const Parameters& sample : samples) {
     prepared.push_back(prepared_for(sample));
@@ -188,15 +194,19 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
     for (int k = 0; k < at.n; ++k)
       errors.push_back(tolerance * std::sqrt(scale[k] * std::max(p.acceleration[k], 1e-3 * p.acceleration.maxCoeff())));
     errors.insert(errors.end(), gap.begin(), gap.end());
-    jobs.push_back({.scene = &p.lane, .joints = nullptr, .tolerance = nullptr, .gap_tolerance = nullptr});
+    std::string warning;  // the rung itself says it
+    starts.push_back(start_coordinates(*mechanism_, at, p.start_row.data(), own, warning));
+    jobs.push_back({.scene = &p.lane, .joints = nullptr, .tolerance = nullptr, .start = nullptr, .gap_tolerance = nullptr});
   }
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     jobs[i].joints = joints[i].data();
     jobs[i].tolerance = tolerances[i].data();
+    jobs[i].start = starts[i].data();
     jobs[i].gap_tolerance = tolerances[i].data() + 2 * jobs[i].scene->layout->n;
   }
   LaneSettings settings;
   settings.method = &rodas4();
+  settings.start = start_;
   // Across a step the scene's numbers are straight lines: a hundredth of the time in which they turn.
   settings.longest_step = std::min(settings.longest_step, mechanism_->duration() / 100.0);
   target.kernel(jobs.data(), static_cast<long>(jobs.size()), settings, outcomes.data());

@@ -36,7 +36,8 @@ class PerturbationLanes {
   // Coulomb friction or none.
   static bool serve(const Mechanism& mechanism);
   // Throws ComputationError near a singular pose, as the rung does.
-  PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity);
+  // start: the index's statistics leave out what comes before [s].
+  PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity, double start = 0.0);
   ~PerturbationLanes();
 
   // tolerance: largest error of one step in an offset, relative to its clearance c, and in its rate, relative to the speed
@@ -54,6 +55,7 @@ class PerturbationLanes {
 
   std::shared_ptr<const Mechanism> mechanism_;
   PointingQuantity quantity_;
+  double start_;
   struct Cache;
   std::unique_ptr<Cache> cache_;
 };

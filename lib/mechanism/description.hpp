@@ -117,6 +117,17 @@ struct InitialRateDescription {
   Origin origin;
 };
 
+// Where the journals start, at the rates of the ideal motion: in balance under the loads of t = 0, or in the middle of their
+// sleeves.
+enum class JournalStart { rest, centred };
+
+// The line of sight goes from a reference point, which moves with the boresight body, to a target, which stands still.
+struct LineOfSightDescription {
+  Vec3 from = Vec3::Zero();    // at home, world [m]
+  Vec3 target = Vec3::Zero();  // world [m]
+  Origin origin;
+};
+
 struct MechanismDescription {
   std::string name;
   Vec3 gravity = Vec3::Zero();  // [m/s^2]
@@ -127,6 +138,8 @@ struct MechanismDescription {
   std::vector<SpringDescription> springs;
   std::vector<LoadDescription> loads;
   std::vector<InitialRateDescription> initial_rates;
+  JournalStart journals = JournalStart::rest;
+  std::optional<LineOfSightDescription> line_of_sight;
   MotionDescription motion;
   Origin origin;             // the file
   std::string content_hash;  // of the file's bytes and the settings applied to it, hexadecimal; "" if not from a file

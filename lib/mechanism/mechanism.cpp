@@ -70,6 +70,13 @@ void check_clearances(const MechanismDescription& m) {
   }
 }
 
+LineOfSight line_of_sight_of(const LineOfSightDescription& d, const BodyDescription& body) {
+  const Vec3 line = d.target - d.from;
+  if (!(line.norm() > 0.0))
+    throw InputError(d.origin, "pointing.target", "the reference point itself", "a point away from the reference point");
+  return {.from_B = body.axes.transpose() * (d.from - body.center_of_mass), .target = d.target, .reversed = line.z() < 0.0};
+}
+
 }  // namespace
 
 Mechanism::Mechanism(MechanismDescription description) : description_(std::move(description)) {
@@ -97,9 +104,10 @@ Mechanism::Mechanism(MechanismDescription description) : description_(std::move(
       throw InputError(m.bodies[b].origin, "body." + m.bodies[b].name + ".boresight", "a second boresight",
                        "a boresight on one body only");
     boresight_body_ = b;
-    boresight_B_ = (m.bodies[b].axes.transpose() * *m.bodies[b].boresight).normalized();
+    pointing_.boresight_B = (m.bodies[b].axes.transpose() * *m.bodies[b].boresight).normalized();
   }
   if (boresight_body_ < 0) throw InputError(m.origin, "body.boresight", "none", "the pointing axis on one body");
+  if (m.line_of_sight) pointing_.line_of_sight = line_of_sight_of(*m.line_of_sight, m.bodies[boresight_body_]);
 
   characteristic_length_ = 0.0;
   for (const JointDescription& a : m.joints)

@@ -11,6 +11,7 @@
 #include "boresight/mechanism/description.hpp"
 #include "boresight/mechanism/parameter_path.hpp"
 #include "boresight/math/types.hpp"
+#include "boresight/pointing/pointing.hpp"
 
 namespace boresight {
 
@@ -51,7 +52,8 @@ class Mechanism {
   const JointGeometry& geometry(int joint) const { return geometry_[joint]; }
 
   int boresight_body() const { return boresight_body_; }
-  const Vec3& boresight_B() const { return boresight_B_; }  // pointing axis in that body's axes
+  const Vec3& boresight_B() const { return pointing_.boresight_B; }  // pointing axis in that body's axes
+  const Pointing& pointing() const { return pointing_; }             // that axis, and the line of sight if there is one
   int body_index(const std::string& name) const;             // -1 if there is none
 
   // Index of the clearance on this joint, or -1.
@@ -69,7 +71,7 @@ class Mechanism {
   std::vector<JointGeometry> geometry_;
   std::vector<int> clearance_of_;
   int boresight_body_ = 0;
-  Vec3 boresight_B_ = Vec3::UnitZ();
+  Pointing pointing_;
   double characteristic_length_ = 1.0;
 };
 

@@ -29,30 +29,59 @@ Vec3 turn_between(const Vec3& truth, const Vec3& ideal) {
   return turn_of_z(Quat::FromTwoVectors(ideal, Vec3::UnitZ()) * truth.normalized());
 }
 
+// Between the line to the target and the same line with its start displaced by d. The lines themselves may be as long as an
+// orbit is high: their difference would have lost the digits that d has.
+double turn_of_line(const Vec3& line, const Vec3& d) {
+  return std::atan2(d.cross(line).norm(), line.squaredNorm() - line.dot(d));
+}
+
 }  // namespace
 
-PoseError pose_error(const Pose& truth, const Pose& ideal, const Vec3& boresight_B) {
+Eigen::Matrix<double, 3, 6> LineOfSight::gain(const Pose& ideal) const {
+  // d = dp + turn x r, turn of the line = d x s / |s|^2.
+  const auto cross = [](const Vec3& v) {
+    Mat3 m;
+    m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+    return m;
+  };
+  const Vec3 s = line(ideal);
+  Eigen::Matrix<double, 3, 6> gain = Eigen::Matrix<double, 3, 6>::Zero();
+  if (!(s.squaredNorm() > 0.0)) return gain;
+  gain.leftCols<3>() = -cross(s) / s.squaredNorm();
+  gain.rightCols<3>() = cross(s) * cross(ideal.q * from_B) / s.squaredNorm();
+  return gain;
+}
+
+PoseError pose_error(const Pose& truth, const Pose& ideal, const Pointing& pointing) {
   PoseError e;
   e.displacement = truth.p - ideal.p;
   e.rotation = rotation_vector(truth.q * ideal.q.conjugate());
   e.position = e.displacement.norm();
   e.orientation = e.rotation.norm();
-  e.boresight = angle_between(truth.q * boresight_B, ideal.q * boresight_B);
-  // A centre of mass at the world origin has no line of sight from there.
-  e.line_of_sight = ideal.p.squaredNorm() > 0.0 ? angle_between(truth.p, ideal.p) : 0.0;
+  e.boresight = angle_between(truth.q * pointing.boresight_B, ideal.q * pointing.boresight_B);
+  if (const auto& sight = pointing.line_of_sight)
+    e.line_of_sight = turn_of_line(sight->line(ideal), sight->displacement(truth, ideal));
   return e;
 }
 
-Vec3 error_vector(PointingQuantity quantity, const Pose& truth, const Pose& ideal, const Vec3& boresight_B) {
+Vec3 error_vector(PointingQuantity quantity, const Pose& truth, const Pose& ideal, const Pointing& pointing) {
   switch (quantity) {
     case PointingQuantity::position_error:
       return truth.p - ideal.p;
     case PointingQuantity::orientation_error:
       return ideal.q.conjugate() * rotation_vector(truth.q * ideal.q.conjugate());
     case PointingQuantity::boresight_error:
-      return turn_between(ideal.q.conjugate() * (truth.q * boresight_B), boresight_B);
-    case PointingQuantity::line_of_sight_error:
-      return ideal.p.squaredNorm() > 0.0 ? turn_between(truth.p, ideal.p) : Vec3::Zero();
+      return turn_between(ideal.q.conjugate() * (truth.q * pointing.boresight_B), pointing.boresight_B);
+    case PointingQuantity::line_of_sight_error: {
+      if (!pointing.line_of_sight) return Vec3::Zero();
+      const LineOfSight& sight = *pointing.line_of_sight;
+      const Vec3 line = sight.line(ideal), d = sight.displacement(truth, ideal), axis = d.cross(line);
+      if (!(axis.norm() > 0.0)) return Vec3::Zero();
+      Vec3 turn = Quat::FromTwoVectors(sight.reversed ? Vec3(-line) : line, Vec3::UnitZ()) *
+                  Vec3(turn_of_line(line, d) / axis.norm() * axis);
+      turn.z() = 0.0;  // across the line but for rounding
+      return turn;
+    }
   }
   return Vec3::Zero();
 }
@@ -63,6 +92,17 @@ void StatisticsOverTime::reserve(std::size_t steps) {
 }
 
 void StatisticsOverTime::add(double t, double value) {
+  if (t < start_) {
+    last_time_ = t;
+    last_value_ = value;
+    before_ = true;
+    return;
+  }
+  if (before_ && t > start_) {
+    time_.push_back(start_);
+    value_.push_back(last_value_ + (start_ - last_time_) / (t - last_time_) * (value - last_value_));
+  }
+  before_ = false;
   time_.push_back(t);
   value_.push_back(value);
 }
@@ -110,18 +150,20 @@ Statistics StatisticsOverTime::result() const {
 }
 
 void IndicesOverTime::reserve(std::size_t steps) {
-  for (StatisticsOverTime* s : {&position_, &orientation_, &boresight_, &line_of_sight_}) s->reserve(steps);
+  for (StatisticsOverTime* s : {&position_, &orientation_, &boresight_}) s->reserve(steps);
+  if (has_line_of_sight_) line_of_sight_.reserve(steps);
 }
 
 void IndicesOverTime::add(double t, const PoseError& error) {
   position_.add(t, error.position);
   orientation_.add(t, error.orientation);
   boresight_.add(t, error.boresight);
-  line_of_sight_.add(t, error.line_of_sight);
+  if (has_line_of_sight_) line_of_sight_.add(t, error.line_of_sight);
 }
 
 PointingIndices IndicesOverTime::result() const {
-  return {position_.result(), orientation_.result(), boresight_.result(), line_of_sight_.result()};
+  return {position_.result(), orientation_.result(), boresight_.result(), line_of_sight_.result(),
+          has_line_of_sight_};
 }
 
 }  // namespace boresight

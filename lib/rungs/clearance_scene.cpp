@@ -33,8 +33,7 @@ void append(std::vector<double>& to, const Matrix& matrix) {
 
 }  // namespace
 
-ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
-                               double accuracy)
+ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal)
     : mechanism_(mechanism),
       offsets_(mechanism),
       coordinates_(mechanism, ideal),
@@ -51,7 +50,19 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
                         .mass = 1.0,
                         .inertia = m.payload->gyration.array().square().matrix().asDiagonal()}});
   }
+}
 
+ClearanceScene::Start ClearanceScene::at_start(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters) {
+  ClearanceScene scene(mechanism, ideal);
+  const Knot knot = scene.knot_at(0.0, ideal, parameters);
+  Start start{scene.layout_, {}, knot.state, knot.T, knot.T_rate};
+  scene.append_row(parameters, knot, start.row);
+  return start;
+}
+
+ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
+                               double accuracy)
+    : ClearanceScene(mechanism, ideal) {
   // Halve the spacing until the coarse grid's cubics meet the new knots: the finer grid's own error is a sixteenth of that.
   int cells = std::max(kFewestCells, static_cast<int>(std::ceil(mechanism.duration() / kCoarsestSpacing)));
   spacing_ = mechanism.duration() / cells;

@@ -48,6 +48,15 @@ class ClearanceScene {
                  double accuracy = kAccuracy);
   static constexpr double kAccuracy = 1e-5;
 
+  // The scene at t = 0 alone.
+  struct Start {
+    SceneLayout layout;
+    std::vector<double> row;  // of SceneTables::dynamics
+    IdealState ideal;
+    MatX T, T_rate;  // 6 bodies x n
+  };
+  static Start at_start(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters);
+
   const DeviationCoordinates& coordinates() const { return coordinates_; }
   const OffsetLayout& offsets() const { return offsets_; }
   const SceneLayout& layout() const { return layout_; }
@@ -68,6 +77,8 @@ class ClearanceScene {
   const MatX& offsets_per_coordinate(int knot) const { return knots_[knot].B; }
 
  private:
+  ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal);  // without knots
+
   // A mass that rides on a body: what one unit of it adds.
   struct Element {
     int body = 0;

@@ -60,11 +60,12 @@ Crossing flight_crossing(const FreeFlight& f, double h, double secant_share) {
 
 }  // namespace
 
-ContactTracker::ContactTracker(int clearance, std::string joint_name, const JournalInSleeve& law, bool keep_events)
+ContactTracker::ContactTracker(int clearance, std::string joint_name, const JournalInSleeve& law, bool keep_events, double start)
     : clearance_(clearance),
       places_(law.places()),
       minimum_impact_speed_(law.minimum_impact_speed),
-      keep_events_(keep_events) {
+      keep_events_(keep_events),
+      start_(start) {
   summary_.joint = std::move(joint_name);
   summary_.validity_speed = law.validity_speed;
   memory_.impact_speed.fill(minimum_impact_speed_);
@@ -88,7 +89,10 @@ bool ContactTracker::accept(double t, const std::array<ContactState<double>, kCo
       if (started_ && last_[k].penetration < 0.0)
         at = flight_crossing(flight_[k], h, last_[k].penetration / (last_[k].penetration - now.penetration));
       flight_[k].count = 0;
-      begin(place, started_ ? t_ + at.share * h : t, at.rate);
+      if (started_)
+        begin(place, t_ + at.share * h, at.rate);
+      else
+        begin_at_start(place, t, at.rate);
       began = std::min(began, event.start);
       changed = true;
     } else if (now.penetration <= 0.0 && memory_.touching[k]) {
@@ -98,7 +102,7 @@ bool ContactTracker::accept(double t, const std::array<ContactState<double>, kCo
       changed = true;
     }
     if (memory_.touching[k]) {
-      deepen(event, now.penetration);
+      deepen(event, t, now.penetration);
     } else {
       memory_.impact_speed[k] = std::max(minimum_impact_speed_, now.rate);
       FreeFlight& f = flight_[k];
@@ -110,9 +114,9 @@ bool ContactTracker::accept(double t, const std::array<ContactState<double>, kCo
   }
   if (started_) {
     const bool touches = touching();
-    if (touched && touches) touching_time_ += h;
-    if (!touched && touches) touching_time_ += t - began;
-    if (touched && !touches) touching_time_ += ended - t_;
+    if (touched && touches) add_touching(t_, t);
+    if (!touched && touches) add_touching(began, t);
+    if (touched && !touches) add_touching(t_, ended);
   }
   last_ = contact;
   t_ = t;
@@ -120,16 +124,34 @@ bool ContactTracker::accept(double t, const std::array<ContactState<double>, kCo
   return changed;
 }
 
-void ContactTracker::deepen(ContactEvent& event, double penetration) {
+void ContactTracker::deepen(ContactEvent& event, double t, double penetration) {
   event.max_penetration = std::max(event.max_penetration, penetration);
-  summary_.max_penetration = std::max(summary_.max_penetration, penetration);
+  if (counts(t)) summary_.max_penetration = std::max(summary_.max_penetration, penetration);
+}
+
+void ContactTracker::add_touching(double from, double to) { touching_time_ += std::max(0.0, to - std::max(from, start_)); }
+
+void ContactTracker::note_first_rest(double from, double to) {
+  if (settled_ < 0.0 && to - from >= first_touched_) settled_ = from + first_touched_;
+}
+
+void ContactTracker::open(ContactPlace place, double t, double speed) {
+  const int k = static_cast<int>(place);
+  open_[k] = {clearance_, place, t, std::max(speed, 0.0), 0.0, 0.0, 0.0, 0.0};
+  if (!touching()) touched_since_ = t;
+  memory_.touching[k] = true;
+  memory_.impact_speed[k] = std::max(minimum_impact_speed_, speed);
+}
+
+void ContactTracker::begin_at_start(ContactPlace place, double t, double speed) {
+  first_touched_ = 0.0;
+  open(place, t, speed);
 }
 
 void ContactTracker::begin(ContactPlace place, double t, double speed) {
-  const int k = static_cast<int>(place);
-  open_[k] = {clearance_, place, t, std::max(speed, 0.0), 0.0, 0.0, 0.0, 0.0};
-  memory_.touching[k] = true;
-  memory_.impact_speed[k] = std::max(minimum_impact_speed_, speed);
+  if (first_touched_ < 0.0) first_touched_ = t;
+  open(place, t, speed);
+  if (!counts(t)) return;
   ++summary_.impacts;
   summary_.max_impact_speed = std::max(summary_.max_impact_speed, speed);
   summary_.impact_speed_above_validity += speed > summary_.validity_speed;
@@ -141,14 +163,17 @@ void ContactTracker::end(ContactPlace place, double t, double speed) {
   open_[k].end_speed = speed;
   if (keep_events_) closed_.push_back(open_[k]);
   memory_.touching[k] = false;
+  if (touching()) return;
+  if (first_parted_ < 0.0) first_parted_ = t;
+  note_first_rest(touched_since_, t);
 }
 
 void ContactTracker::observe(double t, const std::array<ContactState<double>, kContactPlaces>& contact) {
-  if (touching()) touching_time_ += t - t_;
+  if (touching()) add_touching(t_, t);
   t_ = t;
   for (ContactPlace place : places_) {
     const int k = static_cast<int>(place);
-    if (memory_.touching[k]) deepen(open_[k], contact[k].penetration);
+    if (memory_.touching[k]) deepen(open_[k], t, contact[k].penetration);
   }
 }
 
@@ -157,7 +182,7 @@ void ContactTracker::observe_forces(const std::array<ContactState<double>, kCont
     const int k = static_cast<int>(place);
     if (!memory_.touching[k]) continue;
     open_[k].max_force = std::max(open_[k].max_force, contact[k].normal_force);
-    summary_.max_force = std::max(summary_.max_force, contact[k].normal_force);
+    if (counts(t_)) summary_.max_force = std::max(summary_.max_force, contact[k].normal_force);
   }
 }
 
@@ -169,7 +194,9 @@ ContactSummary ContactTracker::finish(double t_end, std::vector<ContactEvent>& e
     closed_.push_back(open_[k]);
   }
   events.insert(events.end(), closed_.begin(), closed_.end());
-  summary_.contact_fraction = t_end > 0.0 ? touching_time_ / t_end : 0.0;
+  if (touching()) note_first_rest(touched_since_, t_end);
+  summary_.contact_fraction = t_end > start_ ? touching_time_ / (t_end - start_) : 0.0;
+  if (first_touched_ > 0.0) summary_.settled_from = settled_ >= 0.0 ? settled_ : first_parted_ >= 0.0 ? first_parted_ : t_end;
   return summary_;
 }
 

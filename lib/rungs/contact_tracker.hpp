@@ -17,7 +17,8 @@ namespace boresight {
 
 class ContactTracker {
  public:
-  ContactTracker(int clearance, std::string joint_name, const JournalInSleeve& law, bool keep_events);
+  // start: the summary leaves out what comes before [s]; events are kept from t = 0 on.
+  ContactTracker(int clearance, std::string joint_name, const JournalInSleeve& law, bool keep_events, double start = 0.0);
 
   // The state of the contacts at an accepted time, from JournalInSleeve::gaps. Call at the start, then after every step.
   // Returns true if a contact began or ended.
@@ -30,6 +31,8 @@ class ContactTracker {
   // [m/s].
   void observe(double t, const std::array<ContactState<double>, kContactPlaces>& contact);
   void begin(ContactPlace place, double t, double speed);
+  // A contact that the motion starts with: none has struck.
+  void begin_at_start(ContactPlace place, double t, double speed);
   void end(ContactPlace place, double t, double speed);
 
   const ContactMemory& memory() const { return memory_; }
@@ -39,12 +42,19 @@ class ContactTracker {
   ContactSummary finish(double t_end, std::vector<ContactEvent>& events);
 
  private:
-  void deepen(ContactEvent& event, double penetration);
+  void open(ContactPlace place, double t, double speed);
+  void deepen(ContactEvent& event, double t, double penetration);
+  void add_touching(double from, double to);
+  void note_first_rest(double from, double to);
+  bool counts(double t) const { return t >= start_; }
 
   int clearance_;
   std::vector<ContactPlace> places_;
   double minimum_impact_speed_;
   bool keep_events_, started_ = false;
+  double start_;
+  // Of the whole joint: when it was first touched, since when it is, when the first contact ended, when one first lasted [s].
+  double first_touched_ = -1.0, touched_since_ = -1.0, first_parted_ = -1.0, settled_ = -1.0;
   ContactMemory memory_;
   double t_ = 0.0, touching_time_ = 0.0;
   struct FreeFlight {  // the last free values of one gap, newest first

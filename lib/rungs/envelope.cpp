@@ -95,10 +95,10 @@ class Envelope final : public SceneRung {
       BodyAcceleration acceleration;
       const BodyMotion ideal = prepared.ideal().body(now.t, mechanism().boresight_body(), &acceleration);
       const Vec3 axis = ideal.R * mechanism().boresight_B();
-      const double range = ideal.p.norm();
-      Mat3 across, sideways = Mat3::Zero();
+      Eigen::Matrix<double, 3, 6> sight = Eigen::Matrix<double, 3, 6>::Zero();
+      if (const auto& line = mechanism().pointing().line_of_sight) sight = line->gain({ideal.p, Quat(ideal.R)});
+      Mat3 across;
       across << 0.0, axis.z(), -axis.y(), -axis.z(), 0.0, axis.x(), axis.y(), -axis.x(), 0.0;  // turn -> change of axis
-      if (range > 0.0) sideways = (Mat3::Identity() - ideal.p * ideal.p.transpose() / (range * range)) / range;
 
       PoseError bound;
       for (std::size_t c = 0; c < joints.size(); ++c) {
@@ -120,7 +120,7 @@ class Envelope final : public SceneRung {
           bound.position += (part.moves * place).norm();
           bound.orientation += worst(part.turns);
           bound.boresight += worst(across * part.turns);
-          bound.line_of_sight += worst(sideways * part.moves);
+          bound.line_of_sight += worst(sight.leftCols<3>() * part.moves + sight.rightCols<3>() * part.turns);
         }
         JournalMotion<double>& m = worst_rest[c].motion;
         m.e = offset.head<3>();

@@ -25,6 +25,10 @@ class Formulation {
   virtual bool positions_follow_speeds() const = 0;
   // The state of the ideal mechanism at its start: journals concentric, velocities of the ideal motion.
   virtual void start(const IdealState& ideal, VecX& y) = 0;
+  // The state in which the bodies are where, and move as, they do: after start(), for bodies a little off it.
+  virtual void place_bodies(const std::vector<BodyMotion>& bodies, VecX& y) = 0;
+  // Closes all joints, in positions and speeds, along the shortest way and whatever the stabilisation.
+  virtual void close_joints(double t, VecX& y) = 0;
   // dy = f(t, y). Allocates nothing. Throws ComputationError at a singular pose.
   virtual void derivative(double t, const VecX& y, const std::vector<ContactMemory>& memory, VecX& dy) = 0;
   // After an accepted step: whatever keeps the state on its constraints (normalised quaternions, projection).

@@ -39,7 +39,7 @@ void LocatedContacts::change(const GapEvent& event, const std::array<ContactStat
 void LocatedContacts::start(int clearance, double t, const std::array<ContactState<double>, kContactPlaces>& contact) {
   for (int g = first_[clearance]; g < first_[clearance + 1]; ++g) {
     const ContactState<double>& at = contact[static_cast<int>(gaps_[g].place)];
-    if (at.penetration >= 0.0) (*trackers_)[clearance].begin(gaps_[g].place, t, at.rate);
+    if (at.penetration >= 0.0) (*trackers_)[clearance].begin_at_start(gaps_[g].place, t, at.rate);
   }
   act(clearance);
 }

@@ -11,7 +11,9 @@ MotionRecorder::MotionRecorder(const Mechanism& mechanism, const IdealMotion& id
       spacing_(options.sample_spacing),
       frame_spacing_(options.frame_spacing),
       bodies_of_sample_(options.pose_bodies),
-      bodies_of_frame_(options.pose_bodies) {
+      bodies_of_frame_(options.pose_bodies),
+      start_(options.start),
+      indices_(mechanism.pointing().line_of_sight.has_value(), options.start) {
   indices_.reserve(static_cast<std::size_t>(std::clamp(expected_steps, 16.0, 1e7)) + 2);
   result_.boresight.body = mechanism.boresight_body();
   result_.boresight.name = mechanism.description().bodies[mechanism.boresight_body()].name;
@@ -32,7 +34,7 @@ PoseSample MotionRecorder::pose_sample(int body, const BodyMotion& motion,
   PoseSample s;
   s.pose = {motion.p, Quat(motion.R)};
   s.ideal = {ideal.p, Quat(ideal.R)};
-  s.error = pose_error(s.pose, s.ideal, mechanism_.boresight_B());
+  s.error = pose_error(s.pose, s.ideal, mechanism_.pointing());
   s.v = motion.v;
   s.w = motion.w;
   s.a = acceleration.head<3>();
@@ -48,11 +50,12 @@ const PoseError& MotionRecorder::accept(double t, const BodyMotion& body,
   const int index = mechanism_.boresight_body();
   const BodyMotion ideal = ideal_.body(t, index);
   error_ =
-      bound ? *bound : pose_error({body.p, Quat(body.R)}, {ideal.p, Quat(ideal.R)}, mechanism_.boresight_B());
+      bound ? *bound : pose_error({body.p, Quat(body.R)}, {ideal.p, Quat(ideal.R)}, mechanism_.pointing());
   indices_.add(t, error_);
   position_error_max_ = std::max(position_error_max_, error_.position);
-  result_.platform_acceleration_max =
-      result_.platform_acceleration_max.cwiseMax(acceleration.head<3>().cwiseAbs());
+  if (t >= start_)
+    result_.platform_acceleration_max =
+        result_.platform_acceleration_max.cwiseMax(acceleration.head<3>().cwiseAbs());
   result_.end_time = t;
   sampling_ = wants_sample(t);
   framing_ = sampling_ && frame_spacing_ > 0.0 && t >= next_frame_ - kSlack * frame_spacing_;
@@ -101,6 +104,7 @@ void MotionRecorder::sample_clearance(int clearance, const JournalMotion<double>
 
 RunResult MotionRecorder::finish() {
   result_.index = indices_.result();
+  result_.start = start_;
   return std::move(result_);
 }
 

@@ -42,6 +42,7 @@ class MotionRecorder {
   double spacing_, next_sample_ = 0.0, frame_spacing_, next_frame_ = 0.0, t_ = 0.0, position_error_max_ = 0.0;
   bool sampling_ = false, framing_ = false;
   std::vector<int> bodies_of_sample_, bodies_of_frame_;
+  double start_;
   IndicesOverTime indices_;
   PoseError error_;
   RunResult result_;

@@ -18,7 +18,9 @@
 #include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/located_motion.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
+#include "boresight/rungs/multibody_start.hpp"
 #include "boresight/rungs/multibody_system.hpp"
+#include "boresight/rungs/start_up.hpp"
 #include "boresight/rungs/step_error.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
@@ -87,10 +89,8 @@ class Multibody final : public Rung {
     std::vector<JournalMotion<double>> motion(trackers.size());
     MotionRecorder recorder(mechanism, ideal, options, static_cast<double>(steps));
 
-    IdealState start;
-    ideal.state(0.0, start);
-    VecX y;
-    formulation->start(start, y);
+    std::string start_warning;
+    VecX y = multibody_start(mechanism, parameters, ideal, *formulation, start_warning);
     const BristleState bristles(joints);
     // Where friction has a state it follows the bodies', which then are a copy of the head of the whole.
     const Eigen::Index n = y.size();
@@ -152,6 +152,7 @@ class Multibody final : public Rung {
     }
 
     RunResult result = recorder.finish();
+    if (!start_warning.empty()) result.warnings.push_back(start_warning);
     complete(result, options, trackers);
     char text[60];
     std::snprintf(text, sizeof text, "RK4, h = %.6g s", h);
@@ -177,10 +178,8 @@ class Multibody final : public Rung {
         throw std::invalid_argument("LuGre friction has a state that only rk4 carries, not " + integrator);
     std::vector<ContactTracker> trackers = make_trackers(formulation->forces(), options);
     MotionRecorder recorder(*mechanism_, ideal, options, 2.0 * duration / kPaperStep);
-    IdealState start;
-    ideal.state(0.0, start);
-    VecX y;
-    formulation->start(start, y);
+    std::string start_warning;
+    VecX y = multibody_start(*mechanism_, parameters, ideal, *formulation, start_warning);
     MultibodySystem system(*formulation, trackers);
     system.start(0.0, y);
     double drift = 0.0;
@@ -207,6 +206,7 @@ class Multibody final : public Rung {
       throw ComputationError(failure.what() + (system.fault().empty() ? "" : "; refused last: " + system.fault()));
     }
     RunResult result = recorder.finish();
+    if (!start_warning.empty()) result.warnings.push_back(start_warning);
     complete(result, options, trackers);
     report_integration(options, name(), integrator, summary, result);
     result.cost.evaluations += system.evaluations();
@@ -237,7 +237,7 @@ class Multibody final : public Rung {
     std::vector<ContactTracker> trackers;
     const MechanismDescription& m = mechanism_->description();
     for (int c = 0; c < mechanism_->clearances(); ++c)
-      trackers.emplace_back(c, m.joints[m.clearances[c].joint].name, forces.joint(c), options.events);
+      trackers.emplace_back(c, m.joints[m.clearances[c].joint].name, forces.joint(c), options.events, options.start);
     return trackers;
   }
 
@@ -249,6 +249,7 @@ class Multibody final : public Rung {
     std::stable_sort(result.events.begin(), result.events.end(),
                      [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
     warn(result);
+    note_start_up(result);
   }
 
   std::unique_ptr<Formulation> make_formulation(const Parameters& parameters, const RunOptions& options,

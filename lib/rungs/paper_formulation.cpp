@@ -56,18 +56,24 @@ class PaperFormulation final : public Formulation {
   bool positions_follow_speeds() const override { return false; }
 
   void start(const IdealState& ideal, VecX& y) override {
-    y.resize(state_size());
-    for (int b = 0; b < mechanism_.bodies(); ++b) {
-      const BodyMotion& body = ideal.bodies[b];
-      const Quat q(body.R);
-      y.segment<kPerBody>(kPerBody * b) << body.p, q.w(), q.x(), q.y(), q.z(), body.v, body.w;
-    }
+    place_bodies(ideal.bodies, y);
     unpack(y);
     update_laws(ideal.t);
     constraints_.evaluate(bodies_, laws_);
     const RankAnalysis rank = analyse_rank(mechanism_, constraints_, false);
     if (rank.rank < rank.rows) tell_redundant_from_singular(rank.rank, ideal.t);
   }
+
+  void place_bodies(const std::vector<BodyMotion>& bodies, VecX& y) override {
+    y.resize(state_size());
+    for (int b = 0; b < mechanism_.bodies(); ++b) {
+      const BodyMotion& body = bodies[b];
+      const Quat q(body.R);
+      y.segment<kPerBody>(kPerBody * b) << body.p, q.w(), q.x(), q.y(), q.z(), body.v, body.w;
+    }
+  }
+
+  void close_joints(double t, VecX& y) override { project(t, y); }
 
   const std::vector<BodyMotion>& bodies(double, const VecX& y) override {
     unpack(y);

@@ -14,6 +14,7 @@
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/perturbation_system.hpp"
 #include "boresight/rungs/scene_rung.hpp"
+#include "boresight/rungs/start_up.hpp"
 #include "boresight/rungs/step_error.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
@@ -90,7 +91,7 @@ class Perturbation final : public SceneRung {
   RunResult integrate(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options,
                       double wanted) const {
     const Mechanism& mechanism = this->mechanism();
-    PerturbationSystem system(mechanism, parameters, prepared.tables(parameters), options.events);
+    PerturbationSystem system(mechanism, parameters, prepared.tables(parameters), options.events, options.start);
     const OffsetLayout& offsets = prepared.scene().offsets();
     const SceneLayout& at = system.layout();
     const double duration = mechanism.duration();
@@ -99,8 +100,8 @@ class Perturbation final : public SceneRung {
     const long steps = std::max(1L, static_cast<long>(std::ceil(duration / wanted - 1e-9)));
     const double h = duration / static_cast<double>(steps);
     MotionRecorder recorder(mechanism, prepared.ideal(), options, static_cast<double>(steps));
-    VecX y = VecX::Zero(system.size());
-    y.head(system.layout().n).setConstant(options.start_offset);
+    std::string start_warning;
+    VecX y = system.start_state(mechanism, options.start_offset, start_warning);
     ExplicitRungeKutta method(classical_rk4(), system.size());
     system.set_step(h);
     const double limit = classical_rk4().real_limit;
@@ -138,6 +139,7 @@ class Perturbation final : public SceneRung {
     char text[60];
     std::snprintf(text, sizeof text, "RK4, h = %.6g s", h);
     result.integrator = text;
+    if (!start_warning.empty()) result.warnings.push_back(start_warning);
     finish_contacts(system, result);
     result.interrupted = interrupted;
     result.error = {nonlinearity.share(mechanism.characteristic_length()), step_error(std::sqrt(fastest), h),
@@ -151,12 +153,12 @@ class Perturbation final : public SceneRung {
   RunResult integrate_located(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options,
                               const std::string& integrator) const {
     const double duration = mechanism().duration();
-    PerturbationSystem system(mechanism(), parameters, prepared.tables(parameters), options.events);
+    PerturbationSystem system(mechanism(), parameters, prepared.tables(parameters), options.events, options.start);
     if (system.has_bristles())
       throw std::invalid_argument("LuGre friction has a state that only rk4 carries, not " + integrator);
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, 2.0 * duration / kPaperStep);
-    VecX y = VecX::Zero(system.size()), slope = y;
-    y.head(system.layout().n).setConstant(options.start_offset);
+    std::string start_warning;
+    VecX y = system.start_state(mechanism(), options.start_offset, start_warning), slope = y;
     Nonlinearity nonlinearity;
     bool interrupted = false;
     long points = 0;
@@ -173,6 +175,7 @@ class Perturbation final : public SceneRung {
                        });
     RunResult result = recorder.finish();
     report_integration(options, name(), integrator, summary, result);
+    if (!start_warning.empty()) result.warnings.push_back(start_warning);
     finish_contacts(system, result);
     result.interrupted = interrupted;
     result.error = {
@@ -187,6 +190,7 @@ class Perturbation final : public SceneRung {
       result.contact.push_back(tracker.finish(result.end_time, result.events));
     std::stable_sort(result.events.begin(), result.events.end(),
                      [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
+    note_start_up(result);
   }
 
   // Coordinates are offsets, or slopes of journals: these are held to the tolerance at the sleeve's ends.

@@ -4,16 +4,17 @@
 
 #include "boresight/rungs/contact_jacobian.hpp"
 #include "boresight/rungs/offset_dynamics.hpp"
+#include "boresight/rungs/resting_start.hpp"
 
 namespace boresight {
 namespace {
 
 std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::vector<JournalInSleeve>& joints,
-                                        bool keep_events) {
+                                        bool keep_events, double start) {
   std::vector<ContactTracker> trackers;
   const MechanismDescription& m = mechanism.description();
   for (int c = 0; c < mechanism.clearances(); ++c)
-    trackers.emplace_back(c, m.joints[m.clearances[c].joint].name, joints[c], keep_events);
+    trackers.emplace_back(c, m.joints[m.clearances[c].joint].name, joints[c], keep_events, start);
   return trackers;
 }
 
@@ -44,10 +45,10 @@ void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const d
 }  // namespace
 
 PerturbationSystem::PerturbationSystem(const Mechanism& mechanism, const Parameters& parameters,
-                                       std::shared_ptr<const SceneTables> tables, bool keep_events)
+                                       std::shared_ptr<const SceneTables> tables, bool keep_events, double start)
     : tables_(std::move(tables)),
       joints_(clearance_joints(mechanism.description(), parameters)),
-      trackers_(trackers_of(mechanism, joints_, keep_events)),
+      trackers_(trackers_of(mechanism, joints_, keep_events, start)),
       bristles_(joints_),
       contacts_(joints_, trackers_),
       motion_(joints_.size()),
@@ -59,6 +60,14 @@ PerturbationSystem::PerturbationSystem(const Mechanism& mechanism, const Paramet
       gain_(kMotionNumbers, size()),
       virtual_gain_(6, tables_->layout.n),
       force_gradient_(tables_->layout.n, size()) {}
+
+VecX PerturbationSystem::start_state(const Mechanism& mechanism, double offset, std::string& warning) const {
+  scene_at(0.0);
+  VecX y = VecX::Zero(size());
+  y.head(tables_->layout.n) = start_coordinates(mechanism, tables_->layout, row_.data(), joints_, warning);
+  y.head(tables_->layout.n).array() += offset;
+  return y;
+}
 
 bool PerturbationSystem::touching() const {
   return std::any_of(trackers_.begin(), trackers_.end(), [](const ContactTracker& c) { return c.touching(); });

@@ -16,7 +16,11 @@ namespace boresight {
 class PerturbationSystem {
  public:
   PerturbationSystem(const Mechanism& mechanism, const Parameters& parameters,
-                     std::shared_ptr<const SceneTables> tables, bool keep_events);
+                     std::shared_ptr<const SceneTables> tables, bool keep_events, double start = 0.0);
+
+  // Coordinates as motions start with them, rates of the ideal motion, no bristle bent; shifted by `offset` for neighbours.
+  // warning: as start_coordinates().
+  VecX start_state(const Mechanism& mechanism, double offset, std::string& warning) const;
 
   // The bristles of LuGre friction, if any, follow z and zdot; only accept() carries them, not the Jacobian or the events.
   int size() const { return 2 * tables_->layout.n + static_cast<int>(bristles_.size()); }

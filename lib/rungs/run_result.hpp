@@ -26,12 +26,15 @@ struct ContactEvent {
 struct ContactSummary {
   std::string joint;
   double contact_fraction = 0.0;  // share of the time in radial or axial contact
-  std::int64_t impacts = 0;       // contacts begun
+  std::int64_t impacts = 0;       // contacts begun; not those that a motion starts with
   double max_penetration = 0.0;   // [m]
   double max_force = 0.0;         // [N]
   double max_impact_speed = 0.0;  // [m/s]
   double validity_speed = 0.0;    // bound of Eq. 26 for this pair [m/s]
   std::int64_t impact_speed_above_validity = 0;
+  // A journal that starts free of its sleeve has settled by now: it has lain on it once for longer than it took to get there;
+  // where it never does, its first contact is over [s].
+  double settled_from = 0.0;
 };
 
 // One row of timeseries.csv for one body.
@@ -86,6 +89,8 @@ struct RunResult {
   Vec3 platform_acceleration_max = Vec3::Zero();  // of the boresight body's centre of mass, per world axis [m/s^2]
   double constraint_drift = 0.0;                  // largest violation of a position constraint met [m or rad]
   double energy_error = 0.0;  // largest |energy balance| relative to the largest energy met; 0 where not tracked
+  double start = 0.0;         // indices, contact summaries and peaks count from here on [s]
+  double settled_from = 0.0;  // the last of ContactSummary::settled_from [s]
   double end_time = 0.0;      // the motion was followed up to here [s]
   bool interrupted = false;   // stopped by the caller before the end
 

@@ -29,6 +29,7 @@ struct RunOptions {
   std::vector<int> pose_bodies;  // further bodies whose poses are kept
   double frame_spacing = 0.0;    // of the frames, each at a sample [s]; 0: none
   bool events = true;            // keep one ContactEvent per contact
+  double start = 0.0;            // indices, contact summaries and peaks leave out what comes before [s]
 
   // Rungs that follow the motion: integrator_choice.hpp.
   std::string

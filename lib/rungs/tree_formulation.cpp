@@ -80,6 +80,15 @@ class TreeFormulation final : public Formulation {
     loops_.set_redundant(depends(ideal));
   }
 
+  void place_bodies(const std::vector<BodyMotion>& bodies, VecX& y) override {
+    kinematics_.read(bodies, y);
+    placed_time_ = kNever;
+  }
+
+  void close_joints(double t, VecX& y) override {
+    if (loops_.blocks() > 0) project(t, y);
+  }
+
   const std::vector<BodyMotion>& bodies(double t, const VecX& y) override {
     place(t, y);
     return kinematics_.bodies();

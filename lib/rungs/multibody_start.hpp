@@ -1,0 +1,19 @@
+// The state that a motion of the multibody rung starts with: that of the ideal motion, or the same with the journals at rest.
+//
+// The bodies are displaced by T z, z being the balance of resting_start.hpp, which is linear in everything but the contacts,
+// and the joints closed exactly. What that leaves unbalanced (the square of the deviation) is measured on the formulation
+// itself, T^T M (vdot - vdot_ideal), and taken out by the same Newton steps: a mechanism whose drives stand still then stays
+// where it is. The velocities are those of the ideal motion with z held: T-dot z more for each body.
+#pragma once
+
+#include <string>
+
+#include "boresight/rungs/formulation.hpp"
+
+namespace boresight {
+
+// warning: a sentence where journals were to rest and do not; else left alone. Throws ComputationError at a singular pose.
+VecX multibody_start(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal,
+                     Formulation& formulation, std::string& warning);
+
+}  // namespace boresight

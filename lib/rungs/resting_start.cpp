@@ -1,0 +1,201 @@
+#include "boresight/rungs/resting_start.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/rungs/contact_jacobian.hpp"
+#include "boresight/rungs/resting_journal.hpp"
+
+namespace boresight {
+namespace {
+
+// A load below this share of the largest is what rounding leaves of none.
+constexpr double kNoLoad = 1e-9;
+// What may be left unbalanced, as a share of the largest load: rounding leaves 1e-13 of it.
+constexpr double kBalanced = 1e-11, kAcceptable = 1e-8;
+constexpr int kMostSteps = 400;
+// Stiffness below this share of the largest holds nothing.
+constexpr double kSoft = 1e-11;
+
+// Without rates no contact dissipates, whatever the law; with no friction none rubs.
+JournalInSleeve without_friction(JournalInSleeve joint) {
+  joint.friction.kind = joint.tilted.friction.kind = FrictionKind::none;
+  joint.friction.stiction = joint.tilted.friction.stiction = 0.0;
+  joint.sticks = false;
+  return joint;
+}
+
+constexpr std::array<double, kContactPlaces> kSlow = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3};  // of no account without rates
+
+}  // namespace
+
+RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std::vector<JournalInSleeve> joints)
+    : at_(layout), held_(static_cast<std::size_t>(layout.n), false) {
+  const int n = at_.n;
+  for (JournalInSleeve& joint : joints) joints_.push_back(without_friction(std::move(joint)));
+  MatX inverse;
+  at_.inverse_mass(row, inverse);
+  mass_ = inverse.ldlt().solve(MatX::Identity(n, n));
+  using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  reaction_ = mass_ * Eigen::Map<const VecX>(row + at_.Ar, n);
+  stiffness_ = at_.stiff ? MatX(mass_ * Rows(row + at_.AK, n, n)) : MatX(MatX::Zero(n, n));
+  scale_ = VecX::Zero(n);
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    const SceneLayout::Joint& joint = at_.joints[c];
+    const JournalInSleeve& law = joints_[c];
+    MatX& G = offsets_of_.emplace_back(MatX::Zero(5, n));
+    MatX& V = works_on_.emplace_back(MatX::Zero(6, n));
+    slide_.push_back(joint.slides ? row[joint.slide] : 0.0);
+    for (int k = 0; k < joint.offsets; ++k) {
+      const int source = joint.source[k];
+      if (source >= 0) {
+        const double own = k == 1 ? law.axial_clearance : k < 3 ? law.radial_clearance : law.radial_clearance / law.half_length;
+        G(k, source) = 1.0;
+        held_[source] = true;
+        if (own > 0.0) scale_[source] = scale_[source] == 0.0 ? own : std::min(scale_[source], own);
+      } else if (source == DeviationCoordinates::kDependent) {
+        G.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.dependent + k * n, n);
+      } else if (k < 3) {
+        V.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.slide_gain, n);
+      }
+      if (k < 3 && source != DeviationCoordinates::kSlides) V.row(k) = G.row(k);
+    }
+    for (int i = 0; i < joint.spins; ++i)
+      V.row(3 + (joint.tilts ? i : 1)) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.spin_gain + i * n, n);
+  }
+  const double largest = scale_.size() > 0 ? scale_.maxCoeff() : 0.0;
+  for (int k = 0; k < n; ++k)
+    if (scale_[k] == 0.0) scale_[k] = largest > 0.0 ? largest : 1e-6;
+  for (int k = 0; k < n; ++k)
+    if (held_[k]) load_ = std::max(load_, std::abs(reaction_[k] * scale_[k]));
+  for (int k = 0; k < n; ++k)
+    if (!held_[k] || std::abs(reaction_[k] * scale_[k]) <= kNoLoad * load_) reaction_[k] = 0.0;
+}
+
+JournalMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z) const {
+  const Eigen::Matrix<double, 5, 1> offset = offsets_of_[joint] * z;
+  JournalMotion<double> m{offset.head<3>(), Vec3::Zero(), Vec3::Zero()};
+  m.slope = offset.tail<2>();
+  m.slope_rate.setZero();
+  if (at_.joints[joint].slides) m.e.y() = slide_[joint];
+  return m;
+}
+
+void RestingBalance::evaluate(const VecX& z, VecX& F, MatX& by_z) const {
+  F = reaction_ - stiffness_ * z;
+  by_z = -stiffness_;
+  JournalWrench<double> wrench;
+  ContactJacobian of_motion;
+  Eigen::Matrix<double, 6, 5> of_offsets;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    const JournalMotion<double> motion = motion_of(c, z);
+    joints_[c].wrench(motion, kSlow, wrench);
+    contact_jacobian(joints_[c], motion, kSlow, MomentAbout::journal, of_motion);
+    Vec6 load;
+    load << wrench.force, wrench.moment - motion.e.cross(wrench.force);
+    of_offsets << of_motion.leftCols<3>(), of_motion.middleCols<2>(9);
+    F.noalias() += works_on_[c].transpose() * load;
+    by_z.noalias() += works_on_[c].transpose() * (of_offsets * offsets_of_[c]);
+  }
+  for (int k = 0; k < at_.n; ++k)
+    if (!held_[k]) {
+      F[k] = 0.0;
+      by_z.row(k).setZero();
+      by_z.col(k).setZero();
+    }
+}
+
+double RestingBalance::energy(const VecX& z) const {
+  double sum = 0.5 * z.dot(stiffness_ * z) - reaction_.dot(z);
+  for (std::size_t c = 0; c < joints_.size(); ++c) sum += joints_[c].elastic_energy(motion_of(c, z));
+  return sum;
+}
+
+VecX RestingBalance::correction(const MatX& by_z, const VecX& F) const {
+  const MatX H = -(scale_.asDiagonal() * by_z * scale_.asDiagonal());
+  Eigen::CompleteOrthogonalDecomposition<MatX> solver;
+  solver.setThreshold(kSoft);
+  solver.compute(H);
+  return scale_.cwiseProduct(solver.solve(scale_.cwiseProduct(F)));
+}
+
+VecX RestingBalance::balanceable(VecX load) const {
+  for (int k = 0; k < at_.n; ++k)
+    if (!held_[k]) load[k] = 0.0;
+  return load;
+}
+
+// Each journal where its own offsets' loads alone would have it.
+VecX RestingBalance::guess() const {
+  VecX z = VecX::Zero(at_.n);
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    Eigen::Matrix<double, 5, 1> load = Eigen::Matrix<double, 5, 1>::Zero();
+    const SceneLayout::Joint& joint = at_.joints[c];
+    for (int k = 0; k < joint.offsets; ++k)
+      if (joint.source[k] >= 0) load[k] = reaction_[joint.source[k]];
+    const JournalMotion<double> rest = rest_under(joints_[c], load, slide_[c], {}).motion;
+    const std::array<double, 5> offset = {rest.e.x(), rest.e.y(), rest.e.z(), rest.slope[0], rest.slope[1]};
+    for (int k = 0; k < joint.offsets; ++k)
+      if (joint.source[k] >= 0 && std::isfinite(offset[k])) z[joint.source[k]] = offset[k];
+  }
+  return z;
+}
+
+RestingStart RestingBalance::solve() const {
+  const int n = at_.n;
+  RestingStart rest{VecX::Zero(n), ""};
+  if (n == 0 || !(size(reaction_) > 0.0)) return rest;  // nothing presses anywhere
+  VecX z = guess(), F(n), trial(n), F_trial(n);
+  if (!(energy(z) < energy(VecX::Zero(n)))) z.setZero();
+  MatX J(n, n), J_trial(n, n);
+  evaluate(z, F, J);
+  double E = energy(z), damping = 0.0;
+  for (int step = 0; step < kMostSteps && size(F) > kBalanced * load_; ++step) {
+    VecX dz;
+    if (damping == 0.0) {
+      dz = correction(J, F);
+    } else {
+      const MatX H = damping * MatX::Identity(n, n) - MatX(scale_.asDiagonal() * J * scale_.asDiagonal());
+      dz = scale_.cwiseProduct(VecX(H.partialPivLu().solve(scale_.cwiseProduct(F))));
+    }
+    // No farther at once than the clearances are wide: beyond, the contacts are others.
+    const double reach = dz.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
+    if (!std::isfinite(reach)) break;
+    if (reach > 1.0) dz /= reach;
+    trial = z + dz;
+    evaluate(trial, F_trial, J_trial);
+    const double E_trial = energy(trial);
+    if (E_trial < E || size(F_trial) < size(F)) {
+      z = trial;
+      E = E_trial;
+      F.swap(F_trial);
+      J.swap(J_trial);
+      damping = damping > 1e-3 * load_ ? 0.1 * damping : 0.0;
+    } else {
+      if (size(F) <= kAcceptable * load_) break;  // rounding decides which is lower
+      damping = damping == 0.0 ? 1e-2 * load_ : 10.0 * damping;
+    }
+  }
+  if (size(F) > kAcceptable * load_ || !z.allFinite()) {
+    rest.refusal = "no position was found in which the journals' contacts carry the loads of t = 0";
+    return rest;
+  }
+  rest.z = z;
+  return rest;
+}
+
+std::string centred_for_want_of(const std::string& refusal) {
+  return "journals start in the middle of their sleeves: " + refusal;
+}
+
+VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const double* row,
+                       const std::vector<JournalInSleeve>& joints, std::string& warning) {
+  if (mechanism.description().journals == JournalStart::centred) return VecX::Zero(layout.n);
+  const RestingStart rest = RestingBalance(layout, row, joints).solve();
+  if (!rest.refusal.empty()) warning = centred_for_want_of(rest.refusal);
+  return rest.z;
+}
+
+}  // namespace boresight

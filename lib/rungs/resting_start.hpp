@@ -1,0 +1,68 @@
+// Where the journals rest as a motion starts: the deviation z in which the contacts carry what the ideal joints carried,
+//
+//     r(0) + f_elastic(z) - K z = 0
+//
+// all joints together. Nothing moves against the ideal motion yet, so contacts neither dissipate nor rub. Directions in which
+// no load acts and coordinates that are no offsets stay where the ideal motion has them.
+//
+// The balance is the minimum of the elastic energy less the work of the loads, which is convex but for the tilt of faces:
+// Newton's method in offsets over clearances, damped (Levenberg 1944, Quarterly of Applied Mathematics 2, 164-168) where a
+// step does not pay, from where each journal would rest alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/mechanism/mechanism.hpp"
+#include "boresight/rungs/scene_layout.hpp"
+
+namespace boresight {
+
+struct RestingStart {
+  VecX z;                  // the coordinates: zero where there is no balance
+  std::string refusal;     // why there is none; empty where there is one
+};
+
+// The balance at one instant: `row` holds the scene's numbers there (SceneTables::dynamics).
+class RestingBalance {
+ public:
+  RestingBalance(const SceneLayout& layout, const double* row, std::vector<JournalInSleeve> joints);
+
+  RestingStart solve() const;
+
+  // Of what is left unbalanced at z, F = r + f - K z, and of its change with z: n, n x n [N, N m; per m, per slope].
+  void evaluate(const VecX& z, VecX& F, MatX& by_z) const;
+  // The step of z that balances F: the shortest, in offsets over clearances, where contact holds no direction.
+  VecX correction(const MatX& by_z, const VecX& F) const;
+  // A load on z without the part that no journal's place can balance.
+  VecX balanceable(VecX load) const;
+  // The largest part of a load, over its clearance [N m]; to be held against load().
+  double size(const VecX& load) const { return load.cwiseProduct(scale_).cwiseAbs().maxCoeff(); }
+  double load() const { return load_; }            // the largest, over its clearance [N m]
+  const VecX& scale() const { return scale_; }     // of each coordinate: its clearance, or the slope that crosses it
+  const std::vector<JournalInSleeve>& joints() const { return joints_; }  // without friction
+
+ private:
+  JournalMotion<double> motion_of(std::size_t joint, const VecX& z) const;
+  double energy(const VecX& z) const;
+  VecX guess() const;
+
+  const SceneLayout& at_;
+  std::vector<JournalInSleeve> joints_;
+  MatX mass_, stiffness_;
+  VecX reaction_, scale_;
+  std::vector<bool> held_;  // coordinates that the balance may move
+  std::vector<MatX> offsets_of_;  // per joint: 5 x n, offsets per coordinate
+  std::vector<MatX> works_on_;    // per joint: 6 x n, the rates that force and moment work on
+  std::vector<double> slide_;
+  double load_ = 0.0;
+};
+
+// The coordinates that motions of this mechanism start with, `row` being the scene's numbers at t = 0: zero where the file has
+// the journals centred, else their balance. warning: a sentence where that was wanted and not found; else left alone.
+VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const double* row,
+                       const std::vector<JournalInSleeve>& joints, std::string& warning);
+std::string centred_for_want_of(const std::string& refusal);
+
+}  // namespace boresight

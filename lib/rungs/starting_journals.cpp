@@ -1,0 +1,32 @@
+#include "boresight/rungs/starting_journals.hpp"
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/clearance_scene.hpp"
+#include "boresight/rungs/offset_dynamics.hpp"
+#include "boresight/rungs/resting_start.hpp"
+
+namespace boresight {
+
+StartingJournals starting_journals(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
+  const MechanismDescription& m = mechanism.description();
+  StartingJournals start;
+  for (const ClearanceDescription& c : m.clearances) start.journals.push_back({m.joints[c.joint].name, {}, {}});
+  if (m.journals == JournalStart::centred || m.clearances.empty()) return start;
+  try {
+    const ClearanceScene::Start scene = ClearanceScene::at_start(mechanism, ideal, parameters);
+    const VecX z =
+        start_coordinates(mechanism, scene.layout, scene.row.data(), clearance_joints(m, parameters), start.warning);
+    const VecX still = VecX::Zero(z.size());
+    for (std::size_t c = 0; c < start.journals.size(); ++c) {
+      const JournalMotion<double> motion =
+          journal_motion(scene.layout, scene.layout.joints[c], scene.row.data(), z.data(), still.data());
+      start.journals[c].offset = motion.e;
+      if (m.clearances[c].axes == JournalAxes::free) start.journals[c].slope = {motion.slope[0], 0.0, motion.slope[1]};
+    }
+  } catch (const ComputationError& failure) {
+    start.warning = centred_for_want_of(failure.what());
+  }
+  return start;
+}
+
+}  // namespace boresight
