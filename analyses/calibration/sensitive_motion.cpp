@@ -120,6 +120,7 @@ SensitiveMotion follow_with_sensitivity(const Mechanism& mechanism, const Parame
                                         const std::shared_ptr<const SceneTables>& tables,
                                         const ContactNumbers& numbers, const MotionRequest& request) {
   const int n2 = 2 * tables->layout.n;
+  if (n2 == 0) throw ComputationError("no play of this mechanism can move: nothing deviates, so there are no slopes to follow");
   const int count =
       (request.by_parameters ? static_cast<int>(numbers.by.size()) : 0) + (request.by_start_state ? n2 : 0);
   SensitiveMotion out;

@@ -65,6 +65,10 @@ class Computation {
       scene_.ideal = &*ideal_;
       if (mechanism_->clearances() > 0) {
         scene_.contacts = analyse_contacts(*mechanism_, mechanism_->parameters(), *ideal_);
+        // Plays that cannot move have no contacts to follow.
+        if (std::all_of(scene_.contacts.begin(), scene_.contacts.end(),
+                        [](const ContactFrequency& c) { return c.angular_frequency == 0.0; }))
+          scene_.contacts.clear();
         result_.contacts = scene_.contacts;
       }
       followed_.emplace(follow(mechanism_));

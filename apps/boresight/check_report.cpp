@@ -6,6 +6,7 @@
 
 #include "boresight/contact/law_range.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/play_mobility.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
 #include "report_parts.hpp"
 
@@ -105,13 +106,26 @@ void add_law_notes(const Mechanism& mechanism, CheckResult& result) {
   }
 }
 
+// Plays that cannot move, or only together; and an ideal motion that is not known as well as it should be.
+void add_play_findings(const Mechanism& mechanism, const IdealMotion& ideal, CheckResult& result) {
+  IdealState state;
+  ideal.state(0.37 * ideal.duration(), state);  // an instant of no symmetry
+  const PlayMobility play = analyse_play(mechanism, state.bodies);
+  for (const std::string& sentence : held_plays(mechanism, play)) result.findings.push_back(sentence);
+  for (const std::string& sentence : bound_plays(mechanism, play)) result.notes.push_back(sentence);
+  if (ideal.error() > IdealMotion::kAccuracy)
+    result.notes.push_back(
+        fmt::format("the ideal motion is known to {:.1e} of the mechanism's size, not to {:.0e} as it was sought", ideal.error(),
+                    IdealMotion::kAccuracy));
+}
+
 // Where the journals start: centred as the file says, or how far off the middle of their sleeves.
-void add_start_note(const Mechanism& mechanism, CheckResult& result) {
+void add_start_note(const Mechanism& mechanism, const IdealMotion& ideal, CheckResult& result) {
   if (mechanism.description().journals == JournalStart::centred) {
     result.notes.emplace_back("journals start in the middle of their sleeves, as the file says");
     return;
   }
-  result.start = starting_journals(mechanism, mechanism.parameters(), ideal_motion(mechanism, mechanism.parameters()));
+  result.start = starting_journals(mechanism, mechanism.parameters(), ideal);
   if (!result.start.warning.empty()) {
     result.notes.push_back(result.start.warning);
     return;
@@ -137,9 +151,11 @@ CheckResult check_mechanism(const Mechanism& mechanism) {
   }
   if (sound && mechanism.clearances() > 0) {
     try {
-      result.contacts = analyse_contacts(mechanism, mechanism.parameters());
+      const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
+      add_play_findings(mechanism, ideal, result);
+      result.contacts = analyse_contacts(mechanism, mechanism.parameters(), ideal);
       add_law_notes(mechanism, result);
-      add_start_note(mechanism, result);
+      add_start_note(mechanism, ideal, result);
     } catch (const ComputationError& error) {
       result.findings.emplace_back(error.what());
     }
@@ -172,10 +188,12 @@ report::Document check_report(const Command& command, const Mechanism& mechanism
                               .value = worst(&ConditioningSample::position),
                               .note = "1 best, 0 singular"});
   }
-  if (!result.contacts.empty()) {
-    const auto& stiffest = *std::min_element(
-        result.contacts.begin(), result.contacts.end(),
-        [](const auto& a, const auto& b) { return a.largest_stable_step < b.largest_stable_step; });
+  // A play that cannot move has no step.
+  const auto step = [](const ContactFrequency& c) { return c.largest_stable_step > 0.0 ? c.largest_stable_step : 1e300; };
+  const auto stiffest_at = std::min_element(result.contacts.begin(), result.contacts.end(),
+                                            [&](const auto& a, const auto& b) { return step(a) < step(b); });
+  if (stiffest_at != result.contacts.end() && stiffest_at->largest_stable_step > 0.0) {
+    const ContactFrequency& stiffest = *stiffest_at;
     document.facts.push_back({.label = "Largest stable step of RK4",
                               .value = readable(stiffest.largest_stable_step, "s"),
                               .note = "set by " + stiffest.joint});

@@ -54,10 +54,12 @@ void print(const Mechanism& mechanism, const CheckResult& result, const OutputDi
   const KinematicReport& k = result.kinematics;
   fmt::print("{}: {} bodies, {} joints, mobility {}, {} drives, {} redundant rows\n", mechanism.name(),
              k.bodies, k.joints, k.mobility, k.drives, k.redundant_rows);
-  for (const ContactFrequency& c : result.contacts)
+  for (const ContactFrequency& c : result.contacts) {
+    if (c.largest_stable_step == 0.0) continue;  // its play cannot move: a problem below
     fmt::print("  {}: largest stable step of RK4 {}, rest penetration {}, Flores' law valid up to {}\n",
                c.joint, readable(c.largest_stable_step, "s"), readable(c.typical_penetration, "m"),
                readable(c.validity_speed, "m/s"));
+  }
   for (const std::string& note : result.notes) fmt::print("  note: {}\n", note);
   for (const std::string& finding : result.findings) fmt::print("  problem: {}\n", finding);
   if (result.findings.empty()) fmt::print("  nothing stands in the way of this motion\n");

@@ -1,5 +1,6 @@
 #include "boresight/lanes/perturbation_lanes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <list>
 #include <mutex>
@@ -107,7 +108,7 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
     if (!cache_->scene || (!is_kinematic(*mechanism_) && !same_scene(cache_->scene_parameters, parameters))) {
       cache_->scene = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
       cache_->scene_parameters = parameters;
-      cache_->gain = gain_over_time(*cache_->scene, parameters);
+      if (cache_->scene->scene().layout().n > 0) cache_->gain = gain_over_time(*cache_->scene, parameters);
     }
     p->scene = cache_->scene;
     gain_table = cache_->gain;
@@ -116,6 +117,7 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
   const TimeTable &dynamics = p->tables->dynamics, &gain = *gain_table;
   const int n = p->tables->layout.n;
   if (n > kMostLaneCoordinates) throw std::logic_error("lanes do not serve this mechanism: ask serve() first");
+  if (n == 0) return p;  // no play can move: nothing to follow
 
   LaneScene& lane = p->lane;
   lane.gain = dynamics.width();
@@ -171,6 +173,10 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
   for (const Parameters& sample : samples) {
     prepared.push_back(prepared_for(sample));
     const Prepared& p = *prepared.back();
+    if (p.tables->layout.n == 0) {  // of one sample as of all: no play can move
+      std::fill(outcomes.begin(), outcomes.end(), LaneOutcome{.t = mechanism_->duration()});
+      return;
+    }
     const SceneLayout& at = p.tables->layout;
     const std::vector<JournalInSleeve>& own = joints.emplace_back(clearance_joints(mechanism_->description(), sample));
     // Scale of each coordinate: of an offset its clearance, of a slope the slope that crosses it.

@@ -1,5 +1,6 @@
 #include "boresight/mechanism/constraint_system.hpp"
 
+#include <cmath>
 #include <map>
 
 namespace boresight {
@@ -147,6 +148,18 @@ void ConstraintSystem::least_motion(std::vector<Vec6>& b, std::vector<Vec6>& u) 
 double ConstraintSystem::violation() const {
   double largest = 0.0;
   for (const JointRows& rows : rows_) largest = std::max(largest, rows.value.lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
+double ConstraintSystem::violation(double length) const {
+  double largest = 0.0;
+  for (int k = 0; k < blocks(); ++k)
+    for (int i = 0; i < rows_in(k); ++i) {
+      const bool distance = k < static_cast<int>(joints_.size()) ? joints_[k].is_distance(i) : i < 3;
+      const double value = std::abs(rows_[k].value[i]);
+      // A value that is not a number must not be overlooked.
+      if (!(value <= largest * (distance ? length : 1.0))) largest = distance ? value / length : value;
+    }
   return largest;
 }
 

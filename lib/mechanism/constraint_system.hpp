@@ -61,6 +61,8 @@ class ConstraintSystem {
 
   // Largest |value| over all rows [m or rad].
   double violation() const;
+  // The same with lengths in units of `length`: a pure number, whatever the mechanism's size.
+  double violation(double length) const;
   MatX dense_jacobian() const;  // row_count x 6 bodies
 
   std::vector<Vec6> block_vector() const { return std::vector<Vec6>(rows_.size(), Vec6::Zero()); }

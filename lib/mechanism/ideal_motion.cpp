@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 
 #include "boresight/mechanism/error.hpp"
@@ -22,7 +23,8 @@ std::string time_text(double t) {
 // Newton's limits. Convergence is quadratic, so a guess that needs more steps than this lies outside the basin that the
 // continuation is meant to stay in, and a shorter step is taken instead.
 constexpr int kNewtonSteps = 10;
-constexpr double kConverged = 1e-12;  // of the characteristic length
+constexpr double kConverged = 1e-12;  // of the characteristic length, or rad
+constexpr double kExact = 1e-15;
 constexpr double kLargestCorrection = 0.3;  // [characteristic length or rad]: beyond it the branch could change
 
 }  // namespace
@@ -85,14 +87,18 @@ void IdealSolver::laws_at(double t, double scale) {
 
 bool IdealSolver::newton(IdealState& state) {
   const double length = mechanism_.characteristic_length();
-  const double scale = std::max(1.0, length);
+  // A drawing far from the world's origin keeps fewer digits of its lengths.
+  double farthest = 0.0;
+  for (const BodyMotion& body : state.bodies) farthest = std::max(farthest, body.p.lpNorm<Eigen::Infinity>());
+  const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * farthest / length;
+  const double exact = std::max(kExact, 0.25 * rounding), converged = std::max(kConverged, rounding);
   double previous = 1e300, corrected = 0.0;
   for (int step = 0; step < kNewtonSteps; ++step) {
     system_.evaluate(state.bodies, laws_);
-    const double violation = system_.violation() / scale;
+    const double violation = system_.violation(length);
     if (!std::isfinite(violation)) return false;
     // Converged; one more step is still worth its cost while it gains digits.
-    if (violation < 1e-15 || (violation < kConverged && violation > 0.3 * previous)) return true;
+    if (violation < exact || (violation < converged && violation > 0.3 * previous)) return true;
     if (!system_.factor(weight_) && !system_.redundant()) {
       if (analyse_rank(mechanism_, system_, false).rank == system_.row_count()) return false;
       system_.set_redundant(true);
@@ -107,7 +113,7 @@ bool IdealSolver::newton(IdealState& state) {
     if (!(corrected < kLargestCorrection)) return false;
     previous = violation;
   }
-  return previous < kConverged;
+  return previous < converged;
 }
 
 bool IdealSolver::differentiate(IdealState& state) {
@@ -244,18 +250,19 @@ IdealMotion IdealMotion::kinematic(const Mechanism& mechanism) {
       follow(solver, k * T / intervals, state, mechanism);
       knots.push_back(state);
     }
-    IdealMotion motion(mechanism, knots, read_drives);
-    double worst = 0.0;
+    IdealMotion motion(mechanism, knots, 0.0, read_drives);
+    double& worst = motion.error_;
     for (const IdealState& exact : checks)
       worst = std::max(worst, interpolation_error(motion, exact, mechanism.characteristic_length()));
     if (worst < kTolerance || 2 * intervals > kMostIntervals) return motion;
   }
 }
 
-IdealMotion::IdealMotion(const Mechanism& mechanism, const std::vector<IdealState>& knots)
-    : IdealMotion(mechanism, knots, false) {}
+IdealMotion::IdealMotion(const Mechanism& mechanism, const std::vector<IdealState>& knots, double error)
+    : IdealMotion(mechanism, knots, error, false) {}
 
-IdealMotion::IdealMotion(const Mechanism& mechanism, const std::vector<IdealState>& knots, bool read_drives) {
+IdealMotion::IdealMotion(const Mechanism& mechanism, const std::vector<IdealState>& knots, double error, bool read_drives)
+    : error_(error) {
   fit(mechanism, knots, read_drives);
 }
 
@@ -264,6 +271,16 @@ void IdealMotion::fit(const Mechanism& mechanism, const std::vector<IdealState>&
   knots_ = static_cast<int>(knots.size());
   duration_ = knots.back().t - knots.front().t;
   const double spacing = duration_ / (knots_ - 1);
+  // Times that are not those of a grid to rounding; the grid's arithmetic is the faster one.
+  std::vector<double> times;
+  for (int k = 0; k < knots_ && times.empty(); ++k)
+    if (std::abs(knots[k].t - knots.front().t - k * spacing) > 1e-6 * spacing)
+      for (const IdealState& s : knots) times.push_back(s.t);
+  const auto spline = [&](int width, const std::vector<double>& value, const std::vector<double>& rate,
+                          const std::vector<double>& acceleration) {
+    return times.empty() ? QuinticSpline(knots.front().t, spacing, width, value, rate, acceleration)
+                         : QuinticSpline(times, width, value, rate, acceleration);
+  };
   const int width = 7 * bodies_;
   std::vector<double> value, rate, acceleration;
   value.reserve(static_cast<std::size_t>(width) * knots_);
@@ -294,7 +311,7 @@ void IdealMotion::fit(const Mechanism& mechanism, const std::vector<IdealState>&
       }
     }
   }
-  bodies_spline_ = QuinticSpline(knots.front().t, spacing, width, value, rate, acceleration);
+  bodies_spline_ = spline(width, value, rate, acceleration);
 
   for (int j = 0; j < mechanism.joints(); ++j)
     if (mechanism.description().joints[j].driven) driven_.push_back(j);
@@ -321,7 +338,7 @@ void IdealMotion::fit(const Mechanism& mechanism, const std::vector<IdealState>&
       acceleration.push_back(x.acceleration);
     }
   }
-  if (drives > 0) drive_spline_ = QuinticSpline(knots.front().t, spacing, drives, value, rate, acceleration);
+  if (drives > 0) drive_spline_ = spline(drives, value, rate, acceleration);
 }
 
 void IdealMotion::drive_laws(double t, std::vector<TimeValue>& laws) const {

@@ -6,7 +6,7 @@
 // quintic interpolation (which meets value, rate and acceleration at the knots) is exact to about 1e-12 of the lengths.
 //
 // A mechanism with freedoms that nothing drives has no ideal motion by kinematics alone: kinematic() then throws, and the
-// motion is simulated without clearance instead and handed to the other constructor.
+// motion is simulated without clearance instead and handed to the other constructor, with knots wherever its steps ended.
 #pragma once
 
 #include <vector>
@@ -30,11 +30,15 @@ class IdealMotion {
   // Throws ComputationError, naming the time and what is lost, where the motion cannot be followed.
   static IdealMotion kinematic(const Mechanism& mechanism);
 
-  // From states at uniform times, first to last (a simulation without clearance). laws: of the mechanism's driven joints.
-  IdealMotion(const Mechanism& mechanism, const std::vector<IdealState>& knots);
+  // From states at increasing times, first to last (a simulation without clearance). error: see error(). laws: of the
+  // mechanism's driven joints.
+  IdealMotion(const Mechanism& mechanism, const std::vector<IdealState>& knots, double error = 0.0);
 
   double duration() const { return duration_; }
   int knots() const { return knots_; }
+  // What the motion is wrong by, as far as its making could see: in characteristic lengths and radians.
+  double error() const { return error_; }
+  static constexpr double kAccuracy = 1e-9;  // that it is sought with; the kinematic one with a thousandth of it
 
   // Laws of all joints at t (zero where not driven); `laws` must have one entry per joint.
   void drive_laws(double t, std::vector<TimeValue>& laws) const;
@@ -43,10 +47,10 @@ class IdealMotion {
   void state(double t, IdealState& state) const;
 
  private:
-  IdealMotion(const Mechanism& mechanism, const std::vector<IdealState>& knots, bool read_drives);
+  IdealMotion(const Mechanism& mechanism, const std::vector<IdealState>& knots, double error, bool read_drives);
   void fit(const Mechanism& mechanism, const std::vector<IdealState>& knots, bool read_drives);
 
-  double duration_ = 0.0;
+  double duration_ = 0.0, error_ = 0.0;
   int knots_ = 0, bodies_ = 0;
   QuinticSpline bodies_spline_;  // 7 numbers a body: p_WB, then the quaternion w x y z
   std::vector<int> driven_;

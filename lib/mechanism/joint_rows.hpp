@@ -46,6 +46,8 @@ class JointConstraint {
   int other_body() const { return other_.body; }
   int count() const { return static_cast<int>(rows_.size()); }
   bool has_drive() const { return drive_row_ >= 0; }
+  // Whether a row's value is a length [m] and not an angle or a slope.
+  bool is_distance(int row) const { return rows_[row].kind == Kind::distance; }
 
   // law: of the drive, relative to home; ignored where there is none. bodies: all of the mechanism's.
   void evaluate(const std::vector<BodyMotion>& bodies, const TimeValue& law, JointRows& rows) const;

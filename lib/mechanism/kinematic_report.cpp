@@ -62,6 +62,30 @@ std::string number(double x) {
   return text;
 }
 
+// Bearings of one shaft, guides of one slide, that are meant to share an axis and do not, as when a drawing's coordinates were
+// rounded: no motion is left then, however small the difference is.
+std::vector<std::string> misaligned_joints(const Mechanism& mechanism) {
+  constexpr double kExact = 1e-9, kMeant = 1e-2;
+  const std::vector<JointDescription>& joints = mechanism.description().joints;
+  const auto turns = [](JointType t) { return t == JointType::revolute || t == JointType::cylindrical; };
+  std::vector<std::string> sentences;
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    for (std::size_t k = i + 1; k < joints.size(); ++k) {
+      const JointDescription &a = joints[i], &b = joints[k];
+      const bool same_parts = (a.first == b.first && a.second == b.second) || (a.first == b.second && a.second == b.first);
+      const bool slide = a.type == JointType::prismatic && b.type == JointType::prismatic;
+      if (!same_parts || !(slide || (turns(a.type) && turns(b.type)))) continue;
+      const double angle = a.axis.cross(b.axis).norm();
+      const double apart = slide ? 0.0 : (b.point - a.point).cross(a.axis).norm();
+      const double off = std::max(angle, apart / mechanism.characteristic_length());
+      if (off < kExact || off > kMeant) continue;
+      sentences.push_back('"' + a.name + "\" and \"" + b.name + "\" connect the same parts but do not share one axis: they are " +
+                          number(apart) + " m and " + number(angle) +
+                          " rad apart, which leaves no motion; give their points and axes to more digits");
+    }
+  return sentences;
+}
+
 }  // namespace
 
 KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
@@ -79,7 +103,7 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
   std::vector<TimeValue> laws(mechanism.joints());
   ConstraintSystem joints(mechanism, {.clearance = ClearanceRows::closed, .drives = false});
   joints.evaluate(home, laws);
-  if (joints.violation() > 1e-6 * mechanism.characteristic_length()) {
+  if (joints.violation(mechanism.characteristic_length()) > 1e-6) {
     report.feasible = false;
     report.findings.push_back("the joints do not close at home: the drawing's points and axes disagree by " +
                               number(joints.violation()) + " m or rad");
@@ -91,6 +115,12 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
   report.redundant_rows = rank.rows - rank.rank;
   report.mobility = rank.columns - rank.rank;
   report.free_freedoms = m.motion.pose ? 0 : std::max(0, report.mobility - report.drives);
+
+  if (report.drives > report.mobility && !m.motion.pose)
+    for (std::string& sentence : misaligned_joints(mechanism)) {
+      report.feasible = false;
+      report.findings.push_back(std::move(sentence));
+    }
 
   // The ideal motion, sampled; with every drive's row in force, whatever prescribes the motion.
   const bool kinematic = m.motion.pose || report.free_freedoms == 0;

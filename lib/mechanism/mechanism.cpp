@@ -113,6 +113,10 @@ Mechanism::Mechanism(MechanismDescription description) : description_(std::move(
   for (const JointDescription& a : m.joints)
     for (const JointDescription& b : m.joints)
       characteristic_length_ = std::max(characteristic_length_, (a.point - b.point).norm());
+  // Where joints lie close together, as those of a gimbal do, the bodies that they carry are larger.
+  for (const JointDescription& j : m.joints)
+    for (const int b : {j.first, j.second})
+      if (b != kGround) characteristic_length_ = std::max(characteristic_length_, (m.bodies[b].center_of_mass - j.point).norm());
   if (characteristic_length_ <= 0.0) characteristic_length_ = 1.0;
 }
 

@@ -7,16 +7,6 @@
 namespace boresight {
 namespace {
 
-MatX scaled(MatX J, double length) {
-  for (int row = 0; row < J.rows(); ++row) {
-    bool distance = false;
-    for (int b = 0; b < J.cols() / 6; ++b) distance |= J.block(row, 6 * b, 1, 3).cwiseAbs().maxCoeff() > 0.0;
-    if (distance) J.row(row) /= length;
-  }
-  for (int b = 0; b < J.cols() / 6; ++b) J.middleCols(6 * b, 3) *= length;
-  return J;
-}
-
 std::string direction(Vec3 v) {
   v.normalize();
   // The sign of a direction means nothing here: let its largest component be positive.
@@ -31,9 +21,29 @@ std::string direction(Vec3 v) {
 
 }  // namespace
 
+MatX stacked_rows(const JointConstraint& constraint, const std::vector<BodyMotion>& bodies) {
+  JointRows rows;
+  constraint.evaluate(bodies, {}, rows);
+  const Eigen::Index n = constraint.count();
+  MatX J = MatX::Zero(n, 6 * static_cast<Eigen::Index>(bodies.size()));
+  if (const int b = constraint.reference_body(); b != kGround) J.middleCols<6>(6 * b) += rows.reference.topRows(n);
+  if (const int b = constraint.other_body(); b != kGround) J.middleCols<6>(6 * b) += rows.other.topRows(n);
+  return J;
+}
+
+MatX scaled_rows(MatX J, double length) {
+  for (int row = 0; row < J.rows(); ++row) {
+    bool distance = false;
+    for (int b = 0; b < J.cols() / 6; ++b) distance |= J.block(row, 6 * b, 1, 3).cwiseAbs().maxCoeff() > 0.0;
+    if (distance) J.row(row) /= length;
+  }
+  for (int b = 0; b < J.cols() / 6; ++b) J.middleCols(6 * b, 3) *= length;
+  return J;
+}
+
 RankAnalysis analyse_rank(const Mechanism& mechanism, const ConstraintSystem& evaluated, bool with_motion) {
   const double length = mechanism.characteristic_length();
-  const MatX J = scaled(evaluated.dense_jacobian(), length);
+  const MatX J = scaled_rows(evaluated.dense_jacobian(), length);
   RankAnalysis result;
   result.rows = static_cast<int>(J.rows());
   result.columns = static_cast<int>(J.cols());

@@ -17,6 +17,11 @@ struct RankAnalysis {
   VecX least_resisted;     // the motion of all bodies that belongs to it: (v, w) stacked, unit norm after scaling
 };
 
+// Rows of one joint against the stacked velocities of all bodies.
+MatX stacked_rows(const JointConstraint& constraint, const std::vector<BodyMotion>& bodies);
+// Such rows, scaled as above.
+MatX scaled_rows(MatX J, double length);
+
 // Singular values below this share of the largest count as zero.
 inline constexpr double kRankTolerance = 1e-8;
 

@@ -46,6 +46,8 @@ struct TreeJoint {
   // Its free numbers among those of all tree joints: slides first, then turns. A ball has four positions and three speeds.
   int first_position = 0, positions = 0;
   int first_speed = 0, speeds = 0;
+  // How many of its positions are slides [m].
+  int slide_positions() const { return slides[0] + slides[1] + slides[2] - (driven && turns == Turns::none ? 1 : 0); }
 };
 
 class SpanningTree {

@@ -130,6 +130,7 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
   knot.B = coordinates_.offsets_per_coordinate(knot.T);
   ideal.state(t, knot.state);
   add_joints(knot.T, B_rate, knot);
+  if (layout_.n == 0) return knot;  // no play can move
   knot.elements.assign(groups_.size() * element_size(), 0.0);
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (const Element& element : groups_[g])
@@ -213,6 +214,7 @@ void ClearanceScene::assemble(const Parameters& parameters, const Knot& knot, Ma
   M.setZero(n, n);
   C.setZero(n, n);
   r.setZero(n);
+  if (n == 0) return;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const int body = static_cast<int>(g) - 1;
     const double units = g == 0 ? 1.0 : body < mechanism_.bodies() ? parameters.body_mass[body] : parameters.payload_mass;

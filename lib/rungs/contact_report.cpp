@@ -13,10 +13,15 @@
 namespace boresight {
 namespace {
 
-// The offset compliance and the ideal joints' reactions along the motion. The reaction on each journal is what the ideal
-// joint supplies: the offset's acceleration without it, divided by the compliance.
+// Share of what an offset would give way by if its two bodies were free, below which it cannot move: other joints hold it, and
+// rounding leaves 1e-12.
+constexpr double kHeld = 1e-9;
+
+// The offset compliances and the ideal joints' reactions along the motion. The reaction on each journal is what the ideal
+// joint supplies: the offset's acceleration without it, divided by the compliance. Where joints share a load, the least that
+// they can share; where an offset cannot move, none: what holds it carries the load.
 struct AlongMotion {
-  MatX compliance_max;              // the compliance where its trace is largest
+  std::vector<MatX> compliance;                    // instant by instant
   std::vector<double> reaction_rms, reaction_max;  // per clearance [N]
 };
 
@@ -25,6 +30,19 @@ double radial_load(const VecX& reaction, const OffsetLayout::Joint& at, const Jo
   const double force = reaction.segment<3>(at.first).norm();
   if (!at.tilts) return force;
   return force + reaction.segment<2>(at.first + 3).norm() / joint.half_length;
+}
+
+// Of each body as if it were free: what a unit wrench about its own centre of mass accelerates.
+std::vector<Mat6> free_mobility(const Mechanism& mechanism, const Parameters& parameters, const std::vector<BodyMotion>& bodies) {
+  std::vector<Mat6> result;
+  const std::vector<MassProperties> mass = mechanism.mass_properties(parameters);
+  for (std::size_t b = 0; b < mass.size(); ++b) {
+    Mat6 W = Mat6::Zero();
+    W.topLeftCorner<3, 3>() = Mat3::Identity() / mass[b].mass;
+    W.bottomRightCorner<3, 3>() = bodies[b].R * mass[b].inertia.inverse() * bodies[b].R.transpose();
+    result.push_back(W);
+  }
+  return result;
 }
 
 AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal, int samples) {
@@ -46,23 +64,40 @@ AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, con
     dy.resize(y.size());
     formulation->derivative(state.t, y, memory, dy);
     const MatX A = formulation->offset_compliance();
-    if (along.compliance_max.size() == 0 || A.trace() > along.compliance_max.trace()) along.compliance_max = A;
     // Offset accelerations of the opened mechanism, seen from the sleeves; slopes' likewise.
-    VecX offset = VecX::Zero(layout.size());
+    VecX offset = VecX::Zero(layout.size()), free = VecX::Ones(layout.size());
     const std::vector<BodyAcceleration>& a = formulation->acceleration();
+    const std::vector<Mat6> W = free_mobility(mechanism, parameters, state.bodies);
     for (int c = 0; c < n; ++c) {
       const ClearanceDescription& d = mechanism.description().clearances[c];
       const JointConstraint released(mechanism, d.joint, ClearanceRows::released, false);
       JointRows rows;
       released.evaluate(state.bodies, {}, rows);
-      Vec6 acceleration = -rows.gamma;
-      if (const int b = released.reference_body(); b != kGround) acceleration += rows.reference * a[b];
-      if (const int b = released.other_body(); b != kGround) acceleration += rows.other * a[b];
+      Vec6 acceleration = -rows.gamma, mobility = Vec6::Zero();
+      if (const int b = released.reference_body(); b != kGround) {
+        acceleration += rows.reference * a[b];
+        mobility += (rows.reference * W[b] * rows.reference.transpose()).diagonal();
+      }
+      if (const int b = released.other_body(); b != kGround) {
+        acceleration += rows.other * a[b];
+        mobility += (rows.other * W[b] * rows.other.transpose()).diagonal();
+      }
       const OffsetLayout::Joint& at = layout.joint(c);
       for (int k = 0; k < at.count(); ++k)
-        if (at.released(k)) offset[at.first + k] = acceleration[at.released_row(k)];
+        if (at.released(k)) {
+          offset[at.first + k] = acceleration[at.released_row(k)];
+          free[at.first + k] = mobility[at.released_row(k)];
+        }
     }
-    const VecX reaction = A.completeOrthogonalDecomposition().solve(offset);
+    const VecX scale = free.cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<MatX> eigen(scale.asDiagonal() * (0.5 * (A + A.transpose())) * scale.asDiagonal());
+    const VecX weight = eigen.eigenvalues().unaryExpr([](double x) { return x > kHeld ? 1.0 / x : 0.0; });
+    const VecX kept = eigen.eigenvalues().unaryExpr([](double x) { return x > kHeld ? x : 0.0; });
+    const MatX& V = eigen.eigenvectors();
+    const VecX reaction =
+        scale.asDiagonal() * (V * (weight.asDiagonal() * (V.transpose() * VecX(scale.asDiagonal() * offset))));
+    const VecX back = scale.cwiseInverse();
+    along.compliance.push_back(back.asDiagonal() * (V * kept.asDiagonal() * V.transpose()) * back.asDiagonal());
     for (int c = 0; c < n; ++c) {
       const double size = radial_load(reaction, layout.joint(c), joints[c]);
       along.reaction_rms[c] += size * size / samples;
@@ -103,8 +138,9 @@ std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const
     f.typical_load = along.reaction_rms[c];
     f.typical_penetration = law.radial_law.depth_under(f.typical_load);
     f.validity_speed = law.validity_speed;
-    const Mat3 A = along.compliance_max.block<3, 3>(at.first, at.first);
-    const double largest = Eigen::SelfAdjointEigenSolver<Mat3>(A).eigenvalues()[2];
+    double largest = 0.0;
+    for (const MatX& A : along.compliance)
+      largest = std::max(largest, Eigen::SelfAdjointEigenSolver<Mat3>(Mat3(A.block<3, 3>(at.first, at.first))).eigenvalues()[2]);
     f.effective_mass = largest > 0.0 ? 1.0 / largest : 0.0;
     f.largest_load = along.reaction_max[c];
     const double deepest = law.radial_law.depth_under(2.0 * along.reaction_max[c]);
@@ -114,20 +150,22 @@ std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const
     if (at.tilts) root_stiffness.segment<2>(at.first + 3).setConstant(std::sqrt(radial) * law.half_length);
     result.push_back(f);
   }
-  const MatX B = root_stiffness.asDiagonal() * along.compliance_max * root_stiffness.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(0.5 * (B + B.transpose()));
-  for (int c = 0; c < n; ++c) {
-    const OffsetLayout::Joint& at = layout.joint(c);
-    // The fastest vibration in which this joint has a part worth naming (a tenth of the largest).
-    for (Eigen::Index k = layout.size() - 1; k >= 0; --k) {
-      const VecX mode = eigen.eigenvectors().col(k).cwiseAbs();
-      if (mode.segment(at.first, at.count()).maxCoeff() < 0.1 * mode.maxCoeff()) continue;
-      result[c].angular_frequency = std::sqrt(std::max(0.0, eigen.eigenvalues()[k]));
-      break;
+  for (const MatX& A : along.compliance) {
+    const MatX B = root_stiffness.asDiagonal() * A * root_stiffness.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<MatX> eigen(0.5 * (B + B.transpose()));
+    for (int c = 0; c < n; ++c) {
+      const OffsetLayout::Joint& at = layout.joint(c);
+      // The fastest vibration in which this joint has a part worth naming (a tenth of the largest).
+      for (Eigen::Index k = layout.size() - 1; k >= 0 && eigen.eigenvalues()[k] > 0.0; --k) {
+        const VecX mode = eigen.eigenvectors().col(k).cwiseAbs();
+        if (mode.segment(at.first, at.count()).maxCoeff() < 0.1 * mode.maxCoeff()) continue;
+        result[c].angular_frequency = std::max(result[c].angular_frequency, std::sqrt(eigen.eigenvalues()[k]));
+        break;
+      }
     }
-    if (result[c].angular_frequency > 0.0)
-      result[c].largest_stable_step = classical_rk4().real_limit / result[c].angular_frequency;
   }
+  for (ContactFrequency& f : result)
+    if (f.angular_frequency > 0.0) f.largest_stable_step = classical_rk4().real_limit / f.angular_frequency;
   return result;
 }
 

@@ -6,26 +6,18 @@
 #include <cmath>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/rank_analysis.hpp"
 
 namespace boresight {
 namespace {
 
-// Singular values and row remainders below this share of the largest count as zero: rows are of order one once scaled, and
-// rounding leaves 1e-13.
-constexpr double kRankTolerance = 1e-8;
+// Share of a row in motions that no row chosen before sees, from which on a joint's own offsets are coordinates before those
+// of other joints.
+constexpr double kPlainlyIndependent = 0.1;
+// What redundant rows may disagree by, scaled: the ideal motion closes its joints to 1e-12.
+constexpr double kContradiction = 1e-9;
 // Offsets of a ten-thousandth of the lengths, multiplied by more than this, are no small deviation any more.
 constexpr double kLargestGain = 1e3;
-
-// Rows of one joint as rows against the stacked velocities.
-MatX stacked(const JointConstraint& constraint, const std::vector<BodyMotion>& bodies) {
-  JointRows rows;
-  constraint.evaluate(bodies, {}, rows);
-  MatX J = MatX::Zero(constraint.count(), 6 * static_cast<Eigen::Index>(bodies.size()));
-  const Eigen::Index n = constraint.count();
-  if (const int b = constraint.reference_body(); b != kGround) J.middleCols<6>(6 * b) += rows.reference.topRows(n);
-  if (const int b = constraint.other_body(); b != kGround) J.middleCols<6>(6 * b) += rows.other.topRows(n);
-  return J;
-}
 
 }  // namespace
 
@@ -36,6 +28,7 @@ DeviationCoordinates::DeviationCoordinates(const Mechanism& mechanism, const Ide
       closed_(mechanism, {.clearance = ClearanceRows::closed, .drives = true}),
       open_(mechanism, {.clearance = ClearanceRows::open, .drives = true}),
       weight_(kinematic_weight(mechanism)),
+      length_(mechanism.characteristic_length()),
       scale_(6 * mechanism.bodies()),
       laws_(mechanism.joints()),
       b_(closed_.block_vector()),
@@ -62,14 +55,24 @@ DeviationCoordinates::DeviationCoordinates(const Mechanism& mechanism, const Ide
         }
   } else {
     open_.evaluate(state_.bodies, laws_);
-    const MatX kept = open_.dense_jacobian() * scale_.asDiagonal();
-    const Eigen::BDCSVD<MatX> svd(kept, Eigen::ComputeFullV);
-    const Eigen::Index rank = (svd.singularValues().array() > kRankTolerance * svd.singularValues()[0]).count();
+    const MatX kept = scaled_rows(open_.dense_jacobian(), length_);
     std::vector<MatX> rows;
-    for (const JointConstraint& c : rows_) rows.push_back(stacked(c, state_.bodies) * scale_.asDiagonal());
-    choose(rows, svd.matrixV().rightCols(kept.cols() - rank));
+    for (const JointConstraint& c : rows_) rows.push_back(scaled_rows(stacked_rows(c, state_.bodies), length_));
+    if (kept.rows() == 0) {
+      choose(rows, MatX::Identity(kept.cols(), kept.cols()));
+    } else {
+      const Eigen::BDCSVD<MatX> svd(kept, Eigen::ComputeFullV);
+      const Eigen::Index rank = (svd.singularValues().array() > kRankTolerance * svd.singularValues()[0]).count();
+      choose(rows, svd.matrixV().rightCols(kept.cols() - rank));
+    }
   }
   count_ = static_cast<int>(chosen_.size());
+  unit_ = VecX::Ones(count_);
+  for (int z = 0; z < count_; ++z) {
+    const MatX row = stacked_rows(rows_[chosen_[z].constraint], state_.bodies).row(chosen_[z].row);
+    for (int b = 0; b < mechanism.bodies(); ++b)
+      if (row.middleCols<3>(6 * b).cwiseAbs().maxCoeff() > 0.0) unit_[z] = length_;
+  }
   for (int c = 0; c < layout_.clearances(); ++c)
     if (layout_.joint(c).slides) source_[layout_.joint(c).first + 1] = kSlides;
   for (int s : source_) has_dependent_ = has_dependent_ || s == kDependent;
@@ -91,14 +94,13 @@ void DeviationCoordinates::choose(const std::vector<MatX>& rows, const MatX& nul
   };
   MatX basis(freedoms, 0);
   const int clearances = layout_.clearances();
-  std::vector<Chosen> offsets;
-  for (const auto& [first, last] : {std::pair{0, clearances}, std::pair{clearances, static_cast<int>(rows.size())}}) {
-    std::vector<Candidate> candidates = take(first, last);
+  // Adds rows that see something which those chosen before do not, the one that sees most of it first.
+  const auto add = [&](std::vector<Candidate> candidates, double least) {
     while (basis.cols() < freedoms) {
       const Candidate* best = nullptr;
-      double largest = kRankTolerance;
+      double largest = least;
       for (Candidate& c : candidates) {
-        VecX rest = c.seen - basis * (basis.transpose() * c.seen);
+        const VecX rest = c.seen - basis * (basis.transpose() * c.seen);
         if (rest.norm() > largest) largest = rest.norm(), best = &c;
       }
       if (!best) break;
@@ -107,9 +109,13 @@ void DeviationCoordinates::choose(const std::vector<MatX>& rows, const MatX& nul
       basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
       basis.rightCols(1) = rest.normalized();
       chosen_.push_back({best->constraint, best->row});
-      if (first > 0) ++leftover_;
     }
-  }
+  };
+  for (int c = 0; c < clearances; ++c) add(take(c, c + 1), kPlainlyIndependent);
+  add(take(0, clearances), kRankTolerance);
+  const std::size_t offsets = chosen_.size();
+  add(take(clearances, static_cast<int>(rows.size())), kRankTolerance);
+  leftover_ = static_cast<int>(chosen_.size() - offsets);
   if (basis.cols() < freedoms)
     throw ComputationError("the mechanism can move in " + std::to_string(freedoms - basis.cols()) +
                            " way(s) that no coordinate of a joint describes; use the multibody rung");
@@ -141,8 +147,9 @@ void DeviationCoordinates::gain(double t, MatX& T) {
   } else {
     dense_gain(t, T);
   }
-  const double largest = (scale_.cwiseInverse().asDiagonal() * T).cwiseAbs().maxCoeff() * scale_.minCoeff();
-  if (count_ > 0 && !(largest < kLargestGain)) throw_singular(t);
+  if (count_ == 0) return;
+  const double largest = (scale_.cwiseInverse().asDiagonal() * T * unit_.asDiagonal()).cwiseAbs().maxCoeff();
+  if (!(largest < kLargestGain)) throw_singular(t);
 }
 
 void DeviationCoordinates::sparse_gain(MatX& T) {
@@ -168,21 +175,21 @@ void DeviationCoordinates::sparse_gain(MatX& T) {
 }
 
 void DeviationCoordinates::dense_gain(double t, MatX& T) {
+  if (count_ == 0) return;
   open_.evaluate(state_.bodies, laws_);
-  const MatX kept = open_.dense_jacobian();
-  MatX all(kept.rows() + count_, kept.cols()), right = MatX::Zero(kept.rows() + count_, count_);
-  all.topRows(kept.rows()) = kept;
+  MatX all(open_.row_count() + count_, T.rows()), right = MatX::Zero(open_.row_count() + count_, count_);
+  all.topRows(open_.row_count()) = open_.dense_jacobian();
   right.bottomRows(count_).setIdentity();
   for (int z = 0; z < count_; ++z)
-    all.row(kept.rows() + z) = stacked(rows_[chosen_[z].constraint], state_.bodies).row(chosen_[z].row);
-  all = all * scale_.asDiagonal();
+    all.row(open_.row_count() + z) = stacked_rows(rows_[chosen_[z].constraint], state_.bodies).row(chosen_[z].row);
+  all = scaled_rows(std::move(all), length_);
   Eigen::ColPivHouseholderQR<MatX> qr(all);
   qr.setThreshold(kRankTolerance);
   if (qr.rank() < all.cols()) throw_singular(t);
   MatX x = qr.solve(right);
   x += qr.solve(MatX(right - all * x));
-  if ((right - all * x).cwiseAbs().maxCoeff() > 1e-9) throw_singular(t);
-  T = scale_.asDiagonal() * x;
+  if ((right - all * x).cwiseAbs().maxCoeff() > kContradiction) throw_singular(t);
+  T = scale_.asDiagonal() * x * unit_.cwiseInverse().asDiagonal();
 }
 
 MatX DeviationCoordinates::offsets_per_coordinate(const MatX& T) const {
@@ -194,7 +201,7 @@ MatX DeviationCoordinates::offsets_per_coordinate(const MatX& T) const {
       const int source = source_[joint.first + k];
       if (source >= 0) B(joint.first + k, source) = 1.0;
       if (source != kDependent) continue;
-      if (released.size() == 0) released = stacked(rows_[c], state_.bodies) * T;
+      if (released.size() == 0) released = stacked_rows(rows_[c], state_.bodies) * T;
       B.row(joint.first + k) = released.row(joint.released_row(k));
     }
   }

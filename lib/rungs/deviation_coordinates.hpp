@@ -6,8 +6,10 @@
 // S are, in this order of preference:
 //   the released rows of the clearance joints: z are then the joints' offsets themselves (OffsetLayout);
 //   coordinates of other joints (turns, slides), where the ideal mechanism has freedoms that nothing drives.
-// Where redundant joints hold an offset that its clearance would release (a planar loop in space), the offset is no
-// coordinate: it is zero or follows the others, xi = B z with B = R T, R the released rows.
+// Where redundant joints hold an offset that its clearance would release (a planar loop in space, the other bearing of a
+// shaft), the offset is no coordinate: it is zero or follows the others, xi = B z with B = R T, R the released rows. Of joints
+// that hang together the first gives its offsets, as many as are independent: that choice is good in every pose. There may be
+// no coordinate at all, where no play can move.
 // Default scene: one revolute joint, three coordinates, its offsets.
 #pragma once
 
@@ -60,7 +62,9 @@ class DeviationCoordinates {
   ConstraintSystem closed_, open_;
   bool sparse_ = false;  // all rows, released ones included, are as many as the bodies' freedoms, and independent
   std::vector<Mat6> weight_;
+  double length_;
   VecX scale_;  // kinematic weight of the stacked velocities
+  VecX unit_;   // of each coordinate: the characteristic length of a distance, 1 of a turn or a slope
   std::vector<JointConstraint> rows_;  // released rows per clearance, then free rows per joint
   std::vector<Chosen> chosen_;
   std::vector<int> source_;

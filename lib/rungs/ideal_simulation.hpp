@@ -1,5 +1,7 @@
 // The ideal motion of any mechanism: by kinematics where everything is driven, else simulated without clearance from its
-// starting rates, with the step halved until two runs agree to 1e-9 of the characteristic length.
+// starting rates, until two runs agree to IdealMotion::kAccuracy: RK4 with the step halved, or, where springs and dampers are
+// so stiff that stability asks for more steps than the motion does, RODAS4 with the tolerance tightened. What the two differ by
+// in the end is the motion's error().
 #pragma once
 
 #include "boresight/mechanism/ideal_motion.hpp"

@@ -11,21 +11,25 @@
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/bristle_state.hpp"
-#include "boresight/rungs/contact_report.hpp"
 #include "boresight/rungs/contact_tracker.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/formulation.hpp"
+#include "boresight/rungs/held_play.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/located_motion.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/multibody_start.hpp"
 #include "boresight/rungs/multibody_system.hpp"
+#include "boresight/rungs/own_step.hpp"
 #include "boresight/rungs/start_up.hpp"
 #include "boresight/rungs/step_error.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
 namespace boresight {
 namespace {
+
+// Into how many a failed step is divided, to see whether it was too long.
+constexpr int kShorter = 64;
 
 class Multibody final : public Rung {
  public:
@@ -43,11 +47,20 @@ class Multibody final : public Rung {
     const IdealMotion& ideal = ideal_for(parameters, simulated);
 
     const std::string integrator = integrator_of(options, name());
-    RunResult result =
-        integrator != "rk4"
-            ? integrate_located(parameters, options, ideal, integrator)
-            : with_stable_step(options.step, own_step(parameters, options, ideal), options.sample_spacing,
-                               [&](double step) { return integrate(parameters, options, ideal, step); });
+    RunResult result;
+    if (make_formulation(parameters, options, ideal)->state_size() == 0) {
+      result = motion_without_play(*mechanism_, ideal, parameters, options);
+      result.rung = name();
+      result.formulation = "tree";
+    } else if (integrator != "rk4") {
+      result = integrate_located(parameters, options, ideal, integrator);
+    } else {
+      const double own = options.step > 0.0 ? options.step : own_step(*mechanism_, parameters, ideal);
+      result = with_stable_step(options.step, own, options.sample_spacing,
+                                [&](double step) { return integrate(parameters, options, ideal, step); });
+    }
+    const std::vector<std::string>& held = held_by_others(ideal);
+    result.warnings.insert(result.warnings.begin(), held.begin(), held.end());
     result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
     result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
     return result;
@@ -64,12 +77,10 @@ class Multibody final : public Rung {
     return *simulated;
   }
 
-  double own_step(const Parameters& parameters, const RunOptions& options, const IdealMotion& ideal) const {
-    if (options.step > 0.0) return options.step;  // not asked: spare the analysis
-    double step = std::min(kPaperStep, mechanism_->duration() / 100.0);
-    for (const ContactFrequency& c : analyse_contacts(*mechanism_, parameters, ideal))
-      if (c.largest_stable_step > 0.0) step = std::min(step, kShareOfStableStep * c.largest_stable_step);
-    return step;
+  // Sentences on plays that cannot move: of the mechanism, whatever the parameters.
+  const std::vector<std::string>& held_by_others(const IdealMotion& ideal) const {
+    std::call_once(held_once_, [&] { held_ = held_plays(*mechanism_, ideal); });
+    return held_;
   }
 
   RunResult integrate(const Parameters& parameters, const RunOptions& options, const IdealMotion& ideal,
@@ -111,7 +122,16 @@ class Multibody final : public Rung {
                      dy.tail(bristles.size()));
     };
 
+    const auto advance = [&](double t, double step, VecX& state) {
+      method.step(t, step, state, derivative);
+      if (bristles.empty()) return formulation->settle(t + step, state);
+      head = state.head(n);
+      formulation->settle(t + step, head);
+      state.head(n) = head;
+    };
+
     double drift = 0.0, fastest = 0.0;
+    VecX before;
     MatX compliance;
     long compliance_age = 0;
     // The compliance changes with the pose only: fifty times along the motion is often enough.
@@ -119,9 +139,7 @@ class Multibody final : public Rung {
     bool interrupted = false;
     for (long i = 0;; ++i) {
       const double t = static_cast<double>(i) * h;
-      if (!y.allFinite())
-        throw ComputationError("the motion grew without bound before t = " + std::to_string(t) +
-                               " s with h = " + std::to_string(h) + " s; take a smaller step");
+      if (!y.allFinite()) throw UnstableStep("the state is not finite", t, h);
       accept_contacts(formulation->bodies(t, bodies_of(y)), t, forces, trackers, memory, motion);
       bristles.release(memory, y.tail(bristles.size()));
       derivative(t, y, method.first_slope());
@@ -141,13 +159,19 @@ class Multibody final : public Rung {
         interrupted = true;
         break;
       }
-      method.step(t, h, y, derivative);
-      if (bristles.empty()) {
-        formulation->settle(t + h, y);
-      } else {
-        head = y.head(n);
-        formulation->settle(t + h, head);
-        y.head(n) = head;
+      before = y;
+      try {
+        advance(t, h, y);
+      } catch (const ComputationError&) {
+        // A pose that short steps from the same state pass as well, or one that is met with journals deep in their sleeves,
+        // comes of the step.
+        if (sunk(joints, motion)) throw UnstableStep("a journal deep in its sleeve", t, h);
+        for (int k = 0; k < kShorter; ++k) {
+          const double within = t + k * h / kShorter;
+          derivative(within, before, method.first_slope());
+          advance(within, h / kShorter, before);
+        }
+        throw UnstableStep("shorter steps go on from there", t, h);
       }
     }
 
@@ -267,6 +291,17 @@ class Multibody final : public Rung {
                                  {true, stabilisation, options.baumgarte_alpha, options.baumgarte_beta});
   }
 
+  // Whether a contact is deeper than solids are pressed into each other: a tenth of the bore's radius.
+  static bool sunk(const std::vector<JournalInSleeve>& joints, const std::vector<JournalMotion<double>>& motion) {
+    std::array<ContactState<double>, kContactPlaces> contact;
+    for (std::size_t c = 0; c < joints.size(); ++c) {
+      joints[c].gaps(motion[c], contact);
+      for (const ContactState<double>& place : contact)
+        if (place.penetration > 0.1 * joints[c].bore_radius) return true;
+    }
+    return false;
+  }
+
   static void accept_contacts(const std::vector<BodyMotion>& bodies, double t, const ForceElements& forces,
                               std::vector<ContactTracker>& trackers, std::vector<ContactMemory>& memory,
                               std::vector<JournalMotion<double>>& motion) {
@@ -314,7 +349,8 @@ class Multibody final : public Rung {
   }
 
   std::shared_ptr<const Mechanism> mechanism_;
-  mutable std::once_flag once_;
+  mutable std::once_flag once_, held_once_;
+  mutable std::vector<std::string> held_;
   mutable bool kinematic_ = false;
   mutable std::optional<IdealMotion> ideal_;
 };

@@ -20,6 +20,7 @@
 #include "boresight/mechanism/offset_layout.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 #include "boresight/rungs/formulation.hpp"
+#include "boresight/rungs/singular_pose.hpp"
 
 namespace boresight {
 namespace {
@@ -85,7 +86,7 @@ class PaperFormulation final : public Formulation {
     evaluate_forces(t, memory);
     update_laws(t);
     constraints_.evaluate(bodies_, laws_);
-    if (!constraints_.factor(inverse_mass_)) throw_singular(t);
+    factor(t, y);
 
     for (int b = 0; b < mechanism_.bodies(); ++b) acceleration_[b].noalias() = inverse_mass_[b] * force_[b];
     constraints_.multiply(acceleration_, lambda_);
@@ -194,6 +195,12 @@ class PaperFormulation final : public Formulation {
     constraints_.set_redundant(true);
   }
 
+  void factor(double t, const VecX& y) {
+    if (constraints_.factor(inverse_mass_)) return;
+    if (!y.allFinite()) throw ComputationError("the motion grew without bound before t = " + std::to_string(t) + " s");
+    throw_singular(t);
+  }
+
   void update_laws(double t) {
     if (drives_) drives_->drive_laws(t, laws_);
   }
@@ -225,8 +232,8 @@ class PaperFormulation final : public Formulation {
       unpack(y);
       evaluate_inverse_mass();
       constraints_.evaluate(bodies_, laws_);
-      if (!constraints_.factor(inverse_mass_)) throw_singular(t);
-      if (pass == 2 || constraints_.violation() < 1e-14) break;
+      factor(t, y);
+      if (pass == 2 || constraints_.violation(mechanism_.characteristic_length()) < 1e-14) break;
       for (int k = 0; k < constraints_.blocks(); ++k) lambda_[k] = -constraints_.rows(k).value;
       constraints_.least_motion(lambda_, reaction_);
       for (int b = 0; b < mechanism_.bodies(); ++b) {
@@ -260,13 +267,7 @@ class PaperFormulation final : public Formulation {
     }
   }
 
-  [[noreturn]] void throw_singular(double t) const {
-    const RankAnalysis rank = analyse_rank(mechanism_, constraints_);
-    throw ComputationError("singular pose at t = " + std::to_string(t) + " s: the constraints lose rank, \"" +
-                           mechanism_.description().bodies[mechanism_.boresight_body()].name + "\" " +
-                           describe_motion(mechanism_, rank.least_resisted, mechanism_.boresight_body()) +
-                           " while every drive stands still; `boresight check` shows where");
-  }
+  [[noreturn]] void throw_singular(double t) const { throw SingularPose(mechanism_, constraints_, t); }
 
   const Mechanism& mechanism_;
   const IdealMotion* drives_;

@@ -5,13 +5,11 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include <Eigen/Eigenvalues>
-
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
-#include "boresight/rungs/contact_report.hpp"
 #include "boresight/rungs/located_motion.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
+#include "boresight/rungs/own_step.hpp"
 #include "boresight/rungs/perturbation_system.hpp"
 #include "boresight/rungs/scene_rung.hpp"
 #include "boresight/rungs/start_up.hpp"
@@ -49,43 +47,9 @@ class Perturbation final : public SceneRung {
   RunResult follow(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options) const override {
     const std::string integrator = integrator_of(options, name());
     if (integrator != "rk4") return integrate_located(prepared, parameters, options, integrator);
-    const double own = options.step > 0.0 ? options.step : own_step(prepared, parameters);
+    const double own = options.step > 0.0 ? options.step : own_step(mechanism(), parameters, prepared.ideal());
     return with_stable_step(options.step, own, options.sample_spacing,
                             [&](double step) { return integrate(prepared, parameters, options, step); });
-  }
-
-  // Share of the stable step of the joints' contacts taken together, at twice the largest ideal reaction: what a load
-  // suddenly applied to an elastic contact reaches. Springs and dampers beside them add their own rate.
-  double own_step(const PreparedScene& prepared, const Parameters& parameters) const {
-    double step = std::min(kPaperStep, mechanism().duration() / 100.0), fastest = 0.0;
-    for (const ContactFrequency& c : analyse_contacts(mechanism(), parameters, prepared.ideal())) {
-      if (!(c.largest_stable_step > 0.0)) continue;
-      step = std::min(step, kShareOfStableStep * c.largest_stable_step);
-      fastest = std::max(fastest, 1.0 / c.largest_stable_step);
-    }
-    if (mechanism().description().springs.empty()) return step;
-    const double springs = fastest_rate(*prepared.tables(parameters)) / classical_rk4().real_limit;
-    return std::min(step, kShareOfStableStep / (fastest + springs));
-  }
-
-  // Largest rate of the deviation between contacts [1/s]: of z'' = -A K z - A C z', frozen at instants along the motion.
-  static double fastest_rate(const SceneTables& tables) {
-    constexpr int kInstants = 41;
-    using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-    const SceneLayout& at = tables.layout;
-    const int n = at.n;
-    const double duration = tables.dynamics.spacing() * tables.dynamics.cells();
-    std::vector<double> row(at.width);
-    MatX S = MatX::Zero(2 * n, 2 * n);
-    S.topRightCorner(n, n).setIdentity();
-    double fastest = 0.0;
-    for (int k = 0; k < kInstants; ++k) {
-      tables.dynamics.at(duration * k / (kInstants - 1), row.data());
-      if (at.stiff) S.bottomLeftCorner(n, n) = -Rows(row.data() + at.AK, n, n);
-      S.bottomRightCorner(n, n) = -Rows(row.data() + at.AC, n, n);
-      fastest = std::max(fastest, Eigen::EigenSolver<MatX>(S, false).eigenvalues().cwiseAbs().maxCoeff());
-    }
-    return fastest;
   }
 
   RunResult integrate(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options,
@@ -111,8 +75,7 @@ class Perturbation final : public SceneRung {
     double fastest = 0.0;  // squared, a bound
     for (long i = 0;; ++i) {
       const double t = static_cast<double>(i) * h;
-      if (!y.allFinite())
-        throw ComputationError("the deviation grew without bound before t = " + std::to_string(t) + " s; take a smaller step");
+      if (!y.allFinite()) throw UnstableStep("the deviation is not finite", t, h);
       system.accept(t, y);
       derivative(t, y, method.first_slope());
       for (std::size_t c = 0; c < system.trackers().size(); ++c)

@@ -5,6 +5,7 @@
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
+#include "boresight/rungs/held_play.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
 
 namespace boresight {
@@ -31,7 +32,9 @@ bool same_scene(const Parameters& a, const Parameters& b) {
 }
 
 PreparedScene::PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motion, const Parameters& parameters)
-    : ideal_(std::move(ideal_motion)), scene_(mechanism, ideal_, parameters) {}
+    : ideal_(std::move(ideal_motion)), scene_(mechanism, ideal_, parameters) {
+  if (scene_.coordinates().has_dependent()) held_ = held_plays(mechanism, ideal_);
+}
 
 std::shared_ptr<const SceneTables> PreparedScene::tables(const Parameters& parameters) const {
   const std::lock_guard lock(mutex_);
@@ -44,6 +47,7 @@ std::shared_ptr<const SceneTables> PreparedScene::tables(const Parameters& param
 
 const TimeTable& PreparedScene::pose_gain(int body) const {
   const std::lock_guard lock(mutex_);
+  if (scene_.layout().n == 0) return pose_gain_[body];  // an empty table: nothing deviates
   const auto found = pose_gain_.find(body);
   return found != pose_gain_.end() ? found->second : pose_gain_.emplace(body, scene_.pose_gain(body)).first->second;
 }
@@ -57,7 +61,7 @@ const TimeTable& PreparedScene::pose_gain_rate(int body) const {
 
 DisplacedBodies::PoseGain DisplacedBodies::gain(const TimeTable& table) const {
   PoseGain E(6, z_.size());
-  table.at(t_, E.data());
+  if (z_.size() > 0) table.at(t_, E.data());
   return E;
 }
 
@@ -98,7 +102,11 @@ std::shared_ptr<const PreparedScene> SceneRung::prepared_for(const Parameters& p
 RunResult SceneRung::run(const Parameters& parameters, const RunOptions& options) const {
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = thread_cpu_seconds();
-  RunResult result = follow(*prepared_for(parameters), parameters, options);
+  const std::shared_ptr<const PreparedScene> prepared = prepared_for(parameters);
+  RunResult result = prepared->scene().layout().n == 0
+                         ? motion_without_play(*mechanism_, prepared->ideal(), parameters, options)
+                         : follow(*prepared, parameters, options);
+  result.warnings.insert(result.warnings.begin(), prepared->held().begin(), prepared->held().end());
   result.rung = name();
   result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
   result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();

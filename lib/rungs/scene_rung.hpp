@@ -21,6 +21,8 @@ class PreparedScene {
 
   const IdealMotion& ideal() const { return ideal_; }
   const ClearanceScene& scene() const { return scene_; }
+  // Sentences on plays that cannot move.
+  const std::vector<std::string>& held() const { return held_; }
   // Tables of these masses, gravity, springs; the last ones asked for are kept.
   std::shared_ptr<const SceneTables> tables(const Parameters& parameters) const;
   // E of a body over time: 6 x n, row by row.
@@ -31,6 +33,7 @@ class PreparedScene {
  private:
   IdealMotion ideal_;
   ClearanceScene scene_;
+  std::vector<std::string> held_;
   mutable std::mutex mutex_;
   mutable Parameters tabled_;
   mutable std::shared_ptr<const SceneTables> tables_;

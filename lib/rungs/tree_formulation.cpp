@@ -28,6 +28,7 @@
 #include "boresight/mechanism/offset_layout.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 #include "boresight/rungs/formulation.hpp"
+#include "boresight/rungs/singular_pose.hpp"
 #include "boresight/rungs/tree_formulation_inertia.hpp"
 #include "boresight/rungs/tree_formulation_loops.hpp"
 
@@ -35,10 +36,10 @@ namespace boresight {
 namespace {
 
 // Newton's steps towards closed loops use the factors at hand where these are of nearly the same pose: they then remove all
-// but about this share of the opening [m or rad, of the positions and of the opening alike].
+// but about this share of the opening [characteristic lengths or rad, of the positions and of the opening alike].
 constexpr double kNearPose = 1e-3;
-// The step that finds the loops open by less than this [m or rad] is the last: it leaves them closed to rounding, and in
-// their rates no more than this times the speeds.
+// The step that finds the loops open by less than this [alike] is the last: it leaves them closed to rounding, and in their
+// rates no more than this times the speeds.
 constexpr double kClosed = 1e-12;
 constexpr int kNewtonSteps = 8;
 
@@ -155,15 +156,22 @@ class TreeFormulation final : public Formulation {
   }
 
   bool factored_near(const VecX& y) const {
-    const int n = tree_.positions();
-    return (y.head(n) - factored_at_.head(n)).lpNorm<Eigen::Infinity>() < kNearPose;
+    const double length = mechanism_.characteristic_length();
+    for (const TreeJoint& joint : tree_.joints()) {
+      const int slides = joint.slide_positions(), first = joint.first_position;
+      for (int k = first; k < first + joint.positions; ++k) {
+        const double apart = std::abs(y[k] - factored_at_[k]);
+        if (!(apart < (k < first + slides ? kNearPose * length : kNearPose))) return false;
+      }
+    }
+    return true;
   }
 
   void project(double t, VecX& y) {
     for (int step = 0; step < kNewtonSteps; ++step) {
       place(t, y);
       loops_.evaluate(kinematics_.bodies(), laws_);
-      const double opening = loops_.violation();
+      const double opening = loops_.violation(mechanism_.characteristic_length());
       if (opening > kNearPose || !factored_near(y)) factor(t, y);
       correct(false, y);
       correct(true, y);
@@ -206,12 +214,7 @@ class TreeFormulation final : public Formulation {
   }
 
   [[noreturn]] void throw_singular(double t, const std::vector<BodyMotion>& bodies) const {
-    const RankAnalysis rank = analyse_rank(mechanism_, all_rows(bodies));
-    const int body = mechanism_.boresight_body();
-    throw ComputationError("singular pose at t = " + std::to_string(t) + " s: the constraints lose rank, \"" +
-                           mechanism_.description().bodies[body].name + "\" " +
-                           describe_motion(mechanism_, rank.least_resisted, body) +
-                           " while every drive stands still; `boresight check` shows where");
+    throw SingularPose(mechanism_, all_rows(bodies), t);
   }
 
   const Mechanism& mechanism_;

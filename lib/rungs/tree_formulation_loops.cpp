@@ -99,6 +99,14 @@ double LoopClosure::violation() const {
   return largest;
 }
 
+double LoopClosure::violation(double length) const {
+  double largest = 0.0;
+  for (const LoopRows& block : blocks_)
+    for (int i = 0; i < block.count(); ++i)
+      largest = std::max(largest, std::abs(block.rows().value[i]) / (block.constraint().is_distance(i) ? length : 1.0));
+  return largest;
+}
+
 bool LoopClosure::factor(const TreeKinematics& kinematics, const BranchCholesky& H) {
   cholesky_.set_zero();
   for (int k = 0; k < blocks(); ++k) {

@@ -59,8 +59,9 @@ class LoopClosure {
   void set_redundant(bool redundant) { redundant_ = redundant; }
 
   void evaluate(const std::vector<BodyMotion>& bodies, const std::vector<TimeValue>& laws);
-  // Largest |value| of the rows of the last evaluate() [m or rad].
+  // Largest |value| of the rows of the last evaluate() [m or rad]; with lengths in units of `length`.
   double violation() const;
+  double violation(double length) const;
   // Z and the factors of Z Z^T, at the pose of the last evaluate(). false if rows depend on each other.
   bool factor(const TreeKinematics& kinematics, const BranchCholesky& H);
   // x <- x - Z^T (Z Z^T)^-1 (Z x - d); d is overwritten by the multipliers.

@@ -19,11 +19,22 @@ std::string message(const Mechanism& mechanism, const StiffestContact& contact, 
   return text;
 }
 
+std::string message(const std::string& sign, double t, double h) {
+  char text[320];
+  std::snprintf(text, sizeof text, "step too large: with h = %.4g s the motion blows up before t = %.6g s (%s); take a smaller step", h,
+                t, sign.c_str());
+  return text;
+}
+
 }  // namespace
 
-UnstableStep::UnstableStep(const Mechanism& mechanism, const StiffestContact& contact, double t, double h)
-    : ComputationError(message(mechanism, contact, t, h)),
+UnstableStep::UnstableStep(const Mechanism& mechanism, const StiffestContact& contact, double when, double h)
+    : ComputationError(message(mechanism, contact, when, h)),
+      t(when),
       largest_step(classical_rk4().real_limit / contact.angular_frequency) {}
+
+UnstableStep::UnstableStep(const std::string& sign, double when, double h)
+    : ComputationError(message(sign, when, h)), t(when) {}
 
 double step_on_grid(double step, double spacing) { return spacing > step ? spacing / std::ceil(spacing / step) : step; }
 

@@ -1,16 +1,21 @@
-// A step too large for a contact: the error that says which contact, how fast it vibrates, and the largest step that holds.
+// A step too large for the motion: the error that says so, and what a rung does about it where the step was its own choice.
 #pragma once
 
-#include "boresight/mechanism/error.hpp"
+#include <cmath>
+
+#include "boresight/rungs/singular_pose.hpp"
 #include "boresight/rungs/stiffest_contact.hpp"
 
 namespace boresight {
 
 class UnstableStep : public ComputationError {
  public:
-  // At t [s] with step h [s] of RK4.
+  // A contact that vibrates too fast for RK4 with step h [s], at t [s].
   UnstableStep(const Mechanism& mechanism, const StiffestContact& contact, double t, double h);
-  double largest_step = 0.0;  // that would have been stable there [s]
+  // The motion blew up with step h: seen at t, as `sign` says ("the state is not finite").
+  UnstableStep(const std::string& sign, double t, double h);
+  double t = 0.0;             // [s]
+  double largest_step = 0.0;  // that would have been stable there [s]; 0: not known
 };
 
 // The step that the paper uses, and the most that a rung takes on its own [s].
@@ -22,21 +27,30 @@ inline constexpr double kShareOfStableStep = 0.36;
 // Shortened so that whole steps make a sample spacing: samples then lie where they were asked for.
 double step_on_grid(double step, double spacing);
 
-// Runs integrate(step) with the caller's step, or with `own` shortened as often as a contact proves stiffer than foreseen.
+// Runs integrate(step) with the caller's step, or with `own` shortened as often as it proves too large. A motion that blows up
+// can meet any pose on its way, so a singular one is believed only where shorter steps meet it too, at the same time.
 template <typename Integrate>
 auto with_stable_step(double asked, double own, double spacing, Integrate&& integrate) {
   if (asked > 0.0) return integrate(asked);
-  double step = step_on_grid(own, spacing);
+  constexpr double kSmallestShare = 1e-5, kSameTime = 0.01;
+  constexpr int kAlike = 2;
+  double step = step_on_grid(own, spacing), singular_before = -1.0;
+  int alike = 0;
   for (bool shortened = false;; shortened = true) {
     try {
       auto result = integrate(step);
-      if (shortened) result.warnings.insert(result.warnings.begin(), "the step was shortened: a contact was stiffer than foreseen");
+      if (shortened)
+        result.warnings.insert(result.warnings.begin(), "the step was shortened: the one chosen first was too large for this motion");
       return result;
     } catch (const UnstableStep&) {
       // A motion that has begun to blow up has contacts far deeper than a stable one: what they ask for says too much.
-      if (step < 1e-9) throw;
-      step = step_on_grid(0.5 * step, spacing);
+      if (step < kSmallestShare * own) throw;
+    } catch (const SingularPose& pose) {
+      alike = std::abs(pose.t - singular_before) <= kSameTime * pose.t ? alike + 1 : 0;
+      if (alike == kAlike || step < kSmallestShare * own) throw;
+      singular_before = pose.t;
     }
+    step = step_on_grid(0.5 * step, spacing);
   }
 }
 

@@ -1,0 +1,45 @@
+// What `check` says of a drawing that leaves no motion by a rounding.
+#include "boresight/mechanism/kinematic_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scenes.hpp"
+
+namespace boresight {
+namespace {
+
+// One shaft in two bearings, the second one `off` beside the axis of the first.
+Mechanism shaft(double off) {
+  MechanismDescription m;
+  BodyDescription body;
+  body.name = "shaft";
+  body.mass = 1.0;
+  body.inertia = Vec3(0.01, 0.01, 0.002).asDiagonal();
+  body.center_of_mass = Vec3(0.0, 0.0, 0.05);
+  body.boresight = Vec3::UnitX();
+  m.bodies.push_back(body);
+  for (int k = 0; k < 2; ++k) {
+    JointDescription j;
+    j.name = k == 0 ? "lower" : "upper";
+    j.first = kGround;
+    j.second = 0;
+    j.point = Vec3(k * off, 0.0, 0.1 * k);
+    j.axis = Vec3::UnitZ();
+    j.driven = k == 0;
+    m.joints.push_back(j);
+  }
+  m.motion.drives[0] = parse_expression("sin(t)");
+  return Mechanism(std::move(m));
+}
+
+TEST(KinematicReport, NamesBearingsThatDoNotQuiteShareAnAxis) {
+  EXPECT_TRUE(analyse_kinematics(shaft(0.0), 11).feasible);
+  const KinematicReport off = analyse_kinematics(shaft(1e-5), 11);
+  EXPECT_FALSE(off.feasible);
+  ASSERT_FALSE(off.findings.empty());
+  EXPECT_NE(off.findings[0].find("\"lower\" and \"upper\""), std::string::npos) << off.findings[0];
+  EXPECT_NE(off.findings[0].find("1e-05 m"), std::string::npos) << off.findings[0];
+}
+
+}  // namespace
+}  // namespace boresight
