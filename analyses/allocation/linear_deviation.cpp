@@ -125,6 +125,7 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
                                       const std::vector<std::vector<ParameterPath>>& places,
                                       const std::vector<double>& probe, const IndexChoice& index,
                                       std::size_t instants, double& misfit) {
+  index.title();  // throws where the quantity or the statistic is unknown: below these are told apart by name
   const auto rung = make_rung("quasistatic", mechanism);
   RunOptions options;
   options.events = false;

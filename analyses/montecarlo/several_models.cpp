@@ -53,6 +53,7 @@ StoredValues stored_values(const SampleStore& store, const NumberRange& range) {
   store.read(range.end, [&](const SampleRecord& r) {
     if (r.number < range.first) return;
     const bool good = r.outcome.status == Outcome::Status::done;
+    result.failures.see(r.number, r.outcome);
     result.values.push_back(good ? r.outcome.value : std::numeric_limits<double>::quiet_NaN());
     costs.push_back(r.outcome.cpu_seconds);
     result.spent += r.outcome.cpu_seconds;
@@ -87,6 +88,7 @@ BatchModel on_normal_space(const SampleModel& model, const RandomInputs& inputs,
                double spent = 0.0;
                for (const SampleRecord& r : records) {
                  if (r.outcome.status == Outcome::Status::done) values[r.number] = r.outcome.value;
+                 if (r.outcome.status == Outcome::Status::failed && options.failed) options.failed(r.number, r.outcome);
                  cost->push_back(r.outcome.cpu_seconds);
                  spent += r.outcome.cpu_seconds;
                }

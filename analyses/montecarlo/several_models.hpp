@@ -9,6 +9,7 @@
 #include "boresight_analyses/montecarlo/sample_store.hpp"
 #include "boresight_analyses/montecarlo/sampling.hpp"
 #include "boresight_analyses/statistics/batch_model.hpp"
+#include "boresight_analyses/study/failures.hpp"
 
 namespace boresight {
 
@@ -19,6 +20,7 @@ struct MethodOptions {
   int jobs = 1;
   std::function<void(double)> progress;  // CPU seconds spent since the last call
   std::function<bool()> interrupted;
+  std::function<void(std::uint64_t, const Outcome&)> failed = {};  // each point that did, one at a time, by its number in its batch
 };
 
 // The numbers of a range that the store lacks are computed and stored. Throws MethodInterrupted; what was computed is stored.
@@ -30,6 +32,7 @@ struct StoredValues {
   double typical_cost = 0.0;   // median CPU seconds of a sample: preparing what all share is not a sample's cost
   double spent = 0.0;          // CPU seconds
   double discretisation = 0.0, model = 0.0;  // mean of what the rung thinks of its own errors, relative
+  Failures failures;
 };
 StoredValues stored_values(const SampleStore& store, const NumberRange& range);
 

@@ -8,13 +8,18 @@ DesignEvaluator::DesignEvaluator(const SampleModel& model, const RandomInputs* i
                                  Options options)
     : model_(model), inputs_(inputs), store_(store), options_(std::move(options)) {}
 
+const std::vector<Outcome>& DesignEvaluator::keep(const std::vector<double>& design, std::vector<Outcome> outcomes) {
+  for (const Outcome& outcome : outcomes) failures_.see(runs_++, outcome);
+  return seen_[design] = std::move(outcomes);
+}
+
 const std::vector<Outcome>& DesignEvaluator::at(std::span<const double> design) {
   const std::vector<double> key(design.begin(), design.end());
   if (const auto found = seen_.find(key); found != seen_.end()) return found->second;
   if (store_ != nullptr)
     if (const auto* known = store_->find(design, options_.samples)) {
       ++reused_;
-      return seen_[key] = *known;
+      return keep(key, *known);
     }
 
   const std::size_t scattered = inputs_ != nullptr ? inputs_->size() : 0, n = options_.samples;
@@ -33,7 +38,7 @@ const std::vector<Outcome>& DesignEvaluator::at(std::span<const double> design) 
   for (const Outcome& outcome : outcomes) cpu_seconds_ += outcome.cpu_seconds;
   ++computed_;
   if (store_ != nullptr) store_->add(design, outcomes);
-  const std::vector<Outcome>& kept = seen_[key] = std::move(outcomes);
+  const std::vector<Outcome>& kept = keep(key, std::move(outcomes));
   if (options_.landed) options_.landed();
   return kept;
 }

@@ -13,6 +13,7 @@
 #include "boresight_analyses/optimise/evaluation_store.hpp"
 #include "boresight_analyses/optimise/parallel_evaluation.hpp"
 #include "boresight_analyses/random/random_inputs.hpp"
+#include "boresight_analyses/study/failures.hpp"
 #include "boresight_analyses/study/sample_model.hpp"
 
 namespace boresight {
@@ -39,6 +40,9 @@ class DesignEvaluator {
   std::int64_t computed() const { return computed_; }  // designs, in this process
   std::int64_t reused() const { return reused_; }      // found in the store
   double cpu_seconds() const { return cpu_seconds_; }
+  // Of the samples of all designs asked for so far, numbered in the order of the asking.
+  const Failures& failures() const { return failures_; }
+  std::uint64_t runs() const { return runs_; }
   // All designs asked for so far, with their outcomes.
   const std::map<std::vector<double>, std::vector<Outcome>>& all() const { return seen_; }
 
@@ -50,6 +54,9 @@ class DesignEvaluator {
   std::map<std::vector<double>, std::vector<Outcome>> seen_;
   std::int64_t computed_ = 0, reused_ = 0;
   double cpu_seconds_ = 0.0;
+  Failures failures_;
+  std::uint64_t runs_ = 0;
+  const std::vector<Outcome>& keep(const std::vector<double>& design, std::vector<Outcome> outcomes);
 };
 
 }  // namespace boresight

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "boresight/mechanism/error.hpp"
-#include "boresight/rungs/rung.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
 
 namespace boresight {
 namespace {
@@ -24,7 +24,8 @@ void check_rung_name(const std::string& asked) {
 }
 
 void apply(const RungChoice& choice, RunOptions& options) {
-  if (choice.step > 0.0) options.step = choice.step;
+  // The step is one of rk4's; an integrator that was asked for chooses its own.
+  if (choice.step > 0.0 && !controls_error(options)) options.step = choice.step;
   if (choice.integrator.empty()) return;
   options.integrator = choice.integrator;
   options.tolerance = choice.tolerance;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
 namespace boresight {
@@ -115,6 +116,7 @@ void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outco
 
 double common_step(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism,
                    const std::vector<Parameters>& samples, RunOptions options) {
+  if (controls_error(options)) return 0.0;
   const std::unique_ptr<Rung> model = make_rung(rung, mechanism);
   options.sample_spacing = 0.0;
   options.events = false;

@@ -2,8 +2,9 @@
 // the mechanism, is shared by all samples and threads where no parameter changes the scene; where masses, gravity or
 // springs scatter, each thread has a rung of its own, so that none waits for another's scene.
 //
-// All samples are integrated with one step (RunOptions::step): finding a step afresh costs more than a cheap rung's
-// whole run. Where a sample proves stiffer than that, its step is halved until it holds, and its message says so.
+// With rk4 all samples are integrated with one step (RunOptions::step): finding a step afresh costs more than a cheap
+// rung's whole run. Where a sample proves stiffer than that, its step is halved until it holds, and its message says so.
+// An integrator with an error estimate chooses the steps of each sample by its tolerance, as in a single run.
 #pragma once
 
 #include <functional>
@@ -53,7 +54,8 @@ class RungSampleModel final : public SampleModel {
   mutable std::vector<std::unique_ptr<Rung>> idle_;  // where the scene varies
 };
 
-// The step that suits all of these samples: the smallest that the rung chooses for any of them; 0 where it takes none.
+// The step that suits all of these samples: the smallest that the rung chooses for any of them; 0 where it takes none,
+// and where steps follow an error estimate: their mean would be far too long for a contact.
 // Throws ComputationError where it can follow none of them.
 double common_step(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism,
                    const std::vector<Parameters>& samples, RunOptions options);

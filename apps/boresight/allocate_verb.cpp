@@ -79,10 +79,13 @@ class Confirming {
                                                                   store_.add(open[k], {outcome});
                                                                 }});
     for (std::size_t k = 0; k < open.size(); ++k) outcomes[open_at[k]] = computed_now[k];
+    for (const Outcome& outcome : outcomes) failures.see(runs++, outcome);
     return outcomes;
   }
 
   std::int64_t computed = 0, reused = 0;
+  Failures failures;  // of all outcomes handed over, in that order
+  std::uint64_t runs = 0;
 
  private:
   const SampleModel& model_;
@@ -121,8 +124,7 @@ class AllocateVerb : public Verb {
     const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
     const AllocationPlan plan = read_allocation_plan(input.root, study, mechanism->description(), input.trial);
     check_rung_name(command.rung);
-    motion_.check_rung(command.rung);
-    const RunOptions asked = motion_.run_options(*mechanism);
+    const RunOptions asked = motion_.run_options(*mechanism, command.rung);
     ContentHash samples;
     samples.add(plan.sample_text(study));
     const OutputDirectory out =
@@ -165,7 +167,7 @@ class AllocateVerb : public Verb {
       std::fflush(stdout);
     }
     Progress progress(command.quiet, 1.0, "of the allocation");
-    AllocationResult result = with_options_checked(run, [&] {
+    AllocationResult result = with_options_checked([&] {
       return run_allocation(
           plan, deviation, misfit, std::ref(confirming), choice.name,
           {.accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.05),
@@ -184,7 +186,13 @@ class AllocateVerb : public Verb {
                             .warnings = {},
                             .leaves_out = model.leaves_out()};
     allocated.warnings = warnings_of(allocated);
-    write_json(out, "summary.json", summary_of(allocated, watch, out));
+    if (confirming.failures.count > 0)
+      allocated.warnings.push_back(
+          fmt::format("{} of {} confirming runs failed", confirming.failures.count, confirming.runs) +
+          first_failure_text(confirming.failures, "run"));
+    Json summary = summary_of(allocated, watch, out);
+    add_first_failure(summary, confirming.failures, "run");
+    write_json(out, "summary.json", summary);
     out.write("allocation.csv", [&](std::ostream& s) { write_allocation(s, allocated); });
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, allocate_report(allocated)); });
     if (!command.quiet) print(allocated, out);

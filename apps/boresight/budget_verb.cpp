@@ -27,7 +27,7 @@ namespace {
 constexpr double kNothing = 1e-9;
 
 struct RunsSeen {
-  std::uint64_t failed = 0;
+  Failures failures;
   double largest = 0.0;  // of the quantity over every step of the members' runs
   double missed = 0.0;   // the largest share of a run's maximum that its sampled history has not; 0 if it begins late
   double model_error = 0.0, discretisation_error = 0.0;  // means
@@ -37,10 +37,8 @@ RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs, const Budge
   RunsSeen seen;
   double done = 0.0;
   store.read(runs.drawn(runs.rows()), [&](const SampleRecord& r) {
-    if (r.outcome.status == Outcome::Status::failed) {
-      ++seen.failed;
-      return;
-    }
+    seen.failures.see(r.number, r.outcome);
+    if (r.outcome.status == Outcome::Status::failed) return;
     done += 1.0;
     seen.model_error += r.outcome.model_error;
     seen.discretisation_error += r.outcome.discretisation_error;
@@ -153,8 +151,7 @@ class BudgetVerb : public Verb {
     const BudgetPlan plan =
         read_budget_plan(input.root, study, mechanism->description(), mechanism->duration(), input.trial);
     check_rung_name(command.rung);
-    motion_.check_rung(command.rung);
-    RunOptions run = motion_.run_options(*mechanism);
+    RunOptions run = motion_.run_options(*mechanism, command.rung);
 
     const std::string text = plan.sample_text(study);
     ContentHash hash;
@@ -175,7 +172,7 @@ class BudgetVerb : public Verb {
     note_origin(store, study, *mechanism, plan);
 
     const bool whole =
-        with_options_checked(run, [&] { return compute(command, study, *mechanism, plan, runs, model, store); });
+        with_options_checked([&] { return compute(command, study, *mechanism, plan, runs, model, store); });
     std::optional<Budget> budget;
     if (whole) budget = budget_of(plan, runs, *mechanism, study.index.kind(), store);
     BudgetStudy result{.command = command,
@@ -246,10 +243,11 @@ class BudgetVerb : public Verb {
   static std::vector<std::string> warnings_of(const BudgetStudy& s, const RunsSeen& seen) {
     const Budget& b = *s.budget;
     std::vector<std::string> warnings;
-    if (seen.failed > 0)
+    if (seen.failures.count > 0)
       warnings.push_back(
-          fmt::format("{} of {} runs failed; a member whose own run failed counts as bad in every answer", seen.failed,
-                      s.runs.count()));
+          fmt::format("{} of {} runs failed; a member whose own run failed counts as bad in every answer",
+                      seen.failures.count, s.runs.count()) +
+          first_failure_text(seen.failures, "run"));
     if (seen.largest < kNothing && s.runs.joints() > 0)
       warnings.push_back("the clearances make no " + s.study.index.quantity_title() +
                          " beyond rounding: where journal and sleeve axes are kept parallel they turn nothing; axes = "
@@ -302,6 +300,7 @@ class BudgetVerb : public Verb {
                        {"sampling", s.plan.sampling},
                        {"start", s.plan.start}};
     std::vector<std::string> files = {"summary.json", "samples.db", "report.html"};
+    add_first_failure(json, seen.failures, "run");
     if (s.budget) {
       json.update(budget_json(s, *s.budget));
       json["error"] = {

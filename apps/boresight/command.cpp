@@ -88,30 +88,22 @@ void MotionOptions::declare_model(CLI::App& app) {
       ->type_name("NAME");
 }
 
-RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
+RunOptions MotionOptions::run_options(const Mechanism& mechanism, const std::string& rung) const {
   RunOptions options;
   if (!step.empty()) options.step = positive_quantity("--step", step, kDuration);
   options.sample_spacing = positive_quantity("--sample", sample, kDuration);
   constexpr double kMostSamples = 2e6;
   if (mechanism.duration() / options.sample_spacing > kMostSamples)
     throw InputError(kCommandLine, "--sample", in_quotes(sample), "at most two million samples in all");
-  const std::vector<std::string> integrators = integrator_names();
-  if (!integrator.empty() && std::find(integrators.begin(), integrators.end(), integrator) == integrators.end())
-    throw InputError(kCommandLine, "--integrator", in_quotes(integrator),
-                     "rk4, dopri5, rosenbrock or generalized-alpha", nearest_name(integrator, integrators));
+  const std::vector<std::string> known = integrator_names(rung);
+  if (!integrator.empty() && rung != "auto" && known.empty())
+    throw InputError(kCommandLine, "--integrator", in_quotes(integrator), "none: the " + rung + " rung takes no steps");
   options.integrator = integrator;
   if (!tolerance.empty()) {
     options.tolerance = positive_quantity("--tolerance", tolerance, kRatio);
-    if (integrator.empty() || integrator == "rk4")
-      throw InputError(kCommandLine, "--tolerance", in_quotes(tolerance),
-                       "an --integrator with an error estimate: dopri5, rosenbrock or generalized-alpha");
     if (!step.empty()) throw InputError(kCommandLine, "--tolerance", in_quotes(tolerance), "this or --step, not both");
   }
   options.formulation = formulation;
-  const std::vector<std::string> known = {"baumgarte", "projection"};
-  if (!stabilisation.empty() && std::find(known.begin(), known.end(), stabilisation) == known.end())
-    throw InputError(kCommandLine, "--stabilisation", in_quotes(stabilisation), "baumgarte or projection",
-                     nearest_name(stabilisation, known));
   options.stabilisation = stabilisation;
   for (const std::string& name : poses) {
     const int body = mechanism.body_index(name);
@@ -123,17 +115,12 @@ RunOptions MotionOptions::run_options(const Mechanism& mechanism) const {
     }
     options.pose_bodies.push_back(body);
   }
+  check_run_options(options, rung == "auto" ? rung_names().back() : rung, mechanism);
   return options;
 }
 
-void MotionOptions::check_rung(const std::string& rung) const {
-  if (integrator.empty() || rung == "auto") return;
-  const std::vector<std::string> known = integrator_names(rung);
-  if (std::find(known.begin(), known.end(), integrator) == known.end())
-    throw InputError(
-        kCommandLine, "--integrator", in_quotes(integrator),
-        known.empty() ? "none: the " + rung + " rung takes no steps" : "one that the " + rung + " rung has",
-        nearest_name(integrator, known));
+void check_run_options(const RunOptions& options, const std::string& rung, const Mechanism& mechanism) {
+  with_options_checked([&] { check_options(options, rung, mechanism, mechanism.parameters()); });
 }
 
 bool MotionOptions::asks_for_multibody() const {
@@ -150,6 +137,18 @@ nlohmann::json MotionOptions::model_identity() const {
           {"tolerance", tolerance},
           {"formulation", formulation},
           {"stabilisation", stabilisation}};
+}
+
+std::string MotionOptions::model_text() const {
+  std::string text;
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) text += std::string(" ") + option + " " + (value.find(' ') == std::string::npos ? value : in_quotes(value));
+  };
+  add("--integrator", integrator);
+  add("--tolerance", tolerance);
+  add("--formulation", formulation);
+  add("--stabilisation", stabilisation);
+  return text;
 }
 
 nlohmann::json MotionOptions::identity() const {

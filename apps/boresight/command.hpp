@@ -13,6 +13,7 @@
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/mechanism.hpp"
+#include "boresight/rungs/option_check.hpp"
 #include "boresight/rungs/rung.hpp"
 #include "boresight_analyses/study/index_choice.hpp"
 
@@ -48,26 +49,28 @@ struct MotionOptions {
 
   void declare(CLI::App& app, bool with_poses);
   void declare_model(CLI::App& app);  // step, formulation, stabilisation alone: for verbs that keep no histories
-  // Throws InputError for a value that is no duration, an unknown body, an unknown word.
-  RunOptions run_options(const Mechanism& mechanism) const;
-  // Throws InputError if the rung, not "auto", does not have the integrator.
-  void check_rung(const std::string& rung) const;
+  // Throws InputError for a value that is no duration, an unknown body, an unknown word, and for what the rung would
+  // refuse in every run; of "auto", what the rung that has most would.
+  RunOptions run_options(const Mechanism& mechanism, const std::string& rung) const;
   // Whether an option was given that not every rung has: `auto` then takes multibody, which has them all.
   bool asks_for_multibody() const;
   nlohmann::json identity() const;  // what of them changes results
   nlohmann::json model_identity() const;
+  // The same as they are typed, but for the step, each with a space before it.
+  std::string model_text() const;
 };
 
-// Computes, and turns a rung's refusal of an option's word (std::invalid_argument) into an InputError.
+// Computes, and turns a rung's refusal of an option into an InputError that names it.
 template <typename Compute>
-auto with_options_checked(const RunOptions& options, const Compute& compute) {
+auto with_options_checked(const Compute& compute) {
   try {
     return compute();
-  } catch (const std::invalid_argument& refusal) {
-    throw InputError({"command line", 0}, "--formulation", "\"" + options.formulation + "\"",
-                     std::string("one that the rung has: ") + refusal.what());
+  } catch (const OptionRefused& refusal) {
+    throw InputError({"command line", 0}, "--" + refusal.option, refusal.found, refusal.expected, refusal.nearest);
   }
 }
+// Before the first of many runs: what the rung would refuse in each of them. Throws InputError.
+void check_run_options(const RunOptions& options, const std::string& rung, const Mechanism& mechanism);
 
 // Charts want the impacts, so histories are finer than the table of the user's --sample: how many history
 // samples stand for one of its rows. Up to ten, while the history stays below 20,000 samples.

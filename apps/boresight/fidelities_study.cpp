@@ -143,6 +143,7 @@ int run_fidelities(const SeveralRungs& s) {
                                   },
                               .interrupted = [] { return interrupted(); }};
   FidelityOutcome o;
+  Failures failures;  // on any rung
   try {
     for (Level& level : levels) {
       doing = "pilot on " + level.rung;
@@ -151,12 +152,16 @@ int run_fidelities(const SeveralRungs& s) {
       o.pilot.values.push_back(pilot.values);
       o.pilot.cost.push_back(std::max(pilot.typical_cost, 1e-7));
       o.spent += pilot.spent;
+      failures.add(pilot.failures);
     }
     try {
       o.plan = plan_fidelities(o.pilot, asked.budget, plan.design.seed);
     } catch (const std::invalid_argument& refusal) {
       progress.clear();
-      throw ComputationError(std::string("[montecarlo] fidelities: ") + refusal.what());
+      throw ComputationError(std::string("[montecarlo] fidelities: ") + refusal.what() +
+                             (failures.count > 0 ? fmt::format("; {} runs of the pilot failed", failures.count) +
+                                                       first_failure_text(failures, "sample")
+                                                 : ""));
     }
     progress.clear();
     if (!s.command.quiet) fmt::print("{}: {}\n", s.question.mechanism->name(), forecast_sentence(o.plan, top));
@@ -170,6 +175,7 @@ int run_fidelities(const SeveralRungs& s) {
       const StoredValues stored = stored_values(*level.store, range);
       values.push_back(stored.values);
       o.spent += stored.spent;
+      failures.add(stored.failures);
       if (k == 0) o.discretisation = stored.discretisation;
     }
     o.mean = estimate_fidelities(o.plan, values, plan.confidence);
@@ -190,13 +196,15 @@ int run_fidelities(const SeveralRungs& s) {
   const double sampling = 0.5 * (o.mean.value.high - o.mean.value.low) / std::abs(o.mean.value.value);
   std::vector<std::string> warnings;
   if (o.mean.failed > 0)
-    warnings.push_back(fmt::format("{} samples failed on some rung and are left out of all", o.mean.failed));
+    warnings.push_back(fmt::format("{} samples failed on some rung and are left out of all", o.mean.failed) +
+                       first_failure_text(failures, "sample"));
   if (o.plan.models.size() == 1)
     warnings.push_back("the cheaper rungs do not pay: this is plain Monte Carlo on " + top + ", the pilot was spent in vain");
   bool met = true;
   Json json = several_rungs_summary(s, top, warnings);
   json["samples"] = o.plan.samples[0];
   json["failed"] = o.mean.failed;
+  add_first_failure(json, failures, "sample");
   json["index"]["mean"] = interval_json(reported(o.mean.value));
   json["error"] = {{"of", "mean"},
                    {"sampling", {{"relative", sampling}, {"why", o.mean.value.basis}}},

@@ -88,8 +88,7 @@ class MatchVerb : public Verb {
     const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
     const MatchingPlan plan = read_matching_plan(input.root, study, mechanism->description(), input.trial);
     check_rung_name(command.rung);
-    motion_.check_rung(command.rung);
-    const RunOptions asked = motion_.run_options(*mechanism);
+    const RunOptions asked = motion_.run_options(*mechanism, command.rung);
 
     ContentHash samples;
     samples.add(plan.sample_text(study));
@@ -106,7 +105,7 @@ class MatchVerb : public Verb {
       return plan.parameters_with(*mechanism, values);
     };
     RunOptions run = asked;
-    if (choice.step > 0.0) run.step = choice.step;
+    apply(choice, run);
     run = options_on(choice.name, mechanism, corners, run);
     const RungSampleModel model(choice.name, mechanism, parameters_of, study.index, run,
                                 any_scene_varies(plan));
@@ -166,11 +165,11 @@ class MatchVerb : public Verb {
     if (how.no_slopes.empty())
       how.slopes = [slopes = DesignSlopes(mechanism, plan, study.index, run)](
                        const std::vector<double>& design, std::string& why) { return slopes.at(design, why); };
-    const MatchingResult result = with_options_checked(run, [&] {
+    const MatchingResult result = with_options_checked([&] {
       return run_matching(plan, evaluator, upper_evaluator.get(), upper, how);
     });
     progress.clear();
-    const MatchStudy matched{.command = command,
+    MatchStudy matched{.command = command,
                              .study = study,
                              .mechanism = *mechanism,
                              .rung = choice,
@@ -178,7 +177,17 @@ class MatchVerb : public Verb {
                              .result = result,
                              .warnings = warnings_of(plan, result),
                              .leaves_out = model.leaves_out()};
-    write_json(out, "summary.json", summary_of(matched, watch, out));
+    const auto add_failed = [&](const DesignEvaluator& runs, const std::string& rung) {
+      if (runs.failures().count > 0)
+        matched.warnings.push_back(
+            fmt::format("{} of {} runs on the {} rung failed", runs.failures().count, runs.runs(), rung) +
+            first_failure_text(runs.failures(), "run"));
+    };
+    add_failed(evaluator, choice.name);
+    if (upper_evaluator) add_failed(*upper_evaluator, upper);
+    Json summary = summary_of(matched, watch, out);
+    add_first_failure(summary, evaluator.failures(), "run");
+    write_json(out, "summary.json", summary);
     out.write("evaluations.csv", [&](std::ostream& s) { write_evaluations(s, plan, result); });
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, match_report(matched)); });
     if (!command.quiet) print(matched, out);

@@ -7,6 +7,7 @@
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight_analyses/montecarlo/estimates.hpp"
 #include "boresight_analyses/montecarlo/montecarlo.hpp"
+#include "boresight_analyses/study/failures.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 #include "boresight_analyses/study/study.hpp"
 #include "command.hpp"
@@ -17,6 +18,7 @@ namespace boresight::app {
 // A few samples in full, for scatter charts and tables: failed ones first, the others spread evenly over the study.
 struct ShownSamples {
   std::vector<SampleRecord> done, failed;
+  Failures failures;  // of all
 };
 inline constexpr std::size_t kMostShown = 1500, kMostFailedShown = 200;
 

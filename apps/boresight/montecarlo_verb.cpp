@@ -59,7 +59,7 @@ class MonteCarloVerb : public Verb {
     try {
       question = read_montecarlo_question(command.file, command.settings);
       check_rung_name(command.rung);
-      run = motion_.run_options(*question.mechanism);
+      run = motion_.run_options(*question.mechanism, command.rung);
     } catch (const InputError&) {
       if (first) throw;
       throw SilentExit{kBadInput};  // rank 0 says it
@@ -87,7 +87,7 @@ class MonteCarloVerb : public Verb {
     const nlohmann::json heard = nlohmann::json::parse(told);
 
     RunOptions model_options = run;
-    if (heard["step"].get<double>() > 0.0) model_options.step = heard["step"];
+    apply({.name = heard["rung"], .step = heard["step"]}, model_options);
     const std::unique_ptr<SampleModel> sampled = sample_model(heard["rung"], question.mechanism, question.parameters_of(),
                                                               question.study.index, model_options,
                                                               scene_varies(question.plan.inputs));
@@ -105,8 +105,7 @@ class MonteCarloVerb : public Verb {
     if (!command.quiet) announce(question, store->count(), ranks->size());
     Progress progress(command.quiet, static_cast<double>(question.plan.samples), "samples");
     options.progress = [&](const MonteCarloProgress& p) { show(progress, p, question); };
-    const MonteCarloResult result = with_options_checked(
-        model_options, [&] { return run_montecarlo(model, question.plan, store.get(), *ranks, options); });
+    const MonteCarloResult result = with_options_checked([&] { return run_montecarlo(model, question.plan, store.get(), *ranks, options); });
     progress.clear();
     return write_results(command, question, choice, model, *store, result, watch, *out);
   }
@@ -167,7 +166,7 @@ class MonteCarloVerb : public Verb {
     const bool lanes = choice.name == "perturbation" && LaneSampleModel::serve(*question.mechanism, question.study.index, run);
     if (lanes) choice.step = 0.0;
     if (!lanes && choice.step == 0.0 && run.step == 0.0)
-      choice.step = with_options_checked(run, [&] {
+      choice.step = with_options_checked([&] {
         return common_step(choice.name, question.mechanism, pilot_samples(question.plan.inputs, *question.mechanism), run);
       });
     store.note("rung_why", choice.why);
@@ -235,7 +234,7 @@ class MonteCarloVerb : public Verb {
                           .result = result,
                           .estimates = estimates,
                           .shown = shown,
-                          .warnings = warnings_of(question, result, estimates),
+                          .warnings = warnings_of(question, result, estimates, shown.failures),
                           .leaves_out = model.leaves_out(),
                           .replay = replay_command(command, model)};
     write_json(out, "summary.json", summary_of(study, watch, out, store));
@@ -253,6 +252,7 @@ class MonteCarloVerb : public Verb {
     const std::uint64_t every = n / kMostShown + 1;
     double done = 0.0;
     store.read(n, [&](const SampleRecord& record) {
+      shown.failures.see(record.number, record.outcome);
       if (record.outcome.status == Outcome::Status::failed) {
         if (shown.failed.size() < kMostFailedShown) shown.failed.push_back(record);
         return;
@@ -272,7 +272,7 @@ class MonteCarloVerb : public Verb {
   }
 
   static std::vector<std::string> warnings_of(const MonteCarloQuestion& question, const MonteCarloResult& result,
-                                              const Estimates& estimates) {
+                                              const Estimates& estimates, const Failures& failures) {
     std::vector<std::string> warnings;
     const MonteCarloPlan& plan = question.plan;
     const Design design(plan.design, static_cast<int>(plan.inputs.size()));
@@ -290,7 +290,8 @@ class MonteCarloVerb : public Verb {
       warnings.push_back(
           fmt::format("{} of {} samples failed; they count as bad in every bound, and mean and standard deviation "
                       "leave them out",
-                      estimates.failed, estimates.samples));
+                      estimates.failed, estimates.samples) +
+          first_failure_text(failures, "sample"));
     if (plan.requirement && plan.design.kind == DesignKind::random &&
         static_cast<std::int64_t>(result.values.size()) < estimates.requirement->fewest_samples)
       warnings.push_back(fmt::format("the requirement cannot be shown with {} samples, whatever they give: it takes {}",
@@ -304,6 +305,7 @@ class MonteCarloVerb : public Verb {
     text += " --rung " + model.rung();
     if (model.step() > 0.0) text += fmt::format(" --step \"{:.17g} s\"", model.step());
     if (model.batch() > 1) text += " --integrator rosenbrock";  // the lanes' method; its steps are not the same
+    text += motion_.model_text();
     return text + " --sample-number";
   }
 
@@ -320,6 +322,7 @@ class MonteCarloVerb : public Verb {
     json["samples_stored"] = s.result.stored;
     json["ended"] = to_string(s.result.ended);
     json["failed"] = s.estimates.failed;
+    add_first_failure(json, s.shown.failures, "sample");
     Json& index = json["index"] = {{"quantity", s.study.index.quantity},
                                    {"statistic", s.study.index.statistic},
                                    {"unit", s.study.index.si_unit()}};

@@ -25,7 +25,7 @@ RunOptions options_on(const std::string& rung, const std::shared_ptr<const Mecha
   }
   const bool adaptive = !run.integrator.empty() && run.integrator != "rk4";
   if (!adaptive && run.step == 0.0)
-    run.step = with_options_checked(run, [&] { return common_step(rung, mechanism, corners, run); });
+    run.step = with_options_checked([&] { return common_step(rung, mechanism, corners, run); });
   return run;
 }
 

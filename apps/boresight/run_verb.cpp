@@ -77,7 +77,7 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const RungCh
   json["contact"] = contact_json(result.contact);
   json["platform_acceleration_max"] = vector_json(result.platform_acceleration_max);
   json["constraint_drift"] = result.constraint_drift;
-  json["energy_error"] = result.energy_error;
+  if (result.rung == "multibody") json["energy_error"] = result.energy_error;  // no other rung keeps track
   json["error_estimate"] = {{"model", result.error.model},
                             {"discretisation", result.error.discretisation},
                             {"basis", result.error.basis}};
@@ -129,8 +129,7 @@ class RunVerb : public Verb {
     const Command command = sample_number_.empty() ? asked : replay_of(asked);
     const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(command.file, command.settings));
     check_rung_name(command.rung);
-    motion_.check_rung(command.rung);
-    RunOptions options = motion_.run_options(*mechanism);
+    RunOptions options = motion_.run_options(*mechanism, command.rung);
     IndexChoice index = index_named("--index", index_);
     index.start = options.start = start_.empty() ? replayed_start_ : positive_quantity("--start", start_, kDuration);
     check_line_of_sight(index, *mechanism, {"command line", 0}, "--index");
@@ -167,12 +166,12 @@ class RunVerb : public Verb {
 
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
     RunResult result =
-        with_options_checked(options, [&] { return rung->run(mechanism->parameters(), options); });
+        with_options_checked([&] { return rung->run(mechanism->parameters(), options); });
     add_range_warnings(*mechanism, result);
     std::vector<Compared> others;
     if (compare_)
       for (const std::string& name : rung_names())
-        if (name != choice.name) others.push_back(run_other(name, mechanism, options, motion_.run_options(*mechanism).step));
+        if (name != choice.name) others.push_back(run_other(name, mechanism, options, motion_.run_options(*mechanism, "auto").step));
     const std::optional<AxesComparison> axes = compare_axes(*mechanism);
 
     // Rungs without steps have no trajectory to lose.

@@ -1,5 +1,7 @@
 #include "scatter_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,6 +18,14 @@ std::vector<std::string> names_of(const RandomInputs& inputs) {
   std::vector<std::string> names;
   for (const RandomParameter& p : inputs.parameters) names.push_back(p.name());
   return names;
+}
+
+std::string first_failure_text(const Failures& failures, const std::string& what) {
+  return fmt::format("; the first of them, {} {}: {}", what, failures.first, failures.reason);
+}
+
+void add_first_failure(Json& summary, const Failures& failures, const std::string& what) {
+  if (failures.count > 0) summary["first_failure"] = {{what, failures.first}, {"reason", failures.reason}};
 }
 
 bool scene_varies(const RandomInputs& inputs) {

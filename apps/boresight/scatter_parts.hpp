@@ -1,10 +1,12 @@
 // What the verbs over scattered parameters share: montecarlo, sensitivity.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "boresight_analyses/random/random_inputs.hpp"
 #include "boresight_analyses/statistics/interval.hpp"
+#include "boresight_analyses/study/failures.hpp"
 #include "summary.hpp"
 
 namespace boresight::app {
@@ -13,6 +15,11 @@ Json number_json(double value);  // NaN and infinity, which JSON has not, are nu
 Json interval_json(const ReportedInterval& interval);
 
 std::vector<std::string> names_of(const RandomInputs& inputs);
+// For a warning that samples failed: why, from the first of them. what: "sample", "run", ...
+std::string first_failure_text(const Failures& failures, const std::string& what);
+// Puts it into a summary, where there is one.
+void add_first_failure(Json& summary, const Failures& failures, const std::string& what);
+
 // Whether some parameter changes more than contacts: the scene (masses, gravity, springs) is then another one each time.
 bool scene_varies(const RandomInputs& inputs);
 // The scatter's middle and two corners, for the pilot: what holds there is taken to hold between them.

@@ -4,6 +4,7 @@
 
 #include "boresight_analyses/sensitivity/local_sensitivity.hpp"
 #include "boresight_analyses/sensitivity/sensitivity.hpp"
+#include "boresight_analyses/study/failures.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 #include "boresight_analyses/study/study.hpp"
 #include "command.hpp"
@@ -23,6 +24,7 @@ struct SensitivityStudy {
   bool interrupted = false;
   std::vector<std::string> warnings;
   std::string leaves_out;
+  Failures failures = {};
 };
 
 // "radial clearance of F1 makes 71 % of the variance"; for the terminal and the report's head.

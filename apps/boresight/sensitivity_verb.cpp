@@ -68,7 +68,7 @@ class SensitivityVerb : public Verb {
     const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
     const SensitivityPlan plan = read_sensitivity_plan(input.root, study, mechanism->description(), input.trial);
     check_rung_name(command.rung);
-    RunOptions run = motion_.run_options(*mechanism);
+    RunOptions run = motion_.run_options(*mechanism, command.rung);
 
     ContentHash runs;
     runs.add(plan.text(study));
@@ -79,7 +79,7 @@ class SensitivityVerb : public Verb {
         identity_of(command, mechanism->description().content_hash, runs.hexadecimal(), options));
     SampleStore store = open_runs(out, name(), plan.inputs, plan.text(study), resume_);
     const RungChoice choice = rung_for(command, study, mechanism, plan, run, store);
-    if (choice.step > 0.0) run.step = choice.step;
+    apply(choice, run);
     const std::unique_ptr<SampleModel> sampled = sample_model(
         choice.name, mechanism,
         [mechanism, &plan](std::span<const double> values) { return plan.inputs.parameters_with(*mechanism, values); },
@@ -100,7 +100,7 @@ class SensitivityVerb : public Verb {
                                (p.failed > 0 ? fmt::format(", {} failed", p.failed) : ""));
     };
     const bool whole =
-        with_options_checked(run, [&] { return compute_sensitivity_runs(model, plan, store, options_of_runs); });
+        with_options_checked([&] { return compute_sensitivity_runs(model, plan, store, options_of_runs); });
     std::optional<GlobalSensitivity> global;
     LocalResult local;
     local.interrupted = true;
@@ -122,9 +122,11 @@ class SensitivityVerb : public Verb {
                             .shown = {},
                             .interrupted = !whole || local.interrupted,
                             .warnings = {},
-                            .leaves_out = model.leaves_out()};
+                            .leaves_out = model.leaves_out(),
+                            .failures = {}};
     const std::uint64_t every = plan.runs_per_row() * (plan.rows / kMostShown + 1);
     store.read(plan.runs(), [&](const SampleRecord& r) {
+      result.failures.see(r.number, r.outcome);
       if (r.number % every == 0 && r.outcome.status == Outcome::Status::done) result.shown.push_back(r);
     });
     result.warnings = warnings_of(result);
@@ -143,8 +145,7 @@ class SensitivityVerb : public Verb {
     const bool lanes = choice.name == "perturbation" && LaneSampleModel::serve(*mechanism, study.index, run);
     if (lanes) choice.step = 0.0;
     if (!lanes && choice.step == 0.0 && run.step == 0.0)
-      choice.step = with_options_checked(
-          run, [&] { return common_step(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run); });
+      choice.step = with_options_checked([&] { return common_step(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run); });
     return choice;
   }
 
@@ -160,8 +161,12 @@ class SensitivityVerb : public Verb {
       if (s.global->failed_runs > 0)
         warnings.push_back(fmt::format("{} of {} runs failed; the {} rows that they belong to are left out, so the indices speak of "
                                        "the parameters' range without them",
-                                       s.global->failed_runs, s.plan.runs(), s.global->failed_rows));
+                                       s.global->failed_runs, s.plan.runs(), s.global->failed_rows) +
+                           first_failure_text(s.failures, "run"));
     }
+    if (!s.global && s.failures.count > 0)
+      warnings.push_back(fmt::format("{} of {} runs failed: too many for indices", s.failures.count, s.plan.runs()) +
+                         first_failure_text(s.failures, "run"));
     for (const LocalSensitivity& p : s.local.parameters) {
       if (!p.meaningful) warnings.push_back("no slope for " + p.name + ": " + p.why_not);
       if (std::isfinite(p.exact) && !p.exact_agrees) warnings.push_back(p.name + ": " + p.exact_note);
@@ -177,6 +182,7 @@ class SensitivityVerb : public Verb {
     json["samples"] = s.plan.rows;
     json["runs"] = s.plan.runs();
     json["index"] = {{"quantity", s.study.index.quantity}, {"statistic", s.study.index.statistic}, {"unit", s.study.index.si_unit()}};
+    add_first_failure(json, s.failures, "run");
     std::vector<std::string> files = {"summary.json", "samples.db", "report.html"};
     if (s.global) {
       json["index"]["mean"] = s.global->mean;

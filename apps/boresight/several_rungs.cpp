@@ -9,10 +9,10 @@ namespace boresight::app {
 std::unique_ptr<SampleModel> model_on(const SeveralRungs& s, const std::string& rung) {
   const RandomInputs& inputs = s.question.plan.inputs;
   RunOptions run = s.run;
+  check_run_options(run, rung, *s.question.mechanism);
   const bool lanes = rung == "perturbation" && LaneSampleModel::serve(*s.question.mechanism, s.question.study.index, run);
   if (!lanes && run.step == 0.0)
-    run.step = with_options_checked(
-        run, [&] { return common_step(rung, s.question.mechanism, pilot_samples(inputs, *s.question.mechanism), run); });
+    run.step = with_options_checked([&] { return common_step(rung, s.question.mechanism, pilot_samples(inputs, *s.question.mechanism), run); });
   return sample_model(rung, s.question.mechanism, s.question.parameters_of(), s.question.study.index, run,
                       scene_varies(inputs));
 }

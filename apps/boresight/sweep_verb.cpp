@@ -120,9 +120,8 @@ class SweepVerb : public Verb {
     const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
     const SweepPlan plan = read_sweep_plan(input.root, mechanism->description(), input.trial);
     check_rung_name(command.rung);
-    motion_.check_rung(command.rung);
     SweepOptions options;
-    options.run = motion_.run_options(*mechanism);
+    options.run = motion_.run_options(*mechanism, command.rung);
     options.run.start = study.index.start;
     options.jobs = command.jobs;
     const OutputDirectory out = OutputDirectory::open(
@@ -154,7 +153,7 @@ class SweepVerb : public Verb {
     };
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
     const SweepResult result =
-        with_options_checked(options.run, [&] { return run_sweep(*rung, *mechanism, plan, options); });
+        with_options_checked([&] { return run_sweep(*rung, *mechanism, plan, options); });
 
     write_json(out, "summary.json", summary_of(command, study, *mechanism, choice, plan, result, watch, out));
     out.write("sweep.csv", [&](std::ostream& s) { write_sweep(s, plan, *mechanism, result); });

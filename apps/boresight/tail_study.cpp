@@ -52,6 +52,7 @@ int run_tail(const SeveralRungs& s) {
 
   Progress progress(s.command.quiet, asked.budget, "s of CPU");
   double spent = 0.0;
+  Failures failures;
   std::string doing = "finding the excess";
   const MethodOptions options{.jobs = s.command.jobs,
                               .progress =
@@ -59,7 +60,11 @@ int run_tail(const SeveralRungs& s) {
                                     spent += cpu;
                                     progress.update(std::min(spent, asked.budget), doing);
                                   },
-                              .interrupted = [] { return interrupted(); }};
+                              .interrupted = [] { return interrupted(); },
+                              .failed = [&](std::uint64_t, const Outcome& outcome) {
+                                // In the order in which they fail: the first that is told of is the one to tell.
+                                failures.see(failures.count, outcome);
+                              }};
   const auto cheap_costs = std::make_shared<std::vector<double>>(), exact_costs = std::make_shared<std::vector<double>>();
   const BatchModel cheap = on_normal_space(*cheap_model, plan.inputs, options, cheap_costs);
   const BatchModel exact_rung = on_normal_space(*exact_model, plan.inputs, options, exact_costs);
@@ -107,7 +112,10 @@ int run_tail(const SeveralRungs& s) {
                                    estimate.effective_exceedances, asked.exact));
   if (pilot->control > 0.0 && estimate.disagreements < 5)
     warnings.push_back(fmt::format("the rungs disagree on {} points only: how much they do is not well known", estimate.disagreements));
-  if (estimate.failed > 0) warnings.push_back(fmt::format("{} points failed and count as beyond the limit", estimate.failed));
+  if (failures.count > 0)
+    warnings.push_back(fmt::format("{} points failed in all, {} of them of the estimate, where they count as beyond the limit; the first "
+                                   "that did: {}",
+                                   failures.count, estimate.failed, failures.reason));
   const ReportedInterval below{1.0 - p.value, 1.0 - p.high, 1.0 - p.low, requirement.confidence, requirement.confidence, false,
                                p.basis, "independent"};
   // No point beyond the limit is no proof: there is then no scatter to make an interval of.
@@ -116,6 +124,7 @@ int run_tail(const SeveralRungs& s) {
   Json json = several_rungs_summary(s, asked.exact, warnings);
   json["samples"] = estimate.exact_evaluations;
   json["failed"] = estimate.failed;
+  if (failures.count > 0) json["first_failure"] = {{"reason", failures.reason}};
   json["requirement"] = {{"limit", requirement.limit},
                          {"asked_probability", requirement.probability},
                          {"confidence", requirement.confidence},

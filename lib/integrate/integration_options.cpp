@@ -23,6 +23,7 @@ struct Check {
 bool IntegrationOptions::is_valid(Eigen::Index size, std::string& error) const {
   Check check{error};
   check.need(step >= 0.0, "step", step, "a positive time, or 0 for error control");
+  check.need(most_error > 0.0, "most_error", most_error, "a number above 0");
   check.need(relative_tolerance >= 0.0, "relative_tolerance", relative_tolerance, "a number not below 0");
   check.need(absolute_tolerance >= 0.0, "absolute_tolerance", absolute_tolerance, "a number not below 0");
   check.need(relative_tolerance > 0.0 || absolute_tolerance > 0.0 || absolute_tolerances.size() > 0,
@@ -69,6 +70,8 @@ const char* to_string(StopReason reason) {
       return "state not finite";
     case StopReason::attempt_failed:
       return "step failed";
+    case StopReason::error_too_large:
+      return "fixed step too large";
   }
   return "?";
 }

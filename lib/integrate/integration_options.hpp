@@ -16,6 +16,9 @@ struct IntegrationOptions {
   double step = 0.0;
   // A step is taken if the root mean square of error_i / (absolute_i + relative max(|y0_i|, |y1_i|)) is at most 1. This
   // bounds the error of one step; the error at the end of the run is some factor of it, which the problem decides.
+  // A fixed step is not rejected, but where its error estimate exceeds most_error tolerances the run stops and says so: its
+  // result would mislead. Infinite: whatever the estimate says.
+  double most_error = std::numeric_limits<double>::infinity();
   double relative_tolerance = 1e-6;
   double absolute_tolerance = 1e-9;  // in the units of y; choose it well below a penetration
   VecX absolute_tolerances{};        // one for each y, in place of the one above; empty: all alike
@@ -63,6 +66,7 @@ enum class StopReason {
   step_too_small,  // the error estimate, or attempts that failed, asked for less than smallest_step
   not_finite,      // with a fixed step: y1 overflowed; y is left at the last finite state
   attempt_failed,  // with a fixed step: singular matrix or no convergence
+  error_too_large,  // with a fixed step: its error estimate exceeds most_error
 };
 const char* to_string(StopReason reason);
 
@@ -82,6 +86,7 @@ struct IntegrationSummary {
   // them mean that stability, not accuracy, sets the step.
   long stiff_steps = 0;
   double smallest_step = 0.0, largest_step = 0.0, last_step = 0.0;  // accepted and not cut short [s]
+  double largest_error = 0.0;  // estimated, of the steps taken, in tolerances; 0 for a method without an estimate
 
   long rejected() const {
     return rejected_by_error + rejected_not_finite + rejected_singular + rejected_no_convergence;

@@ -91,8 +91,9 @@ class Integrator {
         h *= control.reject(std::numeric_limits<double>::infinity());
         continue;
       }
-      const double error = fixed ? 0.0 : error_norm(method_.error(), y, method_.proposed(), options);
-      if (!(error <= 1.0)) {
+      const bool estimates = method_.error_order() > 0;
+      double error = estimates ? error_norm(method_.error(), y, method_.proposed(), options) : 0.0;
+      if (!fixed && !(error <= 1.0)) {
         ++summary_.rejected_by_error;
         h *= control.reject(error);
         continue;
@@ -121,14 +122,18 @@ class Integrator {
           continue;
         }
         // The whole step may have passed by luck, with a contact begun and ended inside it.
-        const double cut_error = fixed ? 0.0 : error_norm(method_.error(), y, method_.proposed(), options);
-        if (!(cut_error <= 1.0)) {
+        const double cut_error = estimates ? error_norm(method_.error(), y, method_.proposed(), options) : 0.0;
+        if (!fixed && !(cut_error <= 1.0)) {
           ++summary_.rejected_by_error;
           if constexpr (HasGaps<S>) watch_.restore();
           h = length * control.reject(cut_error);
           continue;
         }
+        // A fixed step is judged by what is taken of it; under error control the whole step's error sets the next one.
+        if (fixed) error = cut_error;
       }
+      summary_.largest_error = std::max(summary_.largest_error, error);
+      if (fixed && !(error <= options.most_error)) return ended(StopReason::error_too_large, "");
       summary_.crossings_below_floor += below_floor;
       const double end = cut ? t_ + length : (remaining <= h * (1.0 + 1e-12) ? t_end : t_ + h);
       state_ = method_.proposed();

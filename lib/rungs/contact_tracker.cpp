@@ -173,7 +173,10 @@ void ContactTracker::observe(double t, const std::array<ContactState<double>, kC
   t_ = t;
   for (ContactPlace place : places_) {
     const int k = static_cast<int>(place);
-    if (memory_.touching[k]) deepen(open_[k], t, contact[k].penetration);
+    if (memory_.touching[k])
+      deepen(open_[k], t, contact[k].penetration);
+    else
+      memory_.impact_speed[k] = std::max(minimum_impact_speed_, contact[k].rate);
   }
 }
 

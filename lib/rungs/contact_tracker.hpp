@@ -28,7 +28,9 @@ class ContactTracker {
 
   // Where the integrator locates the contacts itself, in place of accept(): observe() at the end of every step and
   // wherever else a state is at hand, then begin() and end() of what changes there. speed: of approach, of separation
-  // [m/s].
+  // [m/s]. A contact that is open may act inside a trial step, where another one of its direction is closed (the other end
+  // of a tilting journal): like accept(), observe() keeps for it the speed at which it would begin now, not that of the
+  // contact before.
   void observe(double t, const std::array<ContactState<double>, kContactPlaces>& contact);
   void begin(ContactPlace place, double t, double speed);
   // A contact that the motion starts with: none has struck.

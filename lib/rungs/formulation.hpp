@@ -21,6 +21,8 @@ class Formulation {
   virtual int state_size() const = 0;
   // Whether number k of the state is a speed.
   virtual bool is_speed(int k) const = 0;
+  // Whether it is a displacement (or the speed of one), in metres, and no turn.
+  virtual bool is_length(int k) const = 0;
   // Whether the state is (q, v) with q' = v: no quaternions.
   virtual bool positions_follow_speeds() const = 0;
   // The state of the ideal mechanism at its start: journals concentric, velocities of the ideal motion.
@@ -38,6 +40,8 @@ class Formulation {
   // Of the last derivative(): accelerations of all bodies; largest violated position constraint [m or rad].
   virtual const std::vector<BodyAcceleration>& acceleration() const = 0;
   virtual double violation() const = 0;
+  // Of the last derivative(): what the reactions do where the rows of joints are opening [W]; 0 on an exact motion.
+  double opening_power() const { return opening_power_; }
   // What unit forces on the journals (at their centres, and couples on their slopes) accelerate the offsets by, in the order
   // of OffsetLayout, symmetric [1/kg; with slopes 1/(kg m), 1/(kg m^2)], at the state of the last derivative().
   virtual MatX offset_compliance() = 0;
@@ -51,6 +55,7 @@ class Formulation {
   Formulation(const Mechanism& mechanism, const Parameters& parameters, bool with_clearance)
       : forces_(mechanism, parameters, with_clearance) {}
   ForceElements forces_;
+  double opening_power_ = 0.0;
 };
 
 enum class Stabilisation { baumgarte, projection };

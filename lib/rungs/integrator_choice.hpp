@@ -29,12 +29,15 @@ double tolerance_of(const RunOptions& options, const std::string& rung);
 
 // Of generalized-alpha at infinite frequency: fast modes lose four fifths of their amplitude in a step.
 inline constexpr double kSpectralRadius = 0.2;
-// Speeds are held to the tolerance over this time: that of the flights between contacts [s].
+// A flight between contacts of the default scene [s], for whoever scales speeds against positions without a scene at hand;
+// the rungs ask theirs: motion_scales.hpp.
 inline constexpr double kFlightTime = 1e-3;
 
-// The name that the options ask for. Throws std::invalid_argument for one that the rung does not have, and for a
-// tolerance given to rk4 or along with a step.
-std::string integrator_of(const RunOptions& options, const std::string& rung);
+// The name that the options, checked by check_options(), ask for.
+std::string integrator_of(const RunOptions& options);
+
+// Whether steps follow an error estimate, each run its own: any integrator but rk4, unless a step is given.
+bool controls_error(const RunOptions& options);
 
 // Smallest clearance that the parameters give any joint, radial or axial, leaving out those that are zero [m]; 0 if all
 // are.

@@ -4,6 +4,16 @@
 
 namespace boresight {
 
+ComputationError misleading_step(const std::string& method, const IntegrationSummary& summary,
+                                 const IntegrationOptions& options) {
+  char text[300];
+  std::snprintf(text, sizeof text,
+                "step too large: at t = %.6g s one step of %.4g s errs by %.3g times the smallest clearance (the estimate of %s), "
+                "and what follows would mislead; take a smaller step, or none, so that steps follow the error estimate",
+                summary.t, options.step, kMisleadingError * summary.largest_error / options.most_error, method.c_str());
+  return ComputationError(text);
+}
+
 void report_integration(const RunOptions& run, const std::string& rung, const std::string& integrator,
                         const IntegrationSummary& summary, RunResult& result) {
   const char* name = integrator == "dopri5"       ? "Dormand-Prince 5(4)"

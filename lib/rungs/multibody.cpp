@@ -4,22 +4,26 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
+#include <utility>
 
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/bristle_state.hpp"
 #include "boresight/rungs/contact_tracker.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
+#include "boresight/rungs/energy_balance.hpp"
 #include "boresight/rungs/formulation.hpp"
 #include "boresight/rungs/held_play.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/located_motion.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
+#include "boresight/rungs/motion_scales.hpp"
 #include "boresight/rungs/multibody_start.hpp"
 #include "boresight/rungs/multibody_system.hpp"
+#include "boresight/rungs/option_check.hpp"
 #include "boresight/rungs/own_step.hpp"
 #include "boresight/rungs/start_up.hpp"
 #include "boresight/rungs/step_error.hpp"
@@ -41,12 +45,13 @@ class Multibody final : public Rung {
   }
 
   RunResult run(const Parameters& parameters, const RunOptions& options) const override {
+    check_options(options, name(), *mechanism_, parameters);
     const auto wall = std::chrono::steady_clock::now();
     const double cpu = thread_cpu_seconds();
     std::optional<IdealMotion> simulated;
     const IdealMotion& ideal = ideal_for(parameters, simulated);
 
-    const std::string integrator = integrator_of(options, name());
+    const std::string integrator = integrator_of(options);
     RunResult result;
     if (make_formulation(parameters, options, ideal)->state_size() == 0) {
       result = motion_without_play(*mechanism_, ideal, parameters, options);
@@ -113,13 +118,24 @@ class Multibody final : public Rung {
       return head;
     };
     ExplicitRungeKutta method(classical_rk4(), y.size());
+    // The energy's balance, by the weights of the method: a step's work is that of its stages.
+    EnergyBalance energy(mechanism, parameters, formulation->bodies(0.0, bodies_of(y)));
+    std::size_t stage = 0;
+    double work = 0.0;
+    const auto add_power = [&](double t, const VecX& state) {
+      work += h * classical_rk4().b[stage++] * energy.power(*formulation, formulation->bodies(t, bodies_of(state)));
+    };
     const auto derivative = [&](double t, const VecX& state, VecX& dy) {
-      if (bristles.empty()) return formulation->derivative(t, state, memory, dy);
+      if (bristles.empty()) {
+        formulation->derivative(t, state, memory, dy);
+        return add_power(t, state);
+      }
       bristles.hand_over(state.tail(bristles.size()), h, memory);
       formulation->derivative(t, bodies_of(state), memory, head_dot);
       dy.head(n) = head_dot;
       bristles.rates([&](std::size_t c) -> const Bristles<double>& { return forces.bristle_rate(static_cast<int>(c)); },
                      dy.tail(bristles.size()));
+      add_power(t, state);
     };
 
     const auto advance = [&](double t, double step, VecX& state) {
@@ -142,7 +158,11 @@ class Multibody final : public Rung {
       if (!y.allFinite()) throw UnstableStep("the state is not finite", t, h);
       accept_contacts(formulation->bodies(t, bodies_of(y)), t, forces, trackers, memory, motion);
       bristles.release(memory, y.tail(bristles.size()));
+      energy.add_work(work);
+      work = 0.0;
+      stage = 0;
       derivative(t, y, method.first_slope());
+      energy.look(formulation->bodies(t, bodies_of(y)));
       drift = std::max(drift, formulation->violation());
       record(*formulation, bodies_of(y), t, trackers, recorder);
       if (std::any_of(trackers.begin(), trackers.end(), [](const ContactTracker& c) { return c.touching(); })) {
@@ -182,6 +202,7 @@ class Multibody final : public Rung {
     std::snprintf(text, sizeof text, "RK4, h = %.6g s", h);
     result.integrator = text;
     result.constraint_drift = drift;
+    result.energy_error = energy.error();
     result.error = {0.0, step_error(fastest, h), "the step against the stiffest contact met"};
     result.interrupted = interrupted;
     result.cost.steps = steps;
@@ -193,22 +214,37 @@ class Multibody final : public Rung {
                               const std::string& integrator) const {
     const double duration = mechanism_->duration();
     const auto formulation = make_formulation(parameters, options, ideal);
-    if (integrator == "generalized-alpha" && !formulation->positions_follow_speeds())
-      throw ComputationError(
-          "generalized-alpha needs coordinates whose rates are the speeds, and this state holds quaternions; "
-          "rosenbrock is implicit too");
-    for (int c = 0; c < formulation->forces().clearances(); ++c)
-      if (formulation->forces().joint(c).sticks)
-        throw std::invalid_argument("LuGre friction has a state that only rk4 carries, not " + integrator);
     std::vector<ContactTracker> trackers = make_trackers(formulation->forces(), options);
     MotionRecorder recorder(*mechanism_, ideal, options, 2.0 * duration / kPaperStep);
     std::string start_warning;
     VecX y = multibody_start(*mechanism_, parameters, ideal, *formulation, start_warning);
-    MultibodySystem system(*formulation, trackers);
+    MultibodySystem system(*formulation, trackers, mechanism_->characteristic_length());
     system.start(0.0, y);
     double drift = 0.0;
     long points = 0;
     bool interrupted = false;
+    // The energy's balance, by Simpson's rule over each step. The power at a step's start is that at the end of the one
+    // before, unless an event changed what acts in between.
+    EnergyBalance energy(*mechanism_, parameters, formulation->bodies(0.0, y));
+    VecX within = y;
+    double power_at_end = 0.0;
+    long events = -1;
+    const auto power = [&](double t, const VecX& state) {
+      system.evaluate(t, state);
+      return energy.power(*formulation, formulation->bodies(t, state));
+    };
+    const auto taken = [&](const auto& step) {
+      const double h = step.end() - step.start();
+      const auto power_within = [&](double share) {
+        step.at(step.start() + share * h, within);
+        return power(step.start() + share * h, within);
+      };
+      const double at_start = std::exchange(events, system.events()) == system.events() ? power_at_end : power_within(0.0);
+      const double in_middle = power_within(0.5);
+      power_at_end = power(step.end(), step.state());
+      energy.add_work(h / 6.0 * (at_start + 4.0 * in_middle + power_at_end));
+      energy.look(formulation->bodies(step.end(), step.state()));
+    };
     const auto show = [&](double t, const VecX& state, bool at_end) {
       // Poses are cheap, accelerations and forces are not: inside a step only where they are sampled.
       const bool whole = at_end || points == 0 || recorder.wants_sample(t);
@@ -225,7 +261,7 @@ class Multibody final : public Rung {
     IntegrationSummary summary;
     try {
       summary = follow_located(integrator, system, duration, options.sample_spacing, y,
-                               integration_options(*formulation, parameters, options), show);
+                               integration_options(*formulation, parameters, options, ideal), show, taken);
     } catch (const ComputationError& failure) {
       throw ComputationError(failure.what() + (system.fault().empty() ? "" : "; refused last: " + system.fault()));
     }
@@ -235,26 +271,44 @@ class Multibody final : public Rung {
     report_integration(options, name(), integrator, summary, result);
     result.cost.evaluations += system.evaluations();
     result.constraint_drift = drift;
+    result.energy_error = energy.error();
     result.error = {0.0, tolerance_error(tolerance_of(options, name())), "the tolerance of the steps"};
     result.interrupted = interrupted;
     return result;
   }
 
-  // Positions are turns and slides: both are held as if a turn worked on the mechanism's size, or on a metre where that
-  // is smaller.
+  // Displacements are held to the tolerance, turns as if they worked on the mechanism's size.
   IntegrationOptions integration_options(const Formulation& formulation, const Parameters& parameters,
-                                         const RunOptions& options) const {
+                                         const RunOptions& options, const IdealMotion& ideal) const {
     const double clearance = smallest_clearance(parameters), size = mechanism_->characteristic_length();
-    const double asked = tolerance_of(options, name());
-    const double tolerance = asked * (clearance > 0.0 ? clearance : 1e-6 * size) / std::max(1.0, size);
+    const double length = tolerance_of(options, name()) * (clearance > 0.0 ? clearance : 1e-6 * size);
+    double slowest_impact = std::numeric_limits<double>::infinity();
+    for (const ClearanceParameters& c : parameters.clearance)
+      slowest_impact = std::min(slowest_impact, c.contact.minimum_impact_speed);
+    const MotionScales scales = scales_of(parameters, ideal);
     IntegrationOptions integration;
     integration.step = options.step;
+    if (clearance > 0.0) integration.most_error = most_error(tolerance_of(options, name()));
     integration.relative_tolerance = 0.0;
-    integration.absolute_tolerances = VecX::Constant(formulation.state_size(), tolerance);
+    integration.absolute_tolerances.resize(formulation.state_size());
     for (int k = 0; k < formulation.state_size(); ++k)
-      if (formulation.is_speed(k)) integration.absolute_tolerances[k] /= kFlightTime;
-    integration.largest_step = mechanism_->duration() / 100.0;
+      integration.absolute_tolerances[k] = length / (formulation.is_length(k) ? 1.0 : size) /
+                                           (formulation.is_speed(k) ? scales.flight_time : 1.0);
+    scales.apply(mechanism_->duration(), slowest_impact, integration);
     return integration;
+  }
+
+  MotionScales scales_of(const Parameters& parameters, const IdealMotion& ideal) const {
+    MotionScales scales;
+    const std::vector<ContactFrequency> contacts = analyse_contacts(*mechanism_, parameters, ideal);
+    for (std::size_t c = 0; c < contacts.size(); ++c)
+      if (contacts[c].effective_mass > 0.0)
+        scales.add_joint(parameters.clearance[c].radial, parameters.clearance[c].axial,
+                         contacts[c].typical_load / contacts[c].effective_mass,
+                         contacts[c].largest_load / contacts[c].effective_mass);
+    scales.own_time = own_time(ideal, mechanism_->bodies(), mechanism_->characteristic_length());
+    scales.close(mechanism_->duration());
+    return scales;
   }
 
   std::vector<ContactTracker> make_trackers(const ForceElements& forces, const RunOptions& options) const {
@@ -279,8 +333,6 @@ class Multibody final : public Rung {
   std::unique_ptr<Formulation> make_formulation(const Parameters& parameters, const RunOptions& options,
                                                 const IdealMotion& ideal) const {
     const bool paper = options.formulation == "paper";
-    if (!paper && !options.formulation.empty() && options.formulation != "tree")
-      throw std::invalid_argument("no formulation \"" + options.formulation + "\"; there is: tree, paper");
     // Each formulation's own habit where nothing is asked for: the paper's is Baumgarte's, the tree's projection.
     const bool project = options.stabilisation.empty() ? !paper : options.stabilisation == "projection";
     const Stabilisation stabilisation = project ? Stabilisation::projection : Stabilisation::baumgarte;

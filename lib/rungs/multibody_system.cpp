@@ -26,18 +26,31 @@ struct MultibodySystem::Held {
   ForceElements& forces;
 };
 
-MultibodySystem::MultibodySystem(Formulation& formulation, std::vector<ContactTracker>& trackers)
+double BodiesThen::change(double t, const std::vector<BodyMotion>& bodies, double size) const {
+  if (bodies_.empty()) return std::numeric_limits<double>::infinity();
+  double moved = 0.0, sped = 0.0;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const BodyMotion &now = bodies[b], &then = bodies_[b];
+    // For a small turn the difference of two rotations is the turn itself.
+    moved = std::max({moved, (now.R - then.R).cwiseAbs().maxCoeff(), (now.p - then.p).cwiseAbs().maxCoeff() / size});
+    sped = std::max({sped, (now.w - then.w).cwiseAbs().maxCoeff(), (now.v - then.v).cwiseAbs().maxCoeff() / size});
+  }
+  return std::max(moved, sped * std::abs(t - t_));
+}
+
+MultibodySystem::MultibodySystem(Formulation& formulation, std::vector<ContactTracker>& trackers, double size)
     : formulation_(formulation),
       trackers_(trackers),
       joints_(joints_of(formulation.forces())),
       contacts_(joints_, trackers_),
       memory_(trackers.size()),
       slope_(VecX::Zero(formulation.state_size())),
+      size_(size),
       slow_(formulation.state_size(), formulation.state_size()),
       shifted_(slope_),
       base_(slope_),
       response_(slope_),
-      unit_time_(trackers.size(), -1.0),
+      unit_then_(trackers.size()),
       unit_(trackers.size(), MatX::Zero(formulation.state_size(), 6)),
       here_(trackers.size()),
       of_motion_(trackers.size(), MatX::Zero(formulation.state_size(), kMotionNumbers)) {}
@@ -74,17 +87,18 @@ void MultibodySystem::respond(double t, const VecX& y) const {
   ++evaluations_;
   evaluated_time_ = -1.0;  // what follows leaves the formulation elsewhere
   const Held held(forces);
+  bodies_now_ = formulation_.bodies(t, y);
   ContactJacobian law;
   for (int c = 0; c < static_cast<int>(joints_.size()); ++c) {
     if (!contacts_.touches(c)) continue;
     const JournalMotion<double> motion = forces.motion(c);
     contact_jacobian(contacts_.acting(c), motion, memory_[c].impact_speed, MomentAbout::sleeve, law);
     const JournalWrench<double> wrench = forces.contact(c);
-    if (std::abs(t - unit_time_[c]) <= kUnitTime) {
+    if (unit_then_[c].change(t, bodies_now_, size_) <= kUnitShare) {
       of_motion_[c].noalias() = unit_[c] * law;
       continue;
     }
-    unit_time_[c] = t;
+    unit_then_[c].set(t, bodies_now_);
     // Linear in the wrench: a difference of any size is exact. One as large as the wrench itself loses no digits.
     const double size = std::max(1.0, wrench.force.norm());
     for (int k = 0; k < 6; ++k) {
@@ -110,7 +124,8 @@ void MultibodySystem::jacobian(double t, const VecX& y, MatX& J) const {
   ForceElements& forces = formulation_.forces();
   respond(t, y);
   const int size = static_cast<int>(y.size());
-  if (slow_time_ < 0.0 || std::abs(t - slow_time_) > kSlowTime) {
+  bodies_now_ = formulation_.bodies(t, y);
+  if (!(slow_then_.change(t, bodies_now_, size_) <= kSlowShare)) {
     const Held held(forces);
     for (int k = 0; k < size; ++k) {
       shifted_ = y;
@@ -119,7 +134,7 @@ void MultibodySystem::jacobian(double t, const VecX& y, MatX& J) const {
       slow_.col(k) = (response_ - base_) / (shifted_[k] - y[k]);
     }
     evaluations_ += size;
-    slow_time_ = t;
+    slow_then_.set(t, bodies_now_);
   }
   J = slow_;
   remember_motion(t, y);
@@ -128,11 +143,11 @@ void MultibodySystem::jacobian(double t, const VecX& y, MatX& J) const {
   for (int k = 0; k < size && touching; ++k) {
     shifted_ = y;
     shifted_[k] += kIncrement;
-    const std::vector<BodyMotion>& bodies = formulation_.bodies(t, shifted_);
+    const std::vector<BodyMotion>& moved = formulation_.bodies(t, shifted_);
     for (int c = 0; c < static_cast<int>(joints_.size()); ++c)
       if (contacts_.touches(c))
         J.col(k).noalias() +=
-            of_motion_[c] * ((numbers(forces.journal_motion(c, bodies)) - here_[c]) / (shifted_[k] - y[k]));
+            of_motion_[c] * ((numbers(forces.journal_motion(c, moved)) - here_[c]) / (shifted_[k] - y[k]));
   }
 }
 
@@ -160,6 +175,7 @@ void MultibodySystem::gaps(double t, const VecX& y, VecX& g) const {
 }
 
 AfterEvent MultibodySystem::on_event(const GapEvent& event, VecX& y) {
+  ++events_;
   const int c = contacts_.joint_of(event);
   read(c, event.t, y);
   contacts_.change(event, contact_);
@@ -177,6 +193,7 @@ void MultibodySystem::observe(double t, const VecX& y, bool with_forces) {
   for (int c = 0; c < static_cast<int>(joints_.size()); ++c) {
     read(c, t, y);
     trackers_[c].observe(t, contact_);
+    memory_[c] = trackers_[c].memory();
     if (with_forces) trackers_[c].observe_forces(formulation_.forces().contact(c).contact);
   }
 }

@@ -8,23 +8,39 @@
 
 namespace boresight {
 
-// How long the slow part of a Jacobian is kept [s]: that of a motion of about a second changes by about a hundredth.
-inline constexpr double kSlowTime = 1e-2;
+// How far the bodies may move before the slow part of a Jacobian is taken anew: turns in rad, displacements over the
+// mechanism's size; and so what their speeds have changed by, over the time since. It then is wrong by about this share.
+inline constexpr double kSlowShare = 1e-2;
 
-// And what unit wrenches on the journals accelerate, which multiplies the stiffness of the contacts [s].
-inline constexpr double kUnitTime = 1e-3;
+// And before what unit wrenches on the journals accelerate is, which multiplies the stiffness of the contacts.
+inline constexpr double kUnitShare = 1e-3;
+
+// Where the bodies were when a part of a Jacobian was computed.
+class BodiesThen {
+ public:
+  void set(double t, const std::vector<BodyMotion>& bodies) {
+    t_ = t;
+    bodies_ = bodies;
+  }
+  // By how much the mechanism, of this size [m], has changed since: the larger of what kSlowShare names. Infinite before set().
+  double change(double t, const std::vector<BodyMotion>& bodies, double size) const;
+
+ private:
+  double t_ = 0.0;
+  std::vector<BodyMotion> bodies_;
+};
 
 class MultibodySystem {
  public:
-  // trackers: one per clearance, the caller's.
-  MultibodySystem(Formulation& formulation, std::vector<ContactTracker>& trackers);
+  // trackers: one per clearance, the caller's. size: of the mechanism [m].
+  MultibodySystem(Formulation& formulation, std::vector<ContactTracker>& trackers, double size);
 
   void start(double t, const VecX& y);
 
   // Not a number where the formulation cannot follow (a trial step into a singular pose): the step is then rejected.
   void derivative(double t, const VecX& y, VecX& dy) const;
   // The contacts' part exactly, from the laws' own derivatives; the rest, which is slow, by differences with the
-  // contacts' wrenches held, and kept for kSlowTime.
+  // contacts' wrenches held, and kept until the mechanism has moved by kSlowShare.
   void jacobian(double t, const VecX& y, MatX& J) const;
   // Where jacobian() was called last.
   void time_derivative(double t, const VecX& y, VecX& ft) const;
@@ -33,6 +49,7 @@ class MultibodySystem {
   int gap_count() const { return contacts_.gap_count(); }
   void gaps(double t, const VecX& y, VecX& g) const;
   AfterEvent on_event(const GapEvent& event, VecX& y);
+  long events() const { return events_; }  // so far
   void settle(double t, VecX& y) { formulation_.settle(t, y); }
 
   // Makes sure that accelerations and forces are those of (t, y), for whoever reads them from the formulation.
@@ -60,10 +77,13 @@ class MultibodySystem {
   mutable VecX evaluated_, slope_;
   mutable std::string fault_;
   mutable long evaluations_ = 0;
+  long events_ = 0;
+  double size_;
   mutable MatX slow_;
-  mutable double slow_time_ = -1.0;
+  mutable BodiesThen slow_then_;
+  mutable std::vector<BodyMotion> bodies_now_;
   mutable VecX shifted_, base_, response_;
-  mutable std::vector<double> unit_time_;
+  mutable std::vector<BodiesThen> unit_then_;
   mutable std::vector<MatX> unit_;
   mutable std::vector<Eigen::Matrix<double, kMotionNumbers, 1>> here_;
   // Per joint with a closed contact: what its wrench makes of the state's rate (size x 6), times the wrench's

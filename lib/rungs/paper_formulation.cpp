@@ -54,6 +54,7 @@ class PaperFormulation final : public Formulation {
 
   int state_size() const override { return kPerBody * mechanism_.bodies(); }
   bool is_speed(int k) const override { return k % kPerBody >= 7; }
+  bool is_length(int k) const override { return k % kPerBody < 3 || (k % kPerBody >= 7 && k % kPerBody < 10); }
   bool positions_follow_speeds() const override { return false; }
 
   void start(const IdealState& ideal, VecX& y) override {
@@ -95,6 +96,8 @@ class PaperFormulation final : public Formulation {
       lambda_[k] -= rows.gamma - 2.0 * alpha_ * rows.rate - beta_ * beta_ * rows.value;
     }
     constraints_.solve(lambda_);
+    opening_power_ = 0.0;
+    for (int k = 0; k < constraints_.blocks(); ++k) opening_power_ -= lambda_[k].dot(constraints_.rows(k).rate);
     constraints_.multiply_transposed(lambda_, reaction_);
     for (int b = 0; b < mechanism_.bodies(); ++b)
       acceleration_[b].noalias() -= inverse_mass_[b] * reaction_[b];

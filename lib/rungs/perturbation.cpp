@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
+#include <limits>
 
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/located_motion.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
+#include "boresight/rungs/motion_scales.hpp"
 #include "boresight/rungs/own_step.hpp"
 #include "boresight/rungs/perturbation_system.hpp"
 #include "boresight/rungs/scene_rung.hpp"
@@ -45,7 +46,7 @@ class Perturbation final : public SceneRung {
 
  private:
   RunResult follow(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options) const override {
-    const std::string integrator = integrator_of(options, name());
+    const std::string integrator = integrator_of(options);
     if (integrator != "rk4") return integrate_located(prepared, parameters, options, integrator);
     const double own = options.step > 0.0 ? options.step : own_step(mechanism(), parameters, prepared.ideal());
     return with_stable_step(options.step, own, options.sample_spacing,
@@ -117,8 +118,6 @@ class Perturbation final : public SceneRung {
                               const std::string& integrator) const {
     const double duration = mechanism().duration();
     PerturbationSystem system(mechanism(), parameters, prepared.tables(parameters), options.events, options.start);
-    if (system.has_bristles())
-      throw std::invalid_argument("LuGre friction has a state that only rk4 carries, not " + integrator);
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, 2.0 * duration / kPaperStep);
     std::string start_warning;
     VecX y = system.start_state(mechanism(), options.start_offset, start_warning), slope = y;
@@ -128,14 +127,15 @@ class Perturbation final : public SceneRung {
     system.start_located(0.0, y);
     const IntegrationSummary summary =
         follow_located(integrator, system, duration, options.sample_spacing, y,
-                       integration_options(system, parameters, options), [&](double t, const VecX& state, bool) {
+                       integration_options(prepared, system, parameters, options), [&](double t, const VecX& state, bool) {
                          system.derivative(t, state, slope);
                          system.observe(t);
                          record(prepared, t, state, slope, system, recorder, nonlinearity);
                          interrupted = ++points % 4096 == 0 && options.progress &&
                                        !options.progress({t, duration, recorder.position_error_max()});
                          return !interrupted;
-                       });
+                       },
+                       [](const auto&) {});
     RunResult result = recorder.finish();
     report_integration(options, name(), integrator, summary, result);
     if (!start_warning.empty()) result.warnings.push_back(start_warning);
@@ -157,8 +157,8 @@ class Perturbation final : public SceneRung {
   }
 
   // Coordinates are offsets, or slopes of journals: these are held to the tolerance at the sleeve's ends.
-  IntegrationOptions integration_options(const PerturbationSystem& system, const Parameters& parameters,
-                                         const RunOptions& options) const {
+  IntegrationOptions integration_options(const PreparedScene& prepared, const PerturbationSystem& system,
+                                         const Parameters& parameters, const RunOptions& options) const {
     const SceneLayout& at = system.layout();
     const double asked = tolerance_of(options, name());
     const double clearance = smallest_clearance(parameters);
@@ -168,13 +168,42 @@ class Perturbation final : public SceneRung {
       for (int k = 3; k < at.joints[c].offsets; ++k)
         if (at.joints[c].source[k] >= 0)
           tolerance[at.joints[c].source[k]] = asked * length / system.joints()[c].half_length;
+    double slowest_impact = std::numeric_limits<double>::infinity();
+    for (const JournalInSleeve& joint : system.joints())
+      slowest_impact = std::min(slowest_impact, joint.minimum_impact_speed);
+    const MotionScales scales = scales_of(prepared, system, parameters);
     IntegrationOptions integration;
     integration.step = options.step;
+    if (clearance > 0.0) integration.most_error = most_error(asked);
     integration.relative_tolerance = 0.0;
     integration.absolute_tolerances.resize(2 * at.n);
-    integration.absolute_tolerances << tolerance, tolerance / kFlightTime;
-    integration.largest_step = mechanism().duration() / 100.0;
+    integration.absolute_tolerances << tolerance, tolerance / scales.flight_time;
+    scales.apply(mechanism().duration(), slowest_impact, integration);
     return integration;
+  }
+
+  MotionScales scales_of(const PreparedScene& prepared, const PerturbationSystem& system,
+                         const Parameters& parameters) const {
+    constexpr int kInstants = 41;
+    const SceneLayout& at = system.layout();
+    const std::size_t n = at.joints.size();
+    std::vector<double> square(n, 0.0), largest(n, 0.0), row(prepared.tables(parameters)->dynamics.width());
+    for (int i = 0; i < kInstants; ++i) {
+      prepared.tables(parameters)->dynamics.at(mechanism().duration() * i / (kInstants - 1), row.data());
+      for (std::size_t c = 0; c < n; ++c) {
+        double sum = 0.0;
+        for (int k = 0; k < std::min(3, at.joints[c].offsets); ++k)
+          if (const int source = at.joints[c].source[k]; source >= 0) sum += row[at.Ar + source] * row[at.Ar + source];
+        square[c] += sum / kInstants;
+        largest[c] = std::max(largest[c], std::sqrt(sum));
+      }
+    }
+    MotionScales scales;
+    for (std::size_t c = 0; c < n; ++c)
+      scales.add_joint(parameters.clearance[c].radial, parameters.clearance[c].axial, std::sqrt(square[c]), largest[c]);
+    scales.own_time = own_time(prepared.ideal(), mechanism().bodies(), mechanism().characteristic_length());
+    scales.close(mechanism().duration());
+    return scales;
   }
 
   // How forces on the offsets accelerate the offsets: B A B^T, with B picking coordinates where offsets are such.

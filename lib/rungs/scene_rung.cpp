@@ -7,6 +7,7 @@
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/held_play.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/rungs/option_check.hpp"
 
 namespace boresight {
 namespace {
@@ -100,6 +101,7 @@ std::shared_ptr<const PreparedScene> SceneRung::prepared_for(const Parameters& p
 }
 
 RunResult SceneRung::run(const Parameters& parameters, const RunOptions& options) const {
+  check_options(options, name(), *mechanism_, parameters);
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = thread_cpu_seconds();
   const std::shared_ptr<const PreparedScene> prepared = prepared_for(parameters);

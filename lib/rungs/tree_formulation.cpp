@@ -21,6 +21,7 @@
 // State: positions, then speeds, as in TreeKinematics.
 // Source: Featherstone (2008), Rigid Body Dynamics Algorithms, chapters 6 and 8.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -72,6 +73,15 @@ class TreeFormulation final : public Formulation {
 
   int state_size() const override { return kinematics_.state_size(); }
   bool is_speed(int k) const override { return k >= tree_.positions(); }
+  bool is_length(int k) const override {
+    for (const TreeJoint& joint : tree_.joints()) {
+      const long slides = std::count(joint.slides.begin(), joint.slides.end(), true);
+      const int position = k - joint.first_position, speed = k - tree_.positions() - joint.first_speed;
+      if (position >= 0 && position < joint.positions) return position < slides;
+      if (speed >= 0 && speed < joint.speeds) return speed < slides;
+    }
+    return false;
+  }
   bool positions_follow_speeds() const override { return tree_.positions() == tree_.speeds(); }
 
   void start(const IdealState& ideal, VecX& y) override {
@@ -109,7 +119,9 @@ class TreeFormulation final : public Formulation {
     }
     motion_ = inertia_.force();
     inertia_.cholesky().solve_transposed(motion_.data());
-    loops_.constrain(demanded_, motion_);
+    loops_.constrain(demanded_, motion_);  // which leaves the multipliers in demanded_
+    opening_power_ = 0.0;
+    for (int k = 0; k < loops_.blocks(); ++k) opening_power_ -= demanded_[k].dot(loops_.block(k).rows().rate);
     inertia_.cholesky().solve(motion_.data());
 
     kinematics_.position_rates(y, dy);

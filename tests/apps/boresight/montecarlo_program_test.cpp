@@ -167,6 +167,44 @@ TEST_F(MonteCarloProgram, ASampleOfLanesIsReplayedWithinItsStatedError) {
   EXPECT_NEAR(json("seven/summary.json")["index"]["position_error"]["max"].get<double>(), stored, 5e-3 * stored);
 }
 
+// One step for all samples, the mean of what error control took in a pilot, is far too long for a contact.
+TEST_F(MonteCarloProgram, WithAnIntegratorASampleIsTheRunOfItsNumber) {
+  study("few.toml", 9);
+  const double stored = value_of_sample_7(csv_of("few.toml", "out", {"--integrator", "rosenbrock", "--tolerance", "1e-4"}));
+  const nlohmann::json summary = json("out/summary.json");
+  EXPECT_EQ(summary["failed"], 0);
+  EXPECT_EQ(summary["step"], 0.0);
+  EXPECT_THAT(summary["replay"], HasSubstr("--integrator rosenbrock --tolerance 1e-4"));
+  const Ended ended = call({"run", "few.toml", "--set", "motion.duration=20ms", "--rung", "perturbation", "--integrator",
+                            "rosenbrock", "--tolerance", "1e-4", "--sample-number", "7", "--out", "seven"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(json("seven/summary.json")["index"]["position_error"]["max"].get<double>(), stored);
+  // Neither resumed with another tolerance nor with another integrator.
+  for (const char* integrator : {"rosenbrock", "dopri5"})
+    EXPECT_EQ(call(quick("few.toml", "out", {"--integrator", integrator, "--resume"})).status, 2) << integrator;
+}
+
+TEST_F(MonteCarloProgram, AStudyThatFailsSaysWhyOnTheTerminalInTheSummaryAndInTheReport) {
+  study("few.toml", 4);
+  std::vector<std::string> arguments = quick("few.toml", "out", {"--integrator", "rosenbrock", "--step", "2 ms"});
+  arguments.erase(std::find(arguments.begin(), arguments.end(), "--quiet"));
+  const Ended ended = call(arguments);
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("4 of 4 samples failed"), HasSubstr("the first of them, sample 0: step too large")));
+  const nlohmann::json summary = json("out/summary.json");
+  EXPECT_EQ(summary["first_failure"]["sample"], 0);
+  EXPECT_THAT(summary["first_failure"]["reason"].get<std::string>(), HasSubstr("step too large"));
+  EXPECT_THAT(text("out/report.html"), HasSubstr("step too large"));
+}
+
+TEST_F(MonteCarloProgram, WhatEverySampleWouldRefuseIsRefusedAtTheStart) {
+  const Ended ended = call(quick("study.toml", "out", {"--set", "clearance.F1.friction.law=lugre", "--integrator", "dopri5"}));
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("--integrator: found \"dopri5\""), HasSubstr("LuGre")));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
 TEST_F(MonteCarloProgram, ARequirementThatIsNotMetIsStatusOneAndWilksIsToldBefore) {
   study("tight.toml", 100, "requirement = { limit = \"1 um\", probability = 0.9973, confidence = 0.95 }");
   std::vector<std::string> arguments = quick("tight.toml", "out");

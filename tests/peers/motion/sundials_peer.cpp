@@ -114,7 +114,7 @@ class OnMultibody final : public SundialsPeer {
     if (request.with_clearance) trackers.emplace_back(0, "", formulation->forces().joint(0), true);
     VecX y;
     formulation->start(scene.start(), y);
-    MultibodySystem system(*formulation, trackers);
+    MultibodySystem system(*formulation, trackers, scene.mechanism().characteristic_length());
     system.start(0.0, y);
     const int body = scene.mechanism().boresight_body();
     VecX state(y.size());

@@ -1,0 +1,63 @@
+// A study with an integrator gives each sample its own steps, as a single run does.
+#include "boresight_analyses/study/rung_sample_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight_analyses/study/failures.hpp"
+#include "boresight_analyses/study/rung_choice.hpp"
+
+namespace boresight {
+namespace {
+
+std::shared_ptr<const Mechanism> scene() {
+  return std::make_shared<const Mechanism>(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml",
+                                                          {{"motion.duration", "50 ms"}}));
+}
+
+class WithIntegrator : public testing::TestWithParam<const char*> {};
+
+TEST_P(WithIntegrator, EachSampleTakesTheStepsOfItsOwnRun) {
+  const auto mechanism = scene();
+  RunOptions options;
+  options.integrator = GetParam();
+  EXPECT_EQ(common_step("perturbation", mechanism, {mechanism->parameters()}, options), 0.0);
+  apply({.name = "perturbation", .step = 1e-4}, options);
+  EXPECT_EQ(options.step, 0.0) << "a step found with rk4 is none of another integrator's";
+
+  const auto parameters_of = [&](std::span<const double> values) {
+    Parameters p = mechanism->parameters();
+    p.clearance[0].radial = values[0];
+    return p;
+  };
+  const IndexChoice index{"position_error", "max"};
+  const RungSampleModel model("perturbation", mechanism, parameters_of, index, options, false);
+  const std::atomic<bool> stop{false};
+  for (const double clearance : {0.6e-4, 1.0e-4, 1.4e-4}) {
+    const std::vector<double> values = {clearance};
+    const Sample sample{0, values};
+    Outcome outcome;
+    model.evaluate({&sample, 1}, {&outcome, 1}, stop);
+    ASSERT_EQ(outcome.status, Outcome::Status::done) << outcome.message;
+    options.sample_spacing = 0.0;
+    EXPECT_EQ(outcome.value, index.of(make_rung("perturbation", mechanism)->run(parameters_of(values), options).index));
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Integrators, WithIntegrator, testing::Values("dopri5", "rosenbrock"));
+
+TEST(Failures, TellTheReasonOfTheFirstSampleWhateverTheOrder) {
+  Outcome bad{.status = Outcome::Status::failed, .message = "later"}, good{.status = Outcome::Status::done};
+  Failures failures;
+  failures.see(1, good);
+  failures.see(7, bad);
+  bad.message = "first";
+  failures.see(3, bad);
+  bad.message = "last";
+  failures.see(9, bad);
+  EXPECT_EQ(failures.count, 3u);
+  EXPECT_EQ(failures.first, 3u);
+  EXPECT_EQ(failures.reason, "first");
+}
+
+}  // namespace
+}  // namespace boresight

@@ -1,0 +1,76 @@
+// The energy's balance of a run sees what its steps, its stabilisation and its joints' drift make or lose.
+#include "boresight/rungs/energy_balance.hpp"
+
+#include <gtest/gtest.h>
+
+#include "boresight/rungs/rung.hpp"
+#include "published_examples.hpp"
+#include "scenes.hpp"
+
+namespace boresight {
+namespace {
+
+struct Way {
+  std::string formulation, integrator;
+  double step = 0.0, tolerance = 0.0;
+};
+
+double energy_error(const std::shared_ptr<const Mechanism>& mechanism, const Way& way) {
+  RunOptions options;
+  options.sample_spacing = 0.0;
+  options.events = false;
+  options.formulation = way.formulation;
+  options.integrator = way.integrator;
+  options.step = way.step;
+  options.tolerance = way.tolerance;
+  const RunResult result = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
+  return result.energy_error;
+}
+
+// Smooth: four orders from half the step, sixteen times, in both formulations.
+TEST(EnergyBalance, ShrinksWithTheOrderOfTheMethodWhereTheMotionIsSmooth) {
+  const auto mechanism = scenes::example("heavy-top", {{"motion.duration", "0.1 s"}});
+  for (const char* formulation : {"tree", "paper"}) {
+    const double coarse = energy_error(mechanism, {formulation, "rk4", 1e-3}),
+                 fine = energy_error(mechanism, {formulation, "rk4", 5e-4});
+    EXPECT_LT(coarse, 1e-3) << formulation;
+    EXPECT_GT(coarse, 10.0 * fine) << formulation;
+    EXPECT_GT(fine, 0.0) << formulation;
+  }
+}
+
+// With drives, gravity, impacts and friction.
+TEST(EnergyBalance, HoldsThroughContactWithDrivesAndShrinksWithTheStep) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "30 ms"}}));
+  for (const char* formulation : {"tree", "paper"}) {
+    const double coarse = energy_error(mechanism, {formulation, "rk4", 1e-4}),
+                 fine = energy_error(mechanism, {formulation, "rk4", 1e-5});
+    EXPECT_LT(fine, 1e-5) << formulation;
+    EXPECT_GT(coarse, 10.0 * fine) << formulation;
+  }
+}
+
+TEST(EnergyBalance, FollowsTheToleranceOfEveryIntegrator) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "30 ms"}}));
+  for (const char* integrator : {"dopri5", "rosenbrock", "generalized-alpha"}) {
+    const double loose = energy_error(mechanism, {"tree", integrator, 0.0, 1e-1}),
+                 tight = energy_error(mechanism, {"tree", integrator, 0.0, 1e-4});
+    EXPECT_LT(tight, 1e-5) << integrator;
+    EXPECT_GT(loose, 5.0 * tight) << integrator;
+  }
+}
+
+TEST(EnergyBalance, DoesNotDependOnWhereTheDrawingLies) {
+  const std::string file = std::string(BORESIGHT_EXAMPLES) + "/heavy-top/heavy-top.toml";
+  MechanismDescription near = read_mechanism(file, {{"motion.duration", "0.05 s"}}), far = near;
+  const Vec3 moved(0.0, 0.0, 1000.0);
+  for (BodyDescription& b : far.bodies) b.center_of_mass += moved;
+  for (JointDescription& j : far.joints) j.point += moved;
+  const Way way{"tree", "rk4", 1e-3};
+  const double here = energy_error(scenes::build(std::move(near)), way);
+  EXPECT_GT(here, 0.0);
+  EXPECT_NEAR(energy_error(scenes::build(std::move(far)), way) / here, 1.0, 0.01);
+}
+
+}  // namespace
+}  // namespace boresight
