@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/step_error.hpp"
 
@@ -50,6 +51,8 @@ void LaneSampleModel::evaluate(std::span<const Sample> samples, std::span<Outcom
       outcome.status = Outcome::Status::failed;
       outcome.message = failure.what();
     }
+    return;
+  } catch (const Interrupted&) {  // heard while a scene was built
     return;
   }
   long attempts = 0;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
@@ -65,8 +66,12 @@ void RungSampleModel::evaluate(std::span<const Sample> samples, std::span<Outcom
     }
   }
   if (scene_varies_ && !own) own = make_rung(rung_, mechanism_);
-  for (std::size_t k = 0; k < samples.size() && !stop; ++k)
-    evaluate_one(scene_varies_ ? *own : *shared_, samples[k], outcomes[k], stop);
+  try {
+    for (std::size_t k = 0; k < samples.size() && !stop; ++k)
+      evaluate_one(scene_varies_ ? *own : *shared_, samples[k], outcomes[k], stop);
+  } catch (const Interrupted&) {
+    // Heard while a scene was built: the rest is not reached, as when the study hears it.
+  }
   if (own) {
     const std::scoped_lock lock(mutex_);
     idle_.push_back(std::move(own));

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 
 namespace boresight {
 namespace {
@@ -50,6 +51,9 @@ void compute(SweepPoint& point, std::size_t k, const Rung& rung, const Mechanism
   } catch (const ComputationError& error) {
     point.status = SweepPoint::Status::failed;
     point.failure = error.what();
+  } catch (const Interrupted&) {  // heard while the scene was built
+    watch.stop();
+    return;
   }
   if (point.status != SweepPoint::Status::interrupted)
     watch.update(k, 1.0, point.result.index.position_error.max);

@@ -11,6 +11,7 @@
 #include "chart_report.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
+#include "option_range.hpp"
 #include "progress.hpp"
 #include "readable.hpp"
 #include "report/report.hpp"
@@ -155,7 +156,7 @@ class ChartVerb : public Verb {
     check_rung_name(command.rung);  // a wrong name is refused here too
     ChartOptions options;
     options.index = index_named("--index", index_);
-    options.total_seconds = positive_quantity("--time", time_, kDuration);
+    options.total_seconds = quantity_between("--time", time_, {kDuration, "0.1 s", "1e7 s"});
     options.reference_seconds = 0.15 * options.total_seconds;
     std::optional<double> accuracy = command.accuracy;
     std::string mechanism_file = command.file, study_hash;

@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "boresight/contact/law_range.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/play_mobility.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/rungs/rung.hpp"
+#include "interruption.hpp"
 #include "report_parts.hpp"
+#include "summary.hpp"
 
 namespace boresight::app {
 namespace {
@@ -136,9 +141,71 @@ void add_start_note(const Mechanism& mechanism, const IdealMotion& ideal, CheckR
   result.notes.push_back("journals start at rest under the loads of t = 0, off the middle of their sleeves: " + text);
 }
 
+// What no joint can bear, or nothing can be computed of: numbers without bounds, journals pressed through their sleeves.
+void add_contact_findings(const Mechanism& mechanism, CheckResult& result) {
+  for (std::size_t c = 0; c < result.contacts.size(); ++c) {
+    const ContactFrequency& contact = result.contacts[c];
+    const ClearanceDescription& d = mechanism.description().clearances[c];
+    const ClearanceParameters& p = mechanism.parameters().clearance[c];
+    const std::pair<const char*, double> numbers[] = {{"contact stiffness", contact.hertz_stiffness},
+                                                      {"end-face stiffness", contact.axial_stiffness},
+                                                      {"moved mass", contact.effective_mass},
+                                                      {"reaction", contact.largest_load},
+                                                      {"rest depth", contact.typical_penetration},
+                                                      {"contact frequency", contact.angular_frequency}};
+    std::string unknown;
+    for (const auto& [what, value] : numbers)
+      if (!std::isfinite(value)) unknown += (unknown.empty() ? "" : ", ") + std::string(what);
+    if (!unknown.empty()) {
+      result.findings.push_back(fmt::format(
+          "{}: its {} cannot be computed: masses, speeds, stiffness or gravity are out of all proportion to each other", contact.joint,
+          unknown));
+      continue;
+    }
+    // A line or point contact as deep as the journal is thick is no contact: the journal would be through its sleeve.
+    const double depth = make_normal_law(d.contact_law, d.dissipation_law, p).depth_under(contact.largest_load);
+    if (!(depth < p.journal_radius))
+      result.findings.push_back(
+          fmt::format("{}: its largest load, {}, would press the journal {} into its sleeve, which is more than the journal's "
+                      "radius of {}; check young, masses and gravity, and the speed of the motion",
+                      contact.joint, readable(contact.largest_load, "N"), readable(depth, "m"), readable(p.journal_radius, "m")));
+  }
+}
+
+// A motion that the cheapest rung with dynamics would follow for long: how long, as it goes on this machine.
+void add_cost_note(const std::shared_ptr<const Mechanism>& mechanism, CheckResult& result) {
+  constexpr double kManySteps = 1e8, kTrialSeconds = 0.3;
+  double stable = std::numeric_limits<double>::infinity();
+  std::string joint;
+  for (const ContactFrequency& c : result.contacts)
+    if (c.largest_stable_step > 0.0 && c.largest_stable_step < stable) stable = c.largest_stable_step, joint = c.joint;
+  const double steps = mechanism->duration() / stable;
+  if (!(steps > kManySteps)) return;
+  RunOptions options;
+  options.sample_spacing = 0.0;
+  options.events = false;
+  const Stopwatch watch;
+  double reached = 0.0;
+  options.progress = [&](const RunProgress& p) {
+    reached = p.t;
+    return watch.wall_seconds() < kTrialSeconds && !interrupted();
+  };
+  std::string time;
+  try {
+    make_rung("perturbation", mechanism)->run(mechanism->parameters(), options);
+    if (reached > 0.0) time = ", about " + readable(watch.wall_seconds() * mechanism->duration() / reached, "s") + " for one motion";
+  } catch (const ComputationError&) {
+    // Why it cannot be followed is for `run` to say.
+  }
+  result.notes.push_back(fmt::format("the contact of {} vibrates so fast that the motion takes {:.2g} steps{}; shorten motion.duration "
+                                     "to what has to be seen",
+                                     joint, steps, time));
+}
+
 }  // namespace
 
-CheckResult check_mechanism(const Mechanism& mechanism) {
+CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
+  const Mechanism& mechanism = *shared;
   CheckResult result;
   result.kinematics = analyse_kinematics(mechanism);
   const KinematicReport& k = result.kinematics;
@@ -154,8 +221,12 @@ CheckResult check_mechanism(const Mechanism& mechanism) {
       const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
       add_play_findings(mechanism, ideal, result);
       result.contacts = analyse_contacts(mechanism, mechanism.parameters(), ideal);
-      add_law_notes(mechanism, result);
-      add_start_note(mechanism, ideal, result);
+      add_contact_findings(mechanism, result);
+      if (result.findings.empty()) {
+        add_law_notes(mechanism, result);
+        add_start_note(mechanism, ideal, result);
+        add_cost_note(shared, result);
+      }
     } catch (const ComputationError& error) {
       result.findings.emplace_back(error.what());
     }

@@ -1,6 +1,7 @@
 // The report of `check`: what would go wrong before it does.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ struct CheckResult {
   std::vector<std::string> notes;          // worth knowing, but no obstacle
 };
 
-CheckResult check_mechanism(const Mechanism& mechanism);
+CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& mechanism);
 
 report::Document check_report(const Command& command, const Mechanism& mechanism, const CheckResult& result);
 

@@ -2,15 +2,18 @@
 // stands in the way.
 #include <fmt/format.h>
 
+#include <memory>
 #include <ostream>
 
 #include "boresight/io/mechanism_file.hpp"
+#include "assumed.hpp"
 #include "check_report.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
 #include "readable.hpp"
 #include "report/report.hpp"
 #include "summary.hpp"
+#include "tables.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -57,7 +60,7 @@ void print(const Mechanism& mechanism, const CheckResult& result, const OutputDi
   for (const ContactFrequency& c : result.contacts) {
     if (c.largest_stable_step == 0.0) continue;  // its play cannot move: a problem below
     fmt::print("  {}: largest stable step of RK4 {}, rest penetration {}, Flores' law valid up to {}\n",
-               c.joint, readable(c.largest_stable_step, "s"), readable(c.typical_penetration, "m"),
+               c.joint, c.largest_stable_step > 0.0 ? readable(c.largest_stable_step, "s") : "not known", readable(c.typical_penetration, "m"),
                readable(c.validity_speed, "m/s"));
   }
   for (const std::string& note : result.notes) fmt::print("  note: {}\n", note);
@@ -77,12 +80,14 @@ class CheckVerb : public Verb {
 
   int execute(const Command& command) override {
     const Stopwatch watch;
-    const Mechanism mechanism(read_mechanism(command.file, command.settings));
+    const auto shared = std::make_shared<const Mechanism>(read_mechanism(command.file, command.settings));
+    const Mechanism& mechanism = *shared;
     check_rung_name(command.rung);  // a wrong name is refused here too
     const OutputDirectory out =
         OutputDirectory::open(command.out, command.verb, command.file,
                               identity_of(command, mechanism.description().content_hash, "", Json::object()));
-    const CheckResult result = check_mechanism(mechanism);
+    CheckResult result = check_mechanism(shared);
+    for (const std::string& sentence : in_words(assumed_by(command, mechanism))) result.notes.push_back(sentence);
 
     Json json =
         common_summary(command, mechanism, {.name = "none", .why = "nothing is integrated"}, watch, {}, interrupted(), out);
@@ -96,8 +101,7 @@ class CheckVerb : public Verb {
     out.write("conditioning.csv", [&](std::ostream& s) {
       s << "t,smallest_singular_value,orientation,position\n";
       for (const ConditioningSample& c : result.kinematics.along)
-        s << fmt::format("{:.17g},{:.17g},{:.17g},{:.17g}\n", c.t, c.smallest_singular_value, c.orientation,
-                         c.position);
+        s << exact(c.t) << ',' << exact(c.smallest_singular_value) << ',' << exact(c.orientation) << ',' << exact(c.position) << '\n';
     });
     out.write("report.html",
               [&](std::ostream& s) { report::write_html(s, check_report(command, mechanism, result)); });

@@ -1,5 +1,7 @@
 #include "command.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -7,6 +9,7 @@
 #include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
+#include "option_range.hpp"
 
 namespace boresight::app {
 namespace {
@@ -25,6 +28,12 @@ double positive_quantity(const std::string& option, const std::string& text, con
     throw InputError(kCommandLine, option, fault.found, fault.expected, fault.nearest);
   }
   if (value <= 0.0) throw InputError(kCommandLine, option, in_quotes(text), "more than 0");
+  return value;
+}
+
+double quantity_between(const std::string& option, const std::string& text, const PhysicalRange& range) {
+  const double value = positive_quantity(option, text, range.unit);
+  if (!holds(range, value)) throw InputError(kCommandLine, option, in_quotes(text), in_words(range));
   return value;
 }
 
@@ -54,7 +63,7 @@ Command CommandOptions::command(const std::string& verb) const {
   command.rung = rung;
   command.quiet = quiet || json;
   for (const std::string& text : settings) command.settings.push_back(parse_setting(text));
-  if (!accuracy.empty()) command.accuracy = positive_quantity("--accuracy", accuracy, kRatio);
+  if (!accuracy.empty()) command.accuracy = quantity_between("--accuracy", accuracy, {kRatio, "0.0001 %", "100 %"});
   if (jobs < 0 || jobs > 4096)
     throw InputError(kCommandLine, "--jobs", std::to_string(jobs), "1 to 4096 threads");
   command.jobs = jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -90,17 +99,35 @@ void MotionOptions::declare_model(CLI::App& app) {
 
 RunOptions MotionOptions::run_options(const Mechanism& mechanism, const std::string& rung) const {
   RunOptions options;
-  if (!step.empty()) options.step = positive_quantity("--step", step, kDuration);
-  options.sample_spacing = positive_quantity("--sample", sample, kDuration);
-  constexpr double kMostSamples = 2e6;
+  if (!step.empty()) {
+    constexpr double kMostSteps = 1e11;
+    options.step = quantity_between("--step", step, {kDuration, "1e-12 s", "1e9 s"});
+    if (options.step > mechanism.duration())
+      throw InputError(kCommandLine, "--step", in_quotes(step), fmt::format("at most the motion's duration, {:g} s", mechanism.duration()));
+    if (mechanism.duration() / options.step > kMostSteps)
+      throw InputError(kCommandLine, "--step", fmt::format("{}, {:.2g} steps", in_quotes(step), mechanism.duration() / options.step),
+                       "at most 1e11 steps in all");
+  }
+  options.sample_spacing = quantity_between("--sample", sample, {kDuration, "1e-12 s", "1e9 s"});
+  constexpr double kMostSamples = 2e6, kMostBytes = 2e9;
   if (mechanism.duration() / options.sample_spacing > kMostSamples)
     throw InputError(kCommandLine, "--sample", in_quotes(sample), "at most two million samples in all");
+  // Of every sample, the boresight body's and each --pose body's history and every clearance's.
+  const double bytes = mechanism.duration() / options.sample_spacing *
+                       (sizeof(double) + sizeof(PoseSample) * (1.0 + static_cast<double>(poses.size())) +
+                        sizeof(ClearanceSample) * mechanism.clearances());
+  if (bytes > kMostBytes)
+    throw InputError(kCommandLine, "--sample", fmt::format("{}, {:.2g} GB of histories", in_quotes(sample), 1e-9 * bytes),
+                     "at most 2 GB: a wider spacing, or fewer --pose");
   const std::vector<std::string> known = integrator_names(rung);
   if (!integrator.empty() && rung != "auto" && known.empty())
     throw InputError(kCommandLine, "--integrator", in_quotes(integrator), "none: the " + rung + " rung takes no steps");
   options.integrator = integrator;
   if (!tolerance.empty()) {
-    options.tolerance = positive_quantity("--tolerance", tolerance, kRatio);
+    options.tolerance = quantity_between("--tolerance", tolerance, {kRatio, "1e-12 %", "100 %"});
+    if (integrator.empty() || integrator == "rk4")
+      throw InputError(kCommandLine, "--tolerance", in_quotes(tolerance),
+                       "an --integrator with an error estimate: dopri5, rosenbrock or generalized-alpha");
     if (!step.empty()) throw InputError(kCommandLine, "--tolerance", in_quotes(tolerance), "this or --step, not both");
   }
   options.formulation = formulation;

@@ -2,14 +2,17 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 
 #include "exit_status.hpp"
+#include "work_line.hpp"
 
 namespace boresight::app {
 namespace {
 
 volatile std::sig_atomic_t arrived = 0;
+std::atomic<bool> heard{false};
 
 void note(int) {
   if (arrived) ::_exit(kInterrupted);
@@ -31,6 +34,11 @@ void catch_interruptions() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool interrupted() { return arrived != 0; }
+bool interrupted() {
+  if (arrived) heard = true;
+  return arrived != 0;
+}
+
+bool interruption_unheard() { return arrived != 0 && !heard; }
 
 }  // namespace boresight::app

@@ -9,6 +9,7 @@
 #include "boresight/rungs/contact_report.hpp"
 #include "exit_status.hpp"
 #include "laws_report.hpp"
+#include "option_range.hpp"
 #include "report/report.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
@@ -71,8 +72,8 @@ class LawsVerb : public Verb {
   int execute(const Command& command) override {
     const Stopwatch watch;
     LawsSubject subject = subject_of(command);
-    subject.mass = positive_quantity("--mass", mass_, kMass);
-    subject.speed = positive_quantity("--speed", speed_, kSpeed);
+    subject.mass = quantity_between("--mass", mass_, kMassRange);
+    subject.speed = quantity_between("--speed", speed_, kContactSpeedRange);
     const OutputDirectory out =
         OutputDirectory::open(command.out, command.verb, command.file.empty() ? "contact" : command.file,
                               identity_of(command, subject.hash, "",

@@ -14,6 +14,7 @@
 #include "boresight_analyses/montecarlo/sample_store.hpp"
 #include "boresight_analyses/study/pilot.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "completion.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
@@ -21,6 +22,7 @@
 #include "output_directory.hpp"
 #include "summary.hpp"
 #include "verb.hpp"
+#include "work_line.hpp"
 
 namespace {
 
@@ -28,6 +30,7 @@ using namespace boresight;
 using namespace boresight::app;
 
 int fail(int status, const std::string& message) {
+  clear_work_line();
   std::string line = message;
   for (char& c : line)
     if (c == '\n' || c == '\r') c = ' ';
@@ -95,7 +98,9 @@ int run_program(int argc, char** argv) {
   }
   for (std::size_t i = 0; i < verbs.size(); ++i) {
     if (!commands[i]->parsed()) continue;
-    const int status = verbs[i]->execute(options[i].command(verbs[i]->name()));
+    const Command command = options[i].command(verbs[i]->name());
+    show_work(!command.quiet);
+    const int status = verbs[i]->execute(command);
     if (options[i].json && !last_summary().empty()) std::cout << std::ifstream(last_summary()).rdbuf();
     return status;
   }
@@ -106,6 +111,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   catch_interruptions();
+  watch_long_work();
   try {
     const int status = run_program(argc, argv);
     std::cout.flush();
@@ -113,6 +119,8 @@ int main(int argc, char** argv) {
     return status;
   } catch (const InputError& error) {
     return fail(kBadInput, error.what());
+  } catch (const Interrupted&) {
+    return fail(kInterrupted, "interrupted before there was anything to keep");
   } catch (const PilotInterrupted&) {
     return fail(kInterrupted, "interrupted while a rung was being chosen: nothing is lost, nothing was begun");
   } catch (const OutputDirectoryError& error) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "work_line.hpp"
+
 namespace boresight::app {
 namespace {
 
@@ -70,6 +72,7 @@ void Progress::update_from(double before, double done, const std::string& estima
   const Clock::time_point now = Clock::now();
   if (now < next_) return;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
+  if (style_ == Style::terminal) clear_work_line();
   std::string line = progress_line(done, total_, unit_, elapsed, estimate, before);
   if (style_ == Style::terminal) {
     line.resize(std::min(line.size(), terminal_width(stream_) - 1));

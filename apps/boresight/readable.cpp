@@ -11,6 +11,7 @@ namespace boresight::app {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+const char* const kNotKnown = "not known";  // no infinity is a length
 
 // A unit, its size in SI, and the value from which on it is used (a tenth of a millimetre is still said in
 // mm).
@@ -33,7 +34,7 @@ const std::map<std::string, std::vector<Scale>> kScales = {
 
 // Three significant digits, without an exponent where that stays short.
 std::string digits(double value) {
-  if (value == 0.0 || !std::isfinite(value)) return fmt::format("{:g}", value);
+  if (value == 0.0) return "0";
   const double size = std::abs(value);
   if (size >= 1e6 || size < 1e-3) return fmt::format("{:.3g}", value);
   const int decimals = std::max(0, 2 - static_cast<int>(std::floor(std::log10(size) + 1e-9)));
@@ -58,6 +59,7 @@ DisplayUnit display_unit(const std::string& si_unit, double largest) {
 }
 
 std::string readable(double value, const std::string& si_unit) {
+  if (!std::isfinite(value)) return kNotKnown;
   const DisplayUnit unit = display_unit(si_unit, value);
   // A length or angle this small is the rounding of the computation.
   if ((si_unit == "m" || si_unit == "rad") && value != 0.0 && std::abs(value) < 1e-10)
@@ -66,10 +68,11 @@ std::string readable(double value, const std::string& si_unit) {
 }
 
 std::string readable_arcsec(double radians) {
+  if (!std::isfinite(radians)) return kNotKnown;
   if (radians != 0.0 && std::abs(radians) < 1e-10) return "below 0.0001 arcsec";
   return digits(radians * 180.0 / kPi * 3600.0) + " arcsec";
 }
-std::string readable_share(double share) { return digits(100.0 * share) + " %"; }
-std::string readable_number(double value) { return digits(value); }
+std::string readable_share(double share) { return std::isfinite(share) ? digits(100.0 * share) + " %" : kNotKnown; }
+std::string readable_number(double value) { return std::isfinite(value) ? digits(value) : kNotKnown; }
 
 }  // namespace boresight::app

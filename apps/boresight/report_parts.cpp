@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "assumed.hpp"
 #include "boresight_analyses/study/index_choice.hpp"
 #include "tables.hpp"
 
@@ -326,12 +327,16 @@ std::vector<report::Provenance> provenance_of(const Command& command, const Mech
   std::string settings;
   for (const Setting& setting : command.settings)
     settings += (settings.empty() ? "" : ", ") + setting.path + " = " + setting.value;
+  std::string assumed;
+  for (const std::string& sentence : in_words(assumed_by(command, mechanism)))
+    assumed += (assumed.empty() ? "" : "; ") + sentence;
   return {{"Program", std::string("boresight ") + BORESIGHT_VERSION},
           {"Verb", command.verb},
           {"File", command.file},
           {"Mechanism", mechanism.name()},
           {"Content hash", mechanism.description().content_hash},
           {"Settings", settings.empty() ? "none" : settings},
+          {"Assumed", assumed.empty() ? "nothing that results hang on" : assumed},
           {"Rung", rung.name + ": " + rung.why},
           {"Data", "summary.json and the CSV tables beside this file, in SI with all digits"}};
 }

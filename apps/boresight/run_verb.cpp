@@ -8,9 +8,11 @@
 #include "boresight/contact/law_range.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/rungs/predictability.hpp"
 #include "boresight/rungs/rung.hpp"
+#include "assumed.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
 #include "mechanism_view.hpp"
@@ -30,7 +32,8 @@ namespace {
 
 void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
            const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
-           const std::optional<Predictability>& predictability, const OutputDirectory& out) {
+           const std::optional<Predictability>& predictability, const std::vector<AssumedValue>& assumed,
+           const OutputDirectory& out) {
   fmt::print("{}: {} of motion, {} rung, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.rung,
              result.integrator, result.interrupted ? " (interrupted)" : "");
   if (choice.pilot) fmt::print("  rung: {}\n", choice.why);
@@ -60,6 +63,7 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
   }
   if (axes && !axes->free && axes->free_boresight > 1e-6) fmt::print("  note: {}\n", axes->sentence);
   for (const std::string& warning : result.warnings) fmt::print("  warning: {}\n", warning);
+  for (const std::string& warning : material_warnings(assumed)) fmt::print("  warning: {}\n", warning);
   fmt::print("  report: {}\n", (out.path() / "report.html").string());
 }
 
@@ -98,6 +102,18 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const RungCh
   json["evaluations"] = result.cost.evaluations;
   json["files"] = {"summary.json", "timeseries.csv", "events.csv", "report.html"};
   return json;
+}
+
+// Numbers that left what a double holds are no results.
+void refuse_infinite(const RunResult& result) {
+  const auto check = [](double value, const std::string& what) {
+    if (!std::isfinite(value))
+      throw ComputationError(what + " grew beyond every number: forces, masses or speeds are out of all proportion to each other");
+  };
+  for (const QuantityName& quantity : quantity_names())
+    for (const StatisticName& statistic : statistic_names())
+      check((result.index.*quantity.statistics).*statistic.value, "the " + std::string(quantity.name));
+  for (const ContactSummary& c : result.contact) check(c.max_force, "the contact force of " + c.joint);
 }
 
 class RunVerb : public Verb {
@@ -167,21 +183,28 @@ class RunVerb : public Verb {
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
     RunResult result =
         with_options_checked([&] { return rung->run(mechanism->parameters(), options); });
+    refuse_infinite(result);
     add_range_warnings(*mechanism, result);
     std::vector<Compared> others;
-    if (compare_)
-      for (const std::string& name : rung_names())
-        if (name != choice.name) others.push_back(run_other(name, mechanism, options, motion_.run_options(*mechanism, "auto").step));
-    const std::optional<AxesComparison> axes = compare_axes(*mechanism);
-
-    // Rungs without steps have no trajectory to lose.
+    std::optional<AxesComparison> axes;
     std::optional<Predictability> predictability;
-    if (!integrator_names(choice.name).empty() && mechanism->clearances() > 0 && !result.interrupted)
-      predictability = measure_predictability(mechanism, mechanism->parameters());
+    bool cut_short = result.interrupted;
+    try {
+      if (compare_ && !cut_short)
+        for (const std::string& name : rung_names())
+          if (name != choice.name) others.push_back(run_other(name, mechanism, options, motion_.run_options(*mechanism, "auto").step));
+      if (!cut_short) axes = compare_axes(*mechanism);
+      // Rungs without steps have no trajectory to lose.
+      if (!integrator_names(choice.name).empty() && mechanism->clearances() > 0 && !cut_short)
+        predictability = measure_predictability(mechanism, mechanism->parameters());
+    } catch (const Interrupted&) {  // the motion itself is there, and is kept
+      cut_short = interrupted();
+    }
 
     Json summary = summary_of(command, *mechanism, choice, result, others, axes, predictability, watch, out);
     report::Document document =
         run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability);
+    for (const std::string& warning : material_warnings(assumed_by(command, *mechanism))) document.warnings.push_back(warning);
     if (period > 0.0) {
       const NonlinearAnalysis nonlinear = analyse_nonlinear(*mechanism, result, period);
       summary["nonlinear"] = nonlinear_json(nonlinear);
@@ -194,8 +217,8 @@ class RunVerb : public Verb {
     out.write("events.csv", [&](std::ostream& s) { write_events(s, *mechanism, result); });
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, document); });
     progress.clear();
-    if (!command.quiet) print(*mechanism, choice, result, others, axes, predictability, out);
-    return result.interrupted ? kInterrupted : kDone;
+    if (!command.quiet) print(*mechanism, choice, result, others, axes, predictability, assumed_by(command, *mechanism), out);
+    return cut_short ? kInterrupted : kDone;
   }
 
  private:

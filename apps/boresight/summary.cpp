@@ -3,8 +3,10 @@
 #include <ctime>
 #include <ostream>
 
+#include "assumed.hpp"
 #include "boresight_analyses/study/index_choice.hpp"
 #include "pilot_parts.hpp"
+#include "work_line.hpp"
 
 namespace boresight::app {
 namespace {
@@ -39,7 +41,11 @@ Json common_summary(const Command& command, const Mechanism& mechanism, const Ru
   json["cpu_seconds"] = watch.cpu_seconds();
   json["wall_seconds"] = watch.wall_seconds();
   json["interrupted"] = interrupted;
-  json["warnings"] = warnings;
+  const std::vector<AssumedValue> assumed = assumed_by(command, mechanism);
+  std::vector<std::string> all_warnings = warnings;
+  for (const std::string& sentence : material_warnings(assumed)) all_warnings.push_back(sentence);
+  json["warnings"] = all_warnings;
+  json["assumed"] = Json::parse(assumed_json(assumed).dump());
   json["definitions"] = definitions_json(mechanism.pointing().line_of_sight.has_value());
   json["identity"] = Json::parse(out.identity().dump());
   return json;
@@ -94,6 +100,7 @@ std::filesystem::path& summary_written() {
 const std::filesystem::path& last_summary() { return summary_written(); }
 
 void write_json(const OutputDirectory& out, const std::string& name, const Json& json) {
+  clear_work_line();  // whatever is printed now stands on a line of its own
   if (name == "summary.json") summary_written() = out.path() / name;
   out.write(name, [&](std::ostream& stream) {
     stream << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';

@@ -27,7 +27,7 @@ void append_pose(std::string& row, const PoseSample& s) {
 
 }  // namespace
 
-std::string exact(double value) { return std::isnan(value) ? "" : fmt::format("{:.17g}", value); }
+std::string exact(double value) { return !std::isfinite(value) ? "" : fmt::format("{:.17g}", value); }
 
 std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;

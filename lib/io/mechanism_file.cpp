@@ -3,12 +3,13 @@
 #include <algorithm>
 
 #include "boresight/io/mechanism_sections.hpp"
+#include "boresight/io/physical_ranges.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
 namespace {
 
-MechanismDescription read(Document& document) {
+MechanismDescription read(Document& document, std::vector<AssumedValue>* assumed = nullptr) {
   Cursor root(document);
   root.only({"format", "name", "gravity", "body", "payload", "pattern", "joint", "motion", "clearance", "initial", "spring",
              "load", "pointing"});
@@ -17,7 +18,7 @@ MechanismDescription read(Document& document) {
   mechanism.content_hash = document.content_hash();
   root.require(root.integer("format") == 1, "format", "1");
   mechanism.name = root.text("name", document.filename());
-  mechanism.gravity = root.vector("gravity", kAcceleration);
+  mechanism.gravity = vector_in(root, "gravity", kGravityRange);
 
   Sections sections = gather_sections(root);
   for (Cursor& body : sections.bodies) mechanism.bodies.push_back(read_body(body, mechanism));
@@ -30,7 +31,7 @@ MechanismDescription read(Document& document) {
     mechanism.payload = read_payload(payload, mechanism);
   }
   for (Cursor& joint : sections.joints) mechanism.joints.push_back(read_joint(joint, mechanism));
-  for (Cursor& clearance : sections.clearances) mechanism.clearances.push_back(read_clearance(clearance, mechanism));
+  for (Cursor& clearance : sections.clearances) mechanism.clearances.push_back(read_clearance(clearance, mechanism, assumed));
   Cursor motion = root.table("motion");
   mechanism.motion = read_motion(motion, mechanism);
   for (Cursor& spring : sections.springs) mechanism.springs.push_back(read_spring(spring, mechanism));
@@ -57,6 +58,21 @@ MechanismDescription read_mechanism_text(std::string_view text, const std::strin
                                          const std::vector<Setting>& settings) {
   Document document = Document::from_text(text, filename, settings);
   return read(document);
+}
+
+std::vector<AssumedValue> assumed_values(const std::string& path, const std::vector<Setting>& settings) {
+  Document document = Document::from_file(path, settings);
+  std::vector<AssumedValue> assumed;
+  read(document, &assumed);
+  return assumed;
+}
+
+std::vector<AssumedValue> assumed_values_of_text(std::string_view text, const std::string& filename,
+                                                 const std::vector<Setting>& settings) {
+  Document document = Document::from_text(text, filename, settings);
+  std::vector<AssumedValue> assumed;
+  read(document, &assumed);
+  return assumed;
 }
 
 }  // namespace boresight

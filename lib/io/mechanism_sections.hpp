@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "boresight/io/assumed_values.hpp"
 #include "boresight/io/cursor.hpp"
 #include "boresight/io/expression.hpp"
 #include "boresight/mechanism/description.hpp"
@@ -20,7 +21,8 @@ Sections gather_sections(Cursor& root);
 BodyDescription read_body(Cursor& cursor, const MechanismDescription& so_far);
 PayloadDescription read_payload(Cursor& cursor, const MechanismDescription& so_far);
 JointDescription read_joint(Cursor& cursor, const MechanismDescription& so_far);
-ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& so_far);
+// assumed: what the table leaves out and results hang on is added; may be null.
+ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& so_far, std::vector<AssumedValue>* assumed);
 SpringDescription read_spring(Cursor& cursor, const MechanismDescription& so_far);
 LoadDescription read_load(Cursor& cursor, const MechanismDescription& so_far);
 MotionDescription read_motion(Cursor& cursor, const MechanismDescription& so_far);

@@ -1,11 +1,25 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "boresight/io/mechanism_sections.hpp"
+#include "boresight/io/physical_ranges.hpp"
 #include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
 namespace {
+
+// The first of 401 even times at which the function or a derivative is larger than anything real; -1 if there is none.
+double first_time_too_large(const TimeFunction& function, double duration) {
+  constexpr int kSamples = 400;
+  for (int k = 0; k <= kSamples; ++k) {
+    const double t = duration * k / kSamples;
+    const TimeValue v = function.at(t);
+    if (std::abs(v.value) > kLargestLaw || std::max(std::abs(v.rate), std::abs(v.acceleration)) > kLargestLawDerivative) return t;
+  }
+  return -1.0;
+}
 
 template <typename Things>
 std::vector<std::string> names_of(const Things& things) {
@@ -67,11 +81,15 @@ TimeFunctionPtr compile_expression(const Cursor& cursor, const std::string& key,
   } catch (const ValueFault& fault) {
     cursor.fail_found(key, fault.found, fault.expected, fault.nearest);
   }
-  const double t = first_time_not_finite(*function, duration);
-  if (t >= 0.0) {
-    cursor.fail_found(key, in_quotes(text) + ", which is not finite or not smooth at t = " + std::to_string(t) + " s",
-                      "an expression that is finite with its first two derivatives during the motion");
-  }
+  const auto fail = [&](double t, const char* found, const char* expected) {
+    char at[60];
+    std::snprintf(at, sizeof at, t == 0.0 || (t >= 1e-3 && t < 1e6) ? " at t = %f s" : " at t = %.6g s", t);
+    cursor.fail_found(key, in_quotes(text) + found + at, expected);
+  };
+  if (const double t = first_time_not_finite(*function, duration); t >= 0.0)
+    fail(t, ", which is not finite or not smooth", "an expression that is finite with its first two derivatives during the motion");
+  if (const double t = first_time_too_large(*function, duration); t >= 0.0)
+    fail(t, ", which is beyond anything real", "an expression of at most 1e15, its first two derivatives of at most 1e18 (SI)");
   return function;
 }
 

@@ -1,7 +1,9 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <cstdio>
 
 #include "boresight/io/mechanism_sections.hpp"
+#include "boresight/io/physical_ranges.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
@@ -43,7 +45,7 @@ Mat3 read_axes(Cursor& body) {
 
 // Three principal moments, or six numbers xx yy zz xy xz yz (the off-diagonal elements of the matrix itself, with their sign).
 Mat3 read_inertia(Cursor& body) {
-  const auto values = body.quantities("inertia", kInertia, {"xx", "yy", "zz", "xy", "xz", "yz"});
+  const auto values = quantities_in(body, "inertia", kInertiaRange, {"xx", "yy", "zz", "xy", "xz", "yz"});
   body.require(values.size() == 3 || values.size() == 6, "inertia", "3 or 6 moments of inertia (xx yy zz xy xz yz)");
   Mat3 inertia = Mat3::Zero();
   for (int k = 0; k < 3; ++k) inertia(k, k) = values[k];
@@ -65,6 +67,18 @@ Mat3 read_inertia(Cursor& body) {
   return inertia;
 }
 
+// Mass and inertia may each be what a real body has, and not belong to one body.
+void check_gyration(Cursor& cursor, const BodyDescription& body) {
+  const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  for (const double moment : {principal[0], principal[2]}) {
+    const double radius = std::sqrt(std::max(0.0, moment) / body.mass);
+    if (holds(kSizeRange, radius) && radius > 0.0) continue;
+    char text[80];
+    std::snprintf(text, sizeof text, "a radius of gyration of %.3g m beside a mass of %.3g kg", radius, body.mass);
+    cursor.fail_found("inertia", text, std::string("radii of gyration from ") + kSizeRange.least + " to " + kSizeRange.most);
+  }
+}
+
 }  // namespace
 
 BodyDescription read_body(Cursor& cursor, const MechanismDescription& so_far) {
@@ -80,11 +94,12 @@ BodyDescription read_body(Cursor& cursor, const MechanismDescription& so_far) {
     }
   }
   cursor.rename("body." + body.name);
-  body.mass = cursor.quantity("mass", kMass);
+  body.mass = quantity_in(cursor, "mass", kMassRange);
   cursor.require(body.mass > 0.0, "mass", "a mass above zero");
-  body.center_of_mass = cursor.vector("center_of_mass", kLength);
+  body.center_of_mass = vector_in(cursor, "center_of_mass", kCoordinateRange);
   body.axes = read_axes(cursor);
   body.inertia = read_inertia(cursor);
+  check_gyration(cursor, body);
   if (cursor.has("boresight")) {
     body.boresight = cursor.direction("boresight");
     for (const BodyDescription& other : so_far.bodies) {
@@ -102,14 +117,14 @@ PayloadDescription read_payload(Cursor& cursor, const MechanismDescription& so_f
   PayloadDescription payload;
   payload.origin = cursor.origin();
   payload.body = body_index(so_far, cursor, "body", cursor.text("body"), false);
-  payload.mass = cursor.quantity("mass", kMass);
+  payload.mass = quantity_in(cursor, "mass", kMassRange);
   cursor.require(payload.mass >= 0.0, "mass", "a mass of zero or more");
-  payload.center_of_mass = cursor.vector("center_of_mass", kLength);
-  const auto radii = cursor.quantities("gyration", kLength, {"x", "y", "z"});
+  payload.center_of_mass = vector_in(cursor, "center_of_mass", kCoordinateRange);
+  const auto radii = quantities_in(cursor, "gyration", kSizeRange, {"x", "y", "z"});
   cursor.require(radii.size() == 3, "gyration", "three radii of gyration such as \"141.42 mm\"");
   for (int k = 0; k < 3; ++k) {
     payload.gyration[k] = radii[k];
-    if (!(radii[k] >= 0.0) || radii[k] > 1e100) cursor.fail_found("gyration", "a radius that is negative or too large", "radii of zero or more");
+    if (!(radii[k] >= 0.0)) cursor.fail_found("gyration", "a radius that is negative", "radii of zero or more");
   }
   const Vec3 moments = payload.gyration.cwiseAbs2();
   const double largest = moments.maxCoeff();

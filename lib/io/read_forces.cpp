@@ -1,4 +1,5 @@
 #include "boresight/io/mechanism_sections.hpp"
+#include "boresight/io/physical_ranges.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
@@ -8,18 +9,18 @@ SpringDescription read_spring(Cursor& cursor, const MechanismDescription& so_far
   SpringDescription spring;
   spring.origin = cursor.origin();
   std::tie(spring.first, spring.second) = read_connects(cursor, so_far);
-  const auto points = cursor.points("points", 2);
+  const auto points = points_in(cursor, "points", 2);
   spring.first_point = points[0];
   spring.second_point = points[1];
   if ((points[1] - points[0]).stableNorm() < 1e-12) {
     cursor.fail_found("points", "the same point twice", "two points apart: the spring acts along the line between them");
   }
   SpringParameters& p = spring.parameters;
-  p.stiffness = cursor.quantity("stiffness", kStiffness);
+  p.stiffness = quantity_in(cursor, "stiffness", kStiffnessRange);
   cursor.require(p.stiffness >= 0.0, "stiffness", "a stiffness of zero or more");
-  p.damping = cursor.quantity("damping", kDamping, 0.0);
+  p.damping = quantity_in(cursor, "damping", kDampingRange, 0.0);
   cursor.require(p.damping >= 0.0, "damping", "a damping of zero or more");
-  p.free_length = cursor.quantity("free_length", kLength);
+  p.free_length = quantity_in(cursor, "free_length", kSizeRange);
   cursor.require(p.free_length >= 0.0, "free_length", "a length of zero or more");
   cursor.finish();
   return spring;
@@ -44,7 +45,7 @@ LoadDescription read_load(Cursor& cursor, const MechanismDescription& so_far) {
   } else {
     if (!cursor.has("body")) cursor.fail_found("body", "neither joint nor body", "the joint or the body that the load acts on");
     load.body = body_index(so_far, cursor, "body", cursor.text("body"), false);
-    load.point = cursor.vector("point", kLength);
+    load.point = vector_in(cursor, "point", kCoordinateRange);
     const auto texts = cursor.texts("force", {"x", "y", "z"});
     cursor.require(texts.size() == 3, "force", "three expressions of t [N], along the world's x, y, z");
     std::array<TimeFunctionPtr, 3> force;

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "boresight/io/mechanism_sections.hpp"
+#include "boresight/io/physical_ranges.hpp"
 #include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
@@ -82,7 +83,7 @@ MotionDescription read_motion(Cursor& cursor, const MechanismDescription& so_far
   cursor.only({"duration", "body", "angles", "position", "drives"});
   MotionDescription motion;
   motion.origin = cursor.origin();
-  motion.duration = cursor.quantity("duration", kDuration);
+  motion.duration = quantity_in(cursor, "duration", kDurationRange);
   cursor.require(motion.duration > 0.0, "duration", "a time above zero");
   const bool pose = cursor.has("body") || cursor.has("angles") || cursor.has("position");
   const bool any_driven = std::any_of(so_far.joints.begin(), so_far.joints.end(), [](const auto& j) { return j.driven; });
@@ -124,7 +125,7 @@ std::vector<InitialRateDescription> read_rates(Cursor& table, const MechanismDes
       where.fail_found(key, in_quotes(freedom), turns && slides ? both : turns ? "\"angle\"" : "\"displacement\"");
     }
     rate.freedom = freedom == "displacement" || (freedom.empty() && slides) ? Freedom::displacement : Freedom::angle;
-    rate.rate = where.quantity(key, rate.freedom == Freedom::angle ? kAngularRate : kSpeed);
+    rate.rate = quantity_in(where, key, rate.freedom == Freedom::angle ? kStartingAngularRateRange : kStartingSpeedRange);
     for (const InitialRateDescription& other : rates) {
       if (other.joint == rate.joint && other.freedom == rate.freedom) {
         where.fail_found(key, "a second rate of the same freedom", "one");

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/mechanism/motion_density.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 
 namespace boresight {
@@ -204,19 +206,28 @@ bool IdealSolver::solve(double t, IdealState& state) {
 
 namespace {
 
-// From state.t to t by continuation: the step is halved where Newton fails.
-void follow(IdealSolver& solver, double t, IdealState& state, const Mechanism& mechanism) {
-  const double shortest = 1e-7 * mechanism.duration();
-  double step = t - state.t;
-  while (state.t < t) {
+constexpr const char* kFollowing = "following the ideal motion";
+
+// The finest grid step that continuation may take: far below what any motion needs that is not singular, and a time that t still
+// tells apart.
+double shortest_step(double duration) { return std::max(std::min(1e-7 * duration, 1e-7), 1e-15 * duration); }
+
+// From state.t to t by continuation: the step is halved where Newton fails. Returns false, with `step` what led on, where that took
+// more than `most_steps` steps.
+bool follow(IdealSolver& solver, double t, IdealState& state, const Mechanism& mechanism, int most_steps, double& step) {
+  step = t - state.t;
+  for (int steps = 0; state.t < t;) {
     const double next = t - state.t <= step * 1.0000001 ? t : state.t + step;
     if (solver.solve(next, state)) {
-      step *= 2.0;
-    } else if ((step *= 0.5) < shortest) {
+      if (++steps > most_steps) return false;
+      if (state.t < t) step *= 2.0;
+    } else if ((step *= 0.5) < shortest_step(mechanism.duration())) {
       throw ComputationError("the ideal motion cannot be followed beyond " + time_text(state.t) +
                              ": the prescribed motion leaves what the mechanism can reach, or passes a singular pose");
     }
+    work_reached(kFollowing, state.t / mechanism.duration());
   }
+  return true;
 }
 
 // Largest difference between the interpolated and an exact state, in characteristic lengths and radians.
@@ -229,32 +240,117 @@ double interpolation_error(const IdealMotion& motion, const IdealState& exact, d
   return worst;
 }
 
+// The prescribed laws alone, which cost nothing to look at: whether what they do between two times shows at these times. A slew of a
+// second in an hour at rest is seen here, where it would fall between two states.
+class Laws {
+ public:
+  explicit Laws(const Mechanism& mechanism) : length_(mechanism.characteristic_length()) {
+    const MechanismDescription& m = mechanism.description();
+    for (const auto& [joint, law] : m.motion.drives)
+      laws_.push_back({law, m.joints[joint].type == JointType::prismatic ? length_ : 1.0});
+    if (!m.motion.pose) return;
+    for (int k = 0; k < 3; ++k) {
+      laws_.push_back({m.motion.pose->angle[k], 1.0});
+      laws_.push_back({m.motion.pose->position[k], length_});
+    }
+  }
+
+  bool interpolable(double t0, double t1, int looks) const {
+    constexpr double kMissed = 1e-6;  // [rad, or characteristic lengths]
+    for (const Law& law : laws_) {
+      const TimeValue a = law.function->at(t0), b = law.function->at(t1);
+      const QuinticSpline curve(t0, t1 - t0, 1, {a.value, b.value}, {a.rate, b.rate}, {a.acceleration, b.acceleration});
+      for (int i = 1; i <= looks; ++i) {
+        const double t = t0 + (t1 - t0) * i / (looks + 1);
+        const double value = law.function->at(t).value;
+        if (std::abs(curve.at(t, 0).value - value) > kMissed * law.scale + 1e-12 * std::abs(value)) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  struct Law {
+    TimeFunctionPtr function;
+    double scale;
+  };
+  double length_;
+  std::vector<Law> laws_;
+};
+
+// How finely a motion is tabled. What moves decides: the number of intervals is doubled until quintics between the states meet the
+// motion. Up to kUsual intervals to 1e-12, which smooth motions of up to a thousand turns reach; from there on to 1e-9, where the
+// rounding of angles grown to millions lies. What would take more states than memory should hold is refused.
+constexpr int kFewestIntervals = 128, kUsual = 1 << 15, kMostIntervals = 1 << 24;
+constexpr double kTolerance = 1e-12, kLongMotionsTolerance = 1e-9, kLargestKink = 1e-3;
+constexpr int kLooksAtLaws = 20000, kMostSubsteps = 256;
+
+// Poses, rates and accelerations while they are found, the values that are fitted, and the coefficients.
+double bytes_of_state(int bodies) { return bodies * (sizeof(BodyMotion) + sizeof(BodyAcceleration) + (7.0 * 3.0 + 7.0 * 6.0) * 8.0); }
+
+[[noreturn]] void refuse_density(const Mechanism& mechanism, double t, double spacing) {
+  const double states = mechanism.duration() / spacing;
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "the ideal motion of %.6g s moves so fast at %s that it takes %.2g states or more to describe, %.2g GB of memory; shorten "
+                "motion.duration to what has to be seen, a few periods",
+                mechanism.duration(), time_text(t).c_str(), states, 1e-9 * states * bytes_of_state(mechanism.bodies()));
+  throw MotionTooDense(text);
+}
+
 }  // namespace
 
 IdealMotion IdealMotion::kinematic(const Mechanism& mechanism) {
-  constexpr double kTolerance = 1e-12;
-  constexpr int kMostIntervals = 1 << 15;
   const double T = mechanism.duration();
   const bool read_drives = mechanism.description().motion.pose.has_value();
-  for (int intervals = 128;; intervals *= 2) {
+  const Laws laws(mechanism);
+  int most = kUsual;
+  while (2 * most <= kMostIntervals && 2.0 * most * bytes_of_state(mechanism.bodies()) < kMostTableBytes) most *= 2;
+  for (int intervals = kFewestIntervals;; intervals *= 2) {
+    const double spacing = T / intervals, tolerance = intervals < kUsual ? kTolerance : kLongMotionsTolerance;
     IdealSolver solver(mechanism);
     IdealState state;
     solver.start(state);
-    std::vector<IdealState> knots{state}, checks;
-    for (int k = 1; k <= intervals; ++k) {
+    std::vector<IdealState> knots{state};
+    const auto piece_error = [&](const IdealState& first, const IdealState& between, const IdealState& second) {
+      return interpolation_error(IdealMotion(mechanism, {first, second}, 0.0, read_drives), between, mechanism.characteristic_length());
+    };
+    // A law with a kink (abs) has no sixth derivative for a finer grid to gain by: halves miss it nearly as much as the whole.
+    const auto kinked = [&](const IdealState& first, const IdealState& between, const IdealState& second, double miss) {
+      IdealState early = first, late = between;
+      if (!solver.solve(0.5 * (first.t + between.t), early) || !solver.solve(0.5 * (between.t + second.t), late)) return false;
+      return std::max(piece_error(first, early, between), piece_error(between, late, second)) > miss / 16.0;
+    };
+    // The first gap where the grid is seen to be too coarse ends it: quintics hang on the two states at their ends alone.
+    double coarse_at = -1.0, step = spacing, worst = 0.0;
+    for (int k = 1; k <= intervals && coarse_at < 0.0; ++k) {
+      const double from = state.t, to = k * T / intervals;
+      const bool checked = k % 16 == 0;
+      IdealState middle;
       // Every 16th gap is also solved at its middle, to see what interpolation loses there.
-      if (k % 16 == 0) {
-        follow(solver, (k - 0.5) * T / intervals, state, mechanism);
-        checks.push_back(state);
+      bool led = true;
+      if (checked) {
+        led = follow(solver, (k - 0.5) * T / intervals, state, mechanism, kMostSubsteps, step);
+        middle = state;
       }
-      follow(solver, k * T / intervals, state, mechanism);
+      led = led && follow(solver, to, state, mechanism, kMostSubsteps, step);
+      if (!led) {
+        coarse_at = state.t;
+        while (2.0 * step < T / intervals && intervals <= most) intervals *= 2;  // as far as doubling would lead
+        if (intervals > most) refuse_density(mechanism, state.t, step);
+        break;
+      }
       knots.push_back(state);
+      bool fine = intervals >= kUsual || laws.interpolable(from, to, std::max(3, kLooksAtLaws / intervals));
+      if (checked && fine) {
+        const double miss = piece_error(knots[k - 1], middle, knots[k]);
+        worst = std::max(worst, miss);
+        fine = miss < tolerance || (intervals >= kUsual && miss < kLargestKink && kinked(knots[k - 1], middle, knots[k], miss));
+      }
+      if (!fine) coarse_at = from;
     }
-    IdealMotion motion(mechanism, knots, 0.0, read_drives);
-    double& worst = motion.error_;
-    for (const IdealState& exact : checks)
-      worst = std::max(worst, interpolation_error(motion, exact, mechanism.characteristic_length()));
-    if (worst < kTolerance || 2 * intervals > kMostIntervals) return motion;
+    if (coarse_at < 0.0) return IdealMotion(mechanism, knots, worst, read_drives);
+    if (2 * intervals > most) refuse_density(mechanism, coarse_at, 0.5 * spacing);
   }
 }
 

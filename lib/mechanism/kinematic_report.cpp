@@ -2,11 +2,15 @@
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/ideal_motion.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/mechanism/motion_density.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 
 namespace boresight {
@@ -15,6 +19,9 @@ namespace {
 // Below this share of the largest singular value a pose is called singular: locks that weak are moved by play and
 // elasticity by more than they hold.
 constexpr double kSingular = 1e-6;
+// Poses are looked at once in so many states of the ideal motion's table, where its fastest vibration turns by about half a radian;
+// and so many at most.
+constexpr int kKnotsBetweenPoses = 8, kMostPoses = 2001;
 
 double inverse_condition(const MatX& A) {
   if (A.size() == 0) return 0.0;
@@ -133,23 +140,35 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
   const std::vector<Mat6> weight = kinematic_weight(mechanism);
   IdealSolver solver(mechanism);
   IdealState state;
+  // What moves fast is looked at more often. A motion that ends before its time is followed pose by pose to where it does.
+  std::optional<IdealMotion> ideal;
   try {
     solver.start(state);
+    try {
+      ideal = IdealMotion::kinematic(mechanism);
+    } catch (const MotionTooDense&) {
+      throw;
+    } catch (const ComputationError&) {
+    }
   } catch (const ComputationError& e) {
     report.feasible = false;
     report.findings.push_back(e.what());
     return report;
   }
+  if (ideal) samples = std::clamp(ideal->knots() / kKnotsBetweenPoses, samples, std::max(samples, kMostPoses));
   bool inside_singular = false;
   for (int k = 0; k < samples; ++k) {
     const double t = mechanism.duration() * k / (samples - 1);
-    if (k > 0) {
+    work_reached("checking poses along the motion", t / mechanism.duration());
+    if (ideal) {
+      ideal->state(t, state);
+    } else if (k > 0) {
       // Substeps where Newton needs them.
       double step = t - state.t;
       while (state.t < t) {
         const double next = t - state.t <= step * 1.0000001 ? t : state.t + step;
         if (solver.solve(next, state)) continue;
-        if ((step *= 0.5) < 1e-6 * mechanism.duration()) break;
+        if ((step *= 0.5) < std::min(1e-6 * mechanism.duration(), 1e-6)) break;
       }
       if (state.t < t) {
         report.feasible = false;

@@ -3,19 +3,29 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/mechanism/motion_density.hpp"
 #include "boresight/rungs/deviation_stiffness.hpp"
 #include "boresight/rungs/force_elements.hpp"
 
 namespace boresight {
 namespace {
 
-// First grid, and the finest that accuracy is sought with [s]: motions faster than 1e5 rad/s are not what mechanisms do.
-constexpr int kFewestCells = 8;
+// First grid, and the finest that accuracy is sought with [s]. A motion longer than kManyCells of the coarsest spacing starts with as
+// many cells as its own table needs; one that is over, or turns, within the finest spacing is looked at more finely.
+constexpr int kFewestCells = 8, kManyCells = 4096, kKnotsOfCell = 4;
 constexpr double kCoarsestSpacing = 16e-3, kFinestSpacing = 1e-5;
-// Half the step of the difference that gives Tdot: truncation (w h)^2 / 6 and rounding 1e-13 / h meet near 1e-9.
-constexpr double kRateStep = 1e-5;
+// Half the step of the difference that gives Tdot: truncation (w h)^2 / 6 and rounding 1e-13 / h meet near 1e-9. It stays a small
+// part of the spacing of the ideal motion's table, which is a sixteenth of a radian of the fastest motion.
+constexpr double kRateStep = 1e-5, kRateStepOfKnot = 1.0 / 32.0;
+
+// Of the tables, relative to their largest values: what is left at the finest spacing must not be more.
+constexpr double kLargestMiss = 0.01;
+
+constexpr const char* kBuilding = "opening the mechanism at its clearances";
 
 const BodyMotion kGroundMotion;
 
@@ -64,14 +74,38 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
                                double accuracy)
     : ClearanceScene(mechanism, ideal) {
   // Halve the spacing until the coarse grid's cubics meet the new knots: the finer grid's own error is a sixteenth of that.
-  int cells = std::max(kFewestCells, static_cast<int>(std::ceil(mechanism.duration() / kCoarsestSpacing)));
+  const double knot_spacing = ideal.duration() / std::max(1, ideal.knots() - 1), finest = std::min(kFinestSpacing, knot_spacing);
+  double first_cells = std::max<double>(kFewestCells, std::ceil(mechanism.duration() / kCoarsestSpacing));
+  if (first_cells > kManyCells) first_cells = std::max<double>(kManyCells, std::min(first_cells, 1.0 * kKnotsOfCell * ideal.knots()));
+  // A knot's matrices, and its row in the tables.
+  const double numbers = (6.0 * mechanism.bodies() + offsets_.size()) * layout_.n +
+                         static_cast<double>(groups_.size()) * element_size() + 3.0 * layout_.width;
+  const double bytes_of_knot =
+      sizeof(Knot) + 8.0 * numbers + mechanism.bodies() * (sizeof(BodyMotion) + sizeof(BodyAcceleration));
+  const auto refuse_unless_held = [&](double knots) {
+    const double bytes = knots * bytes_of_knot;
+    if (bytes <= kMostTableBytes) return;
+    char text[300];
+    std::snprintf(text, sizeof text,
+                  "the opened mechanism's dynamics over %.6g s would take %.2g GB of memory as a table (%.2g instants); shorten "
+                  "motion.duration to what has to be seen, or use the multibody rung, which needs no table",
+                  mechanism.duration(), 1e-9 * bytes, knots);
+    throw MotionTooDense(text);
+  };
+  refuse_unless_held(2.0 * first_cells);
+  int cells = static_cast<int>(first_cells);
   spacing_ = mechanism.duration() / cells;
   std::vector<double> rows;
-  for (int k = 0; k <= cells; ++k) knots_.push_back(knot_at(k * spacing_, ideal, parameters));
+  for (int k = 0; k <= cells; ++k) {
+    work_reached(kBuilding, 0.5 * k / cells);
+    knots_.push_back(knot_at(k * spacing_, ideal, parameters));
+  }
   for (;;) {
+    refuse_unless_held(2.0 * cells);
     std::vector<Knot> finer;
     finer.reserve(2 * cells + 1);
     for (int k = 0; k < cells; ++k) {
+      work_reached(kBuilding, 0.5 + 0.5 * k / cells);
       finer.push_back(std::move(knots_[k]));
       finer.push_back(knot_at((k + 0.5) * spacing_, ideal, parameters));
     }
@@ -81,9 +115,19 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
     spacing_ *= 0.5;
     rows.clear();
     for (const Knot& knot : knots_) append_row(parameters, knot, rows);
-    if (interpolation_error(rows) <= 16.0 * accuracy || 0.5 * spacing_ < kFinestSpacing) break;
+    const double error = interpolation_error(rows);
+    if (error <= 16.0 * accuracy) break;
+    if (0.5 * spacing_ >= finest) continue;
+    if (error <= kLargestMiss) break;
+    char text[300];
+    std::snprintf(text, sizeof text,
+                  "the opened mechanism's dynamics change by %.2g of their size within %.2g s: a singular pose is near, or something "
+                  "vibrates far faster than the motion; the multibody rung needs no table of them",
+                  error, 2.0 * spacing_);
+    throw ComputationError(text);
   }
 }
+
 
 // Largest miss of the cubics through every other knot at the knots between, relative to the largest value of each group of
 // functions.
@@ -119,13 +163,14 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows) cons
 ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal, const Parameters& parameters) {
   Knot knot;
   // At the ends the difference is taken inside the motion: shifted by its own half step.
-  const double middle = std::clamp(t, kRateStep, mechanism_.duration() - kRateStep);
+  const double rate_step = std::min(kRateStep, kRateStepOfKnot * ideal.duration() / std::max(1, ideal.knots() - 1));
+  const double middle = std::clamp(t, rate_step, mechanism_.duration() - rate_step);
   MatX before, after;
-  coordinates_.gain(middle - kRateStep, before);
+  coordinates_.gain(middle - rate_step, before);
   MatX B_rate = -coordinates_.offsets_per_coordinate(before);
-  coordinates_.gain(middle + kRateStep, after);
-  B_rate = (B_rate + coordinates_.offsets_per_coordinate(after)) / (2.0 * kRateStep);
-  knot.T_rate = (after - before) / (2.0 * kRateStep);
+  coordinates_.gain(middle + rate_step, after);
+  B_rate = (B_rate + coordinates_.offsets_per_coordinate(after)) / (2.0 * rate_step);
+  knot.T_rate = (after - before) / (2.0 * rate_step);
   coordinates_.gain(t, knot.T);
   knot.B = coordinates_.offsets_per_coordinate(knot.T);
   ideal.state(t, knot.state);

@@ -1,11 +1,13 @@
 #include "boresight/rungs/contact_report.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "boresight/contact/hertz.hpp"
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/ideal_motion.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/offset_layout.hpp"
 #include "boresight/rungs/formulation.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
@@ -58,6 +60,7 @@ AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, con
   along.reaction_max.assign(n, 0.0);
   VecX y, dy;
   for (int i = 0; i < samples; ++i) {
+    work_reached("weighing contacts along the motion", static_cast<double>(i) / samples);
     IdealState state;
     ideal.state(mechanism.duration() * i / (samples - 1), state);
     formulation->start(state, y);
@@ -119,7 +122,10 @@ std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const
                                                const IdealMotion& ideal) {
   std::vector<ContactFrequency> result;
   if (mechanism.clearances() == 0) return result;
-  const AlongMotion along = follow(mechanism, parameters, ideal, 41);
+  // A long motion has more to see.
+  constexpr int kInstants = 41, kMostInstants = 401, kKnotsOfInstant = 100;
+  const AlongMotion along =
+      follow(mechanism, parameters, ideal, std::clamp(ideal.knots() / kKnotsOfInstant, kInstants, kMostInstants));
   const MechanismDescription& m = mechanism.description();
   const int n = mechanism.clearances();
 

@@ -72,6 +72,8 @@ GapParts parts_of(const JournalInSleeve& joint, const Rest& rest, double slide, 
   return gap;
 }
 
+constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
+
 class Envelope final : public SceneRung {
  public:
   explicit Envelope(std::shared_ptr<const Mechanism> mechanism) : SceneRung(std::move(mechanism)) {}
@@ -90,8 +92,11 @@ class Envelope final : public SceneRung {
     std::vector<ContactSummary> summary = reactions.summaries();
     std::vector<Rest> worst_rest(joints.size()), at_rest(joints.size());
     double resting_max = 0.0, bound_max = 0.0;
-    for (int i = 0; i < reactions.instants(); ++i) {
+    bool interrupted = false;
+    for (int i = 0; i < reactions.instants() && !interrupted; ++i) {
       const ReactionTable::Instant now = reactions.at(i);
+      interrupted = i % kInstantsBetweenLooks == 0 && options.progress &&
+                    !options.progress({now.t, mechanism().duration(), recorder.position_error_max()});
       BodyAcceleration acceleration;
       const BodyMotion ideal = prepared.ideal().body(now.t, mechanism().boresight_body(), &acceleration);
       const Vec3 axis = ideal.R * mechanism().boresight_B();
@@ -143,6 +148,7 @@ class Envelope final : public SceneRung {
         recorder.sample_clearance(static_cast<int>(c), worst_rest[c].motion, worst_rest[c].contact);
     }
     RunResult result = recorder.finish();
+    result.interrupted = interrupted;
     result.integrator = "none: the worst offset an instant";
     result.error = {bound_max > 0.0 ? 1.0 - resting_max / bound_max : 0.0, 0.0,
                     "excess of the bound over the journals' rest (quasistatic) in the largest position error"};

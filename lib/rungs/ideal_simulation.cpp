@@ -9,6 +9,7 @@
 #include "boresight/integrate/integrator.hpp"
 #include "boresight/integrate/rosenbrock_method.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 #include "boresight/rungs/formulation.hpp"
 #include "boresight/rungs/own_modes.hpp"
@@ -146,6 +147,7 @@ std::optional<Knots> follow_explicit(const Task& task, int steps, Failure& failu
   const auto derivative = [&](double t, const VecX& state, VecX& dy) { closed.derivative(t, state, dy); };
   for (int i = 0; i <= steps; ++i) {
     const double t = i * h;
+    work_reached("simulating the ideal motion", static_cast<double>(i) / steps);
     knots.push_back(closed.bodies(t, y, method.first_slope()));
     if (!method.first_slope().allFinite()) break;
     if (i == steps) return knots;

@@ -2,7 +2,14 @@
 
 #include <algorithm>
 
+#include "boresight/mechanism/interruption.hpp"
+
 namespace boresight {
+namespace {
+
+constexpr unsigned kStepsBetweenLooks = 256;  // at whether to go on
+
+}  // namespace
 
 MotionRecorder::MotionRecorder(const Mechanism& mechanism, const IdealMotion& ideal,
                                const RunOptions& options, double expected_steps)
@@ -10,6 +17,7 @@ MotionRecorder::MotionRecorder(const Mechanism& mechanism, const IdealMotion& id
       ideal_(ideal),
       spacing_(options.sample_spacing),
       frame_spacing_(options.frame_spacing),
+      watched_(static_cast<bool>(options.progress)),
       bodies_of_sample_(options.pose_bodies),
       bodies_of_frame_(options.pose_bodies),
       start_(options.start),
@@ -47,6 +55,7 @@ PoseSample MotionRecorder::pose_sample(int body, const BodyMotion& motion,
 const PoseError& MotionRecorder::accept(double t, const BodyMotion& body,
                                         const BodyAcceleration& acceleration, const PoseError* bound) {
   t_ = t;
+  if (!watched_ && ++accepted_ % kStepsBetweenLooks == 0) work_reached("following the motion", t / mechanism_.duration());
   const int index = mechanism_.boresight_body();
   const BodyMotion ideal = ideal_.body(t, index);
   error_ =

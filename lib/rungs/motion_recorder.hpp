@@ -41,6 +41,8 @@ class MotionRecorder {
   const IdealMotion& ideal_;
   double spacing_, next_sample_ = 0.0, frame_spacing_, next_frame_ = 0.0, t_ = 0.0, position_error_max_ = 0.0;
   bool sampling_ = false, framing_ = false;
+  const bool watched_;  // by the caller, who hears an interruption through RunOptions::progress
+  unsigned accepted_ = 0;
   std::vector<int> bodies_of_sample_, bodies_of_frame_;
   double start_;
   IndicesOverTime indices_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight/rungs/perturbation.hpp"
 
 namespace boresight {
@@ -24,6 +25,10 @@ Predictability measure_predictability(std::shared_ptr<const Mechanism> mechanism
   RunOptions options;
   options.sample_spacing = mechanism->duration() / kLooks;
   options.events = false;
+  options.progress = [](const RunProgress& p) {
+    work_reached("comparing with a twin that starts beside it", p.t / p.duration);
+    return true;
+  };
   RunResult run, twin;
   try {
     const auto rung = make_perturbation(mechanism);

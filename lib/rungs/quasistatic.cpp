@@ -9,6 +9,8 @@
 namespace boresight {
 namespace {
 
+constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
+
 class Quasistatic final : public SceneRung {
  public:
   explicit Quasistatic(std::shared_ptr<const Mechanism> mechanism) : SceneRung(std::move(mechanism)) {}
@@ -27,8 +29,11 @@ class Quasistatic final : public SceneRung {
     std::vector<Rest> rest(joints.size());
     std::vector<ContactSummary> summary = reactions.summaries();
     double overshoot = 0.0;  // relative to the offset
-    for (int i = 0; i < reactions.instants(); ++i) {
+    bool interrupted = false;
+    for (int i = 0; i < reactions.instants() && !interrupted; ++i) {
       const ReactionTable::Instant now = reactions.at(i);
+      interrupted = i % kInstantsBetweenLooks == 0 && options.progress &&
+                    !options.progress({now.t, mechanism().duration(), recorder.position_error_max()});
       for (std::size_t c = 0; c < joints.size(); ++c) {
         rest[c] = rest_under(joints[c], now.load[c].force, now.load[c].slide, rest[c]);
         reactions.note(rest[c], summary[c]);
@@ -52,6 +57,7 @@ class Quasistatic final : public SceneRung {
         recorder.sample_clearance(static_cast<int>(c), rest[c].motion, rest[c].contact);
     }
     RunResult result = recorder.finish();
+    result.interrupted = interrupted;
     result.integrator = "none: one static balance an instant";
     result.error = {overshoot, 0.0,
                     "what a load applied at once adds to a resting journal's penetration: (5/2)^(2/3) times it at most"};

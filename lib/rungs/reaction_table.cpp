@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 
 namespace boresight {
 namespace {
@@ -11,6 +12,8 @@ namespace {
 // Instants at most so far apart [s], and at least so many along the motion: the reaction's direction may turn fast.
 constexpr double kSpacing = 5e-4;
 constexpr int kFewestInstants = 400;
+// More than so many only as far as the scene is tabled that finely.
+constexpr int kManyInstants = 200000, kInstantsPerKnot = 4;
 // Share of the offsets that counts as none.
 constexpr double kNothing = 1e-6;
 
@@ -20,7 +23,9 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& s
     : mechanism_(mechanism), layout_(scene.layout()) {
   if (scene.coordinates().leftover() > 0)
     throw ComputationError("journals come to rest only where every freedom of the ideal mechanism is driven; use perturbation");
-  const double wanted = std::max<double>(kFewestInstants, mechanism.duration() / kSpacing);
+  // A motion of hours moves more slowly: its own table says how fast.
+  const double wanted =
+      std::max<double>(kFewestInstants, std::min(mechanism.duration() / kSpacing, std::max<double>(kManyInstants, kInstantsPerKnot * scene.knots())));
   const int per_knot = std::max(1, static_cast<int>(std::ceil(wanted / (scene.knots() - 1))));
   instants_ = (scene.knots() - 1) * per_knot + 1;
   spacing_ = scene.spacing() / per_knot;
@@ -30,6 +35,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& s
   MatX M, C;
   VecX r;
   for (int k = 0; k < scene.knots(); ++k) {
+    work_reached("tabling the ideal joints' reactions", static_cast<double>(k) / scene.knots());
     const MatX& B = scene.offsets_per_coordinate(k);
     for (int c = 0; c < mechanism.clearances(); ++c)
       for (int i = 0; i < layout_.joints[c].offsets; ++i)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "boresight/contact/normal_law.hpp"
+
 namespace boresight {
 namespace {
 
@@ -50,7 +52,9 @@ std::string fault_of_clearance(const MechanismDescription& m, const ClearanceDes
   if (p.radial <= 0.0 || p.journal_radius <= 0.0) return "radii";
   if (joint.type == JointType::revolute && !(p.cap_radius > p.journal_radius + p.radial && p.sleeve_length > 0.0)) return "caps";
   if (c.axes == JournalAxes::free && p.sleeve_length <= 0.0) return "sleeve length";
-  if (p.contact.restitution <= 0.0 || p.contact.restitution > 1.0) return "restitution";
+  if (p.contact.restitution < 0.0 || p.contact.restitution > 1.0) return "restitution";
+  const NormalLaw law = make_normal_law(c.contact_law, c.dissipation_law, p);
+  if (!std::isfinite(law.stiffness) || !(law.stiffness > 0.0) || !std::isfinite(law.damping_factor)) return "contact law";
   for (int k = 0; k < 2; ++k) {
     if (p.contact.young[k] <= 0.0 || p.contact.poisson[k] >= 0.5) return "material";
   }
