@@ -83,10 +83,12 @@ ErrorStatement error_of(const NamedEstimate& e, const ModelError& model) {
   s.sampling.relative = size > 0.0 ? s.sampling.value / size : 0.0;
   s.sampling.why = "the wider side of its interval: " + e.interval.basis;
   s.discretisation = {model.discretisation * size, model.discretisation, model.discretisation_why};
-  s.rung = {model.rung * size, model.rung, model.rung_why};
-  s.dominant = s.sampling.relative >= std::max(model.discretisation, model.rung) ? "sampling"
-               : model.rung >= model.discretisation                              ? "rung"
-                                                                                 : "discretisation";
+  const auto own = model.rung_of.find(e.name);
+  const double rung = own != model.rung_of.end() ? own->second : model.rung;
+  s.rung = {rung * size, rung, model.rung_why};
+  // What was not measured does not stand first.
+  const double steps = std::isnan(model.discretisation) ? 0.0 : model.discretisation, left_out = std::isnan(rung) ? 0.0 : rung;
+  s.dominant = s.sampling.relative >= std::max(steps, left_out) ? "sampling" : left_out >= steps ? "rung" : "discretisation";
   return s;
 }
 

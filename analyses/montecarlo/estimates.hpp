@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,7 +40,8 @@ struct ErrorStatement {
 
 // How far the model itself is off, relative.
 struct ModelError {
-  double discretisation = 0.0, rung = 0.0;
+  double discretisation = 0.0, rung = 0.0;  // NaN where not measured
+  std::map<std::string, double> rung_of = {};  // per headline, where each has its own
   std::string discretisation_why, rung_why;
 };
 

@@ -59,13 +59,9 @@ StoredValues stored_values(const SampleStore& store, const NumberRange& range) {
     result.spent += r.outcome.cpu_seconds;
     if (!good) return;
     done += 1.0;
-    result.discretisation += r.outcome.discretisation_error;
     result.model += r.outcome.model_error;
   });
-  if (done > 0.0) {
-    result.discretisation /= done;
-    result.model /= done;
-  }
+  if (done > 0.0) result.model /= done;
   result.typical_cost = median(std::move(costs));
   return result;
 }

@@ -31,7 +31,7 @@ struct StoredValues {
   std::vector<double> values;  // in the order of the numbers; NaN: failed
   double typical_cost = 0.0;   // median CPU seconds of a sample: preparing what all share is not a sample's cost
   double spent = 0.0;          // CPU seconds
-  double discretisation = 0.0, model = 0.0;  // mean of what the rung thinks of its own errors, relative
+  double model = 0.0;          // mean of what the rung thinks it leaves out, relative
   Failures failures;
 };
 StoredValues stored_values(const SampleStore& store, const NumberRange& range);

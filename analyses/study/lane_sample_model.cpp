@@ -6,23 +6,24 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
-#include "boresight/rungs/step_error.hpp"
+#include "boresight/rungs/measured_error.hpp"
 
 namespace boresight {
 
 bool LaneSampleModel::serve(const Mechanism& mechanism, const IndexChoice& index, const RunOptions& options) {
   const bool statistic = index.statistic == "max" || index.statistic == "rms" || index.statistic == "mean";
   return statistic && PerturbationLanes::serve(mechanism) && options.step == 0.0 &&
-         options.integrator.empty() && options.tolerance == 0.0;
+         options.integrator.empty();
 }
 
 LaneSampleModel::LaneSampleModel(std::shared_ptr<const Mechanism> mechanism, RungSampleModel::ParametersOf parameters_of,
-                                 IndexChoice index, bool scene_varies)
+                                 IndexChoice index, bool scene_varies, double tolerance)
     : mechanism_(std::move(mechanism)),
       parameters_of_(std::move(parameters_of)),
       index_(std::move(index)),
       scene_varies_(scene_varies),
-      lanes_(mechanism_, index_.kind(), index_.start) {}
+      lanes_(mechanism_, index_.kind(), index_.start),
+      tolerance_(tolerance) {}
 
 // What the rung itself estimates (perturbation.cpp), from what the lanes keep: the deviation over the mechanism's size, times
 // how much the mechanism magnifies its offsets.
@@ -45,7 +46,7 @@ void LaneSampleModel::evaluate(std::span<const Sample> samples, std::span<Outcom
   for (const Sample& sample : samples) parameters.push_back(parameters_of_(sample.values));
   std::vector<LaneOutcome> found(samples.size());
   try {
-    lanes_.run(parameters, found);
+    lanes_.run(parameters, found, tolerance_);
   } catch (const ComputationError& failure) {
     for (Outcome& outcome : outcomes) {
       outcome.status = Outcome::Status::failed;
@@ -71,7 +72,7 @@ void LaneSampleModel::evaluate(std::span<const Sample> samples, std::span<Outcom
     }
     outcome.value = index_.statistic == "max" ? f.max : index_.statistic == "rms" ? std::sqrt(f.mean_square) : f.mean;
     outcome.model_error = nonlinearity(parameters[k], f);
-    outcome.discretisation_error = tolerance_error(kLaneTolerance);
+    outcome.discretisation_error = kNotMeasured;
     outcome.status = Outcome::Status::done;
   }
 }
@@ -80,7 +81,8 @@ std::unique_ptr<SampleModel> sample_model(const std::string& rung, std::shared_p
                                           RungSampleModel::ParametersOf parameters_of, IndexChoice index, RunOptions options,
                                           bool scene_varies) {
   if (rung == "perturbation" && LaneSampleModel::serve(*mechanism, index, options))
-    return std::make_unique<LaneSampleModel>(std::move(mechanism), std::move(parameters_of), std::move(index), scene_varies);
+    return std::make_unique<LaneSampleModel>(std::move(mechanism), std::move(parameters_of), std::move(index), scene_varies,
+                                             options.tolerance > 0.0 ? options.tolerance : kLaneTolerance);
   return std::make_unique<RungSampleModel>(rung, std::move(mechanism), std::move(parameters_of), std::move(index),
                                            std::move(options), scene_varies);
 }

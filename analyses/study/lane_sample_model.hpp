@@ -10,10 +10,12 @@ namespace boresight {
 class LaneSampleModel final : public SampleModel {
  public:
   // scene_varies: whether masses or gravity scatter; then each sample's scene takes longer to prepare than it does to run.
+  // tolerance: PerturbationLanes::run().
   LaneSampleModel(std::shared_ptr<const Mechanism> mechanism, RungSampleModel::ParametersOf parameters_of, IndexChoice index,
-                  bool scene_varies);
+                  bool scene_varies, double tolerance = kLaneTolerance);
 
-  // Whether lanes can answer: a maximum, RMS or mean, laws that have lanes, and nothing asked that they do not have.
+  // Whether lanes can answer: a maximum, RMS or mean, laws that have lanes, and nothing asked that they do not have. A
+  // tolerance without an integrator is theirs.
   static bool serve(const Mechanism& mechanism, const IndexChoice& index, const RunOptions& options);
 
   std::string rung() const override { return "perturbation"; }
@@ -32,9 +34,11 @@ class LaneSampleModel final : public SampleModel {
   IndexChoice index_;
   bool scene_varies_;
   PerturbationLanes lanes_;
+  double tolerance_;
 };
 
-// The model of a rung's samples: lanes where they serve, else runs of the rung one by one.
+// The model of a rung's samples: lanes where they serve, at the tolerance of the options if they have one, else runs of the
+// rung one by one.
 // scene_varies: whether masses, gravity or springs scatter.
 std::unique_ptr<SampleModel> sample_model(const std::string& rung, std::shared_ptr<const Mechanism> mechanism,
                                           RungSampleModel::ParametersOf parameters_of, IndexChoice index, RunOptions options,

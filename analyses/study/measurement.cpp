@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "boresight/lanes/perturbation_lanes.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
@@ -14,8 +15,7 @@ namespace boresight {
 namespace {
 
 // Neighbouring steps whose results are as good as the first: impacts fall out differently in each.
-constexpr double kNeighbours[] = {1.0, 0.985, 0.97};
-constexpr double kNothing = 1e-9;  // [m] or [rad]: rounding of a motion integrated in metres
+constexpr double kBetweenNeighbours = 0.015;
 
 }  // namespace
 
@@ -30,6 +30,17 @@ RunOptions Way::options() const {
   options.formulation = formulation;
   options.stabilisation = stabilisation;
   return options;
+}
+
+Way Way::finer() const {
+  Way way = *this;
+  if (lanes)
+    way.tolerance = 0.1 * (tolerance > 0.0 ? tolerance : kLaneTolerance);
+  else if (!integrator.empty() && integrator != "rk4" && step == 0.0)
+    way.tolerance = 0.1 * tolerance_of(options(), rung);
+  else
+    way.step = 0.5 * step;
+  return way;
 }
 
 std::string Way::family() const {
@@ -50,7 +61,8 @@ Measurement measure(const Rung& rung, const Parameters& parameters, const Way& w
   Measurement out;
   std::vector<double> values;
   try {
-    for (double share : kNeighbours) {
+    for (int neighbour = 0; neighbour < options.neighbours; ++neighbour) {
+      const double share = 1.0 - kBetweenNeighbours * neighbour;
       if (options.advance && !options.advance()) throw MeasurementInterrupted{};
       RunOptions run = way.options();
       run.start = options.index.start;
@@ -81,7 +93,7 @@ Measurement measure(const Rung& rung, const Parameters& parameters, const Way& w
         return out;
       }
       values.push_back(value);
-      out.estimate = std::max(out.estimate, result.error.total());
+      out.estimate = std::max(out.estimate, result.error.model);
       const double cpu = result.cost.cpu_seconds;
       out.cpu_seconds = values.size() == 1 ? cpu : std::min(out.cpu_seconds, cpu);
       if (out.step == 0.0 && result.cost.steps > 0 && !way.stepless())
@@ -95,6 +107,7 @@ Measurement measure(const Rung& rung, const Parameters& parameters, const Way& w
     out.refusal = failure.what();
     return out;
   }
+  out.values = values;
   std::sort(values.begin(), values.end());
   out.value = values[values.size() / 2];
   out.half_spread = 0.5 * (values.back() - values.front());

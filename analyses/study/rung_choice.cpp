@@ -26,9 +26,9 @@ void check_rung_name(const std::string& asked) {
 void apply(const RungChoice& choice, RunOptions& options) {
   // The step is one of rk4's; an integrator that was asked for chooses its own.
   if (choice.step > 0.0 && !controls_error(options)) options.step = choice.step;
-  if (choice.integrator.empty()) return;
-  options.integrator = choice.integrator;
-  options.tolerance = choice.tolerance;
+  // A tolerance without an integrator is that of lanes.
+  if (choice.tolerance > 0.0) options.tolerance = choice.tolerance;
+  if (!choice.integrator.empty()) options.integrator = choice.integrator;
 }
 
 RungChoice choose_rung(const RungQuestion& question, std::shared_ptr<const Mechanism> mechanism,
@@ -42,8 +42,15 @@ RungChoice choose_rung(const RungQuestion& question, std::shared_ptr<const Mecha
     return {most_exact, "the rung that leaves out least; give an accuracy to have the cheapest that meets it"};
   PilotOptions options{.accuracy = *question.accuracy,
                        .index = question.index,
+                       .statistic = question.statistic,
                        .step = question.step,
+                       .integrator = question.integrator,
+                       .tolerance = question.tolerance,
                        .integrators = question.integrators,
+                       .lanes = question.lanes,
+                       .scene_varies = question.scene_varies,
+                       .runs = question.runs,
+                       .jobs = question.jobs,
                        .progress = question.progress};
   RungChoice choice;
   choice.pilot = run_pilot(std::move(mechanism), samples, options);

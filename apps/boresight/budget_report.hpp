@@ -11,6 +11,7 @@
 #include "boresight_analyses/study/study.hpp"
 #include "command.hpp"
 #include "report/document.hpp"
+#include "stored_study.hpp"
 
 namespace boresight::app {
 
@@ -25,7 +26,8 @@ struct BudgetStudy {
   std::vector<std::string> warnings;
   std::string leaves_out;
   double step = 0.0;  // of the runs [s]; 0: their own
-  double model_error = 0.0, discretisation_error = 0.0;  // what the rung thinks of itself, relative, mean over the runs
+  double model_error = 0.0;  // what the rung thinks of itself, relative, mean over the runs
+  StudySteps steps = {};
 
   BudgetAxes axes() const { return BudgetAxes(study.index.kind()); }
 };

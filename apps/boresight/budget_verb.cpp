@@ -30,7 +30,7 @@ struct RunsSeen {
   Failures failures;
   double largest = 0.0;  // of the quantity over every step of the members' runs
   double missed = 0.0;   // the largest share of a run's maximum that its sampled history has not; 0 if it begins late
-  double model_error = 0.0, discretisation_error = 0.0;  // means
+  double model_error = 0.0;  // mean
 };
 
 RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs, const BudgetPlan& plan) {
@@ -41,7 +41,6 @@ RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs, const Budge
     if (r.outcome.status == Outcome::Status::failed) return;
     done += 1.0;
     seen.model_error += r.outcome.model_error;
-    seen.discretisation_error += r.outcome.discretisation_error;
     seen.largest = std::max(seen.largest, r.outcome.value);
     if (plan.start > 0.0 || r.outcome.value < kNothing) return;
     double sampled = 0.0;
@@ -49,7 +48,6 @@ RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs, const Budge
     seen.missed = std::max(seen.missed, 1.0 - sampled / r.outcome.value);
   });
   seen.model_error /= std::max(1.0, done);
-  seen.discretisation_error /= std::max(1.0, done);
   return seen;
 }
 
@@ -135,8 +133,7 @@ class BudgetVerb : public Verb {
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "pointing budget: APE, MPE, RPE, PDE, PRE; ensemble, temporal, mixed"; }
   std::string example() const override {
-    return "boresight budget examples/3-rrcpr/budget.toml --set clearance.F1.axes=free --rung perturbation "
-           "--integrator rosenbrock";
+    return "boresight budget examples/3-rrcpr/budget.toml --set clearance.F1.axes=free";
   }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);
@@ -162,14 +159,20 @@ class BudgetVerb : public Verb {
         OutputDirectory::open(command.out, command.verb, command.file,
                               identity_of(command, mechanism->description().content_hash, hash.hexadecimal(), options));
     SampleStore store = open_runs(out, name(), plan.inputs, text, resume_);
-    const RungChoice choice = rung_of_study(command, study, mechanism, plan.inputs, run, store);
-    if (choice.step > 0.0 && (run.integrator.empty() || run.integrator == "rk4")) run.step = choice.step;
-    run = options_on(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run);
     const BudgetRuns runs(plan, *mechanism);
+    // Levels of a budget are quantiles over the members.
+    const RungChoice choice = rung_of_study(
+        command, study, mechanism,
+        {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count(), .integrators = true}, run, store);
+    apply(choice, run);
+    run = options_on(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run);
     const BudgetModel model(choice.name, mechanism, plan, runs, {study.index.quantity, "max", plan.start}, run,
                             scene_varies(plan.inputs));
     store.use_rung(model.rung(), model.step());
     note_origin(store, study, *mechanism, plan);
+    const StudySteps steps =
+        steps_of_study(command, study, mechanism, {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count()}, run,
+                       choice.name, &store);
 
     const bool whole =
         with_options_checked([&] { return compute(command, study, *mechanism, plan, runs, model, store); });
@@ -187,12 +190,12 @@ class BudgetVerb : public Verb {
                        .step = model.step()};
     const RunsSeen seen = runs_seen(store, runs, plan);
     result.model_error = seen.model_error;
-    result.discretisation_error = seen.discretisation_error;
+    result.steps = steps;
     if (budget) result.warnings = warnings_of(result, seen);
     write(result, seen, out, watch);
     if (!command.quiet) print(result, out);
     if (!budget) return kInterrupted;
-    return budget->met() ? kDone : kAnswerIsNo;
+    return budget->met() ? status_with_accuracy(choice, kDone) : kAnswerIsNo;
   }
 
  private:
@@ -304,7 +307,8 @@ class BudgetVerb : public Verb {
     if (s.budget) {
       json.update(budget_json(s, *s.budget));
       json["error"] = {
-          {"rung", seen.model_error}, {"discretisation", seen.discretisation_error}, {"sampling", seen.missed}};
+          {"rung", seen.model_error}, {"discretisation", number_json(s.steps.relative)}, {"sampling", seen.missed}};
+      json["error"]["discretisation_why"] = s.steps.why;
       out.write("levels.csv", [&](std::ostream& stream) { write_levels(stream, s, *s.budget); });
       out.write("classical.csv", [&](std::ostream& stream) { write_classical(stream, s, *s.budget); });
       out.write("contributions.csv", [&](std::ostream& stream) { write_contributions(stream, *s.budget); });

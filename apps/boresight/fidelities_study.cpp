@@ -18,6 +18,7 @@
 #include "readable.hpp"
 #include "report/report.hpp"
 #include "several_rungs.hpp"
+#include "stored_study.hpp"
 #include "tables.hpp"
 
 namespace boresight::app {
@@ -35,7 +36,6 @@ struct FidelityOutcome {
   FidelityEstimate mean;
   std::optional<FidelityEstimate> excess;  // probability of exceeding the requirement's limit
   double spent = 0.0;                      // CPU seconds of all samples
-  double discretisation = 0.0;             // relative, the first rung's own estimate
 };
 
 std::vector<Level> open_levels(const SeveralRungs& s) {
@@ -176,7 +176,6 @@ int run_fidelities(const SeveralRungs& s) {
       values.push_back(stored.values);
       o.spent += stored.spent;
       failures.add(stored.failures);
-      if (k == 0) o.discretisation = stored.discretisation;
     }
     o.mean = estimate_fidelities(o.plan, values, plan.confidence);
     if (plan.requirement) {
@@ -193,6 +192,13 @@ int run_fidelities(const SeveralRungs& s) {
   }
   progress.clear();
 
+  RunOptions top_run = s.run;
+  if (levels[0].model->step() > 0.0) top_run.step = levels[0].model->step();
+  const StudySteps steps = steps_of_study(s.command, s.question.study, s.question.mechanism,
+                                          {.inputs = plan.inputs,
+                                           .runs = static_cast<std::uint64_t>(o.plan.samples[0]),
+                                           .lanes = levels[0].model->batch() > 1},
+                                          top_run, top, levels[0].store.get());
   const double sampling = 0.5 * (o.mean.value.high - o.mean.value.low) / std::abs(o.mean.value.value);
   std::vector<std::string> warnings;
   if (o.mean.failed > 0)
@@ -208,9 +214,9 @@ int run_fidelities(const SeveralRungs& s) {
   json["index"]["mean"] = interval_json(reported(o.mean.value));
   json["error"] = {{"of", "mean"},
                    {"sampling", {{"relative", sampling}, {"why", o.mean.value.basis}}},
-                   {"discretisation", {{"relative", o.discretisation}, {"why", "the " + top + " rung's own estimate of its steps"}}},
+                   {"discretisation", {{"relative", number_json(steps.relative)}, {"why", steps.why}}},
                    {"rung", {{"relative", 0.0}, {"why", "unbiased for the " + top + " rung"}}},
-                   {"dominant", sampling >= o.discretisation ? "sampling" : "discretisation"}};
+                   {"dominant", steps.relative > sampling ? "discretisation" : "sampling"}};
   if (o.excess) {
     const auto& p = o.excess->value;
     const ReportedInterval below{1.0 - p.value, std::clamp(1.0 - p.high, 0.0, 1.0), std::clamp(1.0 - p.low, 0.0, 1.0),

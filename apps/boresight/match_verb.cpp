@@ -77,7 +77,7 @@ class MatchVerb : public Verb {
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "clearance, load, ... at which the pointing error is least"; }
   std::string example() const override {
-    return "boresight match examples/3-rrcpr/match.toml --rung perturbation --integrator rosenbrock";
+    return "boresight match examples/3-rrcpr/match.toml";
   }
   void declare_options(CLI::App& app) override { motion_.declare_model(app); }
 
@@ -99,7 +99,7 @@ class MatchVerb : public Verb {
         identity_of(command, mechanism->description().content_hash, samples.hexadecimal(), options));
 
     const std::vector<Parameters> corners = corners_of(plan, *mechanism);
-    const RungChoice choice = choose_rung_of_scatter(command, study, asked, mechanism, corners);
+    const RungChoice choice = choose_rung_of_corners(command, study, asked, mechanism, corners);
     const std::string upper = next_rung_up(choice.name);
     const auto parameters_of = [mechanism, &plan](std::span<const double> values) {
       return plan.parameters_with(*mechanism, values);
@@ -193,7 +193,7 @@ class MatchVerb : public Verb {
     if (!command.quiet) print(matched, out);
     if (result.interrupted) return kInterrupted;
     if (result.design.empty()) return kFailed;
-    return result.feasible && result.converged ? kDone : kAnswerIsNo;
+    return result.feasible && result.converged ? status_with_accuracy(choice, kDone) : kAnswerIsNo;
   }
 
  private:

@@ -18,6 +18,7 @@
 #include "report/report.hpp"
 #include "scatter_parts.hpp"
 #include "several_rungs.hpp"
+#include "stored_study.hpp"
 #include "study_input.hpp"
 #include "summary.hpp"
 #include "verb.hpp"
@@ -43,7 +44,7 @@ class MonteCarloVerb : public Verb {
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "the index's distribution, with confidence intervals"; }
   std::string example() const override {
-    return "boresight montecarlo examples/3-rrcpr/montecarlo.toml --rung perturbation";
+    return "boresight montecarlo examples/3-rrcpr/montecarlo.toml";
   }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);
@@ -81,13 +82,23 @@ class MonteCarloVerb : public Verb {
       out = std::make_unique<OutputDirectory>(OutputDirectory::open(command.out, command.verb, command.file, identity));
       store = open_store(*out, question);
       choice = rung_for(command, question, run, *store);
-      told = nlohmann::json{{"folder", out->path().string()}, {"rung", choice.name}, {"step", choice.step}}.dump();
+      told = nlohmann::json{{"folder", out->path().string()},
+                            {"rung", choice.name},
+                            {"step", choice.step},
+                            {"integrator", choice.integrator},
+                            {"tolerance", choice.tolerance}}
+                 .dump();
     }
     ranks->broadcast(told);
     const nlohmann::json heard = nlohmann::json::parse(told);
 
     RunOptions model_options = run;
-    apply({.name = heard["rung"], .step = heard["step"]}, model_options);
+    apply({.name = heard["rung"],
+           .why = "",
+           .step = heard["step"],
+           .integrator = heard["integrator"],
+           .tolerance = heard["tolerance"]},
+          model_options);
     const std::unique_ptr<SampleModel> sampled = sample_model(heard["rung"], question.mechanism, question.parameters_of(),
                                                               question.study.index, model_options,
                                                               scene_varies(question.plan.inputs));
@@ -102,12 +113,18 @@ class MonteCarloVerb : public Verb {
       return kDone;
     }
     store->use_rung(model.rung(), model.step());
+    const StudySteps steps = steps_of_study(command, question.study, question.mechanism,
+                                            {.inputs = question.plan.inputs,
+                                             .statistic = asked_of_scatter(question.plan),
+                                             .runs = question.plan.samples,
+                                             .lanes = true},
+                                            model_options, model.rung(), store.get());
     if (!command.quiet) announce(question, store->count(), ranks->size());
     Progress progress(command.quiet, static_cast<double>(question.plan.samples), "samples");
     options.progress = [&](const MonteCarloProgress& p) { show(progress, p, question); };
     const MonteCarloResult result = with_options_checked([&] { return run_montecarlo(model, question.plan, store.get(), *ranks, options); });
     progress.clear();
-    return write_results(command, question, choice, model, *store, result, watch, *out);
+    return write_results(command, question, choice, model, *store, steps, result, watch, *out);
   }
 
  private:
@@ -158,23 +175,36 @@ class MonteCarloVerb : public Verb {
   // A study keeps its rung: the one it was begun with is the one it goes on with.
   static RungChoice rung_for(const Command& command, const MonteCarloQuestion& question, const RunOptions& run,
                              SampleStore& store) {
-    const std::vector<SampleStore::StoredRung> stored = store.rungs();
-    if (!stored.empty()) return {stored.front().name, store.fact("rung_why"), stored.front().step};
+    if (!store.rungs().empty()) return stored_choice(store);
     RungChoice choice = choose_rung_of_scatter(command, question.study, run, question.mechanism,
-                                               pilot_samples(question.plan.inputs, *question.mechanism));
-    // Lanes choose each sample's steps by its error; what else runs takes one step for all samples.
+                                               {.inputs = question.plan.inputs,
+                                                .statistic = asked_of_scatter(question.plan),
+                                                .runs = question.plan.samples,
+                                                .lanes = true,
+                                                .integrators = true});
+    // A pilot has chosen the step too. Lanes choose each sample's steps by its error; what else runs with rk4 takes one
+    // step for all samples.
     const bool lanes = choice.name == "perturbation" && LaneSampleModel::serve(*question.mechanism, question.study.index, run);
-    if (lanes) choice.step = 0.0;
-    if (!lanes && choice.step == 0.0 && run.step == 0.0)
+    if (!choice.pilot && !lanes && run.step == 0.0)
       choice.step = with_options_checked([&] {
         return common_step(choice.name, question.mechanism, pilot_samples(question.plan.inputs, *question.mechanism), run);
       });
-    store.note("rung_why", choice.why);
+    note_choice(store, choice);
     if (choice.pilot) {
-      store.note("pilot_error", fmt::format("{:.17g}", choice.pilot->trials[choice.pilot->chosen].error));
       store.note("pilot_reference_error", fmt::format("{:.17g}", choice.pilot->reference_error));
+      store.note("pilot_pairs", std::to_string(choice.pilot->pairs));
+      for (const PilotResult::ErrorOfStatistic& e : choice.pilot->errors)
+        store.note(fmt::format("pilot_error_{:g}", e.probability), fmt::format("{:.17g}", e.error));
     }
     return choice;
+  }
+
+  // The quantile that a requirement is about, or else the one that a reader looks at first.
+  static ScatterStatistic asked_of_scatter(const MonteCarloPlan& plan) {
+    if (plan.requirement) return {plan.requirement->probability};
+    for (const Headline& h : headlines())
+      if (headline_of(plan) == h.name) return {h.probability};
+    return {};
   }
 
   static void announce(const MonteCarloQuestion& question, std::uint64_t stored, int ranks) {
@@ -216,15 +246,21 @@ class MonteCarloVerb : public Verb {
   }
 
   int write_results(const Command& command, const MonteCarloQuestion& question, const RungChoice& choice,
-                    const SampleModel& model, const SampleStore& store, const MonteCarloResult& result,
-                    const Stopwatch& watch, const OutputDirectory& out) const {
+                    const SampleModel& model, const SampleStore& store, const StudySteps& steps,
+                    const MonteCarloResult& result, const Stopwatch& watch, const OutputDirectory& out) const {
     ModelError error;
     const ShownSamples shown = shown_samples(store, result, error);
-    const std::string pilot_error = store.fact("pilot_error");
-    if (!pilot_error.empty()) {
-      error.rung = std::stod(pilot_error);
-      error.rung_why = "measured by the pilot against multibody at half its step, the step's own error included";
-    }
+    error.discretisation = steps.relative;
+    error.discretisation_why = steps.why;
+    for (const Headline& h : headlines())
+      if (const std::string found = store.fact(fmt::format("pilot_error_{:g}", h.probability)); !found.empty())
+        // The mean's error says nothing of the standard deviation's.
+        error.rung_of[h.name] = std::string(h.name) == "sd" ? kNotMeasured : std::stod(found);
+    if (!error.rung_of.empty())
+      error.rung_why = fmt::format(
+          "measured by the pilot: this way against multibody at half its step over {} paired samples, with 95 % confidence, what "
+          "the steps do included",
+          store.fact("pilot_pairs"));
     const Estimates estimates = estimate(result.values, question.plan, error);
     MonteCarloStudy study{.command = command,
                           .study = question.study,
@@ -236,13 +272,13 @@ class MonteCarloVerb : public Verb {
                           .shown = shown,
                           .warnings = warnings_of(question, result, estimates, shown.failures),
                           .leaves_out = model.leaves_out(),
-                          .replay = replay_command(command, model)};
+                          .replay = replay_command(command, choice, model)};
     write_json(out, "summary.json", summary_of(study, watch, out, store));
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, montecarlo_report(study)); });
     if (!command.quiet) print(study, out);
     if (result.ended == Ended::interrupted) return kInterrupted;
     if (estimates.failed == estimates.samples && estimates.samples > 0) return kFailed;
-    return estimates.requirement && !estimates.requirement->met ? kAnswerIsNo : kDone;
+    return estimates.requirement && !estimates.requirement->met ? kAnswerIsNo : status_with_accuracy(choice, kDone);
   }
 
   // Failed ones first, the others spread evenly; and what the rung thinks of its own error, on average.
@@ -259,14 +295,9 @@ class MonteCarloVerb : public Verb {
       }
       done += 1.0;
       error.rung += record.outcome.model_error;
-      error.discretisation += record.outcome.discretisation_error;
       if (record.number % every == 0) shown.done.push_back(record);
     });
-    if (done > 0.0) {
-      error.rung /= done;
-      error.discretisation /= done;
-    }
-    error.discretisation_why = "the rung's own estimate of its steps, mean over the samples";
+    if (done > 0.0) error.rung /= done;
     error.rung_why = "the rung's own estimate of what it leaves out, mean over the samples";
     return shown;
   }
@@ -299,12 +330,14 @@ class MonteCarloVerb : public Verb {
     return warnings;
   }
 
-  std::string replay_command(const Command& command, const SampleModel& model) const {
+  std::string replay_command(const Command& command, const RungChoice& choice, const SampleModel& model) const {
     std::string text = "boresight run " + command.file;
     for (const Setting& setting : command.settings) text += " --set " + setting.path + "=" + setting.value;
     text += " --rung " + model.rung();
     if (model.step() > 0.0) text += fmt::format(" --step \"{:.17g} s\"", model.step());
     if (model.batch() > 1) text += " --integrator rosenbrock";  // the lanes' method; its steps are not the same
+    if (!choice.integrator.empty() && motion_.integrator.empty())
+      text += fmt::format(" --integrator {} --tolerance {:g}", choice.integrator, choice.tolerance);
     text += motion_.model_text();
     return text + " --sample-number";
   }
@@ -366,7 +399,8 @@ class MonteCarloVerb : public Verb {
       if (e.of == s.estimates.headline)
         fmt::print("  {} is uncertain by sampling {}, discretisation {}, rung {}: {} dominates\n", e.of,
                    std::isfinite(e.sampling.relative) ? readable_share(e.sampling.relative) : "without bound",
-                   readable_share(e.discretisation.relative), readable_share(e.rung.relative), e.dominant);
+                   std::isfinite(e.discretisation.relative) ? readable_share(e.discretisation.relative) : "not measured",
+                   readable_share(e.rung.relative), e.dominant);
     if (s.estimates.requirement) fmt::print("  {}\n", verdict_sentence(s));
     for (const std::string& warning : s.warnings) fmt::print("  warning: {}\n", warning);
     fmt::print("  report: {}\n", (out.path() / "report.html").string());

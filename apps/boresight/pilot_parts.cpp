@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "readable.hpp"
+#include "scatter_parts.hpp"
 
 namespace boresight::app {
 namespace {
 
-std::string way_of(const PilotTrial& t) { return t.integrator.empty() ? t.rung : t.rung + ", " + t.integrator; }
+std::string way_of(const PilotTrial& t) {
+  return t.rung + (t.lanes ? ", lanes" : t.integrator.empty() ? "" : ", " + t.integrator);
+}
 
 std::string fineness_of(const PilotTrial& t) {
   if (t.tolerance > 0.0) return fmt::format("tolerance {:.0e}", t.tolerance);
@@ -23,17 +27,22 @@ nlohmann::ordered_json pilot_json(const PilotResult& pilot) {
   json["accuracy"] = pilot.accuracy;
   json["index"] = pilot.index;
   json["reference"] = pilot.reference;
-  json["reference_error"] = pilot.reference_error;
+  json["reference_error"] = number_json(pilot.reference_error);
+  if (pilot.pairs > 0) json["pairs"] = pilot.pairs;
+  if (pilot.scatter > 0.0) json["scatter"] = pilot.scatter;
   json["met"] = pilot.met;
   json["cpu_seconds"] = pilot.cpu_seconds;
   json["trials"] = nlohmann::ordered_json::array();
   for (std::size_t k = 0; k < pilot.trials.size(); ++k) {
     const PilotTrial& t = pilot.trials[k];
     nlohmann::ordered_json trial = {{"rung", t.rung}, {"step", t.step}};
-    if (!t.integrator.empty()) trial.update({{"integrator", t.integrator}, {"tolerance", t.tolerance}});
+    if (!t.integrator.empty()) trial["integrator"] = t.integrator;
+    if (t.lanes) trial["lanes"] = true;
+    if (t.tolerance > 0.0) trial["tolerance"] = t.tolerance;
     if (t.refusal.empty()) {
       trial["value"] = t.value;
-      trial["error"] = t.error;
+      trial["error"] = number_json(t.error);
+      trial["difference"] = t.difference;
       trial["own_estimate"] = t.estimate;
       trial["cpu_seconds"] = t.cpu_seconds;
     } else {
@@ -48,11 +57,15 @@ nlohmann::ordered_json pilot_json(const PilotResult& pilot) {
 report::Section pilot_section(const PilotResult& pilot) {
   report::Section section{.id = "pilot", .title = "How the rung was chosen", .items = {}};
   section.items.push_back(report::Text{
-      fmt::format("Asked for: {} within {}. The pilot ran the rungs at neighbouring steps, held them against multibody at half "
-                  "its own step (good to {}), and took {}.",
-                  pilot.index, readable_share(pilot.accuracy), readable_share(pilot.reference_error), pilot.why)});
+      fmt::format("Asked for: {} within {}. The pilot {}, held them against multibody at half its own step (good to {}, with "
+                  "95 % confidence), in {} of CPU. Of the choice: {}.",
+                  pilot.index, readable_share(pilot.accuracy),
+                  pilot.pairs > 0 ? fmt::format("computed {} samples of the scatter in every way", pilot.pairs)
+                                  : "ran the rungs at neighbouring steps",
+                  readable_share(pilot.reference_error), readable(pilot.cpu_seconds, "s"), pilot.why)});
   report::Chart chart{.title = "Accuracy against speed",
-                      .caption = "Each mark is a rung at one step or tolerance; down and left is better. Steps grow to the left.",
+                      .caption = "Each mark is a rung at one step or tolerance, with 95 % confidence; down and left is better. Steps "
+                                 "grow to the left.",
                       .x = {"CPU of one run", "ms", true},
                       .y = {"error of the index", "%", true}};
   std::vector<std::string> names;
@@ -62,7 +75,7 @@ report::Section pilot_section(const PilotResult& pilot) {
     report::Series series{.name = name, .style = report::Style::line_markers};
     report::Numbers x, y;
     for (const PilotTrial& t : pilot.trials) {
-      if (way_of(t) != name || !t.refusal.empty()) continue;
+      if (way_of(t) != name || !t.refusal.empty() || !std::isfinite(t.error)) continue;
       x.push_back(1e3 * t.cpu_seconds);
       y.push_back(100.0 * std::max(t.error, 1e-5));
       series.text.push_back(fineness_of(t));
@@ -77,21 +90,21 @@ report::Section pilot_section(const PilotResult& pilot) {
   section.items.push_back(std::move(chart));
 
   report::Table table{.title = "Tried",
-                      .caption = "The error includes half the scatter of single runs. A rung's own estimate is what it says "
-                                 "before anything has checked it.",
+                      .caption = "The error holds with 95 % confidence, what impacts scatter included. A rung's own estimate is of "
+                                 "what it leaves out, before anything has checked it.",
                       .columns = {{"Rung"}, {"Fineness"}, {"Error", "%"}, {"Own estimate", "%"}, {"CPU", "ms"}, {"Outcome"}}};
   for (std::size_t k = 0; k < pilot.trials.size(); ++k) {
     const PilotTrial& t = pilot.trials[k];
     const bool chosen = static_cast<int>(k) == pilot.chosen;
-    const char* missed = t.reference ? "the reference, at its own step" : "not accurate enough";
+    const char* missed = t.reference ? "the reference, at its own step" : t.accepted ? "accurate enough, not cheapest" : "not accurate enough";
     if (!t.refusal.empty()) {
       table.rows.push_back({way_of(t), fineness_of(t), nullptr, nullptr, nullptr,
                             "refused: " + t.refusal});
       continue;
     }
-    table.rows.push_back({way_of(t), fineness_of(t), 100.0 * t.error,
+    table.rows.push_back({way_of(t), fineness_of(t), number_json(100.0 * t.error),
                           100.0 * t.estimate, 1e3 * t.cpu_seconds,
-                          chosen ? (pilot.met ? "taken" : "taken: the nearest there is") : missed});
+                          chosen ? (pilot.met ? "taken" : "taken, not shown") : missed});
   }
   section.items.push_back(std::move(table));
   return section;

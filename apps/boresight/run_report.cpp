@@ -161,16 +161,14 @@ report::Section cost_section(const RunResult& result, const std::optional<Predic
 
 // What the rung leaves out, by how much it thinks that matters, and what the other rungs say where they were asked.
 report::Section model_section(const std::string& leaves_out, const RunResult& result, const std::vector<Compared>& others,
-                              const std::optional<AxesComparison>& axes) {
+                              const std::optional<AxesComparison>& axes, const std::string& steps) {
   report::Section section{.id = "model", .title = "What this model leaves out", .items = {report::Text{leaves_out}}};
   const ErrorEstimate& error = result.error;
   if (!error.basis.empty()) {
-    std::string text = "By its own estimate the indices are wrong by about " + readable_share(error.total());
-    if (error.model > 0.0 && error.discretisation > 0.0)
-      text += fmt::format(" ({} by what is left out, {} by the steps)", readable_share(error.model),
-                          readable_share(error.discretisation));
-    section.items.push_back(report::Text{text + ". Taken from: " + error.basis + "."});
+    section.items.push_back(report::Text{"By its own estimate what is left out puts the indices off by about " +
+                                         readable_share(error.model) + ". Taken from: " + error.basis + "."});
   }
+  if (!result.interrupted) section.items.push_back(report::Text{"Steps: " + steps + "."});
   if (axes) section.items.push_back(report::Text{axes->sentence});
   if (others.empty()) {
     section.items.push_back(report::Text{"Run with --compare to see the other rungs over this one."});
@@ -194,7 +192,7 @@ report::Section model_section(const std::string& leaves_out, const RunResult& re
                           change(a.position_error.rms, b.position_error.rms),
                           change(a.boresight_error.max, b.boresight_error.max),
                           change(a.boresight_error.rms, b.boresight_error.rms), 1e3 * other.result.cost.cpu_seconds,
-                          100.0 * other.result.error.total(), ""});
+                          100.0 * other.result.error.model, ""});
   }
   section.items.push_back(std::move(table));
   return section;
@@ -227,7 +225,7 @@ nlohmann::ordered_json predictability_json(const Predictability& found) {
 report::Document run_report(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
                             const std::string& leaves_out, const RunResult& result, const std::vector<Compared>& others,
                             const std::optional<AxesComparison>& axes,
-                            const std::optional<Predictability>& predictability) {
+                            const std::optional<Predictability>& predictability, const std::string& steps) {
   report::Document document{
       .title = mechanism.name(),
       .subtitle =
@@ -272,7 +270,7 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
       for (std::size_t c = 0; c < result.clearances.size(); ++c)
         document.sections.push_back(joint_section(mechanism, result, c));
   }
-  document.sections.push_back(model_section(leaves_out, result, others, axes));
+  document.sections.push_back(model_section(leaves_out, result, others, axes, steps));
   if (rung.pilot) document.sections.push_back(pilot_section(*rung.pilot));
   document.sections.push_back(cost_section(result, predictability));
   return document;

@@ -18,10 +18,11 @@ struct Compared {
   std::string refusal;  // why it could not follow the motion; "" if it did
 };
 
+// steps: what is known of their error, in a sentence.
 report::Document run_report(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
                             const std::string& leaves_out, const RunResult& result, const std::vector<Compared>& others,
                             const std::optional<AxesComparison>& axes,
-                            const std::optional<Predictability>& predictability);
+                            const std::optional<Predictability>& predictability, const std::string& steps);
 // "trajectories are predictable up to ..."
 std::string predictability_sentence(const Predictability& found);
 nlohmann::ordered_json predictability_json(const Predictability& found);

@@ -10,6 +10,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/rungs/measured_error.hpp"
 #include "boresight/rungs/predictability.hpp"
 #include "boresight/rungs/rung.hpp"
 #include "assumed.hpp"
@@ -22,6 +23,8 @@
 #include "readable.hpp"
 #include "report/report.hpp"
 #include "run_report.hpp"
+#include "step_error_parts.hpp"
+#include "scatter_parts.hpp"
 #include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
@@ -32,7 +35,8 @@ namespace {
 
 void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
            const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
-           const std::optional<Predictability>& predictability, const std::vector<AssumedValue>& assumed,
+           const std::optional<Predictability>& predictability, const MeasuredError& measured, const IndexChoice& wanted,
+           const std::vector<AssumedValue>& assumed,
            const OutputDirectory& out) {
   fmt::print("{}: {} of motion, {} rung, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.rung,
              result.integrator, result.interrupted ? " (interrupted)" : "");
@@ -52,6 +56,7 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
     fmt::print("  {}: in contact {} of the time, {} impacts, penetration up to {}, force up to {}\n", c.joint,
                readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"),
                readable(c.max_force, "N"));
+  if (!result.interrupted) fmt::print("  {}\n", step_error_sentence(measured, result.index, wanted));
   if (predictability && predictability->parted) fmt::print("  {}\n", predictability_sentence(*predictability));
   for (const Compared& other : others) {
     if (!other.refusal.empty())
@@ -69,8 +74,8 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
 
 Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const RunResult& result,
                 const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
-                const std::optional<Predictability>& predictability, const Stopwatch& watch,
-                const OutputDirectory& out) {
+                const std::optional<Predictability>& predictability, const MeasuredError& measured,
+                const IndexChoice& wanted, const Stopwatch& watch, const OutputDirectory& out) {
   Json json = common_summary(command, mechanism, rung, watch, result.warnings, result.interrupted, out);
   json["formulation"] = result.formulation;
   json["integrator"] = result.integrator;
@@ -83,8 +88,10 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const RungCh
   json["constraint_drift"] = result.constraint_drift;
   if (result.rung == "multibody") json["energy_error"] = result.energy_error;  // no other rung keeps track
   json["error_estimate"] = {{"model", result.error.model},
-                            {"discretisation", result.error.discretisation},
-                            {"basis", result.error.basis}};
+                            {"discretisation", number_json(result.error.discretisation)},
+                            {"of", wanted.quantity + "." + wanted.statistic},
+                            {"basis", result.error.basis},
+                            {"steps", step_error_json(measured)}};
   if (axes)
     json["axes"] = {{"tilt_computed", axes->free},
                     {"boresight_error_at_rest", {{"parallel", axes->parallel_boresight}, {"free", axes->free_boresight}}},
@@ -135,6 +142,10 @@ class RunVerb : public Verb {
         ->type_name("PERIOD");
     app.add_option("--start", start_, "indices, contact counts and peaks leave out what the motion does before")
         ->type_name("TIME");
+    app.add_option("--step-error", step_error_,
+                   "what the steps do to the indices, by further runs: auto where these take less than 10 s of CPU, on, off")
+        ->type_name("WHEN")
+        ->capture_default_str();
     app.add_option("--index", index_, "what --accuracy is about: position_error.max, boresight_error.rms, ...")
         ->type_name("QUANTITY.STATISTIC")
         ->capture_default_str();
@@ -146,6 +157,7 @@ class RunVerb : public Verb {
     const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(command.file, command.settings));
     check_rung_name(command.rung);
     RunOptions options = motion_.run_options(*mechanism, command.rung);
+    check_step_error();
     IndexChoice index = index_named("--index", index_);
     index.start = options.start = start_.empty() ? replayed_start_ : positive_quantity("--start", start_, kDuration);
     check_line_of_sight(index, *mechanism, {"command line", 0}, "--index");
@@ -176,6 +188,8 @@ class RunVerb : public Verb {
                                                     .wants_multibody = motion_.asks_for_multibody(),
                                                     .index = index,
                                                     .step = options.step,
+                                                    .integrator = options.integrator,
+                                                    .tolerance = options.tolerance,
                                                     .integrators = true},
                                                    kPilotTrials, mechanism, {mechanism->parameters()});
     apply(choice, options);
@@ -188,6 +202,7 @@ class RunVerb : public Verb {
     std::vector<Compared> others;
     std::optional<AxesComparison> axes;
     std::optional<Predictability> predictability;
+    MeasuredError measured;
     bool cut_short = result.interrupted;
     try {
       if (compare_ && !cut_short)
@@ -197,13 +212,16 @@ class RunVerb : public Verb {
       // Rungs without steps have no trajectory to lose.
       if (!integrator_names(choice.name).empty() && mechanism->clearances() > 0 && !cut_short)
         predictability = measure_predictability(mechanism, mechanism->parameters());
+      if (!cut_short) measured = step_error(*rung, mechanism->parameters(), options, result, progress);
+      if (measured.measured) result.error.discretisation = relative_step_error(measured, result.index, index);
     } catch (const Interrupted&) {  // the motion itself is there, and is kept
       cut_short = interrupted();
     }
 
-    Json summary = summary_of(command, *mechanism, choice, result, others, axes, predictability, watch, out);
+    Json summary = summary_of(command, *mechanism, choice, result, others, axes, predictability, measured, index, watch, out);
     report::Document document =
-        run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability);
+        run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability,
+                   step_error_sentence(measured, result.index, index));
     for (const std::string& warning : material_warnings(assumed_by(command, *mechanism))) document.warnings.push_back(warning);
     if (period > 0.0) {
       const NonlinearAnalysis nonlinear = analyse_nonlinear(*mechanism, result, period);
@@ -217,8 +235,8 @@ class RunVerb : public Verb {
     out.write("events.csv", [&](std::ostream& s) { write_events(s, *mechanism, result); });
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, document); });
     progress.clear();
-    if (!command.quiet) print(*mechanism, choice, result, others, axes, predictability, assumed_by(command, *mechanism), out);
-    return cut_short ? kInterrupted : kDone;
+    if (!command.quiet) print(*mechanism, choice, result, others, axes, predictability, measured, index, assumed_by(command, *mechanism), out);
+    return cut_short ? kInterrupted : status_with_accuracy(choice, kDone);
   }
 
  private:
@@ -265,7 +283,30 @@ class RunVerb : public Verb {
     return other;
   }
 
+  void check_step_error() const {
+    for (const char* known : {"auto", "on", "off"})
+      if (step_error_ == known) return;
+    throw InputError({"command line", 0}, "--step-error", in_quotes(step_error_), "auto, on or off");
+  }
+
+  MeasuredError step_error(const Rung& rung, const Parameters& parameters, const RunOptions& options, const RunResult& result,
+                           Progress& progress) const {
+    if (step_error_ == "off") {
+      MeasuredError off;
+      off.why_not = "--step-error off";
+      return off;
+    }
+    MeasureErrorOptions how;
+    if (step_error_ == "on") how.most_seconds = 0.0;
+    how.advance = [&] {
+      progress.update(result.end_time, "measuring what the steps do");
+      return !interrupted();
+    };
+    return measure_discretisation(rung, parameters, options, result, how);
+  }
+
   MotionOptions motion_;
+  std::string step_error_ = "auto";
   bool compare_ = false;
   std::string index_ = "position_error.max", nonlinear_, start_;
   double replayed_start_ = 0.0;  // of a study's index [s]

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight_analyses/random/design.hpp"
+
 namespace boresight::app {
 
 Json number_json(double value) { return std::isfinite(value) ? Json(value) : Json(); }
@@ -39,6 +41,19 @@ std::vector<Parameters> pilot_samples(const RandomInputs& inputs, const Mechanis
   for (const double level : {0.5, 0.05, 0.95}) {
     std::vector<double> values;
     for (const RandomParameter& p : inputs.parameters) values.push_back(p.distribution->quantile(level));
+    samples.push_back(inputs.parameters_with(mechanism, values));
+  }
+  return samples;
+}
+
+std::vector<Parameters> draws_of_scatter(const RandomInputs& inputs, const Mechanism& mechanism, std::size_t count) {
+  constexpr std::uint64_t kSeedOfPilot = 0x70696c6f74;
+  const Design design({.kind = DesignKind::random, .seed = kSeedOfPilot}, static_cast<int>(inputs.size()));
+  std::vector<Parameters> samples;
+  std::vector<double> values(inputs.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    design.point(k, values);
+    inputs.values(values);
     samples.push_back(inputs.parameters_with(mechanism, values));
   }
   return samples;

@@ -54,7 +54,7 @@ class SensitivityVerb : public Verb {
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "which parameter's scatter matters: Sobol' indices, slopes, tornado"; }
   std::string example() const override {
-    return "boresight sensitivity examples/3-rrcpr/sensitivity.toml --rung perturbation";
+    return "boresight sensitivity examples/3-rrcpr/sensitivity.toml";
   }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);
@@ -133,17 +133,19 @@ class SensitivityVerb : public Verb {
     write(result, out, watch);
     if (!command.quiet) print(result, out);
     if (result.interrupted) return kInterrupted;
-    return global ? kDone : kFailed;
+    return global ? status_with_accuracy(choice, kDone) : kFailed;
   }
 
  private:
   // With the step that all runs share.
   static RungChoice rung_for(const Command& command, const Study& study, const std::shared_ptr<const Mechanism>& mechanism,
-                             const SensitivityPlan& plan, const RunOptions& run, const SampleStore& store) {
-    RungChoice choice = rung_of_study(command, study, mechanism, plan.inputs, run, store);
-    if (!store.rungs().empty()) return choice;
+                             const SensitivityPlan& plan, const RunOptions& run, SampleStore& store) {
+    const bool begun = !store.rungs().empty();
+    RungChoice choice = rung_of_study(
+        command, study, mechanism,
+        {.inputs = plan.inputs, .runs = plan.runs(), .lanes = true, .integrators = true}, run, store);
+    if (begun || choice.pilot) return choice;
     const bool lanes = choice.name == "perturbation" && LaneSampleModel::serve(*mechanism, study.index, run);
-    if (lanes) choice.step = 0.0;
     if (!lanes && choice.step == 0.0 && run.step == 0.0)
       choice.step = with_options_checked([&] { return common_step(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run); });
     return choice;

@@ -4,12 +4,14 @@
 #include <memory>
 #include <string>
 
+#include "boresight/rungs/measured_error.hpp"
 #include "boresight_analyses/montecarlo/sample_store.hpp"
 #include "boresight_analyses/random/random_inputs.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 #include "boresight_analyses/study/study.hpp"
 #include "command.hpp"
 #include "output_directory.hpp"
+#include "study_input.hpp"
 
 namespace boresight::app {
 
@@ -19,8 +21,20 @@ namespace boresight::app {
 SampleStore open_runs(const OutputDirectory& out, const std::string& verb, const RandomInputs& inputs,
                       const std::string& text, bool resume);
 
-// A study keeps its rung: the one it was begun with is the one it goes on with.
+// A study keeps its rung, integrator and tolerance: those it was begun with are those it goes on with.
+void note_choice(SampleStore& store, const RungChoice& choice);
+RungChoice stored_choice(const SampleStore& store);  // where it has samples
 RungChoice rung_of_study(const Command& command, const Study& study, const std::shared_ptr<const Mechanism>& mechanism,
-                         const RandomInputs& inputs, const RunOptions& run, const SampleStore& store);
+                         const ScatterAsked& asked, const RunOptions& run, SampleStore& store);
+
+// What the steps do to a study's answer, relative: measured once on a few samples, and noted, so that a study that goes on
+// says the same.
+struct StudySteps {
+  double relative = kNotMeasured;
+  std::string why;
+};
+// run: with the step, integrator and tolerance of the study's runs. store: may be none.
+StudySteps steps_of_study(const Command& command, const Study& study, const std::shared_ptr<const Mechanism>& mechanism,
+                          const ScatterAsked& asked, const RunOptions& run, const std::string& rung, SampleStore* store);
 
 }  // namespace boresight::app

@@ -1,8 +1,10 @@
 #include "study_input.hpp"
 
 #include "boresight/io/mechanism_file.hpp"
+#include "exit_status.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
+#include "scatter_parts.hpp"
 
 namespace boresight::app {
 
@@ -34,14 +36,39 @@ RungChoice choose_rung_in_sight(const Command& command, RungQuestion question, d
   return choose_rung(question, mechanism, samples);
 }
 
-RungChoice choose_rung_of_scatter(const Command& command, const Study& study, const RunOptions& run,
-                                  const std::shared_ptr<const Mechanism>& mechanism, const std::vector<Parameters>& samples) {
+RungChoice choose_rung_of_corners(const Command& command, const Study& study, const RunOptions& run,
+                                  const std::shared_ptr<const Mechanism>& mechanism, const std::vector<Parameters>& corners) {
   return choose_rung_in_sight(command,
                               {.accuracy = command.accuracy ? command.accuracy : study.accuracy,
                                .wants_multibody = !run.formulation.empty() || !run.stabilisation.empty(),
                                .index = study.index,
-                               .step = run.step},
-                              kPilotTrialsOfScatter, mechanism, samples);
+                               .step = run.step,
+                               .integrator = run.integrator,
+                               .tolerance = run.tolerance},
+                              kPilotTrialsOfScatter, mechanism, corners);
+}
+
+RungChoice choose_rung_of_scatter(const Command& command, const Study& study, const RunOptions& run,
+                                  const std::shared_ptr<const Mechanism>& mechanism, const ScatterAsked& asked) {
+  RungQuestion question{.accuracy = command.accuracy ? command.accuracy : study.accuracy,
+                        .wants_multibody = !run.formulation.empty() || !run.stabilisation.empty(),
+                        .index = study.index,
+                        .step = run.step,
+                        .integrator = run.integrator,
+                        .tolerance = run.tolerance,
+                        .integrators = asked.integrators,
+                        .lanes = asked.lanes,
+                        .statistic = asked.statistic,
+                        .scene_varies = scene_varies(asked.inputs),
+                        .runs = asked.runs,
+                        .jobs = command.jobs};
+  std::vector<Parameters> draws;
+  if (command.rung == "auto" && question.accuracy) draws = draws_of_scatter(asked.inputs, *mechanism, kDrawsForPilot);
+  return choose_rung_in_sight(command, question, kPilotTrialsOfScatter, mechanism, draws);
+}
+
+int status_with_accuracy(const RungChoice& choice, int status) {
+  return status == kDone && choice.pilot && !choice.pilot->met ? kAnswerIsNo : status;
 }
 
 }  // namespace boresight::app

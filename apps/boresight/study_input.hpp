@@ -9,6 +9,7 @@
 #include "boresight/io/cursor.hpp"
 #include "boresight/io/document.hpp"
 #include "boresight/mechanism/mechanism.hpp"
+#include "boresight_analyses/random/random_inputs.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 #include "boresight_analyses/study/study.hpp"
 #include "command.hpp"
@@ -37,8 +38,22 @@ RungChoice choose_rung_in_sight(const Command& command, RungQuestion question, d
                                 const std::shared_ptr<const Mechanism>& mechanism, const std::vector<Parameters>& samples);
 inline constexpr double kPilotTrials = 24.0, kPilotTrialsOfScatter = 72.0;
 
-// The same for a study whose parameters vary: at these samples of them.
+// The same for a study of designs: at these corners of them, each a motion of its own.
+RungChoice choose_rung_of_corners(const Command& command, const Study& study, const RunOptions& run,
+                                  const std::shared_ptr<const Mechanism>& mechanism, const std::vector<Parameters>& corners);
+
+// The same for a study of a scatter.
+struct ScatterAsked {
+  const RandomInputs& inputs;
+  ScatterStatistic statistic = {};
+  std::uint64_t runs = 0;    // that the study will make
+  bool lanes = false;        // whether it can take lanes
+  bool integrators = false;  // whether it can take an integrator and its tolerance
+};
 RungChoice choose_rung_of_scatter(const Command& command, const Study& study, const RunOptions& run,
-                                  const std::shared_ptr<const Mechanism>& mechanism, const std::vector<Parameters>& samples);
+                                  const std::shared_ptr<const Mechanism>& mechanism, const ScatterAsked& asked);
+
+// 0 turned into 1 where an accuracy was asked for and the pilot could not show it: the answer is then "no".
+int status_with_accuracy(const RungChoice& choice, int status);
 
 }  // namespace boresight::app

@@ -142,6 +142,8 @@ class SweepVerb : public Verb {
          .wants_multibody = motion_.asks_for_multibody(),
          .index = study.index,
          .step = options.run.step,
+         .integrator = options.run.integrator,
+         .tolerance = options.run.tolerance,
          .integrators = true},
         kPilotTrials, mechanism, {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
     apply(choice, options.run);
@@ -164,7 +166,7 @@ class SweepVerb : public Verb {
     progress.clear();
     if (!command.quiet) print(study, plan, *mechanism, result, out);
     if (result.interrupted) return kInterrupted;
-    return result.failed > 0 ? kFailed : kDone;
+    return result.failed > 0 ? kFailed : status_with_accuracy(choice, kDone);
   }
 
  private:

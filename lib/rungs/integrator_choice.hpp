@@ -39,6 +39,9 @@ std::string integrator_of(const RunOptions& options);
 // Whether steps follow an error estimate, each run its own: any integrator but rk4, unless a step is given.
 bool controls_error(const RunOptions& options);
 
+// Whether steps follow an error estimate, each run its own: any integrator but rk4, unless a step is given.
+bool controls_error(const RunOptions& options);
+
 // Smallest clearance that the parameters give any joint, radial or axial, leaving out those that are zero [m]; 0 if all
 // are.
 double smallest_clearance(const Parameters& parameters);

@@ -8,13 +8,13 @@
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/located_motion.hpp"
+#include "boresight/rungs/measured_error.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/motion_scales.hpp"
 #include "boresight/rungs/own_step.hpp"
 #include "boresight/rungs/perturbation_system.hpp"
 #include "boresight/rungs/scene_rung.hpp"
 #include "boresight/rungs/start_up.hpp"
-#include "boresight/rungs/step_error.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
 namespace boresight {
@@ -73,7 +73,6 @@ class Perturbation final : public SceneRung {
     bool interrupted = false;
     MatX compliance;
     Nonlinearity nonlinearity;
-    double fastest = 0.0;  // squared, a bound
     for (long i = 0;; ++i) {
       const double t = static_cast<double>(i) * h;
       if (!y.allFinite()) throw UnstableStep("the deviation is not finite", t, h);
@@ -84,7 +83,6 @@ class Perturbation final : public SceneRung {
       if (system.touching()) {
         offset_compliance(at, offsets, system.row(), compliance);
         const double bound = stiffest_contact_bound(offsets, system.joints(), system.motion(), compliance);
-        fastest = std::max(fastest, bound);
         if (h * h * bound > limit * limit) {
           const StiffestContact stiffest = stiffest_contact(offsets, system.joints(), system.motion(), compliance);
           if (h * stiffest.angular_frequency > limit) throw UnstableStep(mechanism, stiffest, t, h);
@@ -106,9 +104,8 @@ class Perturbation final : public SceneRung {
     if (!start_warning.empty()) result.warnings.push_back(start_warning);
     finish_contacts(system, result);
     result.interrupted = interrupted;
-    result.error = {nonlinearity.share(mechanism.characteristic_length()), step_error(std::sqrt(fastest), h),
-                    "size of the deviation against the mechanism, times how much the mechanism magnifies offsets; the step "
-                    "against the stiffest contact met"};
+    result.error = {nonlinearity.share(mechanism.characteristic_length()), kNotMeasured,
+                    "size of the deviation against the mechanism, times how much the mechanism magnifies offsets"};
     result.cost.steps = steps;
     result.cost.evaluations = 4 * steps + 1;
     return result;
@@ -142,9 +139,8 @@ class Perturbation final : public SceneRung {
     finish_contacts(system, result);
     result.interrupted = interrupted;
     result.error = {
-        nonlinearity.share(mechanism().characteristic_length()), tolerance_error(tolerance_of(options, name())),
-        "size of the deviation against the mechanism, times how much the mechanism magnifies offsets; the tolerance "
-        "of the steps"};
+        nonlinearity.share(mechanism().characteristic_length()), kNotMeasured,
+        "size of the deviation against the mechanism, times how much the mechanism magnifies offsets"};
     return result;
   }
 

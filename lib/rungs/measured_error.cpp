@@ -1,0 +1,185 @@
+#include "boresight/rungs/measured_error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr std::array kQuantities = {&PointingIndices::position_error, &PointingIndices::orientation_error,
+                                    &PointingIndices::boresight_error, &PointingIndices::line_of_sight_error};
+constexpr std::array kStatistics = {&Statistics::max, &Statistics::rms, &Statistics::mean, &Statistics::p9973};
+
+constexpr double kNeighbours[] = {0.985, 0.97};
+constexpr double kFinerStep = 0.5, kFinerTolerance = 0.1;
+// Rounding of a motion integrated in metres [m or rad].
+constexpr double kRounding = 1e-12;
+// Where the first three runs agree to this share of an index, further ones are not worth their time.
+constexpr double kAgreed = 1e-3;
+// What three runs that agree say of the rest: twice their range, for an error of first order in the step is twice what
+// half the step shows.
+constexpr double kOfRange = 2.0;
+// Three runs that do not agree, and no time for more: of three draws of one distribution the next one lies beyond three
+// ranges in less than one case out of twenty.
+constexpr double kOfScatteredRange = 3.0;
+// Student's t at 97.5 percent, four degrees of freedom: two groups of three.
+constexpr double kStudent4 = 2.776;
+
+class FurtherRuns {
+ public:
+  FurtherRuns(const Rung& rung, const Parameters& parameters, const RunOptions& options, const RunResult& result,
+              const MeasureErrorOptions& measure)
+      : rung_(rung), parameters_(parameters), options_(options), measure_(measure) {
+    options_.sample_spacing = 0.0;
+    options_.frame_spacing = 0.0;
+    options_.events = false;
+    options_.pose_bodies.clear();
+    options_.progress = [this](const RunProgress&) { return !(stopped_ = stopped_ || (measure_.advance && !measure_.advance())); };
+    by_tolerance_ = controls_error(options);
+    tolerance_ = by_tolerance_ ? tolerance_of(options, rung.name()) : 0.0;
+    // Steps that locate contacts are shortened by these: what was asked for counts, not their mean.
+    step_ = by_tolerance_ ? 0.0 : options.step > 0.0 ? options.step : result.end_time / static_cast<double>(result.cost.steps);
+  }
+
+  double finer() const { return by_tolerance_ ? kFinerTolerance : kFinerStep; }
+
+  // share: of the run's own step or tolerance.
+  PointingIndices at(double share) {
+    options_.step = share * step_;
+    options_.tolerance = share * tolerance_;
+    const RunResult result = rung_.run(parameters_, options_);
+    cpu_seconds += result.cost.cpu_seconds;
+    ++runs;
+    if (result.interrupted || stopped_) throw ComputationError("it was stopped");
+    return result.index;
+  }
+
+  int runs = 0;
+  double cpu_seconds = 0.0;
+
+ private:
+  const Rung& rung_;
+  const Parameters& parameters_;
+  RunOptions options_;
+  const MeasureErrorOptions& measure_;
+  bool by_tolerance_ = false, stopped_ = false;
+  double step_ = 0.0, tolerance_ = 0.0;
+};
+
+double range(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (double v : values) sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+double squares(const std::vector<double>& values) {
+  const double m = mean(values);
+  double sum = 0.0;
+  for (double v : values) sum += (v - m) * (v - m);
+  return sum;
+}
+
+// Calls each(quantity, statistic) for every index.
+template <typename Each>
+void for_each_index(const Each& each) {
+  for (const auto quantity : kQuantities)
+    for (const auto statistic : kStatistics) each(quantity, statistic);
+}
+
+std::vector<double> of(const std::vector<PointingIndices>& runs, Statistics PointingIndices::*quantity,
+                       double Statistics::*statistic) {
+  std::vector<double> values;
+  for (const PointingIndices& r : runs) values.push_back(r.*quantity.*statistic);
+  return values;
+}
+
+bool all_agree(const std::vector<PointingIndices>& runs) {
+  bool agree = true;
+  for_each_index([&](auto quantity, auto statistic) {
+    const std::vector<double> values = of(runs, quantity, statistic);
+    agree = agree && range(values) <= std::max(kRounding, kAgreed * std::abs(values.front()));
+  });
+  return agree;
+}
+
+}  // namespace
+
+MeasuredError measure_discretisation(const Rung& rung, const Parameters& parameters, const RunOptions& options,
+                                     const RunResult& result, const MeasureErrorOptions& measure) {
+  MeasuredError error;
+  if (integrator_names(rung.name()).empty()) {
+    error.measured = true;
+    error.basis = "this rung takes no steps";
+    return error;
+  }
+  if (result.interrupted || result.cost.steps == 0) {
+    error.why_not = "the motion was not followed to its end";
+    return error;
+  }
+  FurtherRuns further(rung, parameters, options, result, measure);
+  // A finer run costs twice the first; the first four runs of both stages cost 3 times as much as it, all of them 8.
+  const double first_stage = 3.0 * result.cost.cpu_seconds, all = 8.0 * result.cost.cpu_seconds;
+  char text[200];
+  if (measure.most_seconds > 0.0 && first_stage > measure.most_seconds) {
+    std::snprintf(text, sizeof text, "further runs would take %.3g s of CPU, more than the %.3g s that they may", first_stage,
+                  measure.most_seconds);
+    error.why_not = text;
+    return error;
+  }
+  std::vector<PointingIndices> own = {result.index}, finer;
+  bool settled = false, whole = false;
+  try {
+    own.push_back(further.at(kNeighbours[0]));
+    finer.push_back(further.at(further.finer()));
+    settled = all_agree({own[0], own[1], finer[0]});
+    whole = !settled && !(measure.most_seconds > 0.0 && all > measure.most_seconds);
+    if (whole) {
+      own.push_back(further.at(kNeighbours[1]));
+      for (const double share : kNeighbours) finer.push_back(further.at(share * further.finer()));
+    }
+  } catch (const ComputationError& failure) {
+    error.why_not = std::string("a neighbouring run failed: ") + failure.what();
+  }
+  error.runs = further.runs;
+  error.cpu_seconds = further.cpu_seconds;
+  if (!error.why_not.empty()) return error;
+
+  error.measured = true;
+  for_each_index([&](auto quantity, auto statistic) {
+    const std::vector<double> x = of(own, quantity, statistic), y = of(finer, quantity, statistic);
+    const double shift = std::abs(mean(x) - mean(y));
+    double stated = 0.0, spread = 0.0;
+    if (whole) {
+      const double n = static_cast<double>(x.size());
+      spread = std::sqrt((squares(x) + squares(y)) / (2.0 * n - 2.0));
+      const bool stands_out = shift > kStudent4 * spread * std::sqrt(2.0 / n);
+      stated = std::abs(x[0] - mean(x)) + (stands_out ? 2.0 : 1.0) * shift + kStudent4 * spread * std::sqrt(1.0 + 1.0 / n);
+    } else {
+      const std::vector<double> values = {x[0], x[1], y[0]};
+      spread = std::abs(x[0] - x[1]) / std::sqrt(2.0);
+      stated = (settled ? kOfRange : kOfScatteredRange) * range(values);
+    }
+    error.stated.*quantity.*statistic = stated;
+    error.spread.*quantity.*statistic = spread;
+    error.shift.*quantity.*statistic = shift;
+  });
+  const char* fineness = controls_error(options) ? "a tenth of the tolerance" : "half the step";
+  std::snprintf(text, sizeof text, "%s: %zu of them at neighbouring %s, %zu at %s",
+                settled ? "measured by further runs that agree" : "measured by further runs", own.size() - 1,
+                controls_error(options) ? "tolerances" : "steps", finer.size(), fineness);
+  error.basis = text;
+  return error;
+}
+
+}  // namespace boresight
