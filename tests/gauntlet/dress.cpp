@@ -117,6 +117,7 @@ void add_plays(Draw& draw, Scene& scene) {
 }
 
 void add_forces(Draw& draw, Scene& scene) {
+  if (scene.floats) return;  // forces from outside would change its momentum
   if (draw.chance(0.75)) scene.gravity = kGravity * (draw.chance(0.5) ? Vec3(0, 0, -1) : draw.direction());
   double mass = 0.0;
   for (const SceneBody& b : scene.bodies) mass += b.mass;

@@ -25,5 +25,12 @@ std::string sliding_law(Draw& draw, const Scene& scene, double reach);
 
 void draw_gimbal(Draw& draw, Scene& scene);       // gimbals.cpp
 void draw_planar_loop(Draw& draw, Scene& scene);  // planar.cpp
+void draw_spatial_loop(Draw& draw, Scene& scene);  // spatial.cpp
+void draw_platform(Draw& draw, Scene& scene);      // platforms.cpp
+void draw_redundant(Draw& draw, Scene& scene);     // redundant.cpp
+void draw_arm(Draw& draw, Scene& scene);           // chains.cpp
+void draw_pendulum(Draw& draw, Scene& scene);
+void draw_sprung_slide(Draw& draw, Scene& scene);
+void draw_free_chain(Draw& draw, Scene& scene);
 
 }  // namespace boresight::gauntlet

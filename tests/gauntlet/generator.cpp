@@ -12,7 +12,10 @@ namespace boresight::gauntlet {
 const std::vector<Family>& families() {
   static const std::vector<Family> all = {
       {"gimbal", 3.0, draw_gimbal},
-      {"planar-loop", 2.0, draw_planar_loop},
+      {"planar loop", 2.0, draw_planar_loop},   {"spatial loop", 2.0, draw_spatial_loop},
+      {"platform", 2.0, draw_platform},         {"redundant", 2.0, draw_redundant},
+      {"arm", 1.5, draw_arm},                   {"pendulum", 1.0, draw_pendulum},
+      {"sprung slide", 0.5, draw_sprung_slide}, {"free chain", 0.8, draw_free_chain},
   };
   return all;
 }

@@ -86,6 +86,7 @@ struct Scene {
   Vec3 boresight = Vec3::UnitZ();
   int payload_body = -2;  // -2: none
   double payload_mass = 0.0;
+  bool floats = false;        // nothing holds it to the ground
   int undriven_freedoms = 0;  // as its family means it: of the mechanism without play
 
   int add_body(const std::string& body_name);
