@@ -1,5 +1,7 @@
 #include "boresight_analyses/calibration/calibration_plan.hpp"
 
+#include <cstdio>
+
 #include "boresight/contact/journal_in_sleeve.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -38,6 +40,22 @@ PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechan
   p.upper = value("upper");
   table.finish();
   return p;
+}
+
+// What the mechanism's own reader would refuse is refused as a start or a bound.
+void check_values(const PlannedParameter& p, const Mechanism& mechanism,
+                  const std::function<std::shared_ptr<const Mechanism>(const std::vector<Setting>&)>& mechanism_with) {
+  const std::string unit = ParameterPath(mechanism.description(), p.path, p.origin).unit();
+  for (const std::optional<double>& value : {p.start, p.lower, p.upper}) {
+    if (!value) continue;
+    char text[60];
+    std::snprintf(text, sizeof text, unit == "1" ? "%.17g" : "%.17g ", *value);
+    try {
+      mechanism_with({{p.path, unit == "1" ? std::string(text) : text + unit}});
+    } catch (const InputError& error) {
+      throw InputError(p.origin, p.path, error.found, error.expected, error.nearest);
+    }
+  }
 }
 
 }  // namespace
@@ -131,6 +149,7 @@ CalibrationProblem calibration_problem(
     for (std::size_t i = 0; i < run.data.time.size() && run.data.time[i] < plan.data_from; ++i)
       run.data.value.row(static_cast<Eigen::Index>(i)).setConstant(std::numeric_limits<double>::quiet_NaN());
   const Mechanism& mechanism = *problem.runs.front().mechanism;
+  for (const PlannedParameter& p : plan.parameters) check_values(p, mechanism, mechanism_with);
   for (const CalibrationRun& run : problem.runs)
     for (int channel : run.data.channels)
       if (channel_names()[channel].name == std::string("line_of_sight_error") && !mechanism.pointing().line_of_sight)

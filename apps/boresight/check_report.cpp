@@ -184,16 +184,19 @@ void add_cost_note(const std::shared_ptr<const Mechanism>& mechanism, CheckResul
   RunOptions options;
   options.sample_spacing = 0.0;
   options.events = false;
-  const Stopwatch watch;
-  double reached = 0.0;
+  // From the first look on: what is prepared before it is prepared once.
+  std::optional<Stopwatch> watch;
+  double first = 0.0, reached = 0.0;
   options.progress = [&](const RunProgress& p) {
+    if (!watch) watch.emplace(), first = p.t;
     reached = p.t;
-    return watch.wall_seconds() < kTrialSeconds && !interrupted();
+    return watch->wall_seconds() < kTrialSeconds && !interrupted();
   };
   std::string time;
   try {
     make_rung("perturbation", mechanism)->run(mechanism->parameters(), options);
-    if (reached > 0.0) time = ", about " + readable(watch.wall_seconds() * mechanism->duration() / reached, "s") + " for one motion";
+    if (reached > first)
+      time = ", about " + readable(watch->wall_seconds() * mechanism->duration() / (reached - first), "s") + " for one motion";
   } catch (const ComputationError&) {
     // Why it cannot be followed is for `run` to say.
   }

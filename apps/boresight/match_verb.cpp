@@ -193,7 +193,7 @@ class MatchVerb : public Verb {
     if (!command.quiet) print(matched, out);
     if (result.interrupted) return kInterrupted;
     if (result.design.empty()) return kFailed;
-    return result.feasible && result.converged ? status_with_accuracy(choice, kDone) : kAnswerIsNo;
+    return result.feasible && result.converged ? kDone : kAnswerIsNo;
   }
 
  private:

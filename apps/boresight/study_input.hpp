@@ -53,7 +53,8 @@ struct ScatterAsked {
 RungChoice choose_rung_of_scatter(const Command& command, const Study& study, const RunOptions& run,
                                   const std::shared_ptr<const Mechanism>& mechanism, const ScatterAsked& asked);
 
-// 0 turned into 1 where an accuracy was asked for and the pilot could not show it: the answer is then "no".
+// 0 turned into 1 where an accuracy was asked for and the pilot could not show it: the answer is then "no". For what is one
+// number with an accuracy: a sweep and a search of designs only say it.
 int status_with_accuracy(const RungChoice& choice, int status);
 
 }  // namespace boresight::app

@@ -166,7 +166,7 @@ class SweepVerb : public Verb {
     progress.clear();
     if (!command.quiet) print(study, plan, *mechanism, result, out);
     if (result.interrupted) return kInterrupted;
-    return result.failed > 0 ? kFailed : status_with_accuracy(choice, kDone);
+    return result.failed > 0 ? kFailed : kDone;
   }
 
  private:

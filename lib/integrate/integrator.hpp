@@ -133,7 +133,7 @@ class Integrator {
         if (fixed) error = cut_error;
       }
       summary_.largest_error = std::max(summary_.largest_error, error);
-      if (fixed && !(error <= options.most_error)) return ended(StopReason::error_too_large, "");
+      if (fixed && error > options.most_error) return ended(StopReason::error_too_large, "");
       summary_.crossings_below_floor += below_floor;
       const double end = cut ? t_ + length : (remaining <= h * (1.0 + 1e-12) ? t_end : t_ + h);
       state_ = method_.proposed();

@@ -21,6 +21,7 @@ struct PhysicalRange {
 };
 
 inline constexpr PhysicalRange kCoordinateRange{kLength, "", "10000 km"};
+inline constexpr PhysicalRange kTargetRange{kLength, "", "1e12 km"};  // of a line of sight: a planet
 inline constexpr PhysicalRange kSizeRange{kLength, "1 pm", "10000 km"};
 inline constexpr PhysicalRange kMassRange{kMass, "1e-12 kg", "1e9 kg"};
 inline constexpr PhysicalRange kInertiaRange{kInertia, "", "1e23 kg m^2"};

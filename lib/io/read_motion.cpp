@@ -166,7 +166,7 @@ LineOfSightDescription read_pointing(Cursor& cursor, const MechanismDescription&
   const auto body = std::find_if(so_far.bodies.begin(), so_far.bodies.end(), [](const auto& b) { return b.boresight.has_value(); });
   LineOfSightDescription sight;
   sight.origin = cursor.origin();
-  sight.from = cursor.has("from") ? cursor.vector("from", kLength) : body->center_of_mass;
+  sight.from = cursor.has("from") ? vector_in(cursor, "from", kCoordinateRange) : body->center_of_mass;
   const bool target = cursor.has("target"), distance = cursor.has("distance");
   if (target && distance) cursor.fail_found("distance", "both a target and a distance", "one of the two");
   if (!target && !distance) {
@@ -174,11 +174,11 @@ LineOfSightDescription read_pointing(Cursor& cursor, const MechanismDescription&
                      "a target, such as [\"0 m\", \"0 m\", \"5 m\"], or a distance along the boresight");
   }
   if (distance) {
-    const double length = cursor.quantity("distance", kLength);
+    const double length = quantity_in(cursor, "distance", kTargetRange);
     cursor.require(length > 0.0, "distance", "a length above zero");
     sight.target = sight.from + length * *body->boresight;
   } else {
-    sight.target = cursor.vector("target", kLength);
+    sight.target = vector_in(cursor, "target", kTargetRange);
     // What rounding leaves of two equal points is no line.
     const double size = std::max(sight.from.norm(), sight.target.norm());
     cursor.require((sight.target - sight.from).norm() > 1e-9 * size, "target", "a point away from the reference point (from)");

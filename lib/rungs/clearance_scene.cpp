@@ -16,11 +16,14 @@ namespace {
 
 // First grid, and the finest that accuracy is sought with [s]. A motion longer than kManyCells of the coarsest spacing starts with as
 // many cells as its own table needs; one that is over, or turns, within the finest spacing is looked at more finely.
-constexpr int kFewestCells = 8, kManyCells = 4096, kKnotsOfCell = 4;
+constexpr int kFewestCells = 8, kManyCells = 4096, kCellsOfKnot = 4;
 constexpr double kCoarsestSpacing = 16e-3, kFinestSpacing = 1e-5;
-// Half the step of the difference that gives Tdot: truncation (w h)^2 / 6 and rounding 1e-13 / h meet near 1e-9. It stays a small
-// part of the spacing of the ideal motion's table, which is a sixteenth of a radian of the fastest motion.
-constexpr double kRateStep = 1e-5, kRateStepOfKnot = 1.0 / 32.0;
+// Half the step of the difference that gives Tdot: truncation (w h)^2 / 6 and rounding 1e-13 / h meet near 1e-9. In motions so fast or
+// slow that this is another share of what moves, shares of the spacing of the ideal motion's table bound it, which is about a sixteenth
+// of a radian of the fastest motion. They bound the finest spacing likewise.
+constexpr double kRateStep = 1e-5, kMostRateStep = 1.0 / 32.0, kLeastRateStep = 1e-4, kFinestOfKnot = 1e-3;
+
+double spacing_of_knots(const IdealMotion& ideal) { return ideal.duration() / std::max(1, ideal.knots() - 1); }
 
 // Of the tables, relative to their largest values: what is left at the finest spacing must not be more.
 constexpr double kLargestMiss = 0.01;
@@ -74,9 +77,10 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
                                double accuracy)
     : ClearanceScene(mechanism, ideal) {
   // Halve the spacing until the coarse grid's cubics meet the new knots: the finer grid's own error is a sixteenth of that.
-  const double knot_spacing = ideal.duration() / std::max(1, ideal.knots() - 1), finest = std::min(kFinestSpacing, knot_spacing);
+  const double knot_spacing = spacing_of_knots(ideal);
+  const double finest = std::max(kFinestOfKnot * knot_spacing, std::min(kFinestSpacing, knot_spacing));
   double first_cells = std::max<double>(kFewestCells, std::ceil(mechanism.duration() / kCoarsestSpacing));
-  if (first_cells > kManyCells) first_cells = std::max<double>(kManyCells, std::min(first_cells, 1.0 * kKnotsOfCell * ideal.knots()));
+  if (first_cells > kManyCells) first_cells = std::max<double>(kManyCells, std::min(first_cells, 1.0 * kCellsOfKnot * ideal.knots()));
   // A knot's matrices, and its row in the tables.
   const double numbers = (6.0 * mechanism.bodies() + offsets_.size()) * layout_.n +
                          static_cast<double>(groups_.size()) * element_size() + 3.0 * layout_.width;
@@ -163,7 +167,8 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows) cons
 ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal, const Parameters& parameters) {
   Knot knot;
   // At the ends the difference is taken inside the motion: shifted by its own half step.
-  const double rate_step = std::min(kRateStep, kRateStepOfKnot * ideal.duration() / std::max(1, ideal.knots() - 1));
+  const double knot_spacing = spacing_of_knots(ideal);
+  const double rate_step = std::min(kMostRateStep * knot_spacing, std::max(kRateStep, kLeastRateStep * knot_spacing));
   const double middle = std::clamp(t, rate_step, mechanism_.duration() - rate_step);
   MatX before, after;
   coordinates_.gain(middle - rate_step, before);

@@ -181,6 +181,7 @@ std::optional<Knots> follow_implicit(const Task& task, double tolerance, Failure
   Integrator<RosenbrockMethod> integrator(RosenbrockMethod(rodas4(), y.size()));
   try {
     const IntegrationSummary summary = integrator.run(closed, 0.0, duration, y, options, [&](const auto& step) {
+      work_reached("simulating the ideal motion", step.end() / duration);
       knots.push_back(closed.bodies(step.end(), step.state(), dy));
     });
     if (summary.completed()) return knots;

@@ -123,7 +123,9 @@ class Multibody final : public Rung {
     std::size_t stage = 0;
     double work = 0.0;
     const auto add_power = [&](double t, const VecX& state) {
-      work += h * classical_rk4().b[stage++] * energy.power(*formulation, formulation->bodies(t, bodies_of(state)));
+      // Steps tried again for a diagnosis have no weight.
+      if (stage < classical_rk4().b.size())
+        work += h * classical_rk4().b[stage++] * energy.power(*formulation, formulation->bodies(t, bodies_of(state)));
     };
     const auto derivative = [&](double t, const VecX& state, VecX& dy) {
       if (bristles.empty()) {

@@ -197,7 +197,7 @@ class Perturbation final : public SceneRung {
     MotionScales scales;
     for (std::size_t c = 0; c < n; ++c)
       scales.add_joint(parameters.clearance[c].radial, parameters.clearance[c].axial, std::sqrt(square[c]), largest[c]);
-    scales.own_time = own_time(prepared.ideal(), mechanism().bodies(), mechanism().characteristic_length());
+    scales.own_time = prepared.own_time();
     scales.close(mechanism().duration());
     return scales;
   }

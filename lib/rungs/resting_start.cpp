@@ -114,7 +114,7 @@ double RestingBalance::energy(const VecX& z) const {
 }
 
 VecX RestingBalance::correction(const MatX& by_z, const VecX& F) const {
-  const MatX H = -scale_.asDiagonal() * by_z * scale_.asDiagonal();
+  const MatX H = -(scale_.asDiagonal() * by_z * scale_.asDiagonal());
   Eigen::CompleteOrthogonalDecomposition<MatX> solver;
   solver.setThreshold(kSoft);
   solver.compute(H);
@@ -157,7 +157,7 @@ RestingStart RestingBalance::solve() const {
     if (damping == 0.0) {
       dz = correction(J, F);
     } else {
-      const MatX H = -scale_.asDiagonal() * J * scale_.asDiagonal() + damping * MatX::Identity(n, n);
+      const MatX H = damping * MatX::Identity(n, n) - MatX(scale_.asDiagonal() * J * scale_.asDiagonal());
       dz = scale_.cwiseProduct(VecX(H.partialPivLu().solve(scale_.cwiseProduct(F))));
     }
     // No farther at once than the clearances are wide: beyond, the contacts are others.

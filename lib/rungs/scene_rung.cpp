@@ -7,6 +7,7 @@
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/held_play.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/rungs/motion_scales.hpp"
 #include "boresight/rungs/option_check.hpp"
 
 namespace boresight {
@@ -33,7 +34,9 @@ bool same_scene(const Parameters& a, const Parameters& b) {
 }
 
 PreparedScene::PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motion, const Parameters& parameters)
-    : ideal_(std::move(ideal_motion)), scene_(mechanism, ideal_, parameters) {
+    : ideal_(std::move(ideal_motion)),
+      scene_(mechanism, ideal_, parameters),
+      own_time_(boresight::own_time(ideal_, mechanism.bodies(), mechanism.characteristic_length())) {
   if (scene_.coordinates().has_dependent()) held_ = held_plays(mechanism, ideal_);
 }
 

@@ -23,6 +23,8 @@ class PreparedScene {
   const ClearanceScene& scene() const { return scene_; }
   // Sentences on plays that cannot move.
   const std::vector<std::string>& held() const { return held_; }
+  // In which the fastest body of the ideal motion turns by a radian or moves by the mechanism's size [s]: motion_scales.hpp.
+  double own_time() const { return own_time_; }
   // Tables of these masses, gravity, springs; the last ones asked for are kept.
   std::shared_ptr<const SceneTables> tables(const Parameters& parameters) const;
   // E of a body over time: 6 x n, row by row.
@@ -34,6 +36,7 @@ class PreparedScene {
   IdealMotion ideal_;
   ClearanceScene scene_;
   std::vector<std::string> held_;
+  double own_time_;
   mutable std::mutex mutex_;
   mutable Parameters tabled_;
   mutable std::shared_ptr<const SceneTables> tables_;

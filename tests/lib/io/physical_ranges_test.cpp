@@ -28,7 +28,7 @@ std::string error_of(const std::string& text, const std::vector<Setting>& settin
   return "no error";
 }
 
-std::string error_of(const Setting& setting) { return error_of(example("/3-rrcpr/3-rrcpr.toml"), {setting}); }
+std::string error_with(const Setting& setting) { return error_of(example("/3-rrcpr/3-rrcpr.toml"), {setting}); }
 
 // Every text that is a number with a unit: where its number begins, and how long it is.
 std::vector<std::pair<std::size_t, std::size_t>> numbers_with_units(const std::string& text) {
@@ -63,14 +63,14 @@ TEST(PhysicalRanges, RefuseEveryValueOfAFileThatIsBlownUpBeyondTheReal) {
 }
 
 TEST(PhysicalRanges, AreNamedWithTheirBounds) {
-  EXPECT_EQ(error_of({"clearance.F1.contact.young", "1e-308 GPa"}),
+  EXPECT_EQ(error_with({"clearance.F1.contact.young", "1e-308 GPa"}),
             "--set clearance.F1.contact.young=1e-308 GPa: clearance.F1.contact.young: found \"1e-308 GPa\", expected an elastic modulus "
             "from 1 kPa to 10 TPa");
-  EXPECT_EQ(error_of({"clearance.F1.cap_radius", "1e300 mm"}),
+  EXPECT_EQ(error_with({"clearance.F1.cap_radius", "1e300 mm"}),
             "--set clearance.F1.cap_radius=1e300 mm: clearance.F1.cap_radius: found \"1e300 mm\", expected a length from 1 pm to 10000 km");
-  EXPECT_EQ(error_of({"gravity.z", "-1e300 m/s^2"}),
+  EXPECT_EQ(error_with({"gravity.z", "-1e300 m/s^2"}),
             "--set gravity.z=-1e300 m/s^2: gravity: found \"-1e300 m/s^2\", expected an acceleration of at most 1e7 m/s^2");
-  EXPECT_EQ(error_of({"motion.duration", "1e12 s"}),
+  EXPECT_EQ(error_with({"motion.duration", "1e12 s"}),
             "--set motion.duration=1e12 s: motion.duration: found \"1e12 s\", expected a time from 1 ns to 1e9 s");
 }
 
@@ -85,7 +85,7 @@ TEST(PhysicalRanges, TakeWhatHasBeenBuilt) {
                                                      {"gravity.z", "-1e6 m/s^2"},                  // a centrifuge
                                                      {"motion.duration", "1 us"},
                                                      {"motion.duration", "30 days"}})
-    EXPECT_EQ(error_of(setting), "no error") << setting.path << " = " << setting.value;
+    EXPECT_EQ(error_with(setting), "no error") << setting.path << " = " << setting.value;
 }
 
 TEST(PhysicalRanges, HoldAtTheirOwnBounds) {
@@ -97,9 +97,9 @@ TEST(PhysicalRanges, HoldAtTheirOwnBounds) {
 }
 
 TEST(PhysicalRanges, RefuseAnInertiaThatIsNotOfItsMass) {
-  const std::string error = error_of({"body.platform.mass", "1e-12 kg"});
+  const std::string error = error_with({"body.platform.mass", "1e-12 kg"});
   EXPECT_EQ(error, "no error");  // 1000 km across, but a body
-  EXPECT_NE(error_of({"body.platform.inertia", "1e20 kg m^2"}).find("radius of gyration"), std::string::npos);
+  EXPECT_NE(error_with({"body.platform.inertia", "1e20 kg m^2"}).find("radius of gyration"), std::string::npos);
 }
 
 TEST(PhysicalRanges, RefuseLawsOfMotionThatLeaveThem) {
@@ -113,7 +113,7 @@ TEST(PhysicalRanges, RefuseLawsOfMotionThatLeaveThem) {
 }
 
 TEST(PhysicalRanges, RefuseAPlayAsWideAsTheJournal) {
-  const std::string error = error_of({"clearance.F1.radial", "10 mm"});
+  const std::string error = error_with({"clearance.F1.radial", "10 mm"});
   EXPECT_NE(error.find("expected less than journal_radius"), std::string::npos) << error;
 }
 
@@ -151,7 +151,7 @@ TEST(Restitution, OfZeroIsTakenByALawForCylindersWithADissipationThatTakesIt) {
 
 TEST(Restitution, StaysInsideOfWhatItMeans) {
   for (const char* value : {"-0.1", "1.01", "1e-300"})
-    EXPECT_NE(error_of({"clearance.F1.contact.restitution", value}), "no error") << value;
+    EXPECT_NE(error_with({"clearance.F1.contact.restitution", value}), "no error") << value;
 }
 
 }  // namespace

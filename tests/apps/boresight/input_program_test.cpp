@@ -1,0 +1,134 @@
+// What a user may get wrong on the command line and in a file: refused in words, or said.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <regex>
+
+#include "program.hpp"
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class InputProgram : public Program {
+ protected:
+  const std::string four_bar_ = BORESIGHT_EXAMPLES "/four-bar/four-bar.toml";
+
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& part) const {
+    const Ended ended = call(arguments);
+    EXPECT_EQ(ended.status, 2) << part;
+    EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr(part));
+  }
+  // The example without its [clearance.contact] and [clearance.friction].
+  void write_bare(const std::string& name) const {
+    std::ifstream in(four_bar_);
+    std::ofstream out(folder_ / name);
+    bool left_out = false;
+    for (std::string line; std::getline(in, line);) {
+      const std::size_t first = line.find_first_not_of(' ');
+      if (first != std::string::npos && line[first] == '[')
+        left_out = line.find("[clearance.contact]") != std::string::npos || line.find("[clearance.friction]") != std::string::npos;
+      if (!left_out) out << line << '\n';
+    }
+  }
+};
+
+// A number without bounds as a word of its own.
+bool says_infinity(const std::string& text) { return std::regex_search(text, std::regex("(^|[^a-zA-Z])-?(inf|nan)([^a-zA-Z]|$)")); }
+
+TEST_F(InputProgram, OptionsOutOfAllProportionAreRefusedByName) {
+  const auto run = [&](const std::string& option, const std::string& value) {
+    return std::vector<std::string>{"run", four_bar_, option, value, "--rung", "perturbation"};
+  };
+  for (const char* value : {"0 s", "-1 ms", "1e-300 s", "1e300 s", "1 fs", "2 s"}) expect_refused(run("--step", value), "--step");
+  for (const char* value : {"0 s", "-1 ms", "1e-300 s", "1e300 s", "1 ns"}) expect_refused(run("--sample", value), "--sample");
+  for (const char* value : {"0.01", "0 %", "-1 %", "1e-300 %", "1e300 %", "1 mm"}) expect_refused(run("--accuracy", value), "--accuracy");
+  for (const char* value : {"-1", "5000"}) expect_refused(run("--jobs", value), "--jobs");
+  for (const char* value : {"0 %", "-1 %", "1e-300 %", "1e300 %"})
+    expect_refused({"run", four_bar_, "--integrator", "dopri5", "--tolerance", value}, "--tolerance");
+  for (const char* value : {"0 s", "1e-300 s", "1e300 s"}) expect_refused({"chart", four_bar_, "--time", value}, "--time");
+}
+
+TEST_F(InputProgram, HistoriesThatMemoryCannotHoldAreRefusedWithTheirSize) {
+  std::vector<std::string> arguments = {"run", mechanism_, "--sample", "0.6 us", "--rung", "perturbation"};
+  for (const char* body : {"rod1", "rod2", "rod3", "tube1", "tube2", "crank1"}) arguments.insert(arguments.end(), {"--pose", body});
+  expect_refused(arguments, "GB of histories");
+}
+
+TEST_F(InputProgram, AbsurdNumbersAreRefusedByEveryVerbThatReadsThem) {
+  for (const char* verb : {"check", "run"}) {
+    expect_refused({verb, four_bar_, "--set", "clearance.D.contact.young=1e-308 GPa"}, "from 1 kPa to 10 TPa");
+    expect_refused({verb, four_bar_, "--set", "clearance.D.cap_radius=1e300 mm"}, "from 1 pm to 10000 km");
+    expect_refused({verb, four_bar_, "--set", "gravity.z=-1e300 m/s^2"}, "at most 1e7 m/s^2");
+  }
+  std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << four_bar_ << "\"\n[[random]]\n"
+                                        << "parameter = \"clearance.D.contact.young\"\n"
+                                        << "distribution = { lognormal = { median = \"72 GPa\", factor = 1000 } }\n"
+                                        << "[montecarlo]\nsamples = 10\n";
+  expect_refused({"montecarlo", "study.toml"}, "from 1 kPa to 10 TPa");
+}
+
+// Forces within their ranges and beyond what the joint can bear.
+TEST_F(InputProgram, CheckFindsAJournalThatWouldBePressedThroughItsSleeve) {
+  const Ended ended = call({"check", four_bar_, "--set", "gravity.z=-1e7 m/s^2", "--set", "payload.mass=1e6 kg", "--set",
+                            "clearance.D.contact.young=1 MPa", "--out", "out"});
+  EXPECT_EQ(ended.status, 1) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("problem: D: its largest load"), Not(HasSubstr("nothing stands in the way"))));
+  EXPECT_FALSE(says_infinity(ended.out)) << ended.out;
+  EXPECT_FALSE(says_infinity(text("out/conditioning.csv")));
+}
+
+TEST_F(InputProgram, CheckOfAMotionThatMemoryCannotHoldSaysSo) {
+  for (const char* duration : {"1e4 s", "1e6 s"}) {
+    const Ended ended = call({"check", mechanism_, "--set", std::string("motion.duration=") + duration, "--out", std::string("out-") + duration});
+    EXPECT_EQ(ended.status, 1) << ended.err;
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("GB of memory; shorten motion.duration"), Not(HasSubstr("beyond t = 0"))));
+  }
+}
+
+TEST_F(InputProgram, CtrlCIsHeardWhileTheIdealMotionIsFollowed) {
+  for (const char* verb : {"check", "run"}) {
+    const pid_t child = start({verb, mechanism_, "--set", "motion.duration=300 s", "--out", std::string("out-") + verb, "--rung", "perturbation"});
+    ::usleep(1'000'000);
+    ::kill(child, SIGINT);
+    const Ended ended = wait_for(child);
+    EXPECT_EQ(ended.status, 130) << verb << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("interrupted")) << verb;
+  }
+}
+
+TEST_F(InputProgram, WhatAFileLeavesOutIsSaidAndKept) {
+  write_bare("bare.toml");
+  const Ended checked = call({"check", "bare.toml", "--out", "check"});
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, AllOf(HasSubstr("D: not given, so assumed:"), HasSubstr("contact.young = 72 GPa (aluminium)"),
+                                 HasSubstr("friction.coefficient = 0 (none)")));
+  const Ended ran = call({"run", "bare.toml", "--rung", "quasistatic", "--out", "run"});
+  EXPECT_EQ(ran.status, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("warning: D: not given, so assumed: contact.law"));
+  const auto summary = json("run/summary.json");
+  EXPECT_EQ(summary["assumed"]["clearance.D.contact.young"], "72 GPa");
+  EXPECT_THAT(summary["warnings"].dump(), HasSubstr("contact.restitution = 0.9"));
+  EXPECT_THAT(text("run/report.html"), HasSubstr("contact.young = 72 GPa (aluminium)"));
+  // Given on the command line, it is not assumed.
+  const Ended given = call({"run", "bare.toml", "--rung", "quasistatic", "--set", "clearance.D.contact.young=210 GPa", "--out", "given"});
+  EXPECT_EQ(given.status, 0) << given.err;
+  EXPECT_FALSE(json("given/summary.json")["assumed"].contains("clearance.D.contact.young"));
+}
+
+TEST_F(InputProgram, RestitutionZeroRunsWithALawThatTakesIt) {
+  expect_refused({"run", four_bar_, "--set", "clearance.D.contact.restitution=0"}, "laws that take 0: hunt-crossley");
+  const Ended ended = call({"run", four_bar_, "--rung", "perturbation", "--set", "clearance.D.contact.law=lankarani-nikravesh", "--set",
+                            "clearance.D.contact.restitution=0", "--set", "motion.duration=0.1 s", "--out", "out"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_TRUE(json("out/summary.json")["index"]["position_error"]["max"].is_number());
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -1,0 +1,119 @@
+// Motions of microseconds and of months: as dense as what moves asks for, whatever share of the duration that is, and refused in words
+// where they cannot be held.
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "boresight/io/units.hpp"
+#include "boresight/mechanism/ideal_motion.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/mechanism/kinematic_report.hpp"
+#include "boresight/mechanism/motion_density.hpp"
+#include "scenes.hpp"
+
+namespace boresight {
+namespace {
+
+Mechanism four_bar(const std::string& law, const std::string& duration) {
+  return Mechanism(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml",
+                                  {{"motion.drives.A", law}, {"motion.duration", duration}}));
+}
+
+// The ideal motion against the same instant solved on its own.
+double miss_at(const Mechanism& mechanism, const IdealMotion& motion, double t) {
+  IdealState exact;
+  motion.state(t, exact);
+  IdealState table = exact;
+  IdealSolver solver(mechanism);
+  EXPECT_TRUE(solver.solve(t, exact));
+  double worst = 0.0;
+  for (int b = 0; b < mechanism.bodies(); ++b) {
+    worst = std::max(worst, (table.bodies[b].p - exact.bodies[b].p).norm() / mechanism.characteristic_length());
+    worst = std::max(worst, (table.bodies[b].R - exact.bodies[b].R).norm());
+  }
+  return worst;
+}
+
+TEST(LongMotion, OfMonthsIsFollowedWhereItIsSlow) {
+  const Mechanism mechanism = four_bar("2*pi*t/1e6", "1e6 s");
+  const IdealMotion motion = IdealMotion::kinematic(mechanism);
+  EXPECT_LT(motion.knots(), 5000);
+  for (const double t : {1.0, 123456.7, 999999.0}) EXPECT_LT(miss_at(mechanism, motion, t), 1e-11) << t;
+}
+
+TEST(LongMotion, OfHundredsOfTurnsIsFollowed) {
+  const Mechanism mechanism = four_bar("2*pi*t", "200 s");
+  const IdealMotion motion = IdealMotion::kinematic(mechanism);
+  for (const double t : {0.37, 100.123, 199.9}) EXPECT_LT(miss_at(mechanism, motion, t), 1e-8) << t;
+}
+
+TEST(LongMotion, ThatMemoryCannotHoldIsRefusedWithWhatItWouldTake) {
+  for (const char* duration : {"1e6 s", "1e8 s"}) {
+    const Mechanism mechanism = four_bar("2*pi*t", duration);
+    try {
+      IdealMotion::kinematic(mechanism);
+      ADD_FAILURE() << duration;
+    } catch (const MotionTooDense& refusal) {
+      EXPECT_NE(std::string(refusal.what()).find("GB of memory; shorten motion.duration"), std::string::npos) << refusal.what();
+    }
+    const KinematicReport report = analyse_kinematics(mechanism);
+    EXPECT_FALSE(report.feasible);
+    ASSERT_FALSE(report.findings.empty());
+    EXPECT_NE(report.findings.front().find("GB of memory"), std::string::npos) << report.findings.front();
+  }
+}
+
+// A slew of a second in hours at rest: between two states of a coarse table nothing seems to move.
+TEST(LongMotion, SlewBetweenHoursOfRestIsNotMissed) {
+  const Mechanism mechanism = four_bar("0.4*(1 + tanh((t - 5003.2)/0.5))", "10000 s");
+  const IdealMotion motion = IdealMotion::kinematic(mechanism);
+  for (const double t : {10.0, 5002.0, 5003.1, 5003.6, 5005.0, 9000.0}) EXPECT_LT(miss_at(mechanism, motion, t), 1e-7) << t;
+}
+
+TEST(LongMotion, OfAMicrosecondIsFollowed) {
+  const Mechanism mechanism = four_bar("1e5*t", "1 us");
+  const IdealMotion motion = IdealMotion::kinematic(mechanism);
+  for (const double t : {0.0, 0.4e-6, 1e-6}) EXPECT_LT(miss_at(mechanism, motion, t), 1e-11) << t;
+}
+
+// abs has no impulse where it turns round; the motion goes on as before.
+TEST(LongMotion, LawWithAKinkIsStillFollowed) {
+  const Mechanism mechanism = four_bar("0.5*abs(t - 0.5)", "1 s");
+  const IdealMotion motion = IdealMotion::kinematic(mechanism);
+  for (const double t : {0.1, 0.4, 0.9}) EXPECT_LT(miss_at(mechanism, motion, t), 1e-10) << t;
+}
+
+TEST(LongMotion, ThatLeavesWhatTheMechanismReachesIsSaidToWhere) {
+  // The driven bar is longer than the others let it turn: it reaches a dead point.
+  for (const char* duration : {"1 s", "1000 s"}) {
+    const double T = parse_quantity(duration, kDuration);
+    MechanismDescription driven = scenes::four_bar({Vec3(0, 0, 0), Vec3(0.3, 0, 0.1), Vec3(0.4, 0, 0.3), Vec3(0.5, 0, 0)}, false,
+                                                   "2*pi*t/" + std::to_string(T));
+    driven.motion.duration = T;
+    try {
+      IdealMotion::kinematic(Mechanism(driven));
+      ADD_FAILURE() << "a bar longer than the frame turned round";
+    } catch (const ComputationError& refusal) {
+      EXPECT_NE(std::string(refusal.what()).find("cannot be followed beyond t = "), std::string::npos) << refusal.what();
+      EXPECT_EQ(std::string(refusal.what()).find("beyond t = 0 s"), std::string::npos) << refusal.what();
+    }
+  }
+}
+
+std::atomic<int> looks{0};
+
+TEST(LongWork, StopsWhereItsWatchWantsItTo) {
+  const Mechanism mechanism = four_bar("2*pi*t", "2000 s");
+  looks = 0;
+  watch_work([](const char*, double share) {
+    EXPECT_GE(share, 0.0);
+    EXPECT_LE(share, 1.0 + 1e-12);
+    return ++looks < 1000;
+  });
+  EXPECT_THROW(IdealMotion::kinematic(mechanism), Interrupted);
+  EXPECT_EQ(looks, 1000);
+  watch_work(nullptr);
+}
+
+}  // namespace
+}  // namespace boresight
