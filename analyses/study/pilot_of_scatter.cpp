@@ -206,7 +206,7 @@ class PilotOfScatter {
     std::vector<Candidate> candidates;
     for (const Way& way : ways) {
       const bool own = way.rung == "multibody" && way.integrator.empty() && way.step == own_->way().step;
-      candidates.push_back({own ? own_ : known(way), {}});
+      candidates.push_back({.samples = own ? own_ : known(way), .rejected = false, .accepted = false, .found = {}});
     }
     for (;;) {
       bool accepted = false, open = false;

@@ -85,7 +85,7 @@ StudySteps steps_of_study(const Command& command, const Study& study, const std:
                                     progress.update(std::min(512.0, done++), "");
                                     return !interrupted();
                                   }};
-  const StudyDiscretisation found = with_options_checked(run, [&] {
+  const StudyDiscretisation found = with_options_checked([&] {
     return measure_study_discretisation(mechanism, draws_of_scatter(asked.inputs, *mechanism, kDrawsForPilot), way, options);
   });
   progress.clear();
