@@ -65,6 +65,8 @@ Scene generate(std::uint64_t seed) {
   add_plays(draw, scene);
   add_forces(draw, scene);
   place_in_space(draw, scene);
+  scene.journals_centred = draw.chance(0.25);
+  if (draw.chance(0.3)) scene.sight = scene.size * draw.log_between(3.0, 1e4);
   return scene;
 }
 

@@ -32,7 +32,7 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 // Several scenes at once, each in its own process; verdicts in the order of the scenes.
-std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, const TrialOptions& options, int jobs) {
+std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, const TrialOptions& options, int jobs, KnownFaults& known) {
   std::vector<Verdict> verdicts(scenes.size());
   struct Running {
     pid_t process;
@@ -82,10 +82,11 @@ std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, 
       Verdict& v = verdicts[r.scene];
       if (json.is_discarded()) {
         v.scene = fmt::format("scene {} of this call", r.scene);
-        v.faults.push_back({"crash", "the gauntlet itself", fmt::format("status {}", status)});
+        v.fault("crash", "the gauntlet itself", fmt::format("status {}", status));
       } else {
         v = verdict_from(json);
       }
+      known.mark(v);
       print_faults(v);
       fflush(stdout);
       running.erase(running.begin() + static_cast<std::ptrdiff_t>(k));
@@ -99,7 +100,7 @@ int run(int argc, char** argv) {
   std::uint64_t from = 1, count = 0;
   int jobs = 1;
   std::vector<std::string> files, write;
-  std::string save;
+  std::string save, known_file;
   bool corpus = false;
   TrialOptions options;
   options.program = BORESIGHT_PROGRAM;
@@ -110,6 +111,7 @@ int run(int argc, char** argv) {
   app.add_flag("--corpus", corpus, "the archetypes of tests/gauntlet/corpus");
   app.add_option("--write", write, "SEED FILE: writes the mechanism file of a seed")->expected(2);
   app.add_option("--save", save, "folder for the mechanism files of scenes with faults");
+  app.add_option("--known", known_file, "file of known faults, which are printed and do not count")->check(CLI::ExistingFile);
   app.add_option("--cpu", options.limits.cpu_seconds, "limit of one stage, s of CPU")->capture_default_str();
   app.add_flag("--auto", options.automatic, "`run --accuracy` by the program, against the reference");
   app.add_flag("--verbs", options.verbs, "a small study of every verb");
@@ -134,8 +136,10 @@ int run(int argc, char** argv) {
       const Scene scene = generate(seed);
       return Entry{fmt::format("seed {}", seed), scene.family, scene.toml()};
     });
-  const std::vector<Verdict> verdicts = try_all(scenes, options, jobs);
+  KnownFaults known = known_file.empty() ? KnownFaults() : KnownFaults(known_file);
+  const std::vector<Verdict> verdicts = try_all(scenes, options, jobs, known);
   print_table(verdicts);
+  for (const std::string& gone : known.gone()) fmt::print("mended, take it off the list: {}\n", gone);
   if (!save.empty()) {
     std::filesystem::create_directories(save);
     for (std::size_t k = 0; k < scenes.size(); ++k)
@@ -146,7 +150,7 @@ int run(int argc, char** argv) {
         std::ofstream(std::filesystem::path(save) / (name + ".toml")) << entry.text;
       }
   }
-  const bool wrong = std::any_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return !v.faults.empty(); });
+  const bool wrong = std::any_of(verdicts.begin(), verdicts.end(), has_new_fault);
   return wrong ? 1 : 0;
 }
 

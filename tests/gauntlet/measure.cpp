@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/rungs/measured_error.hpp"
 
 namespace boresight::gauntlet {
 namespace {
@@ -50,7 +51,7 @@ std::string first_not_finite(const RunResult& r) {
   check.see("platform acceleration", r.platform_acceleration_max);
   check.see("constraint drift", r.constraint_drift);
   check.see("error estimate, model", r.error.model);
-  check.see("error estimate, discretisation", r.error.discretisation);
+  if (!std::isnan(r.error.discretisation)) check.see("error estimate, discretisation", r.error.discretisation);  // NaN: not measured
   see_history(check, r.boresight);
   for (const BodyHistory& h : r.others) see_history(check, h);
   for (const auto& clearance : r.clearances)
@@ -74,6 +75,12 @@ RunOptions options_of(const Asked& asked, const Mechanism& mechanism) {
   return options;
 }
 
+std::array<double, kFigures.size()> figures(const PointingIndices& i) {
+  const Statistics none, &sight = i.has_line_of_sight ? i.line_of_sight_error : none;
+  return {i.position_error.max,    i.position_error.rms,    i.boresight_error.max, i.boresight_error.rms,
+          i.orientation_error.max, i.orientation_error.rms, sight.max,             sight.rms};
+}
+
 }  // namespace
 
 Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked) {
@@ -81,15 +88,24 @@ Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& ask
   double deepest = 0.0;
   for (const ContactSummary& c : r.contact) deepest = std::max(deepest, c.max_penetration);
   const double play = smallest_clearance(mechanism->parameters());
-  const PointingIndices& i = r.index;
-  return {{"figure", {i.position_error.max, i.position_error.rms, i.boresight_error.max, i.boresight_error.rms, i.orientation_error.max, i.orientation_error.rms}},
+  return {{"figure", figures(r.index)},
           {"model", r.error.model},
-          {"discretisation", r.error.discretisation},
           {"basis", r.error.basis},
           {"step", r.cost.steps > 0 ? mechanism->duration() / static_cast<double>(r.cost.steps) : 0.0},
           {"deepest", play > 0.0 ? deepest / play : 0.0},
           {"not_finite", first_not_finite(r)},
           {"cpu", r.cost.cpu_seconds}};
+}
+
+Json measure_steps(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked, double most_seconds) {
+  const std::unique_ptr<Rung> rung = make_rung(asked.rung, mechanism);
+  const RunOptions options = options_of(asked, *mechanism);
+  const RunResult result = rung->run(mechanism->parameters(), options);
+  const MeasuredError error = measure_discretisation(*rung, mechanism->parameters(), options, result, {.most_seconds = most_seconds});
+  if (!error.measured) return {{"why_not", error.why_not}};
+  PointingIndices stated = error.stated;
+  stated.has_line_of_sight = result.index.has_line_of_sight;
+  return {{"by_steps", figures(stated)}};
 }
 
 Measured measured(const Json& json) {
@@ -98,7 +114,6 @@ Measured measured(const Json& json) {
   if (!m.not_finite.empty()) return m;  // JSON has no infinity: nothing else can be relied on
   for (std::size_t k = 0; k < kFigures.size(); ++k) m.figure[k] = json.at("figure").at(k);
   m.model = json.at("model");
-  m.discretisation = json.at("discretisation");
   m.basis = json.at("basis");
   m.step = json.at("step");
   m.deepest = json.at("deepest");

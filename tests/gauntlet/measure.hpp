@@ -12,7 +12,8 @@
 namespace boresight::gauntlet {
 
 // The figures that rungs are compared by.
-inline constexpr std::array<const char*, 6> kFigures = {"position max", "position rms", "boresight max", "boresight rms", "orientation max", "orientation rms"};
+inline constexpr std::array<const char*, 8> kFigures = {"position max",    "position rms",    "boresight max",     "boresight rms",
+                                                               "orientation max", "orientation rms", "line of sight max", "line of sight rms"};
 
 struct Asked {
   std::string rung, integrator = {}, formulation = {};
@@ -24,16 +25,19 @@ struct Asked {
 // One figure each of kFigures, what the run says of its error, and the first number that is not finite ("" if none).
 struct Measured {
   std::array<double, kFigures.size()> figure{};
-  double model = 0.0, discretisation = 0.0;
+  double model = 0.0;  // what the rung states of its model, relative
+  std::array<double, kFigures.size()> by_steps{};  // what further runs show that steps do, of each figure; zero until measured
   double step = 0.0;              // mean [s]
   double deepest = 0.0;           // deepest penetration over the smallest play [-]
   std::string basis, not_finite;
   double cpu_seconds = 0.0;
-  double stated() const { return model + discretisation; }
 };
 
 Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked);
 Measured measured(const Json& json);
+
+// What the program would state of the steps' part of this run's error: "by_steps" per figure, or "why_not".
+Json measure_steps(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked, double most_seconds);
 
 // Total momentum of a mechanism that nothing holds, over its motion: the largest change over the sum of the bodies' parts.
 Json momentum_change(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked);

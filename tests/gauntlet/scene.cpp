@@ -78,14 +78,17 @@ std::string Scene::toml() const {
   for (const SceneJoint& j : joints)
     if (!j.law.empty()) laws += fmt::format("{}{} = \"{}\"", laws.empty() ? "" : ", ", j.name, j.law);
   if (!laws.empty()) line("drives = { " + laws + " }");
+  if (!rates.empty() || journals_centred) line("\n[initial]");
+  if (journals_centred) line("journals = \"centred\"");
   if (!rates.empty()) {
     std::string text;
     for (const SceneRate& r : rates) {
       const bool slides = joints[r.joint].type == "prismatic";
       text += fmt::format("{}{} = \"{:.17g} {}\"", text.empty() ? "" : ", ", joints[r.joint].name, r.rate, slides ? "m/s" : "rad/s");
     }
-    line("\n[initial]\nrates = { " + text + " }");
+    line("rates = { " + text + " }");
   }
+  if (sight > 0.0) line(fmt::format("\n[pointing]\ndistance = \"{:.17g} m\"", sight));
   for (const SceneSpring& s : springs)
     line(fmt::format("\n[[spring]]\n{}\npoints = [{}, {}]\nstiffness = \"{:.17g} N/m\"\ndamping = \"{:.17g} N s/m\"\nfree_length = \"{:.17g} m\"",
                      connects(s.first, s.second), length(s.first_point), length(s.second_point), s.stiffness, s.damping, s.free_length));

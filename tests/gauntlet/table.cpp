@@ -27,7 +27,7 @@ double ratio(const Claim& claim) {
 }  // namespace
 
 void print_faults(const Verdict& v) {
-  for (const Fault& f : v.faults) fmt::print("  {} ({}): {} in {}: {}\n", v.scene, v.family, f.kind, f.stage, f.text);
+  for (const Fault& f : v.faults) fmt::print("  {} ({}): {}{} in {}: {}\n", v.scene, v.family, f.known ? "known: " : "", f.kind, f.stage, f.text);
   if (v.faults.empty()) return;
   const bool seeded = v.scene.rfind("seed ", 0) == 0;
   fmt::print("    again: boresight_gauntlet {}\n", seeded ? "--from " + v.scene.substr(5) + " --count 1" : "--scene " + v.scene);
@@ -35,7 +35,7 @@ void print_faults(const Verdict& v) {
 }
 
 void print_table(const std::vector<Verdict>& verdicts) {
-  int agreed = 0, refused = 0, wrong = 0;
+  int agreed = 0, refused = 0, wrong = 0, known = 0;
   double cpu = 0.0;
   std::map<std::string, int> wrong_kinds, scene_refusals, stage_refusals, families, wrong_families;
   std::map<std::string, std::vector<double>> ratios;
@@ -48,7 +48,7 @@ void print_table(const std::vector<Verdict>& verdicts) {
     for (const Refusal& r : v.refusals) ++stage_refusals[r.stage + ": " + normalised(r.reason)];
     for (const Claim& c : v.claims) ratios[c.stage].push_back(ratio(c));
     if (!v.faults.empty()) {
-      ++wrong;
+      ++(has_new_fault(v) ? wrong : known);
       ++wrong_families[v.family];
     } else if (v.compared == 0) {
       ++refused;
@@ -57,7 +57,8 @@ void print_table(const std::vector<Verdict>& verdicts) {
       ++agreed;
     }
   }
-  fmt::print("\n{} scenes: {} agreed, {} refused, {} wrong; {:.1f} s of CPU\n", verdicts.size(), agreed, refused, wrong, cpu);
+  fmt::print("\n{} scenes: {} agreed, {} refused, {} wrong{}; {:.1f} s of CPU\n", verdicts.size(), agreed, refused, wrong,
+             known > 0 ? fmt::format(", {} with known faults only", known) : "", cpu);
   fmt::print("\nscenes by family (wrong of all)\n");
   for (const auto& [family, count] : families) fmt::print("  {:<20} {:4} of {:4}\n", family, wrong_families[family], count);
   print_counts("wrong, scenes by kind and stage", wrong_kinds);

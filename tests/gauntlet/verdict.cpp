@@ -1,6 +1,11 @@
 #include "verdict.hpp"
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <regex>
+#include <sstream>
+#include <stdexcept>
 
 namespace boresight::gauntlet {
 
@@ -20,10 +25,41 @@ Verdict verdict_from(const Json& json) {
   v.compared = json.at("compared");
   v.refused = json.at("refused");
   v.cpu_seconds = json.at("cpu");
-  for (const Json& f : json.at("faults")) v.faults.push_back({f[0], f[1], f[2]});
+  for (const Json& f : json.at("faults")) v.faults.push_back({.kind = f[0], .stage = f[1], .text = f[2]});
   for (const Json& r : json.at("refusals")) v.refusals.push_back({r[0], r[1]});
   for (const Json& c : json.at("claims")) v.claims.push_back({c[0], c[1], c[2].is_null() ? 0.0 : c[2].get<double>(), c[3].is_null() ? 0.0 : c[3].get<double>()});
   return v;
+}
+
+bool has_new_fault(const Verdict& v) {
+  return std::any_of(v.faults.begin(), v.faults.end(), [](const Fault& f) { return !f.known; });
+}
+
+KnownFaults::KnownFaults(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error("cannot read " + file);
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    std::stringstream cells(line);
+    Entry entry;
+    for (std::string* cell : {&entry.scene, &entry.kind, &entry.stage}) {
+      std::getline(cells, *cell, '|');
+      cell->erase(0, cell->find_first_not_of(' '));
+      cell->erase(cell->find_last_not_of(' ') + 1);
+    }
+    entries_.push_back(entry);
+  }
+}
+
+void KnownFaults::mark(Verdict& v) {
+  const std::string scene = v.scene.rfind("seed ", 0) == 0 ? v.scene : std::filesystem::path(v.scene).stem().string();
+  for (const Entry& e : entries_) {
+    if (e.scene != scene) continue;
+    bool met = false;
+    for (Fault& f : v.faults)
+      if (f.kind == e.kind && f.stage == e.stage) met = f.known = true;
+    if (!met) gone_.push_back(e.scene + " | " + e.kind + " | " + e.stage);
+  }
 }
 
 std::string normalised(std::string reason) {
