@@ -22,7 +22,7 @@ TEST_P(WithIntegrator, EachSampleTakesTheStepsOfItsOwnRun) {
   RunOptions options;
   options.integrator = GetParam();
   EXPECT_EQ(common_step("perturbation", mechanism, {mechanism->parameters()}, options), 0.0);
-  apply({.name = "perturbation", .step = 1e-4}, options);
+  apply({.name = "perturbation", .why = "", .step = 1e-4}, options);
   EXPECT_EQ(options.step, 0.0) << "a step found with rk4 is none of another integrator's";
 
   const auto parameters_of = [&](std::span<const double> values) {
