@@ -152,7 +152,7 @@ std::vector<InitialRateDescription> read_rates(Cursor& table, const MechanismDes
 
 void read_initial(Cursor& cursor, MechanismDescription& mechanism) {
   cursor.only({"rates", "journals"});
-  const bool centred = cursor.choice("journals", {"rest", "centred"}, "centred") == "centred";
+  const bool centred = cursor.choice("journals", {"rest", "centred"}, "rest") == "centred";
   mechanism.journals = centred ? JournalStart::centred : JournalStart::rest;
   if (cursor.has("rates")) {
     Cursor rates = cursor.table("rates");

@@ -1,5 +1,7 @@
 #include "boresight/rungs/multibody_start.hpp"
 
+#include <limits>
+
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/clearance_scene.hpp"
 #include "boresight/rungs/resting_start.hpp"
@@ -7,9 +9,9 @@
 namespace boresight {
 namespace {
 
-// Of the largest load: what may be left unbalanced.
-constexpr double kBalanced = 1e-11;
-constexpr int kMostSteps = 12;
+// Steps of the journals, over their clearances: shorter ones are rounding.
+constexpr double kRounding = 1e-12;
+constexpr int kMostSteps = 40;
 
 std::vector<BodyMotion> displaced_bodies(const ClearanceScene::Start& scene, const VecX& z) {
   std::vector<BodyMotion> bodies = scene.ideal.bodies;
@@ -75,21 +77,23 @@ void rest_journals(const Mechanism& mechanism, const Parameters& parameters, con
   const Frictionless frictionless(formulation.forces(), balance.joints());
   const std::vector<MassProperties> mass = mechanism.mass_properties(parameters);
   const std::vector<ContactMemory> memory(joints.size());
-  VecX z = rest.z, trial, dy(y.size()), F;
-  MatX by_z;
-  double least = -1.0;
+  VecX z = rest.z, trial, dy(y.size());
+  std::vector<JournalMotion<double>> journals(joints.size());
+  // What no place of the journals balances is left to the motion: steps are judged by their length.
+  double before = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kMostSteps; ++step) {
     formulation.place_bodies(displaced_bodies(scene, z), trial);
     formulation.close_joints(0.0, trial);
     formulation.derivative(0.0, trial, memory, dy);
     const VecX left = balance.balanceable(unbalanced(scene, mass, formulation.acceleration()));
-    const double size = balance.size(left);
-    if (least >= 0.0 && !(size < least)) break;  // what is left is rounding, or no place of the journals changes it
-    least = size;
+    for (std::size_t c = 0; c < journals.size(); ++c) journals[c] = formulation.forces().motion(static_cast<int>(c));
+    const VecX dz = balance.correction(balance.stiffness_at(journals), left);
+    const double length = dz.cwiseQuotient(balance.scale()).cwiseAbs().maxCoeff();
+    if (!(length < before)) return;  // it does not get nearer: y is the nearest place
     y = trial;
-    if (size <= kBalanced * balance.load()) break;
-    balance.evaluate(z, F, by_z);
-    z += balance.correction(by_z, left);
+    if (length <= kRounding) return;
+    before = length;
+    z += dz;
   }
 }
 

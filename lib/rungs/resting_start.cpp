@@ -85,26 +85,38 @@ JournalMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z
 
 void RestingBalance::evaluate(const VecX& z, VecX& F, MatX& by_z) const {
   F = reaction_ - stiffness_ * z;
-  by_z = -stiffness_;
+  std::vector<JournalMotion<double>> journals;
   JournalWrench<double> wrench;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    const JournalMotion<double>& motion = journals.emplace_back(motion_of(c, z));
+    joints_[c].wrench(motion, kSlow, wrench);
+    Vec6 load;
+    load << wrench.force, wrench.moment - motion.e.cross(wrench.force);
+    F.noalias() += works_on_[c].transpose() * load;
+  }
+  F = balanceable(std::move(F));
+  by_z = stiffness_at(journals);
+}
+
+MatX RestingBalance::stiffness_at(const std::vector<JournalMotion<double>>& journals) const {
+  MatX by_z = -stiffness_;
   ContactJacobian of_motion;
   Eigen::Matrix<double, 6, 5> of_offsets;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    const JournalMotion<double> motion = motion_of(c, z);
-    joints_[c].wrench(motion, kSlow, wrench);
-    contact_jacobian(joints_[c], motion, kSlow, MomentAbout::journal, of_motion);
-    Vec6 load;
-    load << wrench.force, wrench.moment - motion.e.cross(wrench.force);
+    JournalMotion<double> still = journals[c];
+    still.e_dot.setZero();
+    still.w.setZero();
+    still.slope_rate.setZero();
+    contact_jacobian(joints_[c], still, kSlow, MomentAbout::journal, of_motion);
     of_offsets << of_motion.leftCols<3>(), of_motion.middleCols<2>(9);
-    F.noalias() += works_on_[c].transpose() * load;
     by_z.noalias() += works_on_[c].transpose() * (of_offsets * offsets_of_[c]);
   }
   for (int k = 0; k < at_.n; ++k)
     if (!held_[k]) {
-      F[k] = 0.0;
       by_z.row(k).setZero();
       by_z.col(k).setZero();
     }
+  return by_z;
 }
 
 double RestingBalance::energy(const VecX& z) const {

@@ -33,6 +33,8 @@ class RestingBalance {
 
   // Of what is left unbalanced at z, F = r + f - K z, and of its change with z: n, n x n [N, N m; per m, per slope].
   void evaluate(const VecX& z, VecX& F, MatX& by_z) const;
+  // The latter where the journals stand as given, which a mechanism's own geometry may put a little off z.
+  MatX stiffness_at(const std::vector<JournalMotion<double>>& journals) const;
   // The step of z that balances F: the shortest, in offsets over clearances, where contact holds no direction.
   VecX correction(const MatX& by_z, const VecX& F) const;
   // A load on z without the part that no journal's place can balance.

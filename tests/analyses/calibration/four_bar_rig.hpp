@@ -14,6 +14,7 @@ inline std::shared_ptr<const Mechanism> mechanism(double speed, double duration,
                                                   std::vector<Setting> more = {}) {
   std::vector<Setting> settings = {{"motion.duration", std::to_string(duration) + " s"},
                                    {"motion.drives.A", "2*pi*" + std::to_string(speed) + "*t"},
+                                   {"initial.journals", "centred"},
                                    {"clearance.D.radial", "0.2 mm"},
                                    {"clearance.D.contact.restitution", "0.6"},
                                    {"clearance.D.friction.coefficient", "0.1"}};

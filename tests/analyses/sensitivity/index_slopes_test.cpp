@@ -10,12 +10,19 @@
 namespace boresight {
 namespace {
 
+MechanismDescription crank_slider() {
+  MechanismDescription d = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", {});
+  for (const BodyDescription& b : d.bodies)
+    if (b.boresight) d.line_of_sight = LineOfSightDescription{.from = b.center_of_mass, .target = Vec3::Zero(), .origin = {}};
+  return d;
+}
+
 struct Scene {
-  Mechanism mechanism{
-      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", {})};
+  Mechanism mechanism{crank_slider()};
   PreparedScene prepared{mechanism, ideal_motion(mechanism, mechanism.parameters()), mechanism.parameters()};
   std::vector<ParameterPath> paths;
   std::vector<double> values;
+  bool from_rest = false;
 
   Scene() {
     for (const char* path :
@@ -23,12 +30,12 @@ struct Scene {
       paths.emplace_back(mechanism.description(), path);
     for (const ParameterPath& path : paths) values.push_back(path.get(mechanism.parameters()));
   }
+  // In flight from a given state, or from where the journal rests, which its clearance moves.
   IndexSlopes slopes(const std::vector<double>& v, const IndexChoice& index) const {
     SlopeOptions options;
     options.end = 8e-3;  // three impacts, none of which grazes
     options.points = 100;
-    options.start_state = VecX::Zero(6);
-    options.start_state << 2e-5, 1e-5, -1e-5, 0.02, 0.001, 0.03;
+    if (!from_rest) options.start_state = (VecX(6) << 2e-5, 1e-5, -1e-5, 0.02, 0.001, 0.03).finished();
     options.tolerance = 1e-11;
     options.control_derivatives = true;
     return index_slopes(
@@ -71,6 +78,28 @@ TEST(IndexSlopes, OfAMaximumIsThatOfRichardsonDifferencesWhileNoOtherTimeTakesIt
 }
 TEST(IndexSlopes, OfTheLineOfSightAreThoseOfRichardsonDifferences) {
   expect_exact(Scene(), {"line_of_sight_error", "rms"});
+}
+TEST(IndexSlopes, FollowTheClearanceAndTheStiffnessIntoWhereTheJournalRestsAtTheStart) {
+  Scene scene;
+  scene.from_rest = true;
+  scene.paths[1] = ParameterPath(scene.mechanism.description(), "clearance.A.contact.stiffness_scale");
+  scene.values[1] = scene.paths[1].get(scene.mechanism.parameters());
+  for (const char* statistic : {"mean", "rms"}) {
+    const IndexChoice index{"position_error", statistic};
+    const IndexSlopes exact = scene.slopes(scene.values, index);
+    EXPECT_EQ(exact.impacts, 0);
+    // One micrometre more clearance, and the journal rests a micrometre lower.
+    EXPECT_GT(exact.by[0], 0.1);
+    for (std::size_t k : {0u, 1u})
+      EXPECT_NEAR(exact.by[k] / scene.richardson(k, index), 1.0, 1e-4) << statistic << ", parameter " << k;
+  }
+}
+TEST(IndexSlopes, LeaveOutWhatComesBeforeTheIndexBegins) {
+  const Scene scene;
+  const IndexChoice index{"position_error", "mean", 3e-3};
+  const IndexSlopes exact = scene.slopes(scene.values, index);
+  EXPECT_NE(exact.value, scene.slopes(scene.values, {"position_error", "mean"}).value);
+  EXPECT_NEAR(exact.by[0] / scene.richardson(0, index), 1.0, 1e-6);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/rung.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
@@ -72,6 +74,47 @@ TEST(RungChoice, RefusesANameWithTheNearestOne) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.nearest, "multibody");
   }
+}
+
+TEST(Study, AStartBelongsToTheIndexAndToWhatTheStudyIs) {
+  const std::string head = "format = 1\nmechanism = \"m.toml\"\n[index]\nquantity = \"boresight_error\"\n";
+  const Study whole = study_of(head), late = study_of(head + "start = \"50 ms\"\n");
+  EXPECT_EQ(whole.index.start, 0.0);
+  EXPECT_DOUBLE_EQ(late.index.start, 0.05);
+  EXPECT_EQ(whole.index.text(), "boresight_error.max");
+  EXPECT_NE(late.index.text(), whole.index.text());
+  EXPECT_EQ(late.index.title(), "boresight error, maximum from 0.05 s on");
+  EXPECT_THAT(fault_of(head + "start = \"-1 ms\"\n"), HasSubstr("folder/study.toml:5: index.start"));
+  EXPECT_THAT(fault_of(head + "start = \"1 mm\"\n"), HasSubstr("expected a time"));
+}
+
+TEST(Study, AnIndexThatTheMotionDoesNotHaveIsRefusedWithItsLine) {
+  MechanismDescription d;
+  d.bodies = {{.name = "arm", .mass = 1.0, .boresight = Vec3(0, 0, 1), .origin = {}}};
+  d.motion.duration = 0.5;
+  d.origin.file = "m.toml";
+  const auto fault = [&](const std::string& index) {
+    try {
+      check_index(study_of("format = 1\nmechanism = \"m.toml\"\n[index]\n" + index), Mechanism(d));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no fault");
+  };
+  EXPECT_THAT(fault("quantity = \"line_of_sight_error\"\n"),
+              testing::AllOf(HasSubstr("folder/study.toml:4: index.quantity"), HasSubstr("[pointing]"), HasSubstr("m.toml")));
+  EXPECT_THAT(fault("start = \"0.5 s\"\n"), HasSubstr("folder/study.toml:4: index.start: found 0.5 s"));
+  EXPECT_EQ(fault("start = \"0.4 s\"\n"), "no fault");
+  d.line_of_sight = LineOfSightDescription{.from = Vec3::Zero(), .target = Vec3(0, 0, 1), .origin = {}};
+  EXPECT_EQ(fault("quantity = \"line_of_sight_error\"\n"), "no fault");
+}
+
+TEST(Study, ALineOfSightThatIsNotThereIsNoNumber) {
+  const IndexChoice index{"line_of_sight_error", "max"};
+  PointingIndices indices;
+  EXPECT_TRUE(std::isnan(index.of(indices)));
+  indices.has_line_of_sight = true;
+  EXPECT_EQ(index.of(indices), 0.0);
 }
 
 }  // namespace

@@ -171,6 +171,45 @@ TEST(Lanes, FollowTheRungItself) {
   }
 }
 
+// The starts are those of the rung: at rest nothing moves, and what a start leaves out the rung leaves out too.
+TEST(Lanes, RestWhereDrivesStandStill) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "0.03 s"},
+                                                      {"initial.journals", "rest"},
+                                                      {"motion.angles.psi", "0.4"},
+                                                      {"motion.angles.theta", "0.2"},
+                                                      {"motion.angles.phi", "-0.4"},
+                                                      {"motion.position.z", "500*cos(theta)"}}));
+  const PerturbationLanes lanes(mechanism, PointingQuantity::position_error);
+  std::vector<Parameters> samples = scattered(*mechanism, 9, true);
+  std::vector<LaneOutcome> out(samples.size());
+  for (const auto& [tolerance, moved] : {std::pair{1e-3, 2e-5}, {1e-4, 1e-6}}) {  // in single, in double precision
+    lanes.run(samples, out, tolerance);
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      EXPECT_GT(out[k].mean, 1e-5);
+      EXPECT_NEAR(out[k].max / out[k].mean, 1.0, moved) << tolerance << ", sample " << k;
+      EXPECT_EQ(out[k].impacts, 0);
+      EXPECT_NEAR(out[k].touching_time / out[k].t, 1.0, 1e-6);
+    }
+  }
+}
+
+TEST(Lanes, LeaveOutWhatTheRungLeavesOut) {
+  const auto mechanism = scene("0.05 s");
+  for (const double start : {0.011, 0.03}) {
+    RunOptions options;
+    options.step = 2e-6;
+    options.sample_spacing = 0.0;
+    options.start = start;
+    const Statistics expected = make_rung("perturbation", mechanism)->run(mechanism->parameters(), options).index.position_error;
+    LaneOutcome out;
+    PerturbationLanes(mechanism, PointingQuantity::position_error, start).run({&mechanism->parameters(), 1}, {&out, 1}, 1e-4);
+    EXPECT_NEAR(out.max, expected.max, 2e-3 * expected.max) << start;
+    EXPECT_GE(out.time_of_max, start);
+    EXPECT_NEAR(std::sqrt(out.mean_square), expected.rms, 1e-3 * expected.rms) << start;
+    EXPECT_NEAR(out.mean, expected.mean, 1e-3 * expected.mean) << start;
+  }
+}
+
 TEST(Lanes, CountContactsAsTheRungDoes) {
   const auto mechanism = scene("0.1 s");
   RunOptions options;
