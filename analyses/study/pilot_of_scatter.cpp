@@ -13,11 +13,15 @@ namespace boresight {
 namespace {
 
 // Pairs after which it is looked whether the answer is clear.
-constexpr std::size_t kPairs[] = {6, 12, 24, 48, 96};
+constexpr std::size_t kPairs[] = {6, 12, 24, 48, 96, 192};
 // What may rank the samples takes no longer than this [s of CPU].
 constexpr double kRankingSeconds = 1.0;
-// Of what the study's runs would take on multibody, the pilot may take this share where that is long.
-constexpr double kShareOfStudy = 0.1;
+// Of what the study's runs would take on multibody, the pilot may take this share where that is long, and no more than the
+// other where it is short.
+constexpr double kShareOfStudy = 0.02, kShareOfShortStudy = 0.5;
+// What a step errs by over what half of it errs by, less one: a contact's force has a kink where it begins, which makes RK4 of
+// second order through it. So the reference is good to a third of what multibody's own step is found to be off from it.
+constexpr double kOwnOverReference = 3.0;
 // Of error control, for rungs without lanes.
 constexpr double kTolerances[] = {1e-2, 1e-3};
 
@@ -117,7 +121,7 @@ class PilotOfScatter {
       if (!chosen_.score.empty()) scores_.push_back(chosen_.score[k]);
     }
     reference_ = compared(*own_);
-    result_.reference_error = reference_.bound();
+    result_.reference_error = reference_.bound() / kOwnOverReference;
     result_.reference = reference_.reference;
     result_.pairs = pairs_.size();
   }
@@ -128,8 +132,9 @@ class PilotOfScatter {
   }
 
   bool more_pairs() {
-    const double study = kShareOfStudy * static_cast<double>(options_.runs) * own_->cpu_seconds();
-    const double most = std::max(options_.most_seconds, study);
+    const double study = static_cast<double>(options_.runs) * own_->cpu_seconds();
+    const double most = options_.runs > 0 ? std::max(kShareOfStudy * study, std::min(options_.most_seconds, kShareOfShortStudy * study))
+                                          : options_.most_seconds;
     for (std::size_t n : kPairs) {
       if (n <= asked_) continue;
       if (asked_ >= chosen_.sample.size()) return false;
@@ -222,10 +227,10 @@ class PilotOfScatter {
     bool will_do = false;
     for (const Candidate& c : candidates) {
       PilotTrial trial = trial_of(*c.samples, c.found);
-      trial.accepted = c.accepted && reference_.bound() <= options_.accuracy;
+      trial.accepted = c.accepted && good_reference();
       trial.reference = c.samples == own_;
       will_do = will_do || trial.accepted ||
-                (reference_.bound() > options_.accuracy && indistinguishable(trial, result_));
+                (!good_reference() && indistinguishable(trial, result_));
       result_.trials.push_back(trial);
     }
     return will_do;
@@ -235,8 +240,10 @@ class PilotOfScatter {
   bool hopeless() const {
     const double most = static_cast<double>(kPairs[std::size(kPairs) - 1]);
     const double at_best = reference_.half_width * std::sqrt(static_cast<double>(pairs_.size()) / most);
-    return at_best > options_.accuracy || std::abs(reference_.difference) - reference_.half_width > options_.accuracy;
+    const double enough = kOwnOverReference * options_.accuracy;
+    return at_best > enough || std::abs(reference_.difference) - reference_.half_width > enough;
   }
+  bool good_reference() const { return result_.reference_error <= options_.accuracy; }
 
   // What ranked the samples has computed these already.
   WaySamples* known(const Way& way) {
@@ -264,8 +271,8 @@ class PilotOfScatter {
         return;
       }
     c.found = compared(*c.samples);
-    c.accepted = c.found.bound() <= options_.accuracy && reference_.bound() <= options_.accuracy;
-    c.rejected = std::abs(c.found.difference) - c.found.half_width > options_.accuracy + reference_.bound();
+    c.accepted = c.found.bound() <= options_.accuracy && good_reference();
+    c.rejected = std::abs(c.found.difference) - c.found.half_width > options_.accuracy + result_.reference_error;
   }
 
   PilotTrial trial_of(const WaySamples& samples, const ScatterDifference& found) const {
@@ -310,7 +317,7 @@ class PilotOfScatter {
       if (t.reference) return;
     PilotTrial own = trial_of(*own_, reference_);
     own.reference = true;
-    own.accepted = reference_.bound() <= options_.accuracy && options_.integrator.empty();
+    own.accepted = own.error <= options_.accuracy && good_reference() && options_.integrator.empty();
     result_.trials.push_back(own);
   }
 

@@ -119,7 +119,7 @@ class MonteCarloVerb : public Verb {
                                              .runs = question.plan.samples,
                                              .lanes = true},
                                             model_options, model.rung(), store.get());
-    if (!command.quiet) announce(question, store->count(), ranks->size());
+    if (!command.quiet) announce(question, choice, store->count(), ranks->size());
     Progress progress(command.quiet, static_cast<double>(question.plan.samples), "samples");
     options.progress = [&](const MonteCarloProgress& p) { show(progress, p, question); };
     const MonteCarloResult result = with_options_checked([&] { return run_montecarlo(model, question.plan, store.get(), *ranks, options); });
@@ -207,12 +207,17 @@ class MonteCarloVerb : public Verb {
     return {};
   }
 
-  static void announce(const MonteCarloQuestion& question, std::uint64_t stored, int ranks) {
+  static void announce(const MonteCarloQuestion& question, const RungChoice& choice, std::uint64_t stored, int ranks) {
     const MonteCarloPlan& plan = question.plan;
     fmt::print("{}: {} samples ({}), {} random parameters{}{}\n", question.mechanism->name(), plan.samples,
                plan.design.text(), plan.inputs.size(),
                stored > 0 ? fmt::format(", {} of them stored already", stored) : "",
                ranks > 1 ? fmt::format(", on {} ranks", ranks) : "");
+    if (choice.pilot) {
+      const double study = static_cast<double>(plan.samples) * choice.pilot->trials[choice.pilot->chosen].cpu_seconds;
+      fmt::print("  rung: {}, {}\n  the pilot took {} of CPU, the study will take about {}\n", choice.name, choice.why,
+                 readable(choice.pilot->cpu_seconds, "s"), readable(study, "s"));
+    }
     if (plan.requirement) {
       const auto fewest = [&](std::int64_t above) {
         return wilks_one_sided(plan.requirement->probability, plan.requirement->confidence, above);

@@ -121,6 +121,7 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
   if (integrator_names(rung.name()).empty()) {
     error.measured = true;
     error.basis = "this rung takes no steps";
+    error.stated.has_line_of_sight = error.spread.has_line_of_sight = error.shift.has_line_of_sight = result.index.has_line_of_sight;
     return error;
   }
   if (result.interrupted || result.cost.steps == 0) {
@@ -156,6 +157,8 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
   if (!error.why_not.empty()) return error;
 
   error.measured = true;
+  for (PointingIndices* indices : {&error.stated, &error.spread, &error.shift})
+    indices->has_line_of_sight = result.index.has_line_of_sight;
   for_each_index([&](auto quantity, auto statistic) {
     const std::vector<double> x = of(own, quantity, statistic), y = of(finer, quantity, statistic);
     const double shift = std::abs(mean(x) - mean(y));

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
@@ -83,6 +85,78 @@ TEST(Pilot, PassesOverRungsThatCannotFollowTheMotion) {
   EXPECT_FALSE(result.trials[1].refusal.empty());
   EXPECT_FALSE(result.trials[2].refusal.empty());
   EXPECT_TRUE(chosen(result).rung == "perturbation" || chosen(result).rung == "multibody");
+}
+
+TEST(Pilot, SaysWhereTheReferenceItselfIsWorseThanTheAccuracy) {
+  // Impacts make this motion one of many: two steps of multibody differ by more than a percent.
+  const auto mechanism = std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/spatial-double-crank/spatial-double-crank.toml"));
+  const PilotResult result = fly(mechanism, 0.001, {"position_error", "max"});
+  EXPECT_GT(result.reference_error, 0.001);
+  EXPECT_FALSE(result.met);
+  for (const PilotTrial& t : result.trials) EXPECT_FALSE(t.accepted) << t.rung;
+  EXPECT_NE(result.why.find("cannot be shown"), std::string::npos) << result.why;
+  // Nothing is told from multibody there, so nothing as dear as it is taken.
+  EXPECT_EQ(chosen(result).rung, "perturbation");
+}
+
+// Clearance, restitution and friction as the default study scatters them, by a net of fractions.
+std::vector<Parameters> scattered(const Mechanism& mechanism, int count, double largest = 1.0) {
+  std::vector<Parameters> samples;
+  for (int k = 0; k < count; ++k) {
+    const auto fraction = [k](double irrational) { return std::fmod(0.5 + k * irrational, 1.0); };
+    Parameters p = mechanism.parameters();
+    p.clearance[0].radial *= largest * (0.8 + 0.4 * fraction(0.754877666));
+    p.clearance[0].contact.restitution = 0.7 + 0.25 * fraction(0.569840291);
+    samples.push_back(p);
+  }
+  return samples;
+}
+
+PilotOptions of_scatter(double accuracy, ScatterStatistic statistic) {
+  PilotOptions options;
+  options.accuracy = accuracy;
+  options.index = {"position_error", "max"};
+  options.statistic = statistic;
+  options.lanes = options.integrators = true;
+  options.scene_varies = false;
+  options.runs = 2000;
+  return options;
+}
+
+TEST(PilotOfScatter, TakesLanesWhereTheyAnswerWhatTheStudyAsks) {
+  const auto mechanism = rrcpr({{"motion.duration", "0.1 s"}});
+  for (const double p : {0.0, 0.95}) {
+    const PilotResult result = run_pilot(mechanism, scattered(*mechanism, 256), of_scatter(0.03, {p}));
+    EXPECT_TRUE(result.met) << result.why;
+    EXPECT_EQ(chosen(result).rung, "perturbation") << result.why;
+    EXPECT_TRUE(chosen(result).lanes);
+    EXPECT_GE(result.pairs, 6u);
+    EXPECT_LE(chosen(result).error, 0.03);
+    EXPECT_EQ(result.errors.size(), 6u);
+    RungChoice choice{.name = chosen(result).rung, .why = "", .tolerance = chosen(result).tolerance};
+    RunOptions run;
+    apply(choice, run);
+    EXPECT_EQ(run.tolerance, chosen(result).tolerance);
+  }
+}
+
+TEST(PilotOfScatter, ClimbsWhereClearanceIsLarge) {
+  const auto mechanism = rrcpr({{"motion.duration", "0.1 s"}, {"clearance.F1.radial", "8 mm"}, {"clearance.F1.cap_radius", "25 mm"},
+                                {"clearance.F1.axial", "8 mm"}});
+  const PilotResult result = run_pilot(mechanism, scattered(*mechanism, 64), of_scatter(0.005, {}));
+  EXPECT_EQ(chosen(result).rung, "multibody") << result.why;
+}
+
+TEST(PilotOfScatter, AnswersTheSameOnAnyNumberOfThreads) {
+  const auto mechanism = rrcpr({{"motion.duration", "30 ms"}});
+  PilotOptions options = of_scatter(0.05, {0.95});
+  const PilotResult one = run_pilot(mechanism, scattered(*mechanism, 64), options);
+  options.jobs = 3;
+  const PilotResult three = run_pilot(mechanism, scattered(*mechanism, 64), options);
+  EXPECT_EQ(one.reference, three.reference);
+  EXPECT_EQ(one.reference_error, three.reference_error);
+  EXPECT_EQ(one.pairs, three.pairs);
 }
 
 TEST(RungChoice, AsksNoPilotWhereThereIsNothingToChoose) {
