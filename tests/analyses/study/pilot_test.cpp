@@ -88,11 +88,10 @@ TEST(Pilot, PassesOverRungsThatCannotFollowTheMotion) {
 }
 
 TEST(Pilot, SaysWhereTheReferenceItselfIsWorseThanTheAccuracy) {
-  // Impacts make this motion one of many: two steps of multibody differ by more than a percent.
-  const auto mechanism = std::make_shared<const Mechanism>(
-      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/spatial-double-crank/spatial-double-crank.toml"));
-  const PilotResult result = fly(mechanism, 0.001, {"position_error", "max"});
-  EXPECT_GT(result.reference_error, 0.001);
+  // Impacts make this motion one of many: neighbouring steps of multibody differ by tenths of a percent.
+  const auto mechanism = rrcpr({{"motion.duration", "0.2 s"}});
+  const PilotResult result = fly(mechanism, 5e-4, {"position_error", "max"});
+  EXPECT_GT(result.reference_error, 5e-4);
   EXPECT_FALSE(result.met);
   for (const PilotTrial& t : result.trials) EXPECT_FALSE(t.accepted) << t.rung;
   EXPECT_NE(result.why.find("cannot be shown"), std::string::npos) << result.why;

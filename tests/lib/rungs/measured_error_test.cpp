@@ -89,7 +89,7 @@ TEST(MeasuredError, IsThatOfTheMethodWhereNothingScatters) {
   EXPECT_LE(error.stated.position_error.max, 6.0 * off + 1e-11);
 }
 
-TEST(MeasuredError, SaysSoWhereItWouldTakeTooLong) {
+TEST(MeasuredError, SaysSoWhereItsTimeWouldNotDo) {
   const auto mechanism = example("3-rrcpr/3-rrcpr.toml", {{"motion.duration", "10 ms"}});
   const auto rung = make_rung("perturbation", mechanism);
   const RunResult run = rung->run(mechanism->parameters(), bare());
