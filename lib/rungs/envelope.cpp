@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "boresight/rungs/measured_by_dynamics.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/reaction_table.hpp"
 #include "boresight/rungs/scene_rung.hpp"
@@ -91,7 +92,6 @@ class Envelope final : public SceneRung {
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<ContactSummary> summary = reactions.summaries();
     std::vector<Rest> worst_rest(joints.size()), at_rest(joints.size());
-    double resting_max = 0.0, bound_max = 0.0;
     bool interrupted = false;
     for (int i = 0; i < reactions.instants() && !interrupted; ++i) {
       const ReactionTable::Instant now = reactions.at(i);
@@ -132,8 +132,6 @@ class Envelope final : public SceneRung {
         m.slope = offset.tail<2>();
         joints[c].gaps(m, worst_rest[c].contact);
       }
-      resting_max = std::max(resting_max, (now.pose_gain.topRows<3>() * reactions.coordinates(at_rest)).norm());
-      bound_max = std::max(bound_max, bound.position);
       const VecX z = reactions.coordinates(worst_rest);
       const DisplacedBodies displaced(prepared, now.t, z);
       bound.displacement = now.pose_gain.topRows<3>() * z;
@@ -150,8 +148,6 @@ class Envelope final : public SceneRung {
     RunResult result = recorder.finish();
     result.interrupted = interrupted;
     result.integrator = "none: the worst offset an instant";
-    result.error = {bound_max > 0.0 ? 1.0 - resting_max / bound_max : 0.0, 0.0,
-                    "excess of the bound over the journals' rest (quasistatic) in the largest position error"};
     result.contact = std::move(summary);
     result.cost.steps = result.cost.evaluations = reactions.instants();
     return result;
@@ -161,7 +157,8 @@ class Envelope final : public SceneRung {
 }  // namespace
 
 std::unique_ptr<Rung> make_envelope(std::shared_ptr<const Mechanism> mechanism) {
-  return std::make_unique<Envelope>(std::move(mechanism));
+  auto rung = std::make_unique<Envelope>(mechanism);
+  return with_error_measured_by_dynamics(std::move(rung), std::move(mechanism), true);
 }
 
 }  // namespace boresight

@@ -14,25 +14,16 @@
 #include "boresight/rungs/own_step.hpp"
 #include "boresight/rungs/perturbation_system.hpp"
 #include "boresight/rungs/scene_rung.hpp"
+#include "boresight/rungs/second_order.hpp"
 #include "boresight/rungs/start_up.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
 namespace boresight {
 namespace {
 
-// What is left out is of second order in the deviation: relative to what is kept, the deviation over the mechanism's size
-// (turns in rad, displacements over the characteristic length), times how much the mechanism magnifies its offsets.
-struct Nonlinearity {
-  double deviation = 0.0;  // largest, over the characteristic length or in rad
-  double offset = 0.0;     // largest, of any coordinate
-  void add(const PoseError& error, const Eigen::Ref<const VecX>& z, double length) {
-    deviation = std::max({deviation, error.position / length, error.orientation});
-    offset = std::max(offset, z.lpNorm<Eigen::Infinity>());
-  }
-  double share(double length) const {
-    return offset > 0.0 ? deviation * std::max(1.0, deviation * length / offset) : 0.0;
-  }
-};
+constexpr const char* kBasis =
+    "the largest deviations made exactly, by closing the joints around them: how their pose, and what pushes the journals there, "
+    "differ from the linear ones";
 
 class Perturbation final : public SceneRung {
  public:
@@ -72,7 +63,7 @@ class Perturbation final : public SceneRung {
     const double limit = classical_rk4().real_limit;
     bool interrupted = false;
     MatX compliance;
-    Nonlinearity nonlinearity;
+    LargestDeviations largest(duration);
     for (long i = 0;; ++i) {
       const double t = static_cast<double>(i) * h;
       if (!y.allFinite()) throw UnstableStep("the deviation is not finite", t, h);
@@ -88,7 +79,7 @@ class Perturbation final : public SceneRung {
           if (h * stiffest.angular_frequency > limit) throw UnstableStep(mechanism, stiffest, t, h);
         }
       }
-      record(prepared, t, y, method.first_slope(), system, recorder, nonlinearity);
+      record(prepared, t, y, method.first_slope(), system, recorder, largest);
       if (i == steps) break;
       if (options.progress && i % 4096 == 0 && !options.progress({t, duration, recorder.position_error_max()})) {
         interrupted = true;
@@ -104,8 +95,7 @@ class Perturbation final : public SceneRung {
     if (!start_warning.empty()) result.warnings.push_back(start_warning);
     finish_contacts(system, result);
     result.interrupted = interrupted;
-    result.error = {nonlinearity.share(mechanism.characteristic_length()), kNotMeasured,
-                    "size of the deviation against the mechanism, times how much the mechanism magnifies offsets"};
+    result.error = {second_order_share(this->mechanism(), prepared, parameters, largest), kNotMeasured, kBasis};
     result.cost.steps = steps;
     result.cost.evaluations = 4 * steps + 1;
     return result;
@@ -118,7 +108,7 @@ class Perturbation final : public SceneRung {
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, 2.0 * duration / kPaperStep);
     std::string start_warning;
     VecX y = system.start_state(mechanism(), options.start_offset, start_warning), slope = y;
-    Nonlinearity nonlinearity;
+    LargestDeviations largest(duration);
     bool interrupted = false;
     long points = 0;
     system.start_located(0.0, y);
@@ -127,7 +117,7 @@ class Perturbation final : public SceneRung {
                        integration_options(prepared, system, parameters, options), [&](double t, const VecX& state, bool) {
                          system.derivative(t, state, slope);
                          system.observe(t);
-                         record(prepared, t, state, slope, system, recorder, nonlinearity);
+                         record(prepared, t, state, slope, system, recorder, largest);
                          interrupted = ++points % 4096 == 0 && options.progress &&
                                        !options.progress({t, duration, recorder.position_error_max()});
                          return !interrupted;
@@ -138,9 +128,7 @@ class Perturbation final : public SceneRung {
     if (!start_warning.empty()) result.warnings.push_back(start_warning);
     finish_contacts(system, result);
     result.interrupted = interrupted;
-    result.error = {
-        nonlinearity.share(mechanism().characteristic_length()), kNotMeasured,
-        "size of the deviation against the mechanism, times how much the mechanism magnifies offsets"};
+    result.error = {second_order_share(this->mechanism(), prepared, parameters, largest), kNotMeasured, kBasis};
     return result;
   }
 
@@ -231,12 +219,13 @@ class Perturbation final : public SceneRung {
   }
 
   void record(const PreparedScene& prepared, double t, const VecX& y, const VecX& slope,
-              const PerturbationSystem& system, MotionRecorder& recorder, Nonlinearity& nonlinearity) const {
+              const PerturbationSystem& system, MotionRecorder& recorder, LargestDeviations& largest) const {
     const Eigen::Index n = system.layout().n;
     const DisplacedBodies displaced(prepared, t, y.head(n));
     BodyAcceleration a;
     BodyMotion body = displaced.moving(mechanism().boresight_body(), y.segment(n, n), slope.segment(n, n), a);
-    nonlinearity.add(recorder.accept(t, body, a), y.head(n), mechanism().characteristic_length());
+    const PoseError& error = recorder.accept(t, body, a);
+    largest.add(t, std::max(error.position / mechanism().characteristic_length(), error.orientation), y.head(n));
     if (!recorder.sampling()) return;
     for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {
       body = displaced.moving(recorder.bodies_wanted()[k], y.segment(n, n), slope.segment(n, n), a);

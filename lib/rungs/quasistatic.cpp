@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "boresight/rungs/measured_by_dynamics.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/reaction_table.hpp"
 #include "boresight/rungs/scene_rung.hpp"
@@ -28,7 +29,6 @@ class Quasistatic final : public SceneRung {
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<Rest> rest(joints.size());
     std::vector<ContactSummary> summary = reactions.summaries();
-    double overshoot = 0.0;  // relative to the offset
     bool interrupted = false;
     for (int i = 0; i < reactions.instants() && !interrupted; ++i) {
       const ReactionTable::Instant now = reactions.at(i);
@@ -37,11 +37,6 @@ class Quasistatic final : public SceneRung {
       for (std::size_t c = 0; c < joints.size(); ++c) {
         rest[c] = rest_under(joints[c], now.load[c].force, now.load[c].slide, rest[c]);
         reactions.note(rest[c], summary[c]);
-        // An elastic Hertz contact that a load F meets suddenly goes as deep as 2/5 K d^(5/2) = F d lets it.
-        // A spring goes twice as deep, the other curves less: the bound for them all.
-        const double kSudden = joints[c].radial_law.curve == ElasticCurve::point ? 0.8420157493201933 : 1.0;  // (5/2)^(2/3) - 1
-        const double deflection = std::max(rest[c].radial_reach[0], rest[c].radial_reach[1]) - joints[c].radial_clearance;
-        overshoot = std::max(overshoot, kSudden * deflection / (joints[c].radial_clearance + deflection));
       }
       const VecX z = reactions.coordinates(rest);
       const DisplacedBodies displaced(prepared, now.t, z);
@@ -59,8 +54,6 @@ class Quasistatic final : public SceneRung {
     RunResult result = recorder.finish();
     result.interrupted = interrupted;
     result.integrator = "none: one static balance an instant";
-    result.error = {overshoot, 0.0,
-                    "what a load applied at once adds to a resting journal's penetration: (5/2)^(2/3) times it at most"};
     result.contact = std::move(summary);
     result.cost.steps = result.cost.evaluations = reactions.instants();
     return result;
@@ -70,7 +63,8 @@ class Quasistatic final : public SceneRung {
 }  // namespace
 
 std::unique_ptr<Rung> make_quasistatic(std::shared_ptr<const Mechanism> mechanism) {
-  return std::make_unique<Quasistatic>(std::move(mechanism));
+  auto rung = std::make_unique<Quasistatic>(mechanism);
+  return with_error_measured_by_dynamics(std::move(rung), std::move(mechanism), false);
 }
 
 }  // namespace boresight

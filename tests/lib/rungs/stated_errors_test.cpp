@@ -1,0 +1,158 @@
+// What rungs state of their own errors, against multibody: stated must not be less than actual, nor so much
+// that it says nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/measured_error.hpp"
+#include "boresight/rungs/rung.hpp"
+#include "scenes.hpp"
+
+namespace boresight {
+namespace {
+
+struct Scene {
+  const char* example;  // folder and file of examples/
+  std::vector<Setting> settings;
+  bool free_axes = false;
+};
+
+std::string words(const Scene& scene) {
+  std::string text = scene.example;
+  for (const Setting& s : scene.settings) text += ", " + s.path + " = " + s.value;
+  return text + (scene.free_axes ? ", free axes" : "");
+}
+
+std::shared_ptr<const Mechanism> mechanism_of(const Scene& scene) {
+  MechanismDescription d = read_mechanism(
+      std::string(BORESIGHT_EXAMPLES) + "/" + scene.example + "/" + scene.example + ".toml", scene.settings);
+  for (ClearanceDescription& c : d.clearances)
+    if (scene.free_axes) c.axes = JournalAxes::free;
+  return scenes::build(std::move(d));
+}
+
+struct Verdict {
+  double actual = 0.0, stated = 0.0;  // where their ratio is largest
+  void see(double a, double s) {
+    if (a * stated >= actual * s) {
+      actual = a;
+      stated = s;
+    }
+  }
+};
+
+constexpr std::array kStatistics = {&Statistics::max, &Statistics::rms, &Statistics::mean};
+
+// Multibody at half its own step and two neighbours: impacts make each a draw.
+std::vector<PointingIndices> references(const std::shared_ptr<const Mechanism>& mechanism) {
+  const auto multibody = make_rung("multibody", mechanism);
+  RunOptions options;
+  options.sample_spacing = 0.0;
+  options.events = false;
+  const RunResult own = multibody->run(mechanism->parameters(), options);
+  const double step = own.end_time / static_cast<double>(own.cost.steps);
+  std::vector<PointingIndices> runs;
+  for (double share : {0.5, 0.49, 0.48}) {
+    options.step = share * step;
+    runs.push_back(multibody->run(mechanism->parameters(), options).index);
+  }
+  return runs;
+}
+
+Verdict judge(const char* name, const std::shared_ptr<const Mechanism>& mechanism,
+              const std::vector<PointingIndices>& exact) {
+  const auto rung = make_rung(name, mechanism);
+  RunOptions options;
+  options.sample_spacing = 0.0;
+  options.events = false;
+  const RunResult result = rung->run(mechanism->parameters(), options);
+  const MeasuredError steps = measure_discretisation(*rung, mechanism->parameters(), options, result);
+  Verdict verdict;
+  const double length = mechanism->characteristic_length();
+  for (const auto quantity : {&PointingIndices::position_error, &PointingIndices::orientation_error}) {
+    const bool turns = quantity == &PointingIndices::orientation_error;
+    if (turns && length * (exact[0].*quantity).max < 1e-3 * exact[0].position_error.max) continue;
+    for (const auto statistic : kStatistics) {
+      double reference = 0.0;
+      for (const PointingIndices& index : exact)
+        reference += index.*quantity.*statistic / static_cast<double>(exact.size());
+      if (!(reference > 0.0)) continue;
+      const double value = result.index.*quantity.*statistic;
+      verdict.see(std::abs(value / reference - 1.0),
+                  result.error.model + steps.stated.*quantity.*statistic / value);
+    }
+  }
+  return verdict;
+}
+
+// Prints the table; returns the ratios of actual over stated.
+std::vector<double> table(const char* rung, const std::vector<Scene>& scenes) {
+  std::vector<double> ratios;
+  for (const Scene& scene : scenes) {
+    const auto mechanism = mechanism_of(scene);
+    try {
+      const Verdict v = judge(rung, mechanism, references(mechanism));
+      ratios.push_back(v.actual / v.stated);
+      std::printf("%-12s off by %7.2f %%, states %7.2f %%, ratio %.2f: %s\n", rung, 100.0 * v.actual,
+                  100.0 * v.stated, ratios.back(), words(scene).c_str());
+    } catch (const ComputationError& refusal) {
+      std::printf("%-12s refuses: %s: %s\n", rung, words(scene).c_str(), refusal.what());
+    }
+  }
+  std::sort(ratios.begin(), ratios.end());
+  if (!ratios.empty())
+    std::printf("%s: median ratio %.2f, largest %.2f\n", rung, ratios[ratios.size() / 2], ratios.back());
+  return ratios;
+}
+
+const std::vector<Scene> kScenes = {
+    {"2-us-pointing", {{"motion.duration", "0.3 s"}}},
+    {"3-rrr", {{"motion.duration", "0.3 s"}}},
+    {"crank-slider", {{"motion.duration", "0.3 s"}}},
+    {"four-bar", {{"motion.duration", "0.3 s"}}},
+    {"spatial-double-crank", {{"motion.duration", "0.3 s"}}},
+    {"spatial-slider-crank", {{"motion.duration", "0.3 s"}}},
+    {"flores-slider-crank", {}},
+    {"3-rrcpr", {{"motion.duration", "0.3 s"}}},
+    {"3-rrcpr", {{"motion.duration", "0.01 s"}}},
+    {"3-rrcpr", {{"motion.duration", "0.3 s"}, {"clearance.F1.contact.restitution", "1"}}},
+    {"3-rrcpr", {{"motion.duration", "0.3 s"}, {"clearance.F1.friction.coefficient", "0.5"}}},
+    {"3-rrcpr", {{"motion.duration", "0.3 s"}, {"payload.mass", "250 kg"}}},
+    {"3-rrcpr", {{"motion.duration", "0.2 s"}}, true},
+};
+
+TEST(StatedErrorsLong, OfEveryRungHoldAgainstMultibody) {
+  for (const char* rung : {"quasistatic", "envelope", "perturbation"}) {
+    const std::vector<double> ratios = table(rung, kScenes);
+    ASSERT_FALSE(ratios.empty());
+    EXPECT_LE(ratios.back(), 1.0) << rung;
+    EXPECT_GE(ratios[ratios.size() / 2], 0.1) << rung << " states so much that it says nothing";
+  }
+}
+
+// A motion that is over before anything settles.
+TEST(StatedErrors, OfRestingJournalsHoldWhereNothingSettles) {
+  const auto mechanism = mechanism_of({"3-rrcpr", {{"motion.duration", "0.01 s"}}});
+  const Verdict v = judge("quasistatic", mechanism, references(mechanism));
+  EXPECT_LE(v.actual, v.stated);
+  EXPECT_LE(v.stated, 3.0 * v.actual);
+}
+
+TEST(StatedErrors, OfTheLinearDeviationGrowWithTheClearanceAndHoldInFlight) {
+  for (const char* clearance : {"0.5 mm", "5 mm"}) {
+    const auto mechanism = mechanism_of({"3-rrcpr",
+                                         {{"motion.duration", "0.012 s"},
+                                          {"clearance.F1.radial", clearance},
+                                          {"clearance.F1.axial", clearance}}});
+    const Verdict v = judge("perturbation", mechanism, references(mechanism));
+    EXPECT_LE(v.actual, v.stated) << clearance;
+    EXPECT_LE(v.stated, 0.1) << clearance;
+  }
+}
+
+}  // namespace
+}  // namespace boresight
