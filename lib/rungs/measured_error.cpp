@@ -170,7 +170,7 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
       stated = std::abs(x[0] - mean(x)) + (stands_out ? 2.0 : 1.0) * shift + kStudent4 * spread * std::sqrt(1.0 + 1.0 / n);
     } else {
       const std::vector<double> values = {x[0], x[1], y[0]};
-      spread = std::abs(x[0] - x[1]) / std::sqrt(2.0);
+      spread = settled ? 0.0 : std::abs(x[0] - x[1]) / std::sqrt(2.0);  // what agrees does not scatter
       stated = (settled ? kOfRange : kOfScatteredRange) * range(values);
     }
     error.stated.*quantity.*statistic = stated;

@@ -62,6 +62,7 @@ void hold(const std::string& name, const std::string& rung_name, const std::shar
                   error.scatters(&PointingIndices::position_error, kStatistics[k]) ? " (scatters)" : "");
   }
   std::printf("\n");
+  std::fflush(stdout);
 }
 
 TEST(MeasuredError, CoversHalfAndQuarterStepsOfAMotionWithImpacts) {
@@ -87,6 +88,7 @@ TEST(MeasuredError, IsThatOfTheMethodWhereNothingScatters) {
   const double off = std::abs(coarse.index.position_error.max - fine.index.position_error.max);
   EXPECT_GE(error.stated.position_error.max, off);
   EXPECT_LE(error.stated.position_error.max, 6.0 * off + 1e-11);
+  EXPECT_FALSE(error.scatters(&PointingIndices::position_error, &Statistics::max));
 }
 
 TEST(MeasuredError, SaysSoWhereItsTimeWouldNotDo) {
