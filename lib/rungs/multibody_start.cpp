@@ -12,6 +12,8 @@ namespace {
 // Steps of the journals, over their clearances: shorter ones are rounding.
 constexpr double kRounding = 1e-12;
 constexpr int kMostSteps = 40;
+// A step this many times the shortest leads away.
+constexpr double kAstray = 100.0;
 
 std::vector<BodyMotion> displaced_bodies(const ClearanceScene::Start& scene, const VecX& z) {
   std::vector<BodyMotion> bodies = scene.ideal.bodies;
@@ -80,7 +82,7 @@ void rest_journals(const Mechanism& mechanism, const Parameters& parameters, con
   VecX z = rest.z, trial, dy(y.size());
   std::vector<JournalMotion<double>> journals(joints.size());
   // What no place of the journals balances is left to the motion: steps are judged by their length.
-  double before = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kMostSteps; ++step) {
     formulation.place_bodies(displaced_bodies(scene, z), trial);
     formulation.close_joints(0.0, trial);
@@ -89,10 +91,11 @@ void rest_journals(const Mechanism& mechanism, const Parameters& parameters, con
     for (std::size_t c = 0; c < journals.size(); ++c) journals[c] = formulation.forces().motion(static_cast<int>(c));
     const VecX dz = balance.correction(balance.stiffness_at(journals), left);
     const double length = dz.cwiseQuotient(balance.scale()).cwiseAbs().maxCoeff();
-    if (!(length < before)) return;  // it does not get nearer: y is the nearest place
-    y = trial;
-    if (length <= kRounding) return;
-    before = length;
+    if (length < least) {
+      least = length;
+      y = trial;
+    }
+    if (length <= kRounding || !(length < kAstray * least)) return;
     z += dz;
   }
 }
