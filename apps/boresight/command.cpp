@@ -124,10 +124,10 @@ RunOptions MotionOptions::run_options(const Mechanism& mechanism, const std::str
     throw InputError(kCommandLine, "--integrator", in_quotes(integrator), "none: the " + rung + " rung takes no steps");
   options.integrator = integrator;
   if (!tolerance.empty()) {
-    options.tolerance = quantity_between("--tolerance", tolerance, {kRatio, "1e-12 %", "100 %"});
-    if (integrator.empty() || integrator == "rk4")
-      throw InputError(kCommandLine, "--tolerance", in_quotes(tolerance),
-                       "an --integrator with an error estimate: dopri5, rosenbrock or generalized-alpha");
+    // A pure number may stand alone.
+    double number = 0.0;
+    options.tolerance = quantity_between("--tolerance", parse_number(tolerance, number) ? fmt::format("{:.17g} %", 100.0 * number) : tolerance,
+                                         {kRatio, "1e-12 %", "100 %"});
     if (!step.empty()) throw InputError(kCommandLine, "--tolerance", in_quotes(tolerance), "this or --step, not both");
   }
   options.formulation = formulation;
