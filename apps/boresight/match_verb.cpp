@@ -192,7 +192,7 @@ class MatchVerb : public Verb {
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, match_report(matched)); });
     if (!command.quiet) print(matched, out);
     if (result.interrupted) return kInterrupted;
-    if (result.design.empty()) return kFailed;
+    if (result.design.empty() || evaluator.failures().count == evaluator.runs()) return kFailed;
     return result.feasible && result.converged ? kDone : kAnswerIsNo;
   }
 

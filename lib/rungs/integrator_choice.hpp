@@ -22,9 +22,8 @@ std::vector<std::string> integrator_names(const std::string& rung);
 // Of any rung.
 std::vector<std::string> integrator_names();
 
-// Error of one step over the smallest clearance, where RunOptions::tolerance asks for nothing. Multibody's turns and
-// slides are held more strictly by the same number than the offsets themselves.
-inline constexpr double kPerturbationTolerance = 1e-3, kMultibodyTolerance = 3e-3;
+// Error of one step over the smallest clearance, where RunOptions::tolerance asks for nothing.
+inline constexpr double kPerturbationTolerance = 1e-3, kMultibodyTolerance = 1e-3;
 double tolerance_of(const RunOptions& options, const std::string& rung);
 
 // Of generalized-alpha at infinite frequency: fast modes lose four fifths of their amplitude in a step.

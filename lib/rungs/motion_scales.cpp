@@ -35,7 +35,8 @@ void MotionScales::close(double duration) {
 }
 
 void MotionScales::apply(double duration, double slowest_impact, IntegrationOptions& options) const {
-  options.largest_step = std::min(duration / kLeastSteps, kTurnOfAStep * own_time);
+  // A step that was asked for is taken as it is.
+  if (options.step == 0.0) options.largest_step = std::min(duration / kLeastSteps, kTurnOfAStep * own_time);
   // A flight this short ends below the slowest impact speed that a contact latches: nothing is lost by not locating it.
   if (largest_acceleration > 0.0 && slowest_impact > 0.0)
     options.event_floor = std::min(options.event_floor, 2.0 * slowest_impact / largest_acceleration);

@@ -38,10 +38,10 @@ TEST(Options, UnknownWordsAreRefusedWithThoseThatThereAre) {
   options = {};
   options.integrator = "generalised-alpha";
   EXPECT_EQ(refusal("multibody", options),
-            "integrator: found \"generalised-alpha\", expected rk4, dopri5, rosenbrock or generalized-alpha; did you mean "
+            "integrator: found \"generalised-alpha\", expected rk4, dopri5, rosenbrock or generalized-alpha (those of the multibody rung); did you mean "
             "generalized-alpha?");
   options.integrator = "generalized-alpha";
-  EXPECT_EQ(refusal("perturbation", options), "integrator: found \"generalized-alpha\", expected rk4, dopri5 or rosenbrock");
+  EXPECT_EQ(refusal("perturbation", options), "integrator: found \"generalized-alpha\", expected rk4, dopri5 or rosenbrock (those of the perturbation rung)");
 }
 
 TEST(Options, NumbersOutOfRangeAreRefused) {
