@@ -262,15 +262,14 @@ class Trial {
     }
   }
 
-  // What rounding may grow to: the figure's range over starts or steps that differ in the ninth digit.
+  // What rounding may grow to: the figure's range over steps that differ by a percent. (Less would round to the same steps.)
   double neighbours_spread(const Asked& asked, std::size_t figure) {
     std::vector<Measured>& runs = neighbours_[asked.rung];
     if (runs.empty()) {
       runs.push_back(base_[asked.rung]);
-      for (double shift : {-1.0, 1.0, 2.0, -3.0}) {
+      for (double factor : {0.99, 0.995, 1.005, 1.01}) {
         Asked neighbour = asked;
-        if (asked.rung == "perturbation") neighbour.start_offset = shift * 1e-9 * smallest_clearance(mechanism_->parameters());
-        else neighbour.step = base_[asked.rung].step * (1.0 + shift * 1e-7);
+        neighbour.step = base_[asked.rung].step * factor;
         if (const auto m = measure_safely(neighbour, true)) runs.push_back(*m);
       }
     }
