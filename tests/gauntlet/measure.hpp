@@ -27,6 +27,7 @@ struct Measured {
   std::array<double, kFigures.size()> figure{};
   double model = 0.0;  // what the rung states of its model, relative
   std::array<double, kFigures.size()> by_steps{};  // what further runs show that steps do, of each figure; zero until measured
+  bool steps_measured = false;
   double step = 0.0;              // mean [s]
   double deepest = 0.0;           // deepest penetration over the smallest play [-]
   std::string basis, not_finite;

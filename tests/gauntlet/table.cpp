@@ -64,7 +64,7 @@ void print_table(const std::vector<Verdict>& verdicts) {
   print_counts("wrong, scenes by kind and stage", wrong_kinds);
   print_counts("scenes refused as a whole, by reason", scene_refusals);
   print_counts("stages refused, by reason", stage_refusals);
-  fmt::print("\nactual error over stated\n  {:<32} {:>5} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "", "runs", "median", "90 %", "95 %", "99 %", "max");
+  fmt::print("\nactual error over stated, where the comparison asked for the steps\' part\n  {:<32} {:>5} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "", "runs", "median", "90 %", "95 %", "99 %", "max");
   for (auto& [stage, values] : ratios) {
     std::sort(values.begin(), values.end());
     const auto quantile = [&](double p) { return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))]; };

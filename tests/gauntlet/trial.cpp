@@ -184,13 +184,16 @@ class Trial {
   void know_steps(Measured& run, const Asked& asked) {
     const Outcome outcome = in_sandbox(options_.limits, [&] { return measure_steps(mechanism_, asked, 0.4 * options_.limits.cpu_seconds); });
     verdict_.cpu_seconds += outcome.cpu_seconds;
-    if (outcome.end == Outcome::End::answered && outcome.answer.contains("by_steps"))
+    run.steps_measured = outcome.end == Outcome::End::answered && outcome.answer.contains("by_steps");
+    if (run.steps_measured)
       for (std::size_t k = 0; k < kFigures.size(); ++k) run.by_steps[k] = outcome.answer["by_steps"][k].is_number() ? outcome.answer["by_steps"][k].get<double>() : 0.0;
     else if (outcome.end == Outcome::End::answered)
       verdict_.refusals.push_back({asked.label() + ", steps not measured", outcome.answer["why_not"]});
   }
 
+  // Only of runs whose stated error is whole: that of the steps is measured where a comparison asks for it.
   void note_claims(const Asked& asked, const std::vector<Measured>& runs) {
+    if (asked.rung != "quasistatic" && !runs.front().steps_measured) return;
     double worst = -1.0;
     Claim claim{asked.label(), "", 0.0, 0.0};
     for (std::size_t k = 0; k < kFigures.size(); ++k) {
