@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <limits>
 #include <mutex>
-#include <optional>
 #include <utility>
 
 #include "boresight/integrate/explicit_runge_kutta.hpp"
@@ -26,6 +25,7 @@
 #include "boresight/rungs/multibody_system.hpp"
 #include "boresight/rungs/option_check.hpp"
 #include "boresight/rungs/own_step.hpp"
+#include "boresight/rungs/scene_rung.hpp"
 #include "boresight/rungs/start_up.hpp"
 #include "boresight/rungs/unstable_step.hpp"
 
@@ -48,8 +48,8 @@ class Multibody final : public Rung {
     check_options(options, name(), *mechanism_, parameters);
     const auto wall = std::chrono::steady_clock::now();
     const double cpu = thread_cpu_seconds();
-    std::optional<IdealMotion> simulated;
-    const IdealMotion& ideal = ideal_for(parameters, simulated);
+    const std::shared_ptr<const IdealMotion> held_ideal = ideal_for(parameters);
+    const IdealMotion& ideal = *held_ideal;
 
     const std::string integrator = integrator_of(options);
     RunResult result;
@@ -72,14 +72,19 @@ class Multibody final : public Rung {
   }
 
  private:
-  const IdealMotion& ideal_for(const Parameters& parameters, std::optional<IdealMotion>& simulated) const {
-    std::call_once(once_, [this] {
-      kinematic_ = is_kinematic(*mechanism_);
-      if (kinematic_) ideal_.emplace(ideal_motion(*mechanism_, mechanism_->parameters()));
-    });
-    if (kinematic_) return *ideal_;
-    simulated.emplace(ideal_motion(*mechanism_, parameters));
-    return *simulated;
+  // The last one is kept: a simulated one costs as much as a run, and further runs of the same parameters ask for it again.
+  std::shared_ptr<const IdealMotion> ideal_for(const Parameters& parameters) const {
+    std::call_once(once_, [this] { kinematic_ = is_kinematic(*mechanism_); });
+    {
+      const std::lock_guard lock(ideal_mutex_);
+      if (ideal_ && (kinematic_ || same_scene(ideal_parameters_, parameters))) return ideal_;
+      if (kinematic_) return ideal_ = std::make_shared<const IdealMotion>(ideal_motion(*mechanism_, parameters));
+    }
+    auto simulated = std::make_shared<const IdealMotion>(ideal_motion(*mechanism_, parameters));
+    const std::lock_guard lock(ideal_mutex_);
+    ideal_ = simulated;
+    ideal_parameters_ = parameters;
+    return simulated;
   }
 
   // Sentences on plays that cannot move: of the mechanism, whatever the parameters.
@@ -405,7 +410,9 @@ class Multibody final : public Rung {
   mutable std::once_flag once_, held_once_;
   mutable std::vector<std::string> held_;
   mutable bool kinematic_ = false;
-  mutable std::optional<IdealMotion> ideal_;
+  mutable std::mutex ideal_mutex_;
+  mutable std::shared_ptr<const IdealMotion> ideal_;
+  mutable Parameters ideal_parameters_;
 };
 
 }  // namespace

@@ -68,6 +68,7 @@ class Frictionless {
 void rest_journals(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal, Formulation& formulation,
                    VecX& y, std::string& warning) {
   const ClearanceScene::Start scene = ClearanceScene::at_start(mechanism, ideal, parameters);
+  if (scene.layout.n == 0) return;  // no play can move
   std::vector<JournalInSleeve> joints;
   for (int c = 0; c < formulation.forces().clearances(); ++c) joints.push_back(formulation.forces().joint(c));
   const RestingBalance balance(scene.layout, scene.row.data(), joints);

@@ -48,6 +48,8 @@ inline MechanismDescription flyball_governor(double stiffness, double damping) {
   const int left = body("left", 3.0, {-0.3, 0.0, 0.35}, {0.02, 0.03, 0.03});
   const int right = body("right", 3.0, {0.3, 0.0, 0.35}, {0.02, 0.03, 0.03});
   const int collar = body("collar", 1.0, {0.0, 0.0, 0.2}, {0.002, 0.002, 0.002});
+  m.bodies[spindle].boresight.reset();
+  m.bodies[collar].boresight = Vec3::UnitZ();
   const auto joint = [&](const char* name, JointType type, int first, int second, const Vec3& point, const Vec3& axis) {
     m.joints[add_joint(m, type, first, second, point, axis)].name = name;
   };

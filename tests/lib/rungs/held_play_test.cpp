@@ -106,8 +106,11 @@ TEST(HeldPlay, LeavesEveryRungAtTheIdealMotion) {
               if (integrator == "generalized-alpha") options.step = 1e-4;
               const RunResult result = make_rung(rung, mechanism)->run(mechanism->parameters(), options);
               const std::string where = rung + " " + integrator + " " + formulation;
-              EXPECT_LT(result.index.position_error.max, 1e-9) << where;
-              EXPECT_LT(result.index.orientation_error.max, 1e-8) << where;
+              // Steps under error control err by their tolerance, which is a share of the clearance; a turn by that over 0.1 m.
+              const bool controlled = !integrator.empty() && integrator != "rk4";
+              const double most = controlled ? tolerance_of(options, rung) * mechanism->parameters().clearance[0].radial : 1e-9;
+              EXPECT_LT(result.index.position_error.max, most) << where;
+              EXPECT_LT(result.index.orientation_error.max, 10.0 * most) << where;
               EXPECT_NEAR(result.end_time, mechanism->duration(), 1e-9) << where;
               ASSERT_FALSE(result.warnings.empty()) << where;
               EXPECT_NE(result.warnings[0].find("cannot move"), std::string::npos) << result.warnings[0];

@@ -102,7 +102,7 @@ TEST(OwnStep, HoldsBesideStiffDampersAndATooLargeOneIsSaidToBe) {
 }
 
 // Platform on legs whose A axes stand at 45 degrees, journals free to tilt, heavy: impacts are far stiffer than the load at rest.
-TEST(OwnStep, IsShortenedWhereAMotionBlowsUpAndNoPoseIsCalledSingular) {
+TEST(OwnStepLong, IsShortenedWhereAMotionBlowsUpAndNoPoseIsCalledSingular) {
   constexpr double kEta = 0.78539816339744831;
   for (const double eta : {-kEta, kEta})
     for (const char* formulation : {"tree", "paper"}) {
