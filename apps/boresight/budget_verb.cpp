@@ -133,7 +133,8 @@ class BudgetVerb : public Verb {
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "pointing budget: APE, MPE, RPE, PDE, PRE; ensemble, temporal, mixed"; }
   std::string example() const override {
-    return "boresight budget examples/3-rrcpr/budget.toml --set clearance.F1.axes=free";
+    return "boresight budget examples/3-rrcpr/budget.toml --set clearance.F1.axes=free --rung perturbation "
+           "--integrator rosenbrock";
   }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);
