@@ -27,6 +27,8 @@ std::shared_ptr<const Mechanism> incline(const std::string& friction, double coe
   c.parameters.friction.coefficient = coefficient;
   c.parameters.friction.bristle_damping = 30.0;
   m.motion.duration = duration;
+  // It falls into the bore: one that starts at rest has no bristle bent yet, and swings on them for half a second.
+  m.journals = JournalStart::centred;
   return scenes::build(std::move(m));
 }
 
