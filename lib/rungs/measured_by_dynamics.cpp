@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/perturbation.hpp"
@@ -155,17 +156,24 @@ class MeasuredByDynamics final : public Rung {
         "largest over maximum, "
         "RMS and mean";
     const double length = mechanism_->characteristic_length();
-    const std::array quantities = {&PointingIndices::position_error, &PointingIndices::orientation_error,
-                                   &PointingIndices::boresight_error};
-    // All on the mechanism's size, so that they weigh against each other [m].
+    std::vector<Statistics PointingIndices::*> quantities = {
+        &PointingIndices::position_error, &PointingIndices::orientation_error, &PointingIndices::boresight_error};
+    const bool sighted = mechanism_->pointing().line_of_sight.has_value();
+    if (sighted) quantities.push_back(&PointingIndices::line_of_sight_error);
+    // All on the mechanism's size, so that they weigh against each other [m]. The line of sight weighs against itself alone: how
+    // small an angle a displacement is depends on the target's distance.
     const auto unit = [&](Statistics PointingIndices::*quantity) {
       return quantity == &PointingIndices::position_error ? 1.0 : length;
     };
-    double largest = 0.0;
-    for (const auto quantity : quantities)
-      for (const RunResult& motion : motions)
-        largest = std::max(largest, unit(quantity) * (motion.index.*quantity).max);
+    const auto largest_of = [&](Statistics PointingIndices::*quantity) {
+      double largest = 0.0;
+      for (const RunResult& motion : motions) largest = std::max(largest, unit(quantity) * (motion.index.*quantity).max);
+      return largest;
+    };
+    double largest_pose = 0.0;
+    for (int k = 0; k < 3; ++k) largest_pose = std::max(largest_pose, largest_of(quantities[k]));
     for (const auto quantity : quantities) {
+      const double largest = quantity == &PointingIndices::line_of_sight_error ? largest_of(quantity) : largest_pose;
       for (const auto statistic : {&Statistics::max, &Statistics::rms, &Statistics::mean}) {
         double low = 1e300, high = 0.0, sum = 0.0;
         for (const RunResult& motion : motions) {

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/formulation.hpp"
@@ -75,7 +76,8 @@ double second_order_share(const Mechanism& mechanism, const PreparedScene& prepa
   const auto formulation = make_tree_formulation(mechanism, parameters, &prepared.ideal(), {});
   std::vector<double> row(tables->dynamics.width());
   // Largest misses and sizes met.
-  double moved = 0.0, moved_off = 0.0, turned = 0.0, turned_off = 0.0;
+  double moved = 0.0, moved_off = 0.0, turned = 0.0, turned_off = 0.0, aimed = 0.0, aimed_off = 0.0, sighted = 0.0, sighted_off = 0.0;
+  const std::optional<LineOfSight>& line_of_sight = mechanism.pointing().line_of_sight;
   // Of each group, over the instants: a force that is off early shows in where the journal gets to later.
   std::vector<double> weighs(groups.size(), 0.0), pushed_off(groups.size(), 0.0);
   try {
@@ -112,6 +114,14 @@ double second_order_share(const Mechanism& mechanism, const PreparedScene& prepa
       moved_off = std::max(moved_off, off.head<3>().norm());
       turned = std::max(turned, linear.tail<3>().norm());
       turned_off = std::max(turned_off, off.tail<3>().norm());
+      const Vec3 axis = state.bodies[body].R * mechanism.pointing().boresight_B;
+      aimed = std::max(aimed, axis.cross(linear.tail<3>()).norm());
+      aimed_off = std::max(aimed_off, axis.cross(off.tail<3>()).norm());
+      if (line_of_sight) {
+        const Eigen::Matrix<double, 3, 6> G = line_of_sight->gain({state.bodies[body].p, Quat(state.bodies[body].R)});
+        sighted = std::max(sighted, (G * linear).norm());
+        sighted_off = std::max(sighted_off, (G * off).norm());
+      }
       VecX left = z_ddot + Rows(row.data() + at.AC, at.n, at.n) * z_dot;
       if (at.stiff) left += Rows(row.data() + at.AK, at.n, at.n) * z;
       const VecX push = reaction.cwiseQuotient(unit), push_off = inverse_mass.solve(left).cwiseQuotient(unit);
@@ -139,6 +149,8 @@ double second_order_share(const Mechanism& mechanism, const PreparedScene& prepa
   double share = 0.0;
   if (moved > kWeighs * length * turned) share = std::max(share, moved_off / moved);
   if (length * turned > kWeighs * moved) share = std::max(share, turned_off / turned);
+  if (length * aimed > kWeighs * moved) share = std::max(share, aimed_off / aimed);
+  if (sighted > 0.0) share = std::max(share, sighted_off / sighted);
   for (std::size_t g = 0; g < groups.size(); ++g) share += weighs[g] * pushed_off[g];
   return std::isfinite(share) ? std::min(share, 1.0) : 1.0;
 }
