@@ -22,7 +22,7 @@
 
 namespace boresight {
 
-// The largest deviation of each third of a motion.
+// The largest deviation of each sixteenth of a motion: what is next to nothing where the loads are large may not be where they are small.
 class LargestDeviations {
  public:
   explicit LargestDeviations(double duration) : duration_(duration) {}
@@ -33,8 +33,8 @@ class LargestDeviations {
   };
   // size: of the deviation, against the mechanism's.
   void add(double t, double size, const Eigen::Ref<const VecX>& z) {
-    const int third = std::clamp(static_cast<int>(kParts * t / duration_), 0, kParts - 1);
-    Deviation& largest = parts_[third];
+    const int part = std::clamp(static_cast<int>(kParts * t / duration_), 0, kParts - 1);
+    Deviation& largest = parts_[part];
     if (!(size > largest.size)) return;
     largest.t = t;
     largest.size = size;
@@ -43,7 +43,7 @@ class LargestDeviations {
   const auto& parts() const { return parts_; }
 
  private:
-  static constexpr int kParts = 3;
+  static constexpr int kParts = 16;
   double duration_;
   std::array<Deviation, kParts> parts_;
 };
