@@ -119,7 +119,7 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
     spacing_ *= 0.5;
     rows.clear();
     for (const Knot& knot : knots_) append_row(parameters, knot, rows);
-    const double error = interpolation_error(rows);
+    const double error = interpolation_error(rows, parameters);
     if (error <= 16.0 * accuracy) break;
     if (0.5 * spacing_ >= finest) continue;
     if (error <= kLargestMiss) break;
@@ -133,9 +133,24 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
 }
 
 
+// The rate below which stiffness between the contacts does next to nothing to the deviation [1/s]: that of the motion, or that at which
+// the loads cross the gaps where nothing but offsets deviates. What is small against it may be rounding, which no finer grid makes smooth.
+double ClearanceScene::slowest_rate(const std::vector<double>& rows, const Parameters& parameters) const {
+  const double of_motion = 1.0 / mechanism_.duration();
+  if (coordinates_.leftover() > 0) return of_motion;
+  double load = 0.0, gap = 0.0;
+  for (std::size_t c = 0; c < layout_.joints.size(); ++c) {
+    gap = std::max({gap, parameters.clearance[c].radial, parameters.clearance[c].axial});
+    for (int k = 0; k < 3; ++k)
+      if (const int source = layout_.joints[c].source[k]; source >= 0)
+        for (std::size_t row = 0; row < rows.size(); row += layout_.width) load = std::max(load, std::abs(rows[row + layout_.Ar + source]));
+  }
+  return gap > 0.0 ? std::max(of_motion, std::sqrt(load / gap)) : of_motion;
+}
+
 // Largest miss of the cubics through every other knot at the knots between, relative to the largest value of each group of
 // functions.
-double ClearanceScene::interpolation_error(const std::vector<double>& rows) const {
+double ClearanceScene::interpolation_error(const std::vector<double>& rows, const Parameters& parameters) const {
   const int width = layout_.width;
   if (width == 0) return 0.0;
   std::vector<double> coarse, between(width);
@@ -158,6 +173,9 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows) cons
         if (odd) miss[g] = std::max(miss[g], std::abs(row[i] - between[i]));
       }
   }
+  const double rate = slowest_rate(rows, parameters);
+  size[2] = std::max(size[2], 1.0 / mechanism_.duration());
+  size[3] = std::max(size[3], rate * rate);
   double worst = 0.0;
   for (std::size_t g = 0; g < ends.size(); ++g)
     if (size[g] > 1e-9) worst = std::max(worst, miss[g] / size[g]);

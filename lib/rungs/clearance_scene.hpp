@@ -100,7 +100,8 @@ class ClearanceScene {
   void assemble(const Parameters& parameters, const Knot& knot, MatX& M, MatX& C, VecX& r) const;
   MatX spring_stiffness(const Parameters& parameters, const Knot& knot) const;
   void append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row) const;
-  double interpolation_error(const std::vector<double>& rows) const;
+  double slowest_rate(const std::vector<double>& rows, const Parameters& parameters) const;
+  double interpolation_error(const std::vector<double>& rows, const Parameters& parameters) const;
   int element_size() const { return 2 * layout_.n * layout_.n + 4 * layout_.n; }
 
   const Mechanism& mechanism_;

@@ -18,6 +18,8 @@ constexpr double kPlainlyIndependent = 0.1;
 constexpr double kContradiction = 1e-9;
 // Offsets of a ten-thousandth of the lengths, multiplied by more than this, are no small deviation any more.
 constexpr double kLargestGain = 1e3;
+// Of the parts of a sum: below this share of them it is zero. T closes the loops to 1e-13.
+constexpr double kCancelled = 1e-10;
 
 }  // namespace
 
@@ -201,7 +203,12 @@ MatX DeviationCoordinates::offsets_per_coordinate(const MatX& T) const {
       const int source = source_[joint.first + k];
       if (source >= 0) B(joint.first + k, source) = 1.0;
       if (source != kDependent) continue;
-      if (released.size() == 0) released = stacked_rows(rows_[c], state_.bodies) * T;
+      if (released.size() == 0) {
+        // What bodies' motions cancel to is rounding, and not an offset that moves: its rate would be noise.
+        const MatX rows = stacked_rows(rows_[c], state_.bodies), bound = kCancelled * (rows.cwiseAbs() * T.cwiseAbs());
+        released = rows * T;
+        released = (released.array().abs() > bound.array()).select(released, 0.0);
+      }
       B.row(joint.first + k) = released.row(joint.released_row(k));
     }
   }
