@@ -174,7 +174,7 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows, cons
       }
   }
   const double rate = slowest_rate(rows, parameters);
-  size[2] = std::max(size[2], 1.0 / mechanism_.duration());
+  size[2] = std::max(size[2], 1e-3 / mechanism_.duration());  // a thousandth of a speed is lost over the whole motion
   size[3] = std::max(size[3], rate * rate);
   double worst = 0.0;
   for (std::size_t g = 0; g < ends.size(); ++g)
