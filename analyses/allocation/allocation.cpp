@@ -12,8 +12,6 @@ namespace boresight {
 namespace {
 
 constexpr std::size_t kTrialSamples = 12;  // that the first factor is taken from
-constexpr int kMostRounds = 4;
-constexpr std::uint64_t kFreshSeed = 1'000'003;  // the confirmation's, away from the search's
 constexpr double kMicro = 1e-6;
 constexpr double kPower = 0.8;  // the chance that a set which the search accepts is confirmed
 
@@ -25,7 +23,7 @@ std::int64_t allowed_in_search(const AllocationPlan& plan) {
              confirm = static_cast<std::int64_t>(plan.confirm);
   const Requirement& r = plan.requirement;
   const std::int64_t shown = allowed_failures(samples, r.probability, r.confidence);
-  const std::int64_t fresh = allowed_failures(confirm, r.probability, r.confidence);
+  const std::int64_t fresh = allowed_failures(confirm, r.probability, confirmation_confidence(r));
   if (shown < 0 || fresh < 0) return -1;
   // The share q of bad ones with P(at most `fresh` of `confirm` are bad) = kPower.
   const double q = clopper_pearson_upper(fresh, confirm, 1.0 - kPower);
@@ -38,7 +36,7 @@ class Allocating {
       : plan_(plan),
         deviation_(deviation),
         options_(options),
-        unit_(unit_samples(plan.joints.size(), plan.samples, plan.seed)),
+        unit_(unit_samples(plan.joints.size() + plan.scattered(), plan.samples, plan.seed)),
         allowed_(allowed_in_search(plan)) {
     for (const AllocationJoint& joint : plan.joints) {
       price_.emplace_back();
@@ -94,7 +92,7 @@ class Allocating {
       const ContinuousAllocation c = allocate_continuous(
           curves_, statistical_tolerances(deviation_, least_, z_, allowed_), working_limit(limit));
       a.feasible = c.feasible;
-      a.proven = c.converged;
+      a.finished = c.converged;
       a.tolerance = c.tolerance;
       a.price = c.price;
       a.why = c.why;
@@ -108,12 +106,11 @@ class Allocating {
       const DiscreteAllocation d = allocate_discrete(price_, tightest_, *statistical_, o);
       if (options_.interrupted && options_.interrupted()) throw EvaluationInterrupted{};
       a.feasible = d.feasible;
-      a.proven = d.proven;
+      a.finished = a.proven = d.proven;
       a.choice = d.feasible ? d.choice : tightest_;
       a.price = price_of(price_, a.choice);
       a.nodes = d.nodes;
-      a.why = deviation_.is_convex() ? "branch and bound over all sets of options"
-                                     : "branch and bound, exact if no wider gap points better";
+      a.why = "branch and bound over all sets of options";
     }
     judge(a);
     result_.search_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -147,55 +144,39 @@ class Allocating {
                                         plan_.requirement.probability, plan_.requirement.confidence);
   }
 
-  // The index that `count` samples of these outcomes show at the least: the largest but the allowed ones.
-  // Failed ones are above everything.
-  double shown_limit(const std::vector<double>& values, std::int64_t& allowed) const {
-    allowed = allowed_failures(static_cast<std::int64_t>(values.size()), plan_.requirement.probability,
-                               plan_.requirement.confidence);
-    std::vector<double> sorted = values;
-    std::sort(sorted.begin(), sorted.end(), std::greater<>());
-    return sorted[static_cast<std::size_t>(std::max<std::int64_t>(0, allowed))];
+  // The other random parameters of the same samples: [sample][parameter], coordinates.
+  std::vector<std::vector<double>> others_of(const UnitSamples& unit, std::size_t count) const {
+    std::vector<std::vector<double>> others(count, std::vector<double>(plan_.scattered()));
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t i = 0; i < others[k].size(); ++i) others[k][i] = unit[plan_.joints.size() + i][k];
+    return others;
   }
 
-  static std::vector<double> indices(const std::vector<Outcome>& outcomes) {
-    std::vector<double> values;
-    for (const Outcome& o : outcomes)
-      values.push_back(o.status == Outcome::Status::done ? o.value : std::numeric_limits<double>::infinity());
-    return values;
-  }
-
+  // `factor`: what these samples say that it should be.
   AllocationConfirmation confirmed(const Allocation& a, const ConfirmingModel& confirm,
                                    const std::string& rung, double& factor) const {
-    AllocationConfirmation c;
+    const double confidence = confirmation_confidence(plan_.requirement);
+    const std::uint64_t seed = confirmation_seed(plan_.seed, result_.confirmations.size());
+    const UnitSamples unit = unit_samples(plan_.joints.size() + plan_.scattered(), plan_.confirm, seed);
+    const auto gaps = gaps_of(a, unit, plan_.confirm);
+    AllocationConfirmation c = confirmation_of(values_of(confirm(gaps, others_of(unit, plan_.confirm))),
+                                               plan_.requirement, confidence);
     c.rung = rung;
-    c.seed = plan_.seed + kFreshSeed;
-    c.samples = plan_.confirm;
+    c.seed = seed;
     c.factor = result_.factor;
     c.price = a.price;
-    const auto gaps = gaps_of(a, unit_samples(plan_.joints.size(), plan_.confirm, c.seed), plan_.confirm);
-    const std::vector<double> values = indices(confirm(gaps, c.seed));
     std::vector<double> linear;
     for (const auto& g : gaps) linear.push_back(deviation_.index(g));
-    std::int64_t allowed = 0, within = 0;
-    c.reached = shown_limit(values, allowed);
-    for (const double v : values) {
-      within += v <= plan_.requirement.limit;
-      c.failed += !std::isfinite(v);
-    }
-    c.share_within = static_cast<double>(within) / static_cast<double>(values.size());
-    c.share_low =
-        clopper_pearson_lower(within, static_cast<std::int64_t>(values.size()), plan_.requirement.confidence);
-    c.met = c.share_low >= plan_.requirement.probability;
-    factor = c.reached / shown_limit(linear, allowed);
+    factor = c.reached / shown_limit(linear, plan_.requirement.probability, confidence);
     // Far below the limit is a disagreement too: a cheaper set may do.
     c.agrees = c.met && c.reached > (1.0 - options_.accuracy) * std::min(plan_.requirement.limit, a.reached);
-    char text[300];
+    char text[400];
     std::snprintf(text, sizeof text,
-                  "%zu samples of the %s rung with seed %llu: %.4g %% within the limit, at least %.4g %% "
-                  "with %g %% confidence; "
-                  "%s",
+                  "%zu fresh samples of the %s rung with seed %llu: %.4g %% within the limit, at least %.4g %% "
+                  "with %.4g %% confidence (%g %% over the %d confirmations that a search may take); %s",
                   c.samples, rung.c_str(), static_cast<unsigned long long>(c.seed), 100.0 * c.share_within,
-                  100.0 * c.share_low, 100.0 * plan_.requirement.confidence,
+                  100.0 * c.share_low, 100.0 * confidence, 100.0 * plan_.requirement.confidence,
+                  kMostConfirmations,
                   c.met ? (c.agrees ? "the requirement is met" : "the requirement is met with room to spare")
                         : "the requirement is not shown to be met");
     c.sentence = text;
@@ -205,7 +186,7 @@ class Allocating {
   // The factor from a few samples of the rung on the gaps of one set: the mean ratio on the very same gaps.
   void find_first_factor(const Allocation& a, const ConfirmingModel& confirm) {
     const auto gaps = gaps_of(a, unit_, kTrialSamples);
-    const std::vector<double> values = indices(confirm(gaps, plan_.seed));
+    const std::vector<double> values = values_of(confirm(gaps, others_of(unit_, kTrialSamples)));
     double sum = 0.0, linear = 0.0;
     for (std::size_t k = 0; k < values.size(); ++k)
       if (std::isfinite(values[k])) {
@@ -247,48 +228,114 @@ class Allocating {
         result_.feasible = true;
         result_.chosen = a;
       }
+      // What costs less and was refuted leaves others between the two.
+      if (!c.met && result_.feasible && !go_on) result_.chosen.proven = result_.chosen.finished = false;
       if (go_on) c.sentence += "; the search goes on with its factor";
       result_.confirmations.push_back(c);
       if (!go_on) break;
       result_.factor = factor;
     }
     if (!result_.feasible) {
-      result_.chosen = a;
-      // How far one gets: the tightest gaps, with the samples of the search.
-      Allocation tight = a;
-      if (plan_.is_continuous()) {
-        for (std::size_t j = 0; j < curves_.size(); ++j) tight.tolerance[j] = curves_[j].lower;
-        tight.price = price_of(curves_, tight.tolerance);
-      } else {
-        tight.choice = tightest_;
-        tight.price = price_of(price_, tightest_);
-      }
-      judge(tight);
-      // The linear deviation is that of journals at rest, which may be far off the confirming rung: before nothing is said to
-      // do, the tightest gaps are tried on that rung itself.
-      progress("trying the tightest gaps on the rung " + rung, 0.8);
-      double factor = 1.0;
-      AllocationConfirmation c = confirmed(tight, confirm, rung, factor);
-      if (c.met) {
-        tight.proven = false;
-        tight.why = "the tightest gaps, tried on the confirming rung; the linear deviation had found nothing";
-        c.agrees = true;
-        c.sentence += ", with the tightest gaps; the linear deviation is off by too much here to show anything cheaper";
-        result_.factor = std::isfinite(factor) ? factor : result_.factor;
-        judge(tight);
-        tight.feasible = true;
-        result_.feasible = true;
-      } else {
-        tight.feasible = false;
-        result_.best_reachable = c.reached;
-      }
-      result_.confirmations.push_back(c);
-      result_.chosen = tight;
-      result_.converged = !c.met && a.proven;
+      try_what_points_best(a, confirm, rung);
       return;
     }
     judge(result_.chosen);
-    result_.converged = result_.chosen.proven;
+    result_.converged = result_.chosen.finished;
+  }
+
+  // The linear deviation is that of journals at rest, which may be far off the confirming rung: before nothing is
+  // said to do, the tightest gaps are tried on that rung itself; and where a wider gap may point better, what the
+  // samples of the search find to point best. `a`: what the search found last.
+  void try_what_points_best(const Allocation& a, const ConfirmingModel& confirm, const std::string& rung) {
+    std::vector<Allocation> tries = {tightest_like(a)};
+    if (Allocation best = best_like(a); !same(best, tries.front())) tries.push_back(best);
+    result_.best_reachable = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < tries.size(); ++i) {
+      const std::string which = i == 0 ? "the tightest gaps" : "the gaps that point best";
+      progress("trying " + which + " on the rung " + rung, 0.8);
+      Allocation tried = tries[i];
+      judge(tried);
+      double factor = 1.0;
+      AllocationConfirmation c = confirmed(tried, confirm, rung, factor);
+      c.sentence += ", with " + which;
+      if (c.met) {
+        tried.why = which + ", tried on the confirming rung; the linear deviation had found nothing";
+        c.agrees = true;
+        c.sentence += "; the linear deviation is off by too much here to show anything cheaper";
+        result_.factor = std::isfinite(factor) ? factor : result_.factor;
+        judge(tried);
+        tried.feasible = result_.feasible = true;
+        result_.chosen = tried;
+        result_.confirmations.push_back(c);
+        return;
+      }
+      result_.confirmations.push_back(c);
+      if (i == 0 || c.reached < result_.best_reachable) {
+        result_.best_reachable = c.reached;
+        result_.chosen = tried;
+      }
+    }
+    result_.converged = !a.feasible && a.proven;
+  }
+
+  Allocation tightest_like(const Allocation& a) const {
+    Allocation tight = a;
+    tight.feasible = tight.proven = tight.finished = false;
+    if (plan_.is_continuous()) {
+      for (std::size_t j = 0; j < curves_.size(); ++j) tight.tolerance[j] = curves_[j].lower;
+      tight.price = price_of(curves_, tight.tolerance);
+    } else {
+      tight.choice = tightest_;
+      tight.price = price_of(price_, tightest_);
+    }
+    return tight;
+  }
+
+  // The set that reaches the least limit by the samples of the search, as far as changes of one joint at a time
+  // find it; the tightest one where the index rises with every gap.
+  Allocation best_like(const Allocation& a) const {
+    Allocation best = tightest_like(a);
+    if (allowed_ < 0 || deviation_.rises_with_every_gap(lowest_gap(), highest_gap())) return best;
+    if (plan_.is_continuous()) {
+      best.tolerance = least_tolerances(curves_, statistical_tolerances(deviation_, least_, z_, allowed_));
+      best.price = price_of(curves_, best.tolerance);
+      return best;
+    }
+    double least = statistical_->reached(best.choice);
+    for (bool better = true; better;) {
+      better = false;
+      for (std::size_t j = 0; j < gap_.size(); ++j)
+        for (int o = 0; o < static_cast<int>(gap_[j].size()); ++o) {
+          std::vector<int> other = best.choice;
+          other[j] = o;
+          const double reached = statistical_->reached(other);
+          if (!(reached < least * (1.0 - 1e-12))) continue;
+          least = reached;
+          best.choice = other;
+          better = true;
+        }
+    }
+    best.price = price_of(price_, best.choice);
+    return best;
+  }
+
+  std::vector<double> lowest_gap() const { return extreme_gaps(false); }
+  std::vector<double> highest_gap() const { return extreme_gaps(true); }
+  std::vector<double> extreme_gaps(bool highest) const {
+    std::vector<double> gaps;
+    for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+      double low = least_[j], high = least_[j] + curves_[j].upper;
+      if (!gap_[j].empty()) {
+        low = gap_[j].front()->lowest();
+        high = gap_[j].front()->highest();
+      }
+      for (const DistributionPtr& d : gap_[j]) {
+        low = std::min(low, d->lowest());
+        high = std::max(high, d->highest());
+      }
+      gaps.push_back(highest ? high : low);
+    }
+    return gaps;
   }
 
   static bool same(const Allocation& a, const Allocation& b) {
@@ -314,7 +361,7 @@ class Allocating {
       const auto take = [&](Allocation& a, const ToleranceRequirement& requirement, const std::string& name) {
         const ContinuousAllocation c = allocate_continuous(curves_, requirement, limit);
         a.feasible = c.feasible;
-        a.proven = c.converged;
+        a.finished = c.converged;
         a.tolerance = c.tolerance;
         a.price = c.price;
         finish(a, name);
@@ -324,18 +371,21 @@ class Allocating {
            root_sum_square_tolerances(deviation_, least_, plan_.requirement.probability), "root-sum-square");
       return;
     }
-    const auto take = [&](Allocation& a, const AllocationRequirement& requirement, const std::string& name) {
+    const auto take = [&](Allocation& a, const AllocationRequirement& requirement, const std::string& name,
+                          bool exact) {
       const DiscreteAllocation d = allocate_discrete(price_, tightest_, requirement, {.most_nodes = 100'000});
       a.feasible = d.feasible;
-      a.proven = d.proven;
+      a.finished = d.proven;
+      a.proven = d.proven && exact;
       a.choice = d.choice;
       a.price = d.feasible ? d.price : 0.0;
       a.nodes = d.nodes;
       finish(a, name);
     };
-    take(result_.worst_case, WorstCaseRequirement(deviation_, gap_, limit), "worst case");
+    take(result_.worst_case, WorstCaseRequirement(deviation_, gap_, limit), "worst case", true);
     take(result_.root_sum_square,
-         RootSumSquareRequirement(deviation_, gap_, plan_.requirement.probability, limit), "root-sum-square");
+         RootSumSquareRequirement(deviation_, gap_, plan_.requirement.probability, limit), "root-sum-square",
+         false);
   }
 
   void share_out() {
@@ -381,15 +431,13 @@ class Allocating {
     const CostPoint tighter = priced(limit - kMicro);
     result_.last_micrometre = tighter.feasible && here.feasible ? tighter.price - here.price
                                                                 : std::numeric_limits<double>::quiet_NaN();
-    // From the tightest reachable to where the cheapest of all meets it.
-    Allocation tight = here, wide = here;
+    // From the least reachable to where the cheapest of all meets it.
+    Allocation tight = best_like(here), wide = here;
     for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
       if (plan_.is_continuous()) {
-        tight.tolerance[j] = curves_[j].lower;
         wide.tolerance[j] = curves_[j].upper;
         continue;
       }
-      tight.choice[j] = tightest_[j];
       wide.choice[j] =
           static_cast<int>(std::min_element(price_[j].begin(), price_[j].end()) - price_[j].begin());
     }
@@ -401,7 +449,7 @@ class Allocating {
       const double share = plan_.front == 1 ? 0.5 : static_cast<double>(k) / (plan_.front - 1);
       // A hair wider than the ends, so that rounding does not make them unreachable.
       result_.front.push_back(
-          priced((tight.reached + share * (wide.reached - tight.reached)) * (1.0 + 1e-9)));
+          priced((tight.reached + share * std::max(0.0, wide.reached - tight.reached)) * (1.0 + 1e-9)));
     }
     std::sort(result_.front.begin(), result_.front.end(),
               [](const CostPoint& l, const CostPoint& r) { return l.limit < r.limit; });

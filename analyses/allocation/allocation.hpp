@@ -5,8 +5,11 @@
 // that leaves out, impacts above all, is made good by a working limit: a few samples on the rung that
 // confirms say by which factor its index differs on the very same gaps, and the search goes on with the limit
 // divided by it (space mapping: Bandler et al. 1994, IEEE Trans. MTT 42(12)). The winner is then confirmed by
-// independent samples with a seed of its own on that rung; where these disagree the factor is corrected by
-// them, and the search goes on from there.
+// fresh samples on that rung (confirmation.hpp); where these disagree the factor is corrected by them, the search
+// goes on from there, and what it finds is confirmed by samples that are fresh again.
+//
+// Before nothing is said to do, the tightest gaps are tried on that rung, and where gaps work against each other
+// also the set that the search's samples find to point best.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +19,7 @@
 #include <vector>
 
 #include "boresight_analyses/allocation/allocation_plan.hpp"
+#include "boresight_analyses/allocation/confirmation.hpp"
 #include "boresight_analyses/allocation/linear_deviation.hpp"
 #include "boresight_analyses/optimise/design_evaluator.hpp"
 
@@ -25,7 +29,8 @@ namespace boresight {
 struct Allocation {
   std::string judged_by;  // "samples", "worst case", "root-sum-square"
   bool feasible = false;
-  bool proven = false;  // nothing cheaper meets the same requirement (continuous: the descent came to rest)
+  bool proven = false;  // nothing cheaper meets the same requirement by the samples of the search
+  bool finished = false;  // the search ended by itself: proven, or (continuous) the descent came to rest
   std::vector<int> choice;        // of options; empty where continuous
   std::vector<double> tolerance;  // [m]; empty where discrete
   double price = 0.0;
@@ -48,26 +53,14 @@ struct CostPoint {
   bool feasible = false;
 };
 
-struct AllocationConfirmation {
-  std::string rung;
-  std::uint64_t seed = 0;
-  std::size_t samples = 0, failed = 0;
-  double factor = 1.0;  // index of the rung over that of the linear deviation, when this set was searched for
-  double price = 0.0;
-  double reached = 0.0;                        // the least limit that these samples show
-  double share_within = 0.0, share_low = 0.0;  // and the lower bound at the requirement's confidence
-  bool met = false, agrees = false;
-  std::string sentence;
-};
-
 struct AllocationResult {
   bool feasible = false;  // a set meets the requirement, confirmed
   bool interrupted = false;
-  bool converged = false;  // proven cheapest by the samples of the search, and confirmed
+  bool converged = false;  // the search ended by itself, and what it found is confirmed
   double misfit = 0.0;     // of the linear deviation against its own rung, relative
   double factor = 1.0;     // at the end
   double best_reachable =
-      0.0;  // where not feasible: the least limit that can be shown with the tightest gaps
+      0.0;  // where not feasible: the least limit that the sets tried last have shown
   Allocation chosen, worst_case, root_sum_square;
   std::vector<AllocationShare> shares;
   std::vector<CostPoint> front;  // ascending limit
@@ -84,11 +77,7 @@ struct AllocationOptions {
   std::function<void(const std::string& stage, double share)> progress = {};
 };
 
-using ConfirmingModel =
-    std::function<std::vector<Outcome>(const std::vector<std::vector<double>>& gaps, std::uint64_t seed)>;
-
-// `confirm`: the outcomes of the confirming rung at these gaps ([sample][joint]), other random parameters
-// drawn with the seed. Throws what it throws, and EvaluationInterrupted.
+// `confirm`: see ConfirmingModel. Throws what it throws.
 AllocationResult run_allocation(const AllocationPlan& plan, const LinearDeviation& deviation, double misfit,
                                 const ConfirmingModel& confirm, const std::string& rung,
                                 const AllocationOptions& options);

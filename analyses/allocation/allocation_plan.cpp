@@ -7,6 +7,7 @@
 #include "boresight/io/units.hpp"
 #include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/allocation/confirmation.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
 
 namespace boresight {
@@ -173,6 +174,9 @@ AllocationPlan read_allocation_plan(Cursor& root, const Study& study, const Mech
       count("samples", fewest, 1'000'000, std::max<std::size_t>(1000, static_cast<std::size_t>(4 * fewest)));
   plan.confirm =
       count("confirm", fewest, 1'000'000, std::max<std::size_t>(120, static_cast<std::size_t>(3 * fewest)));
+  const auto shows = static_cast<std::size_t>(
+      wilks_one_sided(plan.requirement.probability, confirmation_confidence(plan.requirement)));
+  plan.confirm = std::max(plan.confirm, shows);
   plan.seed = count("seed", 0, 1'000'000'000, 1);
   plan.front = static_cast<int>(count("front", 0, 50, 6));
   plan.zone =

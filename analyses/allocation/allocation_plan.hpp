@@ -3,7 +3,8 @@
 //   [allocate]
 //   requirement = { limit = "0.5 mm", probability = 0.95, confidence = 0.9 }
 //   samples = 1000                     # of the gaps, common to all sets that the search judges
-//   confirm = 120                      # fresh samples on the next rung up
+//   confirm = 120                      # fresh samples on the next rung up, each time; more where they could not
+//                                      # show the requirement at the confidence of one confirmation
 //   seed = 1
 //   zone = "normal"                    # how sizes lie in their zones: normal or uniform
 //   (random/fit_clearance.hpp) front = 6                          # points of the front of cost against
@@ -61,6 +62,7 @@ struct AllocationPlan {
   bool is_continuous() const { return joints.front().options.empty(); }
   // The gaps first, then the other random parameters.
   Parameters parameters_with(const Mechanism& mechanism, std::span<const double> gaps_then_random) const;
+  std::size_t scattered() const { return inputs ? inputs->size() : 0; }  // other random parameters
   std::string sample_text(const Study& study) const;
 };
 

@@ -17,8 +17,8 @@ std::vector<double> exponentials(std::span<const double> x) {
   return t;
 }
 
-// The share s at which from + s (to - from) last keeps the limit, in ln t; the requirement does not fall
-// along it.
+// A share s at which from + s (to - from) keeps the limit, in ln t; `from` keeps it. The last one, where the
+// requirement does not fall along the way.
 double last_within(const ToleranceRequirement& requirement, double limit, const std::vector<double>& from,
                    const std::vector<double>& to, int& evaluations) {
   double low = 0.0, high = 1.0;
@@ -44,6 +44,57 @@ double price_of(const std::vector<ContinuousJoint>& joints, std::span<const doub
   return sum;
 }
 
+std::vector<double> least_tolerances(const std::vector<ContinuousJoint>& joints,
+                                     const ToleranceRequirement& requirement) {
+  MinimisationProblem problem;
+  std::vector<double> corner;
+  for (const ContinuousJoint& joint : joints) {
+    problem.lower.push_back(std::log(joint.lower));
+    problem.upper.push_back(std::log(joint.upper));
+    corner.push_back(joint.lower);
+  }
+  double least = requirement(corner, {});
+  const double scale = std::max(std::abs(least), 1e-300);
+  // One joint after the other at its tightest or its widest, until none gains.
+  for (bool better = true; better;) {
+    better = false;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      std::vector<double> other = corner;
+      other[j] = corner[j] == joints[j].lower ? joints[j].upper : joints[j].lower;
+      const double value = requirement(other, {});
+      if (!(value < least - 1e-12 * scale)) continue;
+      least = value;
+      corner = other;
+      better = true;
+    }
+  }
+  problem.gradients = true;
+  problem.objective = [&](std::span<const double> x, std::span<double> gradient) {
+    const std::vector<double> t = exponentials(x);
+    const double value = requirement(t, gradient);
+    for (std::size_t j = 0; j < gradient.size(); ++j) gradient[j] *= t[j] / scale;
+    return value / scale;
+  };
+  std::vector<double> best = corner;
+  const auto descend = [&](const std::vector<double>& from) {
+    problem.start.clear();
+    for (std::size_t j = 0; j < from.size(); ++j)
+      problem.start.push_back(std::clamp(std::log(from[j]), problem.lower[j], problem.upper[j]));
+    const Minimum minimum = minimise(problem, {.global = "none", .local = "slsqp", .local_evaluations = 200,
+                                               .tolerance = 1e-8});
+    const std::vector<double> t = exponentials(minimum.x);
+    const double value = requirement(t, {});
+    if (!(value < least - 1e-12 * scale)) return;
+    least = value;
+    best = t;
+  };
+  std::vector<double> middle;
+  for (const ContinuousJoint& joint : joints) middle.push_back(std::sqrt(joint.lower * joint.upper));
+  descend(corner);
+  descend(middle);
+  return best;
+}
+
 ContinuousAllocation allocate_continuous(const std::vector<ContinuousJoint>& joints,
                                          const ToleranceRequirement& requirement, double limit) {
   ContinuousAllocation result;
@@ -53,18 +104,25 @@ ContinuousAllocation allocate_continuous(const std::vector<ContinuousJoint>& joi
     problem.upper.push_back(std::log(joint.upper));
   }
   ++result.evaluations;
-  const double tightest = requirement(exponentials(problem.lower), {});
-  if (!(tightest <= limit)) {
-    result.tolerance = exponentials(problem.lower);
-    result.price = price_of(joints, result.tolerance);
-    result.reached = tightest;
-    result.converged = true;
-    result.why = "no search: even the tightest tolerances exceed the limit";
-    return result;
+  // Somewhere that keeps the limit: the tightest tolerances, or where gaps work against each other others.
+  std::vector<double> keeps = exponentials(problem.lower);
+  if (!(requirement(keeps, {}) <= limit)) {
+    keeps = least_tolerances(joints, requirement);
+    result.reached = requirement(keeps, {});
+    if (!(result.reached <= limit)) {
+      result.tolerance = keeps;
+      result.price = price_of(joints, keeps);
+      result.converged = true;
+      result.why = "no search of the price: the least value found exceeds the limit";
+      return result;
+    }
   }
-  const double share = last_within(requirement, limit, problem.lower, problem.upper, result.evaluations);
+  std::vector<double> from(keeps);
+  for (std::size_t j = 0; j < from.size(); ++j)
+    from[j] = std::clamp(std::log(keeps[j]), problem.lower[j], problem.upper[j]);
+  const double share = last_within(requirement, limit, from, problem.upper, result.evaluations);
   for (std::size_t j = 0; j < joints.size(); ++j)
-    problem.start.push_back(problem.lower[j] + share * (problem.upper[j] - problem.lower[j]));
+    problem.start.push_back(from[j] + share * (problem.upper[j] - from[j]));
   const double price_scale = std::max(price_of(joints, exponentials(problem.start)), 1e-300);
 
   problem.gradients = true;
@@ -86,9 +144,9 @@ ContinuousAllocation allocate_continuous(const std::vector<ContinuousJoint>& joi
   // better one stands, pulled back onto the limit where it lies beyond it.
   std::vector<double> best = problem.start;
   const auto offer = [&](const std::vector<double>& x, bool converged) {
-    const double s = last_within(requirement, limit, problem.lower, x, result.evaluations);
+    const double s = last_within(requirement, limit, from, x, result.evaluations);
     std::vector<double> kept(x.size());
-    for (std::size_t j = 0; j < x.size(); ++j) kept[j] = problem.lower[j] + s * (x[j] - problem.lower[j]);
+    for (std::size_t j = 0; j < x.size(); ++j) kept[j] = from[j] + s * (x[j] - from[j]);
     if (price_of(joints, exponentials(kept)) < price_of(joints, exponentials(best))) {
       best = kept;
       result.converged = converged;

@@ -21,19 +21,25 @@ struct ContinuousJoint {
   double lower = 0.0, upper = 0.0;  // of its tolerance [m]
 };
 
-// The value that must not exceed the limit, and its gradient where asked for; not falling in any tolerance.
+// The value that must not exceed the limit, and its gradient where asked for. It may fall as a tolerance widens
+// (gaps that work against each other).
 using ToleranceRequirement =
     std::function<double(std::span<const double> tolerance, std::span<double> gradient)>;
 
 struct ContinuousAllocation {
-  bool feasible = false;  // the tightest tolerances keep the limit
-  bool converged = false;
-  std::vector<double> tolerance;  // the tightest ones where not feasible
+  bool feasible = false;
+  bool converged = false;         // the descent came to rest: a local minimum of the price, no proof of a global one
+  std::vector<double> tolerance;  // where not feasible those with the least value found
   double price = 0.0;
   double reached = 0.0;  // the requirement's value there
   int evaluations = 0;
   std::string why;  // the algorithm, and its reason
 };
+
+// The tolerances with the least value found: the tightest where the requirement rises with each, else by descents
+// from the corners that one joint after the other prefers.
+std::vector<double> least_tolerances(const std::vector<ContinuousJoint>& joints,
+                                     const ToleranceRequirement& requirement);
 
 ContinuousAllocation allocate_continuous(const std::vector<ContinuousJoint>& joints,
                                          const ToleranceRequirement& requirement, double limit);

@@ -70,8 +70,10 @@ class BranchAndBound {
   }
 
  private:
-  // Prices are sums of a few numbers; differences below this are rounding.
-  bool cheaper(double price) const { return price < result_.price - 1e-9 * std::abs(result_.price); }
+  // Prices are sums of a few numbers; differences below this are rounding. Any price, while no set is known.
+  bool cheaper(double price) const {
+    return !result_.feasible || price < result_.price - 1e-9 * std::abs(result_.price);
+  }
 
   bool offer(const std::vector<int>& choice) {
     const double price = price_of(price_, choice);

@@ -98,6 +98,30 @@ bool StatisticalRequirement::is_met(std::span<const int> choice) const {
   return allowed_ >= 0;
 }
 
+// Convex: the index lies above its tangent. Where a wider gap works against the others, the tangent says by
+// how much at most. A statistic that is not convex is bounded instant by instant.
+double StatisticalRequirement::least_of(std::span<const int> choice, std::span<const double> c, std::span<double> g,
+                                        std::size_t k) const {
+  if (!deviation_.is_convex()) {
+    std::vector<double> low(c.begin(), c.end()), high(low);
+    for (std::size_t j = 0; j < c.size(); ++j)
+      if (choice[j] < 0)
+        for (const auto& option : gap_[j]) {
+          low[j] = std::min(low[j], option[k]);
+          high[j] = std::max(high[j], option[k]);
+        }
+    return deviation_.least_index(c, low, high);
+  }
+  double least = deviation_.index(c, g);
+  for (std::size_t j = 0; j < c.size(); ++j) {
+    if (choice[j] >= 0) continue;
+    double gain = 0.0;
+    for (const auto& option : gap_[j]) gain = std::min(gain, g[j] * (option[k] - c[j]));
+    least += gain;
+  }
+  return least;
+}
+
 bool StatisticalRequirement::may_be_met(std::span<const int> choice) const {
   if (allowed_ < 0) return false;
   std::int64_t failed = 0;
@@ -106,16 +130,7 @@ bool StatisticalRequirement::may_be_met(std::span<const int> choice) const {
     const std::uint32_t k = order_[i];
     for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j] >= 0 ? choice[j] : tightest_[j], k);
     if (quick_bound(c, k) <= limit_ || deviation_.index(c) <= limit_) continue;
-    // Convex: it lies above its tangent. Where a wider gap works against the others, the tangent says by how
-    // much at most.
-    double least = deviation_.index(c, g);
-    for (std::size_t j = 0; j < c.size(); ++j) {
-      if (choice[j] >= 0) continue;
-      double gain = 0.0;
-      for (const auto& option : gap_[j]) gain = std::min(gain, g[j] * (option[k] - c[j]));
-      least += gain;
-    }
-    if (least > limit_) {
+    if (least_of(choice, c, g, k) > limit_) {
       std::swap(order_[i], order_[static_cast<std::size_t>(failed)]);
       if (++failed > allowed_) return false;
     }
@@ -216,19 +231,37 @@ RootSumSquareRequirement::RootSumSquareRequirement(const LinearDeviation& deviat
       middle_.back().push_back(0.5 * (d->lowest() + d->highest()));
       half_.back().push_back(0.5 * (d->highest() - d->lowest()));
     }
+    const auto [low, high] = std::minmax_element(middle_.back().begin(), middle_.back().end());
+    least_.push_back(*low);
+    largest_.push_back(*high);
   }
+  rises_ = deviation.rises_with_every_gap(least_, largest_);
 }
 
-bool RootSumSquareRequirement::is_met(std::span<const int> choice) const { return may_be_met(choice); }
+bool RootSumSquareRequirement::is_met(std::span<const int> choice) const {
+  return index_with_open_at_tightest(choice) <= limit_;
+}
 
 bool RootSumSquareRequirement::may_be_met(std::span<const int> choice) const {
+  const bool whole = std::find(choice.begin(), choice.end(), -1) == choice.end();
+  if (whole || rises_) return is_met(choice);
+  if (z_ < 0.0) return true;
+  std::vector<double> low(least_), high(largest_), at;
+  for (std::size_t j = 0; j < choice.size(); ++j) {
+    at.push_back(middle_[j][static_cast<std::size_t>(choice[j] >= 0 ? choice[j] : tightest_[j])]);
+    if (choice[j] >= 0) low[j] = high[j] = at[j];
+  }
+  return deviation_.least_index(at, low, high) <= limit_;
+}
+
+double RootSumSquareRequirement::index_with_open_at_tightest(std::span<const int> choice) const {
   std::vector<double> c(choice.size()), h(choice.size());
   for (std::size_t j = 0; j < c.size(); ++j) {
     const auto o = static_cast<std::size_t>(choice[j] >= 0 ? choice[j] : tightest_[j]);
     c[j] = middle_[j][o];
     h[j] = half_[j][o];
   }
-  return root_sum_square_index(deviation_, c, h, z_) <= limit_;
+  return root_sum_square_index(deviation_, c, h, z_);
 }
 
 double root_sum_square_index(const LinearDeviation& deviation, std::span<const double> middle,

@@ -46,6 +46,9 @@ class StatisticalRequirement final : public AllocationRequirement {
   std::vector<double> error_shares(std::span<const int> choice) const;
 
  private:
+  // A lower bound of sample k's index over all completions of `choice`; c: its gaps with the open joints at
+  // their tightest, g: room for a gradient.
+  double least_of(std::span<const int> choice, std::span<const double> c, std::span<double> g, std::size_t k) const;
   // An upper bound of sample k's index that costs next to nothing.
   double quick_bound(std::span<const double> gaps, std::size_t k) const;
   double gap(std::size_t joint, int option, std::size_t sample) const {
@@ -79,7 +82,8 @@ class WorstCaseRequirement final : public AllocationRequirement {
   double limit_;
 };
 
-// Open joints are taken at their tightest: an assumption where gaps work against each other.
+// A rule of thumb to compare with. Open joints are taken at their tightest where the index was found to rise
+// with every gap; elsewhere the index alone, without the root, bounds them from below.
 class RootSumSquareRequirement final : public AllocationRequirement {
  public:
   RootSumSquareRequirement(const LinearDeviation& deviation,
@@ -89,10 +93,14 @@ class RootSumSquareRequirement final : public AllocationRequirement {
   bool may_be_met(std::span<const int> choice) const override;
 
  private:
+  double index_with_open_at_tightest(std::span<const int> choice) const;
+
   const LinearDeviation& deviation_;
   std::vector<std::vector<double>> middle_, half_;
+  std::vector<double> least_, largest_;  // of the middles
   std::vector<int> tightest_;
   double z_, limit_;
+  bool rises_ = false;  // with every gap: checked
 };
 
 // index + z sqrt(sum (dI/dc_j half_j / 3)^2) at these gaps.

@@ -8,7 +8,8 @@
 namespace boresight {
 namespace {
 
-double size_of(const double* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+double dot(const double* u, const double* v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
+double size_of(const double* v) { return std::sqrt(dot(v, v)); }
 
 // The vector whose length is the quantity, to first order.
 Vec3 error_vector(const PoseSample& sample, const std::string& quantity, const Pointing& pointing) {
@@ -101,6 +102,41 @@ double LinearDeviation::index(std::span<const double> gaps, std::span<double> gr
     }
   }
   return value;
+}
+
+double LinearDeviation::least_index(std::span<const double> at, std::span<const double> low,
+                                    std::span<const double> high) const {
+  std::vector<double> e = offset_, sizes(time_.size());
+  for (std::size_t j = 0; j < at.size(); ++j)
+    for (std::size_t i = 0; i < e.size(); ++i) e[i] += at[j] * sensitivity_[j][i];
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double size = size_of(&e[3 * i]);
+    if (size == 0.0) continue;
+    double least = size;
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      if (low[j] == high[j]) continue;
+      const double slope = dot(&e[3 * i], &sensitivity_[j][3 * i]) / size;
+      least += std::min(slope * (low[j] - at[j]), slope * (high[j] - at[j]));
+    }
+    sizes[i] = std::max(0.0, least);
+  }
+  return statistic_of(sizes, nullptr);
+}
+
+bool LinearDeviation::rises_with_every_gap(std::span<const double> low, std::span<const double> high) const {
+  for (std::size_t i = 0; i < time_.size(); ++i)
+    for (std::size_t j = 0; j < gaps(); ++j) {
+      const double* a = &sensitivity_[j][3 * i];
+      double least = dot(&offset_[3 * i], a), scale = std::abs(least);
+      for (std::size_t k = 0; k < gaps(); ++k) {
+        const double product = dot(&sensitivity_[k][3 * i], a);
+        least += std::min(low[k] * product, high[k] * product);
+        scale += high[k] * std::abs(product);
+      }
+      constexpr double kRounding = 1e-12;
+      if (least < -kRounding * scale) return false;
+    }
+  return true;
 }
 
 double LinearDeviation::most_per_gap(std::size_t j) const {

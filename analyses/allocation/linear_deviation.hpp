@@ -9,7 +9,11 @@
 // its own, up to the second order of c.
 //
 // The index is a convex function of the gaps for every statistic but p99.73; its gradient then gives lower
-// bounds that hold everywhere, by which the allocation proves that nothing cheaper exists.
+// bounds that hold everywhere, by which the allocation proves that nothing cheaper exists. |e(t)| is convex at
+// each instant whatever the statistic, and no statistic falls where no size does: that bounds p99.73.
+//
+// Gaps may work against each other: a wider one can point better. Nothing here is taken to rise with the gaps
+// unless `rises_with_every_gap` has found it.
 #pragma once
 
 #include <memory>
@@ -37,6 +41,12 @@ class LinearDeviation {
   double index(std::span<const double> gaps) const;
   // And its gradient per gap (a subgradient where there is a kink).
   double index(std::span<const double> gaps, std::span<double> gradient) const;
+  // A lower bound of the index over all gaps between `low` and `high`, for every statistic, from the tangents of
+  // |e| at `at`, instant by instant.
+  double least_index(std::span<const double> at, std::span<const double> low, std::span<const double> high) const;
+  // Whether |e| falls nowhere between `low` and `high` as any gap widens, at no instant: e(t) . a_j(t) >= 0
+  // throughout. Sufficient for the index to rise with every gap.
+  bool rises_with_every_gap(std::span<const double> low, std::span<const double> high) const;
   // With all errors in one direction at every instant: statistic of |e_0| + sum |a_j| c_j.
   double worst_index(std::span<const double> gaps) const;
   double worst_index(std::span<const double> gaps, std::span<double> gradient) const;

@@ -168,13 +168,15 @@ std::string allocate_sentence(const AllocateStudy& s) {
   if (s.result.interrupted) return "Interrupted; the same command goes on and reuses what was computed.";
   if (!s.result.feasible)
     return fmt::format(
-        "Infeasible: no allocation can be shown to keep {}. The best that can be reached is {}, with the "
-        "tightest "
-        "gaps, for {:.4g}.",
-        requirement_text(s), index_text(s, s.result.best_reachable), s.result.chosen.price);
+        "Infeasible: no allocation {} to keep {}. The best that was reached is {}, for {:.4g}: {}.",
+        s.result.converged ? "can be shown" : "was found", requirement_text(s),
+        index_text(s, s.result.best_reachable), s.result.chosen.price,
+        s.result.confirmations.back().sentence);
   return fmt::format("{:.5g} buys {}. {}{}.", s.result.chosen.price, requirement_text(s),
                      s.result.chosen.proven
                          ? "Nothing cheaper keeps the limit with the room that this confirmation needs. "
+                     : s.result.chosen.finished
+                         ? "Nothing cheaper was found near it; that nothing is elsewhere is not proven. "
                          : "",
                      s.result.confirmations.back().sentence);
 }

@@ -50,15 +50,14 @@ class Confirming {
   Confirming(const SampleModel& model, const AllocationPlan& plan, EvaluationStore& store, int jobs)
       : model_(model), plan_(plan), store_(store), jobs_(jobs) {}
 
-  std::vector<Outcome> operator()(const std::vector<std::vector<double>>& gaps, std::uint64_t seed) {
-    const std::size_t scattered = plan_.inputs ? plan_.inputs->size() : 0;
+  std::vector<Outcome> operator()(const std::vector<std::vector<double>>& gaps,
+                                  const std::vector<std::vector<double>>& others) {
     std::vector<std::vector<double>> values = gaps, open;
-    std::vector<double> point(scattered);
     std::vector<std::size_t> open_at;
     std::vector<Outcome> outcomes(gaps.size());
     for (std::size_t k = 0; k < values.size(); ++k) {
-      if (scattered > 0) {
-        Design({.kind = DesignKind::random, .seed = seed}, static_cast<int>(scattered)).point(k, point);
+      if (plan_.inputs) {
+        std::vector<double> point = others[k];
         plan_.inputs->values(point);
         values[k].insert(values[k].end(), point.begin(), point.end());
       }
@@ -214,7 +213,7 @@ class AllocateVerb : public Verb {
   static std::vector<std::string> warnings_of(const AllocateStudy& s) {
     std::vector<std::string> warnings;
     const AllocationResult& r = s.result;
-    if (r.feasible && !r.chosen.proven)
+    if (r.feasible && !r.chosen.finished)
       warnings.push_back("the search ended before it had shown that nothing cheaper meets the requirement");
     for (std::size_t k = 0; k + 1 < r.confirmations.size(); ++k)
       warnings.push_back("round " + std::to_string(k + 1) +
@@ -302,6 +301,7 @@ class AllocateVerb : public Verb {
                                        {"seed", c.seed},
                                        {"samples", c.samples},
                                        {"failed", c.failed},
+                                       {"confidence", c.confidence},
                                        {"factor", c.factor},
                                        {"price", c.price},
                                        {"share_within", c.share_within},

@@ -65,7 +65,7 @@ double brute_force(const std::vector<std::vector<double>>& price, const Allocati
 TEST(DiscreteAllocation, NoSetOfFitsIsCheaperByBruteForceOnThreeJoints) {
   int partly = 0;
   for (unsigned seed = 1; seed <= 30; ++seed)
-    for (const char* statistic : {"max", "rms", "mean"}) {
+    for (const char* statistic : {"max", "rms", "mean", "p99.73"}) {
       const Scene s = scene(3, 6, seed, statistic);
       const StatisticalRequirement requirement(s.deviation, s.gap, s.unit, 5, 30e-6);
       std::int64_t meeting = 0;
@@ -96,6 +96,27 @@ TEST(DiscreteAllocation, IsExactOnFiveJointsForEveryWayOfJudging) {
       if (meeting == 0) continue;
       EXPECT_NEAR(found.price, best, 1e-9) << seed;
     }
+  }
+}
+
+// Gaps that work against each other: the tightest set keeps no limit that a wider one does not.
+TEST(DiscreteAllocation, FindsTheCheapestWhereTheTightestSetKeepsNoLimit) {
+  for (const char* statistic : {"max", "p99.73"}) {
+    int beyond_the_tightest = 0;
+    for (unsigned seed = 1; seed <= 80; ++seed) {
+      const Scene s = scene(3, 4, 300 + seed, statistic);
+      StatisticalRequirement requirement(s.deviation, s.gap, s.unit, 5, 1.0);
+      requirement.set_limit(requirement.reached(tightest_options(s.gap)) * 0.95);
+      std::int64_t meeting = 0;
+      const double best = brute_force(s.price, requirement, meeting);
+      const DiscreteAllocation found = allocate_discrete(s.price, tightest_options(s.gap), requirement);
+      ASSERT_TRUE(found.proven);
+      ASSERT_EQ(found.feasible, meeting > 0) << seed << ' ' << statistic;
+      if (meeting == 0) continue;
+      ++beyond_the_tightest;
+      EXPECT_NEAR(found.price, best, 1e-9) << seed << ' ' << statistic;
+    }
+    EXPECT_GE(beyond_the_tightest, 5) << statistic;
   }
 }
 

@@ -1,0 +1,210 @@
+// How often an allocation calls a requirement met that is not, by repetition on models whose probabilities are
+// exact; and what it does where gaps work against each other.
+#include "boresight_analyses/allocation/confirmation.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+#include "boresight_analyses/allocation/allocation.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr double kProbability = 0.9, kConfidence = 0.9, kRisk = 1.0 - kConfidence;
+constexpr double kMilli = 1e-3, kStep = 0.01, kWidth = 0.005;  // option o of a joint: (1 + kStep o + kWidth u) mm
+
+double normal_quantile(double u) {
+  return quantile(boost::math::normal(), std::clamp(u, 1e-12, 1.0 - 1e-12));
+}
+
+AllocationPlan plan_with(std::uint64_t seed, int options) {
+  AllocationPlan plan;
+  plan.samples = 150;
+  plan.confirm = 80;
+  plan.seed = seed;
+  plan.front = 0;
+  plan.requirement = {2.05 * kMilli, kProbability, kConfidence};
+  for (int j = 0; j < 2; ++j) {
+    AllocationJoint& joint = plan.joints.emplace_back();
+    joint.paths = {"joint " + std::to_string(j)};
+    for (int o = 0; o < options; ++o) {
+      const double least = kMilli * (1.0 + kStep * o);
+      joint.options.push_back({std::to_string(o), 10.0 - o - 0.1 * j, make_uniform(least, least + kMilli * kWidth)});
+    }
+  }
+  return plan;
+}
+
+// Both gaps in one direction.
+LinearDeviation sum_of_gaps() { return {{0.0}, {0, 0, 0}, {{1, 0, 0}, {1, 0, 0}}, "max"}; }
+
+Outcome done(double value) {
+  Outcome outcome;
+  outcome.status = Outcome::Status::done;
+  outcome.value = value;
+  return outcome;
+}
+
+// At the limit times 1 + 0.02 excess.
+Outcome near_limit(const AllocationPlan& plan, double excess) {
+  return done(plan.requirement.limit * (1.0 + 0.02 * excess));
+}
+
+struct Repeated {
+  int claims = 0, repetitions = 0;
+  double rate() const { return static_cast<double>(claims) / repetitions; }
+  double allowed() const { return kRisk + 2.0 * std::sqrt(kRisk * (1.0 - kRisk) / repetitions); }
+};
+
+// `model(plan)` gives the confirming rung. Every set that it confirms has exactly the required probability.
+template <typename Model>
+Repeated repeated(int repetitions, int options, const Model& model) {
+  Repeated all;
+  for (int r = 0; r < repetitions; ++r) {
+    const AllocationPlan plan = plan_with(static_cast<std::uint64_t>(1000 * r + 1), options);
+    all.claims += run_allocation(plan, sum_of_gaps(), 0.0, model(plan), "synthetic", {}).feasible;
+    ++all.repetitions;
+  }
+  return all;
+}
+
+// Every set of options weighs the two gaps in a way of its own, so that one that the samples refute is followed by
+// one which they may like: each exceeds the limit with probability 1 - kProbability exactly.
+TEST(Confirmation, SearchThatGoesOnUntilASetIsConfirmedKeepsTheRisk) {
+  const Repeated met = repeated(400, 6, [](const AllocationPlan& plan) {
+    return [&plan](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+      std::vector<Outcome> outcomes;
+      for (const auto& g : gaps) {
+        double option[2], score[2];
+        for (int j = 0; j < 2; ++j) {
+          const double x = (g[static_cast<std::size_t>(j)] / kMilli - 1.0) / kStep;
+          option[j] = std::floor(x + 1e-9);
+          score[j] = normal_quantile((x - option[j]) * kStep / kWidth);
+        }
+        const double angle = 0.4 + 1.1 * option[0] + 2.3 * option[1];
+        const double share = cdf(boost::math::normal(), std::cos(angle) * score[0] + std::sin(angle) * score[1]);
+        outcomes.push_back(near_limit(plan, share - kProbability));
+      }
+      return outcomes;
+    };
+  });
+  RecordProperty("false_met_rate", std::to_string(met.rate()));
+  std::printf("false met: %.3f, nominal %.3f, allowed %.3f\n", met.rate(), kRisk, met.allowed());
+  EXPECT_LE(met.rate(), met.allowed());
+}
+
+// The index is a gap less another input: drawn from one stream with the gap, it would never exceed anything.
+TEST(Confirmation, GapsAndOtherRandomParametersAreIndependent) {
+  RandomInputs inputs;
+  inputs.parameters.resize(1);
+  const double excess_at = 1.0 - std::sqrt(2.0 * (1.0 - kProbability));  // P(u - v <= this) = kProbability
+  Repeated met;
+  for (int r = 0; r < 400; ++r) {
+    AllocationPlan plan = plan_with(static_cast<std::uint64_t>(1000 * r + 1), 1);
+    plan.inputs = inputs;
+    const auto model = [&](const std::vector<std::vector<double>>& gaps,
+                           const std::vector<std::vector<double>>& others) {
+      std::vector<Outcome> outcomes;
+      for (std::size_t k = 0; k < gaps.size(); ++k)
+        outcomes.push_back(near_limit(plan, (gaps[k][0] / kMilli - 1.0) / kWidth - others[k][0] - excess_at));
+      return outcomes;
+    };
+    met.claims += run_allocation(plan, sum_of_gaps(), 0.0, model, "synthetic", {}).feasible;
+    ++met.repetitions;
+  }
+  std::printf("false met: %.3f, nominal %.3f, allowed %.3f\n", met.rate(), kRisk, met.allowed());
+  EXPECT_LE(met.rate(), met.allowed());
+}
+
+TEST(Confirmation, EveryOneDrawsSamplesThatNoneBeforeHasSeen) {
+  const AllocationPlan plan = plan_with(7, 6);
+  std::vector<std::vector<std::vector<double>>> seen;
+  const AllocationResult result = run_allocation(
+      plan, sum_of_gaps(), 0.0,
+      [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+        seen.push_back(gaps);
+        return std::vector<Outcome>(gaps.size(), near_limit(plan, 0.1));
+      },
+      "synthetic", {});
+  EXPECT_FALSE(result.feasible);
+  ASSERT_GE(result.confirmations.size(), 3u);
+  std::vector<std::uint64_t> seeds;
+  for (const AllocationConfirmation& c : result.confirmations) seeds.push_back(c.seed);
+  std::sort(seeds.begin(), seeds.end());
+  EXPECT_EQ(std::unique(seeds.begin(), seeds.end()), seeds.end());
+  // Where in its zone the first gap of the first sample lies.
+  const auto place = [](double gap) {
+    const double x = (gap / kMilli - 1.0) / kStep;
+    return x - std::floor(x + 1e-9);
+  };
+  for (std::size_t k = 2; k < seen.size(); ++k) EXPECT_NE(place(seen[k][0][0]), place(seen[k - 1][0][0]));
+}
+
+// e = 2 - c1 + c2 (mm): the wider first gap points better, and the tightest set keeps no limit below 2 mm.
+TEST(Allocation, FindsTheWiderGapThatWorksAgainstAnother) {
+  AllocationPlan plan = plan_with(3, 6);
+  plan.requirement.limit = 1.96 * kMilli;
+  const LinearDeviation opposed({0.0}, {2.0 * kMilli, 0, 0}, {{-1, 0, 0}, {1, 0, 0}}, "max");
+  const auto exact = [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+    std::vector<Outcome> outcomes;
+    for (const auto& g : gaps) outcomes.push_back(done(opposed.index(g)));
+    return outcomes;
+  };
+  const AllocationResult found = run_allocation(plan, opposed, 0.0, exact, "synthetic", {});
+  ASSERT_TRUE(found.feasible);
+  EXPECT_TRUE(found.chosen.proven);
+  EXPECT_EQ(found.chosen.choice.front(), 5);
+
+  // And before it says that there is none, it has tried what points best, not the tightest alone.
+  plan.requirement.limit = 1.9 * kMilli;
+  const AllocationResult none = run_allocation(plan, opposed, 0.0, exact, "synthetic", {});
+  EXPECT_FALSE(none.feasible);
+  EXPECT_NEAR(none.best_reachable, (2.0 - 0.05) * kMilli, 0.006 * kMilli);
+  EXPECT_EQ(none.chosen.choice, (std::vector<int>{5, 0}));
+}
+
+TEST(Allocation, TriesTheTightestGapsOnTheConfirmingRungBeforeItSaysThatNothingDoes) {
+  AllocationPlan plan = plan_with(5, 4);
+  plan.requirement.limit = 1.0 * kMilli;  // the linear deviation never falls to it
+  int calls = 0;
+  const AllocationResult result = run_allocation(
+      plan, sum_of_gaps(), 0.0,
+      [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+        // What the search tries first says that the rung is as the deviation.
+        const bool first = calls++ == 0;
+        std::vector<Outcome> outcomes;
+        for (const auto& g : gaps) outcomes.push_back(done(first ? g[0] + g[1] : 0.9 * plan.requirement.limit));
+        return outcomes;
+      },
+      "synthetic", {});
+  EXPECT_TRUE(result.feasible);
+  EXPECT_EQ(result.chosen.choice, (std::vector<int>{0, 0}));
+  EXPECT_FALSE(result.chosen.proven);
+}
+
+TEST(Allocation, OverCostCurvesClaimsNoProof) {
+  AllocationPlan plan = plan_with(9, 1);
+  for (AllocationJoint& joint : plan.joints) {
+    joint.options.clear();
+    joint.curve = {make_cost_curve("reciprocal", 1.0, 0.2, 1.0, 1e-3), 0.002 * kMilli, 0.1 * kMilli};
+  }
+  plan.requirement.limit = 0.08 * kMilli;
+  const LinearDeviation deviation = sum_of_gaps();
+  const AllocationResult result = run_allocation(
+      plan, deviation, 0.0,
+      [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+        std::vector<Outcome> outcomes;
+        for (const auto& g : gaps) outcomes.push_back(done(deviation.index(g)));
+        return outcomes;
+      },
+      "synthetic", {});
+  EXPECT_TRUE(result.feasible);
+  EXPECT_TRUE(result.chosen.finished);
+  EXPECT_FALSE(result.chosen.proven);
+}
+
+}  // namespace
+}  // namespace boresight
