@@ -194,6 +194,7 @@ class AllocateVerb : public Verb {
     write_json(out, "summary.json", summary);
     out.write("allocation.csv", [&](std::ostream& s) { write_allocation(s, allocated); });
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, allocate_report(allocated)); });
+    out.publish();
     if (!command.quiet) print(allocated, out);
     if (result.interrupted) return kInterrupted;
     return result.feasible ? kDone : kAnswerIsNo;

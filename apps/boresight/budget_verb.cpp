@@ -319,6 +319,7 @@ class BudgetVerb : public Verb {
     json["files"] = files;
     write_json(out, "summary.json", json);
     out.write("report.html", [&](std::ostream& stream) { report::write_html(stream, budget_report(s)); });
+    out.publish();
   }
 
   static void print(const BudgetStudy& s, const OutputDirectory& out) {

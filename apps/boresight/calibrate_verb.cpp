@@ -88,6 +88,7 @@ class CalibrateVerb : public Verb {
       out.write("posterior.toml", [&](std::ostream& s) { s << posterior_toml(problem, result.inference); });
       out.write("report.html", [&](std::ostream& s) { report::write_html(s, calibrate_report(whole)); });
     }
+    out.publish();
     if (!command.quiet) print(whole, out);
     if (result.interrupted) return kInterrupted;
     const bool all = std::all_of(result.inference.parameters.begin(), result.inference.parameters.end(),

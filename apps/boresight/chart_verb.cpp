@@ -195,6 +195,7 @@ class ChartVerb : public Verb {
     out.write("report.html", [&](std::ostream& s) {
       report::write_html(s, chart_report(command, *mechanism, result, accuracy));
     });
+    out.publish();
     progress.clear();
     if (!command.quiet) print(*mechanism, result, accuracy, out);
     if (result.interrupted) return kInterrupted;

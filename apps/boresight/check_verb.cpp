@@ -105,6 +105,7 @@ class CheckVerb : public Verb {
     });
     out.write("report.html",
               [&](std::ostream& s) { report::write_html(s, check_report(command, mechanism, result)); });
+    out.publish();
     if (!command.quiet) print(mechanism, result, out);
     if (interrupted()) return kInterrupted;
     return result.findings.empty() ? kDone : kAnswerIsNo;

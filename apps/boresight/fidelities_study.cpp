@@ -274,6 +274,7 @@ int run_fidelities(const SeveralRungs& s) {
                                            .intro = "Made before anything but the pilot was spent: " + forecast_sentence(o.plan, top) + ".",
                                            .items = {levels_table(s, o), agreement_chart(s, o)}});
   s.out.write("report.html", [&](std::ostream& out) { report::write_html(out, document); });
+  s.out.publish();
   if (!s.command.quiet) {
     fmt::print("  {}\n", sentence);
     fmt::print("  gain measured: {:.3g} ({:.1f} s of CPU)\n", measured_gain(o), o.spent);

@@ -107,6 +107,7 @@ class LawsVerb : public Verb {
     out.write("report.html", [&](std::ostream& s) {
       report::write_html(s, laws_report(command, subject, normal, friction));
     });
+    out.publish();
     if (!command.quiet) print(subject, normal, friction, out);
     return kDone;
   }

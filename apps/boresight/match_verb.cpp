@@ -190,6 +190,7 @@ class MatchVerb : public Verb {
     write_json(out, "summary.json", summary);
     out.write("evaluations.csv", [&](std::ostream& s) { write_evaluations(s, plan, result); });
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, match_report(matched)); });
+    out.publish();
     if (!command.quiet) print(matched, out);
     if (result.interrupted) return kInterrupted;
     if (result.design.empty() || evaluator.failures().count == evaluator.runs()) return kFailed;

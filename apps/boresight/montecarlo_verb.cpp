@@ -144,14 +144,7 @@ class MonteCarloVerb : public Verb {
   std::unique_ptr<SampleStore> open_store(const OutputDirectory& out, const MonteCarloQuestion& question) const {
     const std::filesystem::path file = out.path() / "samples.db";
     const bool there = std::filesystem::exists(file);
-    // Whose folder this is has to be known before the first sample is, or a kill would leave an orphan.
-    if (!std::filesystem::exists(out.path() / "summary.json"))
-      write_json(out, "summary.json",
-                 {{"verb", "montecarlo"},
-                  {"version", BORESIGHT_VERSION},
-                  {"interrupted", true},
-                  {"warnings", {"begun and not yet ended: samples.db holds what there is; go on with --resume"}},
-                  {"identity", Json::parse(out.identity().dump())}});
+    announce_begun(out, name(), "begun and not yet ended: samples.db holds what there is; go on with --resume");
     auto store = std::make_unique<SampleStore>(
         file, std::map<std::string, std::string>{{"study", hash_of(out.identity())}}, names_of(question.plan.inputs));
     merge_shards(*store, out.path());
@@ -280,6 +273,7 @@ class MonteCarloVerb : public Verb {
                           .replay = replay_command(command, choice, model)};
     write_json(out, "summary.json", summary_of(study, watch, out, store));
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, montecarlo_report(study)); });
+    out.publish();
     if (!command.quiet) print(study, out);
     if (result.ended == Ended::interrupted) return kInterrupted;
     if (estimates.failed == estimates.samples && estimates.samples > 0) return kFailed;

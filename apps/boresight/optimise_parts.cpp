@@ -33,14 +33,7 @@ std::unique_ptr<EvaluationStore> open_evaluations(const OutputDirectory& out, co
                                                   const std::string& name,
                                                   const std::vector<std::string>& variables,
                                                   const std::string& rung, double step) {
-  if (!std::filesystem::exists(out.path() / "summary.json"))
-    write_json(
-        out, "summary.json",
-        {{"verb", verb},
-         {"version", BORESIGHT_VERSION},
-         {"interrupted", true},
-         {"warnings", {"begun and not yet ended: the same command goes on, and reuses what is in " + name}},
-         {"identity", Json::parse(out.identity().dump())}});
+  announce_begun(out, verb, "begun and not yet ended: the same command goes on, and reuses what is in " + name);
   ContentHash hash;
   hash.add(out.identity().dump());
   return std::make_unique<EvaluationStore>(

@@ -1,7 +1,5 @@
 #include "output_directory.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace boresight::app {
@@ -16,8 +15,10 @@ namespace fs = std::filesystem;
 namespace {
 
 // The files by which a directory is known to hold results although its summary.json is missing.
-const std::vector<std::string> kResultFiles = {"report.html", "timeseries.csv", "events.csv", "sweep.csv", "restitution.csv",
-                                               "samples.db"};
+const std::vector<std::string> kResultFiles = {
+    "report.html",   "timeseries.csv", "events.csv", "poincare.csv",  "sweep.csv",       "restitution.csv", "samples.db", "sobol.csv",
+    "local.csv",     "posterior.toml", "limits.csv", "growth.csv",    "allocation.csv",  "evaluations.csv", "levels.csv", "rungs.csv",
+    "evaluations.db", "chart.csv",     "flight.csv", "confirmation.db", "conditioning.csv", "classical.csv"};
 
 enum class Owner { nobody, this_study, another_study, unknown };
 
@@ -37,109 +38,126 @@ Owner owner_of(const fs::path& directory, const nlohmann::json& identity) {
   return found["identity"] == identity ? Owner::this_study : Owner::another_study;
 }
 
-bool free_for(const fs::path& directory, const nlohmann::json& identity) {
-  const Owner owner = owner_of(directory, identity);
-  return owner == Owner::nobody || owner == Owner::this_study;
-}
-
-[[noreturn]] void fail(const fs::path& file, const char* step, int error) {
-  throw WriteError("cannot write " + file.string() + ": " + step + ": " + std::strerror(error));
-}
-
-// Closes and removes the temporary file unless it was given its final name.
-struct TemporaryFile {
-  std::string name;
-  int descriptor = -1;
-  bool renamed = false;
-  ~TemporaryFile() {
-    if (descriptor >= 0) ::close(descriptor);
-    if (!renamed && !name.empty()) ::unlink(name.c_str());
+// The folders of this path that are not there yet, outermost first.
+std::vector<fs::path> missing_folders(const fs::path& path) {
+  std::vector<fs::path> missing;
+  std::error_code failed;
+  for (fs::path folder = path; !folder.empty() && !fs::exists(folder, failed); folder = folder.parent_path()) {
+    missing.insert(missing.begin(), folder);
+    if (folder == folder.parent_path()) break;
   }
+  return missing;
+}
+
+void remove_empty(const std::vector<fs::path>& made) {
+  for (auto folder = made.rbegin(); folder != made.rend(); ++folder)
+    if (::rmdir(folder->c_str()) != 0) return;
+}
+
+bool has_store(const fs::path& directory) {
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(directory, failed))
+    if (entry.path().extension() == ".db") return true;
+  return false;
+}
+
+[[noreturn]] void refuse(const fs::path& directory, const std::string& why) {
+  throw OutputDirectoryError("--out " + directory.string() + ": " + why);
+}
+
+struct Opened {
+  std::optional<FolderClaim> claim;  // nothing: another process writes there
+  std::vector<fs::path> made;
+  Owner owner = Owner::nobody;
 };
 
-void sync_directory(const fs::path& directory) {
-  const int descriptor = ::open(directory.c_str(), O_RDONLY | O_DIRECTORY);
-  if (descriptor < 0) return;  // the rename has happened; only its durability against a power cut is at stake
-  ::fsync(descriptor);
-  ::close(descriptor);
+// Makes the folder where there is none, claims it, and says whose it is.
+Opened open_folder(const fs::path& path, const nlohmann::json& identity) {
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::is_directory(path, error)) refuse(path, "found a file, expected a directory or a new name");
+  Opened opened;
+  for (int attempt = 0; !opened.claim; ++attempt) {
+    opened.made = missing_folders(path);
+    fs::create_directories(path, error);
+    if (error) refuse(path, "cannot create the directory: " + error.message());
+    opened.claim = FolderClaim::take(path);
+    if (!opened.claim) {
+      opened.owner = owner_of(path, identity);
+      return opened;
+    }
+    // One that ended just now may have removed it, being empty.
+    if (!fs::exists(path, error) && attempt < 100) opened.claim.reset();
+  }
+  if (::access(path.c_str(), W_OK | X_OK) == 0) recover(path);
+  opened.owner = owner_of(path, identity);
+  return opened;
+}
+
+bool free_for_us(const Opened& opened) {
+  return opened.claim && (opened.owner == Owner::nobody || opened.owner == Owner::this_study);
 }
 
 }  // namespace
 
-void write_atomically(const fs::path& file, const std::string& content) {
-  const fs::path directory = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  TemporaryFile temporary;
-  temporary.name = (directory / ("." + file.filename().string() + ".XXXXXX")).string();
-  temporary.descriptor = ::mkstemp(temporary.name.data());
-  if (temporary.descriptor < 0) {
-    const int error = errno;
-    temporary.name.clear();
-    fail(file, "creating it", error);
-  }
-  for (std::size_t done = 0; done < content.size();) {
-    const ssize_t n = ::write(temporary.descriptor, content.data() + done, content.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail(file, "writing it", errno);
-    done += static_cast<std::size_t>(n);
-  }
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  if (::fchmod(temporary.descriptor, 0666 & ~mask) != 0) fail(file, "setting its permissions", errno);
-  if (::fsync(temporary.descriptor) != 0 && errno != EINVAL) fail(file, "syncing it", errno);
-  const int descriptor = temporary.descriptor;
-  temporary.descriptor = -1;
-  if (::close(descriptor) != 0) fail(file, "closing it", errno);
-  if (::rename(temporary.name.c_str(), file.c_str()) != 0) fail(file, "renaming it into place", errno);
-  temporary.renamed = true;
-  sync_directory(directory);
-}
+OutputDirectory::OutputDirectory(fs::path path, nlohmann::json identity, std::optional<FolderClaim> claim,
+                                 std::vector<fs::path> made)
+    : path_(std::move(path)), identity_(std::move(identity)), claim_(std::move(claim)), made_(std::move(made)) {}
 
-OutputDirectory::OutputDirectory(fs::path path, nlohmann::json identity)
-    : path_(std::move(path)), identity_(std::move(identity)) {}
+OutputDirectory::OutputDirectory(OutputDirectory&& other) noexcept
+    : path_(std::move(other.path_)),
+      identity_(std::move(other.identity_)),
+      claim_(std::exchange(other.claim_, std::nullopt)),
+      made_(std::move(other.made_)) {}
+
+OutputDirectory::~OutputDirectory() {
+  if (!claim_) return;  // moved from
+  discard_staged(path_);
+  remove_empty(made_);
+}
 
 OutputDirectory OutputDirectory::open(const std::string& asked, const std::string& verb,
                                       const std::string& file, nlohmann::json identity) {
   fs::path path = asked;
+  Opened opened;
   if (asked.empty()) {
     const std::string stem = fs::path(file).stem().string();
     // "clearance-sweep.toml" swept is results/clearance-sweep, not results/clearance-sweep-sweep.
     const bool named_after_verb = stem == verb || (stem.size() > verb.size() && stem.ends_with("-" + verb));
     const fs::path base = fs::path("results") / (named_after_verb ? stem : stem + "-" + verb);
     path = base;
-    for (int n = 2; !free_for(path, identity); ++n) path = base.string() + "-" + std::to_string(n);
+    for (int n = 2;; ++n) {
+      opened = open_folder(path, identity);
+      if (free_for_us(opened)) break;
+      // A study that keeps its runs goes on in its own folder, once that is free.
+      if (!opened.claim && opened.owner == Owner::this_study && has_store(path)) break;
+      path = base.string() + "-" + std::to_string(n);
+    }
+  } else {
+    opened = open_folder(path, identity);
   }
-  std::error_code error;
-  if (fs::exists(path, error) && !fs::is_directory(path, error))
-    throw OutputDirectoryError("--out " + path.string() +
-                               ": found a file, expected a directory or a new name");
-  switch (owner_of(path, identity)) {
+  if (!opened.claim) refuse(path, "another run is writing there; wait for it to end, or give another --out");
+  switch (opened.owner) {
     case Owner::another_study:
-      throw OutputDirectoryError(
-          "--out " + path.string() +
-          ": holds the results of another study (other verb, file, settings or options); "
-          "give another --out, or remove it");
+      refuse(path, "holds the results of another study (other verb, file, settings or options); "
+             "give another --out, or remove it");
     case Owner::unknown:
-      throw OutputDirectoryError("--out " + path.string() +
-                                 ": holds results without a readable summary.json to say whose they are; "
-                                 "give another --out, or remove it");
+      refuse(path, "holds results without a readable summary.json to say whose they are; "
+             "give another --out, or remove it");
     case Owner::nobody:
     case Owner::this_study:
       break;
   }
-  fs::create_directories(path, error);
-  if (error)
-    throw OutputDirectoryError("--out " + path.string() +
-                               ": cannot create the directory: " + error.message());
-  if (::access(path.c_str(), W_OK | X_OK) != 0)
-    throw OutputDirectoryError("--out " + path.string() + ": cannot write there: " + std::strerror(errno));
-  return OutputDirectory(std::move(path), std::move(identity));
+  if (::access(path.c_str(), W_OK | X_OK) != 0) refuse(path, std::string("cannot write there: ") + std::strerror(errno));
+  return OutputDirectory(std::move(path), std::move(identity), std::move(opened.claim), std::move(opened.made));
 }
 
 void OutputDirectory::write(const std::string& name,
                             const std::function<void(std::ostream&)>& content) const {
   std::ostringstream text;
   content(text);
-  write_atomically(path_ / name, std::move(text).str());
+  stage(path_, name, std::move(text).str());
 }
+
+void OutputDirectory::publish() const { app::publish(path_); }
 
 }  // namespace boresight::app

@@ -234,6 +234,7 @@ class RunVerb : public Verb {
     out.write("timeseries.csv", [&](std::ostream& s) { write_timeseries(s, *mechanism, result, finer); });
     out.write("events.csv", [&](std::ostream& s) { write_events(s, *mechanism, result); });
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, document); });
+    out.publish();
     progress.clear();
     if (!command.quiet) print(*mechanism, choice, result, others, axes, predictability, measured, index, assumed_by(command, *mechanism), out);
     return cut_short ? kInterrupted : status_with_accuracy(choice, kDone);

@@ -229,6 +229,7 @@ class SensitivityVerb : public Verb {
     json["files"] = files;
     write_json(out, "summary.json", json);
     out.write("report.html", [&](std::ostream& stream) { report::write_html(stream, sensitivity_report(s)); });
+    out.publish();
   }
 
   static void print(const SensitivityStudy& s, const OutputDirectory& out) {

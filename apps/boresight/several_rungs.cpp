@@ -19,15 +19,7 @@ std::unique_ptr<SampleModel> model_on(const SeveralRungs& s, const std::string& 
 
 RungChoice named_rung(const std::string& rung) { return {rung, "the study names its rungs", 0.0}; }
 
-void claim_folder(const SeveralRungs& s) {
-  if (std::filesystem::exists(s.out.path() / "summary.json")) return;
-  write_json(s.out, "summary.json",
-             {{"verb", s.command.verb},
-              {"version", BORESIGHT_VERSION},
-              {"interrupted", true},
-              {"warnings", {"begun and not yet ended"}},
-              {"identity", Json::parse(s.out.identity().dump())}});
-}
+void claim_folder(const SeveralRungs& s) { announce_begun(s.out, s.command.verb, "begun and not yet ended"); }
 
 Json several_rungs_summary(const SeveralRungs& s, const std::string& rung, const std::vector<std::string>& warnings) {
   Json json = common_summary(s.command, *s.question.mechanism, named_rung(rung), s.watch, warnings, false, s.out);

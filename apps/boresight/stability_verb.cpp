@@ -183,6 +183,7 @@ class StabilityVerb : public Verb {
     out.write("cases.csv", [&](std::ostream& s) { write_cases(s, result); });
     out.write("report.html",
               [&](std::ostream& s) { report::write_html(s, stability_report(command, *mechanism, result)); });
+    out.publish();
     progress.clear();
     if (!command.quiet) print(*mechanism, result, out);
     if (result.interrupted) return kInterrupted;

@@ -22,14 +22,7 @@ SampleStore open_runs(const OutputDirectory& out, const std::string& verb, const
     throw OutputDirectoryError(
         "--out " + out.path().string() +
         ": holds runs of this study already; --resume goes on with them, another --out begins anew");
-  // Whose folder this is has to be known before the first run is, or a kill would leave an orphan.
-  if (!std::filesystem::exists(out.path() / "summary.json"))
-    write_json(out, "summary.json",
-               {{"verb", verb},
-                {"version", BORESIGHT_VERSION},
-                {"interrupted", true},
-                {"warnings", {"begun and not yet ended: samples.db holds what there is; go on with --resume"}},
-                {"identity", Json::parse(out.identity().dump())}});
+  announce_begun(out, verb, "begun and not yet ended: samples.db holds what there is; go on with --resume");
   ContentHash hash;
   hash.add(out.identity().dump());
   hash.add(text);

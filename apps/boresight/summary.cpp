@@ -107,4 +107,15 @@ void write_json(const OutputDirectory& out, const std::string& name, const Json&
   });
 }
 
+void announce_begun(const OutputDirectory& out, const std::string& verb, const std::string& warning) {
+  if (std::filesystem::exists(out.path() / "summary.json")) return;
+  write_json(out, "summary.json",
+             {{"verb", verb},
+              {"version", BORESIGHT_VERSION},
+              {"interrupted", true},
+              {"warnings", {warning}},
+              {"identity", Json::parse(out.identity().dump())}});
+  out.publish();
+}
+
 }  // namespace boresight::app

@@ -42,4 +42,8 @@ const std::filesystem::path& last_summary();
 
 void write_json(const OutputDirectory& out, const std::string& name, const Json& json);
 
+// Says in a summary.json at once, where there is none yet, whose the folder is: before the first run is stored in it, or a
+// kill would leave runs that nobody knows. warning: how to go on.
+void announce_begun(const OutputDirectory& out, const std::string& verb, const std::string& warning);
+
 }  // namespace boresight::app

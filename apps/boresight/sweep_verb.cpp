@@ -163,6 +163,7 @@ class SweepVerb : public Verb {
       report::write_html(s,
                          sweep_report(command, study, *mechanism, choice, rung->leaves_out(), plan, result));
     });
+    out.publish();
     progress.clear();
     if (!command.quiet) print(study, plan, *mechanism, result, out);
     if (result.interrupted) return kInterrupted;

@@ -182,6 +182,7 @@ int run_tail(const SeveralRungs& s) {
   document.sections.insert(document.sections.begin(),
                            report::Section{.id = "tail", .title = "The tail", .items = {levels_chart(s, pilot->proposal.subset), table}});
   s.out.write("report.html", [&](std::ostream& out) { report::write_html(out, document); });
+  s.out.publish();
   if (!s.command.quiet) {
     fmt::print("  {}\n", sentence);
     for (const std::string& warning : warnings) fmt::print("  warning: {}\n", warning);
