@@ -1,10 +1,12 @@
 #include "boresight_analyses/fidelities/fidelity_plan.hpp"
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_statistics_double.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 
@@ -180,6 +182,33 @@ ExcessPilot excess_pilot(const FidelityPilot& pilot, double limit) {
   for (std::size_t i = 0; i < pilot.models(); ++i)
     for (double& v : result.indicators.values[i]) v = !std::isfinite(v) || v > result.limits[i] ? 1.0 : 0.0;
   return result;
+}
+
+FidelityPlan with_excess_weights(FidelityPlan plan, const FidelityPilot& pilot, const ExcessPilot& excess, double limit) {
+  plan = with_weights_of(std::move(plan), excess.indicators);
+  const std::vector<std::vector<double>> values = whole(pilot), indicators = whole(excess.indicators);
+  const Moments m = moments(values);
+  const auto few = [&](std::size_t model) {
+    constexpr double kFewest = 5.0;
+    const double beyond = std::accumulate(indicators[model].begin(), indicators[model].end(), 0.0);
+    return beyond < kFewest || double(indicators[model].size()) - beyond < kFewest;
+  };
+  const double a = m.sd[0] > 0.0 ? (limit - m.mean[0]) / m.sd[0] : 0.0;
+  for (std::size_t i = 1; i < plan.models.size(); ++i) {
+    const auto model = static_cast<std::size_t>(plan.models[i]);
+    if (!few(0) && !few(model)) continue;
+    const double r = std::clamp(m.correlation[model], -1.0, 1.0), b = r * a;
+    const double q = gsl_cdf_ugaussian_Q(b), whole_angle = std::asin(r);
+    constexpr int kPanels = 200;  // midpoint rule; the integrand is smooth
+    double covariance = 0.0;
+    for (int k = 0; k < kPanels; ++k) {
+      const double t = whole_angle * (k + 0.5) / kPanels;
+      covariance += std::exp(-0.5 * (a * a - 2.0 * a * b * std::sin(t) + b * b) / std::pow(std::cos(t), 2)) /
+                    (2.0 * std::numbers::pi) * whole_angle / kPanels;
+    }
+    plan.weight[i] = q > 0.0 && q < 1.0 ? covariance / (q * (1.0 - q)) : 0.0;
+  }
+  return plan;
 }
 
 }  // namespace boresight

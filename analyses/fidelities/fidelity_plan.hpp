@@ -63,4 +63,14 @@ struct ExcessPilot {
 };
 ExcessPilot excess_pilot(const FidelityPilot& pilot, double limit);
 
+// The plan's samples put to the probability of that excess. Where the pilot saw fewer than five exceedances of either model,
+// or fewer than five that stay below, its indicators say nothing of how they agree: the weight is then that of two normal
+// variables with the pilot's correlation r: beyond the standardised limits a of the dear one and b = r a of the cheap one,
+// which is exceeded with the chance q (Plackett 1954, Biometrika 41),
+//
+//   cov = integral of exp(-(a^2 - 2 a b sin t + b^2) / (2 cos^2 t)) / (2 pi) over t from 0 to asin r,   alpha = cov / (q (1 - q))
+//
+// Any weight that is fixed beforehand leaves the estimate unbiased.
+FidelityPlan with_excess_weights(FidelityPlan plan, const FidelityPilot& pilot, const ExcessPilot& excess, double limit);
+
 }  // namespace boresight

@@ -1,6 +1,7 @@
 #include "boresight_analyses/montecarlo/montecarlo_plan.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "boresight/io/units.hpp"
 #include "boresight/io/value_fault.hpp"
@@ -91,17 +92,28 @@ const std::vector<Headline>& headlines() {
   return all;
 }
 
+namespace {
+
+// To the last bit: two limits a nanometre apart are two studies.
+std::string exact_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+}  // namespace
+
 std::string MonteCarloPlan::sample_text(const Study& study) const {
   std::string text = inputs.text + design.text() + "\nindex " + study.index.text() + "\n";
   // The budget divides the samples: another one is another study.
   if (fidelities) {
     text += "fidelities";
     for (const std::string& model : fidelities->models) text += " " + model;
-    text += " " + std::to_string(fidelities->budget) + " " + std::to_string(fidelities->pilot) + "\n";
+    text += " " + exact_text(fidelities->budget) + " " + std::to_string(fidelities->pilot) + "\n";
   }
   if (tail)
-    text += "tail " + tail->cheap + " " + tail->exact + " " + std::to_string(tail->budget) + " " + std::to_string(tail->pilot) + " " +
-            std::to_string(requirement->limit) + "\n";
+    text += "tail " + tail->cheap + " " + tail->exact + " " + exact_text(tail->budget) + " " + std::to_string(tail->pilot) + " " +
+            exact_text(requirement->limit) + "\n";
   return text;
 }
 

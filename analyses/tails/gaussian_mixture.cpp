@@ -67,7 +67,7 @@ GaussianMixture::Component GaussianMixture::component(double share, VecX mean, c
 }
 
 GaussianMixture::GaussianMixture(int dimensions)
-    : components_{component(1.0, VecX::Zero(dimensions), MatX::Identity(dimensions, dimensions))} {}
+    : components_{component(1.0, VecX::Zero(dimensions), MatX::Identity(dimensions, dimensions))}, most_weight_(1.0) {}
 
 GaussianMixture::GaussianMixture(const Points& points, const std::vector<double>& weights, int components,
                                  std::uint64_t seed) {
@@ -136,6 +136,7 @@ GaussianMixture GaussianMixture::defended(double share) const {
   if (!(share > 0.0 && share < 1.0)) throw std::invalid_argument("the defensive share must lie between 0 and 1");
   GaussianMixture result(dimensions());
   result.components_[0].share = share;
+  result.most_weight_ = 1.0 / share;
   for (const Component& c : components_) {
     const MatX covariance = c.factor * c.factor.transpose();
     result.components_.push_back(component(0.75 * (1.0 - share) * c.share, c.mean, covariance));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "boresight/math/types.hpp"
@@ -24,6 +25,10 @@ class GaussianMixture {
   // no weight exceeds 1 / share.
   GaussianMixture defended(double share) const;
 
+  // The most that the standard normal density exceeds this one by, known of one that is defended and of the standard
+  // normal itself: infinite of others.
+  double most_weight() const { return most_weight_; }
+
   int dimensions() const { return static_cast<int>(components_[0].mean.size()); }
   std::size_t components() const { return components_.size(); }
   double log_density(const Point& u) const;
@@ -44,6 +49,7 @@ class GaussianMixture {
   static Component component(double share, VecX mean, const MatX& covariance);
 
   std::vector<Component> components_;
+  double most_weight_ = std::numeric_limits<double>::infinity();
 };
 
 // ln of the standard normal density.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "boresight_analyses/statistics/betting_mean.hpp"
+#include "boresight_analyses/statistics/binomial.hpp"
 #include "boresight_analyses/statistics/running.hpp"
 
 namespace boresight {
@@ -18,9 +20,11 @@ bool beyond(double value, double limit) { return !std::isfinite(value) || value 
 // Weights of the points beyond the limit.
 struct Excess {
   double sum = 0.0, squares = 0.0;
+  std::vector<double> weights = {};
   void add(double weight) {
     sum += weight;
     squares += weight * weight;
+    weights.push_back(weight);
   }
   double effective() const { return squares > 0.0 ? sum * sum / squares : 0.0; }
 };
@@ -37,6 +41,28 @@ void finish(TailEstimate& e, double value, double error, double degrees, double 
   const double half = gsl_cdf_tdist_Qinv(0.5 * (1.0 - confidence), degrees) * error;
   e.standard_error = error;
   e.probability = {value, std::clamp(value - half, 0.0, 1.0), std::clamp(value + half, 0.0, 1.0), confidence, confidence, false, basis};
+}
+
+// Of the exact points alone: what they say does not hang on how the two models agree.
+void bound(TailEstimate& e, const Excess& excess, const GaussianMixture& proposal, double confidence) {
+  e.most_weight = proposal.most_weight();
+  IndependentInterval& b = e.bounds;
+  b = {e.probability.value, 0.0, 1.0, confidence, confidence, false, "none: the proposal's weights are not bounded"};
+  if (!std::isfinite(e.most_weight)) return;
+  const double side = 0.5 * (1.0 + confidence);
+  const std::int64_t points = e.exact_evaluations;
+  if (e.most_weight == 1.0) {
+    b.low = clopper_pearson_lower(e.exceedances, points, side);
+    b.high = clopper_pearson_upper(e.exceedances, points, side);
+    b.basis = "Clopper-Pearson over " + std::to_string(points) + " independent points";
+    return;
+  }
+  std::vector<double> shares;
+  for (const double w : excess.weights) shares.push_back(std::min(1.0, w / e.most_weight));
+  const std::int64_t zeros = points - e.exceedances;
+  b.low = std::min(1.0, e.most_weight * betting_lower(shares, zeros, side));
+  b.high = std::min(1.0, e.most_weight * betting_upper(shares, zeros, side));
+  b.basis = "betting on bounded weights of " + std::to_string(points) + " independent points";
 }
 
 void check(std::int64_t points) {
@@ -65,6 +91,7 @@ TailEstimate importance_sampling(const BatchModel& model, double limit, const Ga
   e.effective_exceedances = excess.effective();
   finish(e, moments.mean(), moments.sd() / std::sqrt(double(points)), double(points) - 1.0, options.confidence,
          "importance sampling, central limit");
+  bound(e, excess, proposal, options.confidence);
   return e;
 }
 
@@ -101,6 +128,7 @@ TailEstimate two_level_importance_sampling(const BatchModel& cheap, const BatchM
   const double degrees = spread > 0.0 ? (va + vc) * (va + vc) / spread : double(exact_points - 1);
   finish(e, alone.mean() + correction.mean(), std::sqrt(va + vc), degrees, options.confidence,
          "importance sampling on the cheap model, corrected on the exact one, central limit");
+  bound(e, excess, proposal, options.confidence);
   return e;
 }
 

@@ -8,7 +8,12 @@
 //   P_exact = a E_q[w 1_cheap] + E_q[w (1_exact - a 1_cheap)]
 //
 // The second term takes out whatever the cheap model gets wrong: for any a fixed beforehand the sum is unbiased for the
-// exact one, however poor the cheap one is; a poor one costs interval width, and the pilot (two_level_pilot.hpp) an a near 0. q keeps a share of the standard normal, so weights are bounded.
+// exact one, however poor the cheap one is; a poor one costs interval width, and the pilot (two_level_pilot.hpp) an a near 0.
+//
+// Two intervals. That of the central limit is what to expect of the estimate, and is too narrow where few points or few large
+// weights make it up: a region that no point has met leaves no trace in their scatter. q keeps a share of the standard
+// normal, so no weight exceeds W = 1 / share, and `bounds` hold wherever the excess lies: Clopper and Pearson's where all
+// weights are 1, else by betting on w 1 / W of the exact points (betting_mean.hpp). What is claimed rests on them.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +31,8 @@ struct TailOptions {
 
 struct TailEstimate {
   IndependentInterval probability;  // central limit; the ends are kept in [0, 1], the unbiased value is not
+  IndependentInterval bounds;       // whatever the excess: each end errs with a chance of at most (1 - confidence) / 2
+  double most_weight = 1.0;         // W of them
   double standard_error = 0.0;
   std::int64_t exceedances = 0;      // points of the (exact) model beyond the limit
   double effective_exceedances = 0.0;  // (sum of their weights)^2 / sum of squares: small: do not trust the interval

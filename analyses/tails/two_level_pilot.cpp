@@ -19,17 +19,21 @@ struct Pair {
 bool beyond(double value, double limit) { return !std::isfinite(value) || value > limit; }
 
 // Standard deviations of one point's contribution: of the exact model less `control` times the cheap one, and of the cheap.
+// Where few points tell them apart their agreement is a matter of luck: one more point on which they disagree, of the mean
+// square weight of those beyond, keeps the first from being taken for nothing.
 struct Scatter {
   double corrected = 0.0, cheap = 0.0;
 };
 Scatter scatter(const Pair& pair, double limit, double control) {
-  RunningMoments corrected, cheap;
+  RunningMoments corrected, cheap, squares;
   for (std::size_t k = 0; k < pair.exact.size(); ++k) {
     const double c = beyond(pair.cheap[k], limit), e = beyond(pair.exact[k], limit);
     corrected.add(pair.drawn.weights[k] * (e - control * c));
     cheap.add(pair.drawn.weights[k] * c);
+    if (c + e > 0.0) squares.add(pair.drawn.weights[k] * pair.drawn.weights[k]);
   }
-  return {corrected.sd(), cheap.sd()};
+  const double unseen = control > 0.0 ? squares.mean() / double(pair.exact.size()) : 0.0;
+  return {std::sqrt(corrected.variance() + unseen), cheap.sd()};
 }
 
 }  // namespace
@@ -68,6 +72,12 @@ TwoLevelPlan two_level_pilot(const BatchModel& cheap, const BatchModel& exact, i
   for (std::size_t k = 0; k < pair.exact.size(); ++k)
     share.add(beyond(pair.exact[k], limit) ? pair.drawn.weights[k] : 0.0);
   plan.probability = share.mean();
+  plan.informed = share.mean() > 0.0;
+  if (!plan.informed) {
+    plan.standard_error = plan.exact_standard_error = plan.plain_standard_error = std::nan("");
+    plan.exact_points = std::max<std::int64_t>(2, static_cast<std::int64_t>(budget / costs.exact));
+    return plan;
+  }
   // A point of both costs both. With m_exact : m_cheap at its best, error * sqrt(budget) is the sum of sd * sqrt(cost).
   const double both = costs.cheap + costs.exact;
   const auto price = [&](double control) {

@@ -17,6 +17,9 @@ struct TwoLevelPlan {
   double cheap_limit = 0.0;   // the limit, less what the exact model was seen to lie above the cheap one
   double control = 0.0;       // a of tail_estimate.hpp; 0: the exact model alone is the better buy
   std::int64_t cheap_points = 0, exact_points = 0;
+  // Whether the pilot saw the exact model exceed the limit. Where it did not, it knows neither how the models agree nor
+  // what to expect: the cheap one is then not leaned on, and the standard errors are not a number.
+  bool informed = false;
   double probability = 0.0;   // from the pilot alone, rough
   double standard_error = 0.0;         // to expect of the plan
   double exact_standard_error = 0.0;   // of as much CPU spent on the exact model alone, same proposal

@@ -34,7 +34,7 @@ struct FidelityOutcome {
   FidelityPilot pilot;
   FidelityPlan plan;
   FidelityEstimate mean;
-  std::optional<FidelityEstimate> excess;  // probability of exceeding the requirement's limit
+  std::optional<IndependentInterval> excess;  // probability of exceeding the requirement's limit
   double spent = 0.0;                      // CPU seconds of all samples
 };
 
@@ -180,10 +180,10 @@ int run_fidelities(const SeveralRungs& s) {
     o.mean = estimate_fidelities(o.plan, values, plan.confidence);
     if (plan.requirement) {
       const ExcessPilot excess = excess_pilot(o.pilot, plan.requirement->limit);
-      const FidelityPlan weighted = with_weights_of(o.plan, excess.indicators);
+      const FidelityPlan weighted = with_excess_weights(o.plan, o.pilot, excess, plan.requirement->limit);
       // Two sides at 2 c - 1 are one side at c each.
-      o.excess = estimate_fidelities(weighted, excess_indicators(weighted, values, excess.limits),
-                                     2.0 * plan.requirement->confidence - 1.0);
+      o.excess = excess_bounds(weighted, excess_indicators(weighted, values, excess.limits),
+                               2.0 * plan.requirement->confidence - 1.0);
     }
   } catch (const MethodInterrupted&) {
     progress.clear();
@@ -202,7 +202,7 @@ int run_fidelities(const SeveralRungs& s) {
   const double sampling = 0.5 * (o.mean.value.high - o.mean.value.low) / std::abs(o.mean.value.value);
   std::vector<std::string> warnings;
   if (o.mean.failed > 0)
-    warnings.push_back(fmt::format("{} samples failed on some rung and are left out of all", o.mean.failed) +
+    warnings.push_back(fmt::format("{} samples failed on some rung and are left out of its mean", o.mean.failed) +
                        first_failure_text(failures, "sample"));
   if (o.plan.models.size() == 1)
     warnings.push_back("the cheaper rungs do not pay: this is plain Monte Carlo on " + top + ", the pilot was spent in vain");
@@ -218,15 +218,10 @@ int run_fidelities(const SeveralRungs& s) {
                    {"rung", {{"relative", 0.0}, {"why", "unbiased for the " + top + " rung"}}},
                    {"dominant", steps.relative > sampling ? "discretisation" : "sampling"}};
   if (o.excess) {
-    const auto& p = o.excess->value;
+    const IndependentInterval& p = *o.excess;
     const ReportedInterval below{1.0 - p.value, std::clamp(1.0 - p.high, 0.0, 1.0), std::clamp(1.0 - p.low, 0.0, 1.0),
                                  plan.requirement->confidence, plan.requirement->confidence, false, p.basis, "independent"};
-    // Without scatter among the indicators there is no interval to trust.
-    met = o.excess->standard_error > 0.0 && below.low >= plan.requirement->probability;
-    if (o.excess->standard_error == 0.0) {
-      warnings.push_back("no sample exceeded the limit (or all did): the probability has no interval here; use tail, or plain samples");
-      json["warnings"] = warnings;
-    }
+    met = below.low >= plan.requirement->probability;
     json["requirement"] = {{"limit", plan.requirement->limit},
                            {"asked_probability", plan.requirement->probability},
                            {"confidence", plan.requirement->confidence},

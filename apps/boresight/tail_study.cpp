@@ -83,7 +83,10 @@ int run_tail(const SeveralRungs& s) {
                             asked.budget, proposal);
     before = spent;
     progress.clear();
-    if (!s.command.quiet)
+    if (!s.command.quiet && !pilot->informed)
+      fmt::print("{}: no point of the pilot exceeds the limit on {}: no forecast, the budget goes to {} points there\n",
+                 s.question.mechanism->name(), asked.exact, pilot->exact_points);
+    else if (!s.command.quiet)
       fmt::print("{}: about {:.2g} exceed; forecast: standard error {:.2g} with {} points on {} and {} on {} "
                  "({:.2g} on {} alone, {:.2g} by plain Monte Carlo for the same CPU)\n",
                  s.question.mechanism->name(), pilot->probability, pilot->standard_error, pilot->cheap_points, asked.cheap,
@@ -103,12 +106,13 @@ int run_tail(const SeveralRungs& s) {
   }
   progress.clear();
 
-  const IndependentInterval& p = estimate.probability;
+  const IndependentInterval &p = estimate.bounds, &central = estimate.probability;
   std::vector<std::string> warnings;
   if (!pilot->proposal.subset.reached)
     warnings.push_back("the search on the " + asked.cheap + " rung did not reach the limit: the points are drawn from the whole scatter");
   if (estimate.effective_exceedances < 20.0)
-    warnings.push_back(fmt::format("only {:.1f} effective points of the {} rung lie beyond the limit: the interval is not to be trusted",
+    warnings.push_back(fmt::format("only {:.1f} effective points of the {} rung lie beyond the limit: the standard error is not to be "
+                                   "trusted, the bounds are",
                                    estimate.effective_exceedances, asked.exact));
   if (pilot->control > 0.0 && estimate.disagreements < 5)
     warnings.push_back(fmt::format("the rungs disagree on {} points only: how much they do is not well known", estimate.disagreements));
@@ -118,8 +122,14 @@ int run_tail(const SeveralRungs& s) {
                                    failures.count, estimate.failed, failures.reason));
   const ReportedInterval below{1.0 - p.value, 1.0 - p.high, 1.0 - p.low, requirement.confidence, requirement.confidence, false,
                                p.basis, "independent"};
-  // No point beyond the limit is no proof: there is then no scatter to make an interval of.
-  const bool met = estimate.standard_error > 0.0 && below.low >= requirement.probability;
+  const double most = 1.0 - requirement.probability;  // that may exceed the limit
+  const bool met = p.high <= most;
+  // Where half of the capital is at stake on every point: see betting_mean.hpp.
+  const double enough = central.value < most ? std::log(2.0 / (1.0 - requirement.confidence)) * estimate.most_weight / (most - central.value) : 0.0;
+  if (!met && enough > double(estimate.exact_evaluations))
+    warnings.push_back(fmt::format("{} points on the {} rung bound the excess by {:.2g} wherever it lies; to show at most {:.2g} takes about {:.2g} "
+                                   "of them: a larger budget",
+                                   estimate.exact_evaluations, asked.exact, p.high, most, enough));
 
   Json json = several_rungs_summary(s, asked.exact, warnings);
   json["samples"] = estimate.exact_evaluations;
@@ -149,6 +159,8 @@ int run_tail(const SeveralRungs& s) {
                                 {"plain", pilot->plain_standard_error}}},
                   {"cpu_seconds", before + spent}};
   json["tail"]["exceedance"]["bounds"] = "one-sided, each at this confidence";
+  json["tail"]["exceedance"]["central_limit"] = {{"low", central.low}, {"high", central.high}, {"why", central.basis}};
+  json["tail"]["pilot_saw_excess"] = pilot->informed;
   json["files"] = {"summary.json", "report.html", "levels.csv"};
   write_json(s.out, "summary.json", json);
   s.out.write("levels.csv", [&](std::ostream& out) {

@@ -53,6 +53,14 @@ TEST_F(MonteCarloPlanTest, MoreSamplesOrAnotherRequirementAreTheSameStudy) {
   EXPECT_NE(read("samples = 160\ndesign = \"sobol\"\n").sample_text({}), one);
 }
 
+TEST_F(MonteCarloPlanTest, TailsWhoseLimitsDifferByTheLastBitAreTwoStudies) {
+  const auto text = [&](const std::string& limit) {
+    return read("requirement = { limit = \"" + limit + "\" }\ntail = { budget = \"2 s\" }\n").sample_text({});
+  };
+  EXPECT_EQ(text("0.25 mm"), text("250 um"));
+  EXPECT_NE(text("0.25 mm"), text("0.2500000001 mm"));
+}
+
 TEST_F(MonteCarloPlanTest, MistakesAreOneLineWithFileLineAndKey) {
   const auto says = [&](const std::string& table, const std::string& words) {
     EXPECT_THAT(fault(table), AllOf(HasSubstr("study.toml:"), HasSubstr("montecarlo"), HasSubstr(words))) << table;

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "boresight_analyses/statistics/binomial.hpp"
 #include "boresight_analyses/statistics/running.hpp"
 #include "boresight_analyses/tails/two_level_pilot.hpp"
 #include "problems.hpp"
@@ -138,6 +139,86 @@ TEST(ImportanceSampling, CountsFailedPointsAsBeyond) {
   EXPECT_EQ(e.failed, e.exceedances);
   EXPECT_LE(e.probability.low, phi(-3.0));
   EXPECT_GE(e.probability.high, phi(-3.0));
+}
+
+// Studies from search to verdict, with the true probability exactly at what is required, at 95 %.
+struct Verdicts {
+  double met = 0.0, met_by_central_limit = 0.0;
+};
+Verdicts verdicts(const BatchModel& cheap, const BatchModel& exact, double limit, double truth, double budget, int repetitions) {
+  constexpr double kConfidence = 0.95;
+  Verdicts v;
+  for (int r = 0; r < repetitions; ++r) {
+    ProposalOptions options;
+    options.subset.seed = static_cast<std::uint64_t>(r) + 1;
+    options.subset.samples = 300;
+    options.samples = 500;
+    const TwoLevelPlan plan = two_level_pilot(cheap, exact, 2, limit, 50, {0.01, 1.0}, budget, options);
+    const TailOptions tail{.confidence = 2.0 * kConfidence - 1.0, .seed = options.subset.seed};
+    const TailEstimate e = plan.control > 0.0
+                               ? two_level_importance_sampling(cheap, exact, limit, plan.proposal.mixture, plan.cheap_points,
+                                                               plan.exact_points, plan.control, tail)
+                               : importance_sampling(exact, limit, plan.proposal.mixture, plan.exact_points, tail);
+    v.met += double(e.bounds.high <= truth) / repetitions;
+    v.met_by_central_limit += double(e.standard_error > 0.0 && e.probability.high <= truth) / repetitions;
+  }
+  return v;
+}
+
+void expect_within_risk(const char* what, const BatchModel& cheap, const BatchModel& exact, double truth, double budget,
+                        int repetitions) {
+  const Verdicts v = verdicts(cheap, exact, 3.0, truth, budget, repetitions);
+  std::printf("%s: false met %.3f (by the central limit %.3f), nominal 0.050\n", what, v.met, v.met_by_central_limit);
+  EXPECT_LE(v.met, 0.05 + 2.0 * std::sqrt(0.05 * 0.95 / repetitions)) << what;
+}
+
+const BatchModel kFarLeaning = pointwise([](const Point& u) { return std::cos(1.0) * u[0] + std::sin(1.0) * u[1]; });
+const BatchModel kBothSides = pointwise([](const Point& u) { return std::abs(u[0]); });
+
+TEST(TailBounds, CallARequirementMetThatIsNotNoMoreOftenThanTheRisk) {
+  expect_within_risk("cheap model leans by 0.15 rad", kLeaning, kExact, phi(-3.0), 100.0, 40);
+  expect_within_risk("cheap model leans by 1 rad", kFarLeaning, kExact, phi(-3.0), 100.0, 40);
+  expect_within_risk("cheap model has one of two regions", kExact, kBothSides, 2.0 * phi(-3.0), 300.0, 40);
+}
+TEST(LongTailBounds, CallARequirementMetThatIsNotNoMoreOftenThanTheRisk) {
+  expect_within_risk("cheap model leans by 0.15 rad", kLeaning, kExact, phi(-3.0), 100.0, 400);
+  expect_within_risk("cheap model leans by 1 rad", kFarLeaning, kExact, phi(-3.0), 100.0, 400);
+  expect_within_risk("cheap model has one of two regions", kExact, kBothSides, 2.0 * phi(-3.0), 300.0, 400);
+  expect_within_risk("the same, 5000 points", kExact, kBothSides, 2.0 * phi(-3.0), 5000.0, 200);
+}
+
+// A hundred times rarer than required, and enough points: shown.
+TEST(TailBounds, ShowARequirementThatIsMetWithRoom) {
+  const GaussianMixture q = proposal(kExact, 2, 4.0);
+  const TailEstimate e = importance_sampling(kExact, 4.0, q, 4000, {.confidence = 0.9});
+  EXPECT_LE(e.bounds.high, 100.0 * phi(-4.0));
+  EXPECT_GT(e.bounds.high, phi(-4.0));
+  EXPECT_GT(e.bounds.low, 0.0);
+  EXPECT_LE(e.bounds.low, phi(-4.0));
+  EXPECT_EQ(e.most_weight, 2.0);
+}
+
+// Drawn from the whole scatter, all weights are 1: a count.
+TEST(TailBounds, AreClopperAndPearsonsWhereTheEstimateIsPlain) {
+  const TailEstimate e = importance_sampling(kExact, 1.0, GaussianMixture(2), 200, {.confidence = 0.9});
+  EXPECT_EQ(e.bounds.high, clopper_pearson_upper(e.exceedances, 200, 0.95));
+  EXPECT_EQ(e.bounds.low, clopper_pearson_lower(e.exceedances, 200, 0.95));
+}
+
+// Ten points of a pilot whose two models agree on one exceedance: that they always do is not known.
+TEST(TwoLevelPilot, GivesTheExactModelPointsHoweverWellTheTwoAgree) {
+  const TwoLevelPlan same = two_level_pilot(kExact, kExact, 2, 3.0, 20, {0.01, 1.0}, 300.0, {});
+  EXPECT_TRUE(same.informed);
+  EXPECT_GT(same.exact_points, 50);
+}
+
+TEST(TwoLevelPilot, ThatSawNoExcessForecastsNothing) {
+  const BatchModel never = pointwise([](const Point& u) { return std::min(u[0], 0.0); });
+  const TwoLevelPlan plan = two_level_pilot(kExact, never, 2, 3.0, 20, {0.01, 1.0}, 300.0, {});
+  EXPECT_FALSE(plan.informed);
+  EXPECT_EQ(plan.control, 0.0);
+  EXPECT_EQ(plan.exact_points, 300);
+  EXPECT_TRUE(std::isnan(plan.standard_error));
 }
 
 }  // namespace
