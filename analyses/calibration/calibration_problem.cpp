@@ -17,6 +17,12 @@ CalibrationRun::CalibrationRun(std::string run_name, std::shared_ptr<const Mecha
       *mechanism, ideal_motion(*mechanism, mechanism->parameters()), mechanism->parameters());
   tables = prepared->tables(mechanism->parameters());
   prepared->pose_gain(mechanism->boresight_body());
+  if (tables->layout.n == 0) {
+    std::string why;
+    for (const std::string& sentence : prepared->held()) why += (why.empty() ? "" : "; ") + sentence;
+    throw ComputationError("no play of " + mechanism->name() + " can move, so that measured motions say nothing of its contacts" +
+                           (why.empty() ? "" : ": " + why));
+  }
 }
 
 double ResidualLoss::residual(double r) const {

@@ -14,15 +14,13 @@ StartSlopes start_slopes(const Mechanism& mechanism, const SceneTables& tables,
                          const std::function<Parameters(const std::vector<double>&)>& parameters_at,
                          const std::vector<double>& values, bool derivatives) {
   const Eigen::Index n = tables.layout.n;
-  std::vector<double> row(static_cast<std::size_t>(tables.dynamics.width()));
-  tables.dynamics.at(0.0, row.data());
   const auto start = [&](const std::vector<double>& at) {
     std::string unused;
-    return start_coordinates(mechanism, tables.layout, row.data(), clearance_joints(mechanism.description(), parameters_at(at)),
+    return start_coordinates(mechanism, tables.layout, tables.start, clearance_joints(mechanism.description(), parameters_at(at)),
                              unused);
   };
   StartSlopes out{VecX::Zero(2 * n), {}};
-  out.state.head(n) = start(values);
+  out.state = start(values);
   if (!derivatives) return out;
   out.by = MatX::Zero(2 * n, static_cast<Eigen::Index>(values.size()));
   if (mechanism.description().journals == JournalStart::centred) return out;
@@ -32,7 +30,7 @@ StartSlopes start_slopes(const Mechanism& mechanism, const SceneTables& tables,
       at[p] *= 1.0 + steps * kShare;
       return start(at);
     };
-    out.by.col(static_cast<Eigen::Index>(p)).head(n) =
+    out.by.col(static_cast<Eigen::Index>(p)) =
         (8.0 * (moved(1.0) - moved(-1.0)) - (moved(2.0) - moved(-2.0))) / (12.0 * kShare * values[p]);
   }
   return out;

@@ -10,7 +10,7 @@
 namespace boresight {
 
 struct StartSlopes {
-  VecX state;  // 2n: the file's start, at the rates of the ideal motion
+  VecX state;  // 2n: the file's start
   MatX by;     // 2n x parameters; empty where none are asked for. By central differences of fourth order (Fornberg 1988, table 1)
 };
 

@@ -9,6 +9,7 @@
 #include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
+#include "exit_status.hpp"
 #include "option_range.hpp"
 
 namespace boresight::app {
@@ -19,6 +20,11 @@ const Origin kCommandLine{"command line", 0};
 std::string in_quotes(const std::string& text) { return "\"" + text + "\""; }
 
 }  // namespace
+
+int failed(const Command& command, const std::string& reason) {
+  if (command.quiet) fmt::print(stderr, "boresight: {}\n", reason);
+  return kFailed;
+}
 
 double positive_quantity(const std::string& option, const std::string& text, const SiUnit& unit) {
   double value = 0.0;

@@ -30,6 +30,10 @@ struct Command {
   bool quiet = false;
 };
 
+// The exit status of a verb of which the computation failed. The summary on the terminal has said why; where none was wanted,
+// the reason goes to standard error, as that of every failure does.
+int failed(const Command& command, const std::string& reason);
+
 // The options every verb has, as CLI11 fills them in; command() checks them and throws InputError.
 struct CommandOptions {
   std::string file, out, rung = "auto", accuracy;

@@ -193,7 +193,8 @@ class MatchVerb : public Verb {
     out.publish();
     if (!command.quiet) print(matched, out);
     if (result.interrupted) return kInterrupted;
-    if (result.design.empty() || evaluator.failures().count == evaluator.runs()) return kFailed;
+    if (result.design.empty() || evaluator.failures().count == evaluator.runs())
+      return failed(command, "no design could be evaluated" + first_failure_text(evaluator.failures(), "run"));
     return result.feasible && result.converged ? kDone : kAnswerIsNo;
   }
 

@@ -276,7 +276,8 @@ class MonteCarloVerb : public Verb {
     out.publish();
     if (!command.quiet) print(study, out);
     if (result.ended == Ended::interrupted) return kInterrupted;
-    if (estimates.failed == estimates.samples && estimates.samples > 0) return kFailed;
+    if (estimates.failed == estimates.samples && estimates.samples > 0)
+      return failed(command, "all samples failed" + first_failure_text(shown.failures, "sample"));
     return estimates.requirement && !estimates.requirement->met ? kAnswerIsNo : status_with_accuracy(choice, kDone);
   }
 

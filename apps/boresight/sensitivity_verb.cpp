@@ -133,7 +133,8 @@ class SensitivityVerb : public Verb {
     write(result, out, watch);
     if (!command.quiet) print(result, out);
     if (result.interrupted) return kInterrupted;
-    return global ? status_with_accuracy(choice, kDone) : kFailed;
+    if (!global) return failed(command, "too many runs failed for indices" + first_failure_text(result.failures, "run"));
+    return status_with_accuracy(choice, kDone);
   }
 
  private:

@@ -167,7 +167,10 @@ class SweepVerb : public Verb {
     progress.clear();
     if (!command.quiet) print(study, plan, *mechanism, result, out);
     if (result.interrupted) return kInterrupted;
-    return result.failed > 0 ? kFailed : kDone;
+    if (result.failed == 0) return kDone;
+    const auto first = std::find_if(result.points.begin(), result.points.end(),
+                                    [](const SweepPoint& p) { return p.status == SweepPoint::Status::failed; });
+    return failed(command, fmt::format("{} of {} points failed, the first: {}", result.failed, plan.points(), first->failure));
   }
 
  private:

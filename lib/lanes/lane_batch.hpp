@@ -42,7 +42,7 @@ struct LaneJob {
   const LaneScene* scene = nullptr;
   const JournalInSleeve* joints = nullptr;  // one per clearance
   const double* tolerance = nullptr;        // 2 n: largest error of one step, of each z, then of each zdot
-  const double* start = nullptr;            // n: z at the start; zdot is zero there
+  const double* start = nullptr;            // 2n: z and zdot at the start; zero where none is given
   const double* gap_tolerance = nullptr;    // one per clearance [m]: a contact begins this close to its located start
 };
 

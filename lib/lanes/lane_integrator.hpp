@@ -76,7 +76,7 @@ class LaneIntegrator {
     scenes_[l] = job.scene;
     for (int k = 0; k < count(); ++k) {
       z_[k].set(l, job.start ? job.start[k] : 0.0);
-      v_[k].set(l, 0.0);
+      v_[k].set(l, job.start ? job.start[count() + k] : 0.0);
       tolerance_[k].set(l, 1.0 / job.tolerance[k]);
       tolerance_[count() + k].set(l, 1.0 / job.tolerance[count() + k]);
       slowest_[k].set(l, job.tolerance[count() + k] / job.tolerance[k]);

@@ -48,7 +48,6 @@ struct PerturbationLanes::Prepared {
   std::vector<double> in_double;
   std::vector<float> in_single;
   std::vector<LanePlaces> places;
-  std::vector<double> start_row;  // of the scene's numbers, at t = 0
   VecX acceleration;  // root mean square of the ideal reactions' accelerations of each coordinate
   LaneScene lane;
 };
@@ -144,8 +143,6 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
   }
   lane.places = p->places.data();
 
-  p->start_row.resize(dynamics.width());
-  dynamics.at(0.0, p->start_row.data());
   p->acceleration = VecX::Zero(n);
   for (int cell = 0; cell < lane.cells; ++cell)
     for (int k = 0; k < n; ++k) {
@@ -201,7 +198,7 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
       errors.push_back(tolerance * std::sqrt(scale[k] * std::max(p.acceleration[k], 1e-3 * p.acceleration.maxCoeff())));
     errors.insert(errors.end(), gap.begin(), gap.end());
     std::string warning;  // the rung itself says it
-    starts.push_back(start_coordinates(*mechanism_, at, p.start_row.data(), own, warning));
+    starts.push_back(start_coordinates(*mechanism_, at, p.tables->start, own, warning));
     jobs.push_back({.scene = &p.lane, .joints = nullptr, .tolerance = nullptr, .start = nullptr, .gap_tolerance = nullptr});
   }
   for (std::size_t i = 0; i < jobs.size(); ++i) {

@@ -10,6 +10,7 @@
 #include "boresight/mechanism/motion_density.hpp"
 #include "boresight/rungs/deviation_stiffness.hpp"
 #include "boresight/rungs/force_elements.hpp"
+#include "boresight/rungs/start_rates.hpp"
 
 namespace boresight {
 namespace {
@@ -65,12 +66,16 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
   }
 }
 
+SceneStart ClearanceScene::start_of(const Parameters& parameters, const Knot& first) const {
+  SceneStart start{{}, start_rates(mechanism_, parameters, first.state, first.T, first.T_rate)};
+  append_row(parameters, first, start.row);
+  return start;
+}
+
 ClearanceScene::Start ClearanceScene::at_start(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters) {
   ClearanceScene scene(mechanism, ideal);
   const Knot knot = scene.knot_at(0.0, ideal, parameters);
-  Start start{scene.layout_, {}, knot.state, knot.T, knot.T_rate};
-  scene.append_row(parameters, knot, start.row);
-  return start;
+  return {scene.layout_, scene.start_of(parameters, knot), knot.state, knot.T, knot.T_rate};
 }
 
 ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
@@ -339,7 +344,7 @@ SceneTables ClearanceScene::tables(const Parameters& parameters) const {
   std::vector<double> rows;
   rows.reserve(knots_.size() * layout_.width);
   for (const Knot& knot : knots_) append_row(parameters, knot, rows);
-  return {layout_, TimeTable(spacing_, layout_.width, rows)};
+  return {layout_, TimeTable(spacing_, layout_.width, rows), start_of(parameters, knots_.front())};
 }
 
 TimeTable ClearanceScene::pose_gain(int body) const {

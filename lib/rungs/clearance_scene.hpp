@@ -31,11 +31,18 @@
 
 namespace boresight {
 
+// The scene as motions start: its numbers at t = 0 (a row of SceneTables::dynamics), and zdot per z there (start_rates.hpp).
+struct SceneStart {
+  std::vector<double> row;
+  MatX rates;
+};
+
 // The scene for one set of masses and one gravity, ready to integrate.
 struct SceneTables {
   SceneLayout layout;
   // Per time, row by row: A = M_r^-1 (its upper triangle), A r, A C, (A K), then the joints' parts: see SceneLayout.
   TimeTable dynamics;
+  SceneStart start;
 };
 
 class ClearanceScene {
@@ -48,10 +55,10 @@ class ClearanceScene {
                  double accuracy = kAccuracy);
   static constexpr double kAccuracy = 1e-5;
 
-  // The scene at t = 0 alone.
+  // The scene as motions start alone.
   struct Start {
     SceneLayout layout;
-    std::vector<double> row;  // of SceneTables::dynamics
+    SceneStart numbers;
     IdealState ideal;
     MatX T, T_rate;  // 6 bodies x n
   };
@@ -109,6 +116,8 @@ class ClearanceScene {
   DeviationCoordinates coordinates_;
   SceneLayout layout_;
   std::vector<std::vector<Element>> groups_;  // what no parameter scales; one per body's mass; the payload
+  SceneStart start_of(const Parameters& parameters, const Knot& first) const;
+
   double spacing_ = 0.0;
   std::vector<Knot> knots_;
 };

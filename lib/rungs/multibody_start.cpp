@@ -15,9 +15,9 @@ constexpr int kMostSteps = 40;
 // A step this many times the shortest leads away.
 constexpr double kAstray = 100.0;
 
-std::vector<BodyMotion> displaced_bodies(const ClearanceScene::Start& scene, const VecX& z) {
+std::vector<BodyMotion> displaced_bodies(const ClearanceScene::Start& scene, const VecX& z, const VecX& z_rate) {
   std::vector<BodyMotion> bodies = scene.ideal.bodies;
-  const VecX by = scene.T * z, rate = scene.T_rate * z;
+  const VecX by = scene.T * z, rate = scene.T_rate * z + scene.T * z_rate;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const auto at = static_cast<Eigen::Index>(6 * b);
     const Vec3 w = bodies[b].w;
@@ -71,7 +71,7 @@ void rest_journals(const Mechanism& mechanism, const Parameters& parameters, con
   if (scene.layout.n == 0) return;  // no play can move
   std::vector<JournalInSleeve> joints;
   for (int c = 0; c < formulation.forces().clearances(); ++c) joints.push_back(formulation.forces().joint(c));
-  const RestingBalance balance(scene.layout, scene.row.data(), joints);
+  const RestingBalance balance(scene.layout, scene.numbers.row.data(), joints);
   const RestingStart rest = balance.solve();
   if (!rest.refusal.empty()) {
     warning = centred_for_want_of(rest.refusal);
@@ -80,12 +80,13 @@ void rest_journals(const Mechanism& mechanism, const Parameters& parameters, con
   const Frictionless frictionless(formulation.forces(), balance.joints());
   const std::vector<MassProperties> mass = mechanism.mass_properties(parameters);
   const std::vector<ContactMemory> memory(joints.size());
-  VecX z = rest.z, trial, dy(y.size());
+  const VecX still = VecX::Zero(rest.z.size());  // rates dissipate in contacts: they come last
+  VecX z = rest.z, best = z, trial, dy(y.size());
   std::vector<JournalMotion<double>> journals(joints.size());
   // What no place of the journals balances is left to the motion: steps are judged by their length.
   double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kMostSteps; ++step) {
-    formulation.place_bodies(displaced_bodies(scene, z), trial);
+    formulation.place_bodies(displaced_bodies(scene, z, still), trial);
     formulation.close_joints(0.0, trial);
     formulation.derivative(0.0, trial, memory, dy);
     const VecX left = balance.balanceable(unbalanced(scene, mass, formulation.acceleration()));
@@ -94,11 +95,13 @@ void rest_journals(const Mechanism& mechanism, const Parameters& parameters, con
     const double length = dz.cwiseQuotient(balance.scale()).cwiseAbs().maxCoeff();
     if (length < least) {
       least = length;
-      y = trial;
+      best = z;
     }
-    if (length <= kRounding || !(length < kAstray * least)) return;
+    if (length <= kRounding || !(length < kAstray * least)) break;
     z += dz;
   }
+  formulation.place_bodies(displaced_bodies(scene, best, scene.numbers.rates * best), y);
+  formulation.close_joints(0.0, y);
 }
 
 }  // namespace

@@ -62,9 +62,8 @@ PerturbationSystem::PerturbationSystem(const Mechanism& mechanism, const Paramet
       force_gradient_(tables_->layout.n, size()) {}
 
 VecX PerturbationSystem::start_state(const Mechanism& mechanism, double offset, std::string& warning) const {
-  scene_at(0.0);
   VecX y = VecX::Zero(size());
-  y.head(tables_->layout.n) = start_coordinates(mechanism, tables_->layout, row_.data(), joints_, warning);
+  y.head(2 * tables_->layout.n) = start_coordinates(mechanism, tables_->layout, tables_->start, joints_, warning);
   y.head(tables_->layout.n).array() += offset;
   return y;
 }

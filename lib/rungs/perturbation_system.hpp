@@ -18,7 +18,7 @@ class PerturbationSystem {
   PerturbationSystem(const Mechanism& mechanism, const Parameters& parameters,
                      std::shared_ptr<const SceneTables> tables, bool keep_events, double start = 0.0);
 
-  // Coordinates as motions start with them, rates of the ideal motion, no bristle bent; shifted by `offset` for neighbours.
+  // Coordinates and rates as motions start with them, no bristle bent; shifted by `offset` for neighbours.
   // warning: as start_coordinates().
   VecX start_state(const Mechanism& mechanism, double offset, std::string& warning) const;
 

@@ -202,12 +202,17 @@ std::string centred_for_want_of(const std::string& refusal) {
   return "journals start in the middle of their sleeves: " + refusal;
 }
 
-VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const double* row,
+VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const SceneStart& start,
                        const std::vector<JournalInSleeve>& joints, std::string& warning) {
-  if (mechanism.description().journals == JournalStart::centred) return VecX::Zero(layout.n);
-  const RestingStart rest = RestingBalance(layout, row, joints).solve();
-  if (!rest.refusal.empty()) warning = centred_for_want_of(rest.refusal);
-  return rest.z;
+  VecX state = VecX::Zero(2 * layout.n);
+  if (mechanism.description().journals == JournalStart::centred) return state;
+  const RestingStart rest = RestingBalance(layout, start.row.data(), joints).solve();
+  if (!rest.refusal.empty()) {
+    warning = centred_for_want_of(rest.refusal);
+    return state;
+  }
+  state << rest.z, start.rates * rest.z;
+  return state;
 }
 
 }  // namespace boresight

@@ -5,6 +5,8 @@
 // all joints together. Nothing moves against the ideal motion yet, so contacts neither dissipate nor rub. Directions in which
 // no load acts and coordinates that are no offsets stay where the ideal motion has them.
 //
+// The bodies start with the velocities of the ideal motion: start_rates.hpp.
+//
 // The balance is the minimum of the elastic energy less the work of the loads, which is convex but for the tilt of faces:
 // Newton's method in offsets over clearances, damped (Levenberg 1944, Quarterly of Applied Mathematics 2, 164-168) where a
 // step does not pay, from where each journal would rest alone.
@@ -15,7 +17,7 @@
 
 #include "boresight/contact/journal_in_sleeve.hpp"
 #include "boresight/mechanism/mechanism.hpp"
-#include "boresight/rungs/scene_layout.hpp"
+#include "boresight/rungs/clearance_scene.hpp"
 
 namespace boresight {
 
@@ -61,9 +63,9 @@ class RestingBalance {
   double load_ = 0.0;
 };
 
-// The coordinates that motions of this mechanism start with, `row` being the scene's numbers at t = 0: zero where the file has
-// the journals centred, else their balance. warning: a sentence where that was wanted and not found; else left alone.
-VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const double* row,
+// The coordinates, and then their rates, that motions of this mechanism start with: zero where the file has the journals centred,
+// else their balance. warning: a sentence where that was wanted and not found; else left alone.
+VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const SceneStart& start,
                        const std::vector<JournalInSleeve>& joints, std::string& warning);
 std::string centred_for_want_of(const std::string& refusal);
 

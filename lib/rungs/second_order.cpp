@@ -2,7 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "boresight/mechanism/error.hpp"
@@ -54,6 +56,56 @@ std::vector<std::vector<int>> pushed_together(const SceneLayout& at) {
   return groups;
 }
 
+// Offsets that others decide: B, as many rows, and what their exact values are beyond B z, all in lengths.
+struct DependentOffsets {
+  MatX B;
+  VecX beyond;
+};
+DependentOffsets dependent_offsets(const SceneLayout& at, const double* row, const Parameters& parameters, const ForceElements& exact,
+                                   const VecX& z) {
+  DependentOffsets all{MatX(0, at.n), VecX(0)};
+  for (std::size_t c = 0; c < at.joints.size(); ++c) {
+    const SceneLayout::Joint& joint = at.joints[c];
+    if (!joint.has_dependent) continue;
+    const JournalMotion<double>& motion = exact.motion(static_cast<int>(c));
+    for (int k = 0; k < joint.offsets; ++k) {
+      if (joint.source[k] != DeviationCoordinates::kDependent) continue;
+      const double length = k < 3 ? 1.0 : 0.5 * parameters.clearance[c].sleeve_length;
+      const Eigen::Map<const Eigen::RowVectorXd> B(row + joint.dependent + k * at.n, at.n);
+      const Eigen::Index i = all.B.rows();
+      all.B.conservativeResize(i + 1, Eigen::NoChange);
+      all.beyond.conservativeResize(i + 1);
+      all.B.row(i) = length * B;
+      all.beyond[i] = length * ((k < 3 ? motion.e[k] : motion.slope[k - 3]) - B * z);
+    }
+  }
+  return all;
+}
+
+// The shortest step of the coordinates that takes the dependent offsets back.
+VecX taken_along(const DependentOffsets& offsets, const VecX& unit) {
+  if (offsets.beyond.size() == 0) return VecX::Zero(unit.size());
+  return -(unit.asDiagonal() * (offsets.B * unit.asDiagonal()).completeOrthogonalDecomposition().solve(offsets.beyond));
+}
+
+// Of one kind of displacement over the instants: the largest and the mean square of what the rung has, and of what it misses or of
+// what a group of coordinates contributes.
+class Share {
+ public:
+  void add(double size, double part) {
+    size_ = std::max(size_, size);
+    part_ = std::max(part_, part);
+    square_ += size * size;
+    part_square_ += part * part;
+  }
+  double size() const { return size_; }
+  // The larger of both ratios.
+  double value() const { return size_ > 0.0 ? std::max(part_ / size_, std::sqrt(part_square_ / square_)) : 0.0; }
+
+ private:
+  double size_ = 0.0, part_ = 0.0, square_ = 0.0, part_square_ = 0.0;
+};
+
 Vec6 displacement(const BodyMotion& from, const BodyMotion& to) {
   const Eigen::AngleAxisd turn(to.R * from.R.transpose());
   Vec6 x;
@@ -70,16 +122,18 @@ double second_order_share(const Mechanism& mechanism, const PreparedScene& prepa
   const VecX unit = lengths(mechanism, parameters, at);
   const double length = mechanism.characteristic_length();
   const std::vector<std::vector<int>> groups = pushed_together(at);
-  const auto weight = [&](const Vec6& x) { return x.head<3>().norm() + length * x.tail<3>().norm(); };
   const std::vector<ContactMemory> memory(at.joints.size());
   DeviationCoordinates coordinates = prepared.scene().coordinates();
   const auto formulation = make_tree_formulation(mechanism, parameters, &prepared.ideal(), {});
   std::vector<double> row(tables->dynamics.width());
-  // Largest misses and sizes met.
-  double moved = 0.0, moved_off = 0.0, turned = 0.0, turned_off = 0.0, aimed = 0.0, aimed_off = 0.0, sighted = 0.0, sighted_off = 0.0;
   const std::optional<LineOfSight>& line_of_sight = mechanism.pointing().line_of_sight;
-  // Of each group, over the instants: a force that is off early shows in where the journal gets to later.
-  std::vector<double> weighs(groups.size(), 0.0), pushed_off(groups.size(), 0.0);
+  // Displacement, turn, turn of the boresight, of the line of sight.
+  enum { moved, turned, aimed, sighted, kKinds };
+  std::array<Share, kKinds> miss;
+  // Of each group, over the instants: its part of each kind, and how much of its forces is off. A force that is off early shows in
+  // where the journal gets to later.
+  std::vector<std::array<Share, kKinds>> part(groups.size());
+  std::vector<double> pushed_off(groups.size(), 0.0);
   try {
     for (const LargestDeviations::Deviation& deviation : largest.parts()) {
       if (!(deviation.size > 0.0)) continue;
@@ -110,31 +164,29 @@ double second_order_share(const Mechanism& mechanism, const PreparedScene& prepa
       const int body = mechanism.boresight_body();
       const Vec6 linear = T.middleRows<6>(6 * body) * z,
                  off = displacement(state.bodies[body], bodies[body]) - linear;
-      moved = std::max(moved, linear.head<3>().norm());
-      moved_off = std::max(moved_off, off.head<3>().norm());
-      turned = std::max(turned, linear.tail<3>().norm());
-      turned_off = std::max(turned_off, off.tail<3>().norm());
+      // What the contacts of dependent offsets make of their own misses comes on top, whichever way it points.
+      const Vec6 along = T.middleRows<6>(6 * body) * taken_along(dependent_offsets(at, row.data(), parameters, formulation->forces(), z), unit);
       const Vec3 axis = state.bodies[body].R * mechanism.pointing().boresight_B;
-      aimed = std::max(aimed, axis.cross(linear.tail<3>()).norm());
-      aimed_off = std::max(aimed_off, axis.cross(off.tail<3>()).norm());
-      if (line_of_sight) {
-        const Eigen::Matrix<double, 3, 6> G = line_of_sight->gain({state.bodies[body].p, Quat(state.bodies[body].R)});
-        sighted = std::max(sighted, (G * linear).norm());
-        sighted_off = std::max(sighted_off, (G * off).norm());
-      }
+      Eigen::Matrix<double, 3, 6> sight = Eigen::Matrix<double, 3, 6>::Zero();
+      if (line_of_sight) sight = line_of_sight->gain({state.bodies[body].p, Quat(state.bodies[body].R)});
+      const auto sizes = [&](const Vec6& x) -> std::array<double, kKinds> {
+        return {x.head<3>().norm(), x.tail<3>().norm(), axis.cross(x.tail<3>()).norm(), (sight * x).norm()};
+      };
+      const auto whole = sizes(linear), bent = sizes(off), taken = sizes(along);
+      for (int k = 0; k < kKinds; ++k) miss[k].add(whole[k], bent[k] + taken[k]);
       VecX left = z_ddot + Rows(row.data() + at.AC, at.n, at.n) * z_dot;
       if (at.stiff) left += Rows(row.data() + at.AK, at.n, at.n) * z;
       const VecX push = reaction.cwiseQuotient(unit), push_off = inverse_mass.solve(left).cwiseQuotient(unit);
-      const double whole = weight(linear);
       for (std::size_t g = 0; g < groups.size(); ++g) {
         double size = 0.0, size_off = 0.0;
-        Vec6 part = Vec6::Zero();
+        Vec6 own = Vec6::Zero();
         for (int i : groups[g]) {
           size += push[i] * push[i];
           size_off += push_off[i] * push_off[i];
-          part += T.block<6, 1>(6 * body, i) * z[i];
+          own += T.block<6, 1>(6 * body, i) * z[i];
         }
-        if (whole > 0.0) weighs[g] = std::max(weighs[g], std::min(1.0, weight(part) / whole));
+        const auto of_group = sizes(own);
+        for (int k = 0; k < kKinds; ++k) part[g][k].add(whole[k], of_group[k]);
         if (size_off > 0.0)
           pushed_off[g] =
               std::max(pushed_off[g], std::min(1.0, std::sqrt(size_off / std::max(size, 1e-300))));
@@ -146,12 +198,15 @@ double second_order_share(const Mechanism& mechanism, const PreparedScene& prepa
   // Turns weigh against displacements on the mechanism's size: one that is next to none has no relative error
   // worth stating.
   constexpr double kWeighs = 1e-3;
+  const std::array<double, kKinds> size = {miss[moved].size(), length * miss[turned].size(), length * miss[aimed].size(),
+                                           std::numeric_limits<double>::infinity()};
   double share = 0.0;
-  if (moved > kWeighs * length * turned) share = std::max(share, moved_off / moved);
-  if (length * turned > kWeighs * moved) share = std::max(share, turned_off / turned);
-  if (length * aimed > kWeighs * moved) share = std::max(share, aimed_off / aimed);
-  if (sighted > 0.0) share = std::max(share, sighted_off / sighted);
-  for (std::size_t g = 0; g < groups.size(); ++g) share += weighs[g] * pushed_off[g];
+  for (int k = 0; k < kKinds; ++k) {
+    if (!(miss[k].size() > 0.0) || !(size[k] > kWeighs * size[k == moved ? turned : moved])) continue;
+    double of_kind = miss[k].value();
+    for (std::size_t g = 0; g < groups.size(); ++g) of_kind += part[g][k].value() * pushed_off[g];
+    share = std::max(share, of_kind);
+  }
   return std::isfinite(share) ? std::min(share, 1.0) : 1.0;
 }
 

@@ -1,13 +1,16 @@
 // What the perturbation rung leaves out, looked at where its deviation is largest: the same deviation made
 // exactly, by closing the joints of the multibody formulation around it. Relative to what the rung itself has
-// there, it comes to two shares:
+// there, it comes to three shares:
 //   pose       |x_exact(z) - E z| / |E z|        the pose is not linear in the offsets
+//   contacts   |E dz| / |E z|                    nor are the offsets that others decide (redundant joints): where such a journal is
+//                                                farther in or out than B z says, its contact takes the others along by dz, B dz =
+//                                                -(xi_exact - B z)
 //   forces     |dr| / |r|                        what pushes the journals changes with the offsets
 //   themselves: dr is what
 //                                                remains of the forces at z when M_r, C, K and r have had
 //                                                their part
-// The first shifts every index by as much; the second turns, deepens and delays where journals go. It is
-// taken for each journal across and along its axis apart, weighted by that part's share of the pose: along
+// The first two shift every index by as much, maximum or mean square; the last turns, deepens and delays where journals go. It is
+// taken for each journal across and along its axis apart, weighted by its part of the displacement: along
 // its axis a journal may be pushed by a force so small that little changes it much.
 //
 //   LargestDeviations largest(duration);
@@ -22,7 +25,7 @@
 
 namespace boresight {
 
-// The largest deviation of each sixteenth of a motion: what is next to nothing where the loads are large may not be where they are small.
+// The largest deviation of each part of a motion: what is next to nothing where the loads are large may not be where they are small.
 class LargestDeviations {
  public:
   explicit LargestDeviations(double duration) : duration_(duration) {}
@@ -43,7 +46,7 @@ class LargestDeviations {
   const auto& parts() const { return parts_; }
 
  private:
-  static constexpr int kParts = 16;
+  static constexpr int kParts = 48;
   double duration_;
   std::array<Deviation, kParts> parts_;
 };

@@ -15,6 +15,7 @@ namespace boresight::gauntlet {
 namespace {
 
 constexpr double kAutoAccuracy = 0.05;
+constexpr int kInterrupted = 130;
 
 void write(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
 
@@ -61,6 +62,11 @@ int ProgramTrial::call(const std::string& stage, const std::vector<std::string>&
   if (outcome.end == Outcome::End::out_of_time) verdict_.fault("hang", stage, outcome.reason);
   if (outcome.end != Outcome::End::answered) return -1;
   const std::string said = last_line(outcome.output);
+  if (outcome.asked_to_end && outcome.status == kInterrupted) {  // long, but it hears; what it wrote must still be whole
+    verdict_.refusals.push_back({stage, "longer than the limit, ended when asked to"});
+    if (std::filesystem::exists(path(out) + "/summary.json")) search_outputs(stage, out);
+    return -1;
+  }
   if (outcome.status == 2 || outcome.status == 3) {
     if (said.empty()) verdict_.fault("silent", stage, fmt::format("status {} without a word", outcome.status));
     verdict_.refusals.push_back({stage, said});
@@ -82,6 +88,7 @@ void ProgramTrial::search_outputs(const std::string& stage, const std::string& o
     if (std::regex_search(text, found, in_table))
       verdict_.fault("not finite", stage, entry.path().filename().string() + " holds " + found.str(2));
   }
+  if (stage == "export") return;  // writes a table and nothing else
   const Json json = summary(out);
   if (json.is_discarded()) {
     verdict_.fault("verb", stage, "summary.json is missing or no JSON");

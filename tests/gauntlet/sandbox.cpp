@@ -7,9 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <ctime>
+#include <optional>
 #include <stdexcept>
 #include <typeinfo>
 #include <vector>
@@ -19,8 +22,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-void limit_self(const Limits& limits) {
-  const rlim_t cpu = static_cast<rlim_t>(std::ceil(limits.cpu_seconds));
+// What a program may still use once it is asked to end, to write down what it has [s of CPU].
+constexpr double kPatience = 10.0;
+
+// patience: beyond the limit, for a program that is asked to end.
+void limit_self(const Limits& limits, double patience = 0.0) {
+  const rlim_t cpu = static_cast<rlim_t>(std::ceil(limits.cpu_seconds + patience));
   const rlimit time{cpu, cpu + 1}, none{0, 0};
   setrlimit(RLIMIT_CPU, &time);
   setrlimit(RLIMIT_CORE, &none);
@@ -37,12 +44,21 @@ void write_all(int file, const std::string& text) {
 struct Ended {
   std::string text;
   int status = 0;
-  bool out_of_wall_time = false;
+  bool out_of_wall_time = false, asked_to_end = false;
   double cpu_seconds = 0.0;
 };
 
-// Reads what the child writes until it closes its end or the time is up; then waits for it.
-Ended listen(int file, pid_t child, double wall_seconds) {
+// CPU time of a process that still runs [s].
+double cpu_seconds_of(pid_t process) {
+  clockid_t clock;
+  timespec used{};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &used) != 0) return 0.0;
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+// Reads what the child writes until it closes its end or the time is up; then waits for it. `polite`: it is asked to end, as by
+// Ctrl-C, when it has used cpu_seconds.
+Ended listen(int file, pid_t child, double wall_seconds, std::optional<double> polite = {}) {
   Ended ended;
   const auto deadline = Clock::now() + std::chrono::duration<double>(wall_seconds);
   char buffer[1 << 16];
@@ -54,7 +70,12 @@ Ended listen(int file, pid_t child, double wall_seconds) {
       break;
     }
     pollfd wait{file, POLLIN, 0};
-    if (poll(&wait, 1, static_cast<int>(1e3 * left) + 1) <= 0) continue;
+    const double nap = polite ? std::min(left, 0.2) : left;
+    if (polite && !ended.asked_to_end && cpu_seconds_of(child) > *polite) {
+      ended.asked_to_end = true;
+      kill(child, SIGINT);
+    }
+    if (poll(&wait, 1, static_cast<int>(1e3 * nap) + 1) <= 0) continue;
     const ssize_t n = read(file, buffer, sizeof buffer);
     if (n <= 0) break;
     ended.text.append(buffer, static_cast<std::size_t>(n));
@@ -129,7 +150,7 @@ ProgramOutcome run_program(const Limits& limits, const std::string& folder, cons
   if (child < 0) throw std::runtime_error("no process");
   if (child == 0) {
     close(ends[0]);
-    limit_self(limits);
+    limit_self(limits, kPatience);
     const int nothing = open("/dev/null", O_RDONLY);
     dup2(nothing, 0);
     dup2(ends[1], 1);
@@ -142,8 +163,9 @@ ProgramOutcome run_program(const Limits& limits, const std::string& folder, cons
     _exit(127);
   }
   close(ends[1]);
-  const Ended ended = listen(ends[0], child, limits.wall_seconds);
+  const Ended ended = listen(ends[0], child, limits.wall_seconds + kPatience, limits.cpu_seconds);
   ProgramOutcome outcome;
+  outcome.asked_to_end = ended.asked_to_end;
   outcome.cpu_seconds = ended.cpu_seconds;
   outcome.output = ended.text.size() > 2000 ? ended.text.substr(ended.text.size() - 2000) : ended.text;
   if (!cut_short(ended, outcome.end, outcome.reason)) outcome.status = WEXITSTATUS(ended.status);

@@ -25,9 +25,11 @@ struct Outcome {
 // A std::exception out of the work is a refusal with its text; its type is kept as {"type"} in the answer.
 Outcome in_sandbox(const Limits& limits, const std::function<Json()>& work);
 
-// A program with its output thrown away but for the last 2,000 characters of both streams, in the folder given.
+// A program with its output thrown away but for the last 2,000 characters of both streams, in the folder given. One that works
+// for longer than the limit is asked to end, as by Ctrl-C, and has ten seconds of CPU to do so.
 struct ProgramOutcome {
   Outcome::End end = Outcome::End::answered;
+  bool asked_to_end = false;
   int status = 0;  // of its exit
   std::string output, reason;
   double cpu_seconds = 0.0;

@@ -72,7 +72,7 @@ std::vector<Study> studies(const Mechanism& mechanism, double typical, const std
                              path, 1.1 * radial, data), cheap});
   all.push_back({"laws", "laws", "", "", {}});
   all.push_back({"stability", "stability", "", "", {}});
-  all.push_back({"chart", "chart", "", "", {}});
+  all.push_back({"chart", "chart", "", "", {"--time", "10 s"}});
   all.push_back({"export", "export", "", "", {}});
   return all;
 }

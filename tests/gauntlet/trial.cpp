@@ -258,23 +258,28 @@ class Trial {
   void compare_with_base(const Asked& asked, const std::string& stage, const Measured& base, const Measured& other) {
     for (std::size_t k = 0; k < kFigures.size(); ++k) {
       const double size = std::max(base.figure[k], other.figure[k]), apart = std::abs(base.figure[k] - other.figure[k]);
-      if (size < floor_of(k) || apart <= 1e-6 * size) continue;
-      if (asked.rung != "quasistatic" && apart <= 1e-6 * size + 3.0 * neighbours_spread(asked, k)) continue;
-      verdict_.fault("invariance", stage, fmt::format("{}: {:.10g}, as drawn {:.10g}", kFigures[k], other.figure[k], base.figure[k]));
+      // The tables of the scene hold to 1e-5, in one choice of coordinates or another; what swings undamped adds that up.
+      const double alike = (asked.rung == "perturbation" ? 1e-4 : 1e-6) * size;
+      if (size < floor_of(k) || apart <= alike) continue;
+      if (asked.rung != "quasistatic" &&
+          (apart <= alike + 3.0 * neighbours_spread(asked, k, 5) || apart <= alike + 3.0 * neighbours_spread(asked, k, 17)))
+        continue;
+      verdict_.fault("invariance", stage, fmt::format("{}: {:.10g}, as drawn {:.10g} ({:.2g} % apart, neighbours scatter by {:.2g} %)", kFigures[k], other.figure[k], base.figure[k],
+                                 100.0 * apart / size, 100.0 * (asked.rung == "quasistatic" ? 0.0 : neighbours_spread(asked, k, 17)) / size));
       return;
     }
   }
 
-  // What rounding may grow to: the figure's range over steps that differ by a percent. (Less would round to the same steps.)
-  double neighbours_spread(const Asked& asked, std::size_t figure) {
+  // What rounding may grow to: the figure's range over so many steps that differ by a percent. (Less would round to the same steps.)
+  double neighbours_spread(const Asked& asked, std::size_t figure, int count) {
     std::vector<Measured>& runs = neighbours_[asked.rung];
-    if (runs.empty()) {
-      runs.push_back(base_[asked.rung]);
-      for (double factor : {0.99, 0.995, 1.005, 1.01}) {
-        Asked neighbour = asked;
-        neighbour.step = base_[asked.rung].step * factor;
-        if (const auto m = measure_safely(neighbour, true)) runs.push_back(*m);
-      }
+    int& tried = neighbours_tried_[asked.rung];
+    if (runs.empty()) runs.push_back(base_[asked.rung]);
+    for (; tried + 1 < count; ++tried) {
+      Asked neighbour = asked;
+      const double by = 0.0025 * (2 + tried / 2);
+      neighbour.step = base_[asked.rung].step * (tried % 2 == 0 ? 1.0 - by : 1.0 + by);
+      if (const auto m = measure_safely(neighbour, true)) runs.push_back(*m);
     }
     return center(runs, figure).spread;
   }
@@ -323,6 +328,7 @@ class Trial {
   std::shared_ptr<const Mechanism> mechanism_;
   std::map<std::string, Measured> base_;  // each rung by its own integrator
   std::map<std::string, std::vector<Measured>> neighbours_;
+  std::map<std::string, int> neighbours_tried_;
   std::vector<Measured> reference_;
   double step_ = 0.0;
   bool reference_steps_known_ = false;

@@ -42,6 +42,17 @@ TEST_F(CalibrateProgram, LongRecoversTheExamplesTruthAndItsPosteriorFeedsMonteCa
   EXPECT_EQ(scatter.status, 0) << scatter.err;
 }
 
+TEST_F(CalibrateProgram, RefusesAPlayThatAnotherBearingHolds) {
+  std::string rig = text("rig.toml");
+  rig.insert(rig.find("[initial]"), "[[joint]]\nname = \"D2\"\ntype = \"revolute\"\nconnects = [\"ground\", \"rocker\"]\n"
+                                    "point = [\"190 mm\", \"100 mm\", \"0 mm\"]\naxis = [1, 0, 0]\n\n");
+  std::ofstream(folder_ / "rig.toml") << rig;
+  const Ended ended = call({"calibrate", "calibrate.toml", "--out", "out"});
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_NE(ended.err.find("\"D\" cannot move: \"D2\" holds"), std::string::npos) << ended.err;
+}
+
 TEST_F(CalibrateProgram, NamesTheLineOfABadRow) {
   std::ofstream(folder_ / "middle.csv") << "t [s], dx [um]\n0, 1\n0.001, l.5\n";
   const Ended ended = call({"calibrate", "calibrate.toml", "--out", "out"});

@@ -119,6 +119,16 @@ TEST_F(ProgramTest, QuietSaysNothing) {
   EXPECT_EQ(ended.out + ended.err, "");
 }
 
+TEST_F(ProgramTest, QuietStillSaysWhyPointsFailed) {
+  write("sweep.toml", "format = 1\nmechanism = \"" + mechanism_ +
+                          "\"\n[sweep]\n[[sweep.axis]]\nparameter = \"clearance.F1.radial\"\nvalues = [\"0.1 mm\", \"0.2 mm\"]\n");
+  const Ended ended = call({"sweep", "sweep.toml", "--quiet", "--rung", "multibody", "--step", "1 ms", "--set", "motion.duration=200ms"});
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_EQ(ended.out, "");
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("2 of 2 points failed, the first: step too large"));
+}
+
 TEST_F(ProgramTest, AStepTooLargeNamesContactFrequencyAndLargestStep) {
   const Ended ended = call(quick({"--step", "1 ms"}));
   EXPECT_EQ(ended.status, 3);
