@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
+#include "boresight_analyses/statistics/betting_mean.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
 #include "boresight_analyses/statistics/independent_samples.hpp"
 #include "boresight_analyses/statistics/replicated_samples.hpp"
@@ -28,13 +30,27 @@ ReportedInterval headline_interval(const Samples& samples, const Headline& headl
   }
 }
 
+// A two-sided interval at 2 c - 1 is made of two one-sided bounds at c.
 template <typename Samples>
-ReportedInterval probability_interval(const Samples& samples, double limit, double confidence) {
+ReportedInterval probability_interval(const Samples& samples, double limit, const Judgement& judgement) {
+  const double confidence = 2.0 * judgement.confidence - 1.0;
   try {
     return reported(samples.probability_below(limit, confidence));
   } catch (const std::invalid_argument&) {
     return too_few(confidence);
   }
+}
+
+ReportedInterval probability_interval(const IndependentSamples& samples, double limit, const Judgement& judgement) {
+  if (judgement.by != Judgement::By::any_time || samples.count() == 0)
+    return probability_interval<IndependentSamples>(samples, limit, judgement);
+  const std::int64_t hits = std::upper_bound(samples.sorted().begin(), samples.sorted().end(), limit) - samples.sorted().begin();
+  ReportedInterval i = reported(samples.probability_below(limit, 2.0 * judgement.confidence - 1.0));
+  i.low = betting_share_lower(hits, samples.count(), judgement.confidence);
+  i.high = betting_share_upper(hits, samples.count(), judgement.confidence);
+  i.basis = "confidence sequence by betting over " + std::to_string(samples.count()) + " independent samples";
+  if (samples.failed() > 0) i.basis += ", " + std::to_string(samples.failed()) + " failed counted as bad";
+  return i;
 }
 
 // Calls ask(IndependentSamples or ReplicatedSamples), whichever the design makes.
@@ -131,20 +147,39 @@ ReportedInterval estimate_of(const std::string& headline, const std::vector<doub
   });
 }
 
-Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan, const ModelError& model) {
+namespace {
+
+// Of the estimate that a study stops by, as it was looked at: looks.hpp.
+template <typename Samples>
+ReportedInterval final_interval(const Samples& samples, const Headline& headline, const MonteCarloPlan& plan) {
+  const double each = interval_confidence(plan, headline.name);
+  ReportedInterval i = headline_interval(samples, headline, each);
+  if (each == plan.confidence) return i;
+  i.confidence = plan.confidence;
+  char share[32];
+  std::snprintf(share, sizeof share, "%.5g", 100.0 * each);
+  i.basis += std::string(", at ") + share + " % so that it holds wherever the study might have stopped";
+  return i;
+}
+
+}  // namespace
+
+Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan, const ModelError& model,
+                   const std::optional<Judgement>& judgement) {
   Estimates result;
+  const auto judged = [&] { return judgement ? *judgement : judgement_of(plan, values.size(), std::nullopt); };
   result.samples = values.size();
   result.failed = static_cast<std::uint64_t>(
       std::count_if(values.begin(), values.end(), [](double value) { return std::isnan(value); }));
   const auto ask_all = [&](const auto& samples) {
     for (const Headline& h : headlines())
-      result.index.push_back({h.name, headline_interval(samples, h, plan.confidence)});
+      result.index.push_back({h.name, final_interval(samples, h, plan)});
     if (plan.requirement) {
       const Requirement& asked = *plan.requirement;
       RequirementVerdict verdict;
-      // A two-sided interval at 2 c - 1 is made of two one-sided bounds at c.
-      verdict.probability = probability_interval(samples, asked.limit, 2.0 * asked.confidence - 1.0);
-      verdict.met = verdict.probability.low >= asked.probability;
+      verdict.judgement = judged();
+      verdict.probability = probability_interval(samples, asked.limit, verdict.judgement);
+      verdict.met = verdict.judgement.by != Judgement::By::nothing && verdict.probability.low >= asked.probability;
       verdict.fewest_samples = wilks_one_sided(asked.probability, asked.confidence);
       result.requirement = verdict;
     }
@@ -155,7 +190,7 @@ Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan
     for (const Headline& h : headlines()) result.index.push_back({h.name, too_few(plan.confidence)});
     if (plan.requirement)
       result.requirement =
-          RequirementVerdict{false, too_few(plan.requirement->confidence),
+          RequirementVerdict{false, too_few(plan.requirement->confidence), judged(),
                              wilks_one_sided(plan.requirement->probability, plan.requirement->confidence)};
   }
   for (const NamedEstimate& e : result.index)

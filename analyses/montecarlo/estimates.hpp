@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "boresight_analyses/montecarlo/looks.hpp"
 #include "boresight_analyses/montecarlo/montecarlo_plan.hpp"
 #include "boresight_analyses/statistics/interval.hpp"
 
@@ -24,6 +25,7 @@ struct NamedEstimate {
 struct RequirementVerdict {
   bool met = false;                 // shown to be met: the probability's lower bound reaches what is asked
   ReportedInterval probability;     // low and high are one-sided bounds, each at the requirement's confidence
+  Judgement judgement = {};         // by which these bounds hold: looks.hpp
   std::int64_t fewest_samples = 0;  // Wilks: independent samples that could show it at all, if none is above the limit
 };
 
@@ -61,8 +63,10 @@ struct Estimates {
   const NamedEstimate& of(const std::string& name) const;
 };
 
-// values[k]: of sample k, NaN if it failed; as many as make whole replicates (Design::whole_points).
-Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan, const ModelError& model);
+// values[k]: of sample k, NaN if it failed; as many as make whole replicates (Design::whole_points). `judgement`: of the
+// requirement; as a first look where none is given.
+Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan, const ModelError& model,
+                   const std::optional<Judgement>& judgement = std::nullopt);
 
 // One number of the first `count` samples.
 ReportedInterval estimate_of(const std::string& headline, const std::vector<double>& values, std::uint64_t count,

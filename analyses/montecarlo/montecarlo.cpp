@@ -81,7 +81,7 @@ std::vector<double> leading_values(const SampleStore& store, std::uint64_t end) 
 
 bool narrow_enough(const SampleStore& store, const MonteCarloPlan& plan, std::uint64_t n) {
   const std::vector<double> values = leading_values(store, n);
-  const ReportedInterval i = estimate_of(plan.stop.of, values, values.size(), plan, plan.confidence);
+  const ReportedInterval i = estimate_of(plan.stop.of, values, values.size(), plan, interval_confidence(plan, plan.stop.of));
   return std::isfinite(i.value) && std::max(i.high - i.value, i.value - i.low) <= plan.stop.width * std::abs(i.value);
 }
 

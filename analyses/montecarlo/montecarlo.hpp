@@ -2,7 +2,7 @@
 //
 // Which samples a study holds when it ends by their number or by an interval's width depends on the plan alone, not on
 // threads, ranks, or how often it was resumed: widths are judged only at fixed numbers of samples (growing by half),
-// when all up to there are in. A limit on time ends it where it stands.
+// when all up to there are in, by an interval that holds at all of them (looks.hpp). A limit on time ends it where it stands.
 #pragma once
 
 #include <filesystem>

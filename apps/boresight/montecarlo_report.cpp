@@ -290,9 +290,15 @@ std::string verdict_sentence(const MonteCarloStudy& s) {
                   readable(asked.limit, s.study.index.si_unit()), fmt::format("{:g} %", 100.0 * asked.probability),
                   fmt::format("{:g} %", 100.0 * asked.confidence), found.met ? "met" : "not shown to be met");
   if (std::isfinite(found.probability.value))
-    text += fmt::format(" The share is {:.6g} %, and at least {:.6g} % with this confidence.",
-                        100.0 * found.probability.value, 100.0 * found.probability.low);
-  if (!found.met && found.probability.value >= asked.probability)
+    text += fmt::format(" The share is {:.6g} %, and at least {:.6g} % with {} confidence.",
+                        100.0 * found.probability.value, 100.0 * found.probability.low,
+                        found.judgement.confidence == asked.confidence ? "this" : fmt::format("{:.5g} %", 100.0 * found.judgement.confidence));
+  if (!found.judgement.why.empty()) {
+    std::string why = found.judgement.why;
+    why.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(why.front())));
+    text += " " + why + ".";
+  }
+  if (!found.met && found.judgement.by != Judgement::By::nothing && found.probability.value >= asked.probability)
     text += " The samples do not contradict it; more of them may show it.";
   return text;
 }

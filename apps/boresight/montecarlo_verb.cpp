@@ -244,7 +244,7 @@ class MonteCarloVerb : public Verb {
   }
 
   int write_results(const Command& command, const MonteCarloQuestion& question, const RungChoice& choice,
-                    const SampleModel& model, const SampleStore& store, const StudySteps& steps,
+                    const SampleModel& model, SampleStore& store, const StudySteps& steps,
                     const MonteCarloResult& result, const Stopwatch& watch, const OutputDirectory& out) const {
     ModelError error;
     const ShownSamples shown = shown_samples(store, result, error);
@@ -259,7 +259,7 @@ class MonteCarloVerb : public Verb {
           "measured by the pilot: this way against multibody at half its step over {} paired samples, with 95 % confidence, what "
           "the steps do included",
           store.fact("pilot_pairs"));
-    const Estimates estimates = estimate(result.values, question.plan, error);
+    const Estimates estimates = estimate(result.values, question.plan, error, judged(question.plan, result, store));
     MonteCarloStudy study{.command = command,
                           .study = question.study,
                           .mechanism = *question.mechanism,
@@ -279,6 +279,17 @@ class MonteCarloVerb : public Verb {
     if (estimates.failed == estimates.samples && estimates.samples > 0)
       return failed(command, "all samples failed" + first_failure_text(shown.failures, "sample"));
     return estimates.requirement && !estimates.requirement->met ? kAnswerIsNo : status_with_accuracy(choice, kDone);
+  }
+
+  // How the requirement is judged; and that it was, for those who look again.
+  static std::optional<Judgement> judged(const MonteCarloPlan& plan, const MonteCarloResult& result, SampleStore& store) {
+    if (!plan.requirement) return std::nullopt;
+    if (result.ended == Ended::interrupted)
+      return Judgement{Judgement::By::nothing, plan.requirement->confidence, "not judged: interrupted"};
+    const std::string question_name = question_of(*plan.requirement);
+    const std::optional<FirstLook> first = FirstLook::parse(store.fact(question_name));
+    if (!first && !result.values.empty()) store.note(question_name, first_look_of(plan, result.values.size()).text());
+    return judgement_of(plan, result.values.size(), first);
   }
 
   // Failed ones first, the others spread evenly; and what the rung thinks of its own error, on average.
@@ -314,8 +325,8 @@ class MonteCarloVerb : public Verb {
                                      readable(plan.stop.seconds, "s"), result.values.size(), plan.samples));
     if (result.ended == Ended::width)
       warnings.push_back(
-          fmt::format("stopped at {} samples as the interval of {} was narrow enough: looking at it several times "
-                      "makes its true confidence a little less than stated",
+          fmt::format("stopped at {} samples as the interval of {} was narrow enough: it allows for being looked at several "
+                      "times, those of the other estimates do not",
                       result.values.size(), plan.stop.of));
     if (estimates.failed > 0)
       warnings.push_back(
@@ -368,7 +379,9 @@ class MonteCarloVerb : public Verb {
                              {"met", s.estimates.requirement->met},
                              {"probability", interval_json(s.estimates.requirement->probability)},
                              {"fewest_samples", s.estimates.requirement->fewest_samples}};
-      json["requirement"]["probability"]["confidence"] = asked.confidence;
+      const Judgement& judgement = s.estimates.requirement->judgement;
+      json["requirement"]["probability"]["confidence"] = judgement.confidence;
+      if (!judgement.why.empty()) json["requirement"]["judged"] = judgement.why;
       json["requirement"]["probability"]["bounds"] = "one-sided, each at this confidence";
     }
     for (const ErrorStatement& e : s.estimates.errors) {

@@ -218,6 +218,21 @@ TEST_F(MonteCarloProgram, ARequirementThatIsNotMetIsStatusOneAndWilksIsToldBefor
   EXPECT_GE(json("wide/summary.json")["requirement"]["probability"]["low"], 0.9973);
 }
 
+TEST_F(MonteCarloProgram, LookingAgainWithMoreSamplesIsJudgedByTheRiskThatWasLeft) {
+  const std::string wanted = "requirement = { limit = \"1 um\", probability = 0.95, confidence = 0.95 }";
+  study("first.toml", 100, wanted);
+  study("more.toml", 150, wanted);
+  ASSERT_EQ(call(quick("first.toml", "out")).status, 1);
+  EXPECT_FALSE(json("out/summary.json")["requirement"].contains("judged"));
+  ASSERT_EQ(call(quick("more.toml", "out", {"--resume"})).status, 1);
+  const auto again = json("out/summary.json")["requirement"];
+  EXPECT_THAT(again["judged"].get<std::string>(), HasSubstr("judged at 100 samples before"));
+  EXPECT_GT(again["probability"]["confidence"].get<double>(), 0.95);
+  // The first look again is what it was.
+  ASSERT_EQ(call(quick("first.toml", "out", {"--resume"})).status, 1);
+  EXPECT_FALSE(json("out/summary.json")["requirement"].contains("judged"));
+}
+
 TEST_F(MonteCarloProgram, AFullDiskIsOneLineAndLeavesTheStoreIntact) {
   study("long.toml", 20000);
   const Ended ended = wait_for(start(quick("long.toml", "out"), 200'000));
