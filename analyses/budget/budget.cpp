@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/budget/ensemble.hpp"
@@ -174,43 +175,96 @@ class Maker {
     return t;
   }
 
-  void contribute(Budget& b) const {
+  // Mean squares and products of each member, of the headline's index.
+  struct MemberProducts {
+    std::vector<double> all, own;               // per member that did not fail
+    std::vector<std::vector<double>> external;  // [contributor][member]
+    std::vector<std::vector<double>> change;    // [group][member of the attribution with both runs]
+    std::vector<double> alone;                  // [joint]: with the nominal motion; NaN where that joint's run failed
+  };
+
+  MemberProducts products(const Budget& b) const {
     const AxisOf axis(b.headline.axis, axes_.count());
     const ErrorIndex index = b.headline.index;
-    std::vector<double> external(plan_.contributors.size(), 0.0);
-    double all = 0.0, own = 0.0, members = 0.0;
+    MemberProducts p;
+    p.external.resize(plan_.contributors.size());
     for (std::uint64_t member = 0; member < plan_.members; ++member) {
       const PointingHistory* mechanism = ensemble_.mechanism(member);
       if (mechanism == nullptr) continue;
       const std::vector<Vec3> total = index_values(index, ensemble_.total(member), plan_.windows);
-      members += 1.0;
-      all += mean_product(total, total, axis);
-      own += mean_product(index_values(index, *mechanism, plan_.windows), total, axis);
-      for (std::size_t i = 0; i < external.size(); ++i)
-        external[i] += mean_product(index_values(index, ensemble_.external(member, i), plan_.windows), total, axis);
+      p.all.push_back(mean_product(total, total, axis));
+      p.own.push_back(mean_product(index_values(index, *mechanism, plan_.windows), total, axis));
+      for (std::size_t i = 0; i < p.external.size(); ++i)
+        p.external[i].push_back(
+            mean_product(index_values(index, ensemble_.external(member, i), plan_.windows), total, axis));
     }
-    b.mean_square = all / members;
-    if (b.mean_square <= 0.0) return;
-    double together = own / all;
     const std::vector<Vec3> nominal = index_values(index, nominal_, plan_.windows);
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      if (alone_[j].error.empty()) continue;
-      const double share = mean_product(index_values(index, alone_[j], plan_.windows), nominal, axis) / b.mean_square;
-      b.contributions.push_back({joints_[j], kClearanceKind, share});
-      together -= share;
-    }
+    for (const PointingHistory& alone : alone_)
+      p.alone.push_back(alone.error.empty() ? std::nan("")
+                                            : mean_product(index_values(index, alone, plan_.windows), nominal, axis));
     for (std::size_t g = 0; g < runs_.groups(); ++g) {
       const auto [drawn, held] = with_and_without({.held = static_cast<int>(g)}, index);
-      double change = 0.0;
+      auto& change = p.change.emplace_back();
       for (std::size_t k = 0; k < drawn.size(); ++k)
-        change += mean_product(drawn[k], drawn[k], axis) - mean_product(held[k], held[k], axis);
-      const double share = drawn.empty() ? 0.0 : change / static_cast<double>(drawn.size()) / b.mean_square;
-      b.contributions.push_back({plan_.groups.names[g], kScatterKind, share});
-      together -= share;
+        change.push_back(mean_product(drawn[k], drawn[k], axis) - mean_product(held[k], held[k], axis));
     }
-    for (std::size_t i = 0; i < external.size(); ++i)
-      b.contributions.push_back({plan_.contributors[i].name, to_string(plan_.contributors[i].kind), external[i] / all});
-    if (!joints_.empty()) b.contributions.push_back({"together", "joints and scatter", together});
+    return p;
+  }
+
+  // Shares in the order of joints, groups, external contributors, together; `times`: how often each member counts.
+  static std::vector<double> shares(const MemberProducts& p, const std::vector<std::uint32_t>& times,
+                                    const std::vector<std::uint32_t>& times_of_attribution) {
+    const auto mean = [](const std::vector<double>& values, const std::vector<std::uint32_t>& counts) {
+      double sum = 0.0, all = 0.0;
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        sum += counts[k] * values[k];
+        all += counts[k];
+      }
+      return all > 0.0 ? sum / all : 0.0;
+    };
+    const double square = mean(p.all, times);
+    double together = mean(p.own, times) / square;
+    std::vector<double> out;
+    for (const double alone : p.alone) {
+      out.push_back(alone / square);
+      if (std::isfinite(alone)) together -= out.back();
+    }
+    for (const std::vector<double>& change : p.change) {
+      out.push_back(mean(change, times_of_attribution) / square);
+      together -= out.back();
+    }
+    for (const std::vector<double>& external : p.external) out.push_back(mean(external, times) / square);
+    out.push_back(together);
+    return out;
+  }
+
+  void contribute(Budget& b) const {
+    const MemberProducts p = products(b);
+    b.mean_square = std::accumulate(p.all.begin(), p.all.end(), 0.0) / static_cast<double>(p.all.size());
+    if (b.mean_square <= 0.0) return;
+    std::size_t attributed = 0;
+    for (const auto& change : p.change) attributed = std::max(attributed, change.size());
+    const std::vector<double> found = shares(p, std::vector<std::uint32_t>(p.all.size(), 1),
+                                             std::vector<std::uint32_t>(attributed, 1));
+    std::vector<std::vector<double>> resampled(found.size());
+    const MemberBootstrap members(p.all.size(), plan_.seed, 1), of_attribution(std::max<std::size_t>(1, attributed), plan_.seed, 2);
+    for (std::uint64_t r = 0; r < MemberBootstrap::kResamples; ++r) {
+      const std::vector<double> again = shares(p, members.times(r), of_attribution.times(r));
+      for (std::size_t i = 0; i < found.size(); ++i) resampled[i].push_back(again[i]);
+    }
+    std::size_t at = 0;
+    const auto add = [&](const std::string& name, const std::string& kind, std::size_t seen) {
+      const MemberInterval interval = expanded_percentiles(resampled[at], found[at], seen, plan_.confidence);
+      b.contributions.push_back({name, kind, found[at], interval});
+    };
+    for (std::size_t j = 0; j < joints_.size(); ++j, ++at)
+      if (std::isfinite(found[at])) add(joints_[j], kClearanceKind, p.all.size());
+    for (std::size_t g = 0; g < runs_.groups(); ++g, ++at)
+      add(plan_.groups.names[g], kScatterKind, std::min(p.all.size(), p.change[g].size()));
+    for (std::size_t i = 0; i < plan_.contributors.size(); ++i, ++at)
+      add(plan_.contributors[i].name, to_string(plan_.contributors[i].kind), p.all.size());
+    if (!joints_.empty())
+      add("together", "joints and scatter", attributed > 0 ? std::min(p.all.size(), attributed) : p.all.size());
   }
 
   void relieve(Budget& b) const {
@@ -223,12 +277,23 @@ class Maker {
         after.push_back(std::move(changed));
       }
       if (before.empty()) return;
-      const auto at = [&](const std::vector<PointingHistory>& histories) {
-        return in_time(values_of(histories, b.headline.index), b.headline.axis, 0)
-            .level(b.headline.interpretation, b.headline.probability, plan_.confidence, plan_.leave_out)
-            .value;
+      const BudgetRequirement& h = b.headline;
+      const EnsembleInTime now = in_time(values_of(before, h.index), h.axis, 0),
+                           then = in_time(values_of(after, h.index), h.axis, 0);
+      const auto value = [&](const EnsembleInTime& e) {
+        return e.level(h.interpretation, h.probability, plan_.confidence, plan_.leave_out).value;
       };
-      b.reliefs.push_back({name, action, at(before), at(after)});
+      Relief relief{name, action, value(now), value(then)};
+      // The same members now and then: what they have in common falls out.
+      const MemberBootstrap members(before.size(), plan_.seed, 3);
+      std::vector<double> gains;
+      for (std::uint64_t r = 0; r < MemberBootstrap::kResamples; ++r) {
+        const std::vector<std::uint32_t> times = members.times(r);
+        gains.push_back(now.resampled_level(h.interpretation, h.probability, plan_.leave_out, times) -
+                        then.resampled_level(h.interpretation, h.probability, plan_.leave_out, times));
+      }
+      relief.interval = expanded_percentiles(std::move(gains), relief.gain(), before.size(), plan_.confidence);
+      b.reliefs.push_back(std::move(relief));
     };
     for (std::size_t j = 0; j < joints_.size(); ++j)
       add(joints_[j], "half the clearance", {.halved = static_cast<int>(j)});

@@ -7,7 +7,8 @@
 //
 // Shares are of the mean square of the headline's index v over members and time, in the sense of Euler's allocation
 // (Tasche 1999): E[v_i v] / E[v v] of errors that add up in time, which external ones and joints do; of a group what
-// the mean square loses where the group is held. They add up to 1 with what joints and groups only make together.
+// the mean square loses where the group is held. They add up to 1 with what joints and groups only make together. Shares and
+// gains have intervals by the bootstrap over members (member_bootstrap.hpp).
 #pragma once
 
 #include <functional>
@@ -17,6 +18,7 @@
 
 #include "boresight_analyses/budget/budget_runs.hpp"
 #include "boresight_analyses/budget/classical.hpp"
+#include "boresight_analyses/budget/member_bootstrap.hpp"
 
 namespace boresight {
 
@@ -48,12 +50,14 @@ struct RequirementAnswer {
 struct Contribution {
   std::string name, kind;
   double share = 0.0;
+  MemberInterval interval = {};  // of the share, at the plan's confidence
 };
 
 // The headline's level on the attribution's members if one thing were better.
 struct Relief {
   std::string name, action;
   double before = 0.0, after = 0.0;
+  MemberInterval interval = {};  // of the gain, at the plan's confidence
   double gain() const { return before - after; }
 };
 

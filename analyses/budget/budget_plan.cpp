@@ -113,6 +113,7 @@ void read_times(Cursor& table, BudgetPlan& plan, double index_start, double dura
   table.require(duration / plan.sampling <= kMostHistorySamples && plan.sampling <= 0.1 * plan.duration, "sampling",
                 "10 to 100000 samples in the motion");
   Windows& w = plan.windows;
+  w.start = plan.start;
   w.window = positive_time(table, "window", 0.0);
   table.require(w.window == 0.0 || w.window >= 2.0 * plan.sampling, "window", "at least two samples of the history");
   w.separation = positive_time(table, "separation", 0.0);

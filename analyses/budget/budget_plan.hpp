@@ -11,7 +11,7 @@
 //   separation = "0.3 s"         # of the two windows of PDE, from beginning to beginning
 //   observation = "0.4 s"        # length of one; left out: the whole motion is one, and there is no PRE
 //   revisit = "0.4 s"            # of the two windows of PRE; left out: one observation
-//   leave_out = 0.05             # share of the members that the temporal interpretation leaves out; left out: none
+//   leave_out = 0.05             # share of the members that the temporal interpretation leaves out; left out: none of those seen
 //   posterior = "results/calibrate/posterior.toml"   # what scatters is what a calibration knows, instead of [[random]]
 //   groups = { contact = ["clearance.F1.contact.restitution", "clearance.F1.friction.coefficient"] }
 //

@@ -83,13 +83,15 @@ Moments moments(const Contributor& c, int axis, ErrorIndex index, Interpretation
       return of_oscillation(e, interpretation, 3.0 * kept, kept);
     }
     case ContributorClass::periodic: {
-      const double kept = std::sqrt(kept_of_sinusoid(index, 2.0 * M_PI / c.period, windows));
-      return of_oscillation(e, interpretation, kept, kept / std::sqrt(2.0));
+      const double frequency = 2.0 * M_PI / c.period;
+      return of_oscillation(e, interpretation, peak_of_sinusoid(index, frequency, windows),
+                            std::sqrt(0.5 * kept_of_sinusoid(index, frequency, windows)));
     }
     case ContributorClass::drift: {
       const double whole = c.recalibrated ? windows.observation_in(duration) : duration;
-      if (index == ErrorIndex::ape) return of_drift(e, interpretation, 0.5 * whole, 0.5 * whole);
-      if (index == ErrorIndex::mpe) return of_drift(e, interpretation, 0.5 * whole, 0.5 * (whole - windows.window));
+      const double middle = 0.5 * whole + (c.recalibrated ? 0.0 : windows.start);
+      if (index == ErrorIndex::ape) return of_drift(e, interpretation, middle, 0.5 * whole);
+      if (index == ErrorIndex::mpe) return of_drift(e, interpretation, middle, 0.5 * (whole - windows.window));
       if (index == ErrorIndex::rpe) return of_drift(e, interpretation, 0.0, 0.5 * windows.window);
       if (index == ErrorIndex::pde) return of_drift(e, interpretation, windows.separation, 0.0);
       const double revisit = windows.revisit_after();
@@ -135,7 +137,7 @@ std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t
           e = parameter * std::sin(2.0 * M_PI * t / c.period + phase);
           break;
         case ContributorClass::drift:
-          e = parameter * (c.recalibrated ? t - static_cast<double>(k / observed) * observation : t);
+          e = parameter * (c.recalibrated ? t - static_cast<double>(k / observed) * observation : t + windows.start);
           break;
       }
     }

@@ -3,7 +3,7 @@
 //   bias      one value B for a member, all the time
 //   random    noise of zero mean and standard deviation s, first order with a correlation time
 //   periodic  a sinusoid of amplitude A and some period, its phase unknown
-//   drift     D t, from the beginning of the motion
+//   drift     D t, from the beginning of the motion, whenever the history begins; recalibrated, of each observation
 //
 // B, s, A, D are the ensemble parameter: per axis, with a distribution over members. Two faces of one contributor: its
 // moments, for the classical table, and its course in time in one member, for the simulated one.

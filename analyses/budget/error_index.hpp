@@ -37,6 +37,7 @@ struct Windows {
   double separation = 0.0;   // of the two windows of PDE, from beginning to beginning
   double observation = 0.0;  // the motion is cut into observations of this length; 0: it is one
   double revisit = 0.0;      // of the two windows of PRE, from beginning to beginning; 0: one observation
+  double start = 0.0;        // of the history, after the beginning of the motion
 
   double observation_in(double duration) const { return observation > 0.0 ? observation : duration; }
   double revisit_after() const { return revisit > 0.0 ? revisit : observation; }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "boresight_analyses/statistics/binomial.hpp"
@@ -40,9 +42,42 @@ EnsembleInTime::EnsembleInTime(std::vector<std::vector<double>> sizes, std::int6
     if (member.size() != sizes_.front().size()) throw std::invalid_argument("members of unequal length");
     std::sort(member.begin(), member.end());
     maxima_.push_back(member.back());
-    pooled_.insert(pooled_.end(), member.begin(), member.end());
   }
-  std::sort(pooled_.begin(), pooled_.end());
+  std::vector<std::pair<double, std::uint32_t>> all;
+  all.reserve(sizes_.size() * sizes_.front().size());
+  for (std::uint32_t k = 0; k < sizes_.size(); ++k)
+    for (const double value : sizes_[k]) all.emplace_back(value, k);
+  std::sort(all.begin(), all.end());
+  for (const auto& [value, member] : all) {
+    pooled_.push_back(value);
+    owner_.push_back(member);
+  }
+}
+
+double EnsembleInTime::resampled_level(Interpretation interpretation, double probability, double leave_out,
+                                       const std::vector<std::uint32_t>& times) const {
+  const double drawn = static_cast<double>(std::accumulate(times.begin(), times.end(), std::uint64_t{0}));
+  const auto at_share = [](auto&& values, auto&& count_of, double all, double share) {
+    const double wanted = share * all * (1.0 - 1e-12);
+    double below = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if ((below += count_of(i)) >= wanted && count_of(i) > 0.0) return values[i];
+    return values.back();
+  };
+  if (interpretation == Interpretation::mixed)
+    return at_share(
+        pooled_, [&](std::size_t i) { return static_cast<double>(times[owner_[i]]); },
+        drawn * static_cast<double>(sizes_.front().size()), probability);
+  const bool ensemble = interpretation == Interpretation::ensemble;
+  std::vector<std::pair<double, std::uint32_t>> members;
+  const std::vector<double> of_member = ensemble ? maxima_ : quantiles_in_time(probability);
+  for (std::uint32_t k = 0; k < of_member.size(); ++k) members.emplace_back(of_member[k], k);
+  std::sort(members.begin(), members.end());
+  std::vector<double> values;
+  for (const auto& [value, k] : members) values.push_back(value);
+  return at_share(
+      values, [&](std::size_t i) { return static_cast<double>(times[members[i].second]); }, drawn,
+      ensemble ? probability : 1.0 - leave_out);
 }
 
 double EnsembleInTime::pooled_quantile(double share) const { return quantile_of(pooled_, share); }
@@ -61,7 +96,12 @@ ReportedInterval EnsembleInTime::level(Interpretation interpretation, double pro
     const IndependentSamples worst(quantiles_in_time(probability), failed_);
     if (leave_out > 0.0) return reported(worst.quantile(1.0 - leave_out, confidence));
     const double value = worst.sorted().back();
-    return {value, value, kInfinity, confidence, confidence, false, "the worst of the members seen", Independent::name};
+    const auto all = static_cast<double>(members() + failed_);
+    char basis[120];
+    std::snprintf(basis, sizeof basis, "the worst of the members seen; at most %.3g %% of all are worse",
+                  100.0 * (1.0 - std::pow(1.0 - confidence, 1.0 / all)));
+    return {value, value, kInfinity, confidence, confidence, false,
+            failed_ > 0 ? "the worst of the members seen, failed ones left out" : basis, Independent::name};
   }
   // The bounds hold for any share; the levels at the shares seen there are the interval.
   const double side = 0.5 * (1.0 + confidence), all = static_cast<double>(members() + failed_);
@@ -104,8 +144,9 @@ EnsembleInTime::Compliance EnsembleInTime::compliance(Interpretation interpretat
   const auto left_out = static_cast<std::size_t>(std::floor(leave_out * static_cast<double>(all)));
   c.share = shares[std::min(left_out, shares.size() - 1)];
   c.shown = clopper_pearson_lower(hits, all, confidence);
-  c.met = leave_out > 0.0 ? c.shown >= 1.0 - leave_out : hits == all;
-  c.fewest = leave_out > 0.0 ? wilks_one_sided(1.0 - leave_out, confidence) : 1;
+  const double of_members = leave_out > 0.0 ? 1.0 - leave_out : probability;
+  c.met = c.shown >= of_members && (leave_out > 0.0 || hits == all);
+  c.fewest = wilks_one_sided(of_members, confidence);
   return c;
 }
 

@@ -2,15 +2,18 @@
 // (ECSS-E-ST-60-10C, A.1.4; |e| the size of an index on one axis or of the half cone):
 //
 //   ensemble   over members, the largest |e| over time stays below the level
-//   temporal   over time, in the worst member; `leave_out` leaves out that share of the members, the worst ones
+//   temporal   over time, in the worst member; `leave_out` leaves out that share of the members, the worst ones. Of the
+//              worst member that there could be no number of members says anything: without `leave_out` none of those seen
+//              may exceed, and that at least the share `probability` of all members does as well is shown at the confidence
 //   mixed      over members and time together
 //
 // Members are independent of each other, the values within one are not. So intervals count members: of the ensemble
 // interpretation by order statistics and Clopper and Pearson, of the mixed one by Hoeffding's bound for the members'
-// shares of the time, of the temporal one by the share of members that N of N seen shows (Wilks). A member that failed
+// shares of the time, of the temporal one by Clopper and Pearson for the share of members that keep it. A member that failed
 // has no values and counts as bad, as in IndependentSamples.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "boresight_analyses/statistics/interval.hpp"
@@ -41,6 +44,10 @@ class EnsembleInTime {
     double shown = 0.0;  // ensemble, mixed: at least this share, at the confidence; temporal: of the members do as well
     std::int64_t fewest = 0;  // members it takes to show it if none is ever above the limit
   };
+  // The level where member k counts times[k] times, for a bootstrap over members: the least value with the share at or
+  // below it. Failed members are left out.
+  double resampled_level(Interpretation interpretation, double probability, double leave_out,
+                         const std::vector<std::uint32_t>& times) const;
   // Whether it stays at or below the limit with this probability, at this confidence, one-sided.
   Compliance compliance(Interpretation interpretation, double limit, double probability, double confidence,
                         double leave_out = 0.0) const;
@@ -52,6 +59,7 @@ class EnsembleInTime {
   std::vector<std::vector<double>> sizes_;  // each ascending
   std::vector<double> maxima_;
   std::vector<double> pooled_;  // ascending
+  std::vector<std::uint32_t> owner_;  // the member of each of them
   std::int64_t failed_;
 };
 

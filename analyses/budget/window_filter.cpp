@@ -39,6 +39,15 @@ double kept_of_sinusoid(ErrorIndex index, double angular_frequency, const Window
   return 4.0 * sine * sine * mean;
 }
 
+double peak_of_sinusoid(ErrorIndex index, double angular_frequency, const Windows& windows) {
+  if (index != ErrorIndex::rpe) return std::sqrt(kept_of_sinusoid(index, angular_frequency, windows));
+  const double end = 0.5 * angular_frequency * windows.window;
+  const double s = end == 0.0 ? 1.0 : std::sin(end) / end;
+  // Largest where s cos(theta) is least: at the ends of the window, half a period from its middle, or in the middle itself.
+  const double least = s < 0.0 ? s : s * std::cos(std::min(end, M_PI));
+  return std::sqrt(std::max(0.0, 1.0 - 2.0 * least + s * s));
+}
+
 double kept_of_noise(ErrorIndex index, double correlation_time, const Windows& windows) {
   if (index == ErrorIndex::ape) return 1.0;
   const double x = windows.window / correlation_time;

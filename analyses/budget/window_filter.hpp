@@ -13,6 +13,13 @@
 
 namespace boresight {
 
+// The largest size that the index takes of a sinusoid of amplitude 1, over its phase and over time. Of RPE, with
+// s = sin(x / 2) / (x / 2) left of the mean and the angle theta from the window's middle, |theta| <= x / 2,
+//   max over theta of sqrt(1 - 2 s cos(theta) + s^2)
+// which is above the square root of its mean square over theta: within a window shorter than the period the error is
+// largest at the ends. The other indices are sinusoids themselves.
+double peak_of_sinusoid(ErrorIndex index, double angular_frequency, const Windows& windows);  // [rad/s]
+
 // Share of the mean square that the index keeps; above 1 where two windows add up. Windows hold what the index needs.
 double kept_of_sinusoid(ErrorIndex index, double angular_frequency, const Windows& windows);  // [rad/s]
 double kept_of_noise(ErrorIndex index, double correlation_time, const Windows& windows);      // [s], positive

@@ -114,11 +114,15 @@ report::Table level_table(const BudgetStudy& s, const Budget& b) {
 report::Table contribution_table(const BudgetStudy& s, const Budget& b) {
   const double level = headline_level(b).level.value;
   report::Table table{.title = "Shares",
-                      .caption = "Of the mean square of the index over members and time; they add up to 100 %.",
-                      .columns = {{"Contribution"}, {"Kind"}, {"Share", "%"}, {"Of the level"}, {"Source"}}};
+                      .caption = fmt::format("Of the mean square of the index over members and time; they add up to 100 %. Low and high: "
+                                         "{} confidence, by the bootstrap over members.",
+                                         readable_share(s.plan.confidence)),
+                      .columns = {{"Contribution"}, {"Kind"}, {"Share", "%"}, {"Low", "%"}, {"High", "%"}, {"Of the level"}, {"Source"}}};
+  const auto percent = [](double share) { return std::isfinite(share) ? nlohmann::json(100.0 * share) : nlohmann::json(); };
   for (const Contribution& c : b.contributions) {
     const bool nominal = c.kind == kClearanceKind, attribution = c.kind == kScatterKind;
-    table.rows.push_back({c.name, c.kind, 100.0 * c.share, budget_value(s, c.share * level),
+    table.rows.push_back({c.name, c.kind, 100.0 * c.share, percent(c.interval.low), percent(c.interval.high),
+                          budget_value(s, c.share * level),
                           nominal       ? kFromNominal
                           : attribution ? kFromAttribution
                                         : kFromMembers});
@@ -131,13 +135,16 @@ report::Table relief_table(const BudgetStudy& s, const Budget& b) {
   report::Table table{
       .title = "What to tighten first",
       .caption = fmt::format("The level of {} of the members, and what it becomes if one thing is better; not a linear "
-                             "guess but runs of their own. Margin then: the gain taken off the level of all members.",
-                             b.attribution),
-      .columns = {{"What"}, {"If"}, {"Level now"}, {"Level then"}, {"Gain"}, {"Margin then"}, {"Source"}}};
+                             "guess but runs of their own. Low and high of the gain: {} confidence, by the bootstrap over these "
+                             "members. Margin then: the gain taken off the level of all members.",
+                             b.attribution, readable_share(s.plan.confidence)),
+      .columns = {{"What"}, {"If"}, {"Level now"}, {"Level then"}, {"Gain"}, {"Gain, low"}, {"Gain, high"}, {"Margin then"}, {"Source"}}};
   const bool asked = !b.requirements.empty();
   for (const Relief& r : b.reliefs)
     table.rows.push_back(
         {r.name, r.action, budget_value(s, r.before), budget_value(s, r.after), budget_value(s, r.gain()),
+         std::isfinite(r.interval.low) ? budget_value(s, r.interval.low) : "",
+         std::isfinite(r.interval.high) ? budget_value(s, r.interval.high) : "",
          asked ? readable_share((b.headline.limit - level + r.gain()) / b.headline.limit) : "", kFromAttribution});
   return table;
 }

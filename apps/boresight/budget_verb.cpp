@@ -76,9 +76,11 @@ void write_classical(std::ostream& out, const BudgetStudy& s, const Budget& b) {
 }
 
 void write_contributions(std::ostream& out, const Budget& b) {
-  out << "contribution,kind,share\n";
+  const auto bound = [](double value) { return std::isfinite(value) ? exact(value) : std::string(); };
+  out << "contribution,kind,share,low,high\n";
   for (const Contribution& c : b.contributions)
-    out << csv_field(c.name) << ',' << csv_field(c.kind) << ',' << exact(c.share) << '\n';
+    out << csv_field(c.name) << ',' << csv_field(c.kind) << ',' << exact(c.share) << ',' << bound(c.interval.low) << ','
+        << bound(c.interval.high) << '\n';
 }
 
 Json level_json(const BudgetStudy& s, const BudgetLevel& l, double probability) {
@@ -115,7 +117,8 @@ Json budget_json(const BudgetStudy& s, const Budget& b) {
   }
   json["contributions"] = Json::array();
   for (const Contribution& c : b.contributions)
-    json["contributions"].push_back({{"name", c.name}, {"kind", c.kind}, {"share", number_json(c.share)}});
+    json["contributions"].push_back({{"name", c.name}, {"kind", c.kind}, {"share", number_json(c.share)},
+                                     {"low", number_json(c.interval.low)}, {"high", number_json(c.interval.high)}});
   json["tighten_first"] = Json::array();
   for (const Relief& r : b.reliefs)
     json["tighten_first"].push_back({{"name", r.name},
@@ -123,6 +126,8 @@ Json budget_json(const BudgetStudy& s, const Budget& b) {
                                      {"before", r.before},
                                      {"after", r.after},
                                      {"gain", r.gain()},
+                                     {"gain_low", number_json(r.interval.low)},
+                                     {"gain_high", number_json(r.interval.high)},
                                      {"source", kFromAttribution}});
   return json;
 }
@@ -332,7 +337,10 @@ class BudgetVerb : public Verb {
         fmt::print("  {}; by the classical rule {}, {}\n", requirement_sentence(s, r), budget_value(s, r.level.by_rule),
                    to_string(r.level.standing));
       for (const Relief& r : b.reliefs)
-        fmt::print("  {:<32} {:<20} takes off {}\n", r.name, r.action, budget_value(s, r.gain()));
+        fmt::print("  {:<32} {:<20} takes off {}{}\n", r.name, r.action, budget_value(s, r.gain()),
+                   std::isfinite(r.interval.low)
+                       ? fmt::format(" ({} to {})", budget_value(s, r.interval.low), budget_value(s, r.interval.high))
+                       : "");
     }
     for (const std::string& warning : s.warnings) fmt::print("  warning: {}\n", warning);
     fmt::print("  report: {}\n", (out.path() / "report.html").string());

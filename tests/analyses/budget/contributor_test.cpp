@@ -95,5 +95,21 @@ TEST(ClassicalTable, TwoCorrelatedNoisesAreUnsafeByRootSumSquareAndFairAsAGroup)
   EXPECT_EQ(standing_of(by_rule("one"), simulated), RuleStanding::fair);
 }
 
+// A history that begins late sees a drift that has gone on since the motion began, in the course and in the table.
+TEST(Contributor, ADriftBeginsWithTheMotionAndNotWithTheHistory) {
+  Contributor drift{.name = "drift", .kind = ContributorClass::drift};
+  drift.parameter[0] = make_uniform(2.0, 2.0 + 1e-9);
+  const Windows late{.window = 0.1, .start = 3.0};
+  const std::vector<Vec3> seen = course(drift, 1, 0, 0, 0.01, 100, late);
+  EXPECT_NEAR(seen.front().x(), 2.0 * 3.005, 1e-6);
+  EXPECT_NEAR(seen.back().x(), 2.0 * 3.995, 1e-6);
+  EXPECT_NEAR(moments(drift, 0, ErrorIndex::ape, Interpretation::mixed, late, 1.0).mean, 2.0 * 3.5, 1e-6);
+  EXPECT_NEAR(moments(drift, 0, ErrorIndex::ape, Interpretation::ensemble, late, 1.0).mean, 2.0 * 4.0, 1e-6);
+  EXPECT_NEAR(moments(drift, 0, ErrorIndex::mpe, Interpretation::ensemble, late, 1.0).mean, 2.0 * 3.95, 1e-6);
+  EXPECT_NEAR(moments(drift, 0, ErrorIndex::rpe, Interpretation::mixed, late, 1.0).mean, 0.0, 1e-12);
+  drift.recalibrated = true;
+  EXPECT_NEAR(course(drift, 1, 0, 0, 0.01, 100, late).front().x(), 2.0 * 0.005, 1e-6);
+}
+
 }  // namespace
 }  // namespace boresight

@@ -73,5 +73,54 @@ TEST(Interpretation, RefusesMembersOfUnequalLengthAndNone) {
   EXPECT_THROW(EnsembleInTime({}), std::invalid_argument);
 }
 
+// A member keeps the limit with a chance that is just the share asked for: called met no more often than 1 - confidence.
+// Counting the members seen and nothing else, as if the worst of them were the worst there is, says so in 0.95^members.
+TEST(Interpretation, TheTemporalOneIsCalledMetThatIsNotNoMoreOftenThanItsRisk) {
+  constexpr int kTrials = 1000;
+  constexpr double kProbability = 0.95, kRisk = 0.1;
+  const CounterStream stream(7, StreamPurpose::sample);
+  for (const std::uint64_t members : {20, 45, 60, 120}) {
+    int met = 0, none_exceeded = 0;
+    for (std::uint64_t trial = 0; trial < kTrials; ++trial) {
+      std::vector<std::vector<double>> sizes;
+      bool kept = true;
+      for (std::uint64_t k = 0; k < members; ++k) {
+        const bool keeps = stream.uniform(trial, k, members) < kProbability;
+        kept = kept && keeps;
+        sizes.push_back({1.0, 1.0, keeps ? 1.0 : 3.0, 1.0});
+      }
+      none_exceeded += kept;
+      met += EnsembleInTime(std::move(sizes)).compliance(Interpretation::temporal, 2.0, kProbability, 1.0 - kRisk).met;
+    }
+    std::printf("%d members: false met %.3f (none of them exceeds: %.3f), nominal %.3f\n", static_cast<int>(members),
+                double(met) / kTrials, double(none_exceeded) / kTrials, kRisk);
+    EXPECT_LE(double(met) / kTrials, kRisk + 2.0 * std::sqrt(kRisk * (1.0 - kRisk) / kTrials)) << members;
+  }
+}
+
+TEST(Interpretation, TheTemporalOneTakesTheMembersOfWilksAndNoneThatExceeds) {
+  const auto met = [](std::size_t members, bool one_exceeds) {
+    std::vector<std::vector<double>> sizes(members, std::vector<double>(10, 1.0));
+    if (one_exceeds) sizes.front() = std::vector<double>(10, 3.0);
+    return EnsembleInTime(std::move(sizes)).compliance(Interpretation::temporal, 2.0, 0.95, 0.9);
+  };
+  EXPECT_FALSE(met(44, false).met);
+  EXPECT_TRUE(met(45, false).met);
+  EXPECT_EQ(met(44, false).fewest, 45);
+  EXPECT_FALSE(met(500, true).met);
+}
+
+TEST(Interpretation, ResampledOnceEachAMemberGivesTheLevelItself) {
+  const EnsembleInTime e = stepped();
+  const std::vector<std::uint32_t> once(100, 1);
+  EXPECT_EQ(e.resampled_level(Interpretation::mixed, 0.5, 0.0, once), 1.0);
+  EXPECT_EQ(e.resampled_level(Interpretation::mixed, 0.51, 0.0, once), 2.0);
+  EXPECT_EQ(e.resampled_level(Interpretation::temporal, 0.5, 0.6, once), 1.0);
+  EXPECT_EQ(e.resampled_level(Interpretation::temporal, 0.5, 0.0, once), 2.0);
+  std::vector<std::uint32_t> first(100, 0);
+  first[0] = 100;
+  EXPECT_EQ(e.resampled_level(Interpretation::ensemble, 0.95, 0.0, first), 1.0);
+}
+
 }  // namespace
 }  // namespace boresight

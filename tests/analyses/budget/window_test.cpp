@@ -112,5 +112,23 @@ TEST(ErrorIndexOfAHistory, SaysWhatItNeeds) {
                std::invalid_argument);
 }
 
+// The window slides over a sinusoid: the largest distance from the mean of any window that the instant lies in.
+TEST(WindowFilter, KnowsTheLargestRelativeErrorOfASinusoid) {
+  for (const double window : {0.02, 0.1, 0.35, 0.5, 0.9, 1.0, 1.3, 2.7}) {
+    double most = 0.0;
+    constexpr int kPhases = 400, kPlaces = 400;
+    for (int i = 0; i < kPhases; ++i) {
+      const double phase = 2.0 * M_PI * i / kPhases, omega = 2.0 * M_PI;
+      const double mean = (std::cos(phase) - std::cos(phase + omega * window)) / (omega * window);
+      for (int k = 0; k <= kPlaces; ++k)
+        most = std::max(most, std::abs(std::sin(phase + omega * window * k / kPlaces) - mean));
+    }
+    EXPECT_NEAR(peak_of_sinusoid(ErrorIndex::rpe, 2.0 * M_PI, {.window = window}), most, 2e-3) << window;
+  }
+  // A tenth of the period; sqrt(1 - s^2), what the mean square keeps, is 0.180.
+  EXPECT_NEAR(peak_of_sinusoid(ErrorIndex::rpe, 2.0 * M_PI, {.window = 0.1}), 0.311, 5e-4);
+  EXPECT_NEAR(peak_of_sinusoid(ErrorIndex::mpe, 2.0 * M_PI, {.window = 0.1}), std::sin(0.1 * M_PI) / (0.1 * M_PI), 1e-12);
+}
+
 }  // namespace
 }  // namespace boresight
