@@ -62,7 +62,8 @@ void LaneSampleModel::evaluate(std::span<const Sample> samples, std::span<Outcom
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const LaneOutcome& f = found[k];
     Outcome& outcome = outcomes[k];
-    outcome.cpu_seconds = per_attempt * static_cast<double>(f.steps + f.rejected);
+    outcome.evaluations = static_cast<double>(f.steps + f.rejected);
+    outcome.cpu_seconds = per_attempt * outcome.evaluations;
     if (f.status != LaneStatus::done) {
       outcome.status = Outcome::Status::failed;
       outcome.message = std::string(f.status == LaneStatus::step_too_small ? "the error estimate asked for a vanishing step"

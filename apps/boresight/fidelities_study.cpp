@@ -1,17 +1,20 @@
 // `fidelities` of a Monte Carlo study: a pilot on every rung, a forecast of the gain before anything more is spent, samples
 // as the plan divides them, and the estimate that is unbiased for the first rung.
 //
-// Samples 0 to pilot - 1 are the pilot's, the estimate's follow. A store per rung keeps them; the plan follows from the
-// stored pilot alone, costs included, so a resumed study goes on with the plan it was begun with.
+// Samples 0 to pilot - 1 are the pilot's, the estimate's follow. A store per rung keeps them, the first one also what a sample
+// of each was counted at (counted_cost.hpp); the plan follows from the pilot's values and these alone. So a resumed study goes
+// on with the plan it was begun with, and a repeated one has the same.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <ostream>
 
 #include "boresight/io/content_hash.hpp"
 #include "boresight_analyses/fidelities/fidelity_estimate.hpp"
+#include "boresight_analyses/montecarlo/counted_cost.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
@@ -35,7 +38,8 @@ struct FidelityOutcome {
   FidelityPlan plan;
   FidelityEstimate mean;
   std::optional<IndependentInterval> excess;  // probability of exceeding the requirement's limit
-  double spent = 0.0;                      // CPU seconds of all samples
+  double spent = 0.0;                      // CPU seconds of all samples, measured
+  std::vector<double> measured_cost;       // CPU seconds of a sample, per rung
 };
 
 std::vector<Level> open_levels(const SeveralRungs& s) {
@@ -56,6 +60,20 @@ std::vector<Level> open_levels(const SeveralRungs& s) {
   return levels;
 }
 
+// Of a sample on each rung, in seconds: counted when the study is begun, and kept.
+std::vector<double> counted_costs(const SeveralRungs& s, std::vector<Level>& levels, const Design& design) {
+  std::vector<double> costs;
+  for (Level& level : levels) {
+    std::string kept = level.store->fact("counted_cost");
+    if (kept.empty()) {
+      kept = fmt::format("{:.17g}", counted_cost(*level.model, *s.question.mechanism, s.question.plan.inputs, design));
+      level.store->note("counted_cost", kept);
+    }
+    costs.push_back(std::stod(kept));
+  }
+  return costs;
+}
+
 std::string forecast_sentence(const FidelityPlan& plan, const std::string& top) {
   if (plan.models.size() == 1)
     return "forecast: nothing to gain from the cheaper rungs; the budget goes to " + top + " alone";
@@ -66,7 +84,7 @@ std::string forecast_sentence(const FidelityPlan& plan, const std::string& top) 
 // Against the first rung alone for the same CPU: its sample variance over as many samples as that pays.
 double measured_gain(const FidelityOutcome& o) {
   const double variance = o.mean.standard_error * o.mean.standard_error;
-  const double plain = o.plan.sd[0] * o.plan.sd[0] * o.pilot.cost[0] / o.spent;
+  const double plain = o.plan.sd[0] * o.plan.sd[0] * o.measured_cost[0] / o.spent;
   return variance > 0.0 ? plain / variance : 0.0;
 }
 
@@ -75,7 +93,7 @@ void write_levels(std::ostream& out, const SeveralRungs& s, const FidelityOutcom
   for (std::size_t i = 0; i < o.pilot.models(); ++i) {
     const auto at = std::find(o.plan.models.begin(), o.plan.models.end(), static_cast<int>(i)) - o.plan.models.begin();
     const bool used = at < static_cast<std::ptrdiff_t>(o.plan.models.size());
-    out << s.question.plan.fidelities->models[i] << ',' << exact(o.pilot.cost[i]) << ',' << exact(o.plan.mean[i]) << ','
+    out << s.question.plan.fidelities->models[i] << ',' << exact(o.measured_cost[i]) << ',' << exact(o.plan.mean[i]) << ','
         << exact(o.plan.sd[i]) << ',' << exact(o.plan.correlation[i]) << ',' << (used ? o.plan.samples[at] : 0) << ','
         << exact(used ? o.plan.weight[at] : 0.0) << '\n';
   }
@@ -89,7 +107,7 @@ report::Table levels_table(const SeveralRungs& s, const FidelityOutcome& o) {
   for (std::size_t i = 0; i < o.pilot.models(); ++i) {
     const auto at = std::find(o.plan.models.begin(), o.plan.models.end(), static_cast<int>(i)) - o.plan.models.begin();
     const bool used = at < static_cast<std::ptrdiff_t>(o.plan.models.size());
-    table.rows.push_back({s.question.plan.fidelities->models[i], 1e3 * o.pilot.cost[i], o.plan.correlation[i],
+    table.rows.push_back({s.question.plan.fidelities->models[i], 1e3 * o.measured_cost[i], o.plan.correlation[i],
                           static_cast<double>(o.plan.pilot_samples), static_cast<double>(used ? o.plan.samples[at] : 0),
                           used ? nlohmann::json(o.plan.weight[at]) : nlohmann::json()});
   }
@@ -150,10 +168,11 @@ int run_fidelities(const SeveralRungs& s) {
       complete_samples(*level.model, plan.inputs, design, {0, asked.pilot}, *level.store, options);
       const StoredValues pilot = stored_values(*level.store, {0, asked.pilot});
       o.pilot.values.push_back(pilot.values);
-      o.pilot.cost.push_back(std::max(pilot.typical_cost, 1e-7));
+      o.measured_cost.push_back(std::max(pilot.typical_cost, 1e-7));
       o.spent += pilot.spent;
       failures.add(pilot.failures);
     }
+    o.pilot.cost = counted_costs(s, levels, design);
     try {
       o.plan = plan_fidelities(o.pilot, asked.budget, plan.design.seed);
     } catch (const std::invalid_argument& refusal) {
@@ -231,7 +250,8 @@ int run_fidelities(const SeveralRungs& s) {
   Json& f = json["fidelities"];
   for (std::size_t i = 0; i < asked.models.size(); ++i)
     f["rungs"].push_back({{"rung", asked.models[i]},
-                          {"cpu_seconds_per_sample", o.pilot.cost[i]},
+                          {"cpu_seconds_per_sample", o.measured_cost[i]},
+                          {"counted_seconds_per_sample", o.pilot.cost[i]},
                           {"correlation", o.plan.correlation[i]},
                           {"samples", 0},
                           {"weight", 0.0}});
@@ -240,7 +260,8 @@ int run_fidelities(const SeveralRungs& s) {
     rung["samples"] = o.plan.samples[k];
     rung["weight"] = o.plan.weight[k];
   }
-  f["pilot"] = {{"samples", o.plan.pilot_samples}, {"failed", o.plan.pilot_failed}, {"cpu_seconds", o.pilot.spent()}};
+  f["pilot"] = {{"samples", o.plan.pilot_samples}, {"failed", o.plan.pilot_failed}, {"counted_seconds", o.pilot.spent()},
+                {"cpu_seconds", static_cast<double>(o.pilot.samples()) * std::accumulate(o.measured_cost.begin(), o.measured_cost.end(), 0.0)}};
   f["budget"] = asked.budget;
   f["cpu_seconds"] = o.spent;
   f["gain"] = {{"forecast", o.plan.gain}, {"low", o.plan.gain_low}, {"high", o.plan.gain_high}, {"measured", measured_gain(o)}};
@@ -276,7 +297,7 @@ int run_fidelities(const SeveralRungs& s) {
     for (std::size_t k = 0; k < o.plan.models.size(); ++k)
       fmt::print("  {:<14} {:>8} samples, correlation {:.4f}, {} each\n", asked.models[static_cast<std::size_t>(o.plan.models[k])],
                  o.plan.samples[k], o.plan.correlation[static_cast<std::size_t>(o.plan.models[k])],
-                 readable(o.pilot.cost[static_cast<std::size_t>(o.plan.models[k])], "s"));
+                 readable(o.measured_cost[static_cast<std::size_t>(o.plan.models[k])], "s"));
     for (const std::string& warning : warnings) fmt::print("  warning: {}\n", warning);
     fmt::print("  report: {}\n", (s.out.path() / "report.html").string());
   }

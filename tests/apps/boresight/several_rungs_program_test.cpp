@@ -81,6 +81,35 @@ TEST_F(SeveralRungsProgram, TailSaysHowRareTheExcessIs) {
   for (const char* file : {"levels.csv", "report.html"}) EXPECT_THAT(files("out"), Contains(file));
 }
 
+// The budget is divided by what samples are counted at: once more, and resumed, the same plan and the same numbers.
+TEST_F(SeveralRungsProgram, FidelitiesAndTailGiveTheSameNumbersAgain) {
+  study("[montecarlo]\nrequirement = { limit = \"0.3 mm\", probability = 0.9, confidence = 0.9 }\n"
+        "fidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"0.5 s\", pilot = 10 }\n");
+  const auto answers = [&](const std::string& part) {
+    auto summary = json("out/summary.json");
+    for (auto& rung : summary[part]["rungs"]) rung.erase("cpu_seconds_per_sample");
+    return std::vector<nlohmann::json>{summary["index"], summary["requirement"], summary["samples"], summary[part]["rungs"],
+                                       summary[part]["exceedance"], summary[part]["standard_error"]};
+  };
+  ask("montecarlo");
+  const auto first = answers("fidelities");
+  EXPECT_TRUE(first[3][0].contains("counted_seconds_per_sample"));
+  ask("montecarlo", {"--resume"});
+  EXPECT_EQ(answers("fidelities"), first);
+  std::filesystem::remove_all(folder_ / "out");
+  ask("montecarlo", {"--jobs", "2"});
+  EXPECT_EQ(answers("fidelities"), first);
+  std::filesystem::remove_all(folder_ / "out");
+
+  study("[montecarlo]\nrequirement = { limit = \"0.3 mm\", probability = 0.99, confidence = 0.9 }\n"
+        "tail = { cheap = \"perturbation\", exact = \"quasistatic\", budget = \"0.2 s\", pilot = 10 }\n");
+  ask("montecarlo");
+  const auto tail = answers("tail");
+  std::filesystem::remove_all(folder_ / "out");
+  ask("montecarlo", {"--jobs", "2"});
+  EXPECT_EQ(answers("tail"), tail);
+}
+
 TEST_F(SeveralRungsProgram, ContradictionsAreRefusedWithTheirLine) {
   const struct { const char *table, *words; } cases[] = {
       {"[montecarlo]\nfidelities = { models = [\"multibody\"], budget = \"2 s\" }\n", "two rungs"},
