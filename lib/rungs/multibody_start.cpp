@@ -1,6 +1,9 @@
 #include "boresight/rungs/multibody_start.hpp"
 
+#include <Eigen/QR>
+#include <cmath>
 #include <limits>
+#include <memory>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/clearance_scene.hpp"
@@ -14,6 +17,10 @@ constexpr double kRounding = 1e-12;
 constexpr int kMostSteps = 40;
 // A step this many times the shortest leads away.
 constexpr double kAstray = 100.0;
+// Where a journal rests, to be called so, in clearances; and where it is still taken: forces are off by a thousandth of what presses.
+constexpr double kSettled = 1e-8, kAcceptable = 1e-5;
+// Of the clearances, where stiffness is found by differences: rounding leaves 1e-10 of it, contact's curvature 1e-5.
+constexpr double kDifference = 1e-6;
 
 std::vector<BodyMotion> displaced_bodies(const ClearanceScene::Start& scene, const VecX& z, const VecX& z_rate) {
   std::vector<BodyMotion> bodies = scene.ideal.bodies;
@@ -65,43 +72,142 @@ class Frictionless {
   std::vector<JournalInSleeve> own_;
 };
 
-void rest_journals(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal, Formulation& formulation,
-                   VecX& y, std::string& warning) {
+// The journals' balance on the mechanism's own geometry, as a function of where they are sent.
+class ExactBalance {
+ public:
+  ExactBalance(const Mechanism& mechanism, const Parameters& parameters, const ClearanceScene::Start& scene, const RestingBalance& balance,
+               Formulation& formulation)
+      : scene_(scene),
+        balance_(balance),
+        formulation_(formulation),
+        mass_(mechanism.mass_properties(parameters)),
+        memory_(static_cast<std::size_t>(mechanism.clearances())),
+        journals_(memory_.size()),
+        rate_(formulation.state_size()),
+        still_(VecX::Zero(scene.T.cols())) {}
+
+  // What is left unbalanced with the journals sent to z, nothing moving against the ideal motion: rates dissipate.
+  VecX left(const VecX& z) {
+    place(z, still_, state_);
+    formulation_.derivative(0.0, state_, memory_, rate_);
+    for (std::size_t c = 0; c < journals_.size(); ++c) journals_[c] = formulation_.forces().motion(static_cast<int>(c));
+    return balance_.balanceable(unbalanced(scene_, mass_, formulation_.acceleration()));
+  }
+  // Of the last left(): its change with the offsets, were these where they are sent to.
+  MatX stiffness() const { return balance_.stiffness_at(journals_); }
+  // Its change with z by differences, for where the pose bends too much for that.
+  MatX by_differences(const VecX& z) {
+    MatX J(z.size(), z.size());
+    for (Eigen::Index k = 0; k < z.size(); ++k) {
+      VecX to = z;
+      to[k] += kDifference * balance_.scale()[k];
+      const VecX up = left(to);
+      to[k] -= 2.0 * kDifference * balance_.scale()[k];
+      J.col(k) = (up - left(to)) / (2.0 * kDifference * balance_.scale()[k]);
+    }
+    return J;
+  }
+  double length(const VecX& dz) const { return dz.cwiseQuotient(balance_.scale()).cwiseAbs().maxCoeff(); }
+  double size(const VecX& left) const { return left.cwiseProduct(balance_.scale()).norm(); }
+  const VecX& scale() const { return balance_.scale(); }
+  VecX step(const MatX& by_z, const VecX& left) const { return balance_.correction(by_z, left); }
+
+  void place(const VecX& z, const VecX& z_rate, VecX& y) {
+    formulation_.place_bodies(displaced_bodies(scene_, z, z_rate), y);
+    formulation_.close_joints(0.0, y);
+  }
+
+ private:
+  const ClearanceScene::Start& scene_;
+  const RestingBalance& balance_;
+  Formulation& formulation_;
+  std::vector<MassProperties> mass_;
+  std::vector<ContactMemory> memory_;
+  std::vector<JournalMotion<double>> journals_;
+  VecX state_, rate_, still_;
+};
+
+// Newton's method with the offsets' own stiffness: a few steps, where the pose is all but linear in the offsets. Returns the length of
+// the last step.
+double rest_nearly_linear(ExactBalance& exact, VecX& z) {
+  VecX at = z;
+  // What no place of the journals balances is left to the motion: steps are judged by their length.
+  double least = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kMostSteps; ++step) {
+    const VecX left = exact.left(at), dz = exact.step(exact.stiffness(), left);
+    const double length = exact.length(dz);
+    if (length < least) {
+      least = length;
+      z = at;
+    }
+    if (length <= kRounding || !(length < kAstray * least)) break;
+    at += dz;
+  }
+  return least;
+}
+
+// The same with the stiffness by differences and no step that does not pay: where the pose bends within the clearances.
+double rest_anywhere(ExactBalance& exact, VecX& z) {
+  VecX left = exact.left(z);
+  double length = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kMostSteps && length > kSettled; ++step) {
+    const MatX H = exact.scale().asDiagonal() * exact.by_differences(z) * exact.scale().asDiagonal();
+    Eigen::CompleteOrthogonalDecomposition<MatX> solver;
+    solver.setThreshold(kDifference);
+    solver.compute(H);
+    VecX dz = -exact.scale().cwiseProduct(solver.solve(exact.scale().cwiseProduct(left)));
+    length = exact.length(dz);
+    if (!std::isfinite(length)) break;
+    if (length > 1.0) dz /= length;
+    double share = 1.0;
+    for (; share > 1e-4; share *= 0.5) {
+      const VecX to = z + share * dz, there = exact.left(to);
+      if (!(exact.size(there) < exact.size(left))) continue;
+      z = to;
+      left = there;
+      break;
+    }
+    if (share <= 1e-4) break;
+  }
+  return length;
+}
+
+// The bodies where the journals rest, moving as motions start; none where no play can move, or no rest was found.
+std::vector<BodyMotion> resting_bodies(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal,
+                                       std::string& warning) {
   const ClearanceScene::Start scene = ClearanceScene::at_start(mechanism, ideal, parameters);
-  if (scene.layout.n == 0) return;  // no play can move
+  if (scene.layout.n == 0) return {};
+  // Whatever formulation follows the motion, it starts from the same place: this one closes its joints along the tree.
+  const std::unique_ptr<Formulation> formulation = make_tree_formulation(mechanism, parameters, &ideal, {});
+  VecX y;
+  formulation->start(scene.ideal, y);
   std::vector<JournalInSleeve> joints;
-  for (int c = 0; c < formulation.forces().clearances(); ++c) joints.push_back(formulation.forces().joint(c));
+  for (int c = 0; c < formulation->forces().clearances(); ++c) joints.push_back(formulation->forces().joint(c));
   const RestingBalance balance(scene.layout, scene.numbers.row.data(), joints);
   const RestingStart rest = balance.solve();
   if (!rest.refusal.empty()) {
     warning = centred_for_want_of(rest.refusal);
-    return;
+    return {};
   }
-  const Frictionless frictionless(formulation.forces(), balance.joints());
-  const std::vector<MassProperties> mass = mechanism.mass_properties(parameters);
-  const std::vector<ContactMemory> memory(joints.size());
-  const VecX still = VecX::Zero(rest.z.size());  // rates dissipate in contacts: they come last
-  VecX z = rest.z, best = z, trial, dy(y.size());
-  std::vector<JournalMotion<double>> journals(joints.size());
-  // What no place of the journals balances is left to the motion: steps are judged by their length.
-  double least = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMostSteps; ++step) {
-    formulation.place_bodies(displaced_bodies(scene, z, still), trial);
-    formulation.close_joints(0.0, trial);
-    formulation.derivative(0.0, trial, memory, dy);
-    const VecX left = balance.balanceable(unbalanced(scene, mass, formulation.acceleration()));
-    for (std::size_t c = 0; c < journals.size(); ++c) journals[c] = formulation.forces().motion(static_cast<int>(c));
-    const VecX dz = balance.correction(balance.stiffness_at(journals), left);
-    const double length = dz.cwiseQuotient(balance.scale()).cwiseAbs().maxCoeff();
-    if (length < least) {
-      least = length;
-      best = z;
+  const Frictionless frictionless(formulation->forces(), balance.joints());
+  ExactBalance exact(mechanism, parameters, scene, balance, *formulation);
+  VecX z = rest.z;
+  double length = rest_nearly_linear(exact, z);
+  if (length > kSettled) {
+    VecX other = rest.z;
+    const double other_length = rest_anywhere(exact, other);
+    if (other_length < length) {
+      z = other;
+      length = other_length;
     }
-    if (length <= kRounding || !(length < kAstray * least)) break;
-    z += dz;
   }
-  formulation.place_bodies(displaced_bodies(scene, best, scene.numbers.rates * best), y);
-  formulation.close_joints(0.0, y);
+  if (!(length <= kAcceptable)) {
+    warning = centred_for_want_of("no position was found in which the journals' contacts carry the loads of t = 0 on the mechanism's own "
+                                  "geometry, which bends within the clearances");
+    return {};
+  }
+  exact.place(z, scene.numbers.rates * z, y);
+  return formulation->bodies(0.0, y);
 }
 
 }  // namespace
@@ -114,7 +220,10 @@ VecX multibody_start(const Mechanism& mechanism, const Parameters& parameters, c
   formulation.start(start, y);
   if (formulation.forces().clearances() == 0 || mechanism.description().journals == JournalStart::centred) return y;
   try {
-    rest_journals(mechanism, parameters, ideal, formulation, y, warning);
+    const std::vector<BodyMotion> bodies = resting_bodies(mechanism, parameters, ideal, warning);
+    if (bodies.empty()) return y;
+    formulation.place_bodies(bodies, y);
+    formulation.close_joints(0.0, y);
   } catch (const ComputationError& failure) {
     warning = centred_for_want_of(failure.what());
     formulation.start(start, y);

@@ -179,14 +179,17 @@ double second_order_share(const Mechanism& mechanism, const PreparedScene& prepa
       const VecX push = reaction.cwiseQuotient(unit), push_off = inverse_mass.solve(left).cwiseQuotient(unit);
       for (std::size_t g = 0; g < groups.size(); ++g) {
         double size = 0.0, size_off = 0.0;
-        Vec6 own = Vec6::Zero();
+        // A journal whose forces turn may go any way: offsets and slopes that cancel in the pose need not cancel then.
+        double reach = 0.0;
+        std::array<double, kKinds> gain = {0.0, 0.0, 0.0, 0.0};
         for (int i : groups[g]) {
           size += push[i] * push[i];
           size_off += push_off[i] * push_off[i];
-          own += T.block<6, 1>(6 * body, i) * z[i];
+          reach += unit[i] * unit[i] * z[i] * z[i];
+          const auto of_one = sizes(T.block<6, 1>(6 * body, i) / unit[i]);
+          for (int k = 0; k < kKinds; ++k) gain[k] += of_one[k] * of_one[k];
         }
-        const auto of_group = sizes(own);
-        for (int k = 0; k < kKinds; ++k) part[g][k].add(whole[k], of_group[k]);
+        for (int k = 0; k < kKinds; ++k) part[g][k].add(whole[k], std::sqrt(gain[k] * reach));
         if (size_off > 0.0)
           pushed_off[g] =
               std::max(pushed_off[g], std::min(1.0, std::sqrt(size_off / std::max(size, 1e-300))));

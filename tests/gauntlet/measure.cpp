@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
+#include <stdexcept>
 
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/rungs/measured_error.hpp"
@@ -83,8 +85,11 @@ std::array<double, kFigures.size()> figures(const PointingIndices& i) {
 
 }  // namespace
 
-Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked) {
-  const RunResult r = make_rung(asked.rung, mechanism)->run(mechanism->parameters(), options_of(asked, *mechanism));
+Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked, double most_seconds) {
+  RunOptions options = options_of(asked, *mechanism);
+  options.progress = [most_seconds](const RunProgress&) { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC < most_seconds; };
+  const RunResult r = make_rung(asked.rung, mechanism)->run(mechanism->parameters(), options);
+  if (r.interrupted) throw std::runtime_error("longer than the limit, ended when asked to");
   double deepest = 0.0;
   for (const ContactSummary& c : r.contact) deepest = std::max(deepest, c.max_penetration);
   const double play = smallest_clearance(mechanism->parameters());

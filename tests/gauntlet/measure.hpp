@@ -34,7 +34,8 @@ struct Measured {
   double cpu_seconds = 0.0;
 };
 
-Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked);
+// Asks a run to end that takes longer [s of CPU of this process]: throws then. One that does not hear it is a hang.
+Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked, double most_seconds);
 Measured measured(const Json& json);
 
 // What the program would state of the steps' part of this run's error: "by_steps" per figure, or "why_not".

@@ -57,7 +57,7 @@ class Trial {
  private:
   // Runs it in a process of its own; what goes wrong is noted. `quiet`: refusals are not.
   std::optional<Measured> measure_safely(const Asked& asked, bool quiet = false) {
-    const Outcome outcome = in_sandbox(options_.limits, [&] { return measure(mechanism_, asked); });
+    const Outcome outcome = in_sandbox(options_.limits, [&] { return measure(mechanism_, asked, kMostOfLimit * options_.limits.cpu_seconds); });
     verdict_.cpu_seconds += outcome.cpu_seconds;
     switch (outcome.end) {
       case Outcome::End::crashed: verdict_.fault("crash", asked.label(), outcome.reason); return {};
@@ -241,7 +241,7 @@ class Trial {
       if (known && base_[asked.rung].cpu_seconds > kDearRun) continue;
       for (const auto& [name, mechanism] : drawn) {
         const auto other = mechanism;
-        const Outcome outcome = in_sandbox(options_.limits, [&] { return measure(other, asked); });
+        const Outcome outcome = in_sandbox(options_.limits, [&] { return measure(other, asked, kMostOfLimit * options_.limits.cpu_seconds); });
         verdict_.cpu_seconds += outcome.cpu_seconds;
         const std::string stage = asked.rung + " " + name;
         if (outcome.end == Outcome::End::crashed || outcome.end == Outcome::End::out_of_time) {
@@ -319,6 +319,7 @@ class Trial {
     }
   }
 
+  static constexpr double kMostOfLimit = 0.8;          // of the CPU limit, after which a run is asked to end
   static constexpr double kDearRun = 1.5;              // [s]: variants of dearer runs are left out
   static constexpr double kMomentumTolerance = 1e-5;   // of the sum of the parts, at the rung's own step
   static constexpr double kEnergyTolerance = 1e-6;     // of the kinetic energy, at a two-thousandth of the motion
