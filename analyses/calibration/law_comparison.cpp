@@ -42,8 +42,12 @@ LawScore law_score(const CalibrationProblem& problem, const std::string& law, co
   // A tangent is that of the law it was taken with.
   for (ModelCorrection& correction : other.corrections) correction.tangent.reset();
   const FitResult found = fit(other, start, {}, options);
-  // Hertz's law has no restitution.
-  const double parameters = law == "hertz" ? other.global_count() - 1.0 : other.global_count();
+  // Hertz's law has no restitution: as many fewer as are fitted, none where none is.
+  double parameters = other.global_count();
+  if (law == "hertz")
+    parameters -= static_cast<double>(
+        std::count_if(other.parameters.begin(), other.parameters.end(),
+                      [](const FittedParameter& q) { return q.path.ends_with(".contact.restitution"); }));
   LawScore score{law, found.cost, found.cost + 2.0 * parameters, 0.0, {}, found.reason, found.evaluations};
   if (const auto held = score_held_out(other, found.globals, options.jobs)) score.held_out = held->rms;
   return score;

@@ -257,7 +257,7 @@ class MonteCarloVerb : public Verb {
     if (!error.rung_of.empty())
       error.rung_why = fmt::format(
           "measured by the pilot: this way against multibody at half its step over {} paired samples, with 95 % confidence, what "
-          "the steps do included",
+          "the steps do and what that reference is off by itself included",
           store.fact("pilot_pairs"));
     const Estimates estimates = estimate(result.values, question.plan, error, judged(question.plan, result, store));
     MonteCarloStudy study{.command = command,
