@@ -1,12 +1,11 @@
 #include "boresight/rungs/multibody_start.hpp"
 
-#include <Eigen/QR>
-#include <cmath>
 #include <limits>
 #include <memory>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/clearance_scene.hpp"
+#include "boresight/rungs/rest_search.hpp"
 #include "boresight/rungs/resting_start.hpp"
 
 namespace boresight {
@@ -17,10 +16,6 @@ constexpr double kRounding = 1e-12;
 constexpr int kMostSteps = 40;
 // A step this many times the shortest leads away.
 constexpr double kAstray = 100.0;
-// Where a journal rests, to be called so, in clearances; and where it is still taken: forces are off by a thousandth of what presses.
-constexpr double kSettled = 1e-8, kAcceptable = 1e-5;
-// Of the clearances, where stiffness is found by differences: rounding leaves 1e-10 of it, contact's curvature 1e-5.
-constexpr double kDifference = 1e-6;
 
 std::vector<BodyMotion> displaced_bodies(const ClearanceScene::Start& scene, const VecX& z, const VecX& z_rate) {
   std::vector<BodyMotion> bodies = scene.ideal.bodies;
@@ -95,20 +90,7 @@ class ExactBalance {
   }
   // Of the last left(): its change with the offsets, were these where they are sent to.
   MatX stiffness() const { return balance_.stiffness_at(journals_); }
-  // Its change with z by differences, for where the pose bends too much for that.
-  MatX by_differences(const VecX& z) {
-    MatX J(z.size(), z.size());
-    for (Eigen::Index k = 0; k < z.size(); ++k) {
-      VecX to = z;
-      to[k] += kDifference * balance_.scale()[k];
-      const VecX up = left(to);
-      to[k] -= 2.0 * kDifference * balance_.scale()[k];
-      J.col(k) = (up - left(to)) / (2.0 * kDifference * balance_.scale()[k]);
-    }
-    return J;
-  }
   double length(const VecX& dz) const { return dz.cwiseQuotient(balance_.scale()).cwiseAbs().maxCoeff(); }
-  double size(const VecX& left) const { return left.cwiseProduct(balance_.scale()).norm(); }
   const VecX& scale() const { return balance_.scale(); }
   VecX step(const MatX& by_z, const VecX& left) const { return balance_.correction(by_z, left); }
 
@@ -146,32 +128,6 @@ double rest_nearly_linear(ExactBalance& exact, VecX& z) {
   return least;
 }
 
-// The same with the stiffness by differences and no step that does not pay: where the pose bends within the clearances.
-double rest_anywhere(ExactBalance& exact, VecX& z) {
-  VecX left = exact.left(z);
-  double length = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMostSteps && length > kSettled; ++step) {
-    const MatX H = exact.scale().asDiagonal() * exact.by_differences(z) * exact.scale().asDiagonal();
-    Eigen::CompleteOrthogonalDecomposition<MatX> solver;
-    solver.setThreshold(kDifference);
-    solver.compute(H);
-    VecX dz = -exact.scale().cwiseProduct(solver.solve(exact.scale().cwiseProduct(left)));
-    length = exact.length(dz);
-    if (!std::isfinite(length)) break;
-    if (length > 1.0) dz /= length;
-    double share = 1.0;
-    for (; share > 1e-4; share *= 0.5) {
-      const VecX to = z + share * dz, there = exact.left(to);
-      if (!(exact.size(there) < exact.size(left))) continue;
-      z = to;
-      left = there;
-      break;
-    }
-    if (share <= 1e-4) break;
-  }
-  return length;
-}
-
 // The bodies where the journals rest, moving as motions start; none where no play can move, or no rest was found.
 std::vector<BodyMotion> resting_bodies(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal,
                                        std::string& warning) {
@@ -193,15 +149,15 @@ std::vector<BodyMotion> resting_bodies(const Mechanism& mechanism, const Paramet
   ExactBalance exact(mechanism, parameters, scene, balance, *formulation);
   VecX z = rest.z;
   double length = rest_nearly_linear(exact, z);
-  if (length > kSettled) {
+  if (length > kSettledRest) {
     VecX other = rest.z;
-    const double other_length = rest_anywhere(exact, other);
+    const double other_length = search_rest([&](const VecX& at) { return exact.left(at); }, exact.scale(), other);
     if (other_length < length) {
       z = other;
       length = other_length;
     }
   }
-  if (!(length <= kAcceptable)) {
+  if (!(length <= kAcceptableRest)) {
     warning = centred_for_want_of("no position was found in which the journals' contacts carry the loads of t = 0 on the mechanism's own "
                                   "geometry, which bends within the clearances");
     return {};

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "boresight/rungs/contact_jacobian.hpp"
+#include "boresight/rungs/rest_search.hpp"
 #include "boresight/rungs/resting_journal.hpp"
 
 namespace boresight {
@@ -191,6 +192,15 @@ RestingStart RestingBalance::solve() const {
     }
   }
   if (size(F) > kAcceptable * load_ || !z.allFinite()) {
+    const auto left = [&](const VecX& at) {
+      VecX balance(n);
+      MatX unused(n, n);
+      evaluate(at, balance, unused);
+      return balance;
+    };
+    rest.z = guess();
+    if (search_rest(left, scale_, rest.z) <= kAcceptableRest) return rest;
+    rest.z.setZero();
     rest.refusal = "no position was found in which the journals' contacts carry the loads of t = 0";
     return rest;
   }

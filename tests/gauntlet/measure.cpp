@@ -90,6 +90,9 @@ Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& ask
   options.progress = [most_seconds](const RunProgress&) { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC < most_seconds; };
   const RunResult r = make_rung(asked.rung, mechanism)->run(mechanism->parameters(), options);
   if (r.interrupted) throw std::runtime_error("longer than the limit, ended when asked to");
+  std::string start;
+  for (const std::string& warning : r.warnings)
+    if (warning.starts_with("journals start")) start = warning;
   double deepest = 0.0;
   for (const ContactSummary& c : r.contact) deepest = std::max(deepest, c.max_penetration);
   const double play = smallest_clearance(mechanism->parameters());
@@ -98,6 +101,7 @@ Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& ask
           {"basis", r.error.basis},
           {"step", r.cost.steps > 0 ? mechanism->duration() / static_cast<double>(r.cost.steps) : 0.0},
           {"deepest", play > 0.0 ? deepest / play : 0.0},
+          {"start", start},
           {"not_finite", first_not_finite(r)},
           {"cpu", r.cost.cpu_seconds}};
 }
@@ -120,6 +124,7 @@ Measured measured(const Json& json) {
   for (std::size_t k = 0; k < kFigures.size(); ++k) m.figure[k] = json.at("figure").at(k);
   m.model = json.at("model");
   m.basis = json.at("basis");
+  m.start = json.at("start");
   m.step = json.at("step");
   m.deepest = json.at("deepest");
   m.cpu_seconds = json.at("cpu");

@@ -30,7 +30,7 @@ struct Measured {
   bool steps_measured = false;
   double step = 0.0;              // mean [s]
   double deepest = 0.0;           // deepest penetration over the smallest play [-]
-  std::string basis, not_finite;
+  std::string basis, start, not_finite;  // start: what the run says of how its journals start, if anything
   double cpu_seconds = 0.0;
 };
 

@@ -264,8 +264,9 @@ class Trial {
       if (asked.rung != "quasistatic" &&
           (apart <= alike + 3.0 * neighbours_spread(asked, k, 5) || apart <= alike + 3.0 * neighbours_spread(asked, k, 17)))
         continue;
-      verdict_.fault("invariance", stage, fmt::format("{}: {:.10g}, as drawn {:.10g} ({:.2g} % apart, neighbours scatter by {:.2g} %)", kFigures[k], other.figure[k], base.figure[k],
-                                 100.0 * apart / size, 100.0 * (asked.rung == "quasistatic" ? 0.0 : neighbours_spread(asked, k, 17)) / size));
+      verdict_.fault("invariance", stage, fmt::format("{}: {:.10g}, as drawn {:.10g} ({:.2g} % apart, neighbours scatter by {:.2g} %){}", kFigures[k], other.figure[k], base.figure[k],
+                                 100.0 * apart / size, 100.0 * (asked.rung == "quasistatic" ? 0.0 : neighbours_spread(asked, k, 17)) / size,
+                                 other.start == base.start ? "" : "; starts otherwise: \"" + other.start + "\", as drawn \"" + base.start + "\""));
       return;
     }
   }
