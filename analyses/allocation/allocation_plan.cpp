@@ -44,6 +44,7 @@ std::vector<AllocationOption> read_processes(Cursor& joint, double least, ZoneLa
     entry.only({"name", "tolerance", "price"});
     const double tolerance = entry.quantity("tolerance", kLength);
     entry.require(tolerance > 0.0, "tolerance", "more than 0");
+    entry.require(!entry.text("name").empty(), "name", "a name");
     options.push_back({entry.text("name"), positive_price(entry), make_zone(least, tolerance, law)});
     entry.finish();
   }

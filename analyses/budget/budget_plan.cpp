@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "boresight/io/referred_file.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/random/read_distribution.hpp"
@@ -68,6 +69,7 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, const Budget
                                            ContributorClass::drift};
   Contributor c;
   c.name = table.text("name");
+  table.require(!c.name.empty(), "name", "a name");
   table.rename("budget.contributor." + c.name);
   c.kind = chosen(table, "class", kClasses);
   const bool periodic = c.kind == ContributorClass::periodic, random = c.kind == ContributorClass::random;
@@ -139,11 +141,15 @@ void read_scatter(Cursor& root, Cursor& table, BudgetPlan& plan, const Study& st
     plan.posterior = named.is_absolute()
                          ? named.string()
                          : (std::filesystem::path(study.file).parent_path() / named).lexically_normal().string();
-    Document document = Document::from_file(plan.posterior);
-    plan.posterior_hash = document.content_hash();
-    Cursor posterior(document);
-    posterior.only({"random", "correlation"});
-    plan.inputs = read_random_inputs(posterior, mechanism, accepts);
+    read_referred(table.origin("posterior"), table.path("posterior"), plan.posterior, [&] {
+      Document document = Document::from_file(plan.posterior);
+      plan.posterior_hash = document.content_hash();
+      Cursor posterior(document);
+      posterior.only({"random", "correlation", "interrupted"});
+      posterior.require(!posterior.boolean("interrupted", false), "interrupted",
+                        "the posterior of a calibration that was not interrupted");
+      plan.inputs = read_random_inputs(posterior, mechanism, accepts);
+    });
   } else if (root.has("random")) {
     plan.inputs = read_random_inputs(root, mechanism, accepts);
   } else {

@@ -51,6 +51,7 @@ class Calibrator {
       correct();
       refit("last");
       result_.inference = infer_now();
+      name_outliers();
       profile();
       explain_what_is_held();
       judge_fit();
@@ -82,6 +83,23 @@ class Calibrator {
   }
 
  private:
+  void name_outliers() {
+    constexpr std::size_t kMostNamed = 10;
+    const std::vector<OutlyingReading> found = outlying_readings(problem_, result_.fit);
+    const char* counts = problem_.loss.kind == Loss::none    ? "it counts in full, as loss = \"none\" asks"
+                         : problem_.loss.kind == Loss::huber ? "it counts as one just beyond the noise"
+                                                             : "it hardly counts";
+    for (std::size_t k = 0; k < std::min(kMostNamed, found.size()); ++k) {
+      char text[600];
+      std::snprintf(text, sizeof text, "%s:%d: %s is %.3g robust standard deviations off the fit; %s. If it is no reading, leave it out",
+                    found[k].file.c_str(), found[k].line, channel_names()[static_cast<std::size_t>(found[k].channel)].name,
+                    found[k].deviations, counts);
+      result_.warnings.emplace_back(text);
+    }
+    if (found.size() > kMostNamed)
+      result_.warnings.push_back(std::to_string(found.size() - kMostNamed) + " further readings are more than 10 robust standard deviations off");
+  }
+
   // A fit that has lost its way leaves more than the noise that neighbouring samples show.
   void judge_fit() {
     const VecX rough = noise_from_differences(problem_);

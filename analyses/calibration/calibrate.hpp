@@ -55,6 +55,7 @@ struct CalibrationResult {
   std::vector<Profile> profiles;
   std::vector<NextTest> next_tests;
   std::vector<std::string> verdict;
+  std::vector<std::string> warnings;  // of readings that no noise explains
   long evaluations = 0;
   bool interrupted = false;
 };

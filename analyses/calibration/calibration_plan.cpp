@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/io/referred_file.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/random/csv_column.hpp"
@@ -126,13 +127,17 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study,
   for (Cursor& run : table.tables("run")) {
     run.only({"data", "name", "set"});
     const std::string data = run.text("data");
-    plan.runs.push_back({run.text("name", data), beside(study.file, data), settings_of(run)});
+    const std::string name = run.text("name", data);
+    run.require(!name.empty(), "name", "a name, or no key at all");
+    plan.runs.push_back({name, beside(study.file, data), settings_of(run), run.origin("data")});
     run.finish();
   }
   table.require(!plan.runs.empty(), "run", "at least one [[calibrate.run]]");
   for (Cursor& candidate : table.tables("candidate")) {
     candidate.only({"name", "set"});
-    plan.candidates.push_back({candidate.text("name"), "", settings_of(candidate)});
+    const std::string name = candidate.text("name");
+    candidate.require(!name.empty(), "name", "a name");
+    plan.candidates.push_back({name, "", settings_of(candidate), candidate.origin()});
     candidate.finish();
   }
   table.finish();
@@ -144,7 +149,8 @@ CalibrationProblem calibration_problem(
     const std::function<std::shared_ptr<const Mechanism>(const std::vector<Setting>&)>& mechanism_with) {
   CalibrationProblem problem;
   for (const PlannedRun& run : plan.runs)
-    problem.runs.emplace_back(run.name, mechanism_with(run.settings), read_measured_data(run.data));
+    problem.runs.emplace_back(run.name, mechanism_with(run.settings),
+                              read_referred(run.origin, "data", run.data, [&] { return read_measured_data(run.data); }));
   for (CalibrationRun& run : problem.runs)
     for (std::size_t i = 0; i < run.data.time.size() && run.data.time[i] < plan.data_from; ++i)
       run.data.value.row(static_cast<Eigen::Index>(i)).setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -42,6 +42,7 @@ struct PlannedParameter {
 struct PlannedRun {
   std::string name, data;  // data: the file, "" for a candidate
   std::vector<Setting> settings;
+  Origin origin;  // of the text that names the file
 };
 
 struct CalibrationPlan {

@@ -9,7 +9,7 @@ VecX noise_from_differences(const CalibrationProblem& problem) {
   VecX sigma(static_cast<Eigen::Index>(problem.channels.size()));
   for (int c = 0; c < static_cast<int>(problem.channels.size()); ++c) {
     std::vector<double> differences;
-    double largest = 0.0;
+    std::vector<double> sizes;
     for (std::size_t r = 0; r < problem.runs.size(); ++r) {
       const int column = problem.column(static_cast<int>(r), c);
       if (column < 0) continue;
@@ -17,7 +17,7 @@ VecX noise_from_differences(const CalibrationProblem& problem) {
       for (Eigen::Index i = 1; i + 1 < v.size(); ++i) {
         const double d = v[i - 1] - 2.0 * v[i] + v[i + 1];
         if (std::isfinite(d)) differences.push_back(std::abs(d));
-        if (std::isfinite(v[i])) largest = std::max(largest, std::abs(v[i]));
+        if (std::isfinite(v[i])) sizes.push_back(std::abs(v[i]));
       }
     }
     double middle = 0.0;
@@ -27,8 +27,15 @@ VecX noise_from_differences(const CalibrationProblem& problem) {
                        differences.end());
       middle = differences[differences.size() / 2];
     }
-    // Data without any noise would weigh without bound.
-    sigma[c] = std::max({1.4826 * middle / std::sqrt(6.0), 1e-6 * largest, 1e-15});
+    // Data without any noise would weigh without bound. Nine tenths of the readings say how large they are: one that is wrong
+    // says nothing.
+    double large = 0.0;
+    if (!sizes.empty()) {
+      const auto ninth = sizes.begin() + static_cast<std::ptrdiff_t>(9 * (sizes.size() - 1) / 10);
+      std::nth_element(sizes.begin(), ninth, sizes.end());
+      large = *ninth;
+    }
+    sigma[c] = std::max({1.4826 * middle / std::sqrt(6.0), 1e-6 * large, 1e-15});
   }
   return sigma;
 }
@@ -56,6 +63,41 @@ VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fi
         std::max(0.5, 1.4826 * sizes[c][sizes[c].size() / 2] * std::sqrt(freedom));
   }
   return sigma;
+}
+
+std::vector<OutlyingReading> outlying_readings(const CalibrationProblem& problem, const FitResult& fit) {
+  constexpr double kOutlying = 10.0;
+  struct Reading {
+    int run, sample, channel;
+    double size;
+  };
+  std::vector<Reading> all;
+  std::vector<std::vector<double>> sizes(problem.channels.size());
+  for (std::size_t k = 0; k < fit.windows.size(); ++k) {
+    const Window& w = problem.windows[fit.windows[k]];
+    WindowResiduals at;
+    problem.evaluate(w, fit.globals, fit.states[k], false, at);
+    for (Eigen::Index i = 0; i < at.r.size(); ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      all.push_back({w.run, at.sample[n], at.channel[n], std::abs(at.r[i])});
+      sizes[static_cast<std::size_t>(at.channel[n])].push_back(std::abs(at.r[i]));
+    }
+  }
+  std::vector<double> deviation;
+  for (std::vector<double>& s : sizes) {
+    if (!s.empty()) std::nth_element(s.begin(), s.begin() + static_cast<std::ptrdiff_t>(s.size() / 2), s.end());
+    deviation.push_back(s.empty() ? 1.0 : std::max(1.0, 1.4826 * s[s.size() / 2]));
+  }
+  std::vector<OutlyingReading> found;
+  for (const Reading& reading : all) {
+    const double deviations = reading.size / deviation[static_cast<std::size_t>(reading.channel)];
+    if (!(deviations > kOutlying)) continue;
+    const MeasuredData& data = problem.runs[static_cast<std::size_t>(reading.run)].data;
+    found.push_back({data.file, data.line[static_cast<std::size_t>(reading.sample)],
+                     problem.channels[static_cast<std::size_t>(reading.channel)], deviations});
+  }
+  std::sort(found.begin(), found.end(), [](const OutlyingReading& a, const OutlyingReading& b) { return a.deviations > b.deviations; });
+  return found;
 }
 
 }  // namespace boresight

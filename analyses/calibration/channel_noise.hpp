@@ -13,4 +13,15 @@ VecX noise_from_differences(const CalibrationProblem& problem);
 // |r|, and the unknowns made up for; at least half of the problem's own sigma.
 VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fit);
 
+// A reading that no noise explains.
+struct OutlyingReading {
+  std::string file;
+  int line = 0;
+  int channel = 0;          // among channel_names()
+  double deviations = 0.0;  // its residual in robust standard deviations of its channel's residuals
+};
+
+// Those of more than ten, the largest first.
+std::vector<OutlyingReading> outlying_readings(const CalibrationProblem& problem, const FitResult& fit);
+
 }  // namespace boresight

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
+#include "boresight/io/text_lines.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -120,12 +120,12 @@ const std::vector<ChannelName>& channel_names() {
 MeasuredData read_measured_data(const std::string& file) {
   MeasuredData data;
   data.file = file;
-  std::ifstream in(file);
-  if (!in) throw InputError({file, 0}, "data", "no readable file", "a CSV table of measured pointing errors");
+  TextLines lines(file);
   Columns columns;
   std::vector<std::vector<double>> rows;
   std::string line;
-  for (int at = 1; std::getline(in, line); ++at) {
+  while (lines.next(line)) {
+    const int at = lines.number();
     if (trimmed(line).empty() || trimmed(line)[0] == '#') continue;
     const Origin origin{file, at};
     if (columns.count == 0) {
@@ -151,7 +151,7 @@ MeasuredData read_measured_data(const std::string& file) {
     }
   }
   if (rows.empty())
-    throw InputError({file, 0}, "data", "no rows", "a header with units and at least one row");
+    throw InputError({file, std::max(1, lines.number())}, "data", "no rows", "a header with units and at least one row");
   data.value.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(data.channels.size()));
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t c = 0; c < rows[i].size(); ++c)

@@ -4,10 +4,10 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
-#include <thread>
 
 #include "boresight_analyses/montecarlo/estimates.hpp"
 #include "boresight_analyses/montecarlo/sampling.hpp"
+#include "boresight_analyses/montecarlo/watcher.hpp"
 #include "boresight_analyses/study/portion.hpp"
 
 namespace boresight {
@@ -15,22 +15,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kCommitEvery{250};
-
-// Sets a flag that all threads look at soon after the caller wants the work to end.
-class Watcher {
- public:
-  explicit Watcher(const std::function<bool()>& interrupted)
-      : thread_([this, &interrupted](const std::stop_token& end) {
-          while (!end.stop_requested() && !stop) {
-            if (interrupted && interrupted()) stop = true;
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-          }
-        }) {}
-  std::atomic<bool> stop{false};
-
- private:
-  std::jthread thread_;
-};
 
 // What rank 0 knows of all ranks' samples while they are being computed.
 class Tally {
@@ -216,6 +200,9 @@ MonteCarloResult run_montecarlo(const SampleModel& model, const MonteCarloPlan& 
   if (first) {
     result.stored = store->count();
     if (result.ended != Ended::width) result.values = leading_values(*store, plan.samples);
+    if (result.ended == Ended::samples && result.values.size() != plan.samples)
+      throw StoreFailed(store->file().string() + " gives back " + std::to_string(result.values.size()) + " of the " +
+                        std::to_string(plan.samples) + " samples that were stored in it; --resume computes the others anew");
   }
   return result;
 }

@@ -1,96 +1,63 @@
 #include "boresight_analyses/montecarlo/sample_store.hpp"
 
-#include <sqlite3.h>
+#include <time.h>
+#include <unistd.h>
 
-#include <cmath>
-#include <cstring>
-#include <span>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+
+#include "boresight_analyses/montecarlo/row_checksum.hpp"
+#include "boresight_analyses/montecarlo/sqlite_statement.hpp"
+#include "boresight_analyses/montecarlo/store_salvage.hpp"
+#include "boresight_analyses/montecarlo/stored_header.hpp"
+#include "boresight_analyses/montecarlo/whole_rows.hpp"
 
 namespace boresight {
 namespace {
 
-std::string quoted(const std::string& name) {
-  std::string out = "\"";
-  for (const char c : name) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + "\"";
+double process_cpu_seconds() {
+  timespec time = {};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-[[noreturn]] void fail(sqlite3* db, const std::filesystem::path& file, int code) {
-  const std::string said = db != nullptr ? sqlite3_errmsg(db) : sqlite3_errstr(code);
-  switch (code & 0xff) {
-    case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-      throw StoreRefused(file.string() + " is in use by another run; wait for it to end, or give another --out");
-    case SQLITE_NOTADB:
-      throw StoreRefused(file.string() + " is no store of samples (" + said + ")");
-    case SQLITE_FULL:
-    case SQLITE_IOERR:
-      throw StoreFailed("cannot write " + file.string() + ": " + said +
-                        "; what was stored before is intact: free space and go on with --resume");
-    default:
-      throw StoreFailed("cannot use " + file.string() + ": " + said);
-  }
-}
-
-class Statement {
+// A folder of our own for a copy, removed with everything in it.
+class CopyOf {
  public:
-  Statement(sqlite3* db, const std::filesystem::path& file, const std::string& sql) : db_(db), file_(file) {
-    const int code = sqlite3_prepare_v2(db, sql.c_str(), -1, &statement_, nullptr);
-    if (code != SQLITE_OK) fail(db, file, code);
-  }
-  ~Statement() { sqlite3_finalize(statement_); }
-  Statement(const Statement&) = delete;
-  Statement& operator=(const Statement&) = delete;
-
-  void bind(int place, std::int64_t value) { check(sqlite3_bind_int64(statement_, place, value)); }
-  void bind(int place, double value) {
-    check(std::isnan(value) ? sqlite3_bind_null(statement_, place) : sqlite3_bind_double(statement_, place, value));
-  }
-  void bind(int place, const std::string& text) {
-    check(sqlite3_bind_text(statement_, place, text.c_str(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
-  }
-  void bind(int place, std::span<const double> doubles) {
-    check(sqlite3_bind_blob64(statement_, place, doubles.data(), doubles.size_bytes(), SQLITE_TRANSIENT));
-  }
-  // True: a row is there.
-  bool step() {
-    const int code = sqlite3_step(statement_);
-    if (code == SQLITE_ROW) return true;
-    if (code != SQLITE_DONE) {
-      sqlite3_reset(statement_);
-      fail(db_, file_, code);
+  explicit CopyOf(const std::filesystem::path& file) {
+    std::string name = (std::filesystem::temp_directory_path() / "boresight-store-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw StoreFailed("cannot make a folder for a copy of " + file.string());
+    folder_ = name;
+    std::error_code error;
+    for (const char* suffix : {"", "-wal"}) {
+      std::filesystem::copy_file(file.string() + suffix, path().string() + suffix, error);
+      if (error) throw StoreFailed("cannot copy " + file.string() + suffix + " to " + folder_.string() + ": " + error.message());
+      std::filesystem::permissions(path().string() + suffix, std::filesystem::perms::owner_write, std::filesystem::perm_options::add, error);
     }
-    return false;
   }
-  void reset() { sqlite3_reset(statement_); }
-  std::int64_t integer(int column) const { return sqlite3_column_int64(statement_, column); }
-  double real(int column) const {
-    return sqlite3_column_type(statement_, column) == SQLITE_NULL ? std::numeric_limits<double>::quiet_NaN()
-                                                                  : sqlite3_column_double(statement_, column);
+  ~CopyOf() {
+    std::error_code error;
+    std::filesystem::remove_all(folder_, error);
   }
-  std::vector<double> doubles(int column) const {
-    std::vector<double> out(static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)) / sizeof(double));
-    if (!out.empty()) std::memcpy(out.data(), sqlite3_column_blob(statement_, column), out.size() * sizeof(double));
-    return out;
-  }
-  std::string text(int column) const {
-    const unsigned char* found = sqlite3_column_text(statement_, column);
-    return found != nullptr ? reinterpret_cast<const char*>(found) : "";
-  }
+  CopyOf(const CopyOf&) = delete;
+  CopyOf& operator=(const CopyOf&) = delete;
+  std::filesystem::path path() const { return folder_ / "samples.db"; }
 
  private:
-  void check(int code) const {
-    if (code != SQLITE_OK) fail(db_, file_, code);
-  }
-  sqlite3* db_;
-  const std::filesystem::path& file_;
-  sqlite3_stmt* statement_ = nullptr;
+  std::filesystem::path folder_;
 };
+
+bool can_write(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  return ::access(file.c_str(), W_OK) == 0 && ::access(folder.c_str(), W_OK | X_OK) == 0;
+}
 
 }  // namespace
 
 struct SampleStore::Database {
   sqlite3* handle = nullptr;
+  std::unique_ptr<CopyOf> copy;  // that is open instead, where the file's folder cannot be written
   std::unique_ptr<Statement> insert, insert_history;
   bool in_transaction = false;
 
@@ -108,29 +75,37 @@ struct SampleStore::Database {
 SampleStore::SampleStore(const std::filesystem::path& file, const std::map<std::string, std::string>& facts,
                          const std::vector<std::string>& parameters)
     : file_(file), parameters_(parameters) {
-  open();
-  Statement there(db_->handle, file_, "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = 'sample'");
-  if (there.step() && there.integer(0) == 0) {
-    there.reset();
-    make_tables(facts);
-    return;
+  std::error_code error;
+  std::string fault;
+  if (std::filesystem::exists(file_, error) && std::filesystem::file_size(file_, error) > 0) {
+    try {
+      open();
+      fault = damage_of(db_->handle, file_);
+    } catch (const StoreDamaged&) {
+      fault = "its first page is not what was stored";
+    }
   }
-  there.reset();
+  if (!fault.empty()) {
+    db_.reset();
+    damage_ = salvage_store(file_, fault, facts, parameters_);
+  }
+  if (!db_) open();
+  if (!has_table(db_->handle, file_, "sample"))
+    make_store_tables(db_->handle, file_, {.facts = facts, .rungs = {}, .parameters = parameters_});
   for (const auto& [key, value] : facts)
     if (fact(key) != value)
       throw StoreRefused(file_.string() + " holds the samples of another study (its " + key +
                          " differs); give another --out, or remove it");
   read_layout();
+  if (!damage_.empty()) note("damage", damage_);
 }
 
 SampleStore::SampleStore(const std::filesystem::path& file) : file_(file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error))
     throw StoreRefused("found no " + file.string() + ", expected a store of samples");
-  open();
-  Statement there(db_->handle, file_, "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = 'sample'");
-  if (!there.step() || there.integer(0) == 0) throw StoreRefused(file.string() + " is no store of samples");
-  there.reset();
+  open_to_read();
+  if (!has_table(db_->handle, file_, "sample")) throw StoreRefused(file.string() + " is no store of samples");
   read_layout();
 }
 
@@ -152,35 +127,39 @@ void SampleStore::open() {
     db_->execute(file_, pragma);
 }
 
-void SampleStore::make_tables(const std::map<std::string, std::string>& facts) {
-  std::string columns;
-  for (const std::string& name : parameters_) columns += quoted(name) + " REAL, ";
-  db_->execute(file_,
-               "BEGIN; CREATE TABLE study(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
-               "CREATE TABLE rung(id INTEGER PRIMARY KEY, name TEXT NOT NULL, step REAL NOT NULL);"
-               "CREATE TABLE parameter(place INTEGER PRIMARY KEY, path TEXT NOT NULL);"
-               "CREATE TABLE sample(number INTEGER PRIMARY KEY, status INTEGER NOT NULL, value REAL, " +
-                   columns +
-                   "cpu_seconds REAL, model_error REAL, discretisation_error REAL, rung INTEGER, message TEXT);");
-  for (const auto& [key, value] : facts) {
-    Statement put(db_->handle, file_, "INSERT INTO study VALUES (?, ?)");
-    put.bind(1, key);
-    put.bind(2, value);
-    put.step();
+// Where nothing can be written the log cannot be replayed in its place: the store is read as it is, or, with a log, from a copy.
+void SampleStore::open_to_read() {
+  if (can_write(file_)) return open();
+  std::error_code error;
+  const std::string log = file_.string() + "-wal";
+  db_ = std::make_unique<Database>();
+  int code = SQLITE_OK;
+  if (std::filesystem::exists(log, error) && std::filesystem::file_size(log, error) > 0) {
+    db_->copy = std::make_unique<CopyOf>(file_);
+    code = sqlite3_open_v2(db_->copy->path().c_str(), &db_->handle, SQLITE_OPEN_READWRITE, nullptr);
+  } else {
+    std::string uri = "file:";
+    for (const char c : std::filesystem::absolute(file_).string()) {
+      constexpr const char* kHex = "0123456789ABCDEF";
+      const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/' || c == '.' || c == '-' || c == '_';
+      if (plain)
+        uri += c;
+      else
+        uri += {'%', kHex[static_cast<unsigned char>(c) >> 4], kHex[static_cast<unsigned char>(c) & 15]};
+    }
+    code = sqlite3_open_v2((uri + "?immutable=1").c_str(), &db_->handle, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
   }
-  for (std::size_t k = 0; k < parameters_.size(); ++k) {
-    Statement put(db_->handle, file_, "INSERT INTO parameter VALUES (?, ?)");
-    put.bind(1, static_cast<std::int64_t>(k));
-    put.bind(2, parameters_[k]);
-    put.step();
-  }
-  db_->execute(file_, "COMMIT");
+  if (code != SQLITE_OK) fail(db_->handle, file_, code);
 }
 
 void SampleStore::read_layout() {
-  parameters_.clear();
-  Statement paths(db_->handle, file_, "SELECT path FROM parameter ORDER BY place");
-  while (paths.step()) parameters_.push_back(paths.text(0));
+  parameters_ = header_of_tables(db_->handle, file_).parameters;
+  Statement columns(db_->handle, file_, "SELECT count(*) FROM pragma_table_info('sample') WHERE name = 'checksum'");
+  has_checksums_ = columns.step() && columns.integer(0) > 0;
+  has_parts_ = has_table(db_->handle, file_, "part");
+  if (!has_parts_) return;
+  Statement spent(db_->handle, file_, "SELECT total(cpu_seconds), total(wall_seconds) FROM part");
+  if (spent.step()) earlier_ = {spent.real(0), spent.real(1)};
 }
 
 std::string SampleStore::fact(const std::string& key) const {
@@ -195,6 +174,7 @@ void SampleStore::note(const std::string& key, const std::string& value) {
   put.bind(1, key);
   put.bind(2, value);
   put.step();
+  renew_header_text(db_->handle, file_);
 }
 
 void SampleStore::use_rung(const std::string& name, double step) {
@@ -209,6 +189,7 @@ void SampleStore::use_rung(const std::string& name, double step) {
   put.bind(1, name);
   put.bind(2, step);
   put.step();
+  renew_header_text(db_->handle, file_);
   rung_ = static_cast<int>(known.size()) + 1;
 }
 
@@ -226,7 +207,7 @@ void SampleStore::add(const SampleRecord& record) {
   }
   if (!db_->insert) {
     std::string places = "?, ?, ?, ?, ?, ?, ?, ?";
-    for (std::size_t k = 0; k < parameters_.size(); ++k) places += ", ?";
+    for (std::size_t k = 0; k < parameters_.size() + (has_checksums_ ? 1 : 0); ++k) places += ", ?";
     db_->insert =
         std::make_unique<Statement>(db_->handle, file_, "INSERT OR IGNORE INTO sample VALUES (" + places + ")");
   }
@@ -242,9 +223,11 @@ void SampleStore::add(const SampleRecord& record) {
   put.bind(++place, record.outcome.discretisation_error);
   put.bind(++place, static_cast<std::int64_t>(rung_));
   put.bind(++place, record.outcome.message);
+  if (has_checksums_) put.bind(++place, checksum_of(record, rung_, record.outcome.history));
   put.step();
+  const bool added = sqlite3_changes(db_->handle) > 0;  // and not there before
   put.reset();
-  if (!record.outcome.history.empty()) add_history(record.number, record.outcome.history);
+  if (added && !record.outcome.history.empty()) add_history(record.number, record.outcome.history);
 }
 
 void SampleStore::add_history(std::uint64_t number, std::span<const double> doubles) {
@@ -271,24 +254,49 @@ std::vector<double> SampleStore::history(std::uint64_t number) const {
 
 void SampleStore::commit() {
   if (!db_ || !db_->in_transaction) return;
+  put_cost();
   db_->execute(file_, "COMMIT");
   db_->in_transaction = false;
 }
 
+// With every commit, so that a kill forgets no more of it than of the samples.
+void SampleStore::put_cost() {
+  if (!has_parts_) return;
+  if (part_ == 0) {
+    Statement last(db_->handle, file_, "SELECT coalesce(max(id), 0) FROM part");
+    last.step();
+    part_ = last.integer(0) + 1;
+  }
+  Statement put(db_->handle, file_, "INSERT OR REPLACE INTO part VALUES (?, ?, ?)");
+  put.bind(1, part_);
+  put.bind(2, process_cpu_seconds());
+  put.bind(3, std::chrono::duration<double>(std::chrono::steady_clock::now() - opened_).count());
+  put.step();
+}
+
+std::string SampleStore::damage() const {
+  const std::string kept = fact("damage");
+  return kept.empty() ? damage_ : kept;
+}
+
 void SampleStore::merge(const std::filesystem::path& other) {
   commit();
-  {
-    const SampleStore opened(other);  // replays its log, and refuses what is no store
-    if (opened.fact("study") != fact("study") || opened.parameters() != parameters_)
-      throw StoreRefused(other.string() + " holds the samples of another study; remove it, or give another --out");
-  }
-  {
-    Statement attach(db_->handle, file_, "ATTACH ? AS other");
-    attach.bind(1, other.string());
-    attach.step();
-  }
-  db_->execute(file_, "BEGIN; INSERT OR IGNORE INTO sample SELECT * FROM other.sample; COMMIT");
-  db_->execute(file_, "DETACH other");
+  const SampleStore opened(other);  // replays its log, and refuses what is no store
+  if (opened.fact("study") != fact("study") || opened.parameters() != parameters_)
+    throw StoreRefused(other.string() + " holds the samples of another study; remove it, or give another --out");
+  const int own = rung_;
+  read_whole_rows(opened.db_->handle, other, parameters_.size(), ~std::uint64_t{0} >> 1, [&](SampleRecord& record, int rung) {
+    rung_ = rung;
+    record.outcome.history.clear();
+    add(record);
+  });
+  rung_ = own;
+  commit();
+  earlier_.cpu_seconds += opened.earlier_.cpu_seconds;  // beside this process: no time of its own
+  if (!has_parts_) return;
+  Statement put(db_->handle, file_, "INSERT INTO part(cpu_seconds, wall_seconds) VALUES (?, 0.0)");
+  put.bind(1, opened.earlier_.cpu_seconds);
+  put.step();
 }
 
 std::uint64_t SampleStore::count() const {
@@ -312,23 +320,14 @@ std::vector<NumberRange> SampleStore::missing(std::uint64_t end) const {
 }
 
 void SampleStore::read(std::uint64_t end, const std::function<void(const SampleRecord&)>& each) const {
-  Statement get(db_->handle, file_, "SELECT * FROM sample WHERE number < ? ORDER BY number");
-  get.bind(1, static_cast<std::int64_t>(end));
-  SampleRecord record;
-  record.inputs.resize(parameters_.size());
-  while (get.step()) {
-    int column = 0;
-    record.number = static_cast<std::uint64_t>(get.integer(column++));
-    record.outcome.status = static_cast<Outcome::Status>(get.integer(column++));
-    record.outcome.value = get.real(column++);
-    for (double& input : record.inputs) input = get.real(column++);
-    record.outcome.cpu_seconds = get.real(column++);
-    record.outcome.model_error = get.real(column++);
-    record.outcome.discretisation_error = get.real(column++);
-    ++column;
-    record.outcome.message = get.text(column);
+  const RowsRead read = read_whole_rows(db_->handle, file_, parameters_.size(), end, [&](SampleRecord& record, int) {
+    record.outcome.history.clear();
     each(record);
-  }
+  });
+  if (!read.good())
+    damage_ = file_.filename().string() + " is damaged: " + std::to_string(read.whole) + " samples in it are whole" +
+              (read.pages_damaged ? ", others cannot be read" : ", " + std::to_string(read.damaged) + " are not what was stored") +
+              "; going on with its study (--resume) computes them anew";
 }
 
 }  // namespace boresight

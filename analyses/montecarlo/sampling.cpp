@@ -5,6 +5,7 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <mutex>
 
@@ -20,9 +21,10 @@ class Numbers {
     for (const NumberRange& range : ranges) left_ += range.size();
   }
 
-  NumberRange next(std::uint64_t batch, int workers) {
+  // wanted: no more than this at once.
+  NumberRange next(std::uint64_t batch, int workers, std::uint64_t wanted) {
     const std::scoped_lock lock(mutex_);
-    const std::uint64_t most = portion(batch, left_, workers);
+    const std::uint64_t most = std::min(portion(batch, left_, workers), wanted);
     while (range_ < ranges_.size() && at_ >= ranges_[range_].size()) {
       ++range_;
       at_ = 0;
@@ -40,6 +42,24 @@ class Numbers {
   std::mutex mutex_;
   std::size_t range_ = 0;
   std::uint64_t at_ = 0, left_ = 0;
+};
+
+// How many samples to take next, so that a batch lasts about a second: a short motion fills whole batches, a long one or one
+// whose scene takes long to prepare comes a few at a time.
+class BatchSize {
+ public:
+  explicit BatchSize(std::uint64_t liked) : most_(std::max<std::uint64_t>(1, liked)), least_(std::min<std::uint64_t>(most_, 16)) {
+    size_ = std::min<std::uint64_t>(most_, 64);
+  }
+  std::uint64_t size() const { return size_; }
+  void took(std::uint64_t samples, double seconds) {
+    constexpr double kSeconds = 1.0, kMostGrowth = 4.0;
+    const double wanted = static_cast<double>(samples) * std::min(kMostGrowth, kSeconds / std::max(seconds, 1e-9));
+    size_ = std::clamp(static_cast<std::uint64_t>(wanted), least_, most_);
+  }
+
+ private:
+  std::uint64_t most_, least_, size_;
 };
 
 }  // namespace
@@ -64,11 +84,22 @@ bool compute_samples(const SampleModel& model, std::size_t parameters, const Val
 
   const int jobs = std::max(1, options.jobs);
   const auto work = [&] {
-    std::vector<SampleRecord> records;
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::milliseconds kLandEvery{100};
+    std::vector<SampleRecord> records, done;
     std::vector<Sample> samples;
     std::vector<Outcome> outcomes;
+    BatchSize size(model.batch());
+    Clock::time_point landed = Clock::now();
+    const auto land = [&] {
+      landed = Clock::now();
+      if (done.empty()) return;
+      const std::scoped_lock lock(landing);
+      if (!fault && !options.landed(done)) no_more = true;
+      done.clear();
+    };
     while (!no_more && !stop) {
-      const NumberRange batch = numbers.next(model.batch(), jobs);
+      const NumberRange batch = numbers.next(model.batch(), jobs, size.size());
       if (batch.size() == 0) return;
       const std::size_t n = batch.size();
       records.assign(n, {});
@@ -80,23 +111,26 @@ bool compute_samples(const SampleModel& model, std::size_t parameters, const Val
         values_of(records[k].number, records[k].inputs);
         samples[k] = {records[k].number, records[k].inputs};
       }
+      const Clock::time_point begun = Clock::now();
+      std::size_t reached = 0;
       try {
-        model.evaluate(samples, outcomes, stop);
-        std::size_t kept = 0;
-        for (std::size_t k = 0; k < n; ++k) {
-          if (outcomes[k].status == Outcome::Status::not_reached) continue;
-          records[k].outcome = std::move(outcomes[k]);
-          if (kept != k) records[kept] = std::move(records[k]);
-          ++kept;
-        }
-        if (kept < n) all_reached = false;
-        const std::scoped_lock lock(landing);
-        if (kept > 0 && !fault && !options.landed({records.data(), kept})) no_more = true;
+        model.evaluate_each(samples, outcomes, stop, [&](std::size_t k) {
+          ++reached;
+          SampleRecord& record = done.emplace_back();
+          record.number = records[k].number;
+          record.inputs = records[k].inputs;
+          record.outcome = std::move(outcomes[k]);
+          if (Clock::now() - landed > kLandEvery) land();
+        });
+        land();
       } catch (...) {
         const std::scoped_lock lock(landing);
         if (!fault) fault = std::current_exception();
         no_more = true;
+        done.clear();
       }
+      if (reached < n) all_reached = false;
+      size.took(n, std::chrono::duration<double>(Clock::now() - begun).count());
     }
   };
 
@@ -109,7 +143,7 @@ bool compute_samples(const SampleModel& model, std::size_t parameters, const Val
     group.wait();
   });
   if (fault) std::rethrow_exception(fault);
-  return all_reached && numbers.next(1, 1).size() == 0;
+  return all_reached && numbers.next(1, 1, 1).size() == 0;
 }
 
 }  // namespace boresight

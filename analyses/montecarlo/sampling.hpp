@@ -1,7 +1,8 @@
 // Computes the samples of some ranges of numbers, on several threads (oneTBB).
 //
-// Threads take the next few numbers in ascending order, as many as the model likes at once, so that at any time the
-// samples not yet done are the last ones begun. A sample's values and outcome depend on its number alone.
+// Threads take the next few numbers in ascending order, as many as the model likes at once and as fit into about a second, so
+// that at any time the samples not yet done are the last ones begun. A sample lands a tenth of a second after it is done, however
+// long the others of its batch take. A sample's values and outcome depend on its number alone.
 #pragma once
 
 #include <atomic>
@@ -16,7 +17,7 @@ namespace boresight {
 
 struct SamplingOptions {
   int jobs = 1;
-  // Called with what one batch gave, one thread at a time, in the order in which batches finish; samples that were not
+  // Called with samples that are done, one thread at a time, in the order in which they are; samples that were not
   // reached are left out. Return false to take no further batch.
   std::function<bool(std::span<const SampleRecord>)> landed;
   // Set from outside: batches under way are cut short.

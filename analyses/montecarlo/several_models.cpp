@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "boresight_analyses/montecarlo/stored_runs.hpp"
+#include "boresight_analyses/montecarlo/watcher.hpp"
 
 namespace boresight {
 namespace {
@@ -70,7 +71,7 @@ BatchModel on_normal_space(const SampleModel& model, const RandomInputs& inputs,
                            std::shared_ptr<std::vector<double>> cost) {
   return [&model, &inputs, options, cost](const Points& points) {
     std::vector<double> values(points.size(), std::numeric_limits<double>::quiet_NaN());
-    std::atomic<bool> stop{false};
+    Watcher watcher(options.interrupted);
     const bool whole = compute_samples(
         model, inputs.size(),
         [&](std::uint64_t number, std::span<double> at) {
@@ -89,10 +90,9 @@ BatchModel on_normal_space(const SampleModel& model, const RandomInputs& inputs,
                  spent += r.outcome.cpu_seconds;
                }
                if (options.progress) options.progress(spent);
-               if (options.interrupted && options.interrupted()) stop = true;
-               return !stop;
+               return !watcher.stop;
              },
-         .stop = &stop});
+         .stop = &watcher.stop});
     if (!whole) throw MethodInterrupted{};
     return values;
   };

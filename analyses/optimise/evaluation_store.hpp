@@ -30,6 +30,8 @@ class EvaluationStore {
   void add(std::span<const double> design, const std::vector<Outcome>& outcomes);
   void note(const std::string& key, const std::string& value) { store_.note(key, value); }
   std::string fact(const std::string& key) const { return store_.fact(key); }
+  std::string damage() const { return store_.damage(); }
+  SampleStore::Cost earlier() const { return store_.earlier(); }
 
  private:
   SampleStore store_;

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <limits>
 
+#include "boresight_analyses/montecarlo/watcher.hpp"
+
 namespace boresight {
 namespace {
 
@@ -73,11 +75,12 @@ LocalResult local_sensitivity(const SampleModel& model, const RandomInputs& inpu
     }
   }
   std::vector<double> values(points.size(), kNone);
-  SamplingOptions sampling{.jobs = jobs, .landed = {}, .stop = nullptr};
+  Watcher watcher(interrupted);
+  SamplingOptions sampling{.jobs = jobs, .landed = {}, .stop = &watcher.stop};
   sampling.landed = [&](std::span<const SampleRecord> records) {
     for (const SampleRecord& r : records)
       if (r.outcome.status == Outcome::Status::done) values[r.number] = r.outcome.value;
-    return !interrupted();
+    return !watcher.stop;
   };
   result.interrupted = !compute_samples(
       model, inputs.size(),

@@ -38,43 +38,49 @@ double LaneSampleModel::nonlinearity(const Parameters& parameters, const LaneOut
 
 std::string LaneSampleModel::leaves_out() const { return make_rung("perturbation", mechanism_)->leaves_out(); }
 
+void LaneSampleModel::take(const LaneOutcome& found, const Parameters& parameters, double seconds_per_attempt,
+                           Outcome& outcome) const {
+  outcome.evaluations = static_cast<double>(found.steps + found.rejected);
+  outcome.cpu_seconds = seconds_per_attempt * outcome.evaluations;
+  if (found.status != LaneStatus::done) {
+    outcome.status = Outcome::Status::failed;
+    outcome.message = std::string(found.status == LaneStatus::step_too_small ? "the error estimate asked for a vanishing step"
+                                                                             : "too many steps") +
+                      " at t = " + std::to_string(found.t) + " s";
+    return;
+  }
+  outcome.value = index_.statistic == "max" ? found.max : index_.statistic == "rms" ? std::sqrt(found.mean_square) : found.mean;
+  outcome.model_error = nonlinearity(parameters, found);
+  outcome.discretisation_error = kNotMeasured;
+  outcome.status = Outcome::Status::done;
+}
+
 void LaneSampleModel::evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
                                const std::atomic<bool>& stop) const {
+  evaluate_each(samples, outcomes, stop, [](std::size_t) {});
+}
+
+void LaneSampleModel::evaluate_each(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>& stop,
+                                    const std::function<void(std::size_t)>& reached) const {
   if (stop) return;
   const double start = thread_cpu_seconds();
   std::vector<Parameters> parameters;
   for (const Sample& sample : samples) parameters.push_back(parameters_of_(sample.values));
   std::vector<LaneOutcome> found(samples.size());
+  const auto ended = [&](std::size_t k, double attempts) {
+    take(found[k], parameters[k], (thread_cpu_seconds() - start) / std::max(1.0, attempts), outcomes[k]);
+    reached(k);
+  };
   try {
-    lanes_.run(parameters, found, tolerance_);
+    lanes_.run(parameters, found, tolerance_, {.stop = &stop, .ended = ended});
   } catch (const ComputationError& failure) {
-    for (Outcome& outcome : outcomes) {
-      outcome.status = Outcome::Status::failed;
-      outcome.message = failure.what();
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      if (outcomes[k].status != Outcome::Status::not_reached) continue;
+      outcomes[k].status = Outcome::Status::failed;
+      outcomes[k].message = failure.what();
+      reached(k);
     }
-    return;
   } catch (const Interrupted&) {  // heard while a scene was built
-    return;
-  }
-  long attempts = 0;
-  for (const LaneOutcome& f : found) attempts += f.steps + f.rejected;
-  const double per_attempt = (thread_cpu_seconds() - start) / static_cast<double>(std::max(1L, attempts));
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const LaneOutcome& f = found[k];
-    Outcome& outcome = outcomes[k];
-    outcome.evaluations = static_cast<double>(f.steps + f.rejected);
-    outcome.cpu_seconds = per_attempt * outcome.evaluations;
-    if (f.status != LaneStatus::done) {
-      outcome.status = Outcome::Status::failed;
-      outcome.message = std::string(f.status == LaneStatus::step_too_small ? "the error estimate asked for a vanishing step"
-                                                                          : "too many steps") +
-                        " at t = " + std::to_string(f.t) + " s";
-      continue;
-    }
-    outcome.value = index_.statistic == "max" ? f.max : index_.statistic == "rms" ? std::sqrt(f.mean_square) : f.mean;
-    outcome.model_error = nonlinearity(parameters[k], f);
-    outcome.discretisation_error = kNotMeasured;
-    outcome.status = Outcome::Status::done;
   }
 }
 

@@ -25,8 +25,11 @@ class LaneSampleModel final : public SampleModel {
   std::size_t batch() const override { return scene_varies_ ? 64 : 1024; }
   void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
                 const std::atomic<bool>& stop) const override;
+  void evaluate_each(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>& stop,
+                     const std::function<void(std::size_t)>& reached) const override;
 
  private:
+  void take(const LaneOutcome& found, const Parameters& parameters, double seconds_per_attempt, Outcome& outcome) const;
   double nonlinearity(const Parameters& parameters, const LaneOutcome& found) const;
 
   std::shared_ptr<const Mechanism> mechanism_;

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -51,6 +52,14 @@ class SampleModel {
   // it returns soon; samples cut short are then not_reached.
   virtual void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
                         const std::atomic<bool>& stop) const = 0;
+  // The same, and tells of every sample that was reached, by its place among `samples`, once its outcome is there: one by one
+  // where the model can, else all of them at the end. Told from the thread that called; what `reached` throws is thrown on.
+  virtual void evaluate_each(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>& stop,
+                             const std::function<void(std::size_t)>& reached) const {
+    evaluate(samples, outcomes, stop);
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      if (outcomes[k].status != Outcome::Status::not_reached) reached(k);
+  }
 };
 
 }  // namespace boresight

@@ -14,9 +14,11 @@
 #include "readable.hpp"
 #include "report/report.hpp"
 #include "scatter_parts.hpp"
+#include "stored_study.hpp"
 #include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -161,7 +163,7 @@ class AllocateVerb : public Verb {
     Confirming confirming(model, plan, *store, command.jobs);
 
     if (!command.quiet) {
-      fmt::print("{}: {} joints, {}\n", mechanism->name(), plan.joints.size(),
+      tell("{}: {} joints, {}\n", mechanism->name(), plan.joints.size(),
                  plan.is_continuous() ? "cost curves" : "fits with prices");
       std::fflush(stdout);
     }
@@ -189,7 +191,9 @@ class AllocateVerb : public Verb {
       allocated.warnings.push_back(
           fmt::format("{} of {} confirming runs failed", confirming.failures.count, confirming.runs) +
           first_failure_text(confirming.failures, "run"));
+    if (!store->damage().empty()) allocated.warnings.push_back(store->damage());
     Json summary = summary_of(allocated, watch, out);
+    add_earlier_cost(summary, store->earlier());
     add_first_failure(summary, confirming.failures, "run");
     write_json(out, "summary.json", summary);
     out.write("allocation.csv", [&](std::ostream& s) { write_allocation(s, allocated); });
@@ -316,22 +320,22 @@ class AllocateVerb : public Verb {
   }
 
   static void print(const AllocateStudy& s, const OutputDirectory& out) {
-    fmt::print("{}\n", allocate_sentence(s));
+    tell("{}\n", allocate_sentence(s));
     for (std::size_t j = 0; j < s.result.shares.size(); ++j) {
       const AllocationShare& share = s.result.shares[j];
-      fmt::print("  {:<24} {:<12} price {:<6.4g} {:>5.1f} % of the cost, {:>5.1f} % of the error\n",
+      tell("  {:<24} {:<12} price {:<6.4g} {:>5.1f} % of the cost, {:>5.1f} % of the error\n",
                  share.joint, option_text(s, s.result.chosen, j), share.price, 100.0 * share.cost_share,
                  100.0 * share.error_share);
     }
     for (const Allocation* a : {&s.result.worst_case, &s.result.root_sum_square})
       if (!a->judged_by.empty())
-        fmt::print("  {}: {}{}\n", a->judged_by, a->feasible ? fmt::format("{:.5g}, ", a->price) : "",
+        tell("  {}: {}{}\n", a->judged_by, a->feasible ? fmt::format("{:.5g}, ", a->price) : "",
                    standing_of(s, *a));
     if (s.result.feasible && std::isfinite(s.result.last_micrometre))
-      fmt::print("  the last micro{}: {:.4g}\n", s.study.index.si_unit() == "m" ? "metre" : "radian",
+      tell("  the last micro{}: {:.4g}\n", s.study.index.si_unit() == "m" ? "metre" : "radian",
                  s.result.last_micrometre);
-    for (const std::string& warning : s.warnings) fmt::print("  warning: {}\n", warning);
-    fmt::print("  report: {}\n", (out.path() / "report.html").string());
+    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    tell("  report: {}\n", (out.path() / "report.html").string());
   }
 
   MotionOptions motion_;

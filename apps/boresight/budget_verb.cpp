@@ -18,6 +18,7 @@
 #include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -143,7 +144,7 @@ class BudgetVerb : public Verb {
   }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);
-    app.add_flag("--resume", resume_, "go on where an earlier run of this study stopped, or with more members");
+    resumption_.declare(app);
   }
 
   int execute(const Command& command) override {
@@ -164,7 +165,8 @@ class BudgetVerb : public Verb {
     const OutputDirectory out =
         OutputDirectory::open(command.out, command.verb, command.file,
                               identity_of(command, mechanism->description().content_hash, hash.hexadecimal(), options));
-    SampleStore store = open_runs(out, name(), plan.inputs, text, resume_);
+    SampleStore store = open_runs(out, name(), plan.inputs, text, resumption_);
+    tell_of_damage(store.damage());
     const BudgetRuns runs(plan, *mechanism);
     // Levels of a budget are quantiles over the members.
     const RungChoice choice = rung_of_study(
@@ -176,12 +178,15 @@ class BudgetVerb : public Verb {
                             scene_varies(plan.inputs));
     store.use_rung(model.rung(), model.step());
     note_origin(store, study, *mechanism, plan);
-    const StudySteps steps =
-        steps_of_study(command, study, mechanism, {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count()}, run,
-                       choice.name, &store);
-
     const bool whole =
         with_options_checked([&] { return compute(command, study, *mechanism, plan, runs, model, store); });
+    // Last, as it keeps nothing before it ends.
+    StudySteps steps{kNotMeasured, "not measured: the study was interrupted before"};
+    if (whole)
+      steps =
+        steps_of_study(command, study, mechanism, {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count()}, run,
+                         choice.name, &store);
+
     std::optional<Budget> budget;
     if (whole) budget = budget_of(plan, runs, *mechanism, study.index.kind(), store);
     BudgetStudy result{.command = command,
@@ -198,7 +203,8 @@ class BudgetVerb : public Verb {
     result.model_error = seen.model_error;
     result.steps = steps;
     if (budget) result.warnings = warnings_of(result, seen);
-    write(result, seen, out, watch);
+    if (!store.damage().empty()) result.warnings.push_back(store.damage());
+    write(result, seen, out, watch, store.earlier());
     if (!command.quiet) print(result, out);
     if (!budget) return kInterrupted;
     return budget->met() ? status_with_accuracy(choice, kDone) : kAnswerIsNo;
@@ -223,7 +229,7 @@ class BudgetVerb : public Verb {
     for (const NumberRange& range : missing) begun_with -= range.size();
     done = begun_with;
     if (!command.quiet) {
-      fmt::print("{}: {} members on the {} rung, {} runs ({} members with {} groups held and {} clearances halved){}\n",
+      tell("{}: {} members on the {} rung, {} runs ({} members with {} groups held and {} clearances halved){}\n",
                  mechanism.name(), plan.members, model.rung(), runs.count(), runs.attribution(), runs.groups(),
                  runs.joints(), begun_with > 0 ? fmt::format(", {} of them stored already", begun_with) : "");
       std::fflush(stdout);
@@ -297,8 +303,10 @@ class BudgetVerb : public Verb {
     return json;
   }
 
-  static void write(const BudgetStudy& s, const RunsSeen& seen, const OutputDirectory& out, const Stopwatch& watch) {
+  static void write(const BudgetStudy& s, const RunsSeen& seen, const OutputDirectory& out, const Stopwatch& watch,
+                    const SampleStore::Cost& earlier) {
     Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, !s.budget, out);
+    add_earlier_cost(json, earlier);
     json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
     json["seed"] = s.plan.seed;
     json["index"] = {{"quantity", s.study.index.quantity}, {"unit", s.study.index.si_unit()}};
@@ -329,25 +337,25 @@ class BudgetVerb : public Verb {
 
   static void print(const BudgetStudy& s, const OutputDirectory& out) {
     if (!s.budget) {
-      fmt::print("  interrupted; go on with --resume\n");
+      tell("  interrupted; go on with --resume\n");
     } else {
       const Budget& b = *s.budget;
-      if (b.requirements.empty()) fmt::print("  {}\n", budget_verdict(s));
+      if (b.requirements.empty()) tell("  {}\n", budget_verdict(s));
       for (const RequirementAnswer& r : b.requirements)
-        fmt::print("  {}; by the classical rule {}, {}\n", requirement_sentence(s, r), budget_value(s, r.level.by_rule),
+        tell("  {}; by the classical rule {}, {}\n", requirement_sentence(s, r), budget_value(s, r.level.by_rule),
                    to_string(r.level.standing));
       for (const Relief& r : b.reliefs)
-        fmt::print("  {:<32} {:<20} takes off {}{}\n", r.name, r.action, budget_value(s, r.gain()),
+        tell("  {:<32} {:<20} takes off {}{}\n", r.name, r.action, budget_value(s, r.gain()),
                    std::isfinite(r.interval.low)
                        ? fmt::format(" ({} to {})", budget_value(s, r.interval.low), budget_value(s, r.interval.high))
                        : "");
     }
-    for (const std::string& warning : s.warnings) fmt::print("  warning: {}\n", warning);
-    fmt::print("  report: {}\n", (out.path() / "report.html").string());
+    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    tell("  report: {}\n", (out.path() / "report.html").string());
   }
 
   MotionOptions motion_;
-  bool resume_ = false;
+  Resumption resumption_;
 };
 
 }  // namespace

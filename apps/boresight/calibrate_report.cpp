@@ -221,6 +221,7 @@ report::Document calibrate_report(const CalibrationStudy& s) {
   report::Document document{.title = s.mechanism.name(),
                             .subtitle = "calibration of its contacts by measured pointing data",
                             .verb = "calibrate"};
+  document.warnings = s.result.warnings;
   const bool all = std::all_of(inference.parameters.begin(), inference.parameters.end(),
                                [](const auto& e) { return e.identifiable; });
   document.verdict = report::Verdict{

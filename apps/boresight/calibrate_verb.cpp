@@ -6,6 +6,8 @@
 
 #include "boresight/io/content_hash.hpp"
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight/io/referred_file.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight_analyses/calibration/calibration_plan.hpp"
 #include "boresight_analyses/calibration/posterior.hpp"
 #include "boresight_analyses/calibration/rig.hpp"
@@ -16,6 +18,7 @@
 #include "readable.hpp"
 #include "report/report.hpp"
 #include "summary.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -46,7 +49,8 @@ class CalibrateVerb : public Verb {
     const auto mechanism_with = [&](const std::vector<Setting>& more) {
       std::vector<Setting> settings = command.settings;
       settings.insert(settings.end(), more.begin(), more.end());
-      return std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, settings));
+      return read_referred(root.origin("mechanism"), "mechanism", study.mechanism_file,
+                           [&] { return std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, settings)); });
     };
     const auto mechanism = mechanism_with({});
     const CalibrationPlan plan = read_calibration_plan(root, study, mechanism->description());
@@ -83,9 +87,15 @@ class CalibrateVerb : public Verb {
             ? "the fit needs exact derivatives, which it has; what it leaves out is corrected by multibody"
             : "the fit needs exact derivatives, which it has";
     const CalibrationStudy whole{command, study, *mechanism, rung, plan, problem, result};
+    if (result.interrupted && result.inference.parameters.empty()) throw Interrupted{};
     write_json(out, "summary.json", summary_of(whole, watch, out));
     if (!result.inference.parameters.empty()) {
-      out.write("posterior.toml", [&](std::ostream& s) { s << posterior_toml(problem, result.inference); });
+      out.write("posterior.toml", [&](std::ostream& s) {
+        if (result.interrupted)
+          s << "# The calibration was interrupted: these are the values and errors where it stood, not those of its data.\n"
+               "interrupted = true\n\n";
+        s << posterior_toml(problem, result.inference);
+      });
       out.write("report.html", [&](std::ostream& s) { report::write_html(s, calibrate_report(whole)); });
     }
     out.publish();
@@ -111,14 +121,14 @@ class CalibrateVerb : public Verb {
         times.push_back(std::min(i * rig.spacing, mechanism->duration()));
       const MatX clean = multibody_readings(mechanism, mechanism->parameters(), times, rig.channels);
       write_atomically(plan.runs[r].data, csv_of(with_rig_errors(rig, times, clean, static_cast<int>(r))));
-      fmt::print("wrote {}\n", plan.runs[r].data);
+      tell("wrote {}\n", plan.runs[r].data);
     }
     return kDone;
   }
 
   static Json summary_of(const CalibrationStudy& s, const Stopwatch& watch, const OutputDirectory& out) {
     const CalibrationResult& r = s.result;
-    Json json = common_summary(s.command, s.mechanism, s.rung, watch, {}, r.interrupted, out);
+    Json json = common_summary(s.command, s.mechanism, s.rung, watch, r.warnings, r.interrupted, out);
     json["seed"] = s.plan.seed;
     json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
     json["data"] = Json::array();
@@ -171,23 +181,26 @@ class CalibrateVerb : public Verb {
                                     {"d_gain", number(t.d_gain)},
                                     {"a_ratio", number(t.a_ratio)},
                                     {"refusal", t.refusal}});
-    json["files"] = {"summary.json", "posterior.toml", "report.html"};
+    json["files"] = parameters.empty() ? Json{"summary.json"} : Json{"summary.json", "posterior.toml", "report.html"};
     return json;
   }
 
   static void print(const CalibrationStudy& s, const OutputDirectory& out) {
-    fmt::print("{}: {} runs, {} values; {}\n", s.mechanism.name(), s.problem.runs.size(),
+    tell("{}: {} runs, {} values; {}\n", s.mechanism.name(), s.problem.runs.size(),
                s.result.inference.values, s.result.fit.reason);
     for (const ParameterEstimate& e : s.result.inference.parameters)
       if (e.identifiable)
-        fmt::print("  {}: {} +- {} ({:.5g} to {:.5g}{}{})\n", e.name, readable(e.value, e.si_unit),
+        tell("  {}: {} +- {} ({:.5g} to {:.5g}{}{})\n", e.name, readable(e.value, e.si_unit),
                    readable(e.standard_error, e.si_unit), e.low, e.high, e.si_unit == "1" ? "" : " ",
                    e.si_unit == "1" ? "" : e.si_unit);
       else
-        fmt::print("  {}: not identifiable: {}\n", e.name, e.reason);
-    for (const std::string& sentence : s.result.verdict) fmt::print("  {}\n", sentence);
-    if (!s.result.next_tests.empty()) fmt::print("  next test: {}\n", s.result.next_tests.front().name);
-    fmt::print("  posterior: {}\n  report: {}\n", (out.path() / "posterior.toml").string(),
+        tell("  {}: not identifiable: {}\n", e.name, e.reason);
+    for (const std::string& sentence : s.result.verdict) tell("  {}\n", sentence);
+    if (!s.result.next_tests.empty()) tell("  next test: {}\n", s.result.next_tests.front().name);
+    for (const std::string& warning : s.result.warnings) tell("  warning: {}\n", warning);
+    if (s.result.interrupted) tell("  interrupted: the posterior is that of a fit that had not ended\n");
+    if (s.result.inference.parameters.empty()) return;
+    tell("  posterior: {}\n  report: {}\n", (out.path() / "posterior.toml").string(),
                (out.path() / "report.html").string());
   }
 

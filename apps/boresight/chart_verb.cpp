@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight/io/referred_file.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/chart/chart.hpp"
 #include "boresight_analyses/study/study.hpp"
@@ -17,6 +18,7 @@
 #include "report/report.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -104,29 +106,29 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const ChartR
 
 void print(const Mechanism& mechanism, const ChartResult& result, std::optional<double> accuracy,
            const OutputDirectory& out) {
-  fmt::print("{}: accuracy against speed, {}{}\n", mechanism.name(), result.index,
+  tell("{}: accuracy against speed, {}{}\n", mechanism.name(), result.index,
              result.interrupted ? " (interrupted)" : "");
-  fmt::print("  reference {}, known to {}\n", readable(result.reference.value, result.unit),
+  tell("  reference {}, known to {}\n", readable(result.reference.value, result.unit),
              readable_share(result.reference.uncertainty));
-  fmt::print("  Pareto front:\n");
+  tell("  Pareto front:\n");
   for (std::size_t k : result.front) {
     const ChartPoint& p = result.points[k];
-    fmt::print("    {:>10}  off by {:<10} {}, {}\n", readable(p.measured.cpu_seconds, "s"),
+    tell("    {:>10}  off by {:<10} {}, {}\n", readable(p.measured.cpu_seconds, "s"),
                readable_share(p.error), p.family, fineness(p.way));
   }
   if (const ChartPoint* papers = result.papers())
-    fmt::print("  the paper's own setting: {}, off by {}\n", readable(papers->measured.cpu_seconds, "s"),
+    tell("  the paper's own setting: {}, off by {}\n", readable(papers->measured.cpu_seconds, "s"),
                readable_share(papers->error));
   if (accuracy) {
     const ChartPoint* best = result.cheapest_within(*accuracy);
-    fmt::print("  cheapest within {}: {}\n", readable_share(*accuracy),
+    tell("  cheapest within {}: {}\n", readable_share(*accuracy),
                best ? best->family + ", " + fineness(best->way) : "none");
   }
   std::size_t failed = 0;
   for (const ChartPoint& p : result.points) failed += !p.measured.refusal.empty();
-  fmt::print("  {} ways, {} failed; {}\n", result.points.size(), failed, machine_line(result.machine));
-  for (const std::string& name : result.left_out) fmt::print("  warning: no time was left for {}\n", name);
-  fmt::print("  report: {}\n", (out.path() / "report.html").string());
+  tell("  {} ways, {} failed; {}\n", result.points.size(), failed, machine_line(result.machine));
+  for (const std::string& name : result.left_out) tell("  warning: no time was left for {}\n", name);
+  tell("  report: {}\n", (out.path() / "report.html").string());
 }
 
 class ChartVerb : public Verb {
@@ -170,8 +172,8 @@ class ChartVerb : public Verb {
       options.index = study->index;
       if (!accuracy) accuracy = study->accuracy;
     }
-    const auto mechanism =
-        std::make_shared<const Mechanism>(read_mechanism(mechanism_file, command.settings));
+    const auto read = [&] { return std::make_shared<const Mechanism>(read_mechanism(mechanism_file, command.settings)); };
+    const auto mechanism = study ? read_referred(root.origin("mechanism"), "mechanism", mechanism_file, read) : read();
     if (!start_.empty()) options.index.start = positive_quantity("--start", start_, kDuration);
     if (study)
       check_index(*study, *mechanism);

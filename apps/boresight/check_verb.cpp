@@ -14,6 +14,7 @@
 #include "report/report.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -55,18 +56,18 @@ Json kinematics_json(const KinematicReport& k) {
 
 void print(const Mechanism& mechanism, const CheckResult& result, const OutputDirectory& out) {
   const KinematicReport& k = result.kinematics;
-  fmt::print("{}: {} bodies, {} joints, mobility {}, {} drives, {} redundant rows\n", mechanism.name(),
+  tell("{}: {} bodies, {} joints, mobility {}, {} drives, {} redundant rows\n", mechanism.name(),
              k.bodies, k.joints, k.mobility, k.drives, k.redundant_rows);
   for (const ContactFrequency& c : result.contacts) {
     if (c.largest_stable_step == 0.0) continue;  // its play cannot move: a problem below
-    fmt::print("  {}: largest stable step of RK4 {}, rest penetration {}, Flores' law valid up to {}\n",
+    tell("  {}: largest stable step of RK4 {}, rest penetration {}, Flores' law valid up to {}\n",
                c.joint, c.largest_stable_step > 0.0 ? readable(c.largest_stable_step, "s") : "not known", readable(c.typical_penetration, "m"),
                readable(c.validity_speed, "m/s"));
   }
-  for (const std::string& note : result.notes) fmt::print("  note: {}\n", note);
-  for (const std::string& finding : result.findings) fmt::print("  problem: {}\n", finding);
-  if (result.findings.empty()) fmt::print("  nothing stands in the way of this motion\n");
-  fmt::print("  report: {}\n", (out.path() / "report.html").string());
+  for (const std::string& note : result.notes) tell("  note: {}\n", note);
+  for (const std::string& finding : result.findings) tell("  problem: {}\n", finding);
+  if (result.findings.empty()) tell("  nothing stands in the way of this motion\n");
+  tell("  report: {}\n", (out.path() / "report.html").string());
 }
 
 class CheckVerb : public Verb {

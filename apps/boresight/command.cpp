@@ -11,6 +11,7 @@
 #include "boresight/rungs/integrator_choice.hpp"
 #include "exit_status.hpp"
 #include "option_range.hpp"
+#include "terminal.hpp"
 
 namespace boresight::app {
 namespace {
@@ -77,6 +78,7 @@ Command CommandOptions::command(const std::string& verb) const {
 }
 
 void MotionOptions::declare(CLI::App& app, bool with_poses) {
+  keeps_histories_ = true;
   app.add_option("--sample", sample, "spacing of the time series")->type_name("TIME")->capture_default_str();
   declare_model(app);
   if (with_poses)
@@ -94,13 +96,28 @@ void MotionOptions::declare_model(CLI::App& app) {
       ->type_name("NAME");
   app.add_option(
          "--tolerance", tolerance,
-         "of error control (any but rk4): error of one step over the smallest clearance; otherwise the rung's own")
+         "of error control (any integrator but rk4; rosenbrock unless --integrator names another): error of one step over the smallest "
+         "clearance, as 1e-3 or \"0.1 %\"; otherwise the rung's own")
       ->type_name("NUMBER");
   app.add_option("--formulation", formulation, "of the equations of motion (multibody): tree or paper; otherwise tree")
       ->type_name("NAME");
   app.add_option("--stabilisation", stabilisation,
                  "of the constraints (multibody): baumgarte or projection; otherwise the formulation's own")
       ->type_name("NAME");
+}
+
+void MotionOptions::set_sample_spacing(RunOptions& options, const Mechanism& mechanism, double most_samples) const {
+  options.sample_spacing = quantity_between("--sample", sample, {kDuration, "1e-12 s", "1e9 s"});
+  constexpr double kMostBytes = 2e9;
+  if (mechanism.duration() / options.sample_spacing > most_samples)
+    throw InputError(kCommandLine, "--sample", in_quotes(sample), "at most two million samples in all");
+  // Of every sample, the boresight body's and each --pose body's history and every clearance's.
+  const double bytes = mechanism.duration() / options.sample_spacing *
+                       (sizeof(double) + sizeof(PoseSample) * (1.0 + static_cast<double>(poses.size())) +
+                        sizeof(ClearanceSample) * mechanism.clearances());
+  if (bytes > kMostBytes)
+    throw InputError(kCommandLine, "--sample", fmt::format("{}, {:.2g} GB of histories", in_quotes(sample), 1e-9 * bytes),
+                     "at most 2 GB: a wider spacing, or fewer --pose");
 }
 
 RunOptions MotionOptions::run_options(const Mechanism& mechanism, const std::string& rung) const {
@@ -114,17 +131,11 @@ RunOptions MotionOptions::run_options(const Mechanism& mechanism, const std::str
       throw InputError(kCommandLine, "--step", fmt::format("{}, {:.2g} steps", in_quotes(step), mechanism.duration() / options.step),
                        "at most 1e11 steps in all");
   }
-  options.sample_spacing = quantity_between("--sample", sample, {kDuration, "1e-12 s", "1e9 s"});
-  constexpr double kMostSamples = 2e6, kMostBytes = 2e9;
-  if (mechanism.duration() / options.sample_spacing > kMostSamples)
-    throw InputError(kCommandLine, "--sample", in_quotes(sample), "at most two million samples in all");
-  // Of every sample, the boresight body's and each --pose body's history and every clearance's.
-  const double bytes = mechanism.duration() / options.sample_spacing *
-                       (sizeof(double) + sizeof(PoseSample) * (1.0 + static_cast<double>(poses.size())) +
-                        sizeof(ClearanceSample) * mechanism.clearances());
-  if (bytes > kMostBytes)
-    throw InputError(kCommandLine, "--sample", fmt::format("{}, {:.2g} GB of histories", in_quotes(sample), 1e-9 * bytes),
-                     "at most 2 GB: a wider spacing, or fewer --pose");
+  constexpr double kMostSamples = 2e6;
+  if (keeps_histories_)
+    set_sample_spacing(options, mechanism, kMostSamples);
+  else  // no option of this verb: as fine as by default, and no finer than memory holds
+    options.sample_spacing = std::max(1e-3, mechanism.duration() / kMostSamples);
   const std::vector<std::string> known = integrator_names(rung);
   if (!integrator.empty() && rung != "auto" && known.empty())
     throw InputError(kCommandLine, "--integrator", in_quotes(integrator), "none: the " + rung + " rung takes no steps");
@@ -135,6 +146,8 @@ RunOptions MotionOptions::run_options(const Mechanism& mechanism, const std::str
     options.tolerance = quantity_between("--tolerance", parse_number(tolerance, number) ? fmt::format("{:.17g} %", 100.0 * number) : tolerance,
                                          {kRatio, "1e-12 %", "100 %"});
     if (!step.empty()) throw InputError(kCommandLine, "--tolerance", in_quotes(tolerance), "this or --step, not both");
+    // Alone it asks for error control, and this is the method that every rung with steps has, the lanes included.
+    if (integrator.empty()) options.integrator = "rosenbrock";
   }
   options.formulation = formulation;
   options.stabilisation = stabilisation;
@@ -175,7 +188,7 @@ nlohmann::json MotionOptions::model_identity() const {
 std::string MotionOptions::model_text() const {
   std::string text;
   const auto add = [&](const char* option, const std::string& value) {
-    if (!value.empty()) text += std::string(" ") + option + " " + (value.find(' ') == std::string::npos ? value : in_quotes(value));
+    if (!value.empty()) text += std::string(" ") + option + " " + shell_word(value);
   };
   add("--integrator", integrator);
   add("--tolerance", tolerance);

@@ -60,8 +60,12 @@ struct MotionOptions {
   bool asks_for_multibody() const;
   nlohmann::json identity() const;  // what of them changes results
   nlohmann::json model_identity() const;
-  // The same as they are typed, but for the step, each with a space before it.
+  // The same as they are typed for a shell, but for the step, each with a space before it.
   std::string model_text() const;
+
+ private:
+  void set_sample_spacing(RunOptions& options, const Mechanism& mechanism, double most_samples) const;
+  bool keeps_histories_ = false;
 };
 
 // Computes, and turns a rung's refusal of an option into an InputError that names it.

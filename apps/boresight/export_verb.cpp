@@ -1,52 +1,86 @@
 // boresight export DIR: the samples of a Monte Carlo study as CSV.
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <optional>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/montecarlo/sample_store.hpp"
 #include "exit_status.hpp"
 #include "output_directory.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
 namespace {
 
-// Written row by row under another name, synced and renamed: a table of any size, whole or not there.
+// Written row by row under another name, synced and renamed: a table of any size, whole or not there. It replaces a table that was
+// there only where all of whose lines are also in the new one, in their order: an earlier export of fewer samples.
 class TableFile {
  public:
-  explicit TableFile(std::filesystem::path file) : file_(std::move(file)), temporary_(file_.string() + ".part") {
-    stream_ = std::fopen(temporary_.c_str(), "w");
+  explicit TableFile(std::filesystem::path file) : file_(std::move(file)) {
+    temporary_ = (file_.parent_path() / ("." + file_.filename().string() + ".XXXXXX")).string();
+    const int descriptor = ::mkstemp(temporary_.data());
+    if (descriptor < 0) {
+      temporary_.clear();
+      fail();
+    }
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    stream_ = ::fchmod(descriptor, 0666 & ~mask) == 0 ? ::fdopen(descriptor, "w") : nullptr;
     if (stream_ == nullptr) fail();
+    std::error_code error;
+    there_ = std::filesystem::exists(std::filesystem::symlink_status(file_, error));
+    if (there_ && !std::filesystem::is_regular_file(file_, error)) refuse();
+    old_.open(file_);
+    next_old_line();
   }
   ~TableFile() {
-    if (stream_ == nullptr) return;
-    std::fclose(stream_);
-    ::unlink(temporary_.c_str());
+    if (stream_ != nullptr) std::fclose(stream_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
   }
   TableFile(const TableFile&) = delete;
   TableFile& operator=(const TableFile&) = delete;
 
   void line(const std::string& text) {
     if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size() || std::fputc('\n', stream_) == EOF) fail();
+    if (old_line_ && *old_line_ == text) next_old_line();
   }
   void finish() {
+    if (there_ && old_line_) refuse();
     if (std::fflush(stream_) != 0 || ::fsync(::fileno(stream_)) != 0) fail();
     std::fclose(stream_);
     stream_ = nullptr;
     if (std::rename(temporary_.c_str(), file_.c_str()) != 0) fail();
+    temporary_.clear();
   }
 
  private:
+  void next_old_line() {
+    std::string text;
+    if (std::getline(old_, text))
+      old_line_ = text;
+    else
+      old_line_.reset();
+  }
   [[noreturn]] void fail() const { throw WriteError("cannot write " + file_.string() + ": " + std::strerror(errno)); }
+  [[noreturn]] void refuse() const {
+    throw OutputDirectoryError(file_.string() + ": is there already and holds other lines than these samples; give another --out, or remove it");
+  }
 
-  std::filesystem::path file_, temporary_;
+  std::filesystem::path file_;
+  std::string temporary_;
   std::FILE* stream_ = nullptr;
+  std::ifstream old_;
+  std::optional<std::string> old_line_;
+  bool there_ = false;
 };
 
 class ExportVerb : public Verb {
@@ -70,10 +104,13 @@ class ExportVerb : public Verb {
       if (name != "samples.db" && name.starts_with("samples.") && name.ends_with(".db"))
         fmt::print(stderr,
                    "boresight: {} holds samples of a lost rank that are left out: montecarlo --resume merges them\n",
-                   entry.path().string());
+                   printable(entry.path().string()));
     }
     std::error_code error;
     std::filesystem::create_directories(to, error);
+    if (error) throw OutputDirectoryError("--out " + to.string() + ": cannot create the directory: " + error.message());
+    if (::access(to.c_str(), W_OK | X_OK) != 0)
+      throw OutputDirectoryError("--out " + to.string() + ": cannot write there: " + std::strerror(errno) + "; give another --out");
 
     TableFile table(to / "samples.csv");
     std::string header = "sample";
@@ -88,8 +125,10 @@ class ExportVerb : public Verb {
       ++rows;
     });
     table.finish();
-    if (!command.quiet) fmt::print("{} samples: {}\n", rows, (to / "samples.csv").string());
-    return kDone;
+    if (!command.quiet) tell("{} samples: {}\n", rows, (to / "samples.csv").string());
+    if (store.damage().empty()) return kDone;
+    fmt::print(stderr, "boresight: {}\n", printable(store.damage()));
+    return kFailed;  // nobody should take these for all of them
   }
 };
 

@@ -23,6 +23,7 @@
 #include "several_rungs.hpp"
 #include "stored_study.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 
 namespace boresight::app {
 namespace {
@@ -55,6 +56,7 @@ std::vector<Level> open_levels(const SeveralRungs& s) {
     levels.back().store =
         std::make_unique<SampleStore>(file, std::map<std::string, std::string>{{"study", hash.hexadecimal()}},
                                       names_of(s.question.plan.inputs));
+    tell_of_damage(levels.back().store->damage());
     levels.back().store->use_rung(rung, levels.back().model->step());
   }
   return levels;
@@ -183,7 +185,7 @@ int run_fidelities(const SeveralRungs& s) {
                                                  : ""));
     }
     progress.clear();
-    if (!s.command.quiet) fmt::print("{}: {}\n", s.question.mechanism->name(), forecast_sentence(o.plan, top));
+    if (!s.command.quiet) tell("{}: {}\n", s.question.mechanism->name(), forecast_sentence(o.plan, top));
     std::fflush(stdout);
     std::vector<std::vector<double>> values;
     for (std::size_t k = 0; k < o.plan.models.size(); ++k) {
@@ -206,7 +208,7 @@ int run_fidelities(const SeveralRungs& s) {
     }
   } catch (const MethodInterrupted&) {
     progress.clear();
-    if (!s.command.quiet) fmt::print("  interrupted; what was computed is kept, go on with --resume\n");
+    if (!s.command.quiet) tell("  interrupted; what was computed is kept, go on with --resume\n");
     return kInterrupted;
   }
   progress.clear();
@@ -227,6 +229,7 @@ int run_fidelities(const SeveralRungs& s) {
     warnings.push_back("the cheaper rungs do not pay: this is plain Monte Carlo on " + top + ", the pilot was spent in vain");
   bool met = true;
   Json json = several_rungs_summary(s, top, warnings);
+  add_earlier_cost(json, levels.front().store->earlier());
   json["samples"] = o.plan.samples[0];
   json["failed"] = o.mean.failed;
   add_first_failure(json, failures, "sample");
@@ -292,14 +295,14 @@ int run_fidelities(const SeveralRungs& s) {
   s.out.write("report.html", [&](std::ostream& out) { report::write_html(out, document); });
   s.out.publish();
   if (!s.command.quiet) {
-    fmt::print("  {}\n", sentence);
-    fmt::print("  gain measured: {:.3g} ({:.1f} s of CPU)\n", measured_gain(o), o.spent);
+    tell("  {}\n", sentence);
+    tell("  gain measured: {:.3g} ({:.1f} s of CPU)\n", measured_gain(o), o.spent);
     for (std::size_t k = 0; k < o.plan.models.size(); ++k)
-      fmt::print("  {:<14} {:>8} samples, correlation {:.4f}, {} each\n", asked.models[static_cast<std::size_t>(o.plan.models[k])],
+      tell("  {:<14} {:>8} samples, correlation {:.4f}, {} each\n", asked.models[static_cast<std::size_t>(o.plan.models[k])],
                  o.plan.samples[k], o.plan.correlation[static_cast<std::size_t>(o.plan.models[k])],
                  readable(o.measured_cost[static_cast<std::size_t>(o.plan.models[k])], "s"));
-    for (const std::string& warning : warnings) fmt::print("  warning: {}\n", warning);
-    fmt::print("  report: {}\n", (s.out.path() / "report.html").string());
+    for (const std::string& warning : warnings) tell("  warning: {}\n", warning);
+    tell("  report: {}\n", (s.out.path() / "report.html").string());
   }
   return met ? kDone : kAnswerIsNo;
 }

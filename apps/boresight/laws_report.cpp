@@ -7,6 +7,7 @@
 
 #include "boresight/contact/law_range.hpp"
 #include "readable.hpp"
+#include "terminal.hpp"
 
 namespace boresight::app {
 namespace {
@@ -192,7 +193,7 @@ report::Document laws_report(const Command& command, const LawsSubject& s,
        .items = {loops(normal, s, true), loops(normal, s, false), elastic_chart(normal, s)}},
       {.id = "friction", .title = "Friction", .items = {std::move(sliding), friction_chart(friction)}}};
   document.provenance = {{"Version", BORESIGHT_VERSION},
-                         {"Command", "boresight laws" + (command.file.empty() ? "" : " " + command.file)}};
+                         {"Command", "boresight laws" + (command.file.empty() ? "" : " " + shell_word(command.file))}};
   if (!s.hash.empty()) document.provenance.push_back({"Mechanism hash", s.hash});
   return document;
 }

@@ -13,6 +13,7 @@
 #include "report/report.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -32,7 +33,7 @@ ClearanceParameters default_pin() {
 
 void print(const LawsSubject& subject, const std::vector<NormalLawRow>& normal,
            const std::vector<FrictionLawRow>& friction, const OutputDirectory& out) {
-  fmt::print(
+  tell(
       "restitution returned when asked for\n  {:<22}{:>8}{:>8}{:>8}{:>8}   formula; source; holds for\n",
       "contact law", "0.3", "0.5", "0.7", "0.9");
   const auto& asked = asked_restitutions();
@@ -40,16 +41,16 @@ void print(const LawsSubject& subject, const std::vector<NormalLawRow>& normal,
     return row.returned[static_cast<std::size_t>(std::find(asked.begin(), asked.end(), e) - asked.begin())];
   };
   for (const NormalLawRow& row : normal)
-    fmt::print("  {:<22}{:8.5f}{:8.5f}{:8.5f}{:8.5f}   {}; {}; {}{}\n", row.entry->name, at(row, 0.3),
+    tell("  {:<22}{:8.5f}{:8.5f}{:8.5f}{:8.5f}   {}; {}; {}{}\n", row.entry->name, at(row, 0.3),
                at(row, 0.5), at(row, 0.7), at(row, 0.9), row.entry->formula, row.entry->source,
                range_of(row, subject),
                row.good_from > 1.0 ? "" : fmt::format("; e within 0.02 from {} on", row.good_from));
-  fmt::print("  {:<22}friction over normal force; source\n", "friction law");
+  tell("  {:<22}friction over normal force; source\n", "friction law");
   for (const FrictionLawRow& row : friction)
-    fmt::print("  {:<22}{}; {}{}\n", row.entry->name, row.entry->formula, row.entry->source,
+    tell("  {:<22}{}; {}{}\n", row.entry->name, row.entry->formula, row.entry->source,
                row.entry->sticks ? "; holds a load at rest" : "");
-  for (const std::string& warning : subject.warnings) fmt::print("  warning: {}\n", warning);
-  fmt::print("  report: {}\n", (out.path() / "report.html").string());
+  for (const std::string& warning : subject.warnings) tell("  warning: {}\n", warning);
+  tell("  report: {}\n", (out.path() / "report.html").string());
 }
 
 class LawsVerb : public Verb {

@@ -21,6 +21,7 @@
 #include "montecarlo_study.hpp"
 #include "output_directory.hpp"
 #include "summary.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 #include "work_line.hpp"
 
@@ -34,6 +35,7 @@ int fail(int status, const std::string& message) {
   std::string line = message;
   for (char& c : line)
     if (c == '\n' || c == '\r') c = ' ';
+  line = printable(line);
   // Colour only where somebody looks, and did not ask for none (no-color.org).
   const bool colour = ::isatty(STDERR_FILENO) && std::getenv("NO_COLOR") == nullptr;
   std::cerr << (colour ? "\033[31mboresight:\033[0m " : "boresight: ") << line << std::endl;

@@ -16,9 +16,11 @@
 #include "readable.hpp"
 #include "report/report.hpp"
 #include "scatter_parts.hpp"
+#include "stored_study.hpp"
 #include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -139,7 +141,7 @@ class MatchVerb : public Verb {
     }
 
     if (!command.quiet) {
-      fmt::print("{}: {} variables, {} on the {} rung, {} per design{}\n", mechanism->name(),
+      tell("{}: {} variables, {} on the {} rung, {} per design{}\n", mechanism->name(),
                  plan.variables.size(), plan.objective.title(study.index), choice.name,
                  plan.samples == 1 ? "one run" : fmt::format("{} runs", plan.samples),
                  store->size() > 0 ? fmt::format("; {} designs known already", store->size()) : "");
@@ -185,7 +187,9 @@ class MatchVerb : public Verb {
     };
     add_failed(evaluator, choice.name);
     if (upper_evaluator) add_failed(*upper_evaluator, upper);
+    if (!store->damage().empty()) matched.warnings.push_back(store->damage());
     Json summary = summary_of(matched, watch, out);
+    add_earlier_cost(summary, store->earlier());
     add_first_failure(summary, evaluator.failures(), "run");
     write_json(out, "summary.json", summary);
     out.write("evaluations.csv", [&](std::ostream& s) { write_evaluations(s, plan, result); });
@@ -279,14 +283,14 @@ class MatchVerb : public Verb {
   }
 
   static void print(const MatchStudy& s, const OutputDirectory& out) {
-    fmt::print("{}\n", match_sentence(s));
-    fmt::print("  search: {}, descent: {}; {} designs computed, {} reused; {}\n", s.result.global,
+    tell("{}\n", match_sentence(s));
+    tell("  search: {}, descent: {}; {} designs computed, {} reused; {}\n", s.result.global,
                s.result.local, s.result.evaluations, s.result.reused, s.result.why);
     for (const MatchingDescent& d : s.result.descents)
-      fmt::print("  from {}: {} -> {}, {:.5g}{}\n", d.from, design_text(s.plan, d.start),
+      tell("  from {}: {} -> {}, {:.5g}{}\n", d.from, design_text(s.plan, d.start),
                  design_text(s.plan, d.end), d.objective, d.agrees ? ", the same answer" : "");
-    for (const std::string& warning : s.warnings) fmt::print("  warning: {}\n", warning);
-    fmt::print("  report: {}\n", (out.path() / "report.html").string());
+    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    tell("  report: {}\n", (out.path() / "report.html").string());
   }
 
   MotionOptions motion_;

@@ -21,6 +21,7 @@
 #include "stored_study.hpp"
 #include "study_input.hpp"
 #include "summary.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -48,7 +49,7 @@ class MonteCarloVerb : public Verb {
   }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);
-    app.add_flag("--resume", resume_, "go on where an earlier run of this study stopped, or with more samples");
+    resumption_.declare(app);
   }
 
   int execute(const Command& command) override {
@@ -69,7 +70,9 @@ class MonteCarloVerb : public Verb {
     if (question.plan.fidelities || question.plan.tail) {
       if (!first) return kDone;  // one rank does it all
       const OutputDirectory out = OutputDirectory::open(command.out, command.verb, command.file, identity);
-      const SeveralRungs several{command, question, run, out, watch, resume_};
+      if (!resumption_.from.empty())
+        throw InputError({"command line", 0}, "--from", in_quotes(resumption_.from), "none: a study on several rungs goes on in its own folder, with --resume");
+      const SeveralRungs several{command, question, run, out, watch, resumption_.resume};
       return question.plan.fidelities ? run_fidelities(several) : run_tail(several);
     }
 
@@ -113,17 +116,20 @@ class MonteCarloVerb : public Verb {
       return kDone;
     }
     store->use_rung(model.rung(), model.step());
-    const StudySteps steps = steps_of_study(command, question.study, question.mechanism,
-                                            {.inputs = question.plan.inputs,
-                                             .statistic = asked_of_scatter(question.plan),
-                                             .runs = question.plan.samples,
-                                             .lanes = true},
-                                            model_options, model.rung(), store.get());
     if (!command.quiet) announce(question, choice, store->count(), ranks->size());
     Progress progress(command.quiet, static_cast<double>(question.plan.samples), "samples");
     options.progress = [&](const MonteCarloProgress& p) { show(progress, p, question); };
     const MonteCarloResult result = with_options_checked([&] { return run_montecarlo(model, question.plan, store.get(), *ranks, options); });
     progress.clear();
+    // Last, as it keeps nothing before it ends: the samples get on in however short a time a process has.
+    StudySteps steps{kNotMeasured, "not measured: the study was interrupted before"};
+    if (result.ended != Ended::interrupted)
+      steps = steps_of_study(command, question.study, question.mechanism,
+                             {.inputs = question.plan.inputs,
+                              .statistic = asked_of_scatter(question.plan),
+                              .runs = question.plan.samples,
+                              .lanes = true},
+                             model_options, model.rung(), store.get());
     return write_results(command, question, choice, model, *store, steps, result, watch, *out);
   }
 
@@ -142,17 +148,19 @@ class MonteCarloVerb : public Verb {
   }
 
   std::unique_ptr<SampleStore> open_store(const OutputDirectory& out, const MonteCarloQuestion& question) const {
+    bring_runs(out, hash_of(out.identity()), resumption_);
     const std::filesystem::path file = out.path() / "samples.db";
     const bool there = std::filesystem::exists(file);
     announce_begun(out, name(), "begun and not yet ended: samples.db holds what there is; go on with --resume");
     auto store = std::make_unique<SampleStore>(
         file, std::map<std::string, std::string>{{"study", hash_of(out.identity())}}, names_of(question.plan.inputs));
+    tell_of_damage(store->damage());
     merge_shards(*store, out.path());
-    if (!resume_ && store->count() > 0)
+    if (!resumption_.goes_on() && store->count() > 0)
       throw OutputDirectoryError(
           "--out " + out.path().string() +
           ": holds samples of this study already; --resume goes on with them, another --out begins anew");
-    if (!there) {
+    if (!there || store->fact("mechanism").empty()) {
       store->note("mechanism", question.mechanism->name());
       store->note("mechanism_hash", question.mechanism->description().content_hash);
       store->note("index", question.study.index.quantity + "." + question.study.index.statistic);
@@ -202,20 +210,20 @@ class MonteCarloVerb : public Verb {
 
   static void announce(const MonteCarloQuestion& question, const RungChoice& choice, std::uint64_t stored, int ranks) {
     const MonteCarloPlan& plan = question.plan;
-    fmt::print("{}: {} samples ({}), {} random parameters{}{}\n", question.mechanism->name(), plan.samples,
+    tell("{}: {} samples ({}), {} random parameters{}{}\n", question.mechanism->name(), plan.samples,
                plan.design.text(), plan.inputs.size(),
                stored > 0 ? fmt::format(", {} of them stored already", stored) : "",
                ranks > 1 ? fmt::format(", on {} ranks", ranks) : "");
     if (choice.pilot) {
       const double study = static_cast<double>(plan.samples) * choice.pilot->trials[choice.pilot->chosen].cpu_seconds;
-      fmt::print("  rung: {}, {}\n  the pilot took {} of CPU, the study will take about {}\n", choice.name, choice.why,
+      tell("  rung: {}, {}\n  the pilot took {} of CPU, the study will take about {}\n", choice.name, choice.why,
                  readable(choice.pilot->cpu_seconds, "s"), readable(study, "s"));
     }
     if (plan.requirement) {
       const auto fewest = [&](std::int64_t above) {
         return wilks_one_sided(plan.requirement->probability, plan.requirement->confidence, above);
       };
-      fmt::print(
+      tell(
           "  to show {:g} % with {:g} % confidence takes {} independent samples if none is above the limit, {} if one "
           "is, "
           "{} if two are (Wilks)\n",
@@ -271,6 +279,7 @@ class MonteCarloVerb : public Verb {
                           .warnings = warnings_of(question, result, estimates, shown.failures),
                           .leaves_out = model.leaves_out(),
                           .replay = replay_command(command, choice, model)};
+    if (!store.damage().empty()) study.warnings.push_back(store.damage());
     write_json(out, "summary.json", summary_of(study, watch, out, store));
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, montecarlo_report(study)); });
     out.publish();
@@ -342,8 +351,8 @@ class MonteCarloVerb : public Verb {
   }
 
   std::string replay_command(const Command& command, const RungChoice& choice, const SampleModel& model) const {
-    std::string text = "boresight run " + command.file;
-    for (const Setting& setting : command.settings) text += " --set " + setting.path + "=" + setting.value;
+    std::string text = "boresight run " + shell_word(command.file);
+    for (const Setting& setting : command.settings) text += " --set " + shell_word(setting.path + "=" + setting.value);
     text += " --rung " + model.rung();
     if (model.step() > 0.0) text += fmt::format(" --step \"{:.17g} s\"", model.step());
     if (model.batch() > 1) text += " --integrator rosenbrock";  // the lanes' method; its steps are not the same
@@ -357,6 +366,7 @@ class MonteCarloVerb : public Verb {
                          const SampleStore& store) {
     Json json =
         common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, s.result.ended == Ended::interrupted, out);
+    add_earlier_cost(json, store.earlier());
     json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
     json["seed"] = s.plan.design.seed;
     json["design"] = s.plan.design.text();
@@ -402,25 +412,25 @@ class MonteCarloVerb : public Verb {
 
   static void print(const MonteCarloStudy& s, const OutputDirectory& out) {
     const std::string& unit = s.study.index.si_unit();
-    fmt::print("{}: {} samples on the {} rung, {} failed; {}; index: {}\n", s.mechanism.name(), s.estimates.samples,
+    tell("{}: {} samples on the {} rung, {} failed; {}; index: {}\n", s.mechanism.name(), s.estimates.samples,
                s.rung.name, s.estimates.failed, to_string(s.result.ended), s.study.index.title());
     for (const NamedEstimate& e : s.estimates.index)
       if (std::isfinite(e.interval.value))
-        fmt::print("  {:<8} {:>10}   ({} at {} confidence)\n", e.name, readable(e.interval.value, unit),
+        tell("  {:<8} {:>10}   ({} at {} confidence)\n", e.name, readable(e.interval.value, unit),
                    readable_interval(e.interval, unit), readable_share(s.plan.confidence));
     for (const ErrorStatement& e : s.estimates.errors)
       if (e.of == s.estimates.headline)
-        fmt::print("  {} is uncertain by sampling {}, discretisation {}, rung {}: {} dominates\n", e.of,
+        tell("  {} is uncertain by sampling {}, discretisation {}, rung {}: {} dominates\n", e.of,
                    std::isfinite(e.sampling.relative) ? readable_share(e.sampling.relative) : "without bound",
                    std::isfinite(e.discretisation.relative) ? readable_share(e.discretisation.relative) : "not measured",
                    readable_share(e.rung.relative), e.dominant);
-    if (s.estimates.requirement) fmt::print("  {}\n", verdict_sentence(s));
-    for (const std::string& warning : s.warnings) fmt::print("  warning: {}\n", warning);
-    fmt::print("  report: {}\n", (out.path() / "report.html").string());
+    if (s.estimates.requirement) tell("  {}\n", verdict_sentence(s));
+    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    tell("  report: {}\n", (out.path() / "report.html").string());
   }
 
   MotionOptions motion_;
-  bool resume_ = false;
+  Resumption resumption_;
 };
 
 }  // namespace

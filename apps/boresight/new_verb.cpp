@@ -6,6 +6,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "exit_status.hpp"
 #include "output_directory.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 extern "C" {
@@ -42,7 +43,7 @@ class NewVerb : public Verb {
       throw OutputDirectoryError(folder.string() + ": cannot make this folder" + (failed ? ": " + failed.message() : ""));
     for (const auto& file : files) write_atomically(folder / file.name, file.text);
     if (!command.quiet)
-      fmt::print("{0}: an antenna whose elevation bearing has play, to be changed into yours\n"
+      tell("{0}: an antenna whose elevation bearing has play, to be changed into yours\n"
                  "  boresight check {0}/mechanism.toml        what would go wrong, before it does\n"
                  "  boresight run {0}/mechanism.toml          one motion: how far off it points\n"
                  "  boresight montecarlo {0}/montecarlo.toml  with what probability\n",

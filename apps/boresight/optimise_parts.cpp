@@ -6,6 +6,7 @@
 #include "boresight/io/content_hash.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
+#include "stored_study.hpp"
 #include "summary.hpp"
 
 namespace boresight::app {
@@ -36,9 +37,11 @@ std::unique_ptr<EvaluationStore> open_evaluations(const OutputDirectory& out, co
   announce_begun(out, verb, "begun and not yet ended: the same command goes on, and reuses what is in " + name);
   ContentHash hash;
   hash.add(out.identity().dump());
-  return std::make_unique<EvaluationStore>(
+  auto store = std::make_unique<EvaluationStore>(
       out.path() / name, std::map<std::string, std::string>{{"study", hash.hexadecimal()}, {"rung", rung}},
       variables, rung, step);
+  tell_of_damage(store->damage());
+  return store;
 }
 
 }  // namespace boresight::app

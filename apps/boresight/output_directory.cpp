@@ -1,5 +1,6 @@
 #include "output_directory.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 #include <sstream>
 #include <utility>
 #include <vector>
+
+#include "terminal.hpp"
 
 namespace boresight::app {
 namespace fs = std::filesystem;
@@ -158,6 +161,9 @@ void OutputDirectory::write(const std::string& name,
   stage(path_, name, std::move(text).str());
 }
 
-void OutputDirectory::publish() const { app::publish(path_); }
+void OutputDirectory::publish() const {
+  if (!app::publish(path_))
+    fmt::print(stderr, "boresight: interrupted; {} keeps the whole results that it held before\n", printable(path_.string()));
+}
 
 }  // namespace boresight::app

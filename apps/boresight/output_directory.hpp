@@ -48,7 +48,8 @@ class OutputDirectory {
 
   // Sets one file of the result aside. Throws WriteError, naming the file and what the system said.
   void write(const std::string& name, const std::function<void(std::ostream&)>& content) const;
-  // Everything written since the last time takes its place. Throws WriteError.
+  // Everything written since the last time takes its place; but what was interrupted does not replace what was whole, which is then
+  // said on standard error. Throws WriteError.
   void publish() const;
 
  private:

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terminal.hpp"
 #include "work_line.hpp"
 
 namespace boresight::app {
@@ -73,7 +74,7 @@ void Progress::update_from(double before, double done, const std::string& estima
   if (now < next_) return;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   if (style_ == Style::terminal) clear_work_line();
-  std::string line = progress_line(done, total_, unit_, elapsed, estimate, before);
+  std::string line = progress_line(done, total_, unit_, elapsed, printable(estimate), before);
   if (style_ == Style::terminal) {
     line.resize(std::min(line.size(), terminal_width(stream_) - 1));
     fmt::print(stream_, "\r\033[K{}", line);

@@ -28,6 +28,7 @@
 #include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -38,38 +39,38 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
            const std::optional<Predictability>& predictability, const MeasuredError& measured, const IndexChoice& wanted,
            const std::vector<AssumedValue>& assumed,
            const OutputDirectory& out) {
-  fmt::print("{}: {} of motion, {} rung, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.rung,
+  tell("{}: {} of motion, {} rung, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.rung,
              result.integrator, result.interrupted ? " (interrupted)" : "");
-  if (choice.pilot) fmt::print("  rung: {}\n", choice.why);
+  if (choice.pilot) tell("  rung: {}\n", choice.why);
   const PointingIndices& index = result.index;
-  fmt::print("  position error       max {:>10}   RMS {:>10}\n", readable(index.position_error.max, "m"),
+  tell("  position error       max {:>10}   RMS {:>10}\n", readable(index.position_error.max, "m"),
              readable(index.position_error.rms, "m"));
-  fmt::print("  boresight error      max {:>10}   RMS {:>10}   ({} max)\n",
+  tell("  boresight error      max {:>10}   RMS {:>10}   ({} max)\n",
              readable(index.boresight_error.max, "rad"), readable(index.boresight_error.rms, "rad"),
              readable_arcsec(index.boresight_error.max));
   if (index.has_line_of_sight)
-    fmt::print("  line-of-sight error  max {:>10}   RMS {:>10}   ({} max)\n",
+    tell("  line-of-sight error  max {:>10}   RMS {:>10}   ({} max)\n",
                readable(index.line_of_sight_error.max, "rad"), readable(index.line_of_sight_error.rms, "rad"),
                readable_arcsec(index.line_of_sight_error.max));
-  if (result.start > 0.0) fmt::print("  from {} on\n", readable(result.start, "s"));
+  if (result.start > 0.0) tell("  from {} on\n", readable(result.start, "s"));
   for (const ContactSummary& c : result.contact)
-    fmt::print("  {}: in contact {} of the time, {} impacts, penetration up to {}, force up to {}\n", c.joint,
+    tell("  {}: in contact {} of the time, {} impacts, penetration up to {}, force up to {}\n", c.joint,
                readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"),
                readable(c.max_force, "N"));
-  if (!result.interrupted) fmt::print("  {}\n", step_error_sentence(measured, result.index, wanted));
-  if (predictability && predictability->parted) fmt::print("  {}\n", predictability_sentence(*predictability));
+  if (!result.interrupted) tell("  {}\n", step_error_sentence(measured, result.index, wanted));
+  if (predictability && predictability->parted) tell("  {}\n", predictability_sentence(*predictability));
   for (const Compared& other : others) {
     if (!other.refusal.empty())
-      fmt::print("  {:<12} {}\n", other.rung, other.refusal);
+      tell("  {:<12} {}\n", other.rung, other.refusal);
     else
-      fmt::print("  {:<12} position error max {:>10} RMS {:>10}, boresight max {:>10}, {} of CPU\n", other.rung,
+      tell("  {:<12} position error max {:>10} RMS {:>10}, boresight max {:>10}, {} of CPU\n", other.rung,
                  readable(other.result.index.position_error.max, "m"), readable(other.result.index.position_error.rms, "m"),
                  readable(other.result.index.boresight_error.max, "rad"), readable(other.result.cost.cpu_seconds, "s"));
   }
-  if (axes && !axes->free && axes->free_boresight > 1e-6) fmt::print("  note: {}\n", axes->sentence);
-  for (const std::string& warning : result.warnings) fmt::print("  warning: {}\n", warning);
-  for (const std::string& warning : material_warnings(assumed)) fmt::print("  warning: {}\n", warning);
-  fmt::print("  report: {}\n", (out.path() / "report.html").string());
+  if (axes && !axes->free && axes->free_boresight > 1e-6) tell("  note: {}\n", axes->sentence);
+  for (const std::string& warning : result.warnings) tell("  warning: {}\n", warning);
+  for (const std::string& warning : material_warnings(assumed)) tell("  warning: {}\n", warning);
+  tell("  report: {}\n", (out.path() / "report.html").string());
 }
 
 Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const RunResult& result,

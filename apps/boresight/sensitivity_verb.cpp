@@ -18,6 +18,7 @@
 #include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -58,7 +59,7 @@ class SensitivityVerb : public Verb {
   }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);
-    app.add_flag("--resume", resume_, "go on where an earlier run of this study stopped");
+    resumption_.declare(app);
   }
 
   int execute(const Command& command) override {
@@ -77,7 +78,8 @@ class SensitivityVerb : public Verb {
     const OutputDirectory out = OutputDirectory::open(
         command.out, command.verb, command.file,
         identity_of(command, mechanism->description().content_hash, runs.hexadecimal(), options));
-    SampleStore store = open_runs(out, name(), plan.inputs, plan.text(study), resume_);
+    SampleStore store = open_runs(out, name(), plan.inputs, plan.text(study), resumption_);
+    tell_of_damage(store.damage());
     const RungChoice choice = rung_for(command, study, mechanism, plan, run, store);
     apply(choice, run);
     const std::unique_ptr<SampleModel> sampled = sample_model(
@@ -88,7 +90,7 @@ class SensitivityVerb : public Verb {
     store.use_rung(model.rung(), model.step());
 
     if (!command.quiet) {
-      fmt::print("{}: {} runs ({} rows of {}; {})\n", mechanism->name(), plan.runs(), plan.rows, plan.runs_per_row(),
+      tell("{}: {} runs ({} rows of {}; {})\n", mechanism->name(), plan.runs(), plan.rows, plan.runs_per_row(),
                  plan.design.text());
       std::fflush(stdout);
     }
@@ -130,7 +132,8 @@ class SensitivityVerb : public Verb {
       if (r.number % every == 0 && r.outcome.status == Outcome::Status::done) result.shown.push_back(r);
     });
     result.warnings = warnings_of(result);
-    write(result, out, watch);
+    if (!store.damage().empty()) result.warnings.push_back(store.damage());
+    write(result, out, watch, store.earlier());
     if (!command.quiet) print(result, out);
     if (result.interrupted) return kInterrupted;
     if (!global) return failed(command, "too many runs failed for indices" + first_failure_text(result.failures, "run"));
@@ -177,8 +180,10 @@ class SensitivityVerb : public Verb {
     return warnings;
   }
 
-  static void write(const SensitivityStudy& s, const OutputDirectory& out, const Stopwatch& watch) {
+  static void write(const SensitivityStudy& s, const OutputDirectory& out, const Stopwatch& watch,
+                    const SampleStore::Cost& earlier) {
     Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, s.interrupted, out);
+    add_earlier_cost(json, earlier);
     json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
     json["seed"] = s.plan.design.seed;
     json["design"] = s.plan.design.text();
@@ -234,20 +239,20 @@ class SensitivityVerb : public Verb {
   }
 
   static void print(const SensitivityStudy& s, const OutputDirectory& out) {
-    if (s.interrupted) fmt::print("  interrupted; go on with --resume\n");
+    if (s.interrupted) tell("  interrupted; go on with --resume\n");
     if (s.global) {
-      fmt::print("  index: {}; mean {}, standard deviation {}; {} rung\n", s.study.index.title(),
+      tell("  index: {}; mean {}, standard deviation {}; {} rung\n", s.study.index.title(),
                  readable(s.global->mean, s.study.index.si_unit()), readable(s.global->sd, s.study.index.si_unit()), s.rung.name);
       for (const GroupSensitivity& g : s.global->groups)
-        fmt::print("  {:<40} first {:>6.3f} ({:.3f} to {:.3f})   total {:>6.3f} ({:.3f} to {:.3f})\n", g.name, g.first.value,
+        tell("  {:<40} first {:>6.3f} ({:.3f} to {:.3f})   total {:>6.3f} ({:.3f} to {:.3f})\n", g.name, g.first.value,
                    g.first.low, g.first.high, g.total.value, g.total.low, g.total.high);
     }
-    for (const std::string& warning : s.warnings) fmt::print("  warning: {}\n", warning);
-    fmt::print("  report: {}\n", (out.path() / "report.html").string());
+    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    tell("  report: {}\n", (out.path() / "report.html").string());
   }
 
   MotionOptions motion_;
-  bool resume_ = false;
+  Resumption resumption_;
 };
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "study_input.hpp"
 #include "summary.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -135,18 +136,18 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const Stabil
 }
 
 void print(const Mechanism& mechanism, const StabilityResult& result, const OutputDirectory& out) {
-  fmt::print("{}: where the methods fail{}\n", mechanism.name(), result.interrupted ? " (interrupted)" : "");
+  tell("{}: where the methods fail{}\n", mechanism.name(), result.interrupted ? " (interrupted)" : "");
   for (const AxisLimit& l : result.limits)
     if (l.method == "RK4")
-      fmt::print("  RK4, {:<10} step limit {:.5g} measured, {:.5g} in theory\n", l.axis + ":", l.measured,
+      tell("  RK4, {:<10} step limit {:.5g} measured, {:.5g} in theory\n", l.axis + ":", l.measured,
                  l.theory);
   if (!result.baumgarte.limits.empty())
-    fmt::print("  Baumgarte: {} limits on the drift of {}; all limits within {:.2g} % of theory\n",
+    tell("  Baumgarte: {} limits on the drift of {}; all limits within {:.2g} % of theory\n",
                result.baumgarte.limits.size(), result.baumgarte.joint, 100.0 * result.largest_difference());
   for (const FailureCase& c : result.cases)
-    fmt::print("  {:<8} {}: {}\n", to_string(c.standing), c.name, c.measured);
-  for (const std::string& warning : result.warnings) fmt::print("  warning: {}\n", warning);
-  fmt::print("  report: {}\n", (out.path() / "report.html").string());
+    tell("  {:<8} {}: {}\n", to_string(c.standing), c.name, c.measured);
+  for (const std::string& warning : result.warnings) tell("  warning: {}\n", warning);
+  tell("  report: {}\n", (out.path() / "report.html").string());
 }
 
 class StabilityVerb : public Verb {

@@ -12,20 +12,67 @@
 #include "progress.hpp"
 #include "scatter_parts.hpp"
 #include "summary.hpp"
+#include "terminal.hpp"
 
 namespace boresight::app {
 
+void Resumption::declare(CLI::App& app) {
+  app.add_flag("--resume", resume, "go on where an earlier run of this study stopped, or with more samples");
+  app.add_option("--from", from,
+                 "go on with the samples of this folder of results, which stays as it is (it may be on a disk that cannot be written); "
+                 "results go to --out")
+      ->type_name("DIR");
+}
+
+void tell_of_damage(const std::string& damage) {
+  if (!damage.empty()) fmt::print(stderr, "boresight: {}\n", printable(damage));
+}
+
+void add_earlier_cost(nlohmann::ordered_json& summary, const SampleStore::Cost& earlier) {
+  summary["cpu_seconds"] = summary["cpu_seconds"].get<double>() + earlier.cpu_seconds;
+  summary["wall_seconds"] = summary["wall_seconds"].get<double>() + earlier.wall_seconds;
+}
+
+void bring_runs(const OutputDirectory& out, const std::string& study_hash, const Resumption& resumption) {
+  namespace fs = std::filesystem;
+  if (resumption.from.empty()) return;
+  const fs::path source = fs::path(resumption.from) / "samples.db", target = out.path() / "samples.db";
+  std::error_code error;
+  if (fs::equivalent(resumption.from, out.path(), error)) return;
+  if (fs::exists(target, error))
+    throw OutputDirectoryError("--out " + out.path().string() + ": holds samples already; --resume goes on with them, --from wants a new folder");
+  const std::optional<FolderClaim> claim =
+      fs::is_directory(resumption.from, error) ? FolderClaim::take(resumption.from) : std::nullopt;
+  if (!claim && fs::is_directory(resumption.from, error))
+    throw OutputDirectoryError("--from " + resumption.from + ": a run is writing there; wait for it to end");
+  {
+    const SampleStore found(source);  // refuses what is no store
+    if (found.fact("study") != study_hash)
+      throw OutputDirectoryError("--from " + resumption.from + ": holds the samples of another study (other file, settings or options)");
+  }
+  // The log first: a store without its log lacks its last samples, a log without its store is nothing.
+  for (const char* suffix : {"-wal", ""}) {
+    if (!fs::exists(source.string() + suffix, error)) continue;
+    const fs::path copy = target.string() + suffix + std::string("-copy");
+    fs::copy_file(source.string() + suffix, copy, fs::copy_options::overwrite_existing, error);
+    if (!error) fs::permissions(copy, fs::perms::owner_read | fs::perms::owner_write, fs::perm_options::add, error);
+    if (!error) fs::rename(copy, target.string() + suffix, error);
+    if (error) throw WriteError("cannot write " + target.string() + suffix + ": " + error.message());
+  }
+}
+
 SampleStore open_runs(const OutputDirectory& out, const std::string& verb, const RandomInputs& inputs,
-                      const std::string& text, bool resume) {
+                      const std::string& text, const Resumption& resumption) {
+  ContentHash hash;
+  hash.add(out.identity().dump());
+  hash.add(text);
+  bring_runs(out, hash.hexadecimal(), resumption);
   const std::filesystem::path file = out.path() / "samples.db";
-  if (std::filesystem::exists(file) && !resume)
+  if (std::filesystem::exists(file) && !resumption.goes_on())
     throw OutputDirectoryError(
         "--out " + out.path().string() +
         ": holds runs of this study already; --resume goes on with them, another --out begins anew");
   announce_begun(out, verb, "begun and not yet ended: samples.db holds what there is; go on with --resume");
-  ContentHash hash;
-  hash.add(out.identity().dump());
-  hash.add(text);
   return SampleStore(file, {{"study", hash.hexadecimal()}}, names_of(inputs));
 }
 

@@ -15,11 +15,26 @@
 
 namespace boresight::app {
 
+// How a study goes on: in its folder, or from the samples of another one, which stays as it is.
+struct Resumption {
+  bool resume = false;
+  std::string from;  // "": none
+
+  void declare(CLI::App& app);
+  bool goes_on() const { return resume || !from.empty(); }
+};
+
 // Opens samples.db in the folder of results, and says in summary.json whose it is before the first run lands. `text`:
 // what decides a run beside the folder's identity. Throws OutputDirectoryError where it is there and --resume was not
 // asked for.
 SampleStore open_runs(const OutputDirectory& out, const std::string& verb, const RandomInputs& inputs,
-                      const std::string& text, bool resume);
+                      const std::string& text, const Resumption& resumption);
+// Copies samples.db from the folder that the study goes on from, where one was named. Throws OutputDirectoryError, StoreRefused.
+void bring_runs(const OutputDirectory& out, const std::string& study_hash, const Resumption& resumption);
+// One line to standard error where a store was damaged when it was opened.
+void tell_of_damage(const std::string& damage);
+// The study's CPU and wall-clock seconds are those of all its parts.
+void add_earlier_cost(nlohmann::ordered_json& summary, const SampleStore::Cost& earlier);
 
 // A study keeps its rung, integrator and tolerance: those it was begun with are those it goes on with.
 void note_choice(SampleStore& store, const RungChoice& choice);

@@ -1,6 +1,7 @@
 #include "study_input.hpp"
 
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight/io/referred_file.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
@@ -20,7 +21,8 @@ StudyInput::StudyInput(const std::string& file, const std::vector<Setting>& sett
     : document(Document::from_file(file)),
       root(document),
       study(read_study(root, document.content_hash())),
-      mechanism(std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, settings))),
+      mechanism(read_referred(root.origin("mechanism"), "mechanism", study.mechanism_file,
+                              [&] { return std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, settings)); })),
       trial(trial_of(study.mechanism_file, settings)) {
   check_index(study, *mechanism);
 }

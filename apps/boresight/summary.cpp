@@ -1,5 +1,7 @@
 #include "summary.hpp"
 
+#include <fmt/format.h>
+
 #include <ctime>
 #include <ostream>
 
@@ -102,9 +104,21 @@ const std::filesystem::path& last_summary() { return summary_written(); }
 void write_json(const OutputDirectory& out, const std::string& name, const Json& json) {
   clear_work_line();  // whatever is printed now stands on a line of its own
   if (name == "summary.json") summary_written() = out.path() / name;
-  out.write(name, [&](std::ostream& stream) {
-    stream << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-  });
+  // Beside those that JSON escapes itself, control characters that a terminal would heed.
+  std::string text;
+  const std::string plain = json.dump(2, ' ', false, Json::error_handler_t::replace);
+  for (std::size_t k = 0; k < plain.size(); ++k) {
+    const auto byte = static_cast<unsigned char>(plain[k]), next = static_cast<unsigned char>(plain[k + 1]);
+    if (byte == 0x7f) {
+      text += "\\u007f";
+    } else if (byte == 0xc2 && next >= 0x80 && next < 0xa0) {
+      text += fmt::format("\\u{:04x}", next);
+      ++k;
+    } else {
+      text += plain[k];
+    }
+  }
+  out.write(name, [&](std::ostream& stream) { stream << text << '\n'; });
 }
 
 void announce_begun(const OutputDirectory& out, const std::string& verb, const std::string& warning) {

@@ -15,6 +15,7 @@
 #include "summary.hpp"
 #include "sweep_report.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 #include "verb.hpp"
 
 namespace boresight::app {
@@ -84,23 +85,23 @@ void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mech
 
 void print(const Study& study, const SweepPlan& plan, const Mechanism& mechanism, const SweepResult& result,
            const OutputDirectory& out) {
-  fmt::print("{}: {} points{}; index: {}\n", mechanism.name(), result.points.size(),
+  tell("{}: {} points{}; index: {}\n", mechanism.name(), result.points.size(),
              result.interrupted ? " (interrupted)" : "", study.index.title());
   constexpr std::size_t kShown = 20;
   for (std::size_t k = 0; k < std::min(kShown, result.points.size()); ++k) {
     const SweepPoint& p = result.points[k];
     if (p.status == SweepPoint::Status::done)
-      fmt::print("  {}: index {}, position error max {}, RMS {}\n", point_name(plan, p, true),
+      tell("  {}: index {}, position error max {}, RMS {}\n", point_name(plan, p, true),
                  readable(study.index.of(p.result.index), study.index.si_unit()),
                  readable(p.result.index.position_error.max, "m"),
                  readable(p.result.index.position_error.rms, "m"));
     else
-      fmt::print("  {}: {}{}\n", point_name(plan, p, true), to_string(p.status),
+      tell("  {}: {}{}\n", point_name(plan, p, true), to_string(p.status),
                  p.failure.empty() ? "" : ": " + p.failure);
   }
   if (result.points.size() > kShown)
-    fmt::print("  and {} more in sweep.csv\n", result.points.size() - kShown);
-  fmt::print("  report: {}\n", (out.path() / "report.html").string());
+    tell("  and {} more in sweep.csv\n", result.points.size() - kShown);
+  tell("  report: {}\n", (out.path() / "report.html").string());
 }
 
 class SweepVerb : public Verb {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <ostream>
 
+#include "boresight/io/units.hpp"
+
 namespace boresight::app {
 namespace {
 
@@ -29,7 +31,10 @@ void append_pose(std::string& row, const PoseSample& s) {
 
 std::string exact(double value) { return !std::isfinite(value) ? "" : fmt::format("{:.17g}", value); }
 
-std::string csv_field(const std::string& text) {
+std::string csv_field(const std::string& given) {
+  double number = 0.0;
+  const bool formula = !given.empty() && std::string("=+-@\t\r").find(given[0]) != std::string::npos && !parse_number(given, number);
+  const std::string text = (formula ? "'" : "") + given;
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);

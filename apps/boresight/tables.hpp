@@ -13,7 +13,8 @@ namespace boresight::app {
 // A number with 17 significant digits: reading it back gives the same bits. NaN is left empty.
 std::string exact(double value);
 
-// A field of CSV, quoted where it must be (RFC 4180).
+// A field of CSV, quoted where it must be (RFC 4180). A text that a spreadsheet would take for a formula (it begins with
+// = + - @ and is no number) is led by an apostrophe.
 std::string csv_field(const std::string& text);
 
 // One row per `every`th sample, and the last one.

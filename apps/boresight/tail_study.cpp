@@ -16,6 +16,7 @@
 #include "report/report.hpp"
 #include "several_rungs.hpp"
 #include "tables.hpp"
+#include "terminal.hpp"
 
 namespace boresight::app {
 namespace {
@@ -83,10 +84,10 @@ int run_tail(const SeveralRungs& s) {
     before = spent;
     progress.clear();
     if (!s.command.quiet && !pilot->informed)
-      fmt::print("{}: no point of the pilot exceeds the limit on {}: no forecast, the budget goes to {} points there\n",
+      tell("{}: no point of the pilot exceeds the limit on {}: no forecast, the budget goes to {} points there\n",
                  s.question.mechanism->name(), asked.exact, pilot->exact_points);
     else if (!s.command.quiet)
-      fmt::print("{}: about {:.2g} exceed; forecast: standard error {:.2g} with {} points on {} and {} on {} "
+      tell("{}: about {:.2g} exceed; forecast: standard error {:.2g} with {} points on {} and {} on {} "
                  "({:.2g} on {} alone, {:.2g} by plain Monte Carlo for the same CPU)\n",
                  s.question.mechanism->name(), pilot->probability, pilot->standard_error, pilot->cheap_points, asked.cheap,
                  pilot->exact_points, asked.exact, pilot->exact_standard_error, asked.exact, pilot->plain_standard_error);
@@ -100,7 +101,7 @@ int run_tail(const SeveralRungs& s) {
                    : importance_sampling(exact_rung, requirement.limit, pilot->proposal.mixture, pilot->exact_points, tail);
   } catch (const MethodInterrupted&) {
     progress.clear();
-    if (!s.command.quiet) fmt::print("  interrupted: a tail study begins anew\n");
+    if (!s.command.quiet) tell("  interrupted: a tail study begins anew\n");
     return kInterrupted;
   }
   progress.clear();
@@ -195,9 +196,9 @@ int run_tail(const SeveralRungs& s) {
   s.out.write("report.html", [&](std::ostream& out) { report::write_html(out, document); });
   s.out.publish();
   if (!s.command.quiet) {
-    fmt::print("  {}\n", sentence);
-    for (const std::string& warning : warnings) fmt::print("  warning: {}\n", warning);
-    fmt::print("  report: {}\n", (s.out.path() / "report.html").string());
+    tell("  {}\n", sentence);
+    for (const std::string& warning : warnings) tell("  warning: {}\n", warning);
+    tell("  report: {}\n", (s.out.path() / "report.html").string());
   }
   return met ? kDone : kAnswerIsNo;
 }

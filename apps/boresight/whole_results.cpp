@@ -53,11 +53,29 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
+nlohmann::json read_json(const fs::path& file) {
+  std::ifstream in(file);
+  return nlohmann::json::parse(in, nullptr, false);
+}
+
+bool is_interrupted(const fs::path& summary) {
+  const nlohmann::json json = read_json(summary);
+  return json.is_object() && json.value("interrupted", nlohmann::json(false)) == true;
+}
+
+// Of a study that keeps its runs, what is new holds all that was there before.
+bool is_whole_without_store(const fs::path& summary) {
+  const nlohmann::json json = read_json(summary);
+  if (!json.is_object() || json.value("interrupted", nlohmann::json(true)) != false || !json.contains("files")) return false;
+  for (const auto& file : json["files"])
+    if (file.is_string() && file.get<std::string>().ends_with(".db")) return false;
+  return true;
+}
+
 // The files that a summary names as its own, but for the stores.
 std::set<std::string> files_of(const fs::path& summary) {
   std::set<std::string> names;
-  std::ifstream in(summary);
-  const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+  const nlohmann::json json = read_json(summary);
   if (!json.is_object() || !json.contains("files") || !json["files"].is_array()) return names;
   for (const auto& file : json["files"]) {
     if (!file.is_string()) continue;
@@ -131,14 +149,19 @@ void stage(const fs::path& folder, const std::string& name, const std::string& c
   }
 }
 
-void publish(const fs::path& folder) {
+bool publish(const fs::path& folder) {
   const fs::path staged = folder / kStaged;
   std::error_code failed;
-  if (!fs::exists(staged, failed)) return;
+  if (!fs::exists(staged, failed)) return true;
+  if (is_interrupted(staged / kSummary) && is_whole_without_store(folder / kSummary)) {
+    discard_staged(folder);
+    return false;
+  }
   sync_directory(staged);
   move(staged, folder / kPublished);
   sync_directory(folder);
   move_into_place(folder);
+  return true;
 }
 
 void recover(const fs::path& folder) {

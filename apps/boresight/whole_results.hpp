@@ -23,8 +23,9 @@ class WriteError : public std::runtime_error {
 // Writes one file of a result that is still incomplete.
 void stage(const std::filesystem::path& folder, const std::string& name, const std::string& content);
 // What was staged is the folder's result from now on. Files that the summary.json before names and this result does not have
-// are removed, stores of samples excepted. Does nothing where nothing was staged.
-void publish(const std::filesystem::path& folder);
+// are removed, stores of samples excepted. Does nothing where nothing was staged. Returns false, and leaves all as it was, where
+// the new result was interrupted and the one before was not, and keeps no store that the new one goes on from.
+bool publish(const std::filesystem::path& folder);
 // Completes what a kill interrupted in publish(), and removes what was staged and never published.
 void recover(const std::filesystem::path& folder);
 // Removes what was staged and never published; never throws.

@@ -18,6 +18,7 @@ MechanismDescription read(Document& document, std::vector<AssumedValue>* assumed
   mechanism.content_hash = document.content_hash();
   root.require(root.integer("format") == 1, "format", "1");
   mechanism.name = root.text("name", document.filename());
+  root.require(!mechanism.name.empty(), "name", "a name, or no key at all");
   mechanism.gravity = vector_in(root, "gravity", kGravityRange);
 
   Sections sections = gather_sections(root);

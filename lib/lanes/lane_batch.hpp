@@ -1,6 +1,7 @@
 // What goes into the lane integrator and what comes out: plain numbers only, shared by the code of every instruction set.
 #pragma once
 
+#include <atomic>
 #include <type_traits>
 
 #include "boresight/contact/journal_in_sleeve.hpp"
@@ -46,7 +47,7 @@ struct LaneJob {
   const double* gap_tolerance = nullptr;    // one per clearance [m]: a contact begins this close to its located start
 };
 
-enum class LaneStatus { done, step_too_small, too_many_steps };
+enum class LaneStatus { done, step_too_small, too_many_steps, not_reached };  // not_reached: stopped before its end
 
 struct LaneOutcome {
   LaneStatus status = LaneStatus::done;
@@ -66,6 +67,10 @@ struct LaneSettings {
   double first_step = 1e-6;     // [s]
   double smallest_step = 1e-13; // [s]
   long most_steps = 10'000'000;
+  const std::atomic<bool>* stop = nullptr;  // once it is set, the kernel leaves soon
+  // Called as each job ends, in the order in which they end. attempts: those made so far, of all lanes together.
+  void (*ended)(void* listener, long job, double attempts) = nullptr;
+  void* listener = nullptr;
 };
 
 // Integrates jobs[0 .. count): as many at once as the register has lanes, each at its own time and step; a lane whose sample

@@ -156,22 +156,28 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
   return p;
 }
 
-void PerturbationLanes::run(std::span<const Parameters> samples, std::span<LaneOutcome> outcomes, double tolerance) const {
-  run(lane_targets(lane_precision(tolerance)).front(), samples, outcomes, tolerance);
+void PerturbationLanes::run(std::span<const Parameters> samples, std::span<LaneOutcome> outcomes, double tolerance,
+                            const LaneWatch& watch) const {
+  run(lane_targets(lane_precision(tolerance)).front(), samples, outcomes, tolerance, watch);
 }
 
 void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters> samples, std::span<LaneOutcome> outcomes,
-                            double tolerance) const {
+                            double tolerance, const LaneWatch& watch) const {
   std::vector<std::shared_ptr<const Prepared>> prepared;
   std::vector<std::vector<JournalInSleeve>> joints;
   std::vector<std::vector<double>> tolerances;
   std::vector<VecX> starts;
   std::vector<LaneJob> jobs;
   for (const Parameters& sample : samples) {
+    if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {
+      for (LaneOutcome& outcome : outcomes) outcome.status = LaneStatus::not_reached;
+      return;
+    }
     prepared.push_back(prepared_for(sample));
     const Prepared& p = *prepared.back();
     if (p.tables->layout.n == 0) {  // of one sample as of all: no play can move
       std::fill(outcomes.begin(), outcomes.end(), LaneOutcome{.t = mechanism_->duration()});
+      for (std::size_t k = 0; watch.ended && k < samples.size(); ++k) watch.ended(k, 0.0);
       return;
     }
     const SceneLayout& at = p.tables->layout;
@@ -212,6 +218,13 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
   settings.start = start_;
   // Across a step the scene's numbers are straight lines: a hundredth of the time in which they turn.
   settings.longest_step = std::min(settings.longest_step, mechanism_->duration() / 100.0);
+  settings.stop = watch.stop;
+  if (watch.ended) {
+    settings.listener = const_cast<LaneWatch*>(&watch);
+    settings.ended = [](void* listener, long job, double attempts) {
+      static_cast<const LaneWatch*>(listener)->ended(static_cast<std::size_t>(job), attempts);
+    };
+  }
   target.kernel(jobs.data(), static_cast<long>(jobs.size()), settings, outcomes.data());
 }
 

@@ -11,6 +11,8 @@
 // samples into calls (with contacts on a tilted rim: on processors whose C library gives the same arc cosine).
 #pragma once
 
+#include <atomic>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -30,6 +32,14 @@ constexpr LanePrecision lane_precision(double tolerance) {
   return tolerance < kSinglePrecisionTolerance ? LanePrecision::double_precision : LanePrecision::single_precision;
 }
 
+// Samples that come out one by one, and work that can be stopped.
+struct LaneWatch {
+  const std::atomic<bool>* stop = nullptr;  // once it is set, run() returns soon; what was not reached says so
+  // Called as each sample's outcome is there, in the order in which they end, from the thread that called run(). attempts: steps
+  // tried so far, of all samples together. What it throws leaves run().
+  std::function<void(std::size_t sample, double attempts)> ended = {};
+};
+
 class PerturbationLanes {
  public:
   // Whether lanes pay: few joints with clearance, and laws that have lanes: Hertz's geometry with any damping factor, modified
@@ -43,10 +53,11 @@ class PerturbationLanes {
   // tolerance: largest error of one step in an offset, relative to its clearance c, and in its rate, relative to the speed
   // sqrt(c a) that a free flight across the clearance reaches under the scene's accelerations a.
   // outcomes: as many as samples.
-  void run(std::span<const Parameters> samples, std::span<LaneOutcome> outcomes, double tolerance = kLaneTolerance) const;
+  void run(std::span<const Parameters> samples, std::span<LaneOutcome> outcomes, double tolerance = kLaneTolerance,
+           const LaneWatch& watch = {}) const;
   // With one instruction set's kernel in particular.
   void run(const LaneTarget& target, std::span<const Parameters> samples, std::span<LaneOutcome> outcomes,
-           double tolerance = kLaneTolerance) const;
+           double tolerance = kLaneTolerance, const LaneWatch& watch = {}) const;
 
  private:
   struct Prepared;

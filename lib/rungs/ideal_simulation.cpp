@@ -73,7 +73,8 @@ void set_starting_rates(const Mechanism& mechanism, const std::vector<TimeValue>
   A = scaled_rows(std::move(A), length);
   VecX u = A.completeOrthogonalDecomposition().solve(b);
   if ((A * u - b).norm() > 1e-8 * b.norm())
-    throw InputError(rates.empty() ? mechanism.description().origin : rates.front().origin, "initial.rates",
+    throw InputError(rates.empty() ? mechanism.description().motion.origin : rates.front().origin,
+                     rates.empty() ? "motion" : "initial.rates",
                      "rates that contradict each other or the joints", "rates that the joints allow together");
   for (int k = 0; k < mechanism.bodies(); ++k) u.segment<3>(6 * k) *= length;
   for (int k = 0; k < mechanism.bodies(); ++k) {

@@ -1,7 +1,9 @@
 // Tables and charts as CSV, with the numbers that the report holds.
 function cell(value) {
   if (value === null || value === undefined) return "";
-  const text = String(value);
+  // A text that a spreadsheet would take for a formula is led by an apostrophe; numbers stay numbers.
+  const formula = typeof value === "string" && /^[=+\-@\t\r]/.test(value) && !(value.trim() !== "" && Number.isFinite(Number(value)));
+  const text = (formula ? "'" : "") + String(value);
   return /[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 

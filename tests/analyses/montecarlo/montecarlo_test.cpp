@@ -67,6 +67,45 @@ TEST(MonteCarlo, AnInterruptionLosesNothingAndIsResumedToTheSameBits) {
   EXPECT_EQ(rest.values, run_sum(SumModel(), sum_plan(3000), *whole, once).values);
 }
 
+// One sample of a batch after the other, each in its time, as lanes give them.
+class OneByOne final : public SampleModel {
+ public:
+  explicit OneByOne(std::chrono::milliseconds each) : each_(each) {}
+  std::string rung() const override { return "sum"; }
+  double step() const override { return 0.0; }
+  std::string leaves_out() const override { return ""; }
+  std::size_t batch() const override { return 1024; }
+  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>& stop) const override {
+    evaluate_each(samples, outcomes, stop, [](std::size_t) {});
+  }
+  void evaluate_each(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>& stop,
+                     const std::function<void(std::size_t)>& reached) const override {
+    for (std::size_t k = 0; k < samples.size() && !stop; ++k) {
+      std::this_thread::sleep_for(each_);
+      model_.evaluate(samples.subspan(k, 1), outcomes.subspan(k, 1), stop);
+      if (outcomes[k].status != Outcome::Status::not_reached) reached(k);
+    }
+  }
+
+ private:
+  std::chrono::milliseconds each_;
+  SumModel model_;
+};
+
+TEST(MonteCarlo, SamplesThatTakeLongAreStoredSoonAfterEachIsDoneNotWithTheirBatch) {
+  const Folder folder("soon");
+  auto store = open_sum_store(folder);
+  const auto start = std::chrono::steady_clock::now();
+  // A batch of these takes half a minute.
+  const MonteCarloResult cut = run_sum(OneByOne(std::chrono::milliseconds(150)), sum_plan(4096), *store, folder, 1, [&] {
+    return std::chrono::steady_clock::now() - start > std::chrono::milliseconds(1000);
+  });
+  const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_EQ(cut.ended, Ended::interrupted);
+  EXPECT_GE(cut.stored, 3u);
+  EXPECT_LT(took, 3.0);
+}
+
 TEST(MonteCarlo, StopsAtTheSameSampleOnAnIntervalsWidthWhateverTheThreads) {
   std::vector<std::size_t> sizes;
   for (const int jobs : {1, 2}) {

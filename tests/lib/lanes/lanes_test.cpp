@@ -69,6 +69,48 @@ TEST(Lanes, GiveTheSameBitsAloneAndTogetherOnEveryInstructionSetThatFusesOrDoesN
     expect_same_bits(JournalAxes::parallel, PointingQuantity::position_error, precision);
 }
 
+TEST(Lanes, TellOfEverySampleOnceAsItEnds) {
+  const auto mechanism = scene("0.06 s");
+  const PerturbationLanes lanes(mechanism, PointingQuantity::position_error);
+  const std::vector<Parameters> samples = scattered(*mechanism, 21, false);
+  std::vector<LaneOutcome> outcomes(samples.size()), told(samples.size()), silent(samples.size());
+  std::vector<int> times(samples.size());
+  double attempts = 0.0;
+  lanes.run(samples, outcomes, kLaneTolerance, {.stop = nullptr, .ended = [&](std::size_t k, double so_far) {
+              ++times[k];
+              told[k] = outcomes[k];
+              EXPECT_GE(so_far, attempts);
+              attempts = so_far;
+            }});
+  lanes.run(samples, silent);
+  double all = 0.0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    EXPECT_EQ(times[k], 1) << k;
+    EXPECT_TRUE(told[k] == silent[k]) << k;
+    all += static_cast<double>(silent[k].steps + silent[k].rejected);
+  }
+  EXPECT_EQ(attempts, all);
+}
+
+TEST(Lanes, LeaveWhenStoppedAndSayWhatWasNotReached) {
+  const auto mechanism = scene("1 s");
+  const PerturbationLanes lanes(mechanism, PointingQuantity::position_error);
+  const std::vector<Parameters> samples = scattered(*mechanism, 64, false);
+  std::vector<LaneOutcome> outcomes(samples.size()), whole(samples.size());
+  std::atomic<bool> stop{false};
+  std::size_t done = 0;
+  lanes.run(samples, outcomes, kLaneTolerance, {.stop = &stop, .ended = [&](std::size_t, double) { stop = ++done == 3; }});
+  lanes.run(samples, whole);
+  std::size_t reached = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (outcomes[k].status == LaneStatus::not_reached) continue;
+    ++reached;
+    EXPECT_TRUE(outcomes[k] == whole[k]) << k;
+  }
+  EXPECT_EQ(reached, done);
+  EXPECT_LT(reached, 8u) << "it looks every few steps";
+}
+
 TEST(Lanes, GiveTheSameBitsWithJournalsThatTilt) {
   for (const LanePrecision precision : {LanePrecision::single_precision, LanePrecision::double_precision})
     expect_same_bits(JournalAxes::free, PointingQuantity::boresight_error, precision);
