@@ -43,6 +43,7 @@ class Calibrator {
 
   CalibrationResult run() {
     try {
+      for (const OutlyingReading& reading : leave_out_lone_readings(problem_)) warn_of(reading, "it is left out of the fit");
       set_noise(noise_from_differences(problem_));
       search();
       hold_what_no_impact_shows();
@@ -83,19 +84,20 @@ class Calibrator {
   }
 
  private:
+  void warn_of(const OutlyingReading& reading, const std::string& what_becomes_of_it) {
+    char text[80];
+    std::snprintf(text, sizeof text, " is %.3g robust standard deviations off: ", reading.deviations);
+    result_.warnings.push_back(reading.file + ":" + std::to_string(reading.line) + ": " +
+                               channel_names()[static_cast<std::size_t>(reading.channel)].name + text + what_becomes_of_it);
+  }
   void name_outliers() {
     constexpr std::size_t kMostNamed = 10;
     const std::vector<OutlyingReading> found = outlying_readings(problem_, result_.fit);
     const char* counts = problem_.loss.kind == Loss::none    ? "it counts in full, as loss = \"none\" asks"
                          : problem_.loss.kind == Loss::huber ? "it counts as one just beyond the noise"
                                                              : "it hardly counts";
-    for (std::size_t k = 0; k < std::min(kMostNamed, found.size()); ++k) {
-      char text[600];
-      std::snprintf(text, sizeof text, "%s:%d: %s is %.3g robust standard deviations off the fit; %s. If it is no reading, leave it out",
-                    found[k].file.c_str(), found[k].line, channel_names()[static_cast<std::size_t>(found[k].channel)].name,
-                    found[k].deviations, counts);
-      result_.warnings.emplace_back(text);
-    }
+    for (std::size_t k = 0; k < std::min(kMostNamed, found.size()); ++k)
+      warn_of(found[k], std::string(counts) + "; leave it out of the data if it is no reading");
     if (found.size() > kMostNamed)
       result_.warnings.push_back(std::to_string(found.size() - kMostNamed) + " further readings are more than 10 robust standard deviations off");
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace boresight {
 
@@ -63,6 +65,40 @@ VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fi
         std::max(0.5, 1.4826 * sizes[c][sizes[c].size() / 2] * std::sqrt(freedom));
   }
   return sigma;
+}
+
+std::vector<OutlyingReading> leave_out_lone_readings(CalibrationProblem& problem) {
+  constexpr double kAlone = 1000.0;
+  const VecX noise = noise_from_differences(problem);
+  std::vector<OutlyingReading> found;
+  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+    MeasuredData& data = problem.runs[r].data;
+    for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+      const int column = problem.column(static_cast<int>(r), static_cast<int>(c));
+      if (column < 0) continue;
+      std::vector<Eigen::Index> measured;
+      for (Eigen::Index i = 0; i < data.value.rows(); ++i)
+        if (std::isfinite(data.value(i, column))) measured.push_back(i);
+      const auto n = static_cast<std::ptrdiff_t>(measured.size());
+      if (n < 6) continue;
+      const auto at = [&](std::ptrdiff_t k) { return data.value(measured[static_cast<std::size_t>(k)], column); };
+      std::vector<Eigen::Index> alone;
+      for (std::ptrdiff_t k = 0; k < n; ++k) {
+        // The four measured next to it, at the ends all on one side.
+        std::vector<double> next;
+        for (std::ptrdiff_t j = std::clamp<std::ptrdiff_t>(k - 2, 0, n - 5); next.size() < 4; ++j)
+          if (j != k) next.push_back(at(j));
+        const auto [low, high] = std::minmax_element(next.begin(), next.end());
+        const double off = std::max(at(k) - *high, *low - at(k));
+        if (!(off > kAlone * std::max(*high - *low, noise[static_cast<Eigen::Index>(c)]))) continue;
+        const Eigen::Index sample = measured[static_cast<std::size_t>(k)];
+        alone.push_back(sample);
+        found.push_back({data.file, data.line[static_cast<std::size_t>(sample)], problem.channels[c], off / noise[static_cast<Eigen::Index>(c)]});
+      }
+      for (const Eigen::Index sample : alone) data.value(sample, column) = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return found;
 }
 
 std::vector<OutlyingReading> outlying_readings(const CalibrationProblem& problem, const FitResult& fit) {

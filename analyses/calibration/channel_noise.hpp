@@ -21,6 +21,11 @@ struct OutlyingReading {
   double deviations = 0.0;  // its residual in robust standard deviations of its channel's residuals
 };
 
+// Takes out of the data, as if they had not been measured, readings that stand alone: off what lies between their neighbours by more
+// than a thousand times the noise and all changes around them. No motion does that from one sample to the next and back; in a fit one
+// of them would outweigh the rest of the cost, so that it ends before the others are fitted. deviations: of the noise.
+std::vector<OutlyingReading> leave_out_lone_readings(CalibrationProblem& problem);
+
 // Those of more than ten, the largest first.
 std::vector<OutlyingReading> outlying_readings(const CalibrationProblem& problem, const FitResult& fit);
 

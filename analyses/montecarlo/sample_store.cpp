@@ -104,6 +104,7 @@ SampleStore::SampleStore(const std::filesystem::path& file) : file_(file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error))
     throw StoreRefused("found no " + file.string() + ", expected a store of samples");
+  part_ = -1;
   open_to_read();
   if (!has_table(db_->handle, file_, "sample")) throw StoreRefused(file.string() + " is no store of samples");
   read_layout();
@@ -112,6 +113,7 @@ SampleStore::SampleStore(const std::filesystem::path& file) : file_(file) {
 SampleStore::~SampleStore() {
   try {
     commit();
+    if (db_ && part_ > 0) put_cost();  // what came after the last sample
   } catch (const std::exception&) {
     // What could not be written is lost; it was reported when it failed first, and will be computed again.
   }
@@ -175,6 +177,7 @@ void SampleStore::note(const std::string& key, const std::string& value) {
   put.bind(2, value);
   put.step();
   renew_header_text(db_->handle, file_);
+  put_cost();
 }
 
 void SampleStore::use_rung(const std::string& name, double step) {
@@ -261,7 +264,7 @@ void SampleStore::commit() {
 
 // With every commit, so that a kill forgets no more of it than of the samples.
 void SampleStore::put_cost() {
-  if (!has_parts_) return;
+  if (!has_parts_ || part_ < 0) return;
   if (part_ == 0) {
     Statement last(db_->handle, file_, "SELECT coalesce(max(id), 0) FROM part");
     last.step();
@@ -275,8 +278,7 @@ void SampleStore::put_cost() {
 }
 
 std::string SampleStore::damage() const {
-  const std::string kept = fact("damage");
-  return kept.empty() ? damage_ : kept;
+  return part_ < 0 || !damage_.empty() ? damage_ : fact("damage");
 }
 
 void SampleStore::merge(const std::filesystem::path& other) {

@@ -116,7 +116,7 @@ class SampleStore {
   std::unique_ptr<Database> db_;
   int rung_ = 0;
   bool has_checksums_ = false, has_parts_ = false;
-  std::int64_t part_ = 0;  // of this process; 0: none yet
+  std::int64_t part_ = 0;  // of this process; 0: none yet; -1: the store is only read
   std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
   Cost earlier_;
   mutable std::string damage_;

@@ -1,8 +1,11 @@
 // boresight calibrate, as a user calls it.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "program.hpp"
 
@@ -59,6 +62,64 @@ TEST_F(CalibrateProgram, NamesTheLineOfABadRow) {
   EXPECT_EQ(ended.status, 2);
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
   EXPECT_NE(ended.err.find("middle.csv:3: dx"), std::string::npos) << ended.err;
+}
+
+// One parameter, one run: a second or two.
+const char* const kSmall = R"(format = 1
+mechanism = "rig.toml"
+[calibrate]
+starts = 1
+mounting_bias = true
+corrections = 0
+profile = false
+[[calibrate.parameter]]
+path = "clearance.D.radial"
+start = "0.24 mm"
+[[calibrate.run]]
+data = "slow.csv"
+set = ["motion.drives.A=2*pi*2*t"]
+)";
+
+TEST_F(CalibrateProgram, AnImpossibleReadingIsNamedAndMovesNothing) {
+  std::ofstream(folder_ / "small.toml") << kSmall;
+  ASSERT_EQ(call({"calibrate", "small.toml", "--out", "clean", "--quiet"}).status, 0);
+  EXPECT_EQ(json("clean/summary.json")["warnings"].size(), 0u) << "good data get no word";
+  std::string rows = text("slow.csv"), changed;
+  std::istringstream lines(rows);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);)
+    changed += (++number == 60 ? line.substr(0, line.find(',')) + ",1e8" + line.substr(line.find(',', line.find(',') + 1)) : line) + "\n";
+  std::ofstream(folder_ / "slow.csv") << changed;
+  ASSERT_EQ(call({"calibrate", "small.toml", "--out", "spoilt", "--quiet"}).status, 0);
+  const nlohmann::json clean = json("clean/summary.json"), spoilt = json("spoilt/summary.json");
+  ASSERT_EQ(spoilt["warnings"].size(), 1u) << spoilt["warnings"];
+  const std::string warning = spoilt["warnings"][0];
+  EXPECT_NE(warning.find("slow.csv:60: dx is "), std::string::npos) << warning;
+  EXPECT_NE(warning.find("robust standard deviations off: it is left out of the fit"), std::string::npos) << warning;
+  for (const auto& [name, error] : clean["standard_error"].items()) {
+    const double sd = error.get<double>();
+    EXPECT_NEAR(spoilt["standard_error"][name].get<double>(), sd, 0.05 * sd) << name;
+    EXPECT_NEAR(spoilt["optimum"][name].get<double>(), clean["optimum"][name].get<double>(), 0.5 * sd) << name;
+  }
+}
+
+TEST_F(CalibrateProgram, AnInterruptionAnnouncesOnlyWhatIsThere) {
+  for (const int milliseconds : {300, 900, 2000}) {
+    const std::string out = "out-" + std::to_string(milliseconds);
+    const pid_t child = start({"calibrate", "calibrate.toml", "--out", out});
+    ::usleep(static_cast<useconds_t>(1000 * milliseconds));
+    ::kill(child, SIGINT);
+    const Ended ended = wait_for(child);
+    EXPECT_EQ(ended.status, 130) << ended.err;
+    for (const char* file : {"posterior.toml", "report.html"})
+      EXPECT_EQ(ended.out.find(file) != std::string::npos, std::filesystem::exists(folder_ / out / file)) << file << ended.out;
+    if (std::filesystem::exists(folder_ / out / "posterior.toml")) {
+      EXPECT_NE(text(out + "/posterior.toml").find("\ninterrupted = true\n"), std::string::npos);
+    }
+    if (!std::filesystem::exists(folder_ / out / "summary.json")) continue;
+    for (const auto& file : json(out + "/summary.json")["files"])
+      EXPECT_TRUE(std::filesystem::exists(folder_ / out / file.get<std::string>())) << file;
+  }
 }
 
 TEST_F(CalibrateProgram, NamesTheNearestChannel) {

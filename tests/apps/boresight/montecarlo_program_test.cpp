@@ -243,6 +243,83 @@ TEST_F(MonteCarloProgram, AFullDiskIsOneLineAndLeavesTheStoreIntact) {
   EXPECT_EQ(csv_of("long.toml", "out", {"--resume"}).substr(0, 2000), csv_of("long.toml", "fresh").substr(0, 2000));
 }
 
+TEST_F(MonteCarloProgram, ADamagedStoreGivesTheTableOfOneRunAndSaysWhatWasDamaged) {
+  ASSERT_EQ(call(quick("study.toml", "whole")).status, 0);
+  ASSERT_EQ(call(quick("study.toml", "out")).status, 0);
+  std::string bytes = text("out/samples.db");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  std::ofstream(folder_ / "out/samples.db", std::ios::binary) << bytes;
+  const Ended exported = call({"export", "out", "--out", "part"});
+  EXPECT_EQ(exported.status, 3);
+  EXPECT_THAT(exported.err, HasSubstr("samples.db is damaged"));
+  const Ended resumed = call(quick("study.toml", "out", {"--resume"}));
+  EXPECT_EQ(resumed.status, 0);
+  EXPECT_THAT(resumed.err, HasSubstr("samples in it are whole and kept"));
+  EXPECT_EQ(samples_of("out"), samples_of("whole"));
+  EXPECT_THAT(json("out/summary.json")["warnings"].dump(), HasSubstr("damaged-samples.db"));
+  EXPECT_EQ(text("out/damaged-samples.db"), bytes);
+}
+
+TEST_F(MonteCarloProgram, ExportReplacesItsOwnTableAndNoOther) {
+  ASSERT_EQ(call(quick("study.toml", "out")).status, 0);
+  const std::string table = samples_of("out");
+  study("study.toml", 500);
+  ASSERT_EQ(call(quick("study.toml", "out", {"--resume"})).status, 0);
+  EXPECT_GT(samples_of("out").size(), table.size()) << "a table of fewer samples gives way";
+  std::ofstream(folder_ / "out/samples.csv") << "my own notes\n";
+  const Ended refused = call({"export", "out"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("samples.csv: is there already"));
+  EXPECT_EQ(text("out/samples.csv"), "my own notes\n");
+  EXPECT_EQ(files("out").size(), 4u) << "no litter";
+}
+
+TEST_F(MonteCarloProgram, ResultsOnADiskThatCannotBeWrittenAreExportedAndGoneOnWithElsewhere) {
+  ASSERT_EQ(call(quick("study.toml", "whole")).status, 0);
+  const std::string table = samples_of("whole");
+  study("more.toml", 600);
+  const std::string name_space = "cd '" + folder_.string() + "' && unshare -rm sh -c '";
+  if (std::system((name_space + "true' 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "no name space of its own here";
+  const std::string program = BORESIGHT_PROGRAM;
+  std::string again;
+  for (const std::string& word : quick("more.toml", "new", {"--from", "shut"})) again += " \"" + word + "\"";
+  const std::string read_only = "mount --bind shut shut && mount -o remount,bind,ro shut && ";
+  for (const bool with_log : {false, true}) {
+    std::filesystem::remove_all(folder_ / "shut");
+    std::filesystem::remove_all(folder_ / "csv");
+    std::filesystem::remove_all(folder_ / "new");
+    std::filesystem::copy(folder_ / "whole", folder_ / "shut", std::filesystem::copy_options::recursive);
+    std::filesystem::remove(folder_ / "shut/samples.csv");
+    if (with_log) {  // as a kill leaves it
+      std::filesystem::remove_all(folder_ / "shut");
+      const pid_t child = start(quick("study.toml", "shut", {"--jobs", "1"}));
+      wait_until_stored("shut", 0);
+      ::kill(child, SIGKILL);
+      wait_for(child);
+    }
+    const std::string command = name_space + read_only + program + " export shut --out csv --quiet 2>err; echo $? >status; " + program + again +
+                                " 2>>err; echo $? >>status'";
+    ASSERT_EQ(std::system(command.c_str()), 0) << text("err");
+    EXPECT_EQ(text("status"), "0\n0\n") << text("err");
+    const std::string exported = text("csv/samples.csv");
+    EXPECT_EQ(table.substr(0, exported.size()), exported);
+    EXPECT_EQ(samples_of("new").substr(0, table.size()), table);
+    EXPECT_GT(json("new/summary.json")["cpu_seconds"].get<double>(), 0.0);
+  }
+}
+
+TEST_F(MonteCarloProgram, TheCostIsThatOfAllParts) {
+  std::vector<double> cpu;
+  for (const int samples : {400, 800, 1200}) {
+    study("study.toml", samples);
+    ASSERT_EQ(call(quick("study.toml", "out", {"--resume"})).status, 0);
+    cpu.push_back(json("out/summary.json")["cpu_seconds"].get<double>());
+  }
+  // The first part takes most: it also measures what the steps do.
+  EXPECT_GT(cpu[1], cpu[0] + 0.01);
+  EXPECT_GT(cpu[2], cpu[1] + 0.01);
+}
+
 TEST_F(MonteCarloProgram, MistakesInTheStudyAreOneLine) {
   study("bad.toml", 100, "desing = \"lhs\"");
   const Ended ended = call(quick("bad.toml", "out"));
