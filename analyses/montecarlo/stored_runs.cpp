@@ -22,6 +22,7 @@ bool store_runs(const SampleModel& model, std::size_t parameters, const ValuesOf
       next_commit = Clock::now() + kCommitEvery;
     }
     if (options.landed) options.landed(records);
+    if (options.interrupted && options.interrupted()) stop = true;
     return !stop;
   };
   const bool whole =

@@ -12,7 +12,7 @@ namespace boresight {
 struct StoredRunsOptions {
   int jobs = 1;
   std::function<void(std::span<const SampleRecord>)> landed = {};  // one thread at a time, after they are in the store
-  std::function<bool()> interrupted = {};                          // asked many times a second, from another thread
+  std::function<bool()> interrupted = {};                          // asked many times a second, from any thread
 };
 
 // Computes the runs of these numbers and adds them to the store, committing four times a second and at the end. Returns

@@ -66,7 +66,7 @@ std::vector<double> read_csv_column(const std::string& file, const std::string& 
   return values;
 } catch (const InputError& fault) {
   const std::string line = fault.origin.line > 0 ? " in line " + std::to_string(fault.origin.line) : "";
-  throw ColumnFault{true, in_quotes(file) + ": " + fault.found + line, fault.expected, ""};
+  throw ColumnFault{true, in_quotes(file) + ": " + fault.found + line, "a CSV file (" + fault.expected + ")", ""};
 }
 
 }  // namespace boresight

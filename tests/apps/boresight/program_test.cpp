@@ -62,7 +62,7 @@ TEST_F(ProgramTest, BadInputIsOneLineAndStatusTwo) {
   expect_refused({"run", mechanism_, "--integrator", "dopri4"}, "did you mean dopri5?");
   expect_refused({"run", mechanism_, "--integrator", "rk4", "--rung", "envelope"}, "takes no steps");
   expect_refused({"run", mechanism_, "--integrator", "generalized-alpha", "--rung", "perturbation"}, "--integrator");
-  expect_refused({"run", mechanism_, "--tolerance", "1e-4"}, "--tolerance");
+  expect_refused({"run", mechanism_, "--integrator", "rk4", "--tolerance", "1e-4"}, "--tolerance");
   expect_refused({"run", mechanism_, "--integrator", "dopri5", "--tolerance", "1 mm"}, "--tolerance");
   expect_refused({"run", mechanism_, "--jobs", "-1"}, "--jobs");
   expect_refused({"sweep", mechanism_}, "expected a study file");
