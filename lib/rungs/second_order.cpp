@@ -134,6 +134,7 @@ double second_order_share(const Mechanism& mechanism, const PreparedScene& prepa
   // where the journal gets to later.
   std::vector<std::array<Share, kKinds>> part(groups.size());
   std::vector<double> pushed_off(groups.size(), 0.0);
+  bool begun = false;
   try {
     for (const LargestDeviations::Deviation& deviation : largest.parts()) {
       if (!(deviation.size > 0.0)) continue;
@@ -152,7 +153,9 @@ double second_order_share(const Mechanism& mechanism, const PreparedScene& prepa
       for (int b = 0; b < mechanism.bodies(); ++b)
         displace(displaced.bodies[b], T.middleRows<6>(6 * b) * deviation.z);
       VecX y;
-      formulation->start(displaced, y);
+      if (!begun) formulation->start(state, y);  // which rows are redundant is the same in every pose
+      begun = true;
+      formulation->place_bodies(displaced.bodies, y);
       formulation->settle(deviation.t, y);
       VecX dy(y.size());
       formulation->derivative(deviation.t, y, memory, dy);
