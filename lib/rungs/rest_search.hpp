@@ -14,7 +14,8 @@
 
 namespace boresight {
 
-// Where a journal rests, to be called so, in clearances; and where it is still taken: forces are off by a thousandth of what presses.
+// Where a journal rests, to be called so, in clearances; and where it is still taken: a hundredth of what a contact is pressed in by that
+// gives way by a thousandth of its clearance.
 inline constexpr double kSettledRest = 1e-8, kAcceptableRest = 1e-5;
 
 // left(z): what is unbalanced with the journals at z [N, N m]. scale: of each coordinate, its clearance. z: from where; then the best

@@ -199,7 +199,8 @@ RestingStart RestingBalance::solve() const {
       return balance;
     };
     rest.z = guess();
-    if (search_rest(left, scale_, rest.z) <= kAcceptableRest) return rest;
+    search_rest(left, scale_, rest.z);
+    if (rest.z.allFinite() && size(left(rest.z)) <= kAcceptable * load_) return rest;  // as strictly as above
     rest.z.setZero();
     rest.refusal = "no position was found in which the journals' contacts carry the loads of t = 0";
     return rest;

@@ -258,8 +258,7 @@ class Trial {
   void compare_with_base(const Asked& asked, const std::string& stage, const Measured& base, const Measured& other) {
     for (std::size_t k = 0; k < kFigures.size(); ++k) {
       const double size = std::max(base.figure[k], other.figure[k]), apart = std::abs(base.figure[k] - other.figure[k]);
-      // The tables of the scene hold to 1e-5, in one choice of coordinates or another; what swings undamped adds that up.
-      const double alike = (asked.rung == "perturbation" ? 1e-4 : 1e-6) * size;
+      const double alike = 1e-6 * size;
       if (size < floor_of(k) || apart <= alike) continue;
       if (asked.rung != "quasistatic" &&
           (apart <= alike + 3.0 * neighbours_spread(asked, k, 5) || apart <= alike + 3.0 * neighbours_spread(asked, k, 17)))
