@@ -24,7 +24,7 @@ Json momentum_change(const std::shared_ptr<const Mechanism>& mechanism, const As
   const std::vector<MassProperties> masses = mechanism->mass_properties(mechanism->parameters());
   Vec6 first = Vec6::Zero();
   Vec6 scale = Vec6::Zero();
-  double worst = 0.0;
+  Vec6 change = Vec6::Zero();
   for (std::size_t k = 0; k < r.time.size(); ++k) {
     Vec6 momentum = Vec6::Zero();
     for (const BodyHistory* h : bodies) {
@@ -39,8 +39,10 @@ Json momentum_change(const std::shared_ptr<const Mechanism>& mechanism, const As
       scale.tail<3>() = scale.tail<3>().cwiseMax(spin.norm() + place.norm() * p.norm());
     }
     if (k == 0) first = momentum;
-    if (scale.minCoeff() > 0.0) worst = std::max(worst, (momentum - first).cwiseQuotient(scale).norm());
+    change = change.cwiseMax((momentum - first).cwiseAbs());
   }
+  // Against the largest part of the whole motion: before the first impact nothing may move but rounding.
+  const double worst = scale.minCoeff() > 0.0 ? change.cwiseQuotient(scale).norm() : 0.0;
   return {{"change", std::isfinite(worst) ? worst : 1e300}};
 }
 
