@@ -46,29 +46,28 @@ endforeach()
 if(NOT built)
   message(FATAL_ERROR "BORESIGHT_LANES is empty; expected native, all, or any of ${kernels}")
 endif()
-get_target_property(sources lanes SOURCES)
-foreach(kernel IN LISTS kernels)
-  if(kernel IN_LIST built)
-    string(TOUPPER ${kernel} upper)
-    set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lane_kernels.cpp TARGET_DIRECTORY lanes
-                 APPEND PROPERTY COMPILE_DEFINITIONS BORESIGHT_LANES_${upper})
-  else()
-    list(REMOVE_ITEM sources ${CMAKE_CURRENT_LIST_DIR}/lanes_${kernel}.cpp)
-  endif()
-endforeach()
-set_property(TARGET lanes PROPERTY SOURCES ${sources})
-set_property(SOURCE ${kernel_files} TARGET_DIRECTORY lanes
-             APPEND PROPERTY COMPILE_OPTIONS -ffp-contract=off -fno-math-errno -fno-trapping-math
-             -ffinite-math-only -fno-signed-zeros -Wno-psabi)
+# A kernel is an object of its own that exports its entry points and nothing else (one_entry.cmake says why).
+set(kernel_options -ffp-contract=off -fno-math-errno -fno-trapping-math -ffinite-math-only -fno-signed-zeros -Wno-psabi)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lanes_avx2.cpp TARGET_DIRECTORY lanes APPEND PROPERTY COMPILE_OPTIONS -march=x86-64-v3)
-  set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lanes_avx512.cpp TARGET_DIRECTORY lanes
-               APPEND PROPERTY COMPILE_OPTIONS -march=x86-64-v4 -mtune=icelake-server -mprefer-vector-width=512)
+  set(options_avx2 -march=x86-64-v3)
+  set(options_avx512 -march=x86-64-v4 -mtune=icelake-server -mprefer-vector-width=512)
   include(CheckCXXCompilerFlag)
   check_cxx_compiler_flag("-mmove-max=512 -mstore-max=512" BORESIGHT_HAS_MOVE_MAX)  # GCC 12: copies of structs by whole registers
   if(BORESIGHT_HAS_MOVE_MAX)
-    set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lanes_avx512.cpp TARGET_DIRECTORY lanes
-                 APPEND PROPERTY COMPILE_OPTIONS -mmove-max=512 -mstore-max=512)
+    list(APPEND options_avx512 -mmove-max=512 -mstore-max=512)
   endif()
   target_compile_definitions(lanes PRIVATE BORESIGHT_X86_LANES)
 endif()  # elsewhere the compiler's generic vectors serve, and the wide kernels are built but not offered
+get_target_property(sources lanes SOURCES)
+list(REMOVE_ITEM sources ${kernel_files})
+set_property(TARGET lanes PROPERTY SOURCES ${sources})
+include(${CMAKE_CURRENT_LIST_DIR}/one_entry.cmake)
+foreach(kernel IN LISTS built)
+  string(TOUPPER ${kernel} upper)
+  set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lane_kernels.cpp TARGET_DIRECTORY lanes
+               APPEND PROPERTY COMPILE_DEFINITIONS BORESIGHT_LANES_${upper})
+  add_library(lanes_${kernel} OBJECT ${CMAKE_CURRENT_LIST_DIR}/lanes_${kernel}.cpp)
+  target_link_libraries(lanes_${kernel} PRIVATE rungs)
+  target_compile_options(lanes_${kernel} PRIVATE ${kernel_options} ${options_${kernel}})
+  boresight_one_entry(lanes lanes_${kernel} run_lanes_${kernel} run_lanes_${kernel}_single)
+endforeach()
