@@ -1,4 +1,4 @@
-# Called by ctest with BUILD, SOURCE, COMPILER, FLAGS.
+# Called by ctest with BUILD, SOURCE, COMPILER, FLAGS, and GENERATOR and MAKE_PROGRAM: those of the build, for there need be no other here.
 set(work ${BUILD}/installed-package)
 file(REMOVE_RECURSE ${work})
 function(call)
@@ -10,7 +10,8 @@ function(call)
 endfunction()
 
 call(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/prefix)
-call(${CMAKE_COMMAND} -S ${SOURCE}/examples/library -B ${work}/build -DCMAKE_PREFIX_PATH=${work}/prefix -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}")
+call(${CMAKE_COMMAND} -G ${GENERATOR} -DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM} -S ${SOURCE}/examples/library -B ${work}/build
+     -DCMAKE_PREFIX_PATH=${work}/prefix -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}")
 call(${CMAKE_COMMAND} --build ${work}/build)
 call(${work}/build/play_and_pointing ${SOURCE}/examples/four-bar/four-bar.toml)
 string(REGEX MATCHALL "nominal +[0-9.]+ arcsec" lines "${out}")

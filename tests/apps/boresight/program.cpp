@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -21,7 +22,7 @@ void Program::SetUp() {
 
 void Program::TearDown() { fs::remove_all(folder_); }
 
-pid_t Program::start(const std::vector<std::string>& arguments, std::size_t limit) const {
+pid_t Program::start(const std::vector<std::string>& arguments, std::size_t limit, const PlayedDisk& disk) const {
   std::vector<std::string> words = {BORESIGHT_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -38,6 +39,14 @@ pid_t Program::start(const std::vector<std::string>& arguments, std::size_t limi
   if (limit > 0) {
     const rlimit most = {limit, limit};
     ::setrlimit(RLIMIT_FSIZE, &most);
+  }
+  if (!disk.folder.empty()) {
+    ::setenv("BORESIGHT_DISK", (fs::canonical(folder_) / disk.folder).c_str(), 1);
+    if (disk.room) ::setenv("BORESIGHT_DISK_ROOM", std::to_string(*disk.room).c_str(), 1);
+    if (disk.read_only) ::setenv("BORESIGHT_DISK_READ_ONLY", "1", 1);
+    ::setenv("LD_PRELOAD", BORESIGHT_PLAYED_DISK, 1);
+    const char* given = std::getenv("ASAN_OPTIONS");  // the address sanitiser wants to be first of all libraries
+    ::setenv("ASAN_OPTIONS", (std::string(given != nullptr ? given : "") + ":verify_asan_link_order=0").c_str(), 1);
   }
   ::execv(argv[0], argv.data());
   ::_exit(98);

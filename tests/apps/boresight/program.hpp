@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <sys/types.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,13 @@ struct Ended {
   std::string out, err;
 };
 
+// A disk under one of the test's folders as played_disk.cpp plays it to the program: it needs no privilege and no mount.
+struct PlayedDisk {
+  std::string folder;
+  std::optional<std::uintmax_t> room;  // bytes by which its files may grow, all together
+  bool read_only = false;
+};
+
 class Program : public testing::Test {
  protected:
   void SetUp() override;
@@ -23,8 +32,11 @@ class Program : public testing::Test {
 
   // Starts it in the folder with its output going to files there. `limit`: the largest file it may write, 0
   // for any.
-  pid_t start(const std::vector<std::string>& arguments, std::size_t limit = 0) const;
+  pid_t start(const std::vector<std::string>& arguments, std::size_t limit = 0, const PlayedDisk& disk = {}) const;
   Ended wait_for(pid_t child) const;
+  Ended call(const std::vector<std::string>& arguments, const PlayedDisk& disk) const {
+    return wait_for(start(arguments, 0, disk));
+  }
   Ended call(const std::vector<std::string>& arguments, std::size_t limit = 0) const {
     return wait_for(start(arguments, limit));
   }

@@ -1,6 +1,6 @@
 // What a reader sees: opens the sample reports in headless Chromium, narrow and wide, light and dark, and looks.
 //   node browser.mjs REPORT_SAMPLE NPM_FOLDER SCREENSHOT_FOLDER
-// Exit 0: all holds; 1: something does not (each said on one line); 77: there is no Chromium to look with.
+// Exit 0: all holds; 1: something does not (each said on one line), or there is no Chromium to look with.
 // The browser is $BORESIGHT_CHROMIUM, or chromium, chromium-browser, google-chrome from the PATH.
 import { execFileSync } from "node:child_process";
 import fs from "node:fs";
@@ -10,10 +10,6 @@ import { pathToFileURL } from "node:url";
 
 const [sampleProgram, npm, pictures] = process.argv.slice(2).map((one) => path.resolve(one));
 
-function skip(reason) {
-  console.log(`SKIPPED: ${reason}`);
-  process.exit(77);
-}
 function chromiumPath() {
   if (process.env.BORESIGHT_CHROMIUM) return process.env.BORESIGHT_CHROMIUM;
   for (const folder of (process.env.PATH ?? "").split(path.delimiter)) {
@@ -25,8 +21,10 @@ function chromiumPath() {
   return null;
 }
 const executablePath = chromiumPath();
-if (!executablePath) skip("no Chromium in the PATH (Debian: apt install chromium) and BORESIGHT_CHROMIUM is not set; the look of the report is not tested");
-if (Number(process.versions.node.split(".")[0]) < 20) skip(`the browser driver needs Node.js 20 or newer, this is ${process.versions.node}`);
+if (!executablePath) {
+  console.log("FAILED: no Chromium in the PATH (Debian: apt install chromium), and BORESIGHT_CHROMIUM is not set");
+  process.exit(1);
+}
 const { chromium } = createRequire(path.join(npm, "package.json"))("playwright-core");
 
 fs.mkdirSync(pictures, { recursive: true });
