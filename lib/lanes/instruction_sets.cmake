@@ -48,6 +48,9 @@ if(NOT built)
 endif()
 # A kernel is an object of its own that exports its entry points and nothing else (one_entry.cmake says why).
 set(kernel_options -ffp-contract=off -fno-math-errno -fno-trapping-math -ffinite-math-only -fno-signed-zeros -Wno-psabi)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  list(APPEND kernel_options -fno-gnu-unique)  # a kind of symbol that objcopy cannot make local
+endif()
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(options_avx2 -march=x86-64-v3)
   set(options_avx512 -march=x86-64-v4 -mtune=icelake-server -mprefer-vector-width=512)
