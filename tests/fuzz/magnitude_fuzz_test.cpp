@@ -16,6 +16,7 @@
 #include "boresight/mechanism/kinematic_report.hpp"
 #include "boresight/rungs/contact_report.hpp"
 #include "boresight/rungs/rung.hpp"
+#include "fuzz_seed.hpp"
 #include "mutation.hpp"
 
 namespace boresight {
@@ -109,7 +110,7 @@ void run_fuzz(int count, std::uint64_t seed) {
     begun = std::clock();
     const std::string found = computed(text);
     ++(found.empty() ? finite : found == "long" ? long_work : refused);
-    EXPECT_TRUE(found.empty() || found == "refused" || found == "long") << "input " << i << ": " << found << "\n" << text;
+    EXPECT_TRUE(found.empty() || found == "refused" || found == "long") << "BORESIGHT_FUZZ_SEED=" << seed + static_cast<std::uint64_t>(i) << ": " << found << "\n" << text;
     EXPECT_LT(seconds_since_begin(), 2.0 * kLongest) << "input " << i << "\n" << text;
   }
   watch_work(nullptr);
@@ -118,13 +119,10 @@ void run_fuzz(int count, std::uint64_t seed) {
   EXPECT_GT(finite, count / 20);
 }
 
-TEST(MagnitudeFuzz, IsRefusedInWordsOrFinite) { run_fuzz(40, 1); }
+TEST(MagnitudeFuzz, IsRefusedInWordsOrFinite) { run_fuzz(40, fuzz_seed()); }
 
-// Run by `ctest -L long`; BORESIGHT_FUZZ_SEED gives other inputs.
-TEST(LongMagnitudeFuzz, IsRefusedInWordsOrFinite) {
-  const char* seed = std::getenv("BORESIGHT_FUZZ_SEED");
-  run_fuzz(1000, seed != nullptr ? std::strtoull(seed, nullptr, 10) : 1000000);
-}
+// Run by `ctest -L long`.
+TEST(LongMagnitudeFuzz, IsRefusedInWordsOrFinite) { run_fuzz(1000, fuzz_seed() + 100'000); }
 
 }  // namespace
 }  // namespace boresight

@@ -11,6 +11,7 @@
 #include "boresight/io/units.hpp"
 #include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "fuzz_seed.hpp"
 #include "mutation.hpp"
 #include "valid_description.hpp"
 
@@ -53,7 +54,7 @@ void run_fuzz(int count, std::uint64_t seed, Tally& tally) {
     const auto begin = std::chrono::steady_clock::now();
     try {
       const std::string fault = fault_of(read_mechanism_text(text, "fuzz.toml", settings));
-      EXPECT_EQ(fault, "") << "input " << k << ":\n" << text;
+      EXPECT_EQ(fault, "") << "BORESIGHT_FUZZ_SEED=" << seed + static_cast<std::uint64_t>(k) << ":\n" << text;
       ++tally.read;
     } catch (const InputError& error) {
       const std::string line = error.what();
@@ -63,7 +64,7 @@ void run_fuzz(int count, std::uint64_t seed, Tally& tally) {
       EXPECT_NE(line.find("expected "), std::string::npos) << "input " << k << ": " << line;
       ++tally.refused;
     } catch (const std::exception& error) {
-      ADD_FAILURE() << "input " << k << " threw something else: " << error.what() << "\n" << text.substr(0, 4000);
+      ADD_FAILURE() << "BORESIGHT_FUZZ_SEED=" << seed + static_cast<std::uint64_t>(k) << " threw something else: " << error.what() << "\n" << text.substr(0, 4000);
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     EXPECT_LT(seconds, kLongest) << "input " << k;
@@ -73,16 +74,15 @@ void run_fuzz(int count, std::uint64_t seed, Tally& tally) {
 
 TEST(MechanismFuzz, DamagedFilesAreRefusedInOneLineOrHold) {
   Tally tally;
-  run_fuzz(6000, 1, tally);
+  run_fuzz(6000, fuzz_seed(), tally);
   EXPECT_GT(tally.read, 50);  // the damage must not be so gross that nothing gets past the first checks
   EXPECT_GT(tally.refused, 2000);
 }
 
-// Run by `ctest -L long`; BORESIGHT_FUZZ_SEED gives other inputs.
+// Run by `ctest -L long`.
 TEST(LongMechanismFuzz, DamagedFilesAreRefusedInOneLineOrHold) {
-  const char* seed = std::getenv("BORESIGHT_FUZZ_SEED");
   Tally tally;
-  run_fuzz(200000, seed != nullptr ? std::strtoull(seed, nullptr, 10) : 1000000, tally);
+  run_fuzz(200000, fuzz_seed() + 100'000, tally);
 }
 
 void run_small(int count, std::uint64_t seed) {
@@ -112,8 +112,8 @@ void run_small(int count, std::uint64_t seed) {
   }
 }
 
-TEST(ValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) { run_small(10000, 7); }
-TEST(LongValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) { run_small(500000, 20000000); }
+TEST(ValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) { run_small(10000, fuzz_seed()); }
+TEST(LongValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) { run_small(500000, fuzz_seed() + 100'000); }
 
 }  // namespace
 }  // namespace boresight
