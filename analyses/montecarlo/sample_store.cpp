@@ -53,6 +53,15 @@ bool can_write(const std::filesystem::path& file) {
   return ::access(file.c_str(), W_OK) == 0 && ::access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
+bool has_no_tables(const std::filesystem::path& file) {
+  sqlite3* opened = nullptr;
+  const int code = sqlite3_open_v2(file.c_str(), &opened, SQLITE_OPEN_READWRITE, nullptr);
+  const std::unique_ptr<sqlite3, decltype(&sqlite3_close)> handle(opened, &sqlite3_close);
+  if (code != SQLITE_OK) fail(opened, file, code);
+  Statement get(opened, file, "SELECT count(*) FROM sqlite_master");
+  return get.step() && get.integer(0) == 0;
+}
+
 }  // namespace
 
 struct SampleStore::Database {
@@ -283,6 +292,7 @@ std::string SampleStore::damage() const {
 
 void SampleStore::merge(const std::filesystem::path& other) {
   commit();
+  if (has_no_tables(other)) return;  // its rank was killed as it began
   const SampleStore opened(other);  // replays its log, and refuses what is no store
   if (opened.fact("study") != fact("study") || opened.parameters() != parameters_)
     throw StoreRefused(other.string() + " holds the samples of another study; remove it, or give another --out");

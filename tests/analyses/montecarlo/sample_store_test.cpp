@@ -1,6 +1,7 @@
 #include "boresight_analyses/montecarlo/sample_store.hpp"
 
 #include <gmock/gmock.h>
+#include <sqlite3.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -149,6 +150,22 @@ TEST(SampleStore, StoresOfLostRanksAreMergedWithoutDoubles) {
   merge_shards(*store, folder.path());
   EXPECT_EQ(store->count(), 3u);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "samples.12.db"));
+}
+
+TEST(SampleStore, AStoreWhoseRankWasKilledAsItBeganBlocksNobody) {
+  const Folder folder("begun");
+  auto store = open_sum_store(folder);
+  store->add(record(1));
+  std::ofstream(folder.path() / "samples.1.db");  // before the first page
+  sqlite3* begun = nullptr;                       // and before the tables
+  ASSERT_EQ(sqlite3_open((folder.path() / "samples.2.db").c_str(), &begun), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(begun, "PRAGMA journal_mode = WAL", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(begun);
+  ASSERT_GT(std::filesystem::file_size(folder.path() / "samples.2.db"), 0u);
+  merge_shards(*store, folder.path());
+  EXPECT_EQ(store->count(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "samples.1.db"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "samples.2.db"));
 }
 
 }  // namespace
