@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <mutex>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,6 +22,8 @@ constexpr std::array kShares = {1.0, 0.97, 0.5};
 constexpr int kMostLooks = 1000;
 // An error that weighs less than this against the others, on the mechanism's size, is next to nothing.
 constexpr double kWeighs = 1e-3;
+// Where numbers scatter that begin at zero, every sample may stand for itself alone.
+constexpr std::size_t kMostKept = 4096;
 
 // The mean over many such motions lies within this many ranges of three of them, with a confidence of 95
 // percent: Student's t of two degrees of freedom, 4.303 / sqrt(3), over the mean range of three normal
@@ -32,36 +34,54 @@ bool within_twice(double a, double b) {
   return a == b || (a > 0.0 && b > 0.0 && a <= 2.0 * b && b <= 2.0 * a);
 }
 
-bool alike(const ClearanceParameters& a, const ClearanceParameters& b) {
-  return within_twice(a.radial, b.radial) && within_twice(a.axial, b.axial) &&
-         within_twice(a.sleeve_length, b.sleeve_length) &&
-         within_twice(1.0 - a.contact.restitution, 1.0 - b.contact.restitution) &&
-         within_twice(a.contact.stiffness_scale, b.contact.stiffness_scale) &&
-         within_twice(a.contact.young[0], b.contact.young[0]) &&
-         within_twice(a.contact.young[1], b.contact.young[1]) &&
-         within_twice(a.friction.coefficient, b.friction.coefficient);
+// What stands for b: a itself within a factor of two of it, else a by the power of two that comes nearest to b.
+double standing_for(double b, double a) {
+  if (within_twice(a, b)) return a;
+  return a > 0.0 && b > 0.0 ? a * std::exp2(std::round(std::log2(b / a))) : b;
 }
 
-// Whether what was measured at one holds for the other.
-bool alike(const Parameters& a, const Parameters& b) {
-  if ((a.gravity - b.gravity).norm() > 0.5 * b.gravity.norm() ||
-      !within_twice(a.payload_mass, b.payload_mass))
-    return false;
-  for (std::size_t k = 0; k < a.body_mass.size(); ++k)
-    if (!within_twice(a.body_mass[k], b.body_mass[k])) return false;
-  for (std::size_t k = 0; k < a.clearance.size(); ++k)
-    if (!alike(a.clearance[k], b.clearance[k])) return false;
-  for (std::size_t k = 0; k < a.spring.size(); ++k)
-    if (!within_twice(a.spring[k].stiffness, b.spring[k].stiffness) ||
-        !within_twice(a.spring[k].damping, b.spring[k].damping))
-      return false;
-  return true;
+ClearanceParameters standing_for(const ClearanceParameters& b, const ClearanceParameters& a) {
+  ClearanceParameters p = a;
+  for (const auto number : {&ClearanceParameters::radial, &ClearanceParameters::axial, &ClearanceParameters::sleeve_length})
+    p.*number = standing_for(b.*number, a.*number);
+  const double lost = standing_for(1.0 - b.contact.restitution, 1.0 - a.contact.restitution);
+  p.contact.restitution = lost < 1.0 ? 1.0 - lost : b.contact.restitution;
+  p.contact.stiffness_scale = standing_for(b.contact.stiffness_scale, a.contact.stiffness_scale);
+  for (int side = 0; side < 2; ++side) p.contact.young[side] = standing_for(b.contact.young[side], a.contact.young[side]);
+  p.friction.coefficient = standing_for(b.friction.coefficient, a.friction.coefficient);
+  return p;
+}
+
+// The parameters at which the error of a sample b is measured: the mechanism's own, departed from by factors of two.
+Parameters standing_for(const Parameters& b, const Parameters& a) {
+  Parameters p = a;
+  if ((b.gravity - a.gravity).norm() > 0.5 * a.gravity.norm()) p.gravity = b.gravity;
+  p.payload_mass = standing_for(b.payload_mass, a.payload_mass);
+  for (std::size_t k = 0; k < a.body_mass.size(); ++k) p.body_mass[k] = standing_for(b.body_mass[k], a.body_mass[k]);
+  for (std::size_t k = 0; k < a.clearance.size(); ++k) p.clearance[k] = standing_for(b.clearance[k], a.clearance[k]);
+  for (std::size_t k = 0; k < a.spring.size(); ++k) {
+    p.spring[k].stiffness = standing_for(b.spring[k].stiffness, a.spring[k].stiffness);
+    p.spring[k].damping = standing_for(b.spring[k].damping, a.spring[k].damping);
+  }
+  return p;
+}
+
+// The numbers that tell such parameters apart.
+std::vector<double> numbers_of(const Parameters& p) {
+  std::vector<double> numbers = {p.gravity.x(), p.gravity.y(), p.gravity.z(), p.payload_mass};
+  numbers.insert(numbers.end(), p.body_mass.begin(), p.body_mass.end());
+  for (const ClearanceParameters& c : p.clearance)
+    numbers.insert(numbers.end(), {c.radial, c.axial, c.sleeve_length, c.contact.restitution, c.contact.stiffness_scale, c.contact.young[0],
+                                   c.contact.young[1], c.friction.coefficient});
+  for (const SpringParameters& s : p.spring) numbers.insert(numbers.end(), {s.stiffness, s.damping});
+  return numbers;
 }
 
 struct Measured {
   ErrorEstimate error;
   double exceeded =
       0.0;  // by how much the largest position error of the dynamic rung exceeds the static one's, relative
+  bool keeps = true;  // false: its caller wanted it to stop
 };
 
 class MeasuredByDynamics final : public Rung {
@@ -79,7 +99,7 @@ class MeasuredByDynamics final : public Rung {
     RunResult result = rung_->run(parameters, options);
     if (result.interrupted) return result;
     RunCost cost;
-    const Measured measured = measure(parameters, options, result.index, cost);
+    const Measured measured = measure(parameters, options, cost);
     result.error = measured.error;
     result.cost.cpu_seconds += cost.cpu_seconds;
     result.cost.wall_seconds += cost.wall_seconds;
@@ -96,20 +116,19 @@ class MeasuredByDynamics final : public Rung {
   }
 
  private:
-  Measured measure(const Parameters& parameters, const RunOptions& options, const PointingIndices& index,
-                   RunCost& cost) const {
-    const Parameters& own = mechanism_->parameters();
-    if (!alike(parameters, own)) return against_dynamics(parameters, options, index, cost);
+  Measured measure(const Parameters& parameters, const RunOptions& options, RunCost& cost) const {
+    const Parameters at = standing_for(parameters, mechanism_->parameters());
+    std::vector<double> key = numbers_of(at);
+    key.push_back(options.start);
     const std::lock_guard lock(mutex_);
-    if (!at_own_ || at_own_start_ != options.start) {
-      RunOptions plain;
-      plain.start = options.start;
-      plain.sample_spacing = 0.0;
-      plain.events = false;
-      at_own_start_ = options.start;
-      at_own_ = against_dynamics(own, options, rung_->run(own, plain).index, cost);
-    }
-    return *at_own_;
+    if (const auto known = measured_.find(key); known != measured_.end()) return known->second;
+    RunOptions plain;
+    plain.start = options.start;
+    plain.sample_spacing = 0.0;
+    plain.events = false;
+    const Measured measured = against_dynamics(at, options, rung_->run(at, plain).index, cost);
+    if (measured.keeps && measured_.size() < kMostKept) measured_.emplace(std::move(key), measured);
+    return measured;
   }
 
   Measured against_dynamics(const Parameters& parameters, const RunOptions& asked,
@@ -120,11 +139,11 @@ class MeasuredByDynamics final : public Rung {
     options.events = false;
     std::vector<RunResult> motions;
     int looks = 0;
-    bool stopped = false;
+    bool stopped = false, asked_to = false;
     options.progress = [&](const RunProgress&) {
-      stopped = stopped || ++looks > kMostLooks ||
-                (looks % 16 == 0 && asked.progress &&
-                 !asked.progress({mechanism_->duration(), mechanism_->duration(), 0.0}));
+      asked_to = asked_to || (++looks % 16 == 0 && asked.progress &&
+                              !asked.progress({mechanism_->duration(), mechanism_->duration(), 0.0}));
+      stopped = asked_to || looks > kMostLooks;
       return !stopped;
     };
     std::string why_not;
@@ -144,7 +163,7 @@ class MeasuredByDynamics final : public Rung {
     if (stopped) why_not = "following the motion takes too long";
     if (!why_not.empty() || motions.size() < kShares.size())
       return {{1.0, 0.0, "not measured, so anything up to the whole: on the perturbation rung " + why_not},
-              0.0};
+              0.0, !asked_to};
     return compared(index, motions);
   }
 
@@ -201,8 +220,7 @@ class MeasuredByDynamics final : public Rung {
   std::shared_ptr<const Mechanism> mechanism_;
   bool bounds_;
   mutable std::mutex mutex_;
-  mutable std::optional<Measured> at_own_;
-  mutable double at_own_start_ = 0.0;  // of the indices that were measured
+  mutable std::map<std::vector<double>, Measured> measured_;  // by numbers_of the parameters, and the index's start
 };
 
 }  // namespace

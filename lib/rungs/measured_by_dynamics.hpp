@@ -9,9 +9,9 @@
 // the largest over maximum, RMS and mean of the position error and of the orientation and boresight errors,
 // as far as these weigh against each other on the mechanism's size.
 //
-// Measured once, at the mechanism's own parameters; for a sample that departs from them by more than a factor
-// of two in some number, at the sample. So it does not matter in which order, or on which thread, samples
-// come.
+// Measured once, at the mechanism's own parameters; for samples that depart from them by more than a factor of two
+// in some number, once for all that share the nearest powers of two, at these. So it does not matter in which
+// order, or on which thread, samples come.
 #pragma once
 
 #include "boresight/rungs/rung.hpp"

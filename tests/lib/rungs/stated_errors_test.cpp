@@ -142,6 +142,26 @@ TEST(StatedErrors, OfRestingJournalsHoldWhereNothingSettles) {
   EXPECT_LE(v.stated, 3.0 * v.actual);
 }
 
+// Samples that lose as much at an impact, but for a factor of two, share what was measured: whichever comes first, and on a rung of their own.
+TEST(StatedErrors, OfSamplesFarFromTheNominalAreThoseOfTheNearestFactorOfTwo) {
+  const auto mechanism = mechanism_of({"3-rrcpr", {{"motion.duration", "0.02 s"}}});  // restitution 0.9
+  const auto stated = [&](const Rung& rung, double restitution) {
+    Parameters parameters = mechanism->parameters();
+    parameters.clearance[0].contact.restitution = restitution;
+    RunOptions options;
+    options.sample_spacing = 0.0;
+    return rung.run(parameters, options).error.model;
+  };
+  const auto one = make_rung("quasistatic", mechanism), other = make_rung("quasistatic", mechanism);
+  const double nominal = stated(*one, 0.9), twice = stated(*one, 0.75), four = stated(*one, 0.6);
+  EXPECT_EQ(stated(*one, 0.85), nominal);
+  EXPECT_EQ(stated(*one, 0.72), twice);
+  EXPECT_NE(twice, nominal);
+  EXPECT_NE(four, twice);
+  EXPECT_EQ(stated(*other, 0.72), twice);
+  EXPECT_EQ(stated(*other, 0.9), nominal);
+}
+
 TEST(StatedErrors, OfTheLinearDeviationGrowWithTheClearanceAndHoldInFlight) {
   for (const char* clearance : {"0.5 mm", "5 mm"}) {
     const auto mechanism = mechanism_of({"3-rrcpr",
