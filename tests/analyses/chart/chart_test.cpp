@@ -118,12 +118,10 @@ TEST_F(MeasureTest, BeforeTheFirstImpactEachMethodShowsItsOrder) {
     if (p.family == "perturbation, rk4") perturbation.push_back(p.error);
   }
   ASSERT_GE(rk4.size(), 6u);
-  // Order four while above the roundings, so that two halvings gain two decades or more; in the end no error
-  // worth a word.
-  if (rk4[0] > 1e-6) {
-    EXPECT_GT(rk4[0] / rk4[2], 100.0);
-  }
-  EXPECT_LT(rk4.back(), 1e-6);
+  // Order four while above the roundings, which lie some 1e-12 of the clearance: from four steps in the flight to sixteen.
+  EXPECT_NEAR(std::log2(rk4[0] / rk4[1]), 4.0, 0.1);
+  EXPECT_NEAR(std::log2(rk4[1] / rk4[2]), 4.0, 0.15);
+  EXPECT_LT(rk4.back(), 1e-10);
   // Perturbation's trajectory stays off by what the model leaves out, whatever the step.
   EXPECT_NEAR(perturbation.back() / perturbation[perturbation.size() - 2], 1.0, 0.01);
   EXPECT_GT(perturbation.back(), 10.0 * rk4.back());

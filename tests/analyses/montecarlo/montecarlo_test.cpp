@@ -180,7 +180,7 @@ TEST(Estimates, FailedSamplesAreKeptAndCountAsBad) {
   const MonteCarloResult result = run_sum(SumModel(7.0), plan, *store, folder);  // 2.275 % fail
   const Estimates e = estimate(result.values, plan, {});
   EXPECT_EQ(e.samples, 2000u);
-  EXPECT_NEAR(static_cast<double>(e.failed), 45.5, 30.0);
+  EXPECT_NEAR(static_cast<double>(e.failed), 45.5, 3.0 * std::sqrt(45.5 * (1.0 - 0.02275)));
   EXPECT_FALSE(e.requirement->met) << "all others are within the limit";
   EXPECT_NEAR(e.requirement->probability.value, 1.0 - static_cast<double>(e.failed) / 2000.0, 1e-12);
   EXPECT_TRUE(std::isinf(e.of("p99").interval.high)) << "more fail than lie above this quantile";

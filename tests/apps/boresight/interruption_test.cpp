@@ -2,6 +2,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 
@@ -44,15 +45,40 @@ TEST_F(InterruptionTest, APoliteKillIsTheSame) {
 }
 
 TEST_F(InterruptionTest, ASweepKeepsThePointsThatWereDone) {
-  std::ofstream(folder_ / "study.toml")
-      << "format = 1\nmechanism = \"" << mechanism_ << "\"\n[[sweep.axis]]\nparameter = \"payload.mass\"\n"
-      << "from = \"0 kg\"\nto = \"500 kg\"\ncount = 500\n";
-  const Ended ended = interrupted({"sweep", "study.toml", "--out", "out", "--jobs", "2"}, SIGINT);
+  constexpr std::size_t kPoints = 5000;  // of some milliseconds each
+  const auto write = [&](const std::string& values) {
+    std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << mechanism_ << "\"\n[[sweep.axis]]\nparameter = \"payload.mass\"\n" << values << "\n";
+  };
+  write("from = \"0 kg\"\nto = \"500 kg\"\ncount = " + std::to_string(kPoints));
+  const Ended ended = interrupted({"sweep", "study.toml", "--rung", "perturbation", "--step", "50 us", "--out", "out", "--jobs", "2"}, SIGINT);
   EXPECT_EQ(ended.status, 130) << ended.err;
   const auto summary = json("out/summary.json");
   EXPECT_TRUE(summary["interrupted"].get<bool>());
-  EXPECT_EQ(summary["points"].size(), 500u);
-  EXPECT_EQ(summary["points"][499]["status"], "not reached");
+  const auto& points = summary["points"];
+  ASSERT_EQ(points.size(), kPoints);
+  std::vector<std::size_t> done;
+  for (std::size_t k = 0; k < kPoints; ++k) {
+    if (points[k]["status"] == "done") {
+      done.push_back(k);
+    } else {
+      EXPECT_EQ(points[k]["status"], "not reached") << k;
+      EXPECT_FALSE(points[k].contains("index")) << k;
+    }
+  }
+  ASSERT_GE(done.size(), 2u);
+  ASSERT_LT(done.size(), kPoints);
+  const std::string table = text("out/sweep.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')), 1 + kPoints);
+  std::size_t rows = 0;
+  for (std::size_t at = 0; (at = table.find(",done\n", at)) != std::string::npos; ++at) ++rows;
+  EXPECT_EQ(rows, done.size());
+  // What was done is what a sweep of these points alone gives, with the same step (a sweep takes one for all its points).
+  const auto mass = [&](std::size_t k) { return "\"" + points[k]["parameters"]["payload.mass"].dump() + " kg\""; };
+  write("values = [" + mass(done.front()) + ", " + mass(done.back()) + "]");
+  ASSERT_EQ(call({"sweep", "study.toml", "--rung", "perturbation", "--step", "50 us", "--out", "alone", "--quiet"}).status, 0);
+  const auto alone = json("alone/summary.json")["points"];
+  EXPECT_EQ(points[done.front()]["index"], alone[0]["index"]);
+  EXPECT_EQ(points[done.back()]["index"], alone[1]["index"]);
 }
 
 }  // namespace

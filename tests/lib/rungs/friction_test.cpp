@@ -1,6 +1,8 @@
 // Friction laws within the rungs: a journal that lies in an inclined sleeve along which it may slide.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "boresight/contact/friction_law.hpp"
 #include "boresight/contact/normal_law.hpp"
 #include "boresight/rungs/rung.hpp"
@@ -47,8 +49,8 @@ Slid slide(const std::string& rung, const std::string& friction, double coeffici
 }
 
 TEST(ModifiedCoulomb, CreepsDownAnInclineAtTheSpeedThatTheoryForesees) {
-  // v_s + (v_d - v_s) tan(20 degrees) / mu = 0.1 + 0.9 * 0.727940 mm/s for mu = 0.5.
-  EXPECT_NEAR(slide("multibody", "modified-coulomb", 0.5, 0.4).speed, 1e-4 + 0.727940469 * 0.9e-3, 1e-6);
+  // v_s + (v_d - v_s) tan(20 degrees) / mu.
+  EXPECT_NEAR(slide("multibody", "modified-coulomb", 0.5, 0.4).speed, 1e-4 + 0.9e-3 * std::tan(kSlope) / 0.5, 1e-6);
 }
 
 TEST(LuGre, SticksOnAnInclineWhereModifiedCoulombCreeps) {
@@ -58,10 +60,10 @@ TEST(LuGre, SticksOnAnInclineWhereModifiedCoulombCreeps) {
 }
 
 TEST(LuGre, SlidesDownAnInclineAsCoulombsFrictionDoes) {
-  // mu = 0.1: 2.433379 m/s^2 once the block lies still in the bore.
+  // g (sin - mu cos) once the block lies still in the bore.
   const double gained =
       slide("multibody", "lugre", 0.1, 0.4).speed - slide("multibody", "lugre", 0.1, 0.25).speed;
-  EXPECT_NEAR(gained / 0.15, 2.433379145, 1e-3);
+  EXPECT_NEAR(gained / 0.15, 9.81 * (std::sin(kSlope) - 0.1 * std::cos(kSlope)), 1e-3);
 }
 
 TEST(LuGre, MovesTheSameInPerturbationAndMultibody) {
@@ -69,30 +71,60 @@ TEST(LuGre, MovesTheSameInPerturbationAndMultibody) {
   EXPECT_NEAR(linear.way, exact.way, 1e-6);
 }
 
-TEST(FrictionLaws, OfEveryKindRunTheDefaultSceneAndStayFinite) {
-  for (const FrictionLawEntry& law : friction_laws()) {
-    const auto mechanism =
-        scenes::build(scenes::rrcpr({{"motion.duration", "40 ms"}, {"clearance.F1.friction.law", law.name}}));
-    const RunResult result = make_rung("perturbation", mechanism)->run(mechanism->parameters(), {});
-    EXPECT_TRUE(std::isfinite(result.index.position_error.rms)) << law.name;
-    EXPECT_GT(result.index.position_error.max, 1e-5) << law.name;
-    EXPECT_LT(result.index.position_error.max, 1e-3) << law.name;
-  }
+RunResult default_scene(const char* rung, const std::vector<Setting>& settings) {
+  const auto mechanism = scenes::build(scenes::rrcpr(settings));
+  return make_rung(rung, mechanism)->run(mechanism->parameters(), {});
 }
 
-TEST(ContactLaws, OfEveryKindRunTheDefaultSceneAndStayFinite) {
+// Perturbation and multibody share the law and nothing of the equations of motion: through the first impacts they move the same, up to
+// what perturbation leaves out (0.2 % of the maximum where the offset is a tenth of a millimetre) and the contacts' steps.
+void expect_same_through_impacts(const RunResult& perturbation, const RunResult& multibody, const char* law) {
+  EXPECT_GE(multibody.contact[0].impacts, 3) << law << ": the scene must impact";
+  EXPECT_NEAR(perturbation.index.position_error.max / multibody.index.position_error.max, 1.0, 1e-3) << law;
+  EXPECT_NEAR(perturbation.index.position_error.rms / multibody.index.position_error.rms, 1.0, 5e-3) << law;
+  EXPECT_NEAR(perturbation.contact[0].max_force / multibody.contact[0].max_force, 1.0, 3e-3) << law;
+}
+
+TEST(FrictionLaws, OfEveryKindMoveTheDefaultSceneTheSameInPerturbationAndMultibody) {
+  double without = 0.0;
+  std::vector<double> rubbing;
+  for (const FrictionLawEntry& law : friction_laws()) {
+    const std::vector<Setting> settings = {{"motion.duration", "40 ms"}, {"clearance.F1.friction.law", law.name}};
+    const RunResult multibody = default_scene("multibody", settings);
+    expect_same_through_impacts(default_scene("perturbation", settings), multibody, law.name);
+    const double max = multibody.index.position_error.max;
+    if (law.kind == FrictionKind::none) {
+      without = max;
+    } else {
+      rubbing.push_back(max);
+    }
+  }
+  // Rubbing at 3 % of what presses moves the first maximum by a percent. That all laws which rub agree a hundred times better says that
+  // they act, and with the coefficient that they were given: at these speeds they differ in nothing else.
+  const auto [least, most] = std::minmax_element(rubbing.begin(), rubbing.end());
+  EXPECT_LT(*most / *least - 1.0, 1e-4);
+  EXPECT_NEAR(without / *least, 0.988, 0.001);
+}
+
+TEST(ContactLaws, OfEveryKindMoveTheDefaultSceneTheSameInPerturbationAndMultibody) {
+  double first_lever = 0.0;
   for (const NormalLawEntry& law : normal_laws()) {
     std::vector<Setting> settings = {{"motion.duration", "40 ms"}, {"clearance.F1.contact.law", law.name}};
     if (law.geometry == ContactGeometry::linear) {
       settings.push_back({"clearance.F1.contact.stiffness", "1e8 N/m"});
       settings.push_back({"clearance.F1.contact.damping", "1e3 N s/m"});
     }
-    for (const char* rung : {"quasistatic", "perturbation"}) {
-      const auto mechanism = scenes::build(scenes::rrcpr(settings));
-      const RunResult result = make_rung(rung, mechanism)->run(mechanism->parameters(), {});
-      EXPECT_GT(result.index.position_error.max, 1e-5) << law.name << " on " << rung;
-      EXPECT_LT(result.index.position_error.max, 1e-3) << law.name << " on " << rung;
-    }
+    expect_same_through_impacts(default_scene("perturbation", settings), default_scene("multibody", settings), law.name);
+    // A journal at rest lies as deep as its law says under the force that the ideal motion needs, and the error is what the mechanism makes
+    // of clearance and depth: one lever, whatever the law.
+    const RunResult rest = default_scene("quasistatic", settings);
+    const Mechanism mechanism(scenes::rrcpr(settings));
+    const ClearanceParameters& clearance = mechanism.parameters().clearance[0];
+    const double depth = make_normal_law(law.name, "", clearance).depth_under(rest.contact[0].max_force);
+    EXPECT_NEAR(rest.contact[0].max_penetration / depth, 1.0, 1e-6) << law.name;
+    const double lever = rest.index.position_error.max / (clearance.radial + depth);
+    if (first_lever == 0.0) first_lever = lever;
+    EXPECT_NEAR(lever / first_lever, 1.0, 1e-5) << law.name;
   }
 }
 
