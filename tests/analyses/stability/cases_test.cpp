@@ -147,7 +147,7 @@ TEST_F(StabilityOfTheDefaultScene, CoversEveryCaseAndFindsNoneThatFailsUnannounc
   };
   const StabilityResult result = find_stability(mechanism_, options);
   EXPECT_FALSE(result.interrupted);
-  EXPECT_EQ(result.cases.size(), 11u);  // the rows of physics.md, section 6
+  EXPECT_EQ(result.cases.size(), 11u);
   for (const FailureCase& c : result.cases) {
     EXPECT_NE(c.standing, FailureCase::Standing::differs) << c.name << ": " << c.measured;
     EXPECT_FALSE(c.measured.empty()) << c.name;

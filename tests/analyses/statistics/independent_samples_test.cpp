@@ -21,7 +21,7 @@ static_assert(!std::is_constructible_v<IndependentInterval, ReplicatedInterval>)
 static_assert(!std::is_constructible_v<IndependentSamples, ReplicatedSamples>);
 static_assert(!std::is_convertible_v<std::vector<double>, IndependentSamples>);
 
-// The t interval of 1..10 by hand: t(0.975, 9) = 2.262157, sd = sqrt(55 / 6).
+// The t interval of 1..10 by hand: t(0.975, 9) = 2.262157 (tests/reference/statistics_tables.py), sd = sqrt(55 / 6).
 TEST(IndependentSamples, MeanIntervalIsStudents) {
   const IndependentSamples s({10, 9, 8, 7, 6, 5, 4, 3, 2, 1});
   const IndependentInterval mean = s.mean(0.95);

@@ -8,45 +8,32 @@
 #include "boresight/contact/impact.hpp"
 #include "boresight/contact/kelvin_voigt.hpp"
 #include "boresight/contact/normal_law.hpp"
+#include "reference/reference.hpp"
 
 namespace boresight {
 namespace {
 
 constexpr double kAsked[] = {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99};
 
-// From e_out = (1 + W0(-(1 + h) exp(-(1 + h)))) / h, the relation that holds for the whole family whatever
-// exponent, stiffness, mass and speed. Lines of Hunt-Crossley, Gonthier and Carvalho-Martins also stand in
-// EXUDYN's contactSphereSphereTest (0.90903 at 0.9, 0.66298 at 0.5 for the first; 0.30424 at 0.3, 0.10099 at
-// 0.1 for the second; 0.90002 at 0.9 for the third).
-const std::map<std::string, std::array<double, 12>> kReturned = {
-    {"hunt-crossley",
-     {.50145, .51583, .54685, .58129, .61974, .66296, .71195, .76800, .83287, .90902, .95237, .99010}},
-    {"herbert-mcwhannell",
-     {.48844, .49070, .50078, .51997, .55031, .59362, .65107, .72268, .80698, .90089, .95011, .99000}},
-    {"lee-wang",
-     {.67462, .68666, .71195, .73900, .76800, .79920, .83287, .86934, .90902, .95237, .97561, .99502}},
-    {"lankarani-nikravesh",
-     {.66354, .66527, .67226, .68422, .70163, .72524, .75615, .79597, .84710, .91318, .95351, .99015}},
-    {"gonthier",
-     {.05013, .10099, .20461, .30422, .39779, .48774, .57728, .66958, .76800, .87644, .93593, .98678}},
-    {"zhiying-qishao",
-     {.19691, .21747, .26642, .32670, .39884, .48261, .57690, .67957, .78736, .89592, .94886, .98995}},
-    {"flores",
-     {.03289, .06944, .15554, .25621, .36287, .47044, .57728, .68318, .78854, .89392, .94683, .98934}},
-    {"hu-guo",
-     {.03509, .07407, .16560, .27066, .37965, .48774, .59362, .69730, .79920, .89990, .94999, .99000}},
-    {"carvalho-martins",
-     {.09292, .12894, .21159, .30397, .40109, .50017, .59997, .69997, .79999, .90000, .95000, .99000}},
-    {"exact", {.05, .1, .2, .3, .4, .5, .6, .7, .8, .9, .95, .99}},
-    {"hertz", {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}}};
+// From h (1 + e) = ln((1 + h) / (1 - h e)), the relation that holds for the whole family whatever exponent, stiffness, mass and speed
+// (tests/reference/contact_laws.py). Lines of Hunt-Crossley, Gonthier and Carvalho-Martins also stand in EXUDYN's
+// contactSphereSphereTest (0.90903 at 0.9, 0.66298 at 0.5 for the first; 0.30424 at 0.3, 0.10099 at 0.1 for the second; 0.90002 at 0.9
+// for the third).
+std::map<std::string, std::vector<double>> returned_by_law() {
+  std::map<std::string, std::vector<double>> laws = {{"exact", {std::begin(kAsked), std::end(kAsked)}}, {"hertz", std::vector<double>(12, 1.0)}};
+  for (const reference::Row& row : reference::table("contact_laws", "returned")) laws[row.name] = row.values;
+  return laws;
+}
 
 TEST(ContactLaws, ReturnTheRestitutionThatTheoryForesees) {
-  for (const auto& [name, returned] : kReturned)
+  for (const auto& [name, returned] : returned_by_law()) {
+    ASSERT_EQ(returned.size(), std::size(kAsked)) << name;
     for (std::size_t k = 0; k < returned.size(); ++k) {
       const NormalLaw law{1e9, normal_law(name).damping_factor(kAsked[k])};
       EXPECT_NEAR(impact(law, 1.0, 1.0, 3000).restitution, returned[k], 2e-5)
           << name << " asked for " << kAsked[k];
     }
+  }
 }
 
 // EXUDYN's contactSphereSphereTest prints what it integrates, of a linear spring (exponent 1) and an impact
@@ -69,20 +56,17 @@ TEST(ContactLaws, ReturnWhatExudynPrintsForALinearSpring) {
 }
 
 TEST(ContactLaws, EveryLawOfHertzGeometryIsInTheTableOfReturnedRestitutions) {
+  const auto returned = returned_by_law();
   for (const NormalLawEntry& law : normal_laws()) {
     if (law.geometry == ContactGeometry::point) {
-      EXPECT_EQ(kReturned.count(law.name), 1u) << law.name;
+      EXPECT_EQ(returned.count(law.name), 1u) << law.name;
     }
   }
 }
 
 TEST(ExactRestitution, HasTheDampingFactorsOfTheRelation) {
-  // Solved with 30 digits.
-  const double h[] = {19.999999681532, 9.9981593974957, 4.9191667157908,  3.0870819811296,
-                      2.082498164147,  1.4327505332714, .97487171081327,  .63482828126642,
-                      .37314620336505, .16648195068531, .078926605287415, .015151362109441};
-  for (int k = 0; k < 12; ++k)
-    EXPECT_NEAR(exact_restitution_damping_factor(kAsked[k]) / h[k], 1.0, 2e-12) << kAsked[k];
+  for (const reference::Row& row : reference::table("contact_laws", "exact factors"))
+    EXPECT_NEAR(exact_restitution_damping_factor(row[0]) / row[1], 1.0, 2e-12) << row[0];
 }
 
 TEST(ExactRestitution, ReturnsWhatItWasAskedForWhateverMassSpeedAndElasticCurve) {
@@ -104,29 +88,15 @@ TEST(ExactRestitution, GoesToZeroDampingSmoothlyAtFullRestitution) {
 
 TEST(ContactLaws, ReachTheDepthAndForceThatTheoryForesees) {
   // Relative to the undamped impact: depth, force, and duration over depth / speed.
-  struct Row {
-    double e;
-    const char* name;
-    double depth, force, duration;
-  };
-  for (const Row& row :
-       {Row{.9, "hunt-crossley", .962999, .953011, 2.973966},
-        Row{.9, "lankarani-nikravesh", .964719, .954822, 2.972376},
-        Row{.9, "gonthier", .949435, .939975, 2.987110}, Row{.9, "flores", .956737, .946720, 2.979899},
-        Row{.9, "hu-guo", .959222, .949160, 2.977517},
-        Row{.7, "lankarani-nikravesh", .915135, .916397, 3.025609},
-        Row{.7, "flores", .864831, .903316, 3.098466}, Row{.5, "hunt-crossley", .855491, .903341, 3.114555},
-        Row{.5, "lankarani-nikravesh", .883926, .905545, 3.068221},
-        Row{.5, "gonthier", .769162, .933641, 3.314567}, Row{.5, "hu-guo", .769162, .933641, 3.314567},
-        Row{.5, "flores", .759980, .939745, 3.342634},
-        Row{.3, "flores", .628078, 1.084601, 3.986922}, Row{.3, "gonthier", .661729, 1.037209, 3.768553}}) {
-    const NormalLaw law{1e9, normal_law(row.name).damping_factor(row.e)};
+  for (const reference::Row& row : reference::table("contact_laws", "shape")) {
+    const double e = row[0];
+    const NormalLaw law{1e9, normal_law(row.name).damping_factor(e)};
     const Impact hit = impact(law, 1.0, 1.0, 8000);
     const double depth = std::pow(5.0 / (4.0 * law.stiffness), 0.4),
                  force = law.stiffness * std::pow(depth, 1.5);
-    EXPECT_NEAR(hit.depth / depth, row.depth, 2e-6) << row.name;
-    EXPECT_NEAR(hit.force / force, row.force, 2e-6) << row.name;
-    EXPECT_NEAR(hit.duration / depth, row.duration, 5e-5) << row.name;
+    EXPECT_NEAR(hit.depth / depth, row[1], 2e-6) << row.name;
+    EXPECT_NEAR(hit.force / force, row[2], 2e-6) << row.name;
+    EXPECT_NEAR(hit.duration / depth, row[3], 5e-5) << row.name;
     // In closed form: K d^(n+1) / ((n+1) m v^2) = (1 - ln(1 + h) / h) / h.
     const double h = law.damping_factor;
     EXPECT_NEAR(law.stiffness * std::pow(hit.depth, 2.5) / 2.5, (1.0 - std::log1p(h) / h) / h, 1e-6) << row.name;

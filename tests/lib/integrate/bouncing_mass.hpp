@@ -1,6 +1,6 @@
 // One mass above a floor: the smallest system with everything that a joint with clearance asks of an integrator.
 //   m x'' = -m g + F,   F = K d^n (1 + h d'/d'0) >= 0,   d = -x,   y = (x, x')
-// What dynamics.md calls the family of Hunt and Crossley; h = 8 (1 - e)/(5 e) is the law of Flores et al. (2011).
+// The family of Hunt and Crossley (1975); h = 8 (1 - e)/(5 e) is the law of Flores et al. (2011).
 #pragma once
 
 #include <algorithm>

@@ -9,6 +9,7 @@
 #include "boresight/integrate/explicit_method.hpp"
 #include "boresight/integrate/rosenbrock_method.hpp"
 #include "bouncing_mass.hpp"
+#include "reference/reference.hpp"
 
 namespace boresight {
 namespace {
@@ -58,34 +59,27 @@ Ball dropped(double height, double restitution, double shortest_flight) {
 // Times of the impacts, and when the last of infinitely many is over: sqrt(2 H / g) (1 + e) / (1 - e).
 // Siconos' BouncingBallTS has the first ball at rest by 8.99 s, with steps of 5 ms.
 TEST(BouncingBall, StrikesAndComesToRestWhenTheSeriesSays) {
-  struct Row {
-    double height, restitution, end;
-    std::vector<double> first;
-  };
-  for (const Row& row :
-       {Row{1.0, 0.9, 8.578949179, {.451523641, 1.264266195, 1.995734493, 2.654055962}},
-        Row{0.9, 0.9, 8.138705801, {}}, Row{1.0, 0.5, 1.354570923, {.451523641, .903047282, 1.128809102}},
-        Row{1.0, 0.7, 2.558633966, {}}}) {
+  for (const reference::Row& row : reference::table("bouncing", "ball")) {
+    const double height = row[0], restitution = row[1], end = row[2];
     const double shortest = 1e-6;
-    const Ball ball = dropped(row.height, row.restitution, shortest);
-    ASSERT_GE(ball.impacts.size(), row.first.size());
-    for (std::size_t k = 0; k < row.first.size(); ++k) EXPECT_NEAR(ball.impacts[k], row.first[k], 1e-9);
+    const Ball ball = dropped(height, restitution, shortest);
+    ASSERT_GE(ball.impacts.size(), row.values.size() - 3);
+    for (std::size_t k = 3; k < row.values.size(); ++k) EXPECT_NEAR(ball.impacts[k - 3], row[k], 1.5e-9);
     EXPECT_TRUE(ball.resting);
     // The flights left out are a geometric series that begins below the shortest.
-    EXPECT_NEAR(ball.rest, row.end, shortest / (1.0 - row.restitution));
-    EXPECT_LE(ball.rest, row.end + 1e-9);
+    EXPECT_NEAR(ball.rest, end, shortest / (1.0 - restitution));
+    EXPECT_LE(ball.rest, end + 1e-9);
   }
 }
 
 // Hertz, undamped, steps that do not stop at the contact: root mean square of 1 - e over where in a step the
-// contact begins, for so many steps in a contact. Printed to two digits.
+// contact begins, for so many steps in a contact.
 TEST(FixedSteps, ThroughAnElasticImpactErrAsMuchAsComputed) {
-  const double table[][2] = {{5, 5.4e-3},  {10, 6.2e-4}, {20, 1.1e-4},
-                             {40, 1.9e-5}, {80, 3.4e-6}, {160, 5.6e-7}};
   BouncingMass mass;
   mass.follows_memory = false;
-  const double contact = 2.9432751843 * mass.depth(1.0);  // of an impact at 1 m/s [s]
-  for (const auto& [steps, error] : table) {
+  const double contact = reference::line("contact_laws", "undamped duration over depth and speed")[0] * mass.depth(1.0);  // of an impact at 1 m/s [s]
+  for (const reference::Row& row : reference::table("bouncing", "fixed steps")) {
+    const double steps = row[0], error = row[1];
     const double h = contact / steps;
     double sum = 0.0;
     const int phases = 400;
@@ -95,7 +89,7 @@ TEST(FixedSteps, ThroughAnElasticImpactErrAsMuchAsComputed) {
       integrator.run(mass, 0.0, 3.0 * steps * h, y, {.step = h, .locate_events = false});
       sum += std::pow(1.0 - y[1], 2.0);
     }
-    EXPECT_NEAR(std::sqrt(sum / phases) / error, 1.0, 0.05) << steps << " steps";
+    EXPECT_NEAR(std::sqrt(sum / phases) / error, 1.0, 1e-3) << steps << " steps";
   }
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "boresight/rungs/rung.hpp"
+#include "reference/reference.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
@@ -74,28 +75,26 @@ State after(double t, const State& start = kStart, double lift = 0.0, const std:
 }
 
 TEST(SliderCrankWithPlayInItsGuide, FliesAsComputedUntilItsBlockTouches) {
-  State s = after(1e-3);
-  EXPECT_NEAR(s.q1, .146090844, 1e-9);
-  EXPECT_NEAR(s.q2, -.0725963954, 1e-9);
-  EXPECT_NEAR(s.u1, 139.115876, 1e-6);
-  EXPECT_NEAR(s.u2, -68.2762942, 1e-6);
-  s = after(2e-3);
-  EXPECT_NEAR(s.q1, .27579441, 1e-8);
-  EXPECT_NEAR(s.q2, -.13494926, 1e-8);
+  const auto expect_state = [](const State& s, const reference::Row& r) {
+    EXPECT_NEAR(s.q1, r[1], 1e-9) << r[0];
+    EXPECT_NEAR(s.q2, r[2], 1e-9) << r[0];
+    EXPECT_NEAR(s.u1, r[3], 1e-6) << r[0];
+    EXPECT_NEAR(s.u2, r[4], 1e-6) << r[0];
+  };
+  for (const reference::Row& r : reference::table("slider_crank_flight", "flight")) expect_state(after(r[0]), r);
   // At the first contact: 1 mm of play is used up, and the block rises.
-  s = after(.002692502752);
-  EXPECT_NEAR(s.q1, .355304455028, 1e-9);
-  EXPECT_NEAR(s.q1 / (2.0 * std::numbers::pi), 0.056548460, 1e-9);
-  EXPECT_NEAR(s.q2, -.171509540940, 1e-9);
-  EXPECT_NEAR(s.u1, 109.557681543, 1e-6);
-  EXPECT_NEAR(s.u2, -49.330789962, 1e-6);
+  const reference::Row contact = reference::line("slider_crank_flight", "contact");
+  const State s = after(contact[0]);
+  expect_state(s, contact);
+  EXPECT_NEAR(s.q1 / (2.0 * std::numbers::pi), contact[6], 1e-9);
   EXPECT_NEAR(s.y, 1e-3, 1e-9);
-  EXPECT_NEAR(s.vy, .841612322, 1e-7);
+  EXPECT_NEAR(s.vy, contact[5], 1e-7);
 }
 
 // The crank turns by 20 degrees here; a Jacobian kept for the whole of it would make the method one of the second order.
 TEST(SliderCrankWithPlayInItsGuide, RosenbrockKeepsItsOrderOnAFastCrank) {
-  constexpr double t = 2.692502752e-3, q1 = .355304455028;
+  const reference::Row contact = reference::line("slider_crank_flight", "contact");
+  const double t = contact[0], q1 = contact[1];
   const auto error = [&](double steps) { return std::abs(after(t, kStart, 0.0, "rosenbrock", steps).q1 - q1); };
   // Steps that move the crank by more than the share for which a Jacobian is kept.
   const double coarse = error(5.0), fine = error(20.0);
@@ -108,16 +107,17 @@ TEST(SliderCrankWithPlayInItsGuide, RosenbrockKeepsItsOrderOnAFastCrank) {
 // Both upper corners strike the guide at once, e = 0.4, without friction: the impulse reverses the block's rise. Here it is a
 // force over a nanosecond, from which the change without it is taken off.
 TEST(SliderCrankWithPlayInItsGuide, LeavesItsFirstImpactAsComputed) {
-  const State before{.355304455028, -.171509540940, 109.557681543, -49.330789962, 1e-3, .841612322};
+  const reference::Row contact = reference::line("slider_crank_flight", "contact"), after_it = reference::line("slider_crank_flight", "impulse");
+  const State before{contact[1], contact[2], contact[3], contact[4], 1e-3, contact[5]};
   constexpr double kMoment = 1e-9, kUnit = 1e-3;  // [s], [N s]
   const State free = after(kMoment, before);
   const double gained = after(kMoment, before, -kUnit / kMoment).vy - free.vy;
   const double impulse = -(1.0 + 0.4) * before.vy / gained * kUnit;
-  EXPECT_NEAR(impulse, .110790030, 1e-8);
+  EXPECT_NEAR(impulse, after_it[0], 1e-8);
   const State rebound = after(kMoment, before, -impulse / kMoment);
   EXPECT_NEAR(rebound.vy - free.vy, -1.4 * before.vy, 1e-8);
-  EXPECT_NEAR(rebound.u1 - free.u1, 108.793728561 - before.u1, 1e-6);
-  EXPECT_NEAR(rebound.u2 - free.u2, -52.875187875 - before.u2, 1e-6);
+  EXPECT_NEAR(rebound.u1 - free.u1, after_it[1] - before.u1, 1e-6);
+  EXPECT_NEAR(rebound.u2 - free.u2, after_it[2] - before.u2, 1e-6);
 }
 
 }  // namespace

@@ -1,12 +1,11 @@
 // The slider-crank of Flores et al. (2006) with clearance between rod and slider, event by event.
 //
-// The figures were computed for this project with two formulations of their own (two coordinates in long
-// double, extrapolated; Cartesian coordinates with multipliers), which agree on the first four impacts to ten
-// digits.
+// The figures are those of tests/reference/flores_slider_crank.py: two coordinates, each impact followed from its first to its last 1e-13 m.
 #include <gtest/gtest.h>
 
 #include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/rung.hpp"
+#include "reference/reference.hpp"
 #include "scenes.hpp"
 #include "slider_crank_in_two_coordinates.hpp"
 
@@ -35,19 +34,12 @@ struct Event {
   double start, normal, speed, sliding, duration, depth, force,
       end_speed;  // normal in degrees, sliding of the surfaces
 };
-const Event kReference[] = {
-    {2.272860320398e-4, 177.912104, 4.385783145, -2.121412, 5.343723e-5, 7.795222e-5, 45872.275, 3.911492579},
-    {6.370564301669e-4, 116.926635, 2.756949153, -0.661306, 5.383416e-5, 4.612189e-5, 20869.93, 1.764880328},
-    {7.497002798424e-4, 164.220525, 1.826699075, 2.195169, 6.545016e-5, 5.301500e-5, 25926.15, 2.133988216},
-    {1.085947033914e-3, -142.996742, 1.101851178, -2.782712, 6.075807e-5, 2.131170e-5, 6557.871, 0.723053286},
-    {1.205816127989e-3, -175.878822, 0.823800543, -4.698532, 2.850705e-4, 3.334060e-5, 12915.66, 0.312378321},
-    {1.551486001305e-3, 70.048948, 0.270939413, -2.480307, 7.627137e-5, 8.533425e-6, 1672.212, 0.240737222},
-    {1.715081786220e-3, 66.862387, 0.257277053, -0.805160, 5.776258e-4, 1.764696e-5, 4943.069, 0.141966360},
-    {2.872495289603e-3, 38.807721, 3.780248875, -0.328257, 3.959673e-5, 4.877339e-5, 22693.03, 3.355042386},
-    {3.169842912506e-3, -65.917076, 2.376260438, -0.798745, 5.936076e-5, 4.465573e-5, 19877.71, 1.873142254},
-    {3.354093968756e-3, -3.908845, 2.261432508, 4.179028, 5.235291e-5, 4.445009e-5, 19801.55, 2.380327187},
-    {3.871314910775e-3, 33.495238, 2.174331811, 0.537249, 4.690416e-5, 3.324948e-5, 12775.88, 1.823611855},
-    {4.080193387848e-3, -21.358370, 1.821980396, -0.987327, 7.343032e-5, 4.552920e-5, 20494.37, 1.470795960}};
+
+std::vector<Event> impacts(const std::string& law) {
+  std::vector<Event> events;
+  for (const reference::Row& r : reference::table("flores_slider_crank", law)) events.push_back({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7]});
+  return events;
+}
 
 // Where on the bore the journal touches at t [degrees], and how fast their surfaces slide there: from the
 // poses on either side of t, which the contact has not moved yet by more than (step)^2.
@@ -82,7 +74,8 @@ struct Bounds {
 };
 void expect_impact(const RunResult& result, int k, const Bounds& within) {
   const ContactEvent& e = result.events[k];
-  const Event& r = kReference[k];
+  static const std::vector<Event> reference = impacts("lankarani-nikravesh");
+  const Event& r = reference.at(static_cast<std::size_t>(k));
   EXPECT_NEAR(e.start / r.start, 1.0, within.time) << "impact " << k + 1;
   EXPECT_NEAR(e.start_speed / r.speed, 1.0, within.numbers) << "impact " << k + 1;
   EXPECT_NEAR(e.max_force / r.force, 1.0, within.numbers) << "impact " << k + 1;
@@ -111,8 +104,10 @@ TEST(FloresSliderCrank, StrikesWhereAndAsHardAsTwoIndependentFormulationsSay) {
 TEST(FloresSliderCrank, FollowsTheTwelveImpactsOfTheReference) {
   const RunResult result = follow(example({{"motion.duration", "4.2 ms"}}), 1e-7);
   ASSERT_EQ(result.events.size(), 12u);
+  const std::vector<Event> reference = impacts("lankarani-nikravesh");
+  ASSERT_EQ(reference.size(), 12u);
   for (int k = 0; k < 12; ++k)
-    expect_impact(result, k, {1e-5, 1e-3, 0.05, 1e-3 * std::max(1.0, std::abs(kReference[k].sliding))});
+    expect_impact(result, k, {1e-5, 1e-3, 0.05, 1e-3 * std::max(1.0, std::abs(reference[static_cast<std::size_t>(k)].sliding))});
 }
 
 // The same with Flores' law.
@@ -120,40 +115,42 @@ TEST(FloresSliderCrank, WithFloresLawStrikesAsHardAsComputedIndependently) {
   const RunResult result =
       follow(example({{"motion.duration", "0.8 ms"}, {"clearance.B.contact.law", "flores"}}));
   ASSERT_GE(result.events.size(), 3u);
-  EXPECT_NEAR(result.events[0].max_penetration / 7.725263e-5, 1.0, 1e-5);
-  EXPECT_NEAR(result.events[0].max_force / 45448.0, 1.0, 1e-5);
-  EXPECT_NEAR(result.events[0].end_speed / 3.811473885, 1.0, 1e-5);
-  EXPECT_NEAR(result.events[1].start / 6.311689571533e-4, 1.0, 1e-6);
-  EXPECT_NEAR(result.events[1].start_speed / 2.783535190, 1.0, 1e-5);
-  EXPECT_NEAR(result.events[2].start / 7.450885895003e-4, 1.0, 1e-6);
-  EXPECT_NEAR(result.events[2].start_speed / 1.774022126, 1.0, 1e-5);
+  const std::vector<Event> expected = impacts("flores");
+  EXPECT_NEAR(result.events[0].max_penetration / expected[0].depth, 1.0, 1e-5);
+  EXPECT_NEAR(result.events[0].max_force / expected[0].force, 1.0, 1e-5);
+  EXPECT_NEAR(result.events[0].end_speed / expected[0].end_speed, 1.0, 1e-5);
+  for (std::size_t k = 1; k < 3; ++k) {
+    EXPECT_NEAR(result.events[k].start / expected[k].start, 1.0, 1e-6);
+    EXPECT_NEAR(result.events[k].start_speed / expected[k].speed, 1.0, 1e-5);
+  }
 }
 
 TEST(FloresSliderCrank, WithoutDampingStrikesAsComputedIndependently) {
   const RunResult elastic =
       follow(example({{"motion.duration", "0.7 ms"}, {"clearance.B.contact.law", "hertz"}}));
   ASSERT_GE(elastic.events.size(), 2u);
-  EXPECT_NEAR(elastic.events[0].max_penetration / 8.106744e-5, 1.0, 1e-5);
-  EXPECT_NEAR(elastic.events[0].max_force / 48248.54, 1.0, 1e-5);
-  EXPECT_NEAR(elastic.events[0].end_speed / 4.365416561, 1.0, 1e-5);
-  EXPECT_NEAR(elastic.events[1].start / 6.577531906150e-4, 1.0, 1e-6);
+  const std::vector<Event> expected = impacts("hertz");
+  EXPECT_NEAR(elastic.events[0].max_penetration / expected[0].depth, 1.0, 1e-5);
+  EXPECT_NEAR(elastic.events[0].max_force / expected[0].force, 1.0, 1e-5);
+  EXPECT_NEAR(elastic.events[0].end_speed / expected[0].end_speed, 1.0, 1e-5);
+  EXPECT_NEAR(elastic.events[1].start / expected[1].start, 1.0, 1e-6);
 }
 
 const double kLankaraniNikravesh = 0.75 * (1.0 - 0.9 * 0.9);
 
-// The reference takes friction at the journal's own radius; what the two-coordinate formulation says about it
-// below therefore rests on its numbers to every digit that the kinks of the friction's ramp leave.
-TEST(FloresSliderCrank, WithFrictionIsTheReferenceWhereFrictionActsAtTheJournalsRadius) {
-  SliderCrankInTwoCoordinates hand(kLankaraniNikravesh, true,
-                                   [](double) { return SliderCrankInTwoCoordinates::kJournal; });
-  const auto events = hand.events(0.9e-3, 2e-8);
+// What the two-coordinate formulation says about friction below rests on its impacts without: those of the reference, to every digit that it
+// prints.
+TEST(FloresSliderCrank, InTwoCoordinatesHasTheImpactsOfTheReference) {
+  SliderCrankInTwoCoordinates hand(kLankaraniNikravesh, false, [](double) { return SliderCrankInTwoCoordinates::kJournal; });
+  const auto events = hand.events(1.2e-3, 2e-8);
+  const std::vector<Event> expected = impacts("lankarani-nikravesh");
   ASSERT_GE(events.size(), 3u);
-  EXPECT_NEAR(events[0].force / 45922.94, 1.0, 1e-6);
-  EXPECT_NEAR(events[0].end_speed / 3.927376514, 1.0, 1e-8);
-  EXPECT_NEAR(events[1].start / 6.774504518e-4, 1.0, 1e-8);
-  EXPECT_NEAR(events[1].speed / 3.372619948, 1.0, 1e-8);
-  EXPECT_NEAR(events[2].start / 8.1405228703e-4, 1.0, 1e-7);
-  EXPECT_NEAR(events[2].speed / 2.167520217, 1.0, 1e-6);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(events[k].start / expected[k].start, 1.0, 1e-8) << "impact " << k + 1;
+    EXPECT_NEAR(events[k].speed / expected[k].speed, 1.0, 1e-7) << "impact " << k + 1;
+    EXPECT_NEAR(events[k].force / expected[k].force, 1.0, 1e-6) << "impact " << k + 1;
+    EXPECT_NEAR(events[k].end_speed / expected[k].end_speed, 1.0, 1e-7) << "impact " << k + 1;
+  }
 }
 
 // Here friction acts on both bodies at one point, on the bore, so that no angular momentum leaks: its lever
@@ -182,20 +179,18 @@ TEST(FloresSliderCrank, WithFrictionIsTheReferenceWithFrictionMovedToTheBore) {
   }
 }
 
-// The ideal mechanism in closed form, at 5000 rpm: slider, force between rod and slider, moment that turns
+// The ideal mechanism against its closed form, at 5000 rpm: slider, force between rod and slider, moment that turns
 // the crank.
 TEST(FloresSliderCrank, HasTheClosedFormOfItsIdealMotion) {
   const Mechanism mechanism(example());
   const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
   const auto at = [](double degrees) { return degrees / 360.0 * 60.0 / 5000.0; };
-  const double a[] = {-19419.3605, -14989.8650, -4020.9974, 6282.9524, 9686.7865, 8752.7132, 7996.2073};
   IdealState state;
-  for (int k = 0; k < 7; ++k) {
-    ideal.state(at(30.0 * k), state);
-    EXPECT_NEAR(state.acceleration[kSliderBody][0] / a[k], 1.0, 1e-6) << 30 * k << " degrees";
+  for (const reference::Row& r : reference::table("flores_slider_crank", "ideal slider")) {
+    ideal.state(at(r[0]), state);
+    EXPECT_NEAR(state.bodies[kSliderBody].v.x(), r[1], 2e-6) << r[0] << " degrees";
+    EXPECT_NEAR(state.acceleration[kSliderBody][0] / r[2], 1.0, 1e-6) << r[0] << " degrees";
   }
-  ideal.state(at(60.0), state);
-  EXPECT_NEAR(state.bodies[kSliderBody].v.x(), -27.737153, 1e-6);
 
   const MechanismDescription& m = mechanism.description();
   double fastest = 0.0, fastest_at = 0.0, highest = 0.0, highest_at = 0.0, lowest = 0.0, pin_force = 0.0;
@@ -223,14 +218,15 @@ TEST(FloresSliderCrank, HasTheClosedFormOfItsIdealMotion) {
     const double fy = (moment_about_crank.z() - lever.y() * fx) / lever.x();
     pin_force = std::max(pin_force, std::hypot(fx, fy));
   }
-  EXPECT_NEAR(fastest, 28.411330, 1e-6);
-  EXPECT_NEAR(fastest_at, 70.171, 0.01);
-  EXPECT_NEAR(highest, 9695.856, 1e-3);
-  EXPECT_NEAR(highest_at, 238.0, 0.1);
-  EXPECT_NEAR(lowest, -19419.361, 1e-3);
-  EXPECT_NEAR(pin_force, 2718.71, 0.005);
-  EXPECT_NEAR(largest_moment, 138.5217, 1e-4);
-  EXPECT_NEAR(smallest_moment, -138.5217, 1e-4);
+  const auto extreme = [](const char* name) { return reference::named("flores_slider_crank", "ideal extremes", name); };
+  EXPECT_NEAR(fastest, extreme("fastest")[0], 2e-6);
+  EXPECT_NEAR(fastest_at, extreme("fastest")[1], 0.015);
+  EXPECT_NEAR(highest, extreme("highest")[0], 1e-3);
+  EXPECT_NEAR(highest_at, extreme("highest")[1], 0.1);
+  EXPECT_NEAR(lowest, -extreme("lowest")[0], 1e-3);
+  EXPECT_NEAR(pin_force, extreme("pin")[0], 0.005);
+  EXPECT_NEAR(largest_moment, extreme("largest_moment")[0], 1e-4);
+  EXPECT_NEAR(smallest_moment, -extreme("smallest_moment")[0], 1e-4);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "boresight/rungs/rung.hpp"
+#include "reference/reference.hpp"
 #include "scenes.hpp"
 #include "stepper.hpp"
 #include "tree_formulation_scenes.hpp"
@@ -50,14 +51,16 @@ struct Follower {
 };
 
 // Up to the sign, which turns nothing.
-void expect_turned(const Quat& q, double w, double x, double y, double z, double tolerance) {
-  const Quat reference(w, x, y, z);
+void expect_turned(const Quat& q, const Quat& reference, double tolerance) {
   const double sign = q.dot(reference) < 0.0 ? -1.0 : 1.0;
   EXPECT_NEAR((sign * q.coeffs() - reference.coeffs()).norm(), 0.0, tolerance);
 }
 
-// Moments of inertia 1, 2, 3 kg m^2, starting with (1, 1, 1) rad/s: recomputed for this project with 30
-// digits.
+// Of a row of tests/reference/free_body.txt.
+Quat turn_of(const reference::Row& row, std::size_t first) { return {row[first], row[first + 1], row[first + 2], row[first + 3]}; }
+Vec3 vector_of(const reference::Row& row, std::size_t first) { return {row[first], row[first + 1], row[first + 2]}; }
+
+// Moments of inertia 1, 2, 3 kg m^2, starting with (1, 1, 1) rad/s.
 TEST(FreeBody, TumblesAsEulersEquationsSay) {
   for (const bool paper : {false, true}) {
     const Vec3 inertia(1.0, 2.0, 3.0);
@@ -69,14 +72,12 @@ TEST(FreeBody, TumblesAsEulersEquationsSay) {
       EXPECT_NEAR((now.q * L - inertia).norm(), 0.0, 1e-10);
       EXPECT_NEAR(body.energy(), 3.0, 1e-10);
     };
-    Turning now = body.at(1.0, 1e-3);
-    EXPECT_NEAR((now.w - Vec3(-0.1266429229, 1.4085317072, 0.8197638745)).norm(), 0.0, 1e-9);
-    expect_turned(now.q, 0.6874647330, 0.1752015920, 0.5407172524, 0.4520193536, 1e-9);
-    kept(now);
-    now = body.at(10.0, 1e-3);
-    EXPECT_NEAR((now.w - Vec3(-0.6034704231, -1.2789931385, 0.8877267882)).norm(), 0.0, 1e-9);
-    expect_turned(now.q, 0.4625454406, -0.3143351451, 0.0494296313, 0.8275275485, 1e-9);
-    kept(now);
+    for (const reference::Row& row : reference::table("free_body", "free")) {
+      const Turning now = body.at(row[0], 1e-3);
+      EXPECT_NEAR((now.w - vector_of(row, 1)).norm(), 0.0, 1e-9);
+      expect_turned(now.q, turn_of(row, 4), 1e-9);
+      kept(now);
+    }
   }
 }
 
@@ -95,8 +96,8 @@ TEST(FreeBody, PrecessesSteadilyWhereItIsSymmetric) {
   }
 }
 
-// EXUDYN's heavy top (15 kg, centre of mass 1 m from the fixed point), which prints its orientation after 0.2
-// s to five digits; the others computed for this project. Positions are of the centre of mass.
+// EXUDYN's heavy top (15 kg, centre of mass 1 m from the fixed point), which prints its orientation after 0.2 s to five digits. Positions
+// are of the centre of mass.
 TEST(HeavyTop, PrecessesAndNutatesAsComputedIndependently) {
   MechanismDescription m = one_body(15.0, Vec3(0.0, 1.0, 0.0), Vec3(0.234375, 0.46875, 0.234375));
   m.gravity = Vec3(0.0, 0.0, -9.81);
@@ -109,14 +110,14 @@ TEST(HeavyTop, PrecessesAndNutatesAsComputedIndependently) {
   for (const bool paper : {false, true}) {
     Follower top(paper, m, Vec3::Zero(), Vec3(0.0, 150.0, -4.61538));
     const double h = 2e-5;
-    EXPECT_NEAR(top.energy(), 5435.696790866, 1e-8);
-    Turning now = top.at(0.2, h);
-    expect_turned(now.q, -0.70828, 0.43878, 0.54573, 0.0894, 1e-5);  // published
-    expect_turned(now.q, -0.70827915, 0.43878109, 0.5457284, 0.08939975, 1e-8);
-    EXPECT_NEAR((top.at(0.5, h).p - Vec3(-0.7024682971, -0.0211651847, -0.7114002577)).norm(), 0.0, 1e-9);
-    EXPECT_NEAR((top.at(1.0, h).p - Vec3(0.1733439641, 0.6400885921, -0.7484907911)).norm(), 0.0, 1e-9);
-    EXPECT_NEAR((top.at(2.0, h).p - Vec3(-0.1504168227, -0.7241655916, -0.6730222696)).norm(), 0.0, 1e-9);
-    EXPECT_NEAR(top.energy() / 5435.696790866, 1.0, 1e-10);
+    const double energy = reference::line("free_body", "top energy")[0];
+    EXPECT_NEAR(top.energy(), energy, 1e-8);
+    const Turning now = top.at(0.2, h);
+    expect_turned(now.q, Quat(-0.70828, 0.43878, 0.54573, 0.0894), 1e-5);  // published
+    expect_turned(now.q, turn_of(reference::line("free_body", "top orientation"), 1), 1e-8);
+    for (const reference::Row& row : reference::table("free_body", "top position"))
+      EXPECT_NEAR((top.at(row[0], h).p - vector_of(row, 1)).norm(), 0.0, 1e-9) << row[0];
+    EXPECT_NEAR(top.energy() / energy, 1.0, 1e-10);
   }
 }
 
@@ -132,18 +133,16 @@ RunResult example(const std::string& name, double step, double spacing) {
 
 TEST(FreeBody, TumblesTheSameInAGimbalWithoutWeight) {
   const RunResult result = example("free-body", 1e-3, 1.0);
-  const Quat now = result.boresight.samples[1].pose.q, later = result.boresight.samples[10].pose.q;
-  expect_turned(now, 0.6874647330, 0.1752015920, 0.5407172524, 0.4520193536, 1e-9);
-  expect_turned(later, 0.4625454406, -0.3143351451, 0.0494296313, 0.8275275485, 1e-9);
+  for (const reference::Row& row : reference::table("free_body", "free"))
+    expect_turned(result.boresight.samples[static_cast<std::size_t>(std::lround(row[0]))].pose.q, turn_of(row, 4), 1e-9);
 }
 
 TEST(HeavyTop, MovesTheSameInAGimbalWithoutWeight) {
   const RunResult result = example("heavy-top", 1e-4, 0.1);
   const std::vector<PoseSample>& s = result.boresight.samples;
-  expect_turned(s[2].pose.q, -0.70827915, 0.43878109, 0.5457284, 0.08939975, 1e-8);
-  EXPECT_NEAR((s[5].pose.p - Vec3(-0.7024682971, -0.0211651847, -0.7114002577)).norm(), 0.0, 1e-9);
-  EXPECT_NEAR((s[10].pose.p - Vec3(0.1733439641, 0.6400885921, -0.7484907911)).norm(), 0.0, 1e-9);
-  EXPECT_NEAR((s[20].pose.p - Vec3(-0.1504168227, -0.7241655916, -0.6730222696)).norm(), 0.0, 1e-9);
+  expect_turned(s[2].pose.q, turn_of(reference::line("free_body", "top orientation"), 1), 1e-8);
+  for (const reference::Row& row : reference::table("free_body", "top position"))
+    EXPECT_NEAR((s[static_cast<std::size_t>(std::lround(10.0 * row[0]))].pose.p - vector_of(row, 1)).norm(), 0.0, 1e-9) << row[0];
 }
 
 }  // namespace

@@ -3,8 +3,7 @@
 // nothing shared with the library. What differs from one author to the next, the lever of friction on the
 // journal, is an argument.
 //
-// With the lever R_j it gives the numbers of the reference computed with two other formulations (long double;
-// Cartesian coordinates with multipliers) digit for digit.
+// Without friction it gives the impacts of tests/reference/flores_slider_crank.py digit for digit.
 #pragma once
 
 #include <algorithm>
