@@ -1,0 +1,504 @@
+// Every command that README.md, the examples and .ci/start tell a user to give runs here, shortened where it is long, and does what the text
+// around it says. A command or an example file that is new and not run here makes a test fail.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+
+#include "documented_commands.hpp"
+#include "program.hpp"
+
+namespace boresight::app {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+// What a command left.
+struct Left {
+  Ended ended;
+  json summary;
+  std::function<std::string(const std::string&)> file;                           // text of a file of its folder
+  std::function<json(const std::vector<std::string>& options)> again;            // summary of the same command with more options
+};
+
+struct Edit {
+  std::string file, what, with;
+};
+
+struct Command {
+  std::string text;
+  std::vector<std::string> shorter = {};         // options that make it quick, and change nothing of what is claimed
+  std::function<void(const Left&)> claims = {};  // what the text says of it
+  std::vector<Edit> edits = {};                  // of the example's files, where no option makes it quick
+  std::vector<std::string> before = {};          // commands whose results it takes
+  int status = 0;
+};
+
+void PrintTo(const Command& c, std::ostream* out) { *out << c.text; }
+
+double largest(const json& summary, const char* quantity) { return summary["index"][quantity]["max"]; }
+
+// Rows of a CSV by the time in their first column.
+std::map<long, std::vector<double>> rows_by_millisecond(const std::string& table) {
+  std::map<long, std::vector<double>> rows;
+  std::istringstream in(table);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::vector<double> row;
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::strtod(cell.c_str(), nullptr));
+    rows[std::lround(1e3 * row.at(0))] = row;
+  }
+  return rows;
+}
+// A row's numbers under the names x, y, z or qw, qx, qy, qz, the first of which is given.
+std::vector<double> numbers(const std::string& table, long millisecond, const std::string& first, std::size_t count) {
+  std::istringstream head(table.substr(0, table.find('\n')));
+  std::size_t column = 0;
+  for (std::string name; std::getline(head, name, ',') && name != first;) ++column;
+  const std::vector<double> row = rows_by_millisecond(table).at(millisecond);
+  return {row.begin() + static_cast<std::ptrdiff_t>(column), row.begin() + static_cast<std::ptrdiff_t>(column + count)};
+}
+void expect_numbers(const std::vector<double>& found, const std::vector<double>& expected, double tolerance) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], tolerance) << k;
+}
+
+std::function<void(const Left&)> freedoms(int mobility, int redundant) {
+  return [=](const Left& left) {
+    EXPECT_EQ(left.summary["kinematics"]["mobility"], mobility);
+    EXPECT_EQ(left.summary["kinematics"]["redundant_rows"], redundant);
+    EXPECT_TRUE(left.summary["findings"].empty());
+    for (const auto& [joint, contact] : left.summary["contacts"].items()) EXPECT_GT(contact["largest_stable_step"].get<double>(), 1e-5) << joint;
+  };
+}
+
+// The whole motion in multibody and perturbation, without further runs for the steps' error.
+const std::vector<std::string> kOnce = {"--step-error", "off"};
+
+void expect_error_follows_play(const Left& left, const std::string& path, const char* quantity) {
+  const double nominal = largest(left.summary, quantity), half = largest(left.again({"--set", path}), quantity);
+  EXPECT_LT(half, 0.75 * nominal);
+  EXPECT_GT(half, 0.2 * nominal);
+}
+
+std::vector<Command> commands() {
+  return {
+      {.text = "boresight check examples/3-rrcpr/3-rrcpr.toml", .claims = freedoms(6, 0)},
+      // "near the clearance times 1.9 and breaks down four times"; "The orientation error is zero to rounding."
+      {.text = "boresight run examples/3-rrcpr/3-rrcpr.toml",
+       .shorter = kOnce,
+       .claims =
+           [](const Left& left) {
+             EXPECT_NEAR(left.summary["index"]["position_error"]["rms"].get<double>() / 1.9e-4, 1.0, 0.05);
+             EXPECT_LT(largest(left.summary, "orientation_error"), 1e-10);
+             bool low = true;
+             int breakdowns = 0;
+             for (const auto& [t, row] : rows_by_millisecond(left.file("timeseries.csv"))) {
+               const bool broken = std::hypot(row[1], row[2], row[3]) < 0.8e-4;
+               if (t > 0 && broken && !low) ++breakdowns;  // it begins in the middle
+               low = broken;
+             }
+             EXPECT_EQ(breakdowns, 4);
+             EXPECT_THAT(left.file("report.html"), HasSubstr("\"kind\":\"view\""));
+           }},
+      {.text = "boresight run examples/3-rrcpr/3-rrcpr.toml --set clearance.F1.radial=0.2mm --set payload.mass=250kg",
+       .shorter = kOnce,
+       .claims = [](const Left& left) { EXPECT_GT(largest(left.summary, "position_error"), 2.0 * 2.31e-4); }},
+      {.text = "boresight run examples/3-rrcpr/3-rrcpr.toml --set clearance.F1.radial=0.2mm",
+       .shorter = kOnce,
+       .claims = [](const Left& left) { EXPECT_NEAR(largest(left.summary, "position_error") / 2.31e-4, 2.0, 0.15); }},
+      // "error grows in proportion to the clearance; the peaks of acceleration grow faster": from 0.1 to 0.3 mm that of x by more than a half.
+      {.text = "boresight sweep examples/3-rrcpr/clearance-sweep.toml",
+       .shorter = {"--rung", "perturbation"},
+       .claims =
+           [](const Left& left) {
+             const auto& points = left.summary["points"];
+             ASSERT_EQ(points.size(), 3u);
+             const auto error = [&](int k) { return points[k]["index"]["position_error"]["max"].get<double>(); };
+             EXPECT_NEAR(error(1) / error(0), 2.0, 0.15);
+             EXPECT_NEAR(error(2) / error(0), 3.0, 0.25);
+             EXPECT_GT(points[2]["platform_acceleration_max"][0].get<double>(), 1.5 * points[0]["platform_acceleration_max"][0].get<double>());
+             EXPECT_THAT(left.file("report.html"), HasSubstr("What the paper found"));
+           }},
+      // "error grows much less than load, by Hertz' law; the peak acceleration falls with load while impacts get faster and their forces larger"
+      {.text = "boresight sweep examples/3-rrcpr/load-sweep.toml",
+       .shorter = {"--rung", "perturbation"},
+       .claims =
+           [](const Left& left) {
+             const auto& points = left.summary["points"];
+             ASSERT_EQ(points.size(), 3u);
+             EXPECT_LT(points[2]["index"]["position_error"]["max"].get<double>(), 2.0 * points[0]["index"]["position_error"]["max"].get<double>());
+             EXPECT_LT(points[2]["platform_acceleration_max"][0].get<double>(), 0.7 * points[0]["platform_acceleration_max"][0].get<double>());
+             for (const char* grows : {"max_impact_speed", "max_force"})
+               EXPECT_GT(points[2]["contact"]["F1"][grows].get<double>(), points[0]["contact"]["F1"][grows].get<double>()) << grows;
+             EXPECT_THAT(left.file("report.html"), HasSubstr("What the paper found"));
+           }},
+      // "the error scatters by a tenth of itself"
+      {.text = "boresight montecarlo examples/3-rrcpr/montecarlo.toml",
+       .shorter = {"--rung", "perturbation"},
+       .claims =
+           [](const Left& left) {
+             EXPECT_EQ(left.summary["failed"], 0);
+             EXPECT_NEAR(left.summary["index"]["sd"]["value"].get<double>() / left.summary["index"]["mean"]["value"].get<double>(), 0.1, 0.01);
+             EXPECT_TRUE(left.summary["requirement"]["met"].get<bool>());
+             // "The 99.73 % level, 0.283 mm, is uncertain by sampling before anything else."
+             EXPECT_NEAR(left.summary["index"]["p99.73"]["value"].get<double>(), 0.283e-3, 0.002e-3);
+             EXPECT_THAT(left.ended.out, HasSubstr("sampling dominates"));
+           }},
+      {.text = "boresight montecarlo examples/3-rrcpr/montecarlo.toml --resume",
+       .shorter = {"--rung", "perturbation", "--set", "motion.duration=20ms"},
+       .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("all samples computed")); }},
+      {.text = "boresight export results/montecarlo",
+       .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("2000 samples: results/montecarlo/samples.csv")); },
+       .before = {"boresight montecarlo examples/3-rrcpr/montecarlo.toml --rung perturbation --set motion.duration=20ms"}},
+      // "the clearance makes nearly all of the variance; restitution and friction together some hundredths"
+      {.text = "boresight sensitivity examples/3-rrcpr/sensitivity.toml",
+       .shorter = {"--rung", "perturbation"},
+       .claims =
+           [](const Left& left) {
+             const auto total = [&](const char* path) { return left.summary["sobol"][path]["total"]["value"].get<double>(); };
+             EXPECT_GT(total("clearance.F1.radial"), 0.95);
+             EXPECT_LT(total("clearance.F1.contact.restitution") + total("clearance.F1.friction.coefficient"), 0.09);
+             // "There is no slope by any of them worth the name"
+             for (const char* path : {"clearance.F1.contact.restitution", "clearance.F1.friction.coefficient"})
+               EXPECT_FALSE(left.summary["local"][path]["meaningful"].get<bool>()) << path;
+           }},
+      {.text = "boresight montecarlo examples/3-rrcpr/fidelities.toml",
+       .shorter = {"--set", "motion.duration=50ms"},
+       .claims =
+           [](const Left& left) {
+             EXPECT_THAT(left.ended.out, AllOf(HasSubstr("forecast: variance"), HasSubstr("unbiased for multibody")));
+             EXPECT_GT(left.summary["fidelities"]["gain"]["forecast"].get<double>(), 1.0);
+           },
+       .edits = {{"3-rrcpr/fidelities.toml", "budget = \"60 s\", pilot = 40", "budget = \"3 s\", pilot = 10"}}},
+      {.text = "boresight montecarlo examples/3-rrcpr/fidelities.toml --resume",
+       .shorter = {"--set", "motion.duration=20ms"},
+       .edits = {{"3-rrcpr/fidelities.toml", "budget = \"60 s\", pilot = 40", "budget = \"1 s\", pilot = 10"}}},
+      {.text = "boresight montecarlo examples/3-rrcpr/tail.toml",
+       .shorter = {"--set", "motion.duration=20ms"},
+       .claims =
+           [](const Left& left) {
+             EXPECT_THAT(left.ended.out, AllOf(HasSubstr("unbiased for perturbation"), HasSubstr("plain Monte Carlo for the same CPU")));
+             EXPECT_LE(left.summary["tail"]["exceedance"]["low"].get<double>(), left.summary["tail"]["exceedance"]["high"].get<double>());
+             EXPECT_EQ(left.summary["requirement"]["met"].get<bool>(), left.ended.status == 0);
+           },
+       .edits = {{"3-rrcpr/tail.toml", "budget = \"60 s\", pilot = 50", "budget = \"0.2 s\", pilot = 20"}},
+       .status = 1},
+      {.text = "boresight match examples/3-rrcpr/match.toml --rung perturbation --integrator rosenbrock",
+       .shorter = {"--set", "motion.duration=100ms"},
+       .claims =
+           [](const Left& left) {
+             EXPECT_EQ(left.summary["descents"].size(), 2u);  // the box and one start; "Three starts end there" is told in full
+             EXPECT_TRUE(left.summary["optimum"].contains("payload.mass"));
+           },
+       .edits = {{"3-rrcpr/match.toml", "starts = [\"1 kg\", \"60 kg\", \"140 kg\"]", "starts = [\"1 kg\"]"}}},
+      {.text = "boresight match examples/3-rrcpr/match.toml", .shorter = {"--rung", "quasistatic", "--set", "motion.duration=20ms"}},
+      {.text = "boresight allocate examples/3-rrcpr/allocate.toml",
+       .shorter = {"--set", "motion.duration=20ms"},
+       .claims =
+           [](const Left& left) {
+             EXPECT_EQ(left.summary["chosen"]["choice"].size(), 12u);
+             EXPECT_LT(left.summary["chosen"]["price"].get<double>(), left.summary["worst_case"]["price"].get<double>());
+           },
+       .edits = {{"3-rrcpr/allocate.toml", "samples = 1000", "samples = 200"}, {"3-rrcpr/allocate.toml", "front = 6", "front = 0"}}},
+      {.text = "boresight budget examples/3-rrcpr/budget.toml --set clearance.F1.axes=free --rung perturbation --integrator rosenbrock",
+       .shorter = {"--set", "motion.duration=1s"},
+       .claims =
+           [](const Left& left) {
+             EXPECT_EQ(left.summary["tighten_first"][0]["name"], "F1");
+             double share = 0.0;
+             for (const auto& c : left.summary["contributions"]) share += c["share"].get<double>();
+             EXPECT_NEAR(share, 1.0, 1e-9);
+           },
+       .edits = {{"3-rrcpr/budget.toml", "members = 400", "members = 24"}, {"3-rrcpr/budget.toml", "attribution = 64", "attribution = 4"}},
+       .status = 1},
+      {.text = "boresight chart examples/3-rrcpr/3-rrcpr.toml",
+       .shorter = {"--time", "2 s", "--set", "motion.duration=50ms"},
+       .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, AllOf(HasSubstr("Pareto front"), HasSubstr("the paper's own setting"))); }},
+      {.text = "boresight stability examples/3-rrcpr/3-rrcpr.toml",
+       .shorter = {"--set", "motion.duration=50ms"},
+       .claims = [](const Left& left) { EXPECT_LT(left.summary["largest_difference_from_theory"].get<double>(), 0.02); }},
+      {.text = "boresight laws examples/3-rrcpr/3-rrcpr.toml",
+       .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, AllOf(HasSubstr("flores"), HasSubstr("modified-coulomb"), HasSubstr("johnson fits"))); }},
+      // Its figures are held by CalibrateProgram.LongRecoversTheExamplesTruth...
+      {.text = "boresight calibrate examples/calibration/calibrate.toml",
+       .claims =
+           [](const Left& left) {
+             EXPECT_NEAR(left.summary["optimum"]["clearance.D.radial"].get<double>(), 0.2e-3, 4e-6);
+             EXPECT_THAT(left.file("posterior.toml"), AllOf(HasSubstr("[[random]]")));
+           },
+       .edits = {{"calibration/calibrate.toml", "starts = ", "starts = 1 # "}, {"calibration/calibrate.toml", "[calibrate]", "[calibrate]\nprofile = false"}}},
+      {.text = "boresight calibrate examples/calibration/calibrate.toml --make-data \"1 %\" --make-offset \"5 um\" --make-seed 7"},
+      {.text = "boresight new antenna",
+       .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, AllOf(HasSubstr("boresight check antenna/mechanism.toml"), HasSubstr("boresight montecarlo antenna/montecarlo.toml"))); }},
+      {.text = "boresight check antenna/mechanism.toml", .claims = freedoms(1, 0), .before = {"boresight new antenna"}},
+      {.text = "boresight run antenna/mechanism.toml",
+       .shorter = kOnce,
+       .claims = [](const Left& left) { expect_error_follows_play(left, "clearance.elevation.radial=0.015mm", "boresight_error"); },
+       .before = {"boresight new antenna"}},
+      {.text = "boresight run antenna/mechanism.toml --set clearance.elevation.radial=0.06mm --compare",
+       .shorter = kOnce,
+       .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, AllOf(HasSubstr("envelope "), HasSubstr("quasistatic "), HasSubstr("perturbation "))); },
+       .before = {"boresight new antenna"}},
+      {.text = "boresight montecarlo antenna/montecarlo.toml",
+       .claims = [](const Left& left) { EXPECT_TRUE(left.summary["requirement"]["met"].get<bool>()); },
+       .before = {"boresight new antenna"}},
+      {.text = "boresight check examples/2-us-pointing/2-us-pointing.toml", .claims = freedoms(2, 0)},
+      // "The boresight error is the play over the distance to the rods' joints, and the second run shows it shrink with the play."
+      {.text = "boresight run examples/2-us-pointing/2-us-pointing.toml",
+       .shorter = kOnce,
+       .claims = [](const Left& left) { EXPECT_LT(largest(left.again({"--set", "clearance.Y.radial=20um"}), "boresight_error"), 0.5 * largest(left.summary, "boresight_error")); }},
+      {.text = "boresight run examples/2-us-pointing/2-us-pointing.toml --set clearance.Y.radial=20um", .shorter = kOnce},
+      // "counts three freedoms and six redundant rows"
+      {.text = "boresight check examples/3-rrr/3-rrr.toml", .claims = freedoms(3, 6)},
+      {.text = "boresight run examples/3-rrr/3-rrr.toml --compare",
+       .shorter = kOnce,
+       .claims = [](const Left& left) { expect_error_follows_play(left, "clearance.C1.radial=50um", "position_error"); }},
+      {.text = "boresight check examples/andrews-squeezer/andrews-squeezer.toml", .claims = freedoms(1, 9)},
+      {.text = "boresight run examples/andrews-squeezer/andrews-squeezer.toml --rung multibody --step \"10 us\" --pose K5", .shorter = kOnce},
+      {.text = "boresight check examples/bricard/bricard.toml", .claims = freedoms(1, 1)},
+      {.text = "boresight run examples/bricard/bricard.toml --rung multibody", .shorter = {"--step-error", "off", "--set", "motion.duration=2s"}},
+      {.text = "boresight check examples/crank-slider/crank-slider.toml", .claims = freedoms(1, 0)},
+      // The slider's guide keeps its direction: the play moves it and turns nothing.
+      {.text = "boresight run examples/crank-slider/crank-slider.toml",
+       .shorter = kOnce,
+       .claims =
+           [](const Left& left) {
+             EXPECT_LT(largest(left.summary, "boresight_error"), 1e-10);
+             expect_error_follows_play(left, "clearance.*.radial=25um", "position_error");
+           }},
+      {.text = "boresight run examples/crank-slider/crank-slider.toml --set 'clearance.*.radial=0.2mm'", .shorter = kOnce},
+      {.text = "boresight check examples/double-four-bar/double-four-bar.toml", .claims = freedoms(1, 6)},
+      // "the first rod's centre is at half of the published end point ... after 10 s, to 1e-6 m"
+      {.text = "boresight run examples/double-four-bar/double-four-bar.toml --rung multibody",
+       .shorter = kOnce,
+       .claims = [](const Left& left) { expect_numbers(numbers(left.file("timeseries.csv"), 10000, "x", 2), {0.164229056, 0.472259269}, 1e-6); }},
+      {.text = "boresight check examples/flores-slider-crank/flores-slider-crank.toml", .claims = freedoms(1, 3)},
+      // "first after 0.22728603 ms with 4.3858 m/s and 45,872 N"; "twelve impacts in the first 4.1 ms"
+      {.text = "boresight run examples/flores-slider-crank/flores-slider-crank.toml --rung multibody --step \"100 ns\" --set motion.duration=4.2ms --sample \"10 us\"",
+       .shorter = kOnce,
+       .claims =
+           [](const Left& left) {
+             std::istringstream events(left.file("events.csv"));
+             std::string line;
+             std::getline(events, line);
+             std::getline(events, line);
+             double start = 0.0, speed = 0.0, duration = 0.0, depth = 0.0, force = 0.0;
+             ASSERT_EQ(std::sscanf(line.c_str(), "B,radial,%lf,%lf,%lf,%lf,%lf", &start, &speed, &duration, &depth, &force), 5) << line;
+             EXPECT_NEAR(start, 0.22728603e-3, 1e-11);
+             EXPECT_NEAR(speed, 4.3858, 5e-5);
+             EXPECT_NEAR(force, 45872.0, 0.5);
+             int impacts = 1;
+             while (std::getline(events, line)) ++impacts;
+             EXPECT_EQ(impacts, 12);
+             EXPECT_THAT(left.ended.out, HasSubstr("is used outside of its range"));
+           }},
+      {.text = "boresight laws examples/flores-slider-crank/flores-slider-crank.toml", .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("lankarani-nikravesh")); }},
+      // "neighbouring states part e-fold every 4 ms": a rate of 250 1/s, to some tenths over a fifth of the motion.
+      {.text = "boresight run examples/flores-slider-crank/flores-slider-crank.toml --rung perturbation --set motion.duration=2.4s --nonlinear \"12 ms\" --sample \"0.2 ms\"",
+       .shorter = {"--step-error", "off", "--set", "motion.duration=0.6s"},
+       .claims =
+           [](const Left& left) {
+             const auto& joint = left.summary["nonlinear"]["joints"]["B"];
+             EXPECT_TRUE(joint["period"].is_null()) << "the motion never repeats";
+             EXPECT_NEAR(1.0 / joint["lyapunov"]["value"].get<double>(), 4e-3, 1e-3);
+           }},
+      {.text = "boresight check examples/four-bar/four-bar.toml", .claims = freedoms(1, 0)},
+      {.text = "boresight run examples/four-bar/four-bar.toml",
+       .shorter = kOnce,
+       .claims = [](const Left& left) { expect_error_follows_play(left, "clearance.*.radial=50um", "boresight_error"); }},
+      {.text = "boresight run examples/four-bar/four-bar.toml --set 'clearance.*.radial=0.2mm'", .shorter = kOnce},
+      // "overconstrained three times; check says so, and the motion is none the worse"
+      {.text = "boresight check examples/four-bar/planar.toml",
+       .claims =
+           [](const Left& left) {
+             freedoms(1, 3)(left);
+             EXPECT_THAT(left.ended.out, HasSubstr("3 constraint row(s) are redundant"));
+           }},
+      {.text = "boresight run examples/four-bar/planar.toml", .shorter = kOnce, .claims = [](const Left& left) { EXPECT_LT(left.summary["constraint_drift"].get<double>(), 1e-10); }},
+      {.text = "boresight check examples/free-body/free-body.toml", .claims = freedoms(3, 0)},
+      {.text = "boresight run examples/free-body/free-body.toml --rung multibody",
+       .shorter = kOnce,
+       .claims =
+           [](const Left& left) {
+             expect_numbers(numbers(left.file("timeseries.csv"), 1000, "qw", 4), {0.6874647330, 0.1752015920, 0.5407172524, 0.4520193536}, 1e-9);
+             expect_numbers(numbers(left.file("timeseries.csv"), 10000, "qw", 4), {0.4625454406, -0.3143351451, 0.0494296313, 0.8275275485}, 1e-9);
+           }},
+      {.text = "boresight check examples/heavy-top/heavy-top.toml", .claims = freedoms(3, 0)},
+      {.text = "boresight run examples/heavy-top/heavy-top.toml --rung multibody",
+       .shorter = kOnce,
+       .claims =
+           [](const Left& left) {
+             const std::string table = left.file("timeseries.csv");
+             expect_numbers(numbers(table, 500, "x", 3), {-0.7024682971, -0.0211651847, -0.7114002577}, 1e-8);
+             expect_numbers(numbers(table, 1000, "x", 3), {0.1733439641, 0.6400885921, -0.7484907911}, 1e-8);
+             expect_numbers(numbers(table, 2000, "x", 3), {-0.1504168227, -0.7241655916, -0.6730222696}, 1e-8);
+           }},
+      {.text = "boresight check examples/pendulum/pendulum.toml", .claims = freedoms(1, 0)},
+      {.text = "boresight run examples/pendulum/pendulum.toml --rung multibody",
+       .shorter = kOnce,
+       .claims =
+           [](const Left& left) {
+             expect_numbers(numbers(left.file("timeseries.csv"), 1000, "x", 2), {0.9862917511, -0.1650108531}, 1e-9);
+             expect_numbers(numbers(left.file("timeseries.csv"), 10000, "x", 2), {-0.2750874626, -0.9614192051}, 1e-9);
+           }},
+      {.text = "boresight check examples/spatial-double-crank/spatial-double-crank.toml", .claims = freedoms(1, 0)},
+      {.text = "boresight run examples/spatial-double-crank/spatial-double-crank.toml",
+       .shorter = kOnce,
+       .claims = [](const Left& left) { expect_error_follows_play(left, "clearance.*.radial=50um", "position_error"); }},
+      {.text = "boresight check examples/spatial-slider-crank/spatial-slider-crank.toml", .claims = freedoms(1, 0)},
+      // "the shaft tilts and bears on both ends of its sleeve at once": contacts radial- and radial+.
+      {.text = "boresight run examples/spatial-slider-crank/spatial-slider-crank.toml",
+       .shorter = {"--step-error", "off", "--set", "motion.duration=0.1s"},
+       .claims = [](const Left& left) { EXPECT_THAT(left.file("events.csv"), AllOf(HasSubstr("\nO,radial-,"), HasSubstr("\nO,radial+,"))); }},
+      {.text = "boresight run examples/spatial-slider-crank/spatial-slider-crank.toml --set clearance.O.axes=parallel",
+       .shorter = {"--step-error", "off", "--set", "motion.duration=0.1s"},
+       .claims = [](const Left& left) { EXPECT_THAT(left.file("events.csv"), AllOf(Not(HasSubstr("radial-")), HasSubstr("\nO,radial,"))); }},
+  };
+}
+
+class DocumentedCommands : public Program, public testing::WithParamInterface<Command> {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    std::filesystem::copy(BORESIGHT_EXAMPLES, folder_ / "examples", std::filesystem::copy_options::recursive);
+  }
+  void edit(const Edit& e) const {
+    std::string content = text("examples/" + e.file);
+    const std::size_t at = content.find(e.what);
+    ASSERT_NE(at, std::string::npos) << e.file << " has no " << e.what;
+    std::ofstream(folder_ / "examples" / e.file) << content.replace(at, e.what.size(), e.with);
+  }
+  static std::vector<std::string> arguments(const std::string& command, const std::vector<std::string>& more) {
+    std::vector<std::string> words = shell_words(command);
+    words.erase(words.begin());
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+  // As the program names it: results/FILE-VERB, or results/FILE where that says the verb already.
+  std::string folder_of_results() const {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "results")) return "results/" + entry.path().filename().string();
+    return "";
+  }
+};
+
+TEST_P(DocumentedCommands, RunAndDoWhatTheTextSays) {
+  const Command& c = GetParam();
+  SCOPED_TRACE(c.text);
+  for (const Edit& e : c.edits) edit(e);
+  for (const std::string& command : c.before) {
+    const Ended ended = call(arguments(command, {}));
+    ASSERT_EQ(ended.status, 0) << command << "\n" << ended.err;
+  }
+  Left left;
+  left.ended = call(arguments(c.text, c.shorter));
+  ASSERT_EQ(left.ended.status, c.status) << left.ended.out << left.ended.err;
+  EXPECT_EQ(left.ended.out.find("nan"), std::string::npos) << left.ended.out;
+  if (!c.claims) return;
+  const std::string folder = std::filesystem::exists(folder_ / "results") ? folder_of_results() : "";
+  if (!folder.empty()) left.summary = json(folder + "/summary.json");
+  left.file = [&](const std::string& name) { return text(folder + "/" + name); };
+  left.again = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> more = c.shorter;
+    more.insert(more.end(), options.begin(), options.end());
+    more.insert(more.end(), {"--out", "again"});
+    const Ended ended = call(arguments(c.text, more));
+    EXPECT_EQ(ended.status, c.status) << ended.err;
+    return json("again/summary.json");
+  };
+  c.claims(left);
+}
+
+std::string name_of(const testing::TestParamInfo<Command>& one) {
+  std::string name = std::to_string(one.index);
+  for (const std::string& word : shell_words(one.param.text)) {
+    if (word == "boresight") continue;
+    std::string last = word.substr(word.find_last_of('/') + 1);
+    last = last.substr(0, last.find(".toml"));
+    std::replace_if(last.begin(), last.end(), [](char ch) { return !std::isalnum(static_cast<unsigned char>(ch)); }, '_');
+    name += "_" + last;
+  }
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, DocumentedCommands, testing::ValuesIn(commands()), name_of);
+
+TEST(Documents, TellNoCommandThatIsNotRunHere) {
+  std::set<std::string> run, told;
+  for (const Command& c : commands()) EXPECT_TRUE(run.insert(c.text).second) << "twice: " << c.text;
+  for (const DocumentedCommand& c : documented_commands()) {
+    told.insert(c.text);
+    EXPECT_TRUE(run.contains(c.text)) << c.document << " tells to give " << c.text;
+  }
+  for (const std::string& text : run) EXPECT_TRUE(told.contains(text)) << "no document tells any more: " << text;
+}
+
+TEST(Documents, OtherCommandsOfTheReadmeAreKnownAndHeldElsewhere) {
+  EXPECT_THAT(other_documented_commands(), testing::UnorderedElementsAre("bash .ci/start",   // its commands are among the above
+                                                                         "bash .ci/test"));  // is what runs this
+}
+
+TEST(Examples, EveryFileIsRunByADocumentedCommand) {
+  std::string all;
+  for (const Command& c : commands()) all += c.text + "\n";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(BORESIGHT_EXAMPLES)) {
+    if (entry.path().extension() != ".toml") continue;
+    const std::string name = entry.path().filename();
+    if (all.find("/" + name) != std::string::npos) continue;
+    // Or it is the mechanism of a study that is.
+    bool taken = false;
+    for (const auto& other : std::filesystem::directory_iterator(entry.path().parent_path())) {
+      if (other.path().extension() != ".toml" || all.find("/" + other.path().filename().string()) == std::string::npos) continue;
+      std::ifstream in(other.path());
+      const std::string study{std::istreambuf_iterator<char>(in), {}};
+      taken = taken || study.find("mechanism = \"" + name + "\"") != std::string::npos;
+    }
+    EXPECT_TRUE(taken) << entry.path() << " is run by no documented command";
+  }
+}
+
+// README.md's table of rungs: position error of the default scene as `boresight run --rung` gives it, to the digits printed there. Multibody and
+// perturbation follow impacts: their last digit may be the neighbour.
+TEST_F(Program, TheReadmesTableOfRungsIsWhatTheRungsGive) {
+  std::ifstream in(std::string(BORESIGHT_SOURCE) + "/README.md");
+  int rows = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with("| `")) continue;
+    std::vector<std::string> cells;
+    std::istringstream all(line);
+    for (std::string cell; std::getline(all, cell, '|');) cells.push_back(cell);
+    const std::string rung = cells[1].substr(2, cells[1].rfind('`') - 2);
+    double max = 0.0, rms = 0.0;
+    if (cells.size() < 7 || std::sscanf(cells[4].c_str(), " %lf mm", &max) != 1 || std::sscanf(cells[5].c_str(), " %lf mm", &rms) != 1) continue;
+    ++rows;
+    ASSERT_EQ(call({"run", mechanism_, "--rung", rung, "--step-error", "off", "--quiet", "--out", rung}).status, 0) << rung;
+    const auto error = json(rung + "/summary.json")["index"]["position_error"];
+    EXPECT_NEAR(1e3 * error["max"].get<double>(), max, 0.00105) << rung;
+    EXPECT_NEAR(1e3 * error["rms"].get<double>(), rms, 0.00105) << rung;
+  }
+  EXPECT_EQ(rows, 4);
+}
+
+TEST_F(Program, TheReadmesErrorOfAFreeJournalIsWhatPerturbationGives) {
+  std::ifstream in(std::string(BORESIGHT_SOURCE) + "/README.md");
+  const std::string readme{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t at = readme.find("boresight is off by ");
+  ASSERT_NE(at, std::string::npos);
+  const double milliradians = std::strtod(readme.c_str() + at + 20, nullptr);
+  ASSERT_EQ(call({"run", mechanism_, "--rung", "perturbation", "--set", "clearance.F1.axes=free", "--set", "clearance.F1.sleeve_length=120mm",
+                  "--step-error", "off", "--quiet", "--out", "out"})
+                .status,
+            0);
+  EXPECT_NEAR(1e3 * largest(json("out/summary.json"), "boresight_error"), milliradians, 0.02 * milliradians);
+}
+
+}  // namespace
+}  // namespace boresight::app
