@@ -302,19 +302,19 @@ std::vector<Command> commands() {
              EXPECT_THAT(left.ended.out, HasSubstr("is used outside of its range"));
            }},
       {.text = "boresight laws examples/flores-slider-crank/flores-slider-crank.toml", .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("lankarani-nikravesh")); }},
-      // "neighbouring states part e-fold every 4 ms": a rate of 250 1/s, to some tenths over a fifth of the motion.
+      // "neighbouring states part e-fold every 4 ms"
       {.text = "boresight run examples/flores-slider-crank/flores-slider-crank.toml --rung perturbation --set motion.duration=2.4s --nonlinear \"12 ms\" --sample \"0.2 ms\"",
-       .shorter = {"--step-error", "off", "--set", "motion.duration=0.6s"},
+       .shorter = kOnce,
        .claims =
            [](const Left& left) {
              const auto& joint = left.summary["nonlinear"]["joints"]["B"];
              EXPECT_TRUE(joint["period"].is_null()) << "the motion never repeats";
-             EXPECT_NEAR(1.0 / joint["lyapunov"]["value"].get<double>(), 4e-3, 1e-3);
+             EXPECT_NEAR(1.0 / joint["lyapunov"]["value"].get<double>(), 4e-3, 0.5e-3);
            }},
       {.text = "boresight check examples/four-bar/four-bar.toml", .claims = freedoms(1, 0)},
       {.text = "boresight run examples/four-bar/four-bar.toml",
        .shorter = kOnce,
-       .claims = [](const Left& left) { expect_error_follows_play(left, "clearance.*.radial=50um", "boresight_error"); }},
+       .claims = [](const Left& left) { expect_error_follows_play(left, "clearance.*.radial=25um", "boresight_error"); }},
       {.text = "boresight run examples/four-bar/four-bar.toml --set 'clearance.*.radial=0.2mm'", .shorter = kOnce},
       // "overconstrained three times; check says so, and the motion is none the worse"
       {.text = "boresight check examples/four-bar/planar.toml",
@@ -353,7 +353,11 @@ std::vector<Command> commands() {
       {.text = "boresight check examples/spatial-double-crank/spatial-double-crank.toml", .claims = freedoms(1, 0)},
       {.text = "boresight run examples/spatial-double-crank/spatial-double-crank.toml",
        .shorter = kOnce,
-       .claims = [](const Left& left) { expect_error_follows_play(left, "clearance.*.radial=50um", "position_error"); }},
+       .claims =
+           [](const Left& left) {
+             const json half = left.again({"--set", "clearance.*.radial=50um", "--set", "clearance.*.axial=50um"});
+             EXPECT_NEAR(largest(half, "position_error") / largest(left.summary, "position_error"), 0.5, 0.05);
+           }},
       {.text = "boresight check examples/spatial-slider-crank/spatial-slider-crank.toml", .claims = freedoms(1, 0)},
       // "the shaft tilts and bears on both ends of its sleeve at once": contacts radial- and radial+.
       {.text = "boresight run examples/spatial-slider-crank/spatial-slider-crank.toml",

@@ -55,8 +55,9 @@ TEST(Multibody, GivesSimbodysFiguresAtThePapersStep) {
       EXPECT_LT(result.index.orientation_error.max, 1e-7);
       EXPECT_LT(result.index.boresight_error.max, 1e-7);
     }
-    expect_among(median(max), r, 2, 0.015, "maximum");
-    expect_among(median(rms), r, 5, 0.01, "root mean square");  // the step itself takes up to 0.6 % off, at 0.3 mm
+    // The step itself moves maximum and root mean square by up to 0.6 %, besides the 1.5 % that a maximum is a draw.
+    expect_among(median(max), r, 2, 0.022, "maximum");
+    expect_among(median(rms), r, 5, 0.01, "root mean square");
   }
 }
 
