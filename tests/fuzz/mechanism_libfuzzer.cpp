@@ -1,5 +1,5 @@
-// Entry for libFuzzer (clang): cmake -DBORESIGHT_FUZZ=ON -DCMAKE_CXX_COMPILER=clang++, then
-//   build/bin/mechanism_fuzzer CORPUS examples/3-rrcpr
+// Entry for libFuzzer (preset fuzz): a mechanism file.
+//   build/fuzz/bin/mechanism_fuzzer CORPUS examples/3-rrcpr
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
