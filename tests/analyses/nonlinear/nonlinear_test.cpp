@@ -45,6 +45,38 @@ TEST(LyapunovExponent, OfTheHenonMapIsAsPublished) {
   EXPECT_NEAR(d.exponent, 0.418, 0.06);
 }
 
+TEST(LyapunovExponent, CurveBeginsWhereNeighboursAreFoundAndGoesOnAsLongAsAsked) {
+  const Divergence d = largest_lyapunov_exponent(henon(3000), 10.0, 20.0);
+  ASSERT_EQ(d.t.size(), 21u);
+  EXPECT_EQ(d.t.front(), 0.0);
+  EXPECT_EQ(d.t.back(), 20.0);
+}
+
+// 45 states that can be followed, and neighbours that must lie 30 apart: too few for an answer.
+TEST(LyapunovExponent, OfASeriesShorterThanTwiceTheSeparationIsNotGiven) {
+  EXPECT_EQ(largest_lyapunov_exponent(henon(50), 30.0, 5.0).pairs, 0);
+  EXPECT_GT(largest_lyapunov_exponent(henon(80), 30.0, 5.0).pairs, 0);
+}
+
+// Separation and horizon are times, not numbers of states.
+TEST(LyapunovExponent, IsPerSecondWhateverTheSpacing) {
+  StateSeries seconds = henon(3000), tenths = seconds;
+  tenths.spacing = 0.1;
+  const Divergence a = largest_lyapunov_exponent(seconds, 30.0, 20.0), b = largest_lyapunov_exponent(tenths, 3.0, 2.0);
+  EXPECT_EQ(a.pairs, b.pairs);
+  EXPECT_EQ(a.log_distance, b.log_distance);
+  EXPECT_NEAR(b.exponent / a.exponent, 10.0, 1e-9);
+}
+
+// A motion that comes back to the same bits has neighbours at no distance: nothing can be said of them, and nothing parts.
+TEST(LyapunovExponent, OfAnExactCycleDoesNotRise) {
+  StateSeries cycle{1.0, 1, MatX(1, 300)};
+  for (int k = 0; k < 300; ++k) cycle.states(0, k) = k % 3;
+  const Divergence d = largest_lyapunov_exponent(cycle, 4.0, 20.0);
+  EXPECT_FALSE(d.rises);
+  EXPECT_FALSE(d.log_distance.empty());
+}
+
 TEST(LyapunovExponent, OfLorenzSystemIsAsPublished) {
   // 1.50 (Wolf et al. 1985). Rosenstein et al. (1993, table 2) find 1.35 to 1.75 with 1000 to 5000 states: so
   // far the method goes.
