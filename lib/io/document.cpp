@@ -63,6 +63,8 @@ Setting parse_setting(const std::string& text) {
 
 Origin origin_of(const Setting& setting) { return {"--set " + setting.path + "=" + setting.value, 0}; }
 
+Node::Node() = default;
+
 const Node* Node::member(const std::string& key) const {
   for (const auto& [name, node] : members) {
     if (name == key) return &node;

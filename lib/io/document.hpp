@@ -35,6 +35,7 @@ struct Node {
   std::vector<Node> items;                            // array
   int line = 0;
 
+  Node();  // not here: asking whether a pair of a name and a node can be made needs the whole of Node
   const Node* member(const std::string& key) const;
 };
 
