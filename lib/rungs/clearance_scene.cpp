@@ -19,10 +19,9 @@ namespace {
 // many cells as its own table needs; one that is over, or turns, within the finest spacing is looked at more finely.
 constexpr int kFewestCells = 8, kManyCells = 4096, kCellsOfKnot = 4;
 constexpr double kCoarsestSpacing = 16e-3, kFinestSpacing = 1e-5;
-// Half the step of the difference that gives Tdot: truncation (w h)^2 / 6 and rounding 1e-13 / h meet near 1e-9. In motions so fast or
-// slow that this is another share of what moves, shares of the spacing of the ideal motion's table bound it, which is about a sixteenth
-// of a radian of the fastest motion. They bound the finest spacing likewise.
-constexpr double kRateStep = 1e-5, kMostRateStep = 1.0 / 32.0, kLeastRateStep = 1e-4, kFinestOfKnot = 1e-3;
+// The finest spacing is bounded by a share of that of the ideal motion's table, which is about a sixteenth of a radian of the fastest
+// motion.
+constexpr double kFinestOfKnot = 1e-3;
 
 double spacing_of_knots(const IdealMotion& ideal) { return ideal.duration() / std::max(1, ideal.knots() - 1); }
 
@@ -189,18 +188,10 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows, cons
 
 ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal, const Parameters& parameters) {
   Knot knot;
-  // At the ends the difference is taken inside the motion: shifted by its own half step.
-  const double knot_spacing = spacing_of_knots(ideal);
-  const double rate_step = std::min(kMostRateStep * knot_spacing, std::max(kRateStep, kLeastRateStep * knot_spacing));
-  const double middle = std::clamp(t, rate_step, mechanism_.duration() - rate_step);
-  MatX before, after;
-  coordinates_.gain(middle - rate_step, before);
-  MatX B_rate = -coordinates_.offsets_per_coordinate(before);
-  coordinates_.gain(middle + rate_step, after);
-  B_rate = (B_rate + coordinates_.offsets_per_coordinate(after)) / (2.0 * rate_step);
-  knot.T_rate = (after - before) / (2.0 * rate_step);
   coordinates_.gain(t, knot.T);
   knot.B = coordinates_.offsets_per_coordinate(knot.T);
+  MatX B_rate;
+  coordinates_.rates(knot.T, knot.T_rate, B_rate);
   ideal.state(t, knot.state);
   add_joints(knot.T, B_rate, knot);
   if (layout_.n == 0) return knot;  // no play can move

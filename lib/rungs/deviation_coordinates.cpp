@@ -20,6 +20,14 @@ constexpr double kContradiction = 1e-9;
 constexpr double kLargestGain = 1e3;
 // Of the parts of a sum: below this share of them it is zero. T closes the loops to 1e-13.
 constexpr double kCancelled = 1e-10;
+// How far bodies are moved for the change of the rows with the pose, in radians and characteristic lengths: rows are products of a few
+// sines, whose fourth order leaves 1e-13 there, as rounding does.
+constexpr double kMoved = 1e-3;
+// The derivative in the middle of five equally spaced values, whose own weight is 0 (Fornberg 1988, Mathematics of Computation 51, Table 1).
+struct Weight {
+  double place, weight;
+};
+constexpr Weight kDerivative[] = {{-2.0, 1.0 / 12.0}, {-1.0, -8.0 / 12.0}, {1.0, 8.0 / 12.0}, {2.0, -1.0 / 12.0}};
 
 }  // namespace
 
@@ -29,6 +37,7 @@ DeviationCoordinates::DeviationCoordinates(const Mechanism& mechanism, const Ide
       layout_(mechanism),
       closed_(mechanism, {.clearance = ClearanceRows::closed, .drives = true}),
       open_(mechanism, {.clearance = ClearanceRows::open, .drives = true}),
+      moved_(closed_),
       weight_(kinematic_weight(mechanism)),
       length_(mechanism.characteristic_length()),
       scale_(6 * mechanism.bodies()),
@@ -154,6 +163,17 @@ void DeviationCoordinates::gain(double t, MatX& T) {
   if (!(largest < kLargestGain)) throw_singular(t);
 }
 
+// The bodies' least motion that changes the closed rows by b_: the only one, since the rows are as many as the bodies' freedoms.
+void DeviationCoordinates::solve_closed(Eigen::Ref<VecX> motion) {
+  goal_ = b_;
+  closed_.least_motion(b_, u_);
+  // One refinement: J W J^T squares the condition number.
+  closed_.multiply(u_, residual_);
+  for (std::size_t k = 0; k < goal_.size(); ++k) residual_[k] = goal_[k] - residual_[k];
+  closed_.least_motion(residual_, du_);
+  for (int body = 0; body < mechanism_.bodies(); ++body) motion.segment<6>(6 * body) = u_[body] + du_[body];
+}
+
 void DeviationCoordinates::sparse_gain(MatX& T) {
   for (int k = 0; k < closed_.blocks(); ++k) {
     const int c = mechanism_.clearance_of(closed_.joints()[k].joint());
@@ -161,37 +181,96 @@ void DeviationCoordinates::sparse_gain(MatX& T) {
     const OffsetLayout::Joint& joint = layout_.joint(c);
     for (int i = 0; i < joint.count(); ++i) {
       if (!joint.released(i)) continue;
-      const int row = joint.released_row(i);  // a closed joint's rows: distances, then slopes, then the drive
       for (Vec6& x : b_) x.setZero();
-      b_[k][row] = 1.0;
-      closed_.least_motion(b_, u_);
-      // One refinement: J W J^T squares the condition number.
-      closed_.multiply(u_, residual_);
-      for (Vec6& x : residual_) x = -x;
-      residual_[k][row] += 1.0;
-      closed_.least_motion(residual_, du_);
-      for (int body = 0; body < mechanism_.bodies(); ++body)
-        T.block<6, 1>(6 * body, source_[joint.first + i]) = u_[body] + du_[body];
+      b_[k][joint.released_row(i)] = 1.0;  // a closed joint's rows: distances, then slopes, then the drive
+      solve_closed(T.col(source_[joint.first + i]));
     }
   }
 }
 
+// Rows that hold, then those chosen, with lengths scaled.
+MatX DeviationCoordinates::dense_rows(const std::vector<BodyMotion>& bodies) {
+  open_.evaluate(bodies, laws_);
+  const Eigen::Index held = open_.row_count();
+  MatX all(held + count_, 6 * mechanism_.bodies());
+  all.topRows(held) = open_.dense_jacobian();
+  for (int z = 0; z < count_; ++z) all.row(held + z) = stacked_rows(rows_[chosen_[z].constraint], bodies).row(chosen_[z].row);
+  return scaled_rows(std::move(all), length_);
+}
+
 void DeviationCoordinates::dense_gain(double t, MatX& T) {
   if (count_ == 0) return;
-  open_.evaluate(state_.bodies, laws_);
-  MatX all(open_.row_count() + count_, T.rows()), right = MatX::Zero(open_.row_count() + count_, count_);
-  all.topRows(open_.row_count()) = open_.dense_jacobian();
+  all_ = dense_rows(state_.bodies);
+  MatX right = MatX::Zero(all_.rows(), count_);
   right.bottomRows(count_).setIdentity();
-  for (int z = 0; z < count_; ++z)
-    all.row(open_.row_count() + z) = stacked_rows(rows_[chosen_[z].constraint], state_.bodies).row(chosen_[z].row);
-  all = scaled_rows(std::move(all), length_);
-  Eigen::ColPivHouseholderQR<MatX> qr(all);
-  qr.setThreshold(kRankTolerance);
-  if (qr.rank() < all.cols()) throw_singular(t);
-  MatX x = qr.solve(right);
-  x += qr.solve(MatX(right - all * x));
-  if ((right - all * x).cwiseAbs().maxCoeff() > kContradiction) throw_singular(t);
+  qr_.setThreshold(kRankTolerance);
+  qr_.compute(all_);
+  if (qr_.rank() < all_.cols()) throw_singular(t);
+  MatX x = qr_.solve(right);
+  x += qr_.solve(MatX(right - all_ * x));
+  if ((right - all_ * x).cwiseAbs().maxCoeff() > kContradiction) throw_singular(t);
   T = scale_.asDiagonal() * x * unit_.cwiseInverse().asDiagonal();
+}
+
+// J T is the same at all times, so that J T' = -J' T: J' is how the rows change as the bodies move on.
+void DeviationCoordinates::rates(const MatX& T, MatX& T_rate, MatX& B_rate) {
+  T_rate.setZero(T.rows(), T.cols());
+  B_rate.setZero(layout_.size(), count_);
+  double speed = 0.0;
+  for (const BodyMotion& b : state_.bodies) speed = std::max({speed, b.w.norm(), b.v.norm() / length_});
+  if (count_ == 0 || speed == 0.0) return;
+  const double step = kMoved / speed;
+  const MatX x = scale_.cwiseInverse().asDiagonal() * T * unit_.asDiagonal();
+  MatX dense = MatX::Zero(sparse_ ? 0 : all_.rows(), count_);
+  std::vector<std::vector<Vec6>> blocks(sparse_ ? count_ : 0, closed_.block_vector());
+  for (auto& of_one : blocks)
+    for (Vec6& block : of_one) block.setZero();
+  std::vector<MatX> of_offsets(static_cast<std::size_t>(layout_.clearances()));
+  std::vector<BodyMotion> bodies;
+  for (const Weight& w : kDerivative) {
+    bodies = state_.bodies;
+    for (BodyMotion& b : bodies) {
+      Vec6 by;
+      by << w.place * step * b.v, w.place * step * b.w;
+      displace(b, by);
+    }
+    const double weight = w.weight / step;
+    if (sparse_) {
+      moved_.evaluate(bodies, laws_);
+      for (int z = 0; z < count_; ++z) {
+        for (int b = 0; b < mechanism_.bodies(); ++b) u_[b] = T.block<6, 1>(6 * b, z);
+        moved_.multiply(u_, residual_);
+        for (std::size_t k = 0; k < residual_.size(); ++k) blocks[z][k] -= weight * residual_[k];
+      }
+    } else {
+      dense.noalias() -= weight * (dense_rows(bodies) * x);
+    }
+    if (!has_dependent_) continue;
+    for (int c = 0; c < layout_.clearances(); ++c) {
+      const MatX part = weight * stacked_rows(rows_[c], bodies);
+      of_offsets[c] = of_offsets[c].size() == 0 ? part : MatX(of_offsets[c] + part);
+    }
+  }
+  if (sparse_) {
+    for (int z = 0; z < count_; ++z) {
+      b_ = blocks[z];
+      solve_closed(T_rate.col(z));
+    }
+  } else {
+    MatX x_rate = qr_.solve(dense);
+    x_rate += qr_.solve(MatX(dense - all_ * x_rate));
+    T_rate = scale_.asDiagonal() * x_rate * unit_.cwiseInverse().asDiagonal();
+  }
+  for (int c = 0; has_dependent_ && c < layout_.clearances(); ++c) {
+    const MatX rows = stacked_rows(rows_[c], state_.bodies), now = of_offsets[c] * T + rows * T_rate;
+    const MatX bound = kCancelled * (speed * (rows.cwiseAbs() * T.cwiseAbs()) + rows.cwiseAbs() * T_rate.cwiseAbs());
+    const OffsetLayout::Joint& joint = layout_.joint(c);
+    for (int k = 0; k < joint.count(); ++k) {
+      if (source_[joint.first + k] != kDependent) continue;
+      const int i = joint.released_row(k);
+      B_rate.row(joint.first + k) = (now.row(i).array().abs() > bound.row(i).array()).select(now.row(i), 0.0);
+    }
+  }
 }
 
 MatX DeviationCoordinates::offsets_per_coordinate(const MatX& T) const {

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <string>
+#include <Eigen/QR>
 #include <vector>
 
 #include "boresight/mechanism/ideal_motion.hpp"
@@ -40,6 +41,8 @@ class DeviationCoordinates {
   void gain(double t, MatX& T);
   // B at the pose of the last gain(): offsets x count. Exactly 0 and 1 where an offset is a coordinate.
   MatX offsets_per_coordinate(const MatX& T) const;
+  // How fast T and B change there along the ideal motion.
+  void rates(const MatX& T, MatX& T_rate, MatX& B_rate);
   // The chosen rows at the pose of the last gain(), in the order of the coordinates: acceleration of z = rows . v' - gamma.
   void coordinate_accelerations(const std::vector<BodyMotion>& bodies, const std::vector<BodyAcceleration>& acceleration,
                                 VecX& z_ddot) const;
@@ -54,12 +57,14 @@ class DeviationCoordinates {
   void choose(const std::vector<MatX>& rows, const MatX& null_space);
   void sparse_gain(MatX& T);
   void dense_gain(double t, MatX& T);
+  void solve_closed(Eigen::Ref<VecX> motion);
+  MatX dense_rows(const std::vector<BodyMotion>& bodies);
   [[noreturn]] void throw_singular(double t) const;
 
   const Mechanism& mechanism_;
   const IdealMotion& ideal_;
   OffsetLayout layout_;
-  ConstraintSystem closed_, open_;
+  ConstraintSystem closed_, open_, moved_;
   bool sparse_ = false;  // all rows, released ones included, are as many as the bodies' freedoms, and independent
   std::vector<Mat6> weight_;
   double length_;
@@ -72,7 +77,9 @@ class DeviationCoordinates {
   int count_ = 0, leftover_ = 0;
   IdealState state_;
   std::vector<TimeValue> laws_;
-  std::vector<Vec6> b_, u_, residual_, du_;
+  std::vector<Vec6> b_, goal_, u_, residual_, du_;
+  MatX all_;  // rows of the last dense gain, and how they were solved
+  Eigen::ColPivHouseholderQR<MatX> qr_;
 };
 
 }  // namespace boresight

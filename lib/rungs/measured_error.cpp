@@ -25,6 +25,9 @@ constexpr double kAgreed = 1e-3;
 // What three runs that agree say of the rest: twice their range, for an error of first order in the step is twice what
 // half the step shows.
 constexpr double kOfRange = 2.0;
+// Implicit methods step over a contact's vibration that is smaller than the tolerance, and finer tolerances that still do show nothing of
+// it. It is a share of the clearances, as the indices are, and may stand to either side.
+constexpr double kOfTolerance = 2.0;
 // Three runs that do not agree, and no time for more: of three draws of one distribution the next one lies beyond three
 // ranges in less than one case out of twenty.
 constexpr double kOfScatteredRange = 3.0;
@@ -47,12 +50,12 @@ class FurtherRuns {
     step_ = by_tolerance_ ? 0.0 : options.step > 0.0 ? options.step : result.end_time / static_cast<double>(result.cost.steps);
   }
 
-  double finer() const { return by_tolerance_ ? kFinerTolerance : kFinerStep; }
-
-  // share: of the run's own step or tolerance.
-  PointingIndices at(double share) {
-    options_.step = share * step_;
-    options_.tolerance = share * tolerance_;
+  // share: of the run's own step or tolerance, or of the finer one. The longest step that a tolerance may choose goes with it: where that
+  // bounds the steps, another tolerance alone changes nothing, whatever they leave out.
+  PointingIndices at(double share, bool finer = false) {
+    options_.step = share * (finer ? kFinerStep : 1.0) * step_;
+    options_.tolerance = share * (finer ? kFinerTolerance : 1.0) * tolerance_;
+    options_.share_of_longest_step = share * (finer ? kFinerStep : 1.0);
     const RunResult result = rung_.run(parameters_, options_);
     cpu_seconds += result.cost.cpu_seconds;
     ++runs;
@@ -62,6 +65,8 @@ class FurtherRuns {
 
   int runs = 0;
   double cpu_seconds = 0.0;
+  // What a step may leave out unseen, over the smallest clearance; 0 where steps are given.
+  double tolerance() const { return tolerance_; }
 
  private:
   const Rung& rung_;
@@ -142,12 +147,12 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
   bool settled = false, whole = false;
   try {
     own.push_back(further.at(kNeighbours[0]));
-    finer.push_back(further.at(further.finer()));
+    finer.push_back(further.at(1.0, true));
     settled = all_agree({own[0], own[1], finer[0]});
     whole = !settled && !(measure.most_seconds > 0.0 && all > measure.most_seconds);
     if (whole) {
       own.push_back(further.at(kNeighbours[1]));
-      for (const double share : kNeighbours) finer.push_back(further.at(share * further.finer()));
+      for (const double share : kNeighbours) finer.push_back(further.at(share, true));
     }
   } catch (const ComputationError& failure) {
     error.why_not = std::string("a neighbouring run failed: ") + failure.what();
@@ -173,11 +178,11 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
       spread = settled ? 0.0 : std::abs(x[0] - x[1]) / std::sqrt(2.0);  // what agrees does not scatter
       stated = (settled ? kOfRange : kOfScatteredRange) * range(values);
     }
-    error.stated.*quantity.*statistic = stated;
+    error.stated.*quantity.*statistic = std::max(stated, kOfTolerance * further.tolerance() * std::abs(x[0]));
     error.spread.*quantity.*statistic = spread;
     error.shift.*quantity.*statistic = shift;
   });
-  const char* fineness = controls_error(options) ? "a tenth of the tolerance" : "half the step";
+  const char* fineness = controls_error(options) ? "a tenth of the tolerance and half the longest step" : "half the step";
   std::snprintf(text, sizeof text, "%s: %zu of them at neighbouring %s, %zu at %s",
                 settled ? "measured by further runs that agree" : "measured by further runs", own.size() - 1,
                 controls_error(options) ? "tolerances" : "steps", finer.size(), fineness);

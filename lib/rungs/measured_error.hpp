@@ -1,7 +1,7 @@
 // How far the indices of a run are off because time advances in steps: measured by further runs of the same motion.
 //
 //   neighbours   the same rung at steps (or tolerances) 1.5 and 3 percent smaller: as good as the run itself
-//   finer        the same at half the step (a tenth of the tolerance), with neighbours of its own
+//   finer        the same at half the step (a tenth of the tolerance and half the longest step it allows), with neighbours of its own
 //
 // Two things are told apart. Steps err: then the finer runs lie elsewhere than the run and its neighbours. And impacts
 // amplify every difference until motions that began alike go their own ways: then neighbours lie as far from each other

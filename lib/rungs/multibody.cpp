@@ -301,6 +301,7 @@ class Multibody final : public Rung {
       integration.absolute_tolerances[k] = length / (formulation.is_length(k) ? 1.0 : size) /
                                            (formulation.is_speed(k) ? scales.flight_time : 1.0);
     scales.apply(mechanism_->duration(), slowest_impact, integration);
+    integration.largest_step *= options.share_of_longest_step;
     return integration;
   }
 

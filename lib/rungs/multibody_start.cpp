@@ -133,8 +133,9 @@ std::vector<BodyMotion> resting_bodies(const Mechanism& mechanism, const Paramet
                                        std::string& warning) {
   const ClearanceScene::Start scene = ClearanceScene::at_start(mechanism, ideal, parameters);
   if (scene.layout.n == 0) return {};
-  // Whatever formulation follows the motion, it starts from the same place: this one closes its joints along the tree.
-  const std::unique_ptr<Formulation> formulation = make_tree_formulation(mechanism, parameters, &ideal, {});
+  // Whatever formulation follows the motion, it starts from the same place. This one closes joints by the bodies' least motion, whatever
+  // order they are listed in; a tree of them closes its loops where it happens to be cut.
+  const std::unique_ptr<Formulation> formulation = make_paper_formulation(mechanism, parameters, &ideal, {});
   VecX y;
   formulation->start(scene.ideal, y);
   std::vector<JournalInSleeve> joints;

@@ -163,6 +163,7 @@ class Perturbation final : public SceneRung {
     integration.absolute_tolerances.resize(2 * at.n);
     integration.absolute_tolerances << tolerance, tolerance / scales.flight_time;
     scales.apply(mechanism().duration(), slowest_impact, integration);
+    integration.largest_step *= options.share_of_longest_step;
     return integration;
   }
 
