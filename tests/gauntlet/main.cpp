@@ -100,12 +100,14 @@ int run(int argc, char** argv) {
   std::uint64_t from = 1, count = 0;
   int jobs = 1;
   std::vector<std::string> files, write;
+  std::vector<std::uint64_t> seeds;
   std::string save, known_file;
   bool corpus = false;
   TrialOptions options;
   options.program = BORESIGHT_PROGRAM;
   app.add_option("--from", from, "first seed");
   app.add_option("--count", count, "how many seeds");
+  app.add_option("--seed", seeds, "further seeds");
   app.add_option("--jobs", jobs, "scenes at once");
   app.add_option("--scene", files, "mechanism files")->check(CLI::ExistingFile);
   app.add_flag("--corpus", corpus, "the archetypes of tests/gauntlet/corpus");
@@ -131,7 +133,8 @@ int run(int argc, char** argv) {
   std::sort(files.begin(), files.end());
   for (const std::string& file : files)
     scenes.push_back([file] { return Entry{file, "file", text_of(file)}; });
-  for (std::uint64_t seed = from; seed < from + count; ++seed)
+  for (std::uint64_t seed = from; seed < from + count; ++seed) seeds.push_back(seed);
+  for (std::uint64_t seed : seeds)
     scenes.push_back([seed] {
       const Scene scene = generate(seed);
       return Entry{fmt::format("seed {}", seed), scene.family, scene.toml()};

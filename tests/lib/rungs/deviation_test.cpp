@@ -129,6 +129,38 @@ TEST(Perturbation, BearsRedundantJoints) {
   }
 }
 
+// Against differences of the gains themselves, which are exact to 1e-9 at this step.
+TEST(DeviationCoordinates, ChangeAsTheMotionGoesOn) {
+  MechanismDescription loop = scenes::planar_four_bar();
+  loop.bodies[0].boresight.reset();
+  loop.bodies[1].boresight = Vec3::UnitZ();
+  loop.joints[0].driven = true;
+  loop.motion.drives[0] = scenes::sine(0.3, 6.0);
+  loop.motion.duration = 0.4;
+  scenes::add_clearance(loop, 1, true);
+  scenes::add_clearance(loop, 2, true);
+  const std::shared_ptr<const Mechanism> mechanisms[] = {with_clearance_on(takes_clearance, "0.2 s"), scenes::build(std::move(loop))};
+  for (const auto& mechanism : mechanisms) {
+    const IdealMotion ideal = ideal_motion(*mechanism, mechanism->parameters());
+    DeviationCoordinates coordinates(*mechanism, ideal);
+    constexpr double kStep = 1e-5;
+    for (double share : {0.13, 0.5, 0.81}) {
+      const double t = share * ideal.duration();
+      MatX T, before, after, T_rate, B_rate;
+      coordinates.gain(t - kStep, before);
+      const MatX B_before = coordinates.offsets_per_coordinate(before);
+      coordinates.gain(t + kStep, after);
+      const MatX B_after = coordinates.offsets_per_coordinate(after);
+      coordinates.gain(t, T);
+      coordinates.rates(T, T_rate, B_rate);
+      const MatX T_difference = (after - before) / (2.0 * kStep), B_difference = (B_after - B_before) / (2.0 * kStep);
+      EXPECT_GT(T_difference.norm(), 0.0);
+      EXPECT_LT((T_rate - T_difference).norm(), 1e-6 * T_difference.norm()) << mechanism->name() << " at " << t;
+      EXPECT_LE((B_rate - B_difference).norm(), 1e-6 * std::max(1.0, B_difference.norm())) << mechanism->name() << " at " << t;
+    }
+  }
+}
+
 // Free mechanisms drift off their ideal motion: the deviation is many times the clearance after a while.
 TEST(Perturbation, FollowsFreedomsThatNothingDrives) {
   const std::shared_ptr<const Mechanism> free[] = {undriven("four-bar", "0.2 s", 6.0), undriven("crank-slider", "0.1 s", 30.0)};
