@@ -1,6 +1,8 @@
 // A sample model whose distribution is known, and plans around it: the sum of independent normal parameters.
 #pragma once
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -56,7 +58,9 @@ inline MonteCarloPlan sum_plan(std::uint64_t samples, DesignKind kind = DesignKi
 // A folder of a test's own, empty at first and gone afterwards.
 class Folder {
  public:
-  explicit Folder(const std::string& name) : path_(std::filesystem::temp_directory_path() / ("boresight-" + name)) {
+  // Of this process: tests of the same name run side by side.
+  explicit Folder(const std::string& name)
+      : path_(std::filesystem::temp_directory_path() / ("boresight-" + name + "-" + std::to_string(::getpid()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
