@@ -107,18 +107,23 @@ TEST(ContactReport, AsksForSmallerStepsWhereTwoContactsShareALightLink) {
   EXPECT_NO_THROW(run("perturbation", all, 0.0));
 }
 
+// With play at one or both pins of its coupler.
+std::shared_ptr<const Mechanism> driven_four_bar(int opened) {
+  MechanismDescription d = scenes::planar_four_bar();
+  d.bodies[0].boresight.reset();
+  d.bodies[1].boresight = Vec3::UnitZ();
+  d.joints[0].driven = true;
+  d.motion.drives[0] = scenes::sine(0.3, 6.0);
+  d.motion.duration = 0.4;
+  scenes::add_clearance(d, 1, true);
+  if (opened == 2) scenes::add_clearance(d, 2, true);
+  return scenes::build(std::move(d));
+}
+
 // Planar loop in space: hinges elsewhere hold the pins' play along their axes, which is then no coordinate.
 TEST(Perturbation, BearsRedundantJoints) {
   for (int opened : {1, 2}) {
-    MechanismDescription d = scenes::planar_four_bar();
-    d.bodies[0].boresight.reset();
-    d.bodies[1].boresight = Vec3::UnitZ();
-    d.joints[0].driven = true;
-    d.motion.drives[0] = scenes::sine(0.3, 6.0);
-    d.motion.duration = 0.4;
-    scenes::add_clearance(d, 1, true);
-    if (opened == 2) scenes::add_clearance(d, 2, true);
-    const auto mechanism = scenes::build(std::move(d));
+    const auto mechanism = driven_four_bar(opened);
     const IdealMotion ideal = ideal_motion(*mechanism, mechanism->parameters());
     const DeviationCoordinates coordinates(*mechanism, ideal);
     EXPECT_EQ(coordinates.leftover(), 0);
@@ -131,15 +136,7 @@ TEST(Perturbation, BearsRedundantJoints) {
 
 // Against differences of the gains themselves, which are exact to 1e-9 at this step.
 TEST(DeviationCoordinates, ChangeAsTheMotionGoesOn) {
-  MechanismDescription loop = scenes::planar_four_bar();
-  loop.bodies[0].boresight.reset();
-  loop.bodies[1].boresight = Vec3::UnitZ();
-  loop.joints[0].driven = true;
-  loop.motion.drives[0] = scenes::sine(0.3, 6.0);
-  loop.motion.duration = 0.4;
-  scenes::add_clearance(loop, 1, true);
-  scenes::add_clearance(loop, 2, true);
-  const std::shared_ptr<const Mechanism> mechanisms[] = {with_clearance_on(takes_clearance, "0.2 s"), scenes::build(std::move(loop))};
+  const std::shared_ptr<const Mechanism> mechanisms[] = {with_clearance_on(takes_clearance, "0.2 s"), driven_four_bar(2)};
   for (const auto& mechanism : mechanisms) {
     const IdealMotion ideal = ideal_motion(*mechanism, mechanism->parameters());
     DeviationCoordinates coordinates(*mechanism, ideal);

@@ -99,11 +99,12 @@ TEST(FrictionLaws, OfEveryKindMoveTheDefaultSceneTheSameInPerturbationAndMultibo
       rubbing.push_back(max);
     }
   }
-  // Rubbing at 3 % of what presses moves the first maximum by a percent. That all laws which rub agree a hundred times better says that
-  // they act, and with the coefficient that they were given: at these speeds they differ in nothing else.
+  // All laws which rub agree a hundred times better among themselves than with none: they act, and with the coefficient that they were given;
+  // at these speeds they differ in nothing else.
   const auto [least, most] = std::minmax_element(rubbing.begin(), rubbing.end());
   EXPECT_LT(*most / *least - 1.0, 1e-4);
-  EXPECT_NEAR(without / *least, 0.988, 0.001);
+  EXPECT_GT(std::abs(*least / without - 1.0), 100.0 * (*most / *least - 1.0));
+  EXPECT_GT(std::abs(*least / without - 1.0), 5e-3);
 }
 
 TEST(ContactLaws, OfEveryKindMoveTheDefaultSceneTheSameInPerturbationAndMultibody) {
