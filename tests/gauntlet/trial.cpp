@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "boresight/io/mechanism_file.hpp"
-#include "boresight/mechanism/kinematic_report.hpp"
 #include "boresight/rungs/clearance_scene.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "measure.hpp"
@@ -106,18 +105,14 @@ class Trial {
     return {n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]), 0.5 * (values.back() - values.front())};
   }
 
-  // What a displacement [m] makes of a figure.
-  double seen(double displacement, std::size_t figure) const {
-    if (figure < 2) return displacement;
-    const double length = mechanism_->characteristic_length();
-    const auto& sight = mechanism_->description().line_of_sight;
-    return displacement / (figure >= 6 && sight ? std::max(length, (sight->target - sight->from).norm()) : length);
-  }
-
   // Differences below this mean nothing: a ten-thousandth of the smallest play.
   double floor_of(std::size_t figure) const {
     const double play = smallest_clearance(mechanism_->parameters());
-    return seen(play > 0.0 ? 1e-4 * play : 1e-9 * mechanism_->characteristic_length(), figure);
+    const double length = mechanism_->characteristic_length();
+    const double smallest = play > 0.0 ? 1e-4 * play : 1e-9 * length;
+    if (figure < 2) return smallest;
+    const auto& sight = mechanism_->description().line_of_sight;
+    return smallest / (figure >= 6 && sight ? std::max(length, (sight->target - sight->from).norm()) : length);
   }
 
   struct Gap {
@@ -262,18 +257,6 @@ class Trial {
     }
   }
 
-  double largest_play() const {
-    double play = 0.0;
-    for (const auto& c : mechanism_->parameters().clearance) play = std::max({play, c.radial, c.axial});
-    return play;
-  }
-
-  // Whether its joints hold some freedom more than once.
-  bool redundant() {
-    if (!redundant_) redundant_ = analyse_kinematics(*mechanism_, 2).redundant_rows > 0;
-    return *redundant_;
-  }
-
   // Lists in another order cut the loops elsewhere: other joint coordinates, and in these the same steps leave another error. So do other
   // steps, where rounding decided whether the first choice was found to be too large.
   bool within_steps(const Asked& asked, const std::string& stage, std::size_t figure, double apart, Measured& other,
@@ -290,15 +273,12 @@ class Trial {
                          const std::shared_ptr<const Mechanism>& mechanism) {
     for (std::size_t k = 0; k < kFigures.size(); ++k) {
       const double size = std::max(base.figure[k], other.figure[k]), apart = std::abs(base.figure[k] - other.figure[k]);
-      const double alike = asked.rung == "perturbation" ? ClearanceScene::kAccuracy * std::max(size, seen(largest_play(), k)) : 1e-6 * size;
+      const double alike = asked.rung == "perturbation" ? ClearanceScene::kAccuracy * size : 1e-6 * size;
       if (size < floor_of(k) || apart <= alike) continue;
       if (asked.rung != "quasistatic" &&
           (apart <= alike + 3.0 * neighbours_spread(asked, k, 5) || apart <= alike + 3.0 * neighbours_spread(asked, k, 17)))
         continue;
       if (within_steps(asked, stage, k, apart, other, mechanism)) continue;
-      // Where joints are redundant the drawing's axes and order decide which offsets are coordinates and which follow from them; what the
-      // rung leaves out, the change of that with time squared among it, is part of the error it states.
-      if (asked.rung == "perturbation" && redundant() && apart <= std::min(base.model, other.model) * size) continue;
       verdict_.fault("invariance", stage, fmt::format("{}: {:.10g}, as drawn {:.10g} ({:.2g} % apart, neighbours scatter by {:.2g} %){}", kFigures[k], other.figure[k], base.figure[k],
                                  100.0 * apart / size, 100.0 * (asked.rung == "quasistatic" ? 0.0 : neighbours_spread(asked, k, 17)) / size,
                                  (other.start == base.start ? "" : "; starts otherwise: \"" + other.start + "\", as drawn \"" + base.start + "\"") +
@@ -364,7 +344,6 @@ class Trial {
   Verdict& verdict_;
   const TrialOptions& options_;
   std::shared_ptr<const Mechanism> mechanism_;
-  std::optional<bool> redundant_;
   std::map<std::string, Measured> base_;  // each rung by its own integrator
   std::map<std::string, std::vector<Measured>> neighbours_;
   std::map<std::string, int> neighbours_tried_;
