@@ -10,6 +10,7 @@ from decimal import Decimal, getcontext
 from math import exp, gamma, log, log1p, pi, sqrt
 
 from printing import digits, fixed, row, table
+from search import place_of_largest
 
 getcontext().prec = 40
 
@@ -61,16 +62,9 @@ def shape(h):
     """Depth, force and duration (over depth / speed) relative to the undamped impact with n = 1.5."""
     whole = 0.5  # of the undamped one: m v^2 / 2
     depth = (energy(h, 0.0) / whole) ** 0.4
-    # The largest force by golden section over v.
+    # The largest force over v.
     force = lambda v: (energy(h, v) / whole) ** 0.6 * (1.0 + h * v)
-    low, high = 0.0, 1.0 - 1e-12
-    ratio = (sqrt(5.0) - 1.0) / 2.0
-    for _ in range(90):
-        a, b = high - ratio * (high - low), low + ratio * (high - low)
-        if force(a) < force(b):
-            low = a
-        else:
-            high = b
+    fastest = place_of_largest(force, 0.0, 1.0 - 1e-12, 90)
     # dt = -m dv / F = -dv / (K d^1.5 (1 + h v) / m): over v from 1 to -e, d ~ energy^0.4; steep at both ends: v = ... by tanh-sinh.
     e = returned(h)
     K = 1.0 / 0.8  # such that the undamped depth is 1 for m = v = 1: K d^2.5 / 2.5 = 1/2
@@ -90,7 +84,7 @@ def shape(h):
             continue
         v = 1.0 - to_end
         total += weight * step * 0.5 * (1.0 + e) / (K * d**1.5 * (1.0 + h * v))
-    return depth, force(0.5 * (low + high)), total
+    return depth, force(fastest), total
 
 
 def depth_between(h, e, from_first, from_last, K):

@@ -9,6 +9,7 @@ from math import atan2, cos, degrees, hypot, pi, sin, sqrt
 
 from extrapolation import step
 from printing import digits, fixed, row, table
+from search import place_of_largest
 
 BEARING, CLEARANCE = 0.01, 0.5e-3
 JOURNAL = BEARING - CLEARANCE
@@ -61,17 +62,9 @@ class Motion:
         return high
 
     def peak(self, which, t, y, H):
-        """The largest value of one of the contact's numbers within a step, by golden section."""
+        """The largest value of one of the contact's numbers within a step."""
         value = lambda s: self.contact(t + s, step(self, t, y, s)[0])[which]
-        ratio = (sqrt(5.0) - 1.0) / 2.0
-        low, high = 0.0, H
-        for _ in range(24):
-            a, b = high - ratio * (high - low), low + ratio * (high - low)
-            if value(a) < value(b):
-                low = a
-            else:
-                high = b
-        return value(0.5 * (low + high))
+        return value(place_of_largest(value, 0.0, H, 24))
 
     def events(self, duration):
         """Contacts that end before `duration`: start, angle of the normal, speed, sliding, duration, depth, force, speed at the end."""

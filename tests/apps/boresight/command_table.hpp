@@ -1,0 +1,35 @@
+// What README.md, the examples and .ci/start tell a user to give, and what they say of it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "program.hpp"
+
+namespace boresight::app {
+
+// What a command left.
+struct Left {
+  Ended ended;
+  nlohmann::json summary;
+  std::function<std::string(const std::string&)> file;                           // text of a file of its folder
+  std::function<nlohmann::json(const std::vector<std::string>& options)> again;            // summary of the same command with more options
+};
+
+struct Edit {
+  std::string file, what, with;
+};
+
+struct Command {
+  std::string text;
+  std::vector<std::string> shorter = {};         // options that make it quick, and change nothing of what is claimed
+  std::function<void(const Left&)> claims = {};  // what the text says of it
+  std::vector<Edit> edits = {};                  // of the example's files, where no option makes it quick
+  std::vector<std::string> before = {};          // commands whose results it takes
+  int status = 0;
+};
+
+std::vector<Command> commands();
+
+}  // namespace boresight::app
