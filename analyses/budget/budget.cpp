@@ -6,6 +6,7 @@
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/budget/ensemble.hpp"
+#include "boresight_analyses/montecarlo/looks.hpp"
 
 namespace boresight {
 namespace {
@@ -51,8 +52,8 @@ double mean_product(const std::vector<Vec3>& a, const std::vector<Vec3>& b, cons
 class Maker {
  public:
   Maker(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,
-        const SampleStore& store)
-      : plan_(plan), runs_(runs), axes_(quantity), ensemble_(plan, runs, store) {
+        const SampleStore& store, const std::vector<Judgement>& judgements)
+      : plan_(plan), runs_(runs), judgements_(judgements), axes_(quantity), ensemble_(plan, runs, store) {
     for (const ClearanceDescription& c : mechanism.description().clearances)
       joints_.push_back(mechanism.description().joints[static_cast<std::size_t>(c.joint)].name);
     nominal_ = stored_history(store, runs.nominal(), plan);
@@ -86,7 +87,7 @@ class Maker {
           b.levels.push_back(level(sizes, table(b, index, i), axis, b.headline.probability, plan_.confidence));
         for (std::size_t r = 0; r < plan_.requirements.size(); ++r)
           if (plan_.requirements[r].index == index && plan_.requirements[r].axis == axis)
-            b.requirements[r] = answer(plan_.requirements[r], sizes, b);
+            b.requirements[r] = answer(r, sizes, b);
         if (b.headline.index == index && b.headline.axis == axis)
           for (const std::vector<Vec3>& v : values) b.headline_sizes.push_back(sizes_of(v, {axis, axes_.count()}));
       }
@@ -126,12 +127,15 @@ class Maker {
     return l;
   }
 
-  RequirementAnswer answer(const BudgetRequirement& asked, const EnsembleInTime& sizes, const Budget& b) const {
+  RequirementAnswer answer(std::size_t r, const EnsembleInTime& sizes, const Budget& b) const {
+    const BudgetRequirement& asked = plan_.requirements[r];
+    const Judgement judgement =
+        judgements_.empty() ? Judgement{.confidence = asked.confidence, .why = ""} : judgements_[r];
     return {.asked = asked,
             .level = level(sizes, table(b, asked.index, asked.interpretation), asked.axis, asked.probability,
                            asked.confidence),
-            .compliance = sizes.compliance(asked.interpretation, asked.limit, asked.probability, asked.confidence,
-                                           plan_.leave_out)};
+            .compliance = sizes.compliance(asked.interpretation, asked.limit, asked.probability, judgement, plan_.leave_out),
+            .judgement = judgement};
   }
 
   // Members of the attribution for which both runs are there; the mechanism's part alone, of one index.
@@ -307,6 +311,7 @@ class Maker {
 
   const BudgetPlan& plan_;
   const BudgetRuns& runs_;
+  const std::vector<Judgement>& judgements_;
   const BudgetAxes axes_;
   const BudgetEnsemble ensemble_;
   std::vector<std::string> joints_;
@@ -324,9 +329,18 @@ bool Budget::met() const {
                      [](const RequirementAnswer& r) { return r.compliance.met; });
 }
 
+std::vector<Judgement> look_at_requirements(const BudgetPlan& plan, SampleStore& store) {
+  std::vector<Judgement> judgements;
+  for (const BudgetRequirement& r : plan.requirements)
+    judgements.push_back(look(store, question_of(plan, r),
+                              asked_of_members(r.interpretation, r.probability, r.confidence, plan.leave_out),
+                              looked_at_members(r.interpretation, plan.leave_out), plan.members));
+  return judgements;
+}
+
 Budget budget_of(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,
-                 const SampleStore& store) {
-  return Maker(plan, runs, mechanism, quantity, store).make();
+                 const SampleStore& store, const std::vector<Judgement>& judgements) {
+  return Maker(plan, runs, mechanism, quantity, store, judgements).make();
 }
 
 }  // namespace boresight

@@ -43,6 +43,7 @@ struct RequirementAnswer {
   BudgetRequirement asked;
   BudgetLevel level;  // at the probability asked for
   EnsembleInTime::Compliance compliance;
+  Judgement judgement = {};  // by which it holds: statistics/looks.hpp
   double margin() const { return asked.limit - level.level.value; }
   bool rule_says_met() const { return level.by_rule <= asked.limit; }
 };
@@ -82,9 +83,12 @@ struct Budget {
 inline constexpr const char* kClearanceKind = "clearance";
 inline constexpr const char* kScatterKind = "scatter";
 
-// From a store that holds all runs. Throws ComputationError where no member, or not the nominal motion, could be
-// followed.
+// How each requirement is judged. A first look at it is noted in the store, for those who add members and look again.
+std::vector<Judgement> look_at_requirements(const BudgetPlan& plan, SampleStore& store);
+
+// From a store that holds all runs. `judgements`: of the requirements; each as a first look where there are none. Throws
+// ComputationError where no member, or not the nominal motion, could be followed.
 Budget budget_of(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,
-                 const SampleStore& store);
+                 const SampleStore& store, const std::vector<Judgement>& judgements = {});
 
 }  // namespace boresight

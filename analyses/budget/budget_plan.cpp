@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "boresight/io/content_hash.hpp"
 #include "boresight/io/referred_file.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -200,6 +201,26 @@ std::string BudgetPlan::sample_text(const Study& study) const {
     text += "\n";
   }
   return text;
+}
+
+std::string question_of(const BudgetPlan& plan, const BudgetRequirement& r) {
+  const auto number = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, " %.17g", value);
+    return std::string(text);
+  };
+  const Windows& w = plan.windows;
+  std::string text = std::string(to_string(r.index)) + " " + std::to_string(r.axis) + " " + to_string(r.interpretation);
+  for (const double value : {r.limit, r.probability, r.confidence, plan.leave_out, w.window, w.separation, w.observation, w.revisit})
+    text += number(value);
+  for (const Contributor& c : plan.contributors) {
+    text += std::string("\n") + to_string(c.kind) + number(c.period) + number(c.correlation_time) +
+            (c.recalibrated ? " recalibrated " : " ") + c.group;
+    for (const DistributionPtr& parameter : c.parameter) text += "\n" + (parameter ? parameter->text() : std::string("none"));
+  }
+  ContentHash hash;
+  hash.add(text);
+  return "first_look " + hash.hexadecimal();
 }
 
 BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism, double duration,

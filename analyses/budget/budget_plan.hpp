@@ -95,6 +95,10 @@ struct BudgetPlan {
   std::string sample_text(const Study& study) const;
 };
 
+// Names the question that a requirement asks of the plan's members: other limits, windows or contributors are another one, judged
+// by itself; the number of members is no part of it.
+std::string question_of(const BudgetPlan& plan, const BudgetRequirement& requirement);
+
 // Throws InputError. `duration`: of the motion [s]; `accepts`: see read_random_inputs.
 BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism, double duration,
                             const std::function<void(const Setting&)>& accepts);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "boresight_analyses/statistics/betting_mean.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
 #include "boresight_analyses/statistics/bounded_mean.hpp"
 #include "boresight_analyses/statistics/independent_samples.hpp"
@@ -33,6 +34,19 @@ double share_at_or_below(const std::vector<double>& ascending, double limit) {
 const char* to_string(Interpretation interpretation) {
   static const char* const names[] = {"ensemble", "temporal", "mixed"};
   return names[static_cast<int>(interpretation)];
+}
+
+AskedShare asked_of_members(Interpretation interpretation, double probability, double confidence, double leave_out) {
+  const bool of_members = interpretation == Interpretation::temporal && leave_out > 0.0;
+  return {of_members ? 1.0 - leave_out : probability, confidence};
+}
+
+LookedAt looked_at_members(Interpretation interpretation, double leave_out) {
+  using Sample = LookedAt::Sample;
+  Sample sample = Sample::hit_or_miss;
+  if (interpretation == Interpretation::mixed) sample = Sample::share;
+  if (interpretation == Interpretation::temporal && leave_out == 0.0) sample = Sample::no_miss_allowed;
+  return {.sample = sample, .name = "members"};
 }
 
 EnsembleInTime::EnsembleInTime(std::vector<std::vector<double>> sizes, std::int64_t failed)
@@ -118,36 +132,54 @@ ReportedInterval EnsembleInTime::level(Interpretation interpretation, double pro
           Independent::name};
 }
 
-EnsembleInTime::Compliance EnsembleInTime::compliance(Interpretation interpretation, double limit, double probability,
-                                                      double confidence, double leave_out) const {
+double EnsembleInTime::share_of_members_shown(std::int64_t hits, const Judgement& judgement) const {
   const std::int64_t all = members() + failed_;
+  return judgement.by == Judgement::By::any_time ? betting_share_lower(hits, all, judgement.confidence)
+                                                 : clopper_pearson_lower(hits, all, judgement.confidence);
+}
+
+EnsembleInTime::Compliance EnsembleInTime::compliance(Interpretation interpretation, double limit, double probability,
+                                                      const Judgement& judgement, double leave_out) const {
+  using By = Judgement::By;
+  const std::int64_t all = members() + failed_;
+  const AskedShare asked = asked_of_members(interpretation, probability, judgement.confidence, leave_out);
+  std::vector<double> shares;  // of the time, per member that did not fail
+  for (const std::vector<double>& member : sizes_) shares.push_back(share_at_or_below(member, limit));
   Compliance c;
+  c.fewest = fewest_samples(asked, judgement);
   if (interpretation == Interpretation::mixed) {
     c.share = share_at_or_below(pooled_, limit) * static_cast<double>(members()) / static_cast<double>(all);
-    c.shown = bounded_mean_lower(c.share, static_cast<double>(all), confidence);
-    c.met = c.shown >= probability;
-    c.fewest = wilks_one_sided(probability, confidence);
-    return c;
-  }
-  if (interpretation == Interpretation::ensemble) {
+    if (judgement.by == By::any_time)
+      c.shown = betting_lower(shares, failed_, judgement.confidence);
+    else if (judgement.by == By::first_bet)
+      c.shown = first_bet_lower(static_cast<std::int64_t>(judgement.first), shares, 0, failed_, judgement.confidence);
+    else
+      c.shown = bounded_mean_lower(c.share, static_cast<double>(all), judgement.confidence);
+  } else if (interpretation == Interpretation::ensemble) {
     const auto hits = std::count_if(maxima_.begin(), maxima_.end(), [&](double m) { return m <= limit; });
     c.share = static_cast<double>(hits) / static_cast<double>(all);
-    c.shown = clopper_pearson_lower(hits, all, confidence);
-    c.met = c.shown >= probability;
-    c.fewest = wilks_one_sided(probability, confidence);
+    c.shown = share_of_members_shown(hits, judgement);
+  } else {
+    const auto hits = std::count_if(shares.begin(), shares.end(), [&](double s) { return s >= probability; });
+    shares.insert(shares.end(), static_cast<std::size_t>(failed_), 0.0);
+    std::sort(shares.begin(), shares.end());
+    const auto left_out = static_cast<std::size_t>(std::floor(leave_out * static_cast<double>(all)));
+    c.share = shares[std::min(left_out, shares.size() - 1)];
+    // With an exception the answer is no, and what is shown is all that is left to say of a later look.
+    const bool no_answer = leave_out == 0.0 && hits < all;
+    Judgement shown_by = judgement;
+    if (no_answer && judgement.first > 0) shown_by.by = By::any_time;
+    c.shown = share_of_members_shown(hits, shown_by);
+    c.met = !no_answer && judgement.by != By::nothing && c.shown >= asked.probability;
     return c;
   }
-  std::vector<double> shares(static_cast<std::size_t>(failed_), 0.0);
-  for (const std::vector<double>& member : sizes_) shares.push_back(share_at_or_below(member, limit));
-  std::sort(shares.begin(), shares.end());
-  const auto hits = std::count_if(shares.begin(), shares.end(), [&](double s) { return s >= probability; });
-  const auto left_out = static_cast<std::size_t>(std::floor(leave_out * static_cast<double>(all)));
-  c.share = shares[std::min(left_out, shares.size() - 1)];
-  c.shown = clopper_pearson_lower(hits, all, confidence);
-  const double of_members = leave_out > 0.0 ? 1.0 - leave_out : probability;
-  c.met = c.shown >= of_members && (leave_out > 0.0 || hits == all);
-  c.fewest = wilks_one_sided(of_members, confidence);
+  c.met = judgement.by != By::nothing && c.shown >= asked.probability;
   return c;
+}
+
+EnsembleInTime::Compliance EnsembleInTime::compliance(Interpretation interpretation, double limit, double probability,
+                                                      double confidence, double leave_out) const {
+  return compliance(interpretation, limit, probability, Judgement{.confidence = confidence, .why = ""}, leave_out);
 }
 
 }  // namespace boresight

@@ -9,14 +9,16 @@
 //
 // Members are independent of each other, the values within one are not. So intervals count members: of the ensemble
 // interpretation by order statistics and Clopper and Pearson, of the mixed one by Hoeffding's bound for the members'
-// shares of the time, of the temporal one by Clopper and Pearson for the share of members that keep it. A member that failed
-// has no values and counts as bad, as in IndependentSamples.
+// shares of the time, of the temporal one by Clopper and Pearson for the share of members that keep it; where members were added
+// after a first answer by what holds then (statistics/looks.hpp). A member that failed has no values and counts as bad, as in
+// IndependentSamples.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "boresight_analyses/statistics/interval.hpp"
+#include "boresight_analyses/statistics/looks.hpp"
 
 namespace boresight {
 
@@ -24,6 +26,10 @@ enum class Interpretation { ensemble, temporal, mixed };
 inline constexpr Interpretation kInterpretations[] = {Interpretation::ensemble, Interpretation::temporal,
                                                       Interpretation::mixed};
 const char* to_string(Interpretation interpretation);
+
+// What a requirement asks of the members, and what one of them says, for the judgement of a look at them.
+AskedShare asked_of_members(Interpretation interpretation, double probability, double confidence, double leave_out);
+LookedAt looked_at_members(Interpretation interpretation, double leave_out);
 
 class EnsembleInTime {
  public:
@@ -48,13 +54,16 @@ class EnsembleInTime {
   // below it. Failed members are left out.
   double resampled_level(Interpretation interpretation, double probability, double leave_out,
                          const std::vector<std::uint32_t>& times) const;
-  // Whether it stays at or below the limit with this probability, at this confidence, one-sided.
+  // Whether it stays at or below the limit with this probability, one-sided; as judged, or as a first look at this confidence.
+  Compliance compliance(Interpretation interpretation, double limit, double probability, const Judgement& judgement,
+                        double leave_out = 0.0) const;
   Compliance compliance(Interpretation interpretation, double limit, double probability, double confidence,
                         double leave_out = 0.0) const;
 
  private:
   double pooled_quantile(double share) const;
   std::vector<double> quantiles_in_time(double probability) const;  // per member
+  double share_of_members_shown(std::int64_t hits, const Judgement& judgement) const;  // failed ones among the others
 
   std::vector<std::vector<double>> sizes_;  // each ascending
   std::vector<double> maxima_;

@@ -180,7 +180,7 @@ Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan
       verdict.judgement = judged();
       verdict.probability = probability_interval(samples, asked.limit, verdict.judgement);
       verdict.met = verdict.judgement.by != Judgement::By::nothing && verdict.probability.low >= asked.probability;
-      verdict.fewest_samples = wilks_one_sided(asked.probability, asked.confidence);
+      verdict.fewest_samples = fewest_samples({asked.probability, asked.confidence}, verdict.judgement);
       result.requirement = verdict;
     }
     return ReportedInterval{};

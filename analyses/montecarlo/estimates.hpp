@@ -26,7 +26,7 @@ struct RequirementVerdict {
   bool met = false;                 // shown to be met: the probability's lower bound reaches what is asked
   ReportedInterval probability;     // low and high are one-sided bounds, each at the requirement's confidence
   Judgement judgement = {};         // by which these bounds hold: looks.hpp
-  std::int64_t fewest_samples = 0;  // Wilks: independent samples that could show it at all, if none is above the limit
+  std::int64_t fewest_samples = 0;  // independent ones that could show it at all, if none is above the limit
 };
 
 // A standard of what a number is wrong by, in its own unit and relative to it.

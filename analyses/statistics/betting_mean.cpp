@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "boresight_analyses/statistics/bounded_mean.hpp"
+
 namespace boresight {
 namespace {
 
@@ -36,15 +38,20 @@ double log_capital(const std::vector<Counted>& values, double mean) {
 }
 
 // The capital falls as the mean in question grows.
-double lower(const std::vector<Counted>& values, double confidence) {
+template <typename LogCapital>
+double largest_refused(const LogCapital& log_capital_of, double confidence) {
   if (!(confidence > 0.0 && confidence < 1.0)) throw std::invalid_argument("confidence must lie between 0 and 1");
   const double ruin = -std::log1p(-confidence);
   double low = 0.0, high = 1.0;
   for (int i = 0; i < 60 && high - low > 1e-12 * high; ++i) {
     const double middle = 0.5 * (low + high);
-    (log_capital(values, middle) >= ruin ? low : high) = middle;
+    (log_capital_of(middle) >= ruin ? low : high) = middle;
   }
   return low;
+}
+
+double lower(const std::vector<Counted>& values, double confidence) {
+  return largest_refused([&](double mean) { return log_capital(values, mean); }, confidence);
 }
 
 std::vector<Counted> counted(std::span<const double> values, std::int64_t zeros, bool mirrored) {
@@ -92,6 +99,27 @@ double betting_share_lower(std::int64_t hits, std::int64_t samples, double confi
 
 double betting_share_upper(std::int64_t hits, std::int64_t samples, double confidence) {
   return 1.0 - lower(shares(samples - hits, samples), confidence);
+}
+
+double first_bet_stake(std::int64_t first, double mean, double confidence) {
+  if (first <= 0) throw std::invalid_argument("there must be first values");
+  const double shown_by = mean_that_shows(mean, static_cast<double>(first), confidence);
+  return shown_by < 1.0 ? 1.0 - (1.0 - shown_by) / (1.0 - mean) : 1.0;
+}
+
+double first_bet_lower(std::int64_t first, std::span<const double> values, std::int64_t ones, std::int64_t zeros,
+                       double confidence) {
+  std::vector<Counted> all;
+  if (!values.empty() || zeros > 0) all = counted(values, zeros, false);
+  if (ones > 0) all.push_back({1.0, static_cast<double>(ones)});
+  if (all.empty()) throw std::invalid_argument("there must be values");
+  const auto log_capital_of = [&](double mean) {
+    const double stake = first_bet_stake(first, mean, confidence);
+    double log = 0.0;
+    for (const Counted& v : all) log += v.times * std::log1p(stake * (v.value / mean - 1.0));
+    return log;
+  };
+  return largest_refused(log_capital_of, confidence);
 }
 
 }  // namespace boresight

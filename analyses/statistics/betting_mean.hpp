@@ -29,4 +29,15 @@ double betting_upper(std::span<const double> values, std::int64_t zeros, double 
 double betting_share_lower(std::int64_t hits, std::int64_t samples, double confidence);
 double betting_share_upper(std::int64_t hits, std::int64_t samples, double confidence);
 
+// Going on with the bet that Hoeffding's bound of `first` values is (bounded_mean.hpp). With s the mean of that many values that
+// would show m, his bound holds as Markov's of a bet against m with the one stake
+//
+//   c = 1 - (1 - s) / (1 - m)
+//
+// which holds at any time: a bound by Hoeffding for the first values and this one for more of them err together with a chance
+// of at most 1 - confidence. One-sided; `ones`, `zeros`: further values. Throws as above.
+double first_bet_stake(std::int64_t first, double mean, double confidence);
+double first_bet_lower(std::int64_t first, std::span<const double> values, std::int64_t ones, std::int64_t zeros,
+                       double confidence);
+
 }  // namespace boresight

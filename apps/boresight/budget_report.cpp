@@ -94,13 +94,14 @@ std::string requirement_sentence(const BudgetStudy& s, const RequirementAnswer& 
                   budget_value(s, r.level.level.value), budget_value(s, r.asked.limit),
                   r.compliance.met ? "met" : "not shown to be met");
   if (r.compliance.met)
-    return text + fmt::format(" with {} confidence, margin {}", percent(r.asked.confidence),
-                              readable_share(r.margin() / r.asked.limit));
-  if (r.margin() < 0.0) return text + fmt::format(", {} above the limit", readable_share(-r.margin() / r.asked.limit));
-  return text +
-         fmt::format(
-             ": the members do not contradict it, and show {:.4g} % with {} confidence; more of them may show it",
-             100.0 * r.compliance.shown, percent(r.asked.confidence));
+    text += fmt::format(" with {} confidence, margin {}", percent(r.asked.confidence), readable_share(r.margin() / r.asked.limit));
+  else if (r.margin() < 0.0)
+    text += fmt::format(", {} above the limit", readable_share(-r.margin() / r.asked.limit));
+  else
+    text += fmt::format(": the members do not contradict it, and show {:.4g} % with {} confidence{}", 100.0 * r.compliance.shown,
+                        percent(r.asked.confidence),
+                        r.judgement.by == Judgement::By::nothing ? "" : "; more of them may show it");
+  return r.judgement.why.empty() ? text : text + " (" + r.judgement.why + ")";
 }
 
 std::string budget_verdict(const BudgetStudy& s) {

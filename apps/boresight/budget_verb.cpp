@@ -112,6 +112,8 @@ Json budget_json(const BudgetStudy& s, const Budget& b) {
     one["margin"] = r.margin();
     one["share"] = r.compliance.share;
     one["shown"] = r.compliance.shown;
+    one["shown_confidence"] = r.judgement.confidence;
+    if (!r.judgement.why.empty()) one["judged"] = r.judgement.why;
     one["fewest_members"] = r.compliance.fewest;
     one["rule_says_met"] = r.rule_says_met();
     json["requirements"].push_back(std::move(one));
@@ -188,7 +190,7 @@ class BudgetVerb : public Verb {
                          choice.name, &store);
 
     std::optional<Budget> budget;
-    if (whole) budget = budget_of(plan, runs, *mechanism, study.index.kind(), store);
+    if (whole) budget = budget_of(plan, runs, *mechanism, study.index.kind(), store, look_at_requirements(plan, store));
     BudgetStudy result{.command = command,
                        .study = study,
                        .mechanism = *mechanism,

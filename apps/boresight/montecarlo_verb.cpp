@@ -295,10 +295,7 @@ class MonteCarloVerb : public Verb {
     if (!plan.requirement) return std::nullopt;
     if (result.ended == Ended::interrupted)
       return Judgement{Judgement::By::nothing, plan.requirement->confidence, "not judged: interrupted"};
-    const std::string question_name = question_of(*plan.requirement);
-    const std::optional<FirstLook> first = FirstLook::parse(store.fact(question_name));
-    if (!first && !result.values.empty()) store.note(question_name, first_look_of(plan, result.values.size()).text());
-    return judgement_of(plan, result.values.size(), first);
+    return look(store, question_of(*plan.requirement), asked_share_of(plan), looked_at_of(plan), result.values.size());
   }
 
   // Failed ones first, the others spread evenly; and what the rung thinks of its own error, on average.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "boresight_analyses/statistics/binomial.hpp"
+#include "boresight_analyses/statistics/bounded_mean.hpp"
 #include "repetition.hpp"
 
 namespace boresight {
@@ -87,6 +88,51 @@ TEST(BettingMean, TakesValuesOneByOneOrCounted) {
   EXPECT_NEAR(betting_lower(values, 0, 0.9), betting_share_lower(2, 50, 0.9), 1e-9);
   EXPECT_THROW(betting_lower(std::vector<double>{1.5}, 0, 0.9), std::invalid_argument);
   EXPECT_THROW(betting_lower({}, 0, 0.9), std::invalid_argument);
+}
+
+// Of as many values as Hoeffding's bound was for it is no worse than that, and equal where every value is 0 or 1.
+TEST(FirstBet, IsHoeffdingsBoundWhereItBegins) {
+  for (const std::int64_t n : {60, 200}) {
+    for (const std::int64_t zeros : {0, 1, 5}) {
+      const double mean = double(n - zeros) / double(n);
+      EXPECT_NEAR(first_bet_lower(n, {}, n - zeros, zeros, kConfidence), bounded_mean_lower(mean, double(n), kConfidence), 1e-6);
+      const std::vector<double> level(static_cast<std::size_t>(n), mean);
+      EXPECT_GE(first_bet_lower(n, level, 0, 0, kConfidence), bounded_mean_lower(mean, double(n), kConfidence) - 1e-9);
+    }
+  }
+  EXPECT_THROW(first_bet_lower(0, {}, 5, 0, kConfidence), std::invalid_argument);
+  EXPECT_THROW(first_bet_lower(5, {}, 0, 0, kConfidence), std::invalid_argument);
+}
+
+// The first look by Hoeffding's bound at 60 values, the later ones by its bet: of means that are just the truth, hit or miss or
+// spread evenly.
+TEST(FirstBet, KeepsTheRiskTogetherWithTheFirstLookHoweverOftenOneLooks) {
+  constexpr double kTruth = 0.9;
+  constexpr int kRepetitions = 500, kFirst = 60;
+  for (const bool spread : {false, true}) {
+    int misled = 0, misled_by_hoeffding = 0;
+    std::mt19937_64 engine(13);
+    for (int r = 0; r < kRepetitions; ++r) {
+      std::vector<double> values;
+      bool here = false, hoeffding = false;
+      double sum = 0.0;
+      for (int n = kFirst; n <= 1500; n += n / 4) {
+        while (static_cast<int>(values.size()) < n) {
+          const double u = repetition::uniform(engine);
+          values.push_back(spread ? 0.8 + 0.2 * u : (u < kTruth ? 1.0 : 0.0));
+          sum += values.back();
+        }
+        const bool fixed = bounded_mean_lower(sum / n, n, kConfidence) > kTruth;
+        hoeffding = hoeffding || fixed;
+        here = here || (n == kFirst ? fixed : first_bet_lower(kFirst, values, 0, 0, kConfidence) > kTruth);
+      }
+      misled += here;
+      misled_by_hoeffding += hoeffding;
+    }
+    std::printf("%s: misled %.3f (by Hoeffding's bound each time: %.3f), nominal %.3f\n", spread ? "spread" : "hit or miss",
+                double(misled) / kRepetitions, double(misled_by_hoeffding) / kRepetitions, kRisk);
+    EXPECT_LE(double(misled) / kRepetitions, allowed(kRepetitions)) << spread;
+  }
 }
 
 }  // namespace

@@ -79,6 +79,32 @@ TEST_F(BudgetProgram, AnswersNoWhereARequirementIsNotMetAndReusesTheRuns) {
   EXPECT_EQ(json("out/summary.json")["levels"][0]["value"], before["levels"][0]["value"]);
 }
 
+TEST_F(BudgetProgram, LookingAgainWithMoreMembersIsJudgedByWhatHoldsThen) {
+  const std::string ensemble = "[[budget.requirement]]\ninterpretation = \"ensemble\"\nlimit = \"1 deg\"\nprobability = 0.9\n";
+  const std::string asked = requirement("1 arcsec") + ensemble;
+  study(asked, "20");
+  ASSERT_EQ(call(arguments({"--quiet"})).status, 1);
+  EXPECT_FALSE(json("out/summary.json")["requirements"][1].contains("judged"));
+  study(asked, "25");
+  const Ended again = call(arguments({"--resume"}));
+  ASSERT_EQ(again.status, 1) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("judged at 20 members before"));
+  const auto summary = json("out/summary.json");
+  EXPECT_THAT(summary["requirements"][0]["judged"].get<std::string>(), HasSubstr("the bet that the first bound was"));
+  // 20 members could not show 90 % with 90 % confidence, so that no risk was taken.
+  EXPECT_THAT(summary["requirements"][1]["judged"].get<std::string>(), HasSubstr("a confidence sequence with the risk that was left, 10 %"));
+  EXPECT_FALSE(summary["requirements"][1]["met"].get<bool>());
+  EXPECT_GT(summary["requirements"][1]["fewest_members"], 25);
+  // Another limit is another question.
+  study(requirement("2 deg") + ensemble, "25");
+  ASSERT_EQ(call(arguments({"--quiet", "--resume"})).status, 1);
+  EXPECT_FALSE(json("out/summary.json")["requirements"][0].contains("judged"));
+  // The first look again is what it was.
+  study(asked, "20");
+  ASSERT_EQ(call(arguments({"--quiet", "--resume"})).status, 1);
+  EXPECT_FALSE(json("out/summary.json")["requirements"][1].contains("judged"));
+}
+
 TEST_F(BudgetProgram, GivesTheSameBitsOnAnyNumberOfThreads) {
   study("[[budget.contributor]]\nname = \"noise\"\nclass = \"random\"\nvalue = \"5 arcsec\"\n");
   ASSERT_EQ(call(arguments({"--quiet", "--jobs", "1"})).status, 0);
