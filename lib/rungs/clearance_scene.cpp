@@ -50,7 +50,7 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
     : mechanism_(mechanism),
       offsets_(mechanism),
       coordinates_(mechanism, ideal),
-      layout_(offsets_, coordinates_, coordinates_.leftover() > 0 || !mechanism.description().springs.empty()) {
+      layout_(offsets_, coordinates_, coordinates_.leftover() > 0 || moving() || !mechanism.description().springs.empty()) {
   const MechanismDescription& m = mechanism.description();
   std::vector<Element> fixed;
   for (int b = 0; b < mechanism.bodies(); ++b) fixed.push_back({.body = b, .inertia = m.bodies[b].inertia});
@@ -67,7 +67,7 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
 
 SceneStart ClearanceScene::start_of(const Parameters& parameters, const Knot& first) const {
   SceneStart start{{}, start_rates(mechanism_, parameters, first.state, first.T, first.T_rate)};
-  append_row(parameters, first, start.row);
+  append_row(parameters, first, start.row, true);
   return start;
 }
 
@@ -191,14 +191,14 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
   coordinates_.gain(t, knot.T);
   knot.B = coordinates_.offsets_per_coordinate(knot.T);
   MatX B_rate;
-  coordinates_.rates(knot.T, knot.T_rate, B_rate);
+  coordinates_.rates(knot.T, knot.T_rate, knot.T_second, B_rate);
   ideal.state(t, knot.state);
   add_joints(knot.T, B_rate, knot);
   if (layout_.n == 0) return knot;  // no play can move
   knot.elements.assign(groups_.size() * element_size(), 0.0);
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (const Element& element : groups_[g])
-      add_element(element, knot.T, knot.T_rate, knot.state, &knot.elements[g * element_size()]);
+      add_element(element, knot, &knot.elements[g * element_size()]);
   for (const SpringDescription& spring : mechanism_.description().springs)
     knot.springs.push_back(spring_gain(mechanism_.description(), spring, knot.state, knot.T, knot.T_rate));
   if (coordinates_.leftover() > 0) {
@@ -252,11 +252,11 @@ void ClearanceScene::add_joints(const MatX& T, const MatX& B_rate, Knot& knot) c
   }
 }
 
-void ClearanceScene::add_element(const Element& e, const MatX& T, const MatX& T_rate, const IdealState& state,
-                                 double* out) const {
+void ClearanceScene::add_element(const Element& e, const Knot& knot, double* out) const {
   const int n = layout_.n;
-  const BodyMotion& body = state.bodies[e.body];
-  const BodyAcceleration& a = state.acceleration[e.body];
+  const MatX &T = knot.T, &T_rate = knot.T_rate;
+  const BodyMotion& body = knot.state.bodies[e.body];
+  const BodyAcceleration& a = knot.state.acceleration[e.body];
   const Vec3 c = body.R * e.c, c_rate = body.w.cross(c), w = body.w, alpha = a.tail<3>();
   const auto T_v = T.middleRows<3>(6 * e.body), T_w = T.middleRows<3>(6 * e.body + 3);
   const auto Td_v = T_rate.middleRows<3>(6 * e.body), Td_w = T_rate.middleRows<3>(6 * e.body + 3);
@@ -271,6 +271,25 @@ void ClearanceScene::add_element(const Element& e, const MatX& T, const MatX& T_
   Eigen::Map<MatX>(out + n * n, n, n) += 2.0 * e.mass * T_c.transpose() * Td_c + T_w.transpose() * turning;
   Eigen::Map<VecX>(out + 2 * n * n, n) -= e.mass * T_c.transpose() * a_c + T_w.transpose() * (I * alpha + w.cross(I * w));
   Eigen::Map<MatX>(out + 2 * n * n + n, n, 3) += e.mass * T_c.transpose();
+  if (!moving()) return;
+  const auto Tdd_v = knot.T_second.middleRows<3>(6 * e.body), Tdd_w = knot.T_second.middleRows<3>(6 * e.body + 3);
+  const Vec3 c_second = alpha.cross(c) + w.cross(c_rate);
+  const Gain Tdd_c = Tdd_v - cross_matrix(c_second) * T_w - 2.0 * cross_matrix(c_rate) * Td_w - cross_matrix(c) * Tdd_w;
+  Eigen::Map<MatX>(out + 2 * n * n + 4 * n, n, n) += e.mass * T_c.transpose() * Tdd_c + T_w.transpose() * (I * Tdd_w + gyroscopic * Td_w);
+}
+
+// How much there is of a group of elements: 1, a body's mass, the payload's.
+double ClearanceScene::units_of(std::size_t group, const Parameters& parameters) const {
+  const int body = static_cast<int>(group) - 1;
+  return group == 0 ? 1.0 : body < mechanism_.bodies() ? parameters.body_mass[body] : parameters.payload_mass;
+}
+
+MatX ClearanceScene::moving_stiffness(const Parameters& parameters, const Knot& knot) const {
+  const int n = layout_.n;
+  MatX K = MatX::Zero(n, n);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    K += units_of(g, parameters) * Eigen::Map<const MatX>(&knot.elements[g * element_size()] + 2 * n * n + 4 * n, n, n);
+  return K;
 }
 
 void ClearanceScene::assemble(const Parameters& parameters, const Knot& knot, MatX& M, MatX& C, VecX& r) const {
@@ -280,8 +299,7 @@ void ClearanceScene::assemble(const Parameters& parameters, const Knot& knot, Ma
   r.setZero(n);
   if (n == 0) return;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const int body = static_cast<int>(g) - 1;
-    const double units = g == 0 ? 1.0 : body < mechanism_.bodies() ? parameters.body_mass[body] : parameters.payload_mass;
+    const double units = units_of(g, parameters);
     if (units == 0.0) continue;
     const double* e = &knot.elements[g * element_size()];
     M += units * Eigen::Map<const MatX>(e, n, n);
@@ -311,7 +329,7 @@ MatX ClearanceScene::spring_stiffness(const Parameters& parameters, int knot) co
   return spring_stiffness(parameters, knots_[knot]);
 }
 
-void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row) const {
+void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row, bool at_rest) const {
   const int n = layout_.n;
   MatX M, C;
   VecX r;
@@ -324,10 +342,13 @@ void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, 
     for (int j = i; j < n; ++j) row.push_back(inverse(i, j));
   append(row, VecX(cholesky.solve(r)));
   append(row, MatX(cholesky.solve(C)));
-  if (coordinates_.leftover() > 0)
+  if (coordinates_.leftover() > 0) {
     append(row, knot.stiffness);
-  else if (layout_.stiff)
-    append(row, MatX(cholesky.solve(spring_stiffness(parameters, knot))));
+  } else if (layout_.stiff) {
+    MatX K = spring_stiffness(parameters, knot);
+    if (moving() && !at_rest) K += moving_stiffness(parameters, knot);
+    append(row, MatX(cholesky.solve(K)));
+  }
   row.insert(row.end(), knot.joints.begin(), knot.joints.end());
 }
 

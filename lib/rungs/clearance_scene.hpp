@@ -14,6 +14,8 @@
 // as it turns, and D in C. What gravity, inertia and loads add (their geometric stiffness) matters where the ideal mechanism has
 // freedoms of its own (a pendulum): there alone it is kept, by differences of the multibody formulation. Between offsets held
 // by contact it is to the contact forces as the offsets to the mechanism's size, and part of the model error (perturbation.cpp).
+// Where redundant joints tie offsets together, which of them are coordinates is the drawing's choice, and must not matter: T^T [M T'' +
+// (gyroscopic - w x) T'] is then kept, which says that it is the bodies' motion T z that has no force of its own, and not z.
 // The generalised contact force of a joint is its whole wrench on the journal: the force along the offset, the moment
 // through what z does to the relative spin, w_rel = w_ideal + S zdot, and on a cylindrical joint the axial friction through
 // what it does to the slide, slide_ideal + Y zdot. No number of a contact changes any of this. Masses and gravity enter
@@ -95,21 +97,27 @@ class ClearanceScene {
   };
   struct Knot {
     IdealState state;
-    MatX T, T_rate, B;
+    MatX T, T_rate, T_second, B;
     std::vector<double> joints;    // the joints' part of a row
-    std::vector<double> elements;  // per element group: M (n n), C (n n), r (n), r per unit of gravity (n 3)
+    std::vector<double> elements;  // per element group: M (n n), C (n n), r (n), r per unit of gravity (n 3), (K of T'', n n)
     std::vector<SpringGain> springs;
     MatX stiffness;                // A K, where by differences
   };
   Knot knot_at(double t, const IdealMotion& ideal, const Parameters& parameters);
   void add_joints(const MatX& T, const MatX& B_rate, Knot& knot) const;
-  void add_element(const Element& element, const MatX& T, const MatX& T_rate, const IdealState& state, double* out) const;
+  void add_element(const Element& element, const Knot& knot, double* out) const;
+  double units_of(std::size_t group, const Parameters& parameters) const;
   void assemble(const Parameters& parameters, const Knot& knot, MatX& M, MatX& C, VecX& r) const;
   MatX spring_stiffness(const Parameters& parameters, const Knot& knot) const;
-  void append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row) const;
+  // What T'' takes, where offsets depend on others: a load on z of -K z.
+  MatX moving_stiffness(const Parameters& parameters, const Knot& knot) const;
+  // at_rest: for a balance of forces, which does not ask how the coordinates change.
+  void append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row, bool at_rest = false) const;
   double slowest_rate(const std::vector<double>& rows, const Parameters& parameters) const;
   double interpolation_error(const std::vector<double>& rows, const Parameters& parameters) const;
-  int element_size() const { return 2 * layout_.n * layout_.n + 4 * layout_.n; }
+  // Whether T'' has a part; with leftover coordinates the differences of deviation_stiffness.hpp know it.
+  bool moving() const { return coordinates_.has_dependent() && coordinates_.leftover() == 0; }
+  int element_size() const { return (moving() ? 3 : 2) * layout_.n * layout_.n + 4 * layout_.n; }
 
   const Mechanism& mechanism_;
   OffsetLayout offsets_;

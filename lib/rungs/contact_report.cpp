@@ -152,8 +152,13 @@ std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const
     const double deepest = law.radial_law.depth_under(2.0 * along.reaction_max[c]);
     const double radial = deepest > 0.0 ? law.radial_law.elastic_slope(deepest) : 0.0;
     root_stiffness.segment<3>(at.first) << std::sqrt(radial), std::sqrt(law.face_stiffness), std::sqrt(radial);
-    // Both ends of a tilting journal at half the stiffness each, half a sleeve's length from its centre.
-    if (at.tilts) root_stiffness.segment<2>(at.first + 3).setConstant(std::sqrt(radial) * law.half_length);
+    // Both ends of a tilting journal at half the stiffness each, half a sleeve's length from its centre; and a face in full contact, whose
+    // ring resists tilts by K_c R^2 / 2 (ring_contact.hpp).
+    if (at.tilts) {
+      const double ends = radial * law.half_length * law.half_length;
+      const double ring = law.has_faces ? 0.5 * law.face_stiffness * law.tilted.ring_radius * law.tilted.ring_radius : 0.0;
+      root_stiffness.segment<2>(at.first + 3).setConstant(std::sqrt(ends + ring));
+    }
     result.push_back(f);
   }
   for (const MatX& A : along.compliance) {

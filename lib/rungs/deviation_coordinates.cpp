@@ -23,11 +23,14 @@ constexpr double kCancelled = 1e-10;
 // How far bodies are moved for the change of the rows with the pose, in radians and characteristic lengths: rows are products of a few
 // sines, whose fourth order leaves 1e-13 there, as rounding does.
 constexpr double kMoved = 1e-3;
-// The derivative in the middle of five equally spaced values, whose own weight is 0 (Fornberg 1988, Mathematics of Computation 51, Table 1).
+// The first and the second derivative in the middle of five equally spaced values; the value in the middle has no part in the first and
+// -30/12 in the second (Fornberg 1988, Mathematics of Computation 51, Table 1).
 struct Weight {
-  double place, weight;
+  double place, first, second;
 };
-constexpr Weight kDerivative[] = {{-2.0, 1.0 / 12.0}, {-1.0, -8.0 / 12.0}, {1.0, 8.0 / 12.0}, {2.0, -1.0 / 12.0}};
+constexpr Weight kDerivative[] = {{-2.0, 1.0 / 12.0, -1.0 / 12.0}, {-1.0, -8.0 / 12.0, 16.0 / 12.0}, {1.0, 8.0 / 12.0, 16.0 / 12.0},
+                                  {2.0, -1.0 / 12.0, -1.0 / 12.0}};
+constexpr double kMiddleOfSecond = -30.0 / 12.0;
 
 }  // namespace
 
@@ -212,16 +215,25 @@ void DeviationCoordinates::dense_gain(double t, MatX& T) {
   T = scale_.asDiagonal() * x * unit_.cwiseInverse().asDiagonal();
 }
 
-// J T is the same at all times, so that J T' = -J' T: J' is how the rows change as the bodies move on.
-void DeviationCoordinates::rates(const MatX& T, MatX& T_rate, MatX& B_rate) {
+// J T is the same at all times, so that J T' = -J' T and J T'' = -J'' T - 2 J' T': J' and J'' are how the rows change as the bodies move on.
+void DeviationCoordinates::rates(const MatX& T, MatX& T_rate, MatX& T_second, MatX& B_rate) {
   T_rate.setZero(T.rows(), T.cols());
+  T_second.setZero(has_dependent_ ? T.rows() : 0, has_dependent_ ? T.cols() : 0);
   B_rate.setZero(layout_.size(), count_);
   double speed = 0.0;
-  for (const BodyMotion& b : state_.bodies) speed = std::max({speed, b.w.norm(), b.v.norm() / length_});
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    const BodyMotion& body = state_.bodies[b];
+    speed = std::max({speed, body.w.norm(), body.v.norm() / length_});
+    if (!has_dependent_) continue;
+    const BodyAcceleration& a = state_.acceleration[b];
+    speed = std::max({speed, std::sqrt(a.tail<3>().norm()), std::sqrt(a.head<3>().norm() / length_)});
+  }
   if (count_ == 0 || speed == 0.0) return;
   const double step = kMoved / speed;
   const MatX x = scale_.cwiseInverse().asDiagonal() * T * unit_.asDiagonal();
-  MatX dense = MatX::Zero(sparse_ ? 0 : all_.rows(), count_);
+  MatX J_rate, J_second;
+  if (!sparse_) J_rate = MatX::Zero(all_.rows(), all_.cols());
+  if (has_dependent_) J_second = kMiddleOfSecond / (step * step) * all_;
   std::vector<std::vector<Vec6>> blocks(sparse_ ? count_ : 0, closed_.block_vector());
   for (auto& of_one : blocks)
     for (Vec6& block : of_one) block.setZero();
@@ -229,12 +241,14 @@ void DeviationCoordinates::rates(const MatX& T, MatX& T_rate, MatX& B_rate) {
   std::vector<BodyMotion> bodies;
   for (const Weight& w : kDerivative) {
     bodies = state_.bodies;
-    for (BodyMotion& b : bodies) {
+    const double after = w.place * step;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
       Vec6 by;
-      by << w.place * step * b.v, w.place * step * b.w;
-      displace(b, by);
+      by << after * bodies[b].v, after * bodies[b].w;
+      if (has_dependent_) by += 0.5 * after * after * state_.acceleration[b];
+      displace(bodies[b], by);
     }
-    const double weight = w.weight / step;
+    const double weight = w.first / step;
     if (sparse_) {
       moved_.evaluate(bodies, laws_);
       for (int z = 0; z < count_; ++z) {
@@ -243,7 +257,9 @@ void DeviationCoordinates::rates(const MatX& T, MatX& T_rate, MatX& B_rate) {
         for (std::size_t k = 0; k < residual_.size(); ++k) blocks[z][k] -= weight * residual_[k];
       }
     } else {
-      dense.noalias() -= weight * (dense_rows(bodies) * x);
+      const MatX J = dense_rows(bodies);
+      J_rate += weight * J;
+      if (has_dependent_) J_second += w.second / (step * step) * J;
     }
     if (!has_dependent_) continue;
     for (int c = 0; c < layout_.clearances(); ++c) {
@@ -256,12 +272,18 @@ void DeviationCoordinates::rates(const MatX& T, MatX& T_rate, MatX& B_rate) {
       b_ = blocks[z];
       solve_closed(T_rate.col(z));
     }
-  } else {
-    MatX x_rate = qr_.solve(dense);
-    x_rate += qr_.solve(MatX(dense - all_ * x_rate));
-    T_rate = scale_.asDiagonal() * x_rate * unit_.cwiseInverse().asDiagonal();
+    return;
   }
-  for (int c = 0; has_dependent_ && c < layout_.clearances(); ++c) {
+  const auto solved = [&](const MatX& right) {
+    const MatX once = qr_.solve(right);
+    return MatX(once + qr_.solve(MatX(right - all_ * once)));
+  };
+  const auto in_units = [&](const MatX& scaled) { return MatX(scale_.asDiagonal() * scaled * unit_.cwiseInverse().asDiagonal()); };
+  const MatX x_rate = solved(-J_rate * x);
+  T_rate = in_units(x_rate);
+  if (!has_dependent_) return;
+  T_second = in_units(solved(-J_second * x - 2.0 * J_rate * x_rate));
+  for (int c = 0; c < layout_.clearances(); ++c) {
     const MatX rows = stacked_rows(rows_[c], state_.bodies), now = of_offsets[c] * T + rows * T_rate;
     const MatX bound = kCancelled * (speed * (rows.cwiseAbs() * T.cwiseAbs()) + rows.cwiseAbs() * T_rate.cwiseAbs());
     const OffsetLayout::Joint& joint = layout_.joint(c);

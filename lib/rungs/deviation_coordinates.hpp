@@ -41,8 +41,8 @@ class DeviationCoordinates {
   void gain(double t, MatX& T);
   // B at the pose of the last gain(): offsets x count. Exactly 0 and 1 where an offset is a coordinate.
   MatX offsets_per_coordinate(const MatX& T) const;
-  // How fast T and B change there along the ideal motion.
-  void rates(const MatX& T, MatX& T_rate, MatX& B_rate);
+  // How fast T and B change there along the ideal motion; where offsets depend on others also how T_rate changes, else 0 x 0.
+  void rates(const MatX& T, MatX& T_rate, MatX& T_second, MatX& B_rate);
   // The chosen rows at the pose of the last gain(), in the order of the coordinates: acceleration of z = rows . v' - gamma.
   void coordinate_accelerations(const std::vector<BodyMotion>& bodies, const std::vector<BodyAcceleration>& acceleration,
                                 VecX& z_ddot) const;

@@ -20,8 +20,8 @@ constexpr std::array kShares = {1.0, 0.97, 0.5};
 // Steps after which a motion counts as too long to be followed for an estimate, in the looks that a rung
 // grants (every 4096).
 constexpr int kMostLooks = 1000;
-// An error that weighs less than this against the others, on the mechanism's size, is next to nothing.
-constexpr double kWeighs = 1e-3;
+// What is smaller than this share of the largest, on the mechanism's size, is next to nothing: what it is off by counts against this.
+constexpr double kNextToNothing = 1e-4;
 // Where numbers scatter that begin at zero, every sample may stand for itself alone.
 constexpr std::size_t kMostKept = 4096;
 
@@ -203,8 +203,7 @@ class MeasuredByDynamics final : public Rung {
         }
         const double mean = sum / static_cast<double>(motions.size());
         const double off = std::abs(index.*quantity.*statistic - mean) + kOfRange * (high - low);
-        // What next to nothing is off by counts against the error that is there.
-        const double against = unit(quantity) * mean > kWeighs * largest ? mean : largest / unit(quantity);
+        const double against = std::max(mean, kNextToNothing * largest / unit(quantity));
         if (against > 0.0) measured.error.model = std::max(measured.error.model, off / against);
         if (statistic == &Statistics::max && quantity == quantities[0])
           measured.exceeded = high / (index.*quantity).max - 1.0;

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <vector>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/rungs/unstable_step.hpp"
 
 namespace boresight {
 namespace {
@@ -16,7 +18,8 @@ constexpr std::array kQuantities = {&PointingIndices::position_error, &PointingI
                                     &PointingIndices::boresight_error, &PointingIndices::line_of_sight_error};
 constexpr std::array kStatistics = {&Statistics::max, &Statistics::rms, &Statistics::mean, &Statistics::p9973};
 
-constexpr double kNeighbours[] = {0.985, 0.97};
+// The second and third neighbour, and further ones for those that cannot be followed: near the largest stable step it is chance which can.
+constexpr double kNeighbours[] = {0.985, 0.97, 0.955, 0.94, 0.91, 0.88};
 constexpr double kFinerStep = 0.5, kFinerTolerance = 0.1;
 // Rounding of a motion integrated in metres [m or rad].
 constexpr double kRounding = 1e-12;
@@ -63,6 +66,19 @@ class FurtherRuns {
     return result.index;
   }
 
+  // The next neighbour that can be followed.
+  PointingIndices neighbour() {
+    for (;;) {
+      try {
+        return at(kNeighbours[next_++]);
+      } catch (const UnstableStep&) {
+        if (next_ == std::size(kNeighbours)) throw;
+      } catch (const SingularPose&) {  // what a motion that blows up may meet on its way
+        if (next_ == std::size(kNeighbours)) throw;
+      }
+    }
+  }
+
   int runs = 0;
   double cpu_seconds = 0.0;
   // What a step may leave out unseen, over the smallest clearance; 0 where steps are given.
@@ -75,6 +91,7 @@ class FurtherRuns {
   const MeasureErrorOptions& measure_;
   bool by_tolerance_ = false, stopped_ = false;
   double step_ = 0.0, tolerance_ = 0.0;
+  std::size_t next_ = 0;
 };
 
 double range(const std::vector<double>& values) {
@@ -146,13 +163,13 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
   std::vector<PointingIndices> own = {result.index}, finer;
   bool settled = false, whole = false;
   try {
-    own.push_back(further.at(kNeighbours[0]));
+    own.push_back(further.neighbour());
     finer.push_back(further.at(1.0, true));
     settled = all_agree({own[0], own[1], finer[0]});
     whole = !settled && !(measure.most_seconds > 0.0 && all > measure.most_seconds);
     if (whole) {
-      own.push_back(further.at(kNeighbours[1]));
-      for (const double share : kNeighbours) finer.push_back(further.at(share, true));
+      own.push_back(further.neighbour());
+      for (const double share : {kNeighbours[0], kNeighbours[1]}) finer.push_back(further.at(share, true));
     }
   } catch (const ComputationError& failure) {
     error.why_not = std::string("a neighbouring run failed: ") + failure.what();

@@ -21,6 +21,7 @@
 #include "boresight/rungs/measured_error.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/motion_scales.hpp"
+#include "boresight/rungs/damped_contact.hpp"
 #include "boresight/rungs/multibody_start.hpp"
 #include "boresight/rungs/multibody_system.hpp"
 #include "boresight/rungs/option_check.hpp"
@@ -156,6 +157,7 @@ class Multibody final : public Rung {
     double drift = 0.0;
     VecX before;
     MatX compliance;
+    DampingWatch damping(mechanism, h, classical_rk4().real_limit);
     long compliance_age = 0;
     // The compliance changes with the pose only: fifty times along the motion is often enough.
     const long compliance_every = std::max(1L, steps / 50);
@@ -176,6 +178,7 @@ class Multibody final : public Rung {
         if (compliance.size() == 0 || i - compliance_age >= compliance_every) {
           compliance = formulation->offset_compliance();
           compliance_age = i;
+          damping.look(layout, joints, motion, trackers, compliance);
         }
         const StiffestContact stiffest = stiffest_contact(layout, joints, motion, compliance);
         if (h * stiffest.angular_frequency > classical_rk4().real_limit) throw UnstableStep(mechanism, stiffest, t, h);
@@ -203,6 +206,7 @@ class Multibody final : public Rung {
 
     RunResult result = recorder.finish();
     if (!start_warning.empty()) result.warnings.push_back(start_warning);
+    if (const std::string warning = damping.warning(); !warning.empty()) result.warnings.push_back(warning);
     complete(result, options, trackers);
     char text[60];
     std::snprintf(text, sizeof text, "RK4, h = %.6g s", h);

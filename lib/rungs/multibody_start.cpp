@@ -90,8 +90,8 @@ class ExactBalance {
   }
   // Of the last left(): its change with the offsets, were these where they are sent to.
   MatX stiffness() const { return balance_.stiffness_at(journals_); }
-  double length(const VecX& dz) const { return dz.cwiseQuotient(balance_.scale()).cwiseAbs().maxCoeff(); }
-  const VecX& scale() const { return balance_.scale(); }
+  double length(const VecX& dz) const { return balance_.length(dz); }
+  const MatX& unit() const { return balance_.unit(); }
   VecX step(const MatX& by_z, const VecX& left) const { return balance_.correction(by_z, left); }
 
   void place(const VecX& z, const VecX& z_rate, VecX& y) {
@@ -128,11 +128,12 @@ double rest_nearly_linear(ExactBalance& exact, VecX& z) {
   return least;
 }
 
-// The bodies where the journals rest, moving as motions start; none where no play can move, or no rest was found.
-std::vector<BodyMotion> resting_bodies(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal,
-                                       std::string& warning) {
+}  // namespace
+
+RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
   const ClearanceScene::Start scene = ClearanceScene::at_start(mechanism, ideal, parameters);
-  if (scene.layout.n == 0) return {};
+  RestingBodies resting;
+  if (scene.layout.n == 0) return resting;
   // Whatever formulation follows the motion, it starts from the same place. This one closes joints by the bodies' least motion, whatever
   // order they are listed in; a tree of them closes its loops where it happens to be cut.
   const std::unique_ptr<Formulation> formulation = make_paper_formulation(mechanism, parameters, &ideal, {});
@@ -143,31 +144,31 @@ std::vector<BodyMotion> resting_bodies(const Mechanism& mechanism, const Paramet
   const RestingBalance balance(scene.layout, scene.numbers.row.data(), joints);
   const RestingStart rest = balance.solve();
   if (!rest.refusal.empty()) {
-    warning = centred_for_want_of(rest.refusal);
-    return {};
+    resting.refusal = rest.refusal;
+    return resting;
   }
+  resting.linear = scene.T * rest.z;
   const Frictionless frictionless(formulation->forces(), balance.joints());
   ExactBalance exact(mechanism, parameters, scene, balance, *formulation);
   VecX z = rest.z;
   double length = rest_nearly_linear(exact, z);
   if (length > kSettledRest) {
     VecX other = rest.z;
-    const double other_length = search_rest([&](const VecX& at) { return exact.left(at); }, exact.scale(), other);
+    const double other_length = search_rest([&](const VecX& at) { return exact.left(at); }, exact.unit(), other);
     if (other_length < length) {
       z = other;
       length = other_length;
     }
   }
   if (!(length <= kAcceptableRest)) {
-    warning = centred_for_want_of("no position was found in which the journals' contacts carry the loads of t = 0 on the mechanism's own "
-                                  "geometry, which bends within the clearances");
-    return {};
+    resting.refusal = "no position was found in which the journals' contacts carry the loads of t = 0 on the mechanism's own "
+                      "geometry, which bends within the clearances";
+    return resting;
   }
   exact.place(z, scene.numbers.rates * z, y);
-  return formulation->bodies(0.0, y);
+  resting.exact = formulation->bodies(0.0, y);
+  return resting;
 }
-
-}  // namespace
 
 VecX multibody_start(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal,
                      Formulation& formulation, std::string& warning) {
@@ -177,9 +178,10 @@ VecX multibody_start(const Mechanism& mechanism, const Parameters& parameters, c
   formulation.start(start, y);
   if (formulation.forces().clearances() == 0 || mechanism.description().journals == JournalStart::centred) return y;
   try {
-    const std::vector<BodyMotion> bodies = resting_bodies(mechanism, parameters, ideal, warning);
-    if (bodies.empty()) return y;
-    formulation.place_bodies(bodies, y);
+    const RestingBodies resting = resting_bodies(mechanism, parameters, ideal);
+    if (!resting.refusal.empty()) warning = centred_for_want_of(resting.refusal);
+    if (resting.exact.empty()) return y;
+    formulation.place_bodies(resting.exact, y);
     formulation.close_joints(0.0, y);
   } catch (const ComputationError& failure) {
     warning = centred_for_want_of(failure.what());

@@ -7,10 +7,20 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "boresight/rungs/formulation.hpp"
 
 namespace boresight {
+
+// Where the bodies are when the journals rest.
+struct RestingBodies {
+  std::vector<BodyMotion> exact;  // on the mechanism's own geometry, moving as motions start; empty: no play can move, or none was found
+  VecX linear;                    // T z [m, rad], 6 of each body: where the linear balance has displaced them; empty: it has none
+  std::string refusal;            // why not, where none was found
+};
+// Throws ComputationError at a singular pose.
+RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal);
 
 // warning: a sentence where journals were to rest and do not; else left alone. Throws ComputationError at a singular pose.
 VecX multibody_start(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal,

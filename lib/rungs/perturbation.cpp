@@ -7,6 +7,7 @@
 
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/damped_contact.hpp"
 #include "boresight/rungs/located_motion.hpp"
 #include "boresight/rungs/measured_error.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
@@ -63,6 +64,8 @@ class Perturbation final : public SceneRung {
     const double limit = classical_rk4().real_limit;
     bool interrupted = false;
     MatX compliance;
+    DampingWatch damping(mechanism, h, limit);
+    const long damping_every = std::max(1L, steps / 50);
     LargestDeviations largest(duration);
     for (long i = 0;; ++i) {
       const double t = static_cast<double>(i) * h;
@@ -78,6 +81,7 @@ class Perturbation final : public SceneRung {
           const StiffestContact stiffest = stiffest_contact(offsets, system.joints(), system.motion(), compliance);
           if (h * stiffest.angular_frequency > limit) throw UnstableStep(mechanism, stiffest, t, h);
         }
+        if (i % damping_every == 0) damping.look(offsets, system.joints(), system.motion(), system.trackers(), compliance);
       }
       record(prepared, t, y, method.first_slope(), system, recorder, largest);
       if (i == steps) break;
@@ -93,6 +97,7 @@ class Perturbation final : public SceneRung {
     std::snprintf(text, sizeof text, "RK4, h = %.6g s", h);
     result.integrator = text;
     if (!start_warning.empty()) result.warnings.push_back(start_warning);
+    if (const std::string warning = damping.warning(); !warning.empty()) result.warnings.push_back(warning);
     finish_contacts(system, result);
     result.interrupted = interrupted;
     result.error = {second_order_share(this->mechanism(), prepared, parameters, largest), kNotMeasured, kBasis};

@@ -18,25 +18,22 @@ namespace boresight {
 // gives way by a thousandth of its clearance.
 inline constexpr double kSettledRest = 1e-8, kAcceptableRest = 1e-5;
 
-// left(z): what is unbalanced with the journals at z [N, N m]. scale: of each coordinate, its clearance. z: from where; then the best
-// place met. Returns the length of the full step left there, in clearances.
+// left(z): what is unbalanced with the journals at z [N, N m]. unit: z = unit y, with y in clearances (RestingBalance::unit). z: from where;
+// then the best place met. Returns the length of the full step left there, in clearances.
 template <typename Left>
-double search_rest(Left&& left_at, const VecX& scale, VecX& z) {
+double search_rest(Left&& left_at, const MatX& unit, VecX& z) {
   constexpr int kMost = 200, kLast = 4;
   constexpr double kReach = 0.5;        // of the clearances, at once: beyond, the contacts are others
   constexpr double kDifference = 1e-6;  // of the clearances: rounding leaves 1e-10 of the stiffness, contact's curvature 1e-5
   const auto by_differences = [&](const VecX& at) {
     MatX H(at.size(), at.size());
     for (Eigen::Index k = 0; k < at.size(); ++k) {
-      VecX to = at;
-      to[k] += kDifference * scale[k];
-      const VecX up = left_at(to);
-      to[k] -= 2.0 * kDifference * scale[k];
-      H.col(k) = scale.cwiseProduct(up - left_at(to)) / (2.0 * kDifference);
+      const VecX by = kDifference * unit.col(k), up = left_at(VecX(at + by));
+      H.col(k) = unit.transpose() * (up - left_at(VecX(at - by))) / (2.0 * kDifference);
     }
     return H;
   };
-  VecX load = scale.cwiseProduct(left_at(z)), best = z;
+  VecX load = unit.transpose() * left_at(z), best = z;
   std::deque<double> last = {load.norm()};
   double damping = 0.0, shortest = std::numeric_limits<double>::infinity();
   MatX H = by_differences(z);
@@ -47,17 +44,17 @@ double search_rest(Left&& left_at, const VecX& scale, VecX& z) {
       solver.setThreshold(kDifference);
       solver.compute(-H);
       dx = solver.solve(load);
-      if (const double length = dx.cwiseAbs().maxCoeff(); length < shortest) {
+      if (const double length = dx.norm(); length < shortest) {
         shortest = length;
         best = z;
       }
     } else {
       dx = (damping * MatX::Identity(H.rows(), H.cols()) - H).partialPivLu().solve(load);
     }
-    const double length = dx.cwiseAbs().maxCoeff();
+    const double length = dx.norm();
     if (!std::isfinite(length)) break;
     if (length > kReach) dx *= kReach / length;
-    const VecX to = z + scale.cwiseProduct(dx), there = scale.cwiseProduct(left_at(to));
+    const VecX to = z + unit * dx, there = unit.transpose() * left_at(to);
     const double stiffest = H.diagonal().cwiseAbs().maxCoeff();
     if (there.norm() <= *std::max_element(last.begin(), last.end())) {
       z = to;

@@ -42,20 +42,26 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
   using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
   reaction_ = mass_ * Eigen::Map<const VecX>(row + at_.Ar, n);
   stiffness_ = at_.stiff ? MatX(mass_ * Rows(row + at_.AK, n, n)) : MatX(MatX::Zero(n, n));
-  scale_ = VecX::Zero(n);
+  double widest = 0.0;
+  for (const JournalInSleeve& law : joints_) widest = std::max({widest, law.radial_clearance, law.axial_clearance});
+  if (!(widest > 0.0)) widest = 1e-6;
+  VecX scale = VecX::Constant(n, widest);
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     const SceneLayout::Joint& joint = at_.joints[c];
     const JournalInSleeve& law = joints_[c];
     MatX& G = offsets_of_.emplace_back(MatX::Zero(5, n));
     MatX& V = works_on_.emplace_back(MatX::Zero(6, n));
     slide_.push_back(joint.slides ? row[joint.slide] : 0.0);
+    const double radial = law.radial_clearance > 0.0 ? law.radial_clearance : widest, axial = law.axial_clearance > 0.0 ? law.axial_clearance : widest;
+    const double slope = joint.tilts ? radial / law.half_length : 1.0;
+    Offsets& width = widths_.emplace_back();
+    width << radial, axial, radial, slope, slope;
     for (int k = 0; k < joint.offsets; ++k) {
       const int source = joint.source[k];
       if (source >= 0) {
-        const double own = k == 1 ? law.axial_clearance : k < 3 ? law.radial_clearance : law.radial_clearance / law.half_length;
         G(k, source) = 1.0;
         held_[source] = true;
-        if (own > 0.0) scale_[source] = scale_[source] == 0.0 ? own : std::min(scale_[source], own);
+        scale[source] = width[k];
       } else if (source == DeviationCoordinates::kDependent) {
         G.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.dependent + k * n, n);
       } else if (k < 3) {
@@ -66,13 +72,22 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
     for (int i = 0; i < joint.spins; ++i)
       V.row(3 + (joint.tilts ? i : 1)) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.spin_gain + i * n, n);
   }
-  const double largest = scale_.size() > 0 ? scale_.maxCoeff() : 0.0;
+  reaction_ = balanceable(reaction_);
+  const VecX parts = reaction_.cwiseProduct(scale).cwiseAbs();
   for (int k = 0; k < n; ++k)
-    if (scale_[k] == 0.0) scale_[k] = largest > 0.0 ? largest : 1e-6;
+    if (parts[k] <= kNoLoad * parts.maxCoeff()) reaction_[k] = 0.0;
+
+  MatX spread = MatX::Zero(n, n);
   for (int k = 0; k < n; ++k)
-    if (held_[k]) load_ = std::max(load_, std::abs(reaction_[k] * scale_[k]));
-  for (int k = 0; k < n; ++k)
-    if (!held_[k] || std::abs(reaction_[k] * scale_[k]) <= kNoLoad * load_) reaction_[k] = 0.0;
+    if (!held_[k]) spread(k, k) = 1.0 / (widest * widest);
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    MatX& G = over_widths_.emplace_back(widths_[c].cwiseInverse().asDiagonal() * offsets_of_[c]);
+    for (int k = 0; k < n; ++k)
+      if (!held_[k]) G.col(k).setZero();
+    spread += G.transpose() * G;
+  }
+  unit_ = spread.llt().matrixU().solve(MatX::Identity(n, n));
+  load_ = size(reaction_);
 }
 
 JournalMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z) const {
@@ -127,11 +142,11 @@ double RestingBalance::energy(const VecX& z) const {
 }
 
 VecX RestingBalance::correction(const MatX& by_z, const VecX& F) const {
-  const MatX H = -(scale_.asDiagonal() * by_z * scale_.asDiagonal());
+  const MatX H = -(unit_.transpose() * by_z * unit_);
   Eigen::CompleteOrthogonalDecomposition<MatX> solver;
   solver.setThreshold(kSoft);
   solver.compute(H);
-  return scale_.cwiseProduct(solver.solve(scale_.cwiseProduct(F)));
+  return unit_ * solver.solve(unit_.transpose() * F);
 }
 
 VecX RestingBalance::balanceable(VecX load) const {
@@ -140,26 +155,26 @@ VecX RestingBalance::balanceable(VecX load) const {
   return load;
 }
 
-// Each journal where its own offsets' loads alone would have it.
+// Each journal where its own offsets' loads alone would have it; where redundant joints tie offsets together, the loads that are least,
+// and as near to there as the ties let the journals, in offsets over clearances.
 VecX RestingBalance::guess() const {
-  VecX z = VecX::Zero(at_.n);
+  const VecX shared = unit_ * (unit_.transpose() * reaction_);
+  VecX there = VecX::Zero(at_.n);
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    Eigen::Matrix<double, 5, 1> load = Eigen::Matrix<double, 5, 1>::Zero();
-    const SceneLayout::Joint& joint = at_.joints[c];
-    for (int k = 0; k < joint.offsets; ++k)
-      if (joint.source[k] >= 0) load[k] = reaction_[joint.source[k]];
+    const Offsets load = (over_widths_[c] * shared).cwiseQuotient(widths_[c]);
     const JournalMotion<double> rest = rest_under(joints_[c], load, slide_[c], {}).motion;
-    const std::array<double, 5> offset = {rest.e.x(), rest.e.y(), rest.e.z(), rest.slope[0], rest.slope[1]};
-    for (int k = 0; k < joint.offsets; ++k)
-      if (joint.source[k] >= 0 && std::isfinite(offset[k])) z[joint.source[k]] = offset[k];
+    Offsets offset;
+    offset << rest.e, rest.slope;
+    for (int k = 0; k < at_.joints[c].offsets; ++k)
+      if (std::isfinite(offset[k])) there += offset[k] / widths_[c][k] * over_widths_[c].row(k).transpose();
   }
-  return z;
+  return unit_ * (unit_.transpose() * there);
 }
 
 RestingStart RestingBalance::solve() const {
   const int n = at_.n;
   RestingStart rest{VecX::Zero(n), ""};
-  if (n == 0 || !(size(reaction_) > 0.0)) return rest;  // nothing presses anywhere
+  if (n == 0 || !(load_ > 0.0)) return rest;  // nothing presses anywhere
   VecX z = guess(), F(n), trial(n), F_trial(n);
   if (!(energy(z) < energy(VecX::Zero(n)))) z.setZero();
   MatX J(n, n), J_trial(n, n);
@@ -170,11 +185,11 @@ RestingStart RestingBalance::solve() const {
     if (damping == 0.0) {
       dz = correction(J, F);
     } else {
-      const MatX H = damping * MatX::Identity(n, n) - MatX(scale_.asDiagonal() * J * scale_.asDiagonal());
-      dz = scale_.cwiseProduct(VecX(H.partialPivLu().solve(scale_.cwiseProduct(F))));
+      const MatX H = damping * MatX::Identity(n, n) - MatX(unit_.transpose() * J * unit_);
+      dz = unit_ * H.partialPivLu().solve(unit_.transpose() * F);
     }
     // No farther at once than the clearances are wide: beyond, the contacts are others.
-    const double reach = dz.cwiseQuotient(scale_).cwiseAbs().maxCoeff();
+    const double reach = length(dz);
     if (!std::isfinite(reach)) break;
     if (reach > 1.0) dz /= reach;
     trial = z + dz;
@@ -199,7 +214,7 @@ RestingStart RestingBalance::solve() const {
       return balance;
     };
     rest.z = guess();
-    search_rest(left, scale_, rest.z);
+    search_rest(left, unit_, rest.z);
     if (rest.z.allFinite() && size(left(rest.z)) <= kAcceptable * load_) return rest;  // as strictly as above
     rest.z.setZero();
     rest.refusal = "no position was found in which the journals' contacts carry the loads of t = 0";

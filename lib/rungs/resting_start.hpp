@@ -41,10 +41,11 @@ class RestingBalance {
   VecX correction(const MatX& by_z, const VecX& F) const;
   // A load on z without the part that no journal's place can balance.
   VecX balanceable(VecX load) const;
-  // The largest part of a load, over its clearance [N m]; to be held against load().
-  double size(const VecX& load) const { return load.cwiseProduct(scale_).cwiseAbs().maxCoeff(); }
-  double load() const { return load_; }            // the largest, over its clearance [N m]
-  const VecX& scale() const { return scale_; }     // of each coordinate: its clearance, or the slope that crosses it
+  // Of a step of z: the offsets that it makes, each over its clearance, as one length. It does not hang on which offsets are coordinates.
+  double length(const VecX& dz) const { return unit_.triangularView<Eigen::Upper>().solve(dz).norm(); }
+  // Of a load on z, likewise [N m].
+  double size(const VecX& load) const { return (unit_.transpose() * load).norm(); }
+  const MatX& unit() const { return unit_; }  // z = unit y: y of length 1 makes offsets of that length
   const std::vector<JournalInSleeve>& joints() const { return joints_; }  // without friction
 
  private:
@@ -55,12 +56,16 @@ class RestingBalance {
   const SceneLayout& at_;
   std::vector<JournalInSleeve> joints_;
   MatX mass_, stiffness_;
-  VecX reaction_, scale_;
-  std::vector<bool> held_;  // coordinates that the balance may move
-  std::vector<MatX> offsets_of_;  // per joint: 5 x n, offsets per coordinate
+  using Offsets = Eigen::Matrix<double, 5, 1>;
+  VecX reaction_;
+  MatX unit_;                         // upper triangle
+  std::vector<bool> held_;            // coordinates that the balance may move
+  std::vector<Offsets> widths_;       // per joint: what each offset crosses its clearance with
+  std::vector<MatX> offsets_of_;      // per joint: 5 x n, offsets per coordinate
+  std::vector<MatX> over_widths_;     // the same over the widths, of coordinates that the balance may move
   std::vector<MatX> works_on_;    // per joint: 6 x n, the rates that force and moment work on
   std::vector<double> slide_;
-  double load_ = 0.0;
+  double load_ = 0.0;                 // size() of the reactions [N m]
 };
 
 // The coordinates, and then their rates, that motions of this mechanism start with: zero where the file has the journals centred,

@@ -11,7 +11,9 @@
 //                                                their part
 // The first two shift every index by as much, maximum or mean square; the last turns, deepens and delays where journals go. It is
 // taken for each journal across and along its axis apart, weighted by its part of the displacement: along
-// its axis a journal may be pushed by a force so small that little changes it much.
+// its axis a journal may be pushed by a force so small that little changes it much. Where a motion starts with its journals at rest,
+// no less is stated than
+//   rest       |x_rest,exact - E z_rest| / |E z|  the balance on the mechanism's own geometry lies elsewhere
 //
 //   LargestDeviations largest(duration);
 //   largest.add(t, size, z);                    // along the motion

@@ -143,16 +143,22 @@ TEST(DeviationCoordinates, ChangeAsTheMotionGoesOn) {
     constexpr double kStep = 1e-5;
     for (double share : {0.13, 0.5, 0.81}) {
       const double t = share * ideal.duration();
-      MatX T, before, after, T_rate, B_rate;
+      MatX T, before, after, T_rate, rate_before, rate_after, T_second, unused, B_rate;
       coordinates.gain(t - kStep, before);
       const MatX B_before = coordinates.offsets_per_coordinate(before);
+      coordinates.rates(before, rate_before, unused, B_rate);
       coordinates.gain(t + kStep, after);
       const MatX B_after = coordinates.offsets_per_coordinate(after);
+      coordinates.rates(after, rate_after, unused, B_rate);
       coordinates.gain(t, T);
-      coordinates.rates(T, T_rate, B_rate);
+      coordinates.rates(T, T_rate, T_second, B_rate);
       const MatX T_difference = (after - before) / (2.0 * kStep), B_difference = (B_after - B_before) / (2.0 * kStep);
       EXPECT_GT(T_difference.norm(), 0.0);
       EXPECT_LT((T_rate - T_difference).norm(), 1e-6 * T_difference.norm()) << mechanism->name() << " at " << t;
+      if (coordinates.has_dependent()) {
+        const MatX second = (rate_after - rate_before) / (2.0 * kStep);
+        EXPECT_LT((T_second - second).norm(), 1e-6 * second.norm()) << mechanism->name() << " at " << t;
+      }
       EXPECT_LE((B_rate - B_difference).norm(), 1e-6 * std::max(1.0, B_difference.norm())) << mechanism->name() << " at " << t;
     }
   }

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight/rungs/unstable_step.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
@@ -100,6 +101,36 @@ TEST(MeasuredError, SaysSoWhereItsTimeWouldNotDo) {
   EXPECT_FALSE(error.measured);
   EXPECT_NE(error.why_not.find("s of CPU"), std::string::npos);
   EXPECT_EQ(error.runs, 0);
+}
+
+// A rung near its largest stable step: some of the steps beside the first cannot be followed.
+class OnTheEdge final : public Rung {
+ public:
+  explicit OnTheEdge(double followed_below) : followed_below_(followed_below) {}
+  std::string name() const override { return "perturbation"; }
+  std::string leaves_out() const override { return ""; }
+  RunResult run(const Parameters&, const RunOptions& options) const override {
+    const double step = options.step > 0.0 ? options.step : 1e-4;
+    if (step < 1e-4 && step > followed_below_) throw UnstableStep("the deviation is not finite", 0.0, step);
+    RunResult result;
+    result.end_time = 1.0;
+    result.cost.steps = static_cast<std::int64_t>(1.0 / step);
+    result.index.position_error.max = result.index.position_error.rms = 1e-3 + step;
+    return result;
+  }
+
+ private:
+  double followed_below_;
+};
+
+TEST(MeasuredError, TakesTheNeighboursThatCanBeFollowed) {
+  const RunResult run = OnTheEdge(1.0).run({}, {});
+  const MeasuredError edge = measure_discretisation(OnTheEdge(0.96e-4), {}, {}, run);
+  ASSERT_TRUE(edge.measured) << edge.why_not;
+  EXPECT_GT(edge.stated.position_error.max, 0.5e-4) << "half the step moves it by as much";
+  const MeasuredError beyond = measure_discretisation(OnTheEdge(0.8e-4), {}, {}, run);
+  EXPECT_FALSE(beyond.measured);
+  EXPECT_NE(beyond.why_not.find("step too large"), std::string::npos) << beyond.why_not;
 }
 
 TEST(MeasuredError, IsNothingOfARungWithoutSteps) {
