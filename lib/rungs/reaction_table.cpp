@@ -16,6 +16,13 @@ constexpr int kFewestInstants = 400;
 constexpr int kManyInstants = 200000, kInstantsPerKnot = 4;
 // Share of the offsets that counts as none.
 constexpr double kNothing = 1e-6;
+// Of the largest load: its direction is then known to a hundredth of a radian.
+constexpr double kDecides = 100.0 * ClearanceScene::kAccuracy;
+
+// Of a load: its force, and its couple as forces at the sleeve's ends [N].
+double size(const Eigen::Matrix<double, 5, 1>& load, const JournalInSleeve& joint) {
+  return load.head<3>().norm() + (joint.tilts ? load.tail<2>().norm() / joint.half_length : 0.0);
+}
 
 }  // namespace
 
@@ -56,13 +63,22 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& s
     const ClearanceDescription& d = mechanism.description().clearances[c];
     joints_.emplace_back(d, mechanism.description().joints[d.joint].type, parameters.clearance[c]);
   }
+  largest_load_.assign(joints_.size(), 0.0);
+  for (int i = 0; i < instants_; ++i) {
+    const Instant now = at(i);
+    for (std::size_t c = 0; c < joints_.size(); ++c) largest_load_[c] = std::max(largest_load_[c], size(now.load[c].force, joints_[c]));
+  }
 }
 
-ReactionTable::Instant ReactionTable::at(int instant) const {
+bool ReactionTable::decides(const Instant& instant, int clearance) const {
+  return size(instant.load[clearance].force, joints_[clearance]) > kDecides * largest_load_[clearance];
+}
+
+ReactionTable::Instant ReactionTable::at_time(double t) const {
   const int n = layout_.n;
   std::vector<double> row(7 * n + joints_.size());
   Instant now;
-  now.t = instant * spacing_;
+  now.t = t;
   table_.at(now.t, row.data());
   now.reaction = Eigen::Map<const VecX>(row.data(), n);
   now.pose_gain = Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>>(row.data() + n, 6, n);

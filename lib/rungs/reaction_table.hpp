@@ -27,8 +27,12 @@ class ReactionTable {
     std::vector<Load> load;                              // per clearance
   };
   int instants() const { return instants_; }
-  Instant at(int instant) const;
+  double spacing() const { return spacing_; }  // of instants [s]
+  Instant at(int instant) const { return at_time(instant * spacing_); }
+  Instant at_time(double t) const;
   const std::vector<JournalInSleeve>& joints() const { return joints_; }
+  // Whether a load is known well enough for its direction: the tables are accurate to a hundred-thousandth of the largest.
+  bool decides(const Instant& instant, int clearance) const;
   // E of one joint's offsets: 6 x 5, zero columns where an offset is none.
   Eigen::Matrix<double, 6, 5> joint_gain(const Instant& instant, int clearance) const;
   // Coordinates of journals at rest.
@@ -46,6 +50,7 @@ class ReactionTable {
   double spacing_;
   TimeTable table_;  // r (n), E (6 x n), slides (one per clearance)
   std::vector<JournalInSleeve> joints_;
+  std::vector<double> largest_load_;  // per clearance [N]
 };
 
 }  // namespace boresight

@@ -14,9 +14,13 @@ namespace {
 
 // A load below this share of the largest is what rounding leaves of none.
 constexpr double kNoLoad = 1e-9;
-// What may be left unbalanced, as a share of the largest load: rounding leaves 1e-13 of it.
-constexpr double kBalanced = 1e-11, kAcceptable = 1e-8;
+// What may be left unbalanced, as a share of the load: less than kNoLoad of it is balanced, lest a journal crosses its clearance for it.
+constexpr double kBalanced = kNoLoad, kAcceptable = 1e-8;
+// What may be left that no place of the journals balances, likewise: it sets off the motion.
+constexpr double kLeftToMotion = 1e-4;
 constexpr int kMostSteps = 400;
+// Of the load over a clearance: with less, the step is the undamped one.
+constexpr double kLeastDamping = 1e-8;
 // Stiffness below this share of the largest holds nothing.
 constexpr double kSoft = 1e-11;
 
@@ -161,7 +165,8 @@ VecX RestingBalance::guess() const {
   const VecX shared = unit_ * (unit_.transpose() * reaction_);
   VecX there = VecX::Zero(at_.n);
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    const Offsets load = (over_widths_[c] * shared).cwiseQuotient(widths_[c]);
+    Offsets load = over_widths_[c] * shared;
+    load = (load.array().abs() > kNoLoad * load_).select(load.cwiseQuotient(widths_[c]), 0.0);
     const JournalMotion<double> rest = rest_under(joints_[c], load, slide_[c], {}).motion;
     Offsets offset;
     offset << rest.e, rest.slope;
@@ -200,10 +205,10 @@ RestingStart RestingBalance::solve() const {
       E = E_trial;
       F.swap(F_trial);
       J.swap(J_trial);
-      damping = damping > 1e-3 * load_ ? 0.1 * damping : 0.0;
+      damping = damping > kLeastDamping * load_ ? 0.1 * damping : 0.0;
     } else {
       if (size(F) <= kAcceptable * load_) break;  // rounding decides which is lower
-      damping = damping == 0.0 ? 1e-2 * load_ : 10.0 * damping;
+      damping = std::max(10.0 * damping, kLeastDamping * load_);
     }
   }
   if (size(F) > kAcceptable * load_ || !z.allFinite()) {
@@ -214,8 +219,11 @@ RestingStart RestingBalance::solve() const {
       return balance;
     };
     rest.z = guess();
-    search_rest(left, unit_, rest.z);
-    if (rest.z.allFinite() && size(left(rest.z)) <= kAcceptable * load_) return rest;  // as strictly as above
+    const double length = search_rest(left, unit_, rest.z);
+    if (rest.z.allFinite()) {
+      const double remains = size(left(rest.z));
+      if (remains <= kAcceptable * load_ || (length <= kSettledRest && remains <= kLeftToMotion * load_)) return rest;
+    }
     rest.z.setZero();
     rest.refusal = "no position was found in which the journals' contacts carry the loads of t = 0";
     return rest;
