@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "boresight_analyses/statistics/effective_samples.hpp"
+
 namespace boresight {
 namespace {
 
@@ -143,6 +145,10 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   out.autocorrelations = autocorrelations_of(out.residuals, std::min(60, std::max(1, longest / 4)));
   out.autocorrelation = out.autocorrelations.size() > 1 ? out.autocorrelations[1] : 0.0;
   const double noise = 3.0 / std::sqrt(static_cast<double>(out.values));
+  const bool lost_in_time = *std::min_element(out.autocorrelations.begin(), out.autocorrelations.end()) <= noise;
+  out.per_independent_one = values_per_independent_one(
+      lost_in_time ? out.autocorrelations : autocorrelations_of(out.residuals, std::max(1, longest / 2)), noise,
+      static_cast<double>(out.values), out.unknowns);
   const MatX inverse = inverse_of(out.information, free);
   out.covariance = out.variance_factor * inverse;
   out.white_covariance = inverse;

@@ -45,6 +45,7 @@ struct Inference {
   double variance_factor = 1.0;               // s^2
   double autocorrelation = 0.0;               // of neighbouring residuals
   int lags = 0;                               // L; 0: residuals are taken as white
+  double per_independent_one = 1.0;           // residuals of a channel: statistics/effective_samples.hpp
   long values = 0;                            // N
   int unknowns = 0;                           // k, start states included
   int rank = 0;                               // directions of the parameters that the data see

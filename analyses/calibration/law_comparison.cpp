@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "boresight_analyses/calibration/inference.hpp"
+
 namespace boresight {
 
 void hold_out_windows(CalibrationProblem& problem, double share) {
@@ -42,21 +44,38 @@ LawScore law_score(const CalibrationProblem& problem, const std::string& law, co
   // A tangent is that of the law it was taken with.
   for (ModelCorrection& correction : other.corrections) correction.tangent.reset();
   const FitResult found = fit(other, start, {}, options);
-  // Hertz's law has no restitution: as many fewer as are fitted, none where none is.
-  double parameters = other.global_count();
-  if (law == "hertz")
-    parameters -= static_cast<double>(
-        std::count_if(other.parameters.begin(), other.parameters.end(),
-                      [](const FittedParameter& q) { return q.path.ends_with(".contact.restitution"); }));
-  LawScore score{law, found.cost, found.cost + 2.0 * parameters, 0.0, {}, found.reason, found.evaluations};
+  const Inference inference = infer(other, found, 0.95, options.fixed, options.jobs);
+  LawScore score;
+  score.law = law;
+  score.cost = found.cost;
+  score.reason = found.reason;
+  score.evaluations = found.evaluations;
+  score.values = inference.values;
+  const auto values = static_cast<double>(inference.values);
+  score.residuals = {.mean_square = inference.variance_factor * (values - inference.unknowns) / values,
+                     .per_independent_one = inference.per_independent_one,
+                     .parameters = static_cast<double>(inference.unknowns)};
+  // What the law does not know is no parameter of it: restitution of Hertz's, say.
+  score.parameters = inference.unknowns + 1;
+  for (Eigen::Index g = 0; g < inference.information.rows(); ++g) {
+    const bool held = g < static_cast<Eigen::Index>(options.fixed.size()) && options.fixed[static_cast<std::size_t>(g)];
+    if (!held && inference.information(g, g) == 0.0) --score.parameters;
+  }
   if (const auto held = score_held_out(other, found.globals, options.jobs)) score.held_out = held->rms;
   return score;
 }
 
 void compare(std::vector<LawScore>& scores) {
+  if (scores.empty()) return;
+  const LawScore fits_best =
+      *std::min_element(scores.begin(), scores.end(), [](const LawScore& a, const LawScore& b) { return a.cost < b.cost; });
   double best = std::numeric_limits<double>::infinity();
-  for (const LawScore& s : scores) best = std::min(best, s.aic);
-  for (LawScore& s : scores) s.difference = s.aic - best;
+  for (LawScore& s : scores) {
+    s.effective_values = static_cast<double>(s.values) / fits_best.residuals.per_independent_one;
+    s.aic = akaike(s.cost, static_cast<double>(s.values), s.parameters, fits_best.residuals);
+    best = std::min(best, s.aic);
+  }
+  for (LawScore& s : scores) s.difference = s.aic == best ? 0.0 : s.aic - best;
 }
 
 }  // namespace boresight

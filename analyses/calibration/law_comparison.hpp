@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "boresight_analyses/calibration/calibration_fit.hpp"
+#include "boresight_analyses/statistics/effective_samples.hpp"
 
 namespace boresight {
 
@@ -15,6 +16,10 @@ struct HoldOut {
 struct LawScore {
   std::string law;
   double cost = 0.0, aic = 0.0, difference = 0.0;  // to the best
+  long values = 0;
+  int parameters = 0;  // estimated: those that the law responds to, start states, and the residuals' variance
+  ResidualsOfBest residuals;      // its own, for the comparison where it fits best
+  double effective_values = 0.0;  // that the comparison counts
   std::optional<double> held_out;
   std::string reason;  // for stopping
   int evaluations = 0;
@@ -25,10 +30,11 @@ void hold_out_windows(CalibrationProblem& problem, double share);
 // Of the windows held out; their start states are guessed from their own data. Empty where there are none.
 std::optional<HoldOut> score_held_out(const CalibrationProblem& problem, const Globals& globals, int jobs);
 
-// The same data fitted under another contact law, from `start`. AIC: loss + 2 parameters (Akaike 1974).
+// The same data fitted under another contact law, from `start`; without its AIC.
 LawScore law_score(const CalibrationProblem& problem, const std::string& law, const Globals& start,
                    const FitOptions& options);
-// Differences to the least AIC.
+// AIC (statistics/effective_samples.hpp), with the variance and the effective number of values of the law that fits best, and
+// differences to the least.
 void compare(std::vector<LawScore>& scores);
 
 }  // namespace boresight

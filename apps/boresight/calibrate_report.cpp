@@ -262,11 +262,13 @@ report::Document calibrate_report(const CalibrationStudy& s) {
   if (!s.result.profiles.empty()) more.items.push_back(profile_panels(s));
   if (!s.result.laws.empty()) {
     report::Table laws{.title = "Contact laws by the same data",
-                       .caption = "AIC: lower is better; a difference above 10 decides.",
-                       .columns = {{"Law"}, {"AIC"}, {"Difference"}, {"Held-out rms"}}};
+                       .caption = fmt::format("AIC: lower is better; a difference above 10 decides. Residuals that follow one another "
+                                              "count as {:.4g} independent ones.",
+                                              s.result.laws.front().effective_values),
+                       .columns = {{"Law"}, {"Parameters"}, {"AIC"}, {"Difference"}, {"Held-out rms"}}};
     for (const LawScore& l : s.result.laws)
       laws.rows.push_back(
-          {l.law, cell(l.aic), cell(l.difference), l.held_out ? cell(*l.held_out) : nlohmann::json()});
+          {l.law, l.parameters, cell(l.aic), cell(l.difference), l.held_out ? cell(*l.held_out) : nlohmann::json()});
     more.items.push_back(laws);
   }
   if (!s.result.next_tests.empty()) {

@@ -1,0 +1,100 @@
+// Which contact law is preferred by data of a known one, where the noise follows itself.
+#include "boresight_analyses/calibration/law_comparison.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "four_bar_rig.hpp"
+
+namespace boresight {
+namespace {
+
+using four_bar::Bench;
+
+const std::vector<std::string> kThree = {"clearance.D.radial", "clearance.D.contact.restitution",
+                                         "clearance.D.friction.coefficient"};
+
+// With first-order noise, of this share of the largest root mean square of the displacements or rotations.
+CalibrationProblem problem_of(const Bench& bench, double noise, double follows, unsigned seed) {
+  SyntheticRig rig;
+  rig.noise = 0.0;
+  CalibrationProblem p = bench.problem(rig, kThree);
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  p.sigma.resize(6);
+  for (CalibrationRun& run : p.runs) {
+    MatX& value = run.data.value;
+    for (int kind = 0; kind < 2; ++kind) {
+      const double size = value.middleCols(3 * kind, 3).colwise().norm().maxCoeff() / std::sqrt(double(value.rows()));
+      for (int c = 3 * kind; c < 3 * kind + 3; ++c) {
+        p.sigma[c] = noise * size;
+        double last = normal(engine);
+        for (Eigen::Index i = 0; i < value.rows(); ++i) {
+          last = follows * last + std::sqrt(1.0 - follows * follows) * normal(engine);
+          value(i, c) += p.sigma[c] * last;
+        }
+      }
+    }
+  }
+  return p;
+}
+
+std::vector<LawScore> scores(const CalibrationProblem& problem, const std::vector<std::string>& laws,
+                             const std::vector<bool>& fixed = {}) {
+  Globals start = problem.start();
+  for (int p = 0; p < problem.parameter_count(); ++p) {
+    const ParameterPath path(problem.runs[0].mechanism->description(), problem.parameters[static_cast<std::size_t>(p)].path);
+    start.u[p] = problem.parameters[static_cast<std::size_t>(p)].coordinate(path.get(problem.runs[0].mechanism->parameters()));
+  }
+  FitOptions options;
+  options.most_iterations = 15;
+  options.cost_tolerance = 1e-4;
+  options.fixed = fixed;
+  std::vector<LawScore> found;
+  for (const std::string& law : laws) found.push_back(law_score(problem, law, start, options));
+  compare(found);
+  return found;
+}
+
+TEST(LawComparison, CountsWhatALawKnowsAndIsEstimated) {
+  const Bench bench({2.0}, 0.1, false);
+  const CalibrationProblem problem = problem_of(bench, 0.01, 0.0, 1);
+  std::vector<LawScore> found = scores(problem, {"hertz", "flores"});
+  EXPECT_EQ(found[0].parameters, 3);  // radial, friction, and the variance
+  EXPECT_EQ(found[1].parameters, 4);
+  // Restitution held: neither law estimates it.
+  found = scores(problem, {"hertz", "flores"}, {false, true, false});
+  EXPECT_EQ(found[0].parameters, 3);
+  EXPECT_EQ(found[1].parameters, 3);
+}
+
+// Flores' law made the data; restitution is held, so that the other one cannot take its place. A likelihood ratio beyond exp(5) for
+// the wrong one, which is a difference of 10, comes by a chance of at most exp(-5).
+TEST(LawComparisonLong, TheWrongLawIsDecidedForNoMoreOftenForNoiseThatFollowsItself) {
+  constexpr int kStudies = 100;
+  const double nominal = std::exp(-5.0);
+  const Bench bench({2.0}, 0.06, false);
+  for (const double follows : {0.0, 0.9}) {
+    int wrong = 0, wrong_as_if_white = 0;
+    double per_one = 0.0;
+    for (unsigned study = 0; study < kStudies; ++study) {
+      const std::vector<LawScore> found =
+          scores(problem_of(bench, 0.2, follows, 100 + study), {"lankarani-nikravesh", "flores"}, {false, true, false});
+      wrong += found[1].difference > 10.0;
+      wrong_as_if_white += found[1].cost + 2.0 * found[1].parameters > 10.0 + found[0].cost + 2.0 * found[0].parameters;
+      per_one += static_cast<double>(found[0].values) / found[0].effective_values / kStudies;
+    }
+    std::printf("autocorrelation %.1f: wrong law %.3f (as if white: %.3f), nominal %.3f; %.3g values an independent one\n", follows,
+                double(wrong) / kStudies, double(wrong_as_if_white) / kStudies, nominal, per_one);
+    EXPECT_LE(double(wrong) / kStudies, nominal + 2.0 * std::sqrt(nominal * (1.0 - nominal) / kStudies)) << follows;
+    if (follows > 0.0) {
+      EXPECT_GT(double(wrong_as_if_white) / kStudies, 0.05);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace boresight
