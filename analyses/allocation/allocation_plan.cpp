@@ -8,6 +8,7 @@
 #include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/allocation/confirmation.hpp"
+#include "boresight_analyses/random/fit_size.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
 
 namespace boresight {
@@ -19,7 +20,8 @@ double positive_price(Cursor& entry) {
   return price;
 }
 
-std::vector<AllocationOption> read_fits(Cursor& table, ZoneLaw law) {
+// `journals`: those that the fits are for, where they are known yet.
+std::vector<AllocationOption> read_fits(Cursor& table, ZoneLaw law, const std::vector<JournalSize>& journals = {}) {
   std::vector<AllocationOption> options;
   for (Cursor& entry : table.tables("fits")) {
     entry.only({"fit", "price"});
@@ -27,6 +29,8 @@ std::vector<AllocationOption> read_fits(Cursor& table, ZoneLaw law) {
     try {
       const Fit fit = parse_fit(option.name);
       entry.require(fit.least_clearance() >= 0.0, "fit", "a fit with clearance");
+      for (const JournalSize& journal : journals)
+        if (!is_of_size(fit, journal)) entry.fail_found("fit", found_size(fit, journal), expected_size(journal));
       option.gap = make_fit_clearance(fit, law);
     } catch (const ValueFault& fault) {
       entry.fail_found("fit", fault.found, fault.expected, fault.nearest);
@@ -106,8 +110,11 @@ AllocationJoint read_joint(Cursor& entry, const std::vector<AllocationOption>& c
   joint.paths = entry.is_list("parameter") ? entry.texts("parameter")
                                            : std::vector<std::string>{entry.text("parameter")};
   entry.require(!joint.paths.empty(), "parameter", "the path of a radial clearance, or a list of them");
+  std::vector<JournalSize> journals;
   for (const std::string& path : joint.paths) {
     joint.places.emplace_back(mechanism, path, entry.origin("parameter"));
+    const std::vector<JournalSize> sizes = journal_sizes(mechanism, path);
+    journals.insert(journals.end(), sizes.begin(), sizes.end());
     if (!path.starts_with("clearance.") || !path.ends_with(".radial"))
       entry.fail_found("parameter", "\"" + path + "\"",
                        "the path of a radial clearance, clearance.JOINT.radial");
@@ -120,7 +127,7 @@ AllocationJoint read_joint(Cursor& entry, const std::vector<AllocationOption>& c
   entry.require(joint.least >= 0.0, "least", "0 or more");
   if (entry.has("tolerance") && !entry.has("cost")) entry.fail("tolerance", "tolerance with cost only");
   if (entry.has("fits")) {
-    joint.options = read_fits(entry, law);
+    joint.options = read_fits(entry, law, journals);
   } else if (entry.has("processes")) {
     joint.options = read_processes(entry, joint.least, law);
   } else if (entry.has("cost")) {
@@ -128,6 +135,10 @@ AllocationJoint read_joint(Cursor& entry, const std::vector<AllocationOption>& c
   } else {
     if (common.empty()) entry.fail("fits", "fits, processes or cost; or fits of all joints, in [allocate]");
     joint.options = common;
+    for (const AllocationOption& option : common)
+      for (const JournalSize& journal : journals)
+        if (const Fit fit = parse_fit(option.name); !is_of_size(fit, journal))
+          entry.fail_found("parameter", found_size(fit, journal), expected_size(journal) + ", or fits of this joint's own");
   }
   check_gaps(entry, joint, accepts);
   entry.finish();

@@ -6,16 +6,17 @@
 //   confirm = 120                      # fresh samples on the next rung up, each time; more where they could not
 //                                      # show the requirement at the confidence of one confirmation
 //   seed = 1
-//   zone = "normal"                    # how sizes lie in their zones: normal or uniform
-//   (random/fit_clearance.hpp) front = 6                          # points of the front of cost against
-//   accuracy; 0: none fits = [{ fit = "20 H7/f7", price = 10 }, { fit = "20 H6/g5", price = 18 }]       # of
-//   all joints without their own
+//   zone = "normal"                    # how sizes lie in their zones: normal or uniform (random/fit_clearance.hpp)
+//   front = 6                          # points of the front of cost against accuracy; 0: none
+//   fits = [{ fit = "20 H7/f7", price = 10 }, { fit = "20 H6/g5", price = 18 }]   # of all joints without their own
 //   [[allocate.joint]]
-//   parameter = "clearance.F1.radial"  # one path, or a list of paths that take the same fit (and the same
-//   gap) # one of, unless `fits` above stands for it: fits = [...] processes = [{ name = "reamed", tolerance
-//   = "0.02 mm", price = 4 }, ...]          # tolerance: see cost cost = { law = "reciprocal", a = 1, b =
-//   0.2, unit = "mm" }                        # allocation/cost_curve.hpp; with tolerance = ["0.002 mm", "0.1
-//   mm"] # its bounds; the gap lies between `least` and `least` + tolerance least = "0 mm"
+//   parameter = "clearance.F1.radial"  # one path, or a list of paths that take the same fit (and the same gap)
+//   # one of, unless `fits` above stands for it:
+//   fits = [...]                       # of the joint's size: random/fit_size.hpp
+//   processes = [{ name = "reamed", tolerance = "0.02 mm", price = 4 }, ...]   # tolerance: see cost
+//   cost = { law = "reciprocal", a = 1, b = 0.2, unit = "mm" }                 # allocation/cost_curve.hpp; with
+//   tolerance = ["0.002 mm", "0.1 mm"] # its bounds; the gap lies between `least` and `least` + tolerance
+//   least = "0 mm"
 #pragma once
 
 #include <cstdint>

@@ -83,7 +83,7 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, const Budget
     parameter = make_discrete({table.quantity("value", of)}, {1.0});
   } else {
     Cursor distribution = table.table("distribution");
-    parameter = read_distribution(distribution, of, false);
+    parameter = read_distribution(distribution, of);
   }
   const std::vector<std::string> named = table.has("axes") ? table.texts("axes") : axes.names;
   table.require(!named.empty(), "axes", "at least one axis");

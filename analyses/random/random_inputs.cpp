@@ -37,6 +37,7 @@ RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechan
   random.paths =
       entry.is_list("parameter") ? entry.texts("parameter") : std::vector<std::string>{entry.text("parameter")};
   entry.require(!random.paths.empty(), "parameter", "a parameter's path, or a list of them");
+  std::vector<JournalSize> journals;
   bool radial = true;
   for (const std::string& path : random.paths) {
     random.places.emplace_back(mechanism, path, entry.origin("parameter"));
@@ -45,10 +46,13 @@ RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechan
     if (place.unit() != random.si_unit)
       entry.fail_found("parameter", "\"" + path + "\" in " + place.unit(),
                        "parameters that take the same values, in " + random.si_unit);
-    radial = radial && path.starts_with("clearance.") && path.ends_with(".radial");
+    const std::vector<JournalSize> sizes = journal_sizes(mechanism, path);
+    radial = radial && !sizes.empty();
+    journals.insert(journals.end(), sizes.begin(), sizes.end());
   }
+  if (!radial) journals.clear();
   Cursor distribution = entry.table("distribution");
-  random.distribution = read_distribution(distribution, unit_called(random.si_unit), radial);
+  random.distribution = read_distribution(distribution, unit_called(random.si_unit), journals);
   check_ends(entry, random, accepts);
   entry.finish();
   return random;

@@ -12,7 +12,8 @@
 //     { weibull = { shape = 1.5, scale = .., location = .. } }                      location: 0 if left out
 //     { discrete = { values = [..], probabilities = [..] } }                        equal ones if left out
 //     { empirical = { file = "gaps.csv", column = "gap", unit = "mm" } }            resampled
-//     { fit = "20 H7/g6", zone = "normal" }          of a radial clearance; zone = "uniform": see fit_clearance.hpp
+//     { fit = "20 H7/g6", zone = "normal" }          of a radial clearance, of its journal's size (fit_size.hpp); zone =
+//                                                      "uniform": see fit_clearance.hpp
 //   and optionally truncate = [low, high]; the distribution between them, renormalised.
 //
 //   [[correlation]]

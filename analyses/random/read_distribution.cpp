@@ -122,8 +122,8 @@ DistributionPtr empirical(Cursor& table, const Values& values) {
   }
 }
 
-DistributionPtr fit(Cursor& entry, bool is_radial_clearance) {
-  if (!is_radial_clearance)
+DistributionPtr fit(Cursor& entry, const std::vector<JournalSize>& journals) {
+  if (journals.empty())
     entry.fail("fit", "a fit for a radial clearance only (parameter = \"clearance.JOINT.radial\")");
   const ZoneLaw law =
       entry.choice("zone", {"normal", "uniform"}, "normal") == "normal" ? ZoneLaw::normal : ZoneLaw::uniform;
@@ -134,6 +134,8 @@ DistributionPtr fit(Cursor& entry, bool is_radial_clearance) {
                        "\"" + found.name + "\", whose shaft may be thicker than its hole by " +
                            std::to_string(std::lround(-1e6 * found.least_clearance())) + " um",
                        "a fit that always has clearance, such as \"20 H7/g6\"");
+    for (const JournalSize& journal : journals)
+      if (!is_of_size(found, journal)) entry.fail_found("fit", found_size(found, journal), expected_size(journal));
     return make_fit_clearance(found, law);
   } catch (const ValueFault& fault) {
     throw InputError(entry.origin("fit"), entry.path("fit"), fault.found, fault.expected, fault.nearest);
@@ -150,7 +152,7 @@ constexpr Family kFamilies[] = {{"normal", normal},         {"uniform", uniform}
 
 }  // namespace
 
-DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, bool is_radial_clearance) {
+DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::vector<JournalSize>& journals) {
   entry.only({"normal", "uniform", "lognormal", "triangular", "beta", "weibull", "discrete", "empirical", "fit", "zone",
               "truncate"});
   const Values values(unit);
@@ -170,7 +172,7 @@ DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, bool is_rad
   }
   if (entry.has("fit")) {
     one_only("fit");
-    distribution = fit(entry, is_radial_clearance);
+    distribution = fit(entry, journals);
   }
   if (!distribution)
     throw InputError(entry.origin(), entry.path(), "no distribution",

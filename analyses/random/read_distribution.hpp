@@ -4,10 +4,12 @@
 #include "boresight/io/cursor.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight_analyses/random/distribution.hpp"
+#include "boresight_analyses/random/fit_size.hpp"
 
 namespace boresight {
 
-// `unit`: of the parameter; "1" means pure numbers. `is_radial_clearance`: a fit may be given. Throws InputError.
-DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, bool is_radial_clearance);
+// `unit`: of the parameter; "1" means pure numbers. `journals`: of a radial clearance, for which a fit of their size may be given;
+// none for other parameters. Throws InputError.
+DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::vector<JournalSize>& journals = {});
 
 }  // namespace boresight

@@ -112,6 +112,19 @@ TEST_F(RandomInputsTest, MistakesAreOneLineWithFileLineAndKey) {
   says(radial("{ fit = \"20 H7/g6\" }") + one("clearance.*.radial", "{ fit = \"20 H7/g6\" }"), "a second time");
 }
 
+// The journal of F1 is 20 mm thick. Tolerances grow with the nominal size: 30 H7/g6 is another clearance than 20 H7/g6.
+TEST_F(RandomInputsTest, AFitOfAnotherSizeThanTheJointIsRefused) {
+  for (const char* size : {"18", "30", "10", "20.5"})
+    for (const char* path : {"clearance.F1.radial", "clearance.*.radial"})
+      EXPECT_THAT(fault(one(path, std::string("{ fit = \"") + size + " H7/g6\" }")),
+                  AllOf(HasSubstr("study.toml:3"), HasSubstr("fit"), HasSubstr(std::string("of nominal size ") + size + " mm"),
+                        HasSubstr("the journal of F1 has a diameter of 20 mm"), HasSubstr("expected a fit of nominal size 20 mm")))
+          << size;
+  // Off by the fit's own deviations, or by rounding, it is the joint's.
+  for (const char* fits : {"20.1 H9/d9", "20.02 H7/g6", "19.99 H7/g6"})
+    EXPECT_EQ(fault(radial(std::string("{ fit = \"") + fits + "\" }")), "no fault") << fits;
+}
+
 TEST_F(RandomInputsTest, ValuesThatTheMechanismRefusesAreRefusedBeforeAnySample) {
   EXPECT_THAT(fault(radial("{ normal = { mean = \"0.1 mm\", sd = \"0.05 mm\" } }")),
               AllOf(HasSubstr("study.toml:3"), HasSubstr("clearance.F1.radial"), HasSubstr("truncate")));

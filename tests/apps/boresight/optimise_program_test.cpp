@@ -11,6 +11,7 @@
 namespace boresight::app {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class OptimiseProgram : public Program {
@@ -172,6 +173,21 @@ TEST_F(OptimiseProgram, MistakesAreOneLineWithTheNearestName) {
   EXPECT_EQ(ended.status, 2);
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
   EXPECT_THAT(ended.err, HasSubstr("study.toml:"));
+}
+
+// The journal of F1 is 20 mm thick; whether a joint has fits of its own or those of all joints.
+TEST_F(OptimiseProgram, FitsOfAnotherSizeThanTheJointAreRefused) {
+  const std::string own = allocate("0.1 mm", "fits = [{ fit = \"20 H8/f7\", price = 1 }, { fit = \"30 H8/f7\", price = 1 }]\n");
+  std::string common = allocate("0.1 mm", "");
+  common.insert(common.find("[[allocate.joint]]"), "fits = [{ fit = \"30 H8/f7\", price = 1 }]\n");
+  for (const auto& [study, key] : {std::pair{own, "fit"}, std::pair{common, "parameter"}}) {
+    write("study.toml", study);
+    const Ended ended = quick("allocate", "study.toml", "out");
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("study.toml:"), HasSubstr(key), HasSubstr("\"30 H8/f7\" of nominal size 30 mm"),
+                                 HasSubstr("expected a fit of nominal size 20 mm")));
+  }
 }
 
 }  // namespace
