@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "boresight/io/content_hash.hpp"
 #include "boresight_analyses/random/counter_stream.hpp"
 
 namespace boresight {
@@ -90,6 +91,29 @@ std::string csv_of(const MeasuredData& data) {
     }
   }
   return out + "\n";
+}
+
+namespace {
+
+constexpr std::string_view kSynthetic = "# synthetic, made by boresight calibrate --make-data; checksum ";
+
+std::string checksum_of(const std::string& csv) {
+  ContentHash hash;
+  hash.add(csv);
+  return hash.hexadecimal();
+}
+
+}  // namespace
+
+std::string synthetic_csv_of(const MeasuredData& data) {
+  const std::string csv = csv_of(data);
+  return csv + std::string(kSynthetic) + checksum_of(csv) + "\n";
+}
+
+bool is_synthetic(const std::string& csv) {
+  const std::size_t at = csv.rfind(kSynthetic);
+  if (at == std::string::npos || at == 0 || csv[at - 1] != '\n') return false;
+  return csv.substr(at + kSynthetic.size()) == checksum_of(csv.substr(0, at)) + "\n";
 }
 
 }  // namespace boresight

@@ -31,4 +31,9 @@ MeasuredData with_rig_errors(const SyntheticRig& rig, const std::vector<double>&
 // As read_measured_data reads it, in um and urad.
 std::string csv_of(const MeasuredData& data);
 
+// The same, with a last line that says that it is synthetic, by which is_synthetic() knows it again as long as nobody changed it:
+// measured data that are there under the same name are not overwritten by synthetic ones.
+std::string synthetic_csv_of(const MeasuredData& data);
+bool is_synthetic(const std::string& csv);
+
 }  // namespace boresight

@@ -1,7 +1,9 @@
 // boresight calibrate STUDY: contact parameters from measured pointing data.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <ostream>
 
 #include "boresight/io/content_hash.hpp"
@@ -35,7 +37,8 @@ class CalibrateVerb : public Verb {
   void declare_options(CLI::App& app) override {
     app.add_option(
         "--make-data", noise_,
-        "write the study's data files anew from the multibody rung, with this noise, such as \"1 %\"");
+        "write the study's data files anew from the multibody rung, with this noise, such as \"1 %\"; files that it did not write are "
+        "left as they are, with status 2");
     app.add_option("--make-offset", offset_,
                    "of --make-data: a hidden mounting offset on every displacement, such as \"5 um\"");
     app.add_option("--make-seed", seed_, "of --make-data: of the noise");
@@ -107,6 +110,18 @@ class CalibrateVerb : public Verb {
   }
 
  private:
+  // Measured data may have taken a year.
+  static void check_that_it_may_be_written(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(std::filesystem::symlink_status(file, error))) return;
+    constexpr std::uintmax_t kMostSynthetic = 256u << 20;  // bytes
+    if (std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) <= kMostSynthetic && !error) {
+      std::ifstream stream(file, std::ios::binary);
+      if (stream && is_synthetic({std::istreambuf_iterator<char>(stream), {}})) return;
+    }
+    throw OutputDirectoryError(file.string() + ": is there already, and not as --make-data wrote it; name another file in the study, or remove it");
+  }
+
   template <typename MechanismWith>
   int make_data(const CalibrationPlan& plan, const MechanismWith& mechanism_with) const {
     SyntheticRig rig;
@@ -114,13 +129,14 @@ class CalibrateVerb : public Verb {
     rig.seed = seed_;
     rig.bias = VecX::Zero(6);
     if (!offset_.empty()) rig.bias.head(3).setConstant(positive_quantity("--make-offset", offset_, kLength));
+    for (const PlannedRun& planned : plan.runs) check_that_it_may_be_written(planned.data);
     for (std::size_t r = 0; r < plan.runs.size(); ++r) {
       const auto mechanism = mechanism_with(plan.runs[r].settings);
       std::vector<double> times;
       for (int i = 0; i * rig.spacing < mechanism->duration() * (1.0 + 1e-9); ++i)
         times.push_back(std::min(i * rig.spacing, mechanism->duration()));
       const MatX clean = multibody_readings(mechanism, mechanism->parameters(), times, rig.channels);
-      write_atomically(plan.runs[r].data, csv_of(with_rig_errors(rig, times, clean, static_cast<int>(r))));
+      write_atomically(plan.runs[r].data, synthetic_csv_of(with_rig_errors(rig, times, clean, static_cast<int>(r))));
       tell("wrote {}\n", plan.runs[r].data);
     }
     return kDone;
@@ -173,6 +189,8 @@ class CalibrateVerb : public Verb {
     for (const LawScore& l : r.laws)
       json["laws"].push_back({{"law", l.law},
                               {"cost", number(l.cost)},
+                              {"parameters", l.parameters},
+                              {"effective_values", number(l.effective_values)},
                               {"aic", number(l.aic)},
                               {"difference", number(l.difference)}});
     json["next_tests"] = Json::array();

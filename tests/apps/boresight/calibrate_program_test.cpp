@@ -122,6 +122,38 @@ TEST_F(CalibrateProgram, AnInterruptionAnnouncesOnlyWhatIsThere) {
   }
 }
 
+TEST_F(CalibrateProgram, SyntheticDataOverwriteSyntheticDataAlone) {
+  std::ofstream(folder_ / "small.toml") << kSmall;
+  const auto made = [&](const char* seed) { return call({"calibrate", "small.toml", "--make-data", "1 %", "--make-seed", seed}); };
+  // The example's are synthetic, and known as such.
+  ASSERT_EQ(made("1").status, 0);
+  const std::string first = text("slow.csv");
+  ASSERT_EQ(made("2").status, 0);
+  EXPECT_NE(text("slow.csv"), first);
+  // What somebody changed is no longer what it wrote, and nor is what somebody measured.
+  const std::string measured = "t [s], dx [um]\n0, 1\n0.001, 2\n";
+  for (const std::string& there : {first + "# of Monday\n", first.substr(0, 200) + "9" + first.substr(201), measured, std::string()}) {
+    std::ofstream(folder_ / "slow.csv") << there;
+    const Ended refused = made("2");
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_TRUE(is_one_line(refused.err)) << refused.err;
+    EXPECT_NE(refused.err.find("slow.csv: is there already, and not as --make-data wrote it"), std::string::npos) << refused.err;
+    EXPECT_EQ(text("slow.csv"), there);
+  }
+  std::filesystem::remove(folder_ / "slow.csv");
+  ASSERT_EQ(made("1").status, 0);
+  EXPECT_EQ(text("slow.csv"), first);
+  EXPECT_EQ(call({"calibrate", "small.toml", "--out", "out", "--quiet"}).status, 0);
+}
+
+// None of three files is written where one of them may not be.
+TEST_F(CalibrateProgram, SyntheticDataAreWrittenForAllRunsOrForNone) {
+  const std::string slow = text("slow.csv");
+  std::ofstream(folder_ / "fast.csv") << "t [s], dx [um]\n0, 1\n0.001, 2\n";
+  EXPECT_EQ(call({"calibrate", "calibrate.toml", "--make-data", "1 %", "--make-seed", "3"}).status, 2);
+  EXPECT_EQ(text("slow.csv"), slow);
+}
+
 TEST_F(CalibrateProgram, NamesTheNearestChannel) {
   std::ofstream(folder_ / "middle.csv") << "t [s], boresigth_error [urad]\n0, 1\n";
   const Ended ended = call({"calibrate", "calibrate.toml", "--out", "out"});
