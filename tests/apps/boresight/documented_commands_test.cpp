@@ -6,6 +6,7 @@
 
 #include "command_table.hpp"
 #include "documented_commands.hpp"
+#include "documented_summary.hpp"
 
 namespace boresight::app {
 
@@ -50,9 +51,12 @@ TEST_P(DocumentedCommands, RunAndDoWhatTheTextSays) {
   left.ended = call(arguments(c.text, c.shorter));
   ASSERT_EQ(left.ended.status, c.status) << left.ended.out << left.ended.err;
   EXPECT_EQ(left.ended.out.find("nan"), std::string::npos) << left.ended.out;
-  if (!c.claims) return;
   const std::string folder = std::filesystem::exists(folder_ / "results") ? folder_of_results() : "";
-  if (!folder.empty()) left.summary = json(folder + "/summary.json");
+  if (!folder.empty()) {
+    left.summary = json(folder + "/summary.json");
+    EXPECT_THAT(unexplained_keys(left.summary), testing::IsEmpty());
+  }
+  if (!c.claims) return;
   left.file = [&](const std::string& name) { return text(folder + "/" + name); };
   left.again = [&](const std::vector<std::string>& options) {
     std::vector<std::string> more = c.shorter;

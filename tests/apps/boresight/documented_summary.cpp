@@ -1,0 +1,78 @@
+#include "documented_summary.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+
+namespace boresight::app {
+namespace {
+
+// From each key that a row of a table begins with to all of that row.
+using Rows = std::map<std::string, std::string>;
+
+std::vector<std::string> quoted(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t open = text.find('`'); open != std::string::npos; open = text.find('`', open)) {
+    const std::size_t close = text.find('`', open + 1);
+    if (close == std::string::npos) break;
+    words.push_back(text.substr(open + 1, close - open - 1));
+    open = close + 1;
+  }
+  return words;
+}
+
+Rows rows_of(const std::string& verb) {
+  std::ifstream in(BORESIGHT_SOURCE "/apps/boresight/summary.md");
+  Rows rows;
+  std::string part;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("## ")) part = line.substr(3);
+    if (part != "Every verb" && part != verb) continue;
+    // Of the sentence on failures, too: it is a row without bars.
+    const std::size_t begin = line.starts_with("| ") ? line.find('|', 1) : line.starts_with("Studies whose") ? line.find(':') : std::string::npos;
+    if (begin == std::string::npos) continue;
+    for (const std::string& key : quoted(line.substr(0, begin))) rows[key] += line;
+  }
+  return rows;
+}
+
+// One entry per joint, parameter, rung, law, channel or letter: their names are the user's.
+const std::set<std::string> kByName = {"contacts", "contact",  "compared",    "optimum", "standard_error", "interval",     "identifiable", "correlation",
+                                       "noise",    "errors",   "sobol",       "local",   "sources",        "contact_laws", "friction_laws"};
+// Explained in words: values that were assumed are called what files call them.
+const std::set<std::string> kInWords = {"assumed", "definitions", "correlation"};
+
+}  // namespace
+
+std::vector<std::string> unexplained_keys(const nlohmann::json& summary) {
+  std::vector<std::string> missing;
+  const Rows rows = rows_of(summary["verb"]);
+  for (const auto& [key, value] : summary.items()) {
+    const auto row = rows.find(key);
+    if (row == rows.end()) {
+      missing.push_back(key);
+      continue;
+    }
+    if (kInWords.contains(key)) continue;
+    std::vector<std::string> words = quoted(row->second);
+    if (key == "errors") words = quoted(rows.at("error"));
+    const std::set<std::string> explained(words.begin(), words.end());
+    const auto look = [&](const nlohmann::json& entry) {
+      if (!entry.is_object()) return;
+      for (const auto& [inner, ignored] : entry.items())
+        if (!explained.contains(inner)) missing.push_back(key + "." + inner);
+    };
+    if (kByName.contains(key))
+      for (const auto& entry : value) look(entry);
+    else if (value.is_array())
+      for (const auto& entry : value) look(entry);
+    else
+      look(value);
+    // `local` and `index` hold both: names of their own, and numbers.
+    if (key == "local" && !explained.contains("at_medians")) missing.push_back("local.at_medians");
+  }
+  return missing;
+}
+
+}  // namespace boresight::app
