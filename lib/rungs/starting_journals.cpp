@@ -10,7 +10,7 @@ namespace boresight {
 StartingJournals starting_journals(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
   const MechanismDescription& m = mechanism.description();
   StartingJournals start;
-  for (const ClearanceDescription& c : m.clearances) start.journals.push_back({m.joints[c.joint].name, {}, {}});
+  for (const ClearanceDescription& c : m.clearances) start.journals.push_back({m.joints[c.joint].name, Vec3::Zero(), Vec3::Zero()});
   if (m.journals == JournalStart::centred || m.clearances.empty()) return start;
   try {
     const ClearanceScene::Start scene = ClearanceScene::at_start(mechanism, ideal, parameters);

@@ -38,8 +38,11 @@ Rows rows_of(const std::string& verb) {
 }
 
 // One entry per joint, parameter, rung, law, channel or letter: their names are the user's.
-const std::set<std::string> kByName = {"contacts", "contact",  "compared",    "optimum", "standard_error", "interval",     "identifiable", "correlation",
+const std::set<std::string> kByName = {"contacts", "start", "contact",  "compared",    "optimum", "standard_error", "interval",     "identifiable", "correlation",
                                        "noise",    "errors",   "sobol",       "local",   "sources",        "contact_laws", "friction_laws"};
+// "The same", "a level each".
+const std::map<std::string, std::string> kAsAnother = {{"errors", "error"}, {"requirements", "levels"}};
+const std::set<std::string> kOfAnInterval = {"value", "low", "high", "confidence", "coverage", "basis"};
 // Explained in words: values that were assumed are called what files call them.
 const std::set<std::string> kInWords = {"assumed", "definitions", "correlation"};
 
@@ -56,7 +59,9 @@ std::vector<std::string> unexplained_keys(const nlohmann::json& summary) {
     }
     if (kInWords.contains(key)) continue;
     std::vector<std::string> words = quoted(row->second);
-    if (key == "errors") words = quoted(rows.at("error"));
+    if (const auto other = kAsAnother.find(key); other != kAsAnother.end())
+      for (const std::string& word : quoted(rows.at(other->second))) words.push_back(word);
+    if (row->second.find("an interval") != std::string::npos) words.insert(words.end(), kOfAnInterval.begin(), kOfAnInterval.end());
     const std::set<std::string> explained(words.begin(), words.end());
     const auto look = [&](const nlohmann::json& entry) {
       if (!entry.is_object()) return;
@@ -69,8 +74,6 @@ std::vector<std::string> unexplained_keys(const nlohmann::json& summary) {
       for (const auto& entry : value) look(entry);
     else
       look(value);
-    // `local` and `index` hold both: names of their own, and numbers.
-    if (key == "local" && !explained.contains("at_medians")) missing.push_back("local.at_medians");
   }
   return missing;
 }

@@ -100,6 +100,18 @@ TEST(RestingStart, TwelveJointsRestTogether) {
     ASSERT_LT((s.error.displacement - first).norm(), 1e-6 * first.norm());
 }
 
+// Each number of them is set: none is what the memory held before.
+TEST(StartingJournals, ThatDoNotTiltHaveNoSlopeAndCentredOnesNoOffset) {
+  for (const char* journals : {"rest", "centred"}) {
+    const std::vector<Setting> start = {{"initial.journals", journals}};
+    const auto m = std::make_shared<const Mechanism>(read_mechanism(BORESIGHT_EXAMPLES "/crank-slider/crank-slider.toml", start));
+    const StartingJournals found = starting_journals(*m, m->parameters(), ideal_motion(*m, m->parameters()));
+    ASSERT_EQ(found.journals.size(), 1u);
+    EXPECT_EQ(found.journals[0].slope, Vec3(Vec3::Zero())) << journals;
+    EXPECT_EQ(found.journals[0].offset == Vec3(Vec3::Zero()), std::string(journals) == "centred") << journals;
+  }
+}
+
 TEST(RestingStart, IsWhereTheQuasistaticRungHasTheJournals) {
   const auto m = standing_platform("3-rrcpr.toml", {{"clearance.F1.friction.coefficient", "0"}});
   const RunResult resting = make_rung("quasistatic", m)->run(m->parameters(), {});
