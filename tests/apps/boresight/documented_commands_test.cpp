@@ -93,6 +93,8 @@ TEST(Documents, TellNoCommandThatIsNotRunHere) {
   for (const std::string& text : run) EXPECT_TRUE(told.contains(text)) << "no document tells any more: " << text;
 }
 
+TEST(Documents, ExplainNoKeyOfASummaryThatNothingWrites) { EXPECT_THAT(keys_without_a_source(), testing::IsEmpty()); }
+
 TEST(Documents, OtherCommandsOfTheReadmeAreKnownAndHeldElsewhere) {
   EXPECT_THAT(other_documented_commands(), testing::UnorderedElementsAre("bash .ci/start",   // its commands are among the above
                                                                          "bash .ci/test"));  // is what runs this

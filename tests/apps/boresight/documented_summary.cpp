@@ -1,5 +1,6 @@
 #include "documented_summary.hpp"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -22,13 +23,15 @@ std::vector<std::string> quoted(const std::string& text) {
   return words;
 }
 
+constexpr const char* kAllVerbs = "";
+
 Rows rows_of(const std::string& verb) {
   std::ifstream in(BORESIGHT_SOURCE "/apps/boresight/summary.md");
   Rows rows;
   std::string part;
   for (std::string line; std::getline(in, line);) {
     if (line.starts_with("## ")) part = line.substr(3);
-    if (part != "Every verb" && part != verb) continue;
+    if (verb != kAllVerbs && part != "Every verb" && part != verb) continue;
     // Of the sentence on failures, too: it is a row without bars.
     const std::size_t begin = line.starts_with("| ") ? line.find('|', 1) : line.starts_with("Studies whose") ? line.find(':') : std::string::npos;
     if (begin == std::string::npos) continue;
@@ -47,6 +50,19 @@ const std::set<std::string> kOfAnInterval = {"value", "low", "high", "confidence
 const std::set<std::string> kInWords = {"assumed", "definitions", "correlation"};
 
 }  // namespace
+
+std::vector<std::string> keys_without_a_source() {
+  std::string sources;
+  for (const auto& entry : std::filesystem::directory_iterator(BORESIGHT_SOURCE "/apps/boresight")) {
+    if (entry.path().extension() != ".cpp") continue;
+    std::ifstream in(entry.path());
+    sources.append(std::istreambuf_iterator<char>(in), {});
+  }
+  std::vector<std::string> missing;
+  for (const auto& [key, row] : rows_of(kAllVerbs))
+    if (sources.find('"' + key + '"') == std::string::npos) missing.push_back(key);
+  return missing;
+}
 
 std::vector<std::string> unexplained_keys(const nlohmann::json& summary) {
   std::vector<std::string> missing;

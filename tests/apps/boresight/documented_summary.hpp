@@ -10,4 +10,7 @@ namespace boresight::app {
 // Keys of the summary, and of the entries within them, that neither the part on every verb nor that on its own one names.
 std::vector<std::string> unexplained_keys(const nlohmann::json& summary);
 
+// Keys that a row explains and that nothing in the program's sources writes.
+std::vector<std::string> keys_without_a_source();
+
 }  // namespace boresight::app

@@ -90,6 +90,16 @@ TEST(RestingStart, NothingMovesWhereAJournalMayTilt) {
     expect_standing(run(m, way), std::string("tilting, ") + way.rung + ", " + way.integrator);
 }
 
+// Sleeves carry journals by normal forces alone as a motion starts: on an incline too, bristles that begin unbent have nothing to take up.
+TEST(RestingStart, NothingMovesOnAnInclineUnderFrictionThatSticks) {
+  const auto m = standing_platform("3-rrcpr.toml", {{"clearance.F1.friction.law", "lugre"},
+                                                    {"clearance.F1.friction.coefficient", "0.3"},
+                                                    {"gravity.x", "5 m/s^2"},
+                                                    {"gravity.y", "6 m/s^2"}});
+  for (const Way& way : {kWays[0], kWays[3], kWays[7]})  // those that carry bristles
+    expect_standing(run(m, way), std::string("LuGre, ") + way.rung + ", " + way.integrator);
+}
+
 TEST(RestingStart, TwelveJointsRestTogether) {
   const auto m = standing_platform("twelve-joints.toml");
   const StartingJournals start = starting_journals(*m, m->parameters(), ideal_motion(*m, m->parameters()));
