@@ -238,16 +238,16 @@ class Matching {
     MatchingMap& map = result_.map;
     map.x = grid(plan_.variables[0], result_.design[0]);
     if (plan_.variables.size() > 1) map.y = grid(plan_.variables[1], result_.design[1]);
-    for (std::size_t r = 0; r < std::max<std::size_t>(1, map.y.size()); ++r) {
-      map.value.emplace_back();
-      for (const double x : map.x) {
+    // Gaps until they are known: an interruption leaves a map of the same shape.
+    map.value.assign(std::max<std::size_t>(1, map.y.size()), std::vector<double>(map.x.size(), std::nan("")));
+    for (std::size_t r = 0; r < map.value.size(); ++r)
+      for (std::size_t c = 0; c < map.x.size(); ++c) {
         std::vector<double> design = result_.design;
-        design[0] = x;
+        design[0] = map.x[c];
         if (!map.y.empty()) design[1] = map.y[r];
         const MatchingVisit v = visit(design);
-        map.value.back().push_back(v.violation > 1e-6 ? std::nan("") : v.objective);
+        if (!(v.violation > 1e-6)) map.value[r][c] = v.objective;
       }
-    }
   }
 
   // Points that no other one beats in both accuracy and stability.

@@ -75,6 +75,29 @@ TEST(Matching, ReachesTheSameAnswerFromThreeStarts) {
   EXPECT_EQ(r.map.x.size(), 6U);  // the grid, and the optimum in its place
 }
 
+TEST(Matching, InterruptedAtAnyDesignLeavesAMapOfTheSameShape) {
+  const Valley model;
+  const MatchingPlan p = plan();
+  bool whole = false;
+  int in_map = 0;
+  for (int last = 1; !whole; ++last) {
+    DesignEvaluator evaluator(model, nullptr, nullptr, {});
+    int seen = 0;
+    MatchingOptions options;
+    options.progress = [&](const MatchingResult&) {
+      if (++seen == last) throw EvaluationInterrupted();
+    };
+    const MatchingResult r = run_matching(p, evaluator, nullptr, "", options);
+    whole = !r.interrupted;
+    for (const std::vector<double>& row : r.map.value) {
+      EXPECT_EQ(row.size(), r.map.x.size()) << "interrupted at design " << last;
+      in_map += std::isnan(row.back());
+    }
+    ASSERT_LT(last, 1000);
+  }
+  EXPECT_GT(in_map, 3);
+}
+
 // Slopes of Valley, and how often they were asked for.
 MatchingOptions with_slopes(int& asked) {
   MatchingOptions options;
