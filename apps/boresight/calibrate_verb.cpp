@@ -14,6 +14,7 @@
 #include "boresight_analyses/calibration/posterior.hpp"
 #include "boresight_analyses/calibration/rig.hpp"
 #include "calibrate_report.hpp"
+#include "declared_option.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
@@ -35,13 +36,13 @@ class CalibrateVerb : public Verb {
   std::string summary() const override { return "contact parameters from measured pointing data"; }
   std::string example() const override { return "boresight calibrate examples/calibration/calibrate.toml"; }
   void declare_options(CLI::App& app) override {
-    app.add_option(
-        "--make-data", noise_,
-        "write the study's data files anew from the multibody rung, with this noise, such as \"1 %\"; files that it did not write are "
-        "left as they are, with status 2");
-    app.add_option("--make-offset", offset_,
-                   "of --make-data: a hidden mounting offset on every displacement, such as \"5 um\"");
-    app.add_option("--make-seed", seed_, "of --make-data: of the noise");
+    declare_option(app, "--make-data", noise_,
+                   "write the study's data files anew from the multibody rung, with this noise, such as \"1 %\"; files that it did not write are "
+                   "left as they are, with status 2",
+                   "TEXT");
+    declare_option(app, "--make-offset", offset_,
+                   "of --make-data: a hidden mounting offset on every displacement, such as \"5 um\"", "TEXT");
+    declare_option(app, "--make-seed", seed_, "of --make-data: of the noise", "UINT");
   }
 
   int execute(const Command& command) override {

@@ -10,6 +10,7 @@
 #include "boresight_analyses/chart/chart.hpp"
 #include "boresight_analyses/study/study.hpp"
 #include "chart_report.hpp"
+#include "declared_option.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
 #include "option_range.hpp"
@@ -142,15 +143,10 @@ class ChartVerb : public Verb {
     return "boresight chart examples/3-rrcpr/3-rrcpr.toml --accuracy \"1 %\"";
   }
   void declare_options(CLI::App& app) override {
-    app.add_option("--index", index_,
-                   "of a mechanism, whose file names none: position_error.max, boresight_error.rms, ...")
-        ->type_name("QUANTITY.STATISTIC")
-        ->capture_default_str();
-    app.add_option("--start", start_, "the index leaves out what the motion does before; a study says so itself")
-        ->type_name("TIME");
-    app.add_option("--time", time_, "of CPU in all; ways for which none is left are named")
-        ->type_name("TIME")
-        ->capture_default_str();
+    declare_option_with_default(app, "--index", index_,
+                                "of a mechanism, whose file names none: position_error.max, boresight_error.rms, ...", "QUANTITY.STATISTIC");
+    declare_option(app, "--start", start_, "the index leaves out what the motion does before; a study says so itself", "TIME");
+    declare_option_with_default(app, "--time", time_, "of CPU in all; ways for which none is left are named", "TIME");
   }
 
   int execute(const Command& command) override {

@@ -2,7 +2,6 @@
 // and the options of those verbs that follow a motion.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -16,6 +15,10 @@
 #include "boresight/rungs/option_check.hpp"
 #include "boresight/rungs/rung.hpp"
 #include "boresight_analyses/study/index_choice.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace boresight::app {
 

@@ -1,9 +1,12 @@
 // Completion of verbs, options and their words in a shell, written from the command line's own description.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace boresight::app {
 

@@ -7,6 +7,7 @@
 #include "boresight/contact/law_range.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/rungs/contact_report.hpp"
+#include "declared_option.hpp"
 #include "exit_status.hpp"
 #include "laws_report.hpp"
 #include "option_range.hpp"
@@ -63,11 +64,10 @@ class LawsVerb : public Verb {
   }
   std::string example() const override { return "boresight laws examples/3-rrcpr/3-rrcpr.toml"; }
   void declare_options(CLI::App& app) override {
-    app.add_option("--joint", joint_,
-                   "the clearance joint whose geometry and material are taken; otherwise the first")
-        ->type_name("JOINT");
-    app.add_option("--speed", speed_, "of the impact")->type_name("SPEED")->capture_default_str();
-    app.add_option("--mass", mass_, "that strikes")->type_name("MASS")->capture_default_str();
+    declare_option(app, "--joint", joint_,
+                   "the clearance joint whose geometry and material are taken; otherwise the first", "JOINT");
+    declare_option_with_default(app, "--speed", speed_, "of the impact", "SPEED");
+    declare_option_with_default(app, "--mass", mass_, "that strikes", "MASS");
   }
 
   int execute(const Command& command) override {

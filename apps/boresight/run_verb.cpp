@@ -14,6 +14,7 @@
 #include "boresight/rungs/predictability.hpp"
 #include "boresight/rungs/rung.hpp"
 #include "assumed.hpp"
+#include "declared_option.hpp"
 #include "exit_status.hpp"
 #include "interruption.hpp"
 #include "mechanism_view.hpp"
@@ -134,22 +135,16 @@ class RunVerb : public Verb {
   }
   void declare_options(CLI::App& app) override {
     motion_.declare(app, true);
-    app.add_flag("--compare", compare_, "run the other rungs too and lay them over this one");
-    app.add_option("--sample-number", sample_number_,
-                   "FILE is a Monte Carlo study: run this one of its samples (from 0) and report on it")
-        ->type_name("K");
-    app.add_option("--nonlinear", nonlinear_,
-                   "the drive's period: adds Poincaré sections, phase portraits and the largest Lyapunov exponent")
-        ->type_name("PERIOD");
-    app.add_option("--start", start_, "indices, contact counts and peaks leave out what the motion does before")
-        ->type_name("TIME");
-    app.add_option("--step-error", step_error_,
-                   "what the steps do to the indices, by further runs: auto where these take less than 10 s of CPU, on, off")
-        ->type_name("WHEN")
-        ->capture_default_str();
-    app.add_option("--index", index_, "what --accuracy is about: position_error.max, boresight_error.rms, ...")
-        ->type_name("QUANTITY.STATISTIC")
-        ->capture_default_str();
+    declare_flag(app, "--compare", compare_, "run the other rungs too and lay them over this one");
+    declare_option(app, "--sample-number", sample_number_,
+                   "FILE is a Monte Carlo study: run this one of its samples (from 0) and report on it", "K");
+    declare_option(app, "--nonlinear", nonlinear_,
+                   "the drive's period: adds Poincaré sections, phase portraits and the largest Lyapunov exponent", "PERIOD");
+    declare_option(app, "--start", start_, "indices, contact counts and peaks leave out what the motion does before", "TIME");
+    declare_option_with_default(app, "--step-error", step_error_,
+                                "what the steps do to the indices, by further runs: auto where these take less than 10 s of CPU, on, off", "WHEN");
+    declare_option_with_default(app, "--index", index_, "what --accuracy is about: position_error.max, boresight_error.rms, ...",
+                                "QUANTITY.STATISTIC");
   }
 
   int execute(const Command& asked) override {

@@ -8,6 +8,7 @@
 #include "boresight/io/content_hash.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "boresight_analyses/study/study_error.hpp"
+#include "declared_option.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
 #include "scatter_parts.hpp"
@@ -17,11 +18,11 @@
 namespace boresight::app {
 
 void Resumption::declare(CLI::App& app) {
-  app.add_flag("--resume", resume, "go on where an earlier run of this study stopped, or with more samples");
-  app.add_option("--from", from,
+  declare_flag(app, "--resume", resume, "go on where an earlier run of this study stopped, or with more samples");
+  declare_option(app, "--from", from,
                  "go on with the samples of this folder of results, which stays as it is (it may be on a disk that cannot be written); "
-                 "results go to --out")
-      ->type_name("DIR");
+                 "results go to --out",
+                 "DIR");
 }
 
 void tell_of_damage(const std::string& damage) {

@@ -4,12 +4,15 @@
 // verbs.cpp.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "command.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace boresight::app {
 

@@ -1,12 +1,12 @@
 #include "boresight/mechanism/kinematic_report.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 
+#include "boresight/math/singular_values.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/ideal_motion.hpp"
 #include "boresight/mechanism/interruption.hpp"

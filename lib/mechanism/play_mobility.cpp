@@ -1,9 +1,9 @@
 #include "boresight/mechanism/play_mobility.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <numeric>
 
+#include "boresight/math/singular_values.hpp"
 #include "boresight/mechanism/constraint_system.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 

@@ -1,8 +1,9 @@
 #include "boresight/mechanism/rank_analysis.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <cstdio>
+
+#include "boresight/math/singular_values.hpp"
 
 namespace boresight {
 namespace {
