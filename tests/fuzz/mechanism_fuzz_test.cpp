@@ -82,7 +82,7 @@ TEST(MechanismFuzz, DamagedFilesAreRefusedInOneLineOrHold) {
 // Run by `ctest -L long`.
 TEST(LongMechanismFuzz, DamagedFilesAreRefusedInOneLineOrHold) {
   Tally tally;
-  run_fuzz(200000, fuzz_seed() + 100'000, tally);
+  run_fuzz(50000 * fuzz_times(), fuzz_seed() + 100'000, tally);
 }
 
 void run_small(int count, std::uint64_t seed) {
@@ -113,7 +113,7 @@ void run_small(int count, std::uint64_t seed) {
 }
 
 TEST(ValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) { run_small(10000, fuzz_seed()); }
-TEST(LongValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) { run_small(500000, fuzz_seed() + 100'000); }
+TEST(LongValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) { run_small(125000 * fuzz_times(), fuzz_seed() + 100'000); }
 
 }  // namespace
 }  // namespace boresight

@@ -125,11 +125,11 @@ TEST(DataFuzz, DamagedTablesAreRefusedInOneLineOrHold) {
 // Run by `ctest -L long`.
 TEST(LongStudyFuzz, DamagedStudiesAreRefusedInOneLineOrHold) {
   Tally tally;
-  run_studies(20000, fuzz_seed() + 100'000, tally);
+  run_studies(5000 * fuzz_times(), fuzz_seed() + 100'000, tally);
 }
 TEST(LongDataFuzz, DamagedTablesAreRefusedInOneLineOrHold) {
   Tally tally;
-  run_tables(10000, fuzz_seed() + 200'000, tally);
+  run_tables(2500 * fuzz_times(), fuzz_seed() + 200'000, tally);
 }
 
 }  // namespace
