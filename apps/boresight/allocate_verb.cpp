@@ -1,6 +1,7 @@
 // boresight allocate STUDY: fits or tolerances per joint at least cost that meet the pointing requirement.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 

@@ -1,6 +1,7 @@
 // boresight budget STUDY: the pointing budget, from simulated histories and by the classical table.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 

@@ -1,6 +1,8 @@
 // boresight calibrate STUDY: contact parameters from measured pointing data.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>

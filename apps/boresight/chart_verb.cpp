@@ -2,6 +2,7 @@
 // on this machine.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 
 #include "boresight/io/mechanism_file.hpp"

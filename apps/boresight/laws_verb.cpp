@@ -1,6 +1,8 @@
 // boresight laws [MECHANISM]: the contact and friction laws, what they return, where they hold.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <ostream>
 
 #include "boresight/contact/hertz.hpp"

@@ -1,6 +1,7 @@
 // boresight stability MECHANISM: where the methods fail, measured on this mechanism beside theory.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <ostream>
 
 #include "boresight/io/mechanism_file.hpp"

@@ -1,6 +1,7 @@
 // boresight sweep STUDY: the same motion over a grid of parameters.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ostream>
 
 #include "boresight/rungs/rung.hpp"
