@@ -20,7 +20,7 @@ constexpr std::array kShares = {1.0, 0.97, 0.5};
 // Steps after which a motion counts as too long to be followed for an estimate, in the looks that a rung
 // grants (every 4096).
 constexpr int kMostLooks = 1000;
-// What is smaller than this share of the largest, on the mechanism's size, is next to nothing: what it is off by counts against this.
+// What is smaller than this share of the largest, on the mechanism's size, is next to nothing: what it is off by counts against the largest.
 constexpr double kNextToNothing = 1e-4;
 // Where numbers scatter that begin at zero, every sample may stand for itself alone.
 constexpr std::size_t kMostKept = 4096;
@@ -203,7 +203,7 @@ class MeasuredByDynamics final : public Rung {
         }
         const double mean = sum / static_cast<double>(motions.size());
         const double off = std::abs(index.*quantity.*statistic - mean) + kOfRange * (high - low);
-        const double against = std::max(mean, kNextToNothing * largest / unit(quantity));
+        const double against = unit(quantity) * mean > kNextToNothing * largest ? mean : largest / unit(quantity);
         if (against > 0.0) measured.error.model = std::max(measured.error.model, off / against);
         if (statistic == &Statistics::max && quantity == quantities[0])
           measured.exceeded = high / (index.*quantity).max - 1.0;

@@ -219,9 +219,6 @@ class LeftOut {
     // What turns miss that are next to nothing against the displacement, on the mechanism's size, counts against a little of that; and the
     // other way round. The line of sight counts against itself: how small an angle a displacement is depends on the target's distance.
     constexpr double kNextToNothing = 1e-4;
-    // Forces that are off shift the time of every impact that follows as well as its place: twice the share that they move where the journal
-    // is now. (Seeds 487 and 505 of the gauntlet are off by 1.6 and 1.4 times the single share.)
-    constexpr double kOfPush = 2.0;
     const double length = mechanism_.characteristic_length();
     const double next_to_nothing =
         kNextToNothing * std::max({miss_[moved].size(), length * miss_[turned].size(), length * miss_[aimed].size()});
@@ -230,7 +227,7 @@ class LeftOut {
       const double least = k == moved ? next_to_nothing : k == sighted ? 0.0 : next_to_nothing / length;
       const double size = std::max(miss_[k].size(), least);
       double of_kind = miss_[k].value(least);
-      for (std::size_t g = 0; g < groups_.size(); ++g) of_kind += kOfPush * part_[g][k].value(least) * pushed_off_[g];
+      for (std::size_t g = 0; g < groups_.size(); ++g) of_kind += part_[g][k].value(least) * pushed_off_[g];
       share = std::max({share, of_kind, size > 0.0 ? at_rest[k] / size : 0.0});
     }
     return std::isfinite(share) ? std::min(share, 1.0) : 1.0;
