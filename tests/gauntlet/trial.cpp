@@ -269,20 +269,11 @@ class Trial {
     return base.steps_measured && other.steps_measured && apart <= base.by_steps[figure] + other.by_steps[figure];
   }
 
-  // What two drawings of one mechanism may differ by, rounding apart. The multibody rung follows the same motion of both, from a start that
-  // is no sharper than a ten-thousandth of a play where nothing decides where journals rest. The others are held to their tables and to a
-  // hundredth of what they state: where a load all but vanishes, its direction is the tables' error.
-  double alike_within(const std::string& rung, std::size_t figure, double size, double model) const {
-    if (rung == "multibody")
-      return std::max(1e-6 * size, mechanism_->description().journals == JournalStart::centred ? 0.0 : floor_of(figure));
-    return std::max(rung == "perturbation" ? ClearanceScene::kAccuracy : 1e-6, kOfStated * model) * size;
-  }
-
   void compare_with_base(const Asked& asked, const std::string& stage, const Measured& base, Measured& other,
                          const std::shared_ptr<const Mechanism>& mechanism) {
     for (std::size_t k = 0; k < kFigures.size(); ++k) {
       const double size = std::max(base.figure[k], other.figure[k]), apart = std::abs(base.figure[k] - other.figure[k]);
-      const double alike = alike_within(asked.rung, k, size, std::max(base.model, other.model));
+      const double alike = asked.rung == "perturbation" ? ClearanceScene::kAccuracy * size : 1e-6 * size;
       if (size < floor_of(k) || apart <= alike) continue;
       if (asked.rung != "quasistatic" &&
           (apart <= alike + 3.0 * neighbours_spread(asked, k, 5) || apart <= alike + 3.0 * neighbours_spread(asked, k, 17)))
@@ -346,7 +337,6 @@ class Trial {
   }
 
   static constexpr double kMostOfLimit = 0.8;          // of the CPU limit, after which a run is asked to end
-  static constexpr double kOfStated = 0.01;            // of what a rung states of its model
   static constexpr double kDearRun = 1.5;              // [s]: variants of dearer runs are left out
   static constexpr double kMomentumTolerance = 1e-5;   // of the sum of the parts, at the rung's own step
   static constexpr double kEnergyTolerance = 1e-6;     // of the kinetic energy, at a two-thousandth of the motion
