@@ -343,7 +343,8 @@ void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, 
   append(row, VecX(cholesky.solve(r)));
   append(row, MatX(cholesky.solve(C)));
   if (coordinates_.leftover() > 0) {
-    append(row, knot.stiffness);
+    // Differences know what T'' takes.
+    append(row, moving() && at_rest ? MatX(knot.stiffness - cholesky.solve(moving_stiffness(parameters, knot))) : knot.stiffness);
   } else if (layout_.stiff) {
     MatX K = spring_stiffness(parameters, knot);
     if (moving() && !at_rest) K += moving_stiffness(parameters, knot);

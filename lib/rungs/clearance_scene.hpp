@@ -115,8 +115,8 @@ class ClearanceScene {
   void append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row, bool at_rest = false) const;
   double slowest_rate(const std::vector<double>& rows, const Parameters& parameters) const;
   double interpolation_error(const std::vector<double>& rows, const Parameters& parameters) const;
-  // Whether T'' has a part; with leftover coordinates the differences of deviation_stiffness.hpp know it.
-  bool moving() const { return coordinates_.has_dependent() && coordinates_.leftover() == 0; }
+  // Whether T'' has a part.
+  bool moving() const { return coordinates_.has_dependent(); }
   int element_size() const { return (moving() ? 3 : 2) * layout_.n * layout_.n + 4 * layout_.n; }
 
   const Mechanism& mechanism_;

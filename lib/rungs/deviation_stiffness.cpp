@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "boresight/rungs/formulation.hpp"
+#include "boresight/rungs/shared_reactions.hpp"
 
 namespace boresight {
 namespace {
@@ -17,12 +18,7 @@ constexpr double kDisplacement = 1e-5;
 MatX deviation_stiffness(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
                          DeviationCoordinates& coordinates, const IdealState& state, const MatX& T, const MatX& AC, const VecX& r) {
   const auto formulation = make_tree_formulation(mechanism, parameters, &ideal, {});
-  const OffsetLayout layout(mechanism);
-  std::vector<Eigen::Matrix<double, 5, 1>> reaction(mechanism.clearances(), Eigen::Matrix<double, 5, 1>::Zero());
-  for (int c = 0; c < mechanism.clearances(); ++c)
-    for (int k = 0; k < layout.joint(c).count(); ++k)
-      if (const int source = coordinates.source()[layout.joint(c).first + k]; source >= 0) reaction[c][k] = -r[source];
-  formulation->forces().replace_contact(std::move(reaction));
+  formulation->forces().replace_contact(shared_reactions(OffsetLayout(mechanism), parameters, coordinates.offsets_per_coordinate(T), r));
   const std::vector<ContactMemory> memory(mechanism.clearances());
   const int n = coordinates.count();
   MatX acceleration(n, n), rate(n, n), place(n, n);

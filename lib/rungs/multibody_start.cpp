@@ -47,20 +47,20 @@ VecX unbalanced(const ClearanceScene::Start& scene, const std::vector<MassProper
   return load;
 }
 
-// The contacts without friction, until the end of its life.
-class Frictionless {
+// The contacts elastic and without friction, until the end of its life.
+class ElasticOnly {
  public:
-  Frictionless(ForceElements& forces, const std::vector<JournalInSleeve>& laws) : forces_(forces) {
+  ElasticOnly(ForceElements& forces, const std::vector<JournalInSleeve>& laws) : forces_(forces) {
     for (int c = 0; c < forces_.clearances(); ++c) {
       own_.push_back(forces_.joint(c));
       forces_.act(c, laws[static_cast<std::size_t>(c)]);
     }
   }
-  ~Frictionless() {
+  ~ElasticOnly() {
     for (int c = 0; c < forces_.clearances(); ++c) forces_.act(c, own_[static_cast<std::size_t>(c)]);
   }
-  Frictionless(const Frictionless&) = delete;
-  Frictionless& operator=(const Frictionless&) = delete;
+  ElasticOnly(const ElasticOnly&) = delete;
+  ElasticOnly& operator=(const ElasticOnly&) = delete;
 
  private:
   ForceElements& forces_;
@@ -78,12 +78,12 @@ class ExactBalance {
         mass_(mechanism.mass_properties(parameters)),
         memory_(static_cast<std::size_t>(mechanism.clearances())),
         journals_(memory_.size()),
-        rate_(formulation.state_size()),
-        still_(VecX::Zero(scene.T.cols())) {}
+        rate_(formulation.state_size()) {}
 
-  // What is left unbalanced with the journals sent to z, nothing moving against the ideal motion: rates dissipate.
+  // What is left unbalanced with the journals sent to z, the bodies moving as they start: with coordinates that stand still, they would
+  // move otherwise in another drawing.
   VecX left(const VecX& z) {
-    place(z, still_, state_);
+    place(z, state_);
     formulation_.derivative(0.0, state_, memory_, rate_);
     for (std::size_t c = 0; c < journals_.size(); ++c) journals_[c] = formulation_.forces().motion(static_cast<int>(c));
     return balance_.balanceable(unbalanced(scene_, mass_, formulation_.acceleration()));
@@ -94,8 +94,8 @@ class ExactBalance {
   const MatX& unit() const { return balance_.unit(); }
   VecX step(const MatX& by_z, const VecX& left) const { return balance_.correction(by_z, left); }
 
-  void place(const VecX& z, const VecX& z_rate, VecX& y) {
-    formulation_.place_bodies(displaced_bodies(scene_, z, z_rate), y);
+  void place(const VecX& z, VecX& y) {
+    formulation_.place_bodies(displaced_bodies(scene_, z, scene_.numbers.rates * z), y);
     formulation_.close_joints(0.0, y);
   }
 
@@ -106,7 +106,7 @@ class ExactBalance {
   std::vector<MassProperties> mass_;
   std::vector<ContactMemory> memory_;
   std::vector<JournalMotion<double>> journals_;
-  VecX state_, rate_, still_;
+  VecX state_, rate_;
 };
 
 // Newton's method with the offsets' own stiffness: a few steps, where the pose is all but linear in the offsets. Returns the length of
@@ -148,7 +148,7 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
     return resting;
   }
   resting.linear = scene.T * rest.z;
-  const Frictionless frictionless(formulation->forces(), balance.joints());
+  const ElasticOnly elastic(formulation->forces(), balance.joints());
   ExactBalance exact(mechanism, parameters, scene, balance, *formulation);
   VecX z = rest.z;
   double length = rest_nearly_linear(exact, z);
@@ -165,7 +165,7 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
                       "geometry, which bends within the clearances";
     return resting;
   }
-  exact.place(z, scene.numbers.rates * z, y);
+  exact.place(z, y);
   resting.exact = formulation->bodies(0.0, y);
   return resting;
 }

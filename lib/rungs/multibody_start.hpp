@@ -3,7 +3,7 @@
 // The bodies are displaced by T z, z being the balance of resting_start.hpp, which is linear in everything but the contacts,
 // and the joints closed exactly. What that leaves unbalanced (the square of the deviation) is measured on the formulation
 // itself, T^T M (vdot - vdot_ideal), and taken out by the same Newton steps: a mechanism whose drives stand still then stays
-// where it is. The velocities are those of the ideal motion with z held: T-dot z more for each body.
+// where it is. The velocities are those of start_rates.hpp; contacts neither dissipate nor rub while the balance is looked for.
 #pragma once
 
 #include <string>

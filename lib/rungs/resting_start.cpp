@@ -19,27 +19,30 @@ constexpr double kBalanced = kNoLoad, kAcceptable = 1e-8;
 // What may be left that no place of the journals balances, likewise: it sets off the motion.
 constexpr double kLeftToMotion = 1e-4;
 constexpr int kMostSteps = 400;
+// Of the clearances: a first step that is no longer only makes a balance sharper.
+constexpr double kLastDigits = 1e-2;
 // Of the load over a clearance: with less, the step is the undamped one.
 constexpr double kLeastDamping = 1e-8;
 // Stiffness below this share of the largest holds nothing.
 constexpr double kSoft = 1e-11;
 
-// Without rates no contact dissipates, whatever the law; with no friction none rubs.
-JournalInSleeve without_friction(JournalInSleeve joint) {
+// A rest is a matter of elastic forces: what contacts dissipate and rub hangs on how fast the bodies carry them along.
+JournalInSleeve elastic_only(JournalInSleeve joint) {
+  for (NormalLaw* law : {&joint.radial_law, &joint.tilted.end_law}) law->damping_factor = law->dashpot = 0.0;
   joint.friction.kind = joint.tilted.friction.kind = FrictionKind::none;
   joint.friction.stiction = joint.tilted.friction.stiction = 0.0;
   joint.sticks = false;
   return joint;
 }
 
-constexpr std::array<double, kContactPlaces> kSlow = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3};  // of no account without rates
+constexpr std::array<double, kContactPlaces> kSlow = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3};  // of no account where nothing dissipates
 
 }  // namespace
 
 RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std::vector<JournalInSleeve> joints)
     : at_(layout), held_(static_cast<std::size_t>(layout.n), false) {
   const int n = at_.n;
-  for (JournalInSleeve& joint : joints) joints_.push_back(without_friction(std::move(joint)));
+  for (JournalInSleeve& joint : joints) joints_.push_back(elastic_only(std::move(joint)));
   MatX inverse;
   at_.inverse_mass(row, inverse);
   mass_ = inverse.ldlt().solve(MatX::Identity(n, n));
@@ -227,6 +230,19 @@ RestingStart RestingBalance::solve() const {
     rest.z.setZero();
     rest.refusal = "no position was found in which the journals' contacts carry the loads of t = 0";
     return rest;
+  }
+  // A soft direction may still move by what is no load any more: as far as steps shrink, and stay far from crossing a clearance.
+  for (double last = kLastDigits; true;) {
+    const VecX dz = correction(J, F);
+    const double step = length(dz);
+    if (!(step < 0.5 * last)) break;
+    trial = z + dz;
+    evaluate(trial, F_trial, J_trial);
+    if (!(size(F_trial) <= std::max(size(F), kBalanced * load_))) break;
+    z = trial;
+    F.swap(F_trial);
+    J.swap(J_trial);
+    last = step;
   }
   rest.z = z;
   return rest;

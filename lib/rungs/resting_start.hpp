@@ -46,7 +46,7 @@ class RestingBalance {
   // Of a load on z, likewise [N m].
   double size(const VecX& load) const { return (unit_.transpose() * load).norm(); }
   const MatX& unit() const { return unit_; }  // z = unit y: y of length 1 makes offsets of that length
-  const std::vector<JournalInSleeve>& joints() const { return joints_; }  // without friction
+  const std::vector<JournalInSleeve>& joints() const { return joints_; }  // elastic, without friction
 
  private:
   JournalMotion<double> motion_of(std::size_t joint, const VecX& z) const;

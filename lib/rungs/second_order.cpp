@@ -4,18 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/formulation.hpp"
 #include "boresight/rungs/multibody_start.hpp"
+#include "boresight/rungs/shared_reactions.hpp"
 
 namespace boresight {
 namespace {
 
 using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-using Loads = std::vector<Eigen::Matrix<double, 5, 1>>;
 
 // What makes lengths of all coordinates [m]: slopes count at the sleeve's ends, turns of joints on the
 // mechanism's size.
@@ -26,15 +24,6 @@ VecX lengths(const Mechanism& mechanism, const Parameters& parameters, const Sce
       if (const int source = at.joints[c].source[k]; source >= 0)
         unit[source] = k < 3 ? 1.0 : 0.5 * parameters.clearance[c].sleeve_length;
   return unit;
-}
-
-// The ideal joints' reactions on the journals, which contact replaces on the average.
-Loads reactions(const SceneLayout& at, const VecX& r) {
-  Loads loads(at.joints.size(), Eigen::Matrix<double, 5, 1>::Zero());
-  for (std::size_t c = 0; c < at.joints.size(); ++c)
-    for (int k = 0; k < at.joints[c].offsets; ++k)
-      if (const int source = at.joints[c].source[k]; source >= 0) loads[c][k] = -r[source];
-  return loads;
 }
 
 // Coordinates whose forces decide together where a journal rests: across its axis, tilts included; along it;
@@ -176,7 +165,8 @@ class LeftOut {
     at_.inverse_mass(row_.data(), A);
     const Eigen::LLT<MatX> inverse_mass(A);
     const VecX reaction = inverse_mass.solve(Eigen::Map<const VecX>(row_.data() + at_.Ar, at_.n));
-    formulation_->forces().replace_contact(reactions(at_, reaction));
+    formulation_->forces().replace_contact(
+        shared_reactions(prepared_.scene().offsets(), parameters_, coordinates_.offsets_per_coordinate(T), reaction));
 
     IdealState state;
     prepared_.ideal().state(deviation.t, state);
