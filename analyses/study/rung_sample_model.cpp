@@ -120,23 +120,29 @@ void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outco
   }
 }
 
-double common_step(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism,
-                   const std::vector<Parameters>& samples, RunOptions options) {
+double common_step(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism, const std::vector<Parameters>& samples,
+                   RunOptions options, const std::vector<double>& known, const std::function<void(std::size_t, double)>& found) {
   if (controls_error(options)) return 0.0;
-  const std::unique_ptr<Rung> model = make_rung(rung, mechanism);
+  std::unique_ptr<Rung> model;
   options.sample_spacing = 0.0;
   options.events = false;
   double step = 0.0;
   std::optional<ComputationError> refusal;
-  for (const Parameters& sample : samples) {
-    try {
-      const RunResult result = model->run(sample, options);
-      if (result.cost.steps == 0) continue;
-      const double own = mechanism->duration() / static_cast<double>(result.cost.steps);
-      step = step == 0.0 ? own : std::min(step, own);
-    } catch (const ComputationError& failure) {
-      refusal = failure;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    double own = k < known.size() ? known[k] : 0.0;
+    if (own == 0.0) {
+      if (!model) model = make_rung(rung, mechanism);
+      try {
+        const RunResult result = model->run(samples[k], options);
+        if (result.cost.steps == 0) continue;
+        own = mechanism->duration() / static_cast<double>(result.cost.steps);
+        if (found) found(k, own);
+      } catch (const ComputationError& failure) {
+        refusal = failure;
+        continue;
+      }
     }
+    step = step == 0.0 ? own : std::min(step, own);
   }
   if (step == 0.0 && refusal) throw *refusal;
   return step;

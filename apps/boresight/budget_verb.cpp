@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "boresight/io/content_hash.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
 #include "boresight_analyses/montecarlo/stored_runs.hpp"
 #include "budget_report.hpp"
 #include "exit_status.hpp"
@@ -176,19 +177,25 @@ class BudgetVerb : public Verb {
         command, study, mechanism,
         {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count(), .integrators = true}, run, store);
     apply(choice, run);
+    const bool takes_steps = !integrator_names(choice.name).empty();
+    if (takes_steps && run.step == 0.0 && (run.integrator.empty() || run.integrator == "rk4"))
+      run.step = kept_common_step(choice.name, mechanism, plan.inputs, run, store);
     run = options_on(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run);
     const BudgetModel model(choice.name, mechanism, plan, runs, {study.index.quantity, "max", plan.start}, run,
                             scene_varies(plan.inputs));
     store.use_rung(model.rung(), model.step());
     note_origin(store, study, *mechanism, plan);
-    const bool whole =
+    const std::uint64_t begun_with = store.count();
+    const Stopwatch computing;
+    bool whole =
         with_options_checked([&] { return compute(command, study, *mechanism, plan, runs, model, store); });
+    const std::string stuck = no_run_done(!whole, begun_with, store.count(), computing.wall_seconds());
     // Last, as it keeps nothing before it ends.
     StudySteps steps{kNotMeasured, "not measured: the study was interrupted before"};
     if (whole)
-      steps =
-        steps_of_study(command, study, mechanism, {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count()}, run,
-                         choice.name, &store);
+      steps = steps_of_study(command, study, mechanism, {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count()}, run,
+                             choice.name, &store);
+    whole = whole && !steps.interrupted;
 
     std::optional<Budget> budget;
     if (whole) budget = budget_of(plan, runs, *mechanism, study.index.kind(), store, look_at_requirements(plan, store));
@@ -206,6 +213,7 @@ class BudgetVerb : public Verb {
     result.model_error = seen.model_error;
     result.steps = steps;
     if (budget) result.warnings = warnings_of(result, seen);
+    if (!stuck.empty()) result.warnings.push_back(stuck);
     if (!store.damage().empty()) result.warnings.push_back(store.damage());
     write(result, seen, out, watch, store.earlier());
     if (!command.quiet) print(result, out);

@@ -1,5 +1,7 @@
 // boresight export DIR: the samples of a Monte Carlo study as CSV.
 #include <fmt/format.h>
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -22,19 +24,13 @@ namespace boresight::app {
 namespace {
 
 // Written row by row under another name, synced and renamed: a table of any size, whole or not there. It replaces a table that was
-// there only where all of whose lines are also in the new one, in their order: an earlier export of fewer samples.
+// there only where all of whose lines are also in the new one, in their order: an earlier export of fewer samples. The other name is
+// always the same and locked while it is written, so that the next export goes over what a killed one left.
 class TableFile {
  public:
   explicit TableFile(std::filesystem::path file) : file_(std::move(file)) {
-    temporary_ = (file_.parent_path() / ("." + file_.filename().string() + ".XXXXXX")).string();
-    const int descriptor = ::mkstemp(temporary_.data());
-    if (descriptor < 0) {
-      temporary_.clear();
-      fail();
-    }
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    stream_ = ::fchmod(descriptor, 0666 & ~mask) == 0 ? ::fdopen(descriptor, "w") : nullptr;
+    const int descriptor = locked(file_.parent_path() / ("." + file_.filename().string() + ".part"));
+    stream_ = ::ftruncate(descriptor, 0) == 0 ? ::fdopen(descriptor, "w") : nullptr;
     if (stream_ == nullptr) fail();
     std::error_code error;
     there_ = std::filesystem::exists(std::filesystem::symlink_status(file_, error));
@@ -43,8 +39,8 @@ class TableFile {
     next_old_line();
   }
   ~TableFile() {
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());  // while it is still locked
     if (stream_ != nullptr) std::fclose(stream_);
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
   }
   TableFile(const TableFile&) = delete;
   TableFile& operator=(const TableFile&) = delete;
@@ -56,13 +52,31 @@ class TableFile {
   void finish() {
     if (there_ && old_line_) refuse();
     if (std::fflush(stream_) != 0 || ::fsync(::fileno(stream_)) != 0) fail();
-    std::fclose(stream_);
-    stream_ = nullptr;
     if (std::rename(temporary_.c_str(), file_.c_str()) != 0) fail();
     temporary_.clear();
+    std::fclose(stream_);
+    stream_ = nullptr;
   }
 
  private:
+  // A descriptor of this file, made where it is not there, that no other process has.
+  int locked(const std::filesystem::path& part) {
+    for (;;) {
+      const int descriptor = ::open(part.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0666);
+      if (descriptor < 0) fail();
+      if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+        ::close(descriptor);
+        throw OutputDirectoryError(file_.string() + ": another export is writing it; wait for it to end, or give another --out");
+      }
+      // Whoever had it may have renamed or removed it meanwhile.
+      struct stat own = {}, there = {};
+      if (::fstat(descriptor, &own) == 0 && ::stat(part.c_str(), &there) == 0 && own.st_ino == there.st_ino && own.st_dev == there.st_dev) {
+        temporary_ = part.string();
+        return descriptor;
+      }
+      ::close(descriptor);
+    }
+  }
   void next_old_line() {
     std::string text;
     if (std::getline(old_, text))

@@ -220,6 +220,10 @@ int run_fidelities(const SeveralRungs& s) {
                                            .runs = static_cast<std::uint64_t>(o.plan.samples[0]),
                                            .lanes = levels[0].model->batch() > 1},
                                           top_run, top, levels[0].store.get());
+  if (steps.interrupted) {
+    if (!s.command.quiet) tell("  interrupted; what was computed is kept, go on with --resume\n");
+    return kInterrupted;
+  }
   const double sampling = 0.5 * (o.mean.value.high - o.mean.value.low) / std::abs(o.mean.value.value);
   std::vector<std::string> warnings;
   if (o.mean.failed > 0)

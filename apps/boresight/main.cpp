@@ -122,9 +122,9 @@ int main(int argc, char** argv) {
   } catch (const InputError& error) {
     return fail(kBadInput, error.what());
   } catch (const Interrupted&) {
-    return fail(kInterrupted, "interrupted before there was anything to keep");
+    return fail(kInterrupted, "interrupted before there was anything new to keep");
   } catch (const PilotInterrupted&) {
-    return fail(kInterrupted, "interrupted while a rung was being chosen: nothing is lost, nothing was begun");
+    return fail(kInterrupted, "interrupted while a rung was being chosen: nothing is lost, nothing was begun; --rung NAME does without the choice");
   } catch (const OutputDirectoryError& error) {
     return fail(kBadInput, error.what());
   } catch (const SilentExit& exit) {

@@ -119,8 +119,11 @@ class MonteCarloVerb : public Verb {
     if (!command.quiet) announce(question, choice, store->count(), ranks->size());
     Progress progress(command.quiet, static_cast<double>(question.plan.samples), "samples");
     options.progress = [&](const MonteCarloProgress& p) { show(progress, p, question); };
-    const MonteCarloResult result = with_options_checked([&] { return run_montecarlo(model, question.plan, store.get(), *ranks, options); });
+    const std::uint64_t begun_with = store->count();
+    const Stopwatch sampling;
+    MonteCarloResult result = with_options_checked([&] { return run_montecarlo(model, question.plan, store.get(), *ranks, options); });
     progress.clear();
+    const std::string stuck = no_run_done(result.ended == Ended::interrupted || result.ended == Ended::time, begun_with, store->count(), sampling.wall_seconds());
     // Last, as it keeps nothing before it ends: the samples get on in however short a time a process has.
     StudySteps steps{kNotMeasured, "not measured: the study was interrupted before"};
     if (result.ended != Ended::interrupted)
@@ -130,7 +133,8 @@ class MonteCarloVerb : public Verb {
                               .runs = question.plan.samples,
                               .lanes = true},
                              model_options, model.rung(), store.get());
-    return write_results(command, question, choice, model, *store, steps, result, watch, *out);
+    if (steps.interrupted) result.ended = Ended::interrupted;
+    return write_results(command, question, choice, model, *store, steps, result, watch, *out, stuck);
   }
 
  private:
@@ -187,9 +191,7 @@ class MonteCarloVerb : public Verb {
     // step for all samples.
     const bool lanes = choice.name == "perturbation" && LaneSampleModel::serve(*question.mechanism, question.study.index, run);
     if (!choice.pilot && !lanes && run.step == 0.0)
-      choice.step = with_options_checked([&] {
-        return common_step(choice.name, question.mechanism, pilot_samples(question.plan.inputs, *question.mechanism), run);
-      });
+      choice.step = kept_common_step(choice.name, question.mechanism, question.plan.inputs, run, store);
     note_choice(store, choice);
     if (choice.pilot) {
       store.note("pilot_reference_error", fmt::format("{:.17g}", choice.pilot->reference_error));
@@ -253,7 +255,7 @@ class MonteCarloVerb : public Verb {
 
   int write_results(const Command& command, const MonteCarloQuestion& question, const RungChoice& choice,
                     const SampleModel& model, SampleStore& store, const StudySteps& steps,
-                    const MonteCarloResult& result, const Stopwatch& watch, const OutputDirectory& out) const {
+                    const MonteCarloResult& result, const Stopwatch& watch, const OutputDirectory& out, const std::string& stuck) const {
     ModelError error;
     const ShownSamples shown = shown_samples(store, result, error);
     error.discretisation = steps.relative;
@@ -279,6 +281,7 @@ class MonteCarloVerb : public Verb {
                           .warnings = warnings_of(question, result, estimates, shown.failures),
                           .leaves_out = model.leaves_out(),
                           .replay = replay_command(command, choice, model)};
+    if (!stuck.empty()) study.warnings.push_back(stuck);
     if (!store.damage().empty()) study.warnings.push_back(store.damage());
     write_json(out, "summary.json", summary_of(study, watch, out, store));
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, montecarlo_report(study)); });

@@ -1,13 +1,20 @@
 // boresight new FOLDER: a commented mechanism and a study to start from, and what to do with them.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
 
 #include "boresight/mechanism/error.hpp"
 #include "exit_status.hpp"
+#include "folder_claim.hpp"
 #include "output_directory.hpp"
 #include "terminal.hpp"
 #include "verb.hpp"
+#include "whole_results.hpp"
 
 extern "C" {
 extern const char boresight_template_mechanism[];
@@ -18,6 +25,11 @@ namespace boresight::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 class NewVerb : public Verb {
  public:
@@ -34,14 +46,21 @@ class NewVerb : public Verb {
       const char* name;
       const char* text;
     } files[] = {{"mechanism.toml", boresight_template_mechanism}, {"montecarlo.toml", boresight_template_montecarlo}};
+    // Some of them word for word as they would be written, and not all: a start that was killed, which this one completes.
+    const auto is_there = [&](const auto& file) { return fs::exists(folder / file.name); };
+    const bool all = std::all_of(std::begin(files), std::end(files), is_there);
     for (const auto& file : files)
-      if (fs::exists(folder / file.name))
+      if (is_there(file) && (all || text_of(folder / file.name) != file.text))
         throw OutputDirectoryError((folder / file.name).string() + ": is there already; give another folder, or remove it");
     std::error_code failed;
     fs::create_directories(folder, failed);
     if (failed || !fs::is_directory(folder))
       throw OutputDirectoryError(folder.string() + ": cannot make this folder" + (failed ? ": " + failed.message() : ""));
-    for (const auto& file : files) write_atomically(folder / file.name, file.text);
+    const std::optional<FolderClaim> claim = FolderClaim::take(folder);
+    if (!claim) throw OutputDirectoryError(folder.string() + ": another run is writing there; wait for it to end, or give another folder");
+    discard_staged(folder);
+    for (const auto& file : files) stage(folder, file.name, file.text);
+    place_staged(folder);
     if (!command.quiet)
       tell("{0}: an antenna whose elevation bearing has play, to be changed into yours\n"
                  "  boresight check {0}/mechanism.toml        what would go wrong, before it does\n"

@@ -101,8 +101,11 @@ class SensitivityVerb : public Verb {
                            "mean of the index " + readable(p.mean_so_far, study.index.si_unit()) +
                                (p.failed > 0 ? fmt::format(", {} failed", p.failed) : ""));
     };
+    const std::uint64_t begun_with = store.count();
+    const Stopwatch computing;
     const bool whole =
         with_options_checked([&] { return compute_sensitivity_runs(model, plan, store, options_of_runs); });
+    const std::string stuck = no_run_done(!whole, begun_with, store.count(), computing.wall_seconds());
     std::optional<GlobalSensitivity> global;
     LocalResult local;
     local.interrupted = true;
@@ -132,6 +135,7 @@ class SensitivityVerb : public Verb {
       if (r.number % every == 0 && r.outcome.status == Outcome::Status::done) result.shown.push_back(r);
     });
     result.warnings = warnings_of(result);
+    if (!stuck.empty()) result.warnings.push_back(stuck);
     if (!store.damage().empty()) result.warnings.push_back(store.damage());
     write(result, out, watch, store.earlier());
     if (!command.quiet) print(result, out);
@@ -151,7 +155,7 @@ class SensitivityVerb : public Verb {
     if (begun || choice.pilot) return choice;
     const bool lanes = choice.name == "perturbation" && LaneSampleModel::serve(*mechanism, study.index, run);
     if (!lanes && choice.step == 0.0 && run.step == 0.0)
-      choice.step = with_options_checked([&] { return common_step(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run); });
+      choice.step = kept_common_step(choice.name, mechanism, plan.inputs, run, store);
     return choice;
   }
 

@@ -6,12 +6,15 @@
 #include <filesystem>
 
 #include "boresight/io/content_hash.hpp"
+#include "boresight/mechanism/interruption.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "boresight_analyses/study/study_error.hpp"
 #include "declared_option.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
+#include "readable.hpp"
 #include "scatter_parts.hpp"
+#include "stored_pilot.hpp"
 #include "summary.hpp"
 #include "terminal.hpp"
 
@@ -81,6 +84,7 @@ void note_choice(SampleStore& store, const RungChoice& choice) {
   store.note("rung_why", choice.why);
   store.note("integrator", choice.integrator);
   store.note("tolerance", fmt::format("{:.17g}", choice.tolerance));
+  if (choice.pilot) store.note("pilot", text_of(*choice.pilot));
 }
 
 RungChoice stored_choice(const SampleStore& store) {
@@ -90,7 +94,8 @@ RungChoice stored_choice(const SampleStore& store) {
           .why = why.empty() ? "chosen when the study was begun" : why,
           .step = stored.front().step,
           .integrator = store.fact("integrator"),
-          .tolerance = tolerance.empty() ? 0.0 : std::stod(tolerance)};
+          .tolerance = tolerance.empty() ? 0.0 : std::stod(tolerance),
+          .pilot = pilot_of_text(store.fact("pilot"))};
 }
 
 RungChoice rung_of_study(const Command& command, const Study& study, const std::shared_ptr<const Mechanism>& mechanism,
@@ -99,6 +104,26 @@ RungChoice rung_of_study(const Command& command, const Study& study, const std::
   const RungChoice choice = choose_rung_of_scatter(command, study, run, mechanism, asked);
   note_choice(store, choice);
   return choice;
+}
+
+std::string no_run_done(bool stopped, std::uint64_t before, std::uint64_t after, double seconds) {
+  if (!stopped || after > before) return "";
+  return fmt::format("no run was done in these {}: one that is cut off is computed anew, so a start must last longer than one run", readable(seconds, "s"));
+}
+
+double kept_common_step(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism, const RandomInputs& inputs,
+                        const RunOptions& run, SampleStore& store) {
+  const std::vector<Parameters> samples = pilot_samples(inputs, *mechanism);
+  const auto fact = [](std::size_t k) { return fmt::format("step_of_pilot_{}", k); };
+  std::vector<double> known;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const std::string kept = store.fact(fact(k));
+    known.push_back(kept.empty() ? 0.0 : std::stod(kept));
+  }
+  return with_options_checked([&] {
+    return common_step(rung, mechanism, samples, run, known,
+                       [&](std::size_t k, double step) { store.note(fact(k), fmt::format("{:.17g}", step)); });
+  });
 }
 
 StudySteps steps_of_study(const Command& command, const Study& study, const std::shared_ptr<const Mechanism>& mechanism,
@@ -126,12 +151,17 @@ StudySteps steps_of_study(const Command& command, const Study& study, const std:
                                     progress.update(std::min(512.0, done++), "");
                                     return !interrupted();
                                   }};
-  const StudyDiscretisation found = with_options_checked([&] {
-    return measure_study_discretisation(mechanism, draws_of_scatter(asked.inputs, *mechanism, kDrawsForPilot), way, options);
-  });
+  StudyDiscretisation found;
+  try {
+    found = with_options_checked([&] {
+      return measure_study_discretisation(mechanism, draws_of_scatter(asked.inputs, *mechanism, kDrawsForPilot), way, options);
+    });
+  } catch (const Interrupted&) {  // the study's own runs are there, and are kept
+  }
   progress.clear();
+  if (interrupted()) return {kNotMeasured, "not measured: the study was interrupted before; --resume measures it", true};
   const StudySteps steps{found.measured ? found.relative : kNotMeasured, found.why};
-  if (store != nullptr && !interrupted()) {
+  if (store != nullptr) {
     store->note("discretisation_why", steps.why);
     if (found.measured) store->note("discretisation", fmt::format("{:.17g}", steps.relative));
   }

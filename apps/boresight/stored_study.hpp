@@ -1,6 +1,7 @@
 // What the verbs share whose runs are kept in samples.db and gone on with: whose store it is, and on which rung.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -42,11 +43,19 @@ RungChoice stored_choice(const SampleStore& store);  // where it has samples
 RungChoice rung_of_study(const Command& command, const Study& study, const std::shared_ptr<const Mechanism>& mechanism,
                          const ScatterAsked& asked, const RunOptions& run, SampleStore& store);
 
+// A warning where a start was stopped before a single run was done; otherwise "". before, after: runs in the store.
+std::string no_run_done(bool stopped, std::uint64_t before, std::uint64_t after, double seconds);
+
+// common_step() of the scatter's pilot samples, each of whose motions is kept in the store as soon as it is flown.
+double kept_common_step(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism, const RandomInputs& inputs,
+                        const RunOptions& run, SampleStore& store);
+
 // What the steps do to a study's answer, relative: measured once on a few samples, and noted, so that a study that goes on
 // says the same.
 struct StudySteps {
   double relative = kNotMeasured;
   std::string why;
+  bool interrupted = false;  // the study is whole but for this
 };
 // run: with the step, integrator and tolerance of the study's runs. store: may be none.
 StudySteps steps_of_study(const Command& command, const Study& study, const std::shared_ptr<const Mechanism>& mechanism,

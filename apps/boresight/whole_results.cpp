@@ -164,6 +164,12 @@ bool publish(const fs::path& folder) {
   return true;
 }
 
+void place_staged(const fs::path& folder) {
+  for (const std::string& name : names_in(folder / kStaged)) move(folder / kStaged / name, folder / name);
+  discard_staged(folder);
+  sync_directory(folder);
+}
+
 void recover(const fs::path& folder) {
   std::error_code failed;
   if (fs::exists(folder / kPublished, failed)) move_into_place(folder);

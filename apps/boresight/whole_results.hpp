@@ -26,6 +26,8 @@ void stage(const std::filesystem::path& folder, const std::string& name, const s
 // are removed, stores of samples excepted. Does nothing where nothing was staged. Returns false, and leaves all as it was, where
 // the new result was interrupted and the one before was not, and keeps no store that the new one goes on from.
 bool publish(const std::filesystem::path& folder);
+// What was staged takes its places, file by file: for files that are no result and stand each for itself.
+void place_staged(const std::filesystem::path& folder);
 // Completes what a kill interrupted in publish(), and removes what was staged and never published.
 void recover(const std::filesystem::path& folder);
 // Removes what was staged and never published; never throws.

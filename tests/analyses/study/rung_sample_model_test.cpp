@@ -45,6 +45,22 @@ TEST_P(WithIntegrator, EachSampleTakesTheStepsOfItsOwnRun) {
 }
 INSTANTIATE_TEST_SUITE_P(Integrators, WithIntegrator, testing::Values("dopri5", "rosenbrock"));
 
+TEST(CommonStep, TakesWhatAnEarlierStartFoundAndFliesTheOthersOnly) {
+  const auto mechanism = scene();
+  const std::vector<Parameters> samples(3, mechanism->parameters());
+  RunOptions options;
+  std::vector<std::size_t> flown;
+  std::vector<double> steps;
+  const auto found = [&](std::size_t k, double step) { flown.push_back(k), steps.push_back(step); };
+  const double own = common_step("perturbation", mechanism, samples, options, {}, found);
+  EXPECT_EQ(flown, (std::vector<std::size_t>{0, 1, 2}));
+  ASSERT_EQ(steps.size(), 3u);
+  EXPECT_EQ(steps[0], own);
+  flown.clear();
+  EXPECT_EQ(common_step("perturbation", mechanism, samples, options, {own, 0.5 * own, 0.0}, found), 0.5 * own) << "the smallest";
+  EXPECT_EQ(flown, (std::vector<std::size_t>{2}));
+}
+
 TEST(Failures, TellTheReasonOfTheFirstSampleWhateverTheOrder) {
   Outcome bad{.status = Outcome::Status::failed, .message = "later"}, good{.status = Outcome::Status::done};
   Failures failures;

@@ -233,6 +233,33 @@ TEST_F(MonteCarloProgram, LookingAgainWithMoreSamplesIsJudgedByTheRiskThatWasLef
   EXPECT_FALSE(json("out/summary.json")["requirement"].contains("judged"));
 }
 
+TEST_F(MonteCarloProgram, AnAccuracyThatThePilotDidNotReachIsStatusOneAlsoWhenResumed) {
+  study("rough.toml", 8);
+  const std::vector<std::string> arguments = {"montecarlo", "rough.toml", "--set", "motion.duration=20ms", "--accuracy", "0.0001 %", "--out", "out", "--quiet", "--resume"};
+  EXPECT_EQ(call(arguments).status, 1);
+  const auto first = json("out/summary.json");
+  ASSERT_TRUE(first.contains("pilot"));
+  EXPECT_FALSE(first["pilot"]["met"].get<bool>());
+  EXPECT_EQ(call(arguments).status, 1);
+  EXPECT_EQ(json("out/summary.json")["pilot"], first["pilot"]);
+}
+
+TEST_F(MonteCarloProgram, InterruptedWhileItsStepsAreMeasuredItHasItsSamplesAndTheirTable) {
+  study("few.toml", 8);
+  const std::vector<std::string> arguments = {"montecarlo", "few.toml", "--set", "motion.duration=60s", "--rung", "perturbation", "--out", "out", "--resume", "--jobs", "1"};
+  const pid_t child = start(arguments);
+  for (int k = 0; k < 60'000 && text("stderr").find("runs that measure what the steps do") == std::string::npos; ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(child, SIGINT);
+  const Ended ended = wait_for(child);
+  ASSERT_EQ(ended.status, 130) << ended.err;
+  const auto summary = json("out/summary.json");
+  EXPECT_TRUE(summary["interrupted"].get<bool>());
+  EXPECT_EQ(summary["samples"], 8);
+  EXPECT_GT(summary["index"]["mean"]["value"].get<double>(), 0.0);
+  EXPECT_THAT(summary["errors"]["mean"]["discretisation"]["why"].get<std::string>(), HasSubstr("interrupted"));
+}
+
 TEST_F(MonteCarloProgram, AFullDiskIsOneLineAndLeavesTheStoreIntact) {
   study("long.toml", 20000);
   const Ended ended = wait_for(start(quick("long.toml", "out"), 200'000));
