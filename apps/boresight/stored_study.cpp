@@ -101,7 +101,7 @@ RungChoice stored_choice(const SampleStore& store) {
 RungChoice rung_of_study(const Command& command, const Study& study, const std::shared_ptr<const Mechanism>& mechanism,
                          const ScatterAsked& asked, const RunOptions& run, SampleStore& store) {
   if (!store.rungs().empty()) return stored_choice(store);
-  const RungChoice choice = choose_rung_of_scatter(command, study, run, mechanism, asked);
+  RungChoice choice = choose_rung_of_scatter(command, study, run, mechanism, asked);
   note_choice(store, choice);
   return choice;
 }
@@ -160,7 +160,7 @@ StudySteps steps_of_study(const Command& command, const Study& study, const std:
   }
   progress.clear();
   if (interrupted()) return {kNotMeasured, "not measured: the study was interrupted before; --resume measures it", true};
-  const StudySteps steps{found.measured ? found.relative : kNotMeasured, found.why};
+  StudySteps steps{found.measured ? found.relative : kNotMeasured, found.why};
   if (store != nullptr) {
     store->note("discretisation_why", steps.why);
     if (found.measured) store->note("discretisation", fmt::format("{:.17g}", steps.relative));

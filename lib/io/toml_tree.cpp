@@ -87,10 +87,44 @@ void refuse_deep_keys(std::string_view text, const std::string& filename) {
   }
 }
 
+// Outside strings and comments TOML knows ASCII alone; toml++ asks of other letters there whether they are blanks, and for most has said to
+// the compiler that it never will.
+void refuse_letters_outside_strings(std::string_view text, const std::string& filename) {
+  const auto is_at = [&](std::size_t i, std::string_view what) { return text.substr(i, what.size()) == what; };
+  int line = 1;
+  std::string_view closing;  // of the string or comment in which `i` stands
+  for (std::size_t i = is_at(0, "\xEF\xBB\xBF") ? 3 : 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (closing.empty()) {
+      for (const std::string_view quotes : {"\"\"\"", "\'\'\'", "\"", "\'"})
+        if (closing.empty() && is_at(i, quotes)) closing = quotes;
+      if (!closing.empty()) {
+        i += closing.size() - 1;
+      } else if (c == '#') {
+        closing = "\n";
+      } else if ((static_cast<unsigned char>(c) & 0x80) != 0) {
+        throw InputError({filename, line}, "", "a letter beyond ASCII outside quotation marks", "it inside them, or none");
+      }
+    } else if (c == '\\' && closing.front() == '"') {
+      ++i;  // what is escaped ends nothing
+      if (i < text.size() && text[i] == '\n') ++line;
+      continue;
+    } else if (is_at(i, closing)) {
+      i += closing.size() - 1;
+      for (int more = 0; closing.size() == 3 && more < 2 && is_at(i + 1, closing.substr(0, 1)); ++more) ++i;  // """a string that ends in quotes"""""
+      closing = {};
+    } else if (c == '\n' && closing.size() == 1) {
+      closing = {};  // a string that its line does not close: toml++ says so
+    }
+    if (c == '\n') ++line;
+  }
+}
+
 }  // namespace
 
 Node parse_toml(std::string_view text, const std::string& filename) {
   refuse_deep_keys(text, filename);
+  refuse_letters_outside_strings(text, filename);
   try {
     return convert(toml::parse(text, filename));
   } catch (const toml::parse_error& error) {

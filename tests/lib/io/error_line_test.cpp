@@ -250,6 +250,20 @@ TEST(ErrorLine, RefusesNumbersThatNothingRealHas) {
   });
 }
 
+TEST(ErrorLine, IsOfTheLetterBeyondAsciiThatStandsOutsideQuotationMarks) {
+  const auto refused_at = [](int line) {
+    return "f.toml:" + std::to_string(line) + ": found a letter beyond ASCII outside quotation marks, expected it inside them, or none";
+  };
+  const std::string name = "name = \"test\"";
+  for (const char* fine : {"name = \"t\u00e9st\"  # \u00b5, \"", "name = 't\u00e9st\\'", "name = \"a \\\" \u00b5\"", "name = \"\"\"\n\u00b5 \\\"\" \"\"\"\"\"  # \u00b5",
+                           "name = \'\'\'\u3000\n\\\'\'\'"})
+    EXPECT_EQ(error_of(with(name, fine)), "no error") << fine;
+  for (const char* stray : {"name = \"test\" \u00b5", "n\u00e4me = \"test\"", "name = \"test\"\u00a0", "name = \u00e9", "name = \u4e00\"test\""})
+    EXPECT_EQ(error_of(with(name, stray)), refused_at(2)) << stray;
+  EXPECT_EQ(error_of(with(name, "name = \"\"\"\n\u00b5\\\n\"\"\" \u00b5")), refused_at(4));
+  EXPECT_EQ(error_of("\xEF\xBB\xBF" + kGood), "no error");
+}
+
 TEST(ErrorLine, NamesTheNearestName) {
   check({
       {"body = \"slider\"\nmass", "body = \"slidr\"\nmass",
