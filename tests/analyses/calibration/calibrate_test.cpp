@@ -53,7 +53,7 @@ TEST(Calibrate, FindsClearanceToOnePercentAndFrictionToTenInMultibodyData) {
 }
 
 TEST(CalibrateLong, GoesOnStartingWhereNoStartExplainsTheData) {
-  const Bench bench({2.0, 2.4, 2.8}, 0.2, true);
+  const Bench bench({2.0, 2.6}, 0.12, false);
   CalibrationOptions options = options_with(0);
   CalibrationProblem problem = bench.problem({}, kFour);
   const CalibrationResult explained = calibrate(problem, options);
@@ -161,13 +161,14 @@ TEST(CalibrateLong, FourParametersFromTenRunsOfASecond) {
 }
 
 // 100 sets: BORESIGHT_CALIBRATION_SETS=100, some ten minutes of one core. BORESIGHT_CALIBRATION_SEED: of the
-// first.
+// first. 14 sets: an interval that holds the truth in three cases of four where it says 95 % is found out with a chance of 72 % by each of the
+// four parameters, one that holds it in 60 % with 96 %, and one that does what it says passes with 99.6 %; 20 sets found out 77 % and 98 %.
 TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) {
   const auto number = [](const char* name, int otherwise) {
     const char* asked = std::getenv(name);
     return asked ? std::atoi(asked) : otherwise;
   };
-  const int sets = number("BORESIGHT_CALIBRATION_SETS", 20),
+  const int sets = number("BORESIGHT_CALIBRATION_SETS", 14),
             first = number("BORESIGHT_CALIBRATION_SEED", 2000);
   const Bench bench({2.0, 2.4, 2.8}, 0.2, true);
   std::vector<std::vector<ParameterEstimate>> found(sets);

@@ -369,7 +369,8 @@ async function withoutScript() {
 }
 
 try {
-  for (const width of [1440, 390]) for (const dark of [false, true]) await everyKind(width, dark);
+  await everyKind(1440, false);
+  await everyKind(390, true);
   await interaction();
   await moving();
   await printing();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/rung.hpp"
@@ -40,15 +41,14 @@ Statistics converged(const Rung& rung, const Mechanism& mechanism, double cleara
 TEST(PerturbationLong, AgreesWithMultibodyOverClearancesAndLoads) {
   const auto mechanism = scenes::build(scenes::rrcpr());
   const auto cheap = make_rung("perturbation", mechanism), exact = make_rung("multibody", mechanism);
-  for (double clearance : {1e-4, 2e-4, 3e-4}) {
-    for (double payload : {0.0, 250.0, 500.0}) {
-      const Statistics a = converged(*cheap, *mechanism, clearance, payload);
-      const Statistics b = converged(*exact, *mechanism, clearance, payload);
-      std::printf("%.1f mm, %3.0f kg: maximum %+.2f %%, RMS %+.2f %%\n", 1e3 * clearance, payload,
-                  100.0 * (a.max / b.max - 1.0), 100.0 * (a.rms / b.rms - 1.0));
-      EXPECT_NEAR(a.max / b.max, 1.0, 0.01) << clearance << " m, " << payload << " kg";
-      EXPECT_NEAR(a.rms / b.rms, 1.0, 0.005) << clearance << " m, " << payload << " kg";
-    }
+  // The corners and the middle of the published table.
+  for (const auto& [clearance, payload] : {std::pair{1e-4, 0.0}, {1e-4, 500.0}, {2e-4, 250.0}, {3e-4, 0.0}, {3e-4, 500.0}}) {
+    const Statistics a = converged(*cheap, *mechanism, clearance, payload);
+    const Statistics b = converged(*exact, *mechanism, clearance, payload);
+    std::printf("%.1f mm, %3.0f kg: maximum %+.2f %%, RMS %+.2f %%\n", 1e3 * clearance, payload,
+                100.0 * (a.max / b.max - 1.0), 100.0 * (a.rms / b.rms - 1.0));
+    EXPECT_NEAR(a.max / b.max, 1.0, 0.01) << clearance << " m, " << payload << " kg";
+    EXPECT_NEAR(a.rms / b.rms, 1.0, 0.005) << clearance << " m, " << payload << " kg";
   }
 }
 

@@ -89,13 +89,34 @@ Verdict judge(const char* name, const std::shared_ptr<const Mechanism>& mechanis
   return verdict;
 }
 
-// Prints the table; returns the ratios of actual over stated.
-std::vector<double> table(const char* rung, const std::vector<Scene>& scenes) {
-  std::vector<double> ratios;
+// A scene and what multibody says of it: the same for all rungs that are judged by it.
+struct KnownScene {
+  Scene scene;
+  std::shared_ptr<const Mechanism> mechanism;
+  std::vector<PointingIndices> exact = {};
+  std::string refusal = {};
+};
+
+std::vector<KnownScene> known(const std::vector<Scene>& scenes) {
+  std::vector<KnownScene> all;
   for (const Scene& scene : scenes) {
-    const auto mechanism = mechanism_of(scene);
+    KnownScene& one = all.emplace_back(KnownScene{scene, mechanism_of(scene)});
     try {
-      const Verdict v = judge(rung, mechanism, references(mechanism));
+      one.exact = references(one.mechanism);
+    } catch (const ComputationError& refusal) {
+      one.refusal = refusal.what();
+    }
+  }
+  return all;
+}
+
+// Prints the table; returns the ratios of actual over stated.
+std::vector<double> table(const char* rung, const std::vector<KnownScene>& scenes) {
+  std::vector<double> ratios;
+  for (const auto& [scene, mechanism, exact, no_reference] : scenes) {
+    try {
+      if (!no_reference.empty()) throw ComputationError(no_reference);
+      const Verdict v = judge(rung, mechanism, exact);
       ratios.push_back(v.actual / v.stated);
       std::printf("%-12s off by %7.2f %%, states %7.2f %%, ratio %.2f: %s\n", rung, 100.0 * v.actual,
                   100.0 * v.stated, ratios.back(), words(scene).c_str());
@@ -126,8 +147,9 @@ const std::vector<Scene> kScenes = {
 };
 
 TEST(StatedErrorsLong, OfEveryRungHoldAgainstMultibody) {
+  const std::vector<KnownScene> scenes = known(kScenes);
   for (const char* rung : {"quasistatic", "envelope", "perturbation"}) {
-    const std::vector<double> ratios = table(rung, kScenes);
+    const std::vector<double> ratios = table(rung, scenes);
     ASSERT_FALSE(ratios.empty());
     EXPECT_LE(ratios.back(), 1.0) << rung;
     EXPECT_GE(ratios[ratios.size() / 2], 0.1) << rung << " states so much that it says nothing";
