@@ -110,14 +110,15 @@ class Scratch:
         self.build = self.folder / "build" / "mutation"
         self.cmake_arguments = cmake_arguments
 
-    def prepare(self):
+    def prepare(self, leave=()):
+        """Copies what has changed, but for files that are to be written by the caller and are there."""
         self.folder.mkdir(parents=True, exist_ok=True)
         tracked = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True,
                                  text=True, check=True).stdout.split("\0")
         wanted = {name for name in tracked if name and (ROOT / name).is_file()}
         for name in wanted:
             source, target = ROOT / name, self.folder / name
-            if target.exists() and target.read_bytes() == source.read_bytes():
+            if target.exists() and (name in leave or target.read_bytes() == source.read_bytes()):
                 continue
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(source, target)

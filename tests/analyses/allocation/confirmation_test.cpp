@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <limits>
 
 #include "boresight_analyses/allocation/allocation.hpp"
 
@@ -51,6 +52,15 @@ Outcome done(double value) {
 // At the limit times 1 + 0.02 excess.
 Outcome near_limit(const AllocationPlan& plan, double excess) {
   return done(plan.requirement.limit * (1.0 + 0.02 * excess));
+}
+
+TEST(Confirmation, CountsSamplesWithoutAnAnswerAsFailedAndAsNotWithin) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const AllocationConfirmation c = confirmation_of({1.0, kNone, 2.0, 3.0, kNone}, {2.0, kProbability, kConfidence}, kConfidence);
+  EXPECT_EQ(c.samples, 5u);
+  EXPECT_EQ(c.failed, 2u);
+  EXPECT_EQ(c.share_within, 0.4);
+  EXPECT_FALSE(c.met);
 }
 
 struct Repeated {

@@ -10,6 +10,8 @@
 
 #include <cmath>
 
+#include "boresight_analyses/allocation/gap_requirements.hpp"
+
 namespace boresight {
 namespace {
 
@@ -113,6 +115,28 @@ TEST(CostCurve, HasTheSlopeOfItsPrice) {
 TEST(CostCurve, TakesItsNumbersInTheUnitGiven) {
   EXPECT_DOUBLE_EQ(make_cost_curve("reciprocal-squared", 3.0, 0.02, 0, 1e-3).price(1e-4), 3.0 + 0.02 / 0.01);
   EXPECT_DOUBLE_EQ(make_cost_curve("exponential", 8.0, 2.0, 0, 1e-3).price(5e-4), 8.0 * std::exp(-1.0));
+}
+
+// Two gaps in one direction, beside an error that is there without them: by hand.
+TEST(RootSumSquare, AddsTheMiddlesAndAThirdOfEachHalfWidthAsItsDeviation) {
+  const LinearDeviation deviation({0.0}, {3e-4, 0, 0}, {{1, 0, 0}, {2, 0, 0}}, "max");
+  const std::vector<double> middle = {1e-4, 1e-4}, half = {3e-5, 6e-5};
+  EXPECT_NEAR(root_sum_square_index(deviation, middle, half, 2.0), 6e-4 + 2.0 * std::hypot(1e-5, 4e-5), 1e-15);
+  // Gaps of at least 70 and 40 um whose tolerances are 60 and 120 um are these.
+  const ToleranceRequirement requirement = root_sum_square_tolerances(deviation, {1e-4 - 3e-5, 1e-4 - 6e-5}, 0.95);
+  std::vector<double> gradient(2);
+  const double one_sided = 1.6448536269514722;
+  EXPECT_NEAR(requirement(std::vector<double>{6e-5, 1.2e-4}, gradient), 6e-4 + one_sided * std::hypot(1e-5, 4e-5), 1e-12);
+  EXPECT_NEAR(gradient[0], 0.5 * 1.0 + one_sided / 6.0 * 1e-5 / std::hypot(1e-5, 4e-5), 1e-4);
+  EXPECT_NEAR(gradient[1], 0.5 * 2.0 + one_sided / 3.0 * 4e-5 / std::hypot(1e-5, 4e-5), 1e-4);
+}
+
+TEST(LinearDeviation, ThatStandsStillHasOneValueForEveryStatistic) {
+  for (const char* statistic : {"max", "rms", "mean"}) {
+    const LinearDeviation deviation({0.0, 0.1, 0.5, 0.6, 2.0}, {3, 4, 0, 4, 3, 0, 0, 5, 0, 0, 0, 5, 5, 0, 0},
+                                    {std::vector<double>(15, 0.0)}, statistic);
+    EXPECT_NEAR(deviation.index(std::vector<double>{1e-4}), 5.0, 1e-12) << statistic;
+  }
 }
 
 }  // namespace

@@ -154,6 +154,10 @@ TEST(Design, SaysWhenANetLosesItsBalance) {
   EXPECT_NE(design.warning(10000).find("8192 or 16384"), std::string::npos) << design.warning(10000);
   EXPECT_EQ(design.whole_points(10007), 10000u);
   EXPECT_EQ(Design({.kind = DesignKind::random}, 2).warning(10000), "");
+  // Whole points are whole nets, or whole hypercubes, or any number.
+  EXPECT_EQ(Design({.kind = DesignKind::lhs, .strata = 100, .replicates = 16}, 2).whole_points(10007), 10000u);
+  EXPECT_EQ(Design({.kind = DesignKind::sobol, .strata = 100, .replicates = 16}, 2).whole_points(10090), 10080u);
+  EXPECT_EQ(Design({.kind = DesignKind::random}, 2).whole_points(10007), 10007u);
 }
 
 TEST(Design, IndependentPointsAreUniformInEveryDimension) {

@@ -67,6 +67,7 @@ TEST_F(RandomInputsTest, ReadsEveryDistribution) {
   std::ofstream(csv) << "part, \"gap\"\n1, 90\n2, 110\n3, 130\n";
   for (const char* text : {"{ triangular = { min = \"50 um\", mode = \"0.1 mm\", max = \"0.2 mm\" } }",
                            "{ beta = { alpha = 2, beta = 3.5, min = \"50 um\", max = \"0.2 mm\" } }",
+                           "{ beta = { alpha = 0.5, beta = 0.5, min = \"50 um\", max = \"0.2 mm\" } }", "{ weibull = { shape = 0.8, scale = \"0.1 mm\", location = \"10 um\" } }",
                            "{ weibull = { shape = 1.5, scale = \"0.1 mm\", location = \"10 um\" } }",
                            "{ discrete = { values = [\"0.1 mm\", \"0.2 mm\"], probabilities = [0.25, 0.75] } }",
                            "{ empirical = { file = \"gaps.csv\", column = \"gap\", unit = \"um\" } }",

@@ -67,6 +67,17 @@ TEST(Hertz, StiffnessOfTheLiterature) {
   }
 }
 
+// 1/E = 0.9375/200 GPa + 0.84/70 GPa, whichever of the two is the journal.
+TEST(Hertz, ModulusTakesTheNumbersOfEachMaterialTogether) {
+  ContactParameters c;
+  c.young = {200e9, 70e9};
+  c.poisson = {0.25, 0.4};
+  EXPECT_NEAR(composite_modulus(c), 59.925093632958797e9, 1.0);
+  std::swap(c.young[0], c.young[1]);
+  std::swap(c.poisson[0], c.poisson[1]);
+  EXPECT_NEAR(composite_modulus(c), 59.925093632958797e9, 1.0);
+}
+
 // The same steel pair at 0.5 and 0.1 mm: depth under a load, (F / K)^(2/3); a journal of 1 kg at rest in the bottom of its bearing
 // bounces at sqrt(1.5 g / depth).
 TEST(Hertz, DepthUnderALoadAndBounceOfAJournalAtRest) {

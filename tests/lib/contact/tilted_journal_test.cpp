@@ -150,5 +150,27 @@ TEST(TiltedJournal, TangentIsTheChangeOfForce) {
   }
 }
 
+// A sleeve and a journal are round: the tangent of one that tilts elsewhere is the same, turned.
+TEST(ContactTangent, TurnsWithTheDirectionInWhichTheJournalTilts) {
+  const JournalInSleeve law = joint();
+  const auto stiffness = [&](double direction) {
+    Offsets o;
+    o << 0.0, 1.2e-4, 0.0, 2e-3 * std::cos(direction), 2e-3 * std::sin(direction);
+    Eigen::Matrix<double, 5, 5> sum = Eigen::Matrix<double, 5, 5>::Zero();
+    const ContactTangent tangent = contact_tangent(law, at(o, Vec3::Zero(), Vec3::Zero()));
+    for (int i = 0; i < tangent.count; ++i) sum += tangent.column[i].n * tangent.column[i].n.transpose();
+    return sum;
+  };
+  const Eigen::Matrix<double, 5, 5> along_x = stiffness(0.0);
+  ASSERT_GT(along_x(4, 4), 0.0) << "the ring resists turning about the tilt too";
+  for (const double direction : {0.4, 1.3, 2.5, -2.0}) {
+    Eigen::Matrix<double, 5, 5> turn = Eigen::Matrix<double, 5, 5>::Identity();
+    turn(0, 0) = turn(2, 2) = turn(3, 3) = turn(4, 4) = std::cos(direction);
+    turn(2, 0) = turn(4, 3) = std::sin(direction);
+    turn(0, 2) = turn(3, 4) = -std::sin(direction);
+    EXPECT_LT((stiffness(direction) - turn * along_x * turn.transpose()).norm(), 1e-9 * along_x.norm()) << direction;
+  }
+}
+
 }  // namespace
 }  // namespace boresight

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/rung.hpp"
 #include "published_examples.hpp"
 #include "scenes.hpp"
@@ -67,6 +70,27 @@ TEST(EnergyBalance, DoesNotDependOnWhereTheDrawingLies) {
   const double here = energy_error(scenes::build(std::move(near)), way);
   EXPECT_GT(here, 0.0);
   EXPECT_NEAR(energy_error(scenes::build(std::move(far)), way) / here, 1.0, 0.01);
+}
+
+// No drives, no springs, no contacts: whatever speeds the bodies have, joints that open included, nothing is done to them but by gravity and,
+// where they open, by the joints.
+TEST(EnergyBalance, FindsNoPowerInAFreeMechanismWhoseJointsOpen) {
+  const auto mechanism = scenes::example("double-four-bar");
+  IdealState start;
+  ideal_motion(*mechanism, mechanism->parameters()).state(0.0, start);
+  const std::vector<ContactMemory> none(static_cast<std::size_t>(mechanism->clearances()));
+  const auto formulation = make_paper_formulation(*mechanism, mechanism->parameters(), nullptr, {.with_clearance = false});
+  VecX y;
+  formulation->start(start, y);
+  VecX dy(y.size());
+  constexpr int kPerBody = 13;
+  for (int b = 0; b < mechanism->bodies(); ++b)
+    for (int k = 7; k < kPerBody; ++k) y[kPerBody * b + k] += 0.1 * std::sin(1.0 + 3.0 * b + k);
+  formulation->derivative(0.0, y, none, dy);
+  const std::vector<BodyMotion> bodies = formulation->bodies(0.0, y);
+  const EnergyBalance balance(*mechanism, mechanism->parameters(), bodies);
+  EXPECT_GT(std::abs(formulation->opening_power()), 1e-3);
+  EXPECT_NEAR(balance.power(*formulation, bodies), 0.0, 1e-9 * std::abs(formulation->opening_power()));
 }
 
 }  // namespace

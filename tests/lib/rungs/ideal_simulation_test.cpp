@@ -54,6 +54,29 @@ TEST(IdealSimulation, FollowsSpringsAndDampersHoweverStiff) {
   }
 }
 
+// Explicit steps short enough for these dampers would be millions. In so short a time a damper gives way by what pushes it over its
+// damping: ten times the damping, a tenth of the way.
+TEST(IdealSimulation, FollowsDampersThatOnlyAnImplicitMethodCan) {
+  const auto end = [](double damping) {
+    MechanismDescription d = scenes::flyball_governor(8e5, damping);
+    d.motion.duration = 0.02;
+    const auto mechanism = scenes::build(std::move(d));
+    const IdealMotion ideal = ideal_motion(*mechanism, mechanism->parameters());
+    EXPECT_LE(ideal.error(), IdealMotion::kAccuracy) << damping;
+    std::vector<Vec3> places;
+    for (int b = 0; b < mechanism->bodies(); ++b) places.push_back(ideal.body(mechanism->duration(), b).p);
+    return places;
+  };
+  const std::vector<Vec3> soft = end(4e7), ten_times = end(4e8), rigid = end(4e10);
+  double gave_way = 0.0, a_tenth = 0.0;
+  for (std::size_t b = 0; b < rigid.size(); ++b) {
+    gave_way += (soft[b] - rigid[b]).norm();
+    a_tenth += (ten_times[b] - rigid[b]).norm();
+  }
+  EXPECT_GT(a_tenth, 1e-9);
+  EXPECT_NEAR(gave_way / a_tenth, 10.0, 0.3);
+}
+
 // Without dampers kinetic, gravitational and elastic energy together stay what they were.
 TEST(IdealSimulation, KeepsTheEnergyOfStiffSprings) {
   const auto mechanism = scenes::build(scenes::flyball_governor(8e5, 0.0));

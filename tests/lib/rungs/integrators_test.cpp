@@ -85,6 +85,20 @@ TEST(Integrators, PutTheStepUpToAnEventToTheErrorTestToo) {
   }
 }
 
+TEST(Integrators, TakeStepsNoLongerThanTheShareOfTheLongestThatIsAsked) {
+  const auto mechanism = scene({{"motion.duration", "20 ms"}});
+  for (const char* rung : {"perturbation", "multibody"}) {
+    const auto steps = [&](double share) {
+      RunOptions options;
+      options.integrator = "dopri5";
+      options.tolerance = 5e-2;
+      options.share_of_longest_step = share;
+      return make_rung(rung, mechanism)->run(mechanism->parameters(), options).cost.steps;
+    };
+    EXPECT_GT(steps(0.1), 2 * steps(1.0)) << rung;
+  }
+}
+
 TEST(Integrators, FollowJournalsThatTilt) {
   const auto mechanism =
       scene({{"clearance.F1.sleeve_length", "120 mm"}, {"motion.duration", "0.03 s"}}, JournalAxes::free);

@@ -55,6 +55,8 @@ TEST(Options, NumbersOutOfRangeAreRefused) {
   options.integrator = "rosenbrock";
   options.tolerance = 2.0;
   EXPECT_NE(refusal("perturbation", options).find("tolerance: found 2"), std::string::npos);
+  options.tolerance = 1.0;  // as much as the clearance itself
+  EXPECT_NE(refusal("perturbation", options).find("tolerance: found 1"), std::string::npos);
 }
 
 TEST(Options, FrictionWithAStateIsRefusedToIntegratorsThatDoNotCarryIt) {

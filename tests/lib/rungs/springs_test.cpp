@@ -5,6 +5,7 @@
 #include "boresight/rungs/deviation_coordinates.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/rung.hpp"
+#include "boresight/rungs/scene_rung.hpp"
 #include "boresight/rungs/spring_gains.hpp"
 #include "scenes.hpp"
 
@@ -31,6 +32,32 @@ MechanismDescription with_spring(double stiffness, double damping, double free_l
 
 Vec3 end_of(const MechanismDescription& m, int body, const Vec3& point, const BodyMotion& b) {
   return b.p + b.R * (m.bodies[body].axes.transpose() * (point - m.bodies[body].center_of_mass));
+}
+
+// What is tabled for a scene is taken again for parameters that make the same one, and for no others.
+TEST(SceneRung, IsAnewWithAnyOneNumberOfASpring) {
+  Parameters p;
+  p.spring = {{1e5, 10.0, 0.05}, {2e5, 20.0, 0.07}};
+  EXPECT_TRUE(same_scene(p, p));
+  for (double SpringParameters::* number : {&SpringParameters::stiffness, &SpringParameters::damping, &SpringParameters::free_length})
+    for (std::size_t s = 0; s < 2; ++s) {
+      Parameters other = p;
+      other.spring[s].*number *= 1.5;
+      EXPECT_FALSE(same_scene(p, other)) << s;
+    }
+}
+
+TEST(SceneRung, GivesAStifferSpringItsOwnMotion) {
+  const auto mechanism = scenes::build(with_spring(1e5, 0.0, 0.05, "5 ms"));
+  RunOptions options;
+  options.step = 1e-5;
+  const auto rung = make_rung("perturbation", mechanism);
+  Parameters stiffer = mechanism->parameters();
+  stiffer.spring[0].stiffness *= 3.0;
+  const double first = rung->run(mechanism->parameters(), options).index.position_error.max;
+  const double second = rung->run(stiffer, options).index.position_error.max;
+  EXPECT_NE(second, first);
+  EXPECT_EQ(second, make_rung("perturbation", mechanism)->run(stiffer, options).index.position_error.max);
 }
 
 TEST(SpringGain, IsTheDerivativeOfTheSpringsLength) {
