@@ -14,6 +14,7 @@ RunResult run(const Rung& rung, const Mechanism& mechanism, double until) {
   RunOptions options;
   options.sample_spacing = std::min(1e-3, mechanism.duration() / 1000.0);
   options.events = false;
+  options.integrator = "rk4";
   if (until < mechanism.duration()) options.progress = [until](const RunProgress& p) { return p.t < until; };
   return rung.run(mechanism.parameters(), options);
 }

@@ -97,6 +97,7 @@ class PilotOfScatter {
     for (std::size_t k = 0; k < std::min<std::size_t>(3, chosen_.sample.size()); ++k) first.push_back(samples_[chosen_.sample[k]]);
     Way own{.rung = "multibody", .step = options_.step};
     if (own.step == 0.0) own.step = common_step("multibody", mechanism_, first, own.options());
+    if (own.step == 0.0) own = {.rung = "multibody", .integrator = "rosenbrock", .tolerance = kMultibodyTolerance};
     own_ = &add(own);
     fine_ = &add(own.finer());
     take_pairs(kPairs[0]);

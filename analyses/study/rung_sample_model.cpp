@@ -135,6 +135,8 @@ double common_step(const std::string& rung, const std::shared_ptr<const Mechanis
       try {
         const RunResult result = model->run(samples[k], options);
         if (result.cost.steps == 0) continue;
+        // What it took shows no step that others could take.
+        if (!result.integrator_taken.empty()) return 0.0;
         own = mechanism->duration() / static_cast<double>(result.cost.steps);
         if (found) found(k, own);
       } catch (const ComputationError& failure) {

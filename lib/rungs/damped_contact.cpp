@@ -70,8 +70,10 @@ void DampingWatch::look(const OffsetLayout& layout, const std::vector<JournalInS
   if (now.rate > fastest_.rate) fastest_ = now;
 }
 
+bool DampingWatch::beyond() const { return beyond_ > kAsARule * looks_; }
+
 std::string DampingWatch::warning() const {
-  if (!(beyond_ > kAsARule * looks_)) return "";
+  if (!beyond()) return "";
   const MechanismDescription& m = mechanism_.description();
   char text[320];
   std::snprintf(text, sizeof text,

@@ -4,8 +4,8 @@
 //   rate = largest eigenvalue of  A D
 // with A the offset compliance and D = -d f / d (offset rates) of all touching contacts, friction included. A contact at rest under a load
 // F, its impact speed v the least that the file allows, has D = chi F / v in the laws of Hunt and Crossley's family, however small v is;
-// friction has mu F over the speed in which it sets in. Beyond RK4's limit (2.785 / h) such a contact is opened and shut by the steps:
-// where the journal lies hangs little on that, but the forces are not the motion's.
+// friction has mu F over the speed in which it sets in. Beyond RK4's limit (2.785 / h) such a contact is opened and shut by the steps, with
+// forces of any size. Less damping is no way out, for it decides how far an impact under load goes; an implicit method is, and takes over (default_integrator.hpp).
 #pragma once
 
 #include <string>
@@ -33,7 +33,9 @@ class DampingWatch {
 
   void look(const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints, const std::vector<JournalMotion<double>>& motion,
             const std::vector<ContactTracker>& trackers, const Eigen::Ref<const MatX>& compliance);
-  // A sentence where a contact was damped beyond the limit as a rule, not in single impacts; else empty.
+  // Whether a contact was damped beyond the limit as a rule, not in single impacts.
+  bool beyond() const;
+  // Then a sentence; else empty.
   std::string warning() const;
 
  private:

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/rungs/perturbation.hpp"
 
 namespace boresight {
@@ -29,6 +30,9 @@ constexpr std::size_t kMostKept = 4096;
 // percent: Student's t of two degrees of freedom, 4.303 / sqrt(3), over the mean range of three normal
 // draws, 1.693 standard deviations.
 constexpr double kOfRange = 1.467;
+
+// A bound that the pose's curvature may exceed by less is one for all that is built.
+constexpr double kBent = 0.05;
 
 bool within_twice(double a, double b) {
   return a == b || (a > 0.0 && b > 0.0 && a <= 2.0 * b && b <= 2.0 * a);
@@ -81,6 +85,7 @@ struct Measured {
   ErrorEstimate error;
   double exceeded =
       0.0;  // by how much the largest position error of the dynamic rung exceeds the static one's, relative
+  double of_linearity = 0.0;  // what the dynamic rung states for its own model, relative: both are linear in the offsets
   bool keeps = true;  // false: its caller wanted it to stop
 };
 
@@ -110,6 +115,12 @@ class MeasuredByDynamics final : public Rung {
                     "largest position error "
                     "is %.2g %% above it",
                     100.0 * measured.exceeded);
+      result.warnings.push_back(text);
+    }
+    if (bounds_ && measured.of_linearity > kBent) {
+      char text[160];
+      std::snprintf(text, sizeof text, "the bound is linear in the journals' offsets, and the pose is not: errors may exceed it by %.2g %%",
+                    100.0 * measured.of_linearity);
       result.warnings.push_back(text);
     }
     return result;
@@ -153,9 +164,15 @@ class MeasuredByDynamics final : public Rung {
         cost.cpu_seconds += motions.back().cost.cpu_seconds;
         cost.wall_seconds += motions.back().cost.wall_seconds;
         if (stopped) break;
+        const double next = kShares[std::min(motions.size(), kShares.size() - 1)];
+        if (const std::string& taken = motions[0].integrator_taken; !taken.empty()) {
+          options.integrator = taken;
+          options.tolerance = next * kPerturbationTolerance;
+          continue;
+        }
         if (options.step == 0.0)
           options.step = motions[0].end_time / static_cast<double>(motions[0].cost.steps);
-        options.step *= kShares[std::min(motions.size(), kShares.size() - 1)] / share;
+        options.step *= next / share;
       }
     } catch (const ComputationError& failure) {
       why_not = failure.what();
@@ -163,7 +180,7 @@ class MeasuredByDynamics final : public Rung {
     if (stopped) why_not = "following the motion takes too long";
     if (!why_not.empty() || motions.size() < kShares.size())
       return {{1.0, 0.0, "not measured, so anything up to the whole: on the perturbation rung " + why_not},
-              0.0, !asked_to};
+              0.0, 0.0, !asked_to};
     return compared(index, motions);
   }
 
@@ -209,9 +226,8 @@ class MeasuredByDynamics final : public Rung {
           measured.exceeded = high / (index.*quantity).max - 1.0;
       }
     }
-    double own = 0.0;
-    for (const RunResult& motion : motions) own = std::max(own, motion.error.model);
-    measured.error.model += own;
+    for (const RunResult& motion : motions) measured.of_linearity = std::max(measured.of_linearity, motion.error.model);
+    measured.error.model += measured.of_linearity;
     return measured;
   }
 

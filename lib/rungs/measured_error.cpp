@@ -47,8 +47,9 @@ class FurtherRuns {
     options_.events = false;
     options_.pose_bodies.clear();
     options_.progress = [this](const RunProgress&) { return !(stopped_ = stopped_ || (measure_.advance && !measure_.advance())); };
-    by_tolerance_ = controls_error(options);
-    tolerance_ = by_tolerance_ ? tolerance_of(options, rung.name()) : 0.0;
+    if (options.integrator.empty()) options_.integrator = result.integrator_taken;
+    by_tolerance_ = controls_error(options_);
+    tolerance_ = by_tolerance_ ? tolerance_of(options_, rung.name()) : 0.0;
     // Steps that locate contacts are shortened by these: what was asked for counts, not their mean.
     step_ = by_tolerance_ ? 0.0 : options.step > 0.0 ? options.step : result.end_time / static_cast<double>(result.cost.steps);
   }
@@ -199,10 +200,11 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
     error.spread.*quantity.*statistic = spread;
     error.shift.*quantity.*statistic = shift;
   });
-  const char* fineness = controls_error(options) ? "a tenth of the tolerance and half the longest step" : "half the step";
+  const bool by_tolerance = further.tolerance() > 0.0;
+  const char* fineness = by_tolerance ? "a tenth of the tolerance and half the longest step" : "half the step";
   std::snprintf(text, sizeof text, "%s: %zu of them at neighbouring %s, %zu at %s",
                 settled ? "measured by further runs that agree" : "measured by further runs", own.size() - 1,
-                controls_error(options) ? "tolerances" : "steps", finer.size(), fineness);
+                by_tolerance ? "tolerances" : "steps", finer.size(), fineness);
   error.basis = text;
   return error;
 }

@@ -22,6 +22,7 @@
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/motion_scales.hpp"
 #include "boresight/rungs/damped_contact.hpp"
+#include "boresight/rungs/default_integrator.hpp"
 #include "boresight/rungs/multibody_start.hpp"
 #include "boresight/rungs/multibody_system.hpp"
 #include "boresight/rungs/option_check.hpp"
@@ -62,8 +63,12 @@ class Multibody final : public Rung {
       result = integrate_located(parameters, options, ideal, integrator);
     } else {
       const double own = options.step > 0.0 ? options.step : own_step(*mechanism_, parameters, ideal);
-      result = with_stable_step(options.step, own, options.sample_spacing,
-                                [&](double step) { return integrate(parameters, options, ideal, step); });
+      result = follow_by_default(
+          options, own, [&](double step) { return integrate(parameters, options, ideal, step); },
+          [&](const RunOptions& located) {
+            check_options(located, name(), *mechanism_, parameters);
+            return integrate_located(parameters, located, ideal, located.integrator);
+          });
     }
     const std::vector<std::string>& held = held_by_others(ideal);
     result.warnings.insert(result.warnings.begin(), held.begin(), held.end());
@@ -207,6 +212,7 @@ class Multibody final : public Rung {
     RunResult result = recorder.finish();
     if (!start_warning.empty()) result.warnings.push_back(start_warning);
     if (const std::string warning = damping.warning(); !warning.empty()) result.warnings.push_back(warning);
+    result.damped_beyond_steps = damping.beyond();
     complete(result, options, trackers);
     char text[60];
     std::snprintf(text, sizeof text, "RK4, h = %.6g s", h);

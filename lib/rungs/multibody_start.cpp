@@ -152,8 +152,10 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
   ExactBalance exact(mechanism, parameters, scene, balance, *formulation);
   VecX z = rest.z;
   double length = rest_nearly_linear(exact, z);
-  if (length > kSettledRest) {
-    VecX other = rest.z;
+  // From where the linear balance is, or where that lies beyond what the pose bends by, from nearer to the middle of the sleeves.
+  for (double share : {1.0, 0.5, 0.25, 0.0}) {
+    if (length <= kSettledRest) break;
+    VecX other = share * rest.z;
     const double other_length = search_rest([&](const VecX& at) { return exact.left(at); }, exact.unit(), other);
     if (other_length < length) {
       z = other;

@@ -14,6 +14,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 #include "boresight/mechanism/constraint_system.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -75,7 +76,7 @@ class PaperFormulation final : public Formulation {
     }
   }
 
-  void close_joints(double t, VecX& y) override { project(t, y); }
+  void close_joints(double t, VecX& y) override { project(t, y, kMostPasses); }
 
   const std::vector<BodyMotion>& bodies(double, const VecX& y) override {
     unpack(y);
@@ -229,14 +230,19 @@ class PaperFormulation final : public Formulation {
   }
 
   // Positions (two Newton steps: the second one only where the first was large), then velocities.
-  void project(double t, VecX& y) {
+  // After a step two corrections do; bodies that were sent somewhere are farther off.
+  static constexpr int kPasses = 3, kMostPasses = 20;
+  void project(double t, VecX& y, int passes = kPasses) {
     update_laws(t);
-    for (int pass = 0; pass < 3; ++pass) {
+    double before = std::numeric_limits<double>::infinity();
+    for (int pass = 0; pass < passes; ++pass) {
       unpack(y);
       evaluate_inverse_mass();
       constraints_.evaluate(bodies_, laws_);
       factor(t, y);
-      if (pass == 2 || constraints_.violation(mechanism_.characteristic_length()) < 1e-14) break;
+      const double open = constraints_.violation(mechanism_.characteristic_length());
+      if (pass == passes - 1 || open < 1e-14 || (pass >= kPasses && !(open < 0.5 * before))) break;
+      before = open;
       for (int k = 0; k < constraints_.blocks(); ++k) lambda_[k] = -constraints_.rows(k).value;
       constraints_.least_motion(lambda_, reaction_);
       for (int b = 0; b < mechanism_.bodies(); ++b) {

@@ -8,10 +8,12 @@
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/damped_contact.hpp"
+#include "boresight/rungs/default_integrator.hpp"
 #include "boresight/rungs/located_motion.hpp"
 #include "boresight/rungs/measured_error.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/motion_scales.hpp"
+#include "boresight/rungs/option_check.hpp"
 #include "boresight/rungs/own_step.hpp"
 #include "boresight/rungs/perturbation_system.hpp"
 #include "boresight/rungs/scene_rung.hpp"
@@ -41,8 +43,12 @@ class Perturbation final : public SceneRung {
     const std::string integrator = integrator_of(options);
     if (integrator != "rk4") return integrate_located(prepared, parameters, options, integrator);
     const double own = options.step > 0.0 ? options.step : own_step(mechanism(), parameters, prepared.ideal());
-    return with_stable_step(options.step, own, options.sample_spacing,
-                            [&](double step) { return integrate(prepared, parameters, options, step); });
+    return follow_by_default(
+        options, own, [&](double step) { return integrate(prepared, parameters, options, step); },
+        [&](const RunOptions& located) {
+          check_options(located, name(), mechanism(), parameters);
+          return integrate_located(prepared, parameters, located, located.integrator);
+        });
   }
 
   RunResult integrate(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options,
@@ -98,6 +104,7 @@ class Perturbation final : public SceneRung {
     result.integrator = text;
     if (!start_warning.empty()) result.warnings.push_back(start_warning);
     if (const std::string warning = damping.warning(); !warning.empty()) result.warnings.push_back(warning);
+    result.damped_beyond_steps = damping.beyond();
     finish_contacts(system, result);
     result.interrupted = interrupted;
     result.error = {second_order_share(this->mechanism(), prepared, parameters, largest), kNotMeasured, kBasis};

@@ -25,6 +25,7 @@ Predictability measure_predictability(std::shared_ptr<const Mechanism> mechanism
   RunOptions options;
   options.sample_spacing = mechanism->duration() / kLooks;
   options.events = false;
+  options.integrator = "rk4";
   options.progress = [](const RunProgress& p) {
     work_reached("comparing with a twin that starts beside it", p.t / p.duration);
     return true;

@@ -84,6 +84,9 @@ struct RunResult {
   std::string rung;         // "multibody", ...
   std::string formulation;  // "paper", ... ; "" where a rung has one only
   std::string integrator;   // "RK4, h = 0.1 ms"
+  // A contact was damped faster than the steps follow, as a rule (damped_contact.hpp).
+  bool damped_beyond_steps = false;
+  std::string integrator_taken;  // "rosenbrock": it took over from the integrator of no options; "": none did
   PointingIndices index;
   std::vector<ContactSummary> contact;            // per clearance
   Vec3 platform_acceleration_max = Vec3::Zero();  // of the boresight body's centre of mass, per world axis [m/s^2]

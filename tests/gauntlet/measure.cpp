@@ -73,6 +73,7 @@ RunOptions options_of(const Asked& asked, const Mechanism& mechanism) {
   options.integrator = asked.integrator;
   options.formulation = asked.formulation;
   options.start_offset = asked.start_offset;
+  options.tolerance = asked.tolerance;
   options.sample_spacing = mechanism.duration() / 50.0;
   return options;
 }
@@ -102,6 +103,7 @@ Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& ask
           {"step", r.cost.steps > 0 ? mechanism->duration() / static_cast<double>(r.cost.steps) : 0.0},
           {"deepest", play > 0.0 ? deepest / play : 0.0},
           {"start", start},
+          {"taken", r.integrator_taken},
           {"not_finite", first_not_finite(r)},
           {"cpu", r.cost.cpu_seconds}};
 }
@@ -122,6 +124,7 @@ Measured measured(const Json& json) {
   m.not_finite = json.at("not_finite");
   if (!m.not_finite.empty()) return m;  // JSON has no infinity: nothing else can be relied on
   for (std::size_t k = 0; k < kFigures.size(); ++k) m.figure[k] = json.at("figure").at(k);
+  m.taken = json.at("taken");
   m.model = json.at("model");
   m.basis = json.at("basis");
   m.start = json.at("start");

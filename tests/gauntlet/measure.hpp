@@ -19,6 +19,7 @@ struct Asked {
   std::string rung, integrator = {}, formulation = {};
   double step = 0.0;
   double start_offset = 0.0;
+  double tolerance = 0.0;
   std::string label() const { return rung + (formulation.empty() ? "" : " " + formulation) + (integrator.empty() ? "" : " " + integrator); }
 };
 
@@ -29,6 +30,7 @@ struct Measured {
   std::array<double, kFigures.size()> by_steps{};  // what further runs show that steps do, of each figure; zero until measured
   bool steps_measured = false;
   double step = 0.0;              // mean [s]
+  std::string taken;              // the integrator that took over, if one did
   double deepest = 0.0;           // deepest penetration over the smallest play [-]
   std::string basis, start, not_finite;  // start: what the run says of how its journals start, if anything
   double cpu_seconds = 0.0;
