@@ -49,6 +49,14 @@ TEST(Contributor, HasInItsCoursesTheMomentsOfItsClass) {
     }
 }
 
+// ECSS-E-ST-60-10C, Table B-1: of noise three times its deviation, whose own scatter over the ensemble counts three times too.
+TEST(Contributor, OfNoiseEntersTheEnsembleWithThreeDeviations) {
+  const Contributor noise{.name = "n", .kind = ContributorClass::random, .parameter = {make_normal(2.0, 0.1)}};
+  const Moments m = moments(noise, 0, ErrorIndex::ape, Interpretation::ensemble, {}, 1.0);
+  EXPECT_NEAR(m.mean, 6.0, 1e-9);
+  EXPECT_NEAR(m.sd, 0.3, 1e-9);
+}
+
 TEST(Contributor, OfOneGroupVariesTogetherAndOthersApart) {
   std::vector<Contributor> all(3, contributor(ContributorClass::random));
   all[0].group = all[2].group = "thermal";

@@ -35,6 +35,12 @@ TEST(Interpretation, CountsMembersOrTimeOrBoth) {
   EXPECT_EQ(e.level(Interpretation::temporal, 0.5, 0.9).value, 2.0);
 }
 
+// 1 - 0.1^(1/100) = 2.28 %: so many more may be worse than the worst of a hundred, with 90 % confidence.
+TEST(Interpretation, SaysHowManyMayBeWorseThanTheWorstThatWasSeen) {
+  const ReportedInterval worst = stepped().level(Interpretation::temporal, 0.5, 0.9, 0.0);
+  EXPECT_NE(worst.basis.find("at most 2.28 % of all are worse"), std::string::npos) << worst.basis;
+}
+
 TEST(Interpretation, AFailedMemberCountsAsBad) {
   const EnsembleInTime e = stepped(100);
   EXPECT_DOUBLE_EQ(e.compliance(Interpretation::mixed, 3.0, 0.4, 0.9).share, 0.5);

@@ -100,6 +100,14 @@ TEST(ErrorIndexOfAHistory, WindowsStayWithinAnObservationAndPreLooksAcrossTwo) {
   for (const Vec3& v : across) EXPECT_NEAR(v.x(), 3.0, 1e-12);
 }
 
+TEST(ErrorIndexOfAHistory, PreLooksFromEveryWindowOfEveryObservationIntoTheNext) {
+  // Three observations of 100 samples, 1, 4 and 16: 91 whole windows of ten samples in each of the first two.
+  const PointingHistory h = history_of(1.5, 300, [](double t) { return Vec3(t < 0.5 ? 1.0 : t < 1.0 ? 4.0 : 16.0, 0, 0); });
+  std::vector<Vec3> across = index_values(ErrorIndex::pre, h, {.window = 0.05, .observation = 0.5});
+  ASSERT_EQ(across.size(), 182u);
+  for (std::size_t k = 0; k < across.size(); ++k) EXPECT_NEAR(across[k].x(), k < 91 ? 3.0 : 12.0, 1e-12) << k;
+}
+
 TEST(ErrorIndexOfAHistory, SaysWhatItNeeds) {
   EXPECT_EQ(Windows{}.missing_for(ErrorIndex::ape, 1.0), "");
   EXPECT_EQ(Windows{}.missing_for(ErrorIndex::mpe, 1.0), "a window");
