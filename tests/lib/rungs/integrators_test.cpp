@@ -85,7 +85,7 @@ TEST(Integrators, PutTheStepUpToAnEventToTheErrorTestToo) {
   }
 }
 
-TEST(Integrators, TakeStepsNoLongerThanTheShareOfTheLongestThatIsAsked) {
+TEST(Integrators, CutTheirStepsDownToTheShareThatIsAsked) {
   const auto mechanism = scene({{"motion.duration", "20 ms"}});
   for (const char* rung : {"perturbation", "multibody"}) {
     const auto steps = [&](double share) {
