@@ -45,6 +45,19 @@ TEST_P(WithIntegrator, EachSampleTakesTheStepsOfItsOwnRun) {
 }
 INSTANTIATE_TEST_SUITE_P(Integrators, WithIntegrator, testing::Values("dopri5", "rosenbrock"));
 
+// What rosenbrock took where it took over is no step for rk4: each sample then goes the way of its own run.
+TEST(CommonStep, IsNoneWhereRosenbrockTakesOver) {
+  const auto mechanism = std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml",
+                     {{"motion.duration", "20 ms"}, {"initial.journals", "rest"}, {"clearance.F1.contact.minimum_impact_speed", "1e-6 m/s"}}));
+  const std::vector<Parameters> samples(2, mechanism->parameters());
+  EXPECT_EQ(common_step("multibody", mechanism, samples, {}), 0.0);
+  EXPECT_EQ(common_step("perturbation", mechanism, samples, {}), 0.0);
+  RunOptions steps;
+  steps.integrator = "rk4";
+  EXPECT_GT(common_step("perturbation", mechanism, samples, steps), 0.0);
+}
+
 TEST(CommonStep, TakesWhatAnEarlierStartFoundAndFliesTheOthersOnly) {
   const auto mechanism = scene();
   const std::vector<Parameters> samples(3, mechanism->parameters());
