@@ -5,6 +5,7 @@
 // with a planar loop of the gauntlet ten times, at a step that does not blow up, for two hundred times the cost of rosenbrock.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 
@@ -21,16 +22,25 @@ RunResult follow_by_default(const RunOptions& options, double own, Steps&& by_st
   const auto stable = [&] { return with_stable_step(options.step, own, options.sample_spacing, by_steps); };
   if (!options.integrator.empty() || options.step > 0.0) return stable();
   std::optional<RunResult> first;
+  double reached = 0.0;
   const char* why = "the motion blows up at its own step";
   try {
     first = by_steps(step_on_grid(own, options.sample_spacing));
     if (!first->damped_beyond_steps || first->interrupted) return *std::move(first);
     why = "a contact is damped faster than its own step follows";
-  } catch (const UnstableStep&) {
-  } catch (const SingularPose&) {  // what a motion that blows up may meet on its way
+    reached = first->end_time;
+  } catch (const UnstableStep& step) {
+    reached = step.t;
+  } catch (const SingularPose& pose) {  // what a motion that blows up may meet on its way
+    reached = pose.t;
   }
   RunOptions implicit = options;
   implicit.integrator = "rosenbrock";
+  if (options.progress)  // which only grows
+    implicit.progress = [&](RunProgress p) {
+      p.t = std::max(p.t, reached);
+      return options.progress(p);
+    };
   try {
     RunResult followed = located(implicit);
     followed.integrator_taken = implicit.integrator;

@@ -19,8 +19,6 @@ constexpr double kBalanced = kNoLoad, kAcceptable = 1e-8;
 // What may be left that no place of the journals balances, likewise: it sets off the motion.
 constexpr double kLeftToMotion = 1e-4;
 constexpr int kMostSteps = 400;
-// Of the clearances: a first step that is no longer only makes a balance sharper.
-constexpr double kLastDigits = 1e-2;
 // Of the load over a clearance: with less, the step is the undamped one.
 constexpr double kLeastDamping = 1e-8;
 // Stiffness below this share of the largest holds nothing.
@@ -230,19 +228,6 @@ RestingStart RestingBalance::solve() const {
     rest.z.setZero();
     rest.refusal = "no position was found in which the journals' contacts carry the loads of t = 0";
     return rest;
-  }
-  // A soft direction may still move by what is no load any more: as far as steps shrink, and stay far from crossing a clearance.
-  for (double last = kLastDigits; true;) {
-    const VecX dz = correction(J, F);
-    const double step = length(dz);
-    if (!(step < 0.5 * last)) break;
-    trial = z + dz;
-    evaluate(trial, F_trial, J_trial);
-    if (!(size(F_trial) <= std::max(size(F), kBalanced * load_))) break;
-    z = trial;
-    F.swap(F_trial);
-    J.swap(J_trial);
-    last = step;
   }
   rest.z = z;
   return rest;
