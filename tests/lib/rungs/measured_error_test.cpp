@@ -9,6 +9,7 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/rungs/unstable_step.hpp"
+#include "finer_run.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
@@ -38,15 +39,13 @@ struct Coverage {
 void hold(const std::string& name, const std::string& rung_name, const std::shared_ptr<const Mechanism>& mechanism,
           Coverage& coverage) {
   const auto rung = make_rung(rung_name, mechanism);
-  RunOptions options = bare();
+  const RunOptions options = bare();
   const RunResult run = rung->run(mechanism->parameters(), options);
   const MeasuredError error = measure_discretisation(*rung, mechanism->parameters(), options, run, {.most_seconds = 0.0});
   ASSERT_TRUE(error.measured) << name << ": " << error.why_not;
-  const double own = run.end_time / static_cast<double>(run.cost.steps);
   std::array<double, kStatistics.size()> off{};
   for (const double share : {0.5, 0.25}) {
-    options.step = share * own;
-    const RunResult fine = rung->run(mechanism->parameters(), options);
+    const RunResult fine = rung->run(mechanism->parameters(), finer_run(options, run, share));
     for (std::size_t k = 0; k < kStatistics.size(); ++k)
       off[k] = std::max(off[k], std::abs(fine.index.position_error.*kStatistics[k] - run.index.position_error.*kStatistics[k]));
   }

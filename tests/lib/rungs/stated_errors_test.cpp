@@ -10,6 +10,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/measured_error.hpp"
 #include "boresight/rungs/rung.hpp"
+#include "finer_run.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
@@ -54,12 +55,8 @@ std::vector<PointingIndices> references(const std::shared_ptr<const Mechanism>& 
   options.sample_spacing = 0.0;
   options.events = false;
   const RunResult own = multibody->run(mechanism->parameters(), options);
-  const double step = own.end_time / static_cast<double>(own.cost.steps);
   std::vector<PointingIndices> runs;
-  for (double share : {0.5, 0.49, 0.48}) {
-    options.step = share * step;
-    runs.push_back(multibody->run(mechanism->parameters(), options).index);
-  }
+  for (double share : {0.5, 0.49, 0.48}) runs.push_back(multibody->run(mechanism->parameters(), finer_run(options, own, share)).index);
   return runs;
 }
 
