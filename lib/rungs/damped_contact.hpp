@@ -5,7 +5,8 @@
 // with A the offset compliance and D = -d f / d (offset rates) of all touching contacts, friction included. A contact at rest under a load
 // F, its impact speed v the least that the file allows, has D = chi F / v in the laws of Hunt and Crossley's family, however small v is;
 // friction has mu F over the speed in which it sets in. Beyond RK4's limit (2.785 / h) such a contact is opened and shut by the steps, with
-// forces of any size. Less damping is no way out, for it decides how far an impact under load goes; an implicit method is, and takes over (default_integrator.hpp).
+// forces of any size. Less damping is no way out, for it decides how far an impact under load goes; an implicit method is, and takes over
+// (default_integrator.hpp).
 #pragma once
 
 #include <string>

@@ -223,16 +223,14 @@ class Trial {
     if (worst >= 0.0) verdict_.claims.push_back(claim);
   }
 
-  // The envelope is a bound: of the largest errors, but for what impacts press in beyond the rest, and for what perturbation states to be
-  // left out where the pose is linear in the offsets.
+  // The envelope is a bound: of the largest errors, but for what impacts press in beyond the rest.
   void check_bound(const Measured& bound) {
     double deepest = 0.0;
     for (const Measured& m : reference_) deepest = std::max(deepest, m.deepest);
     for (std::size_t k : {std::size_t{0}, std::size_t{2}, std::size_t{4}, std::size_t{6}}) {
       const Center truth = center(reference_, k);
       if (truth.median < floor_of(k)) continue;
-      const double linear = base_.count("perturbation") != 0 ? base_["perturbation"].model : 0.0;
-      const double allowed = bound.figure[k] * (1.01 + deepest + linear) + truth.spread + floor_of(k);
+      const double allowed = bound.figure[k] * (1.01 + deepest) + truth.spread + floor_of(k);
       if (truth.median > allowed)
         verdict_.fault("bound", "envelope", fmt::format("{}: bound {:.4g}, multibody {:.4g}", kFigures[k], bound.figure[k], truth.median));
     }
@@ -290,8 +288,7 @@ class Trial {
                          const std::shared_ptr<const Mechanism>& mechanism) {
     for (std::size_t k = 0; k < kFigures.size(); ++k) {
       const double size = std::max(base.figure[k], other.figure[k]), apart = std::abs(base.figure[k] - other.figure[k]);
-      // Both drawings have tables of their own, each good to kAccuracy.
-      const double alike = asked.rung == "perturbation" ? 2.0 * ClearanceScene::kAccuracy * size : 1e-6 * size;
+      const double alike = asked.rung == "perturbation" ? ClearanceScene::kAccuracy * size : 1e-6 * size;
       if (size < floor_of(k) || apart <= alike) continue;
       if (asked.rung != "quasistatic" &&
           (apart <= alike + 3.0 * neighbours_spread(asked, k, 5) || apart <= alike + 3.0 * neighbours_spread(asked, k, 17)))
