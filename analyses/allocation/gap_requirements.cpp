@@ -188,7 +188,10 @@ std::vector<double> StatisticalRequirement::error_shares(std::span<const int> ch
   std::vector<double> mean(choice.size()), variance(choice.size()), g(choice.size());
   for (std::size_t j = 0; j < mean.size(); ++j) {
     const auto& values = gap_[j][static_cast<std::size_t>(choice[j])];
-    mean[j] = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(samples_);
+    // From the first value on: gaps that do not vary have a variance of zero, and none by rounding.
+    double beyond = 0.0;
+    for (const double v : values) beyond += v - values.front();
+    mean[j] = values.front() + beyond / static_cast<double>(samples_);
     for (const double v : values) variance[j] += (v - mean[j]) * (v - mean[j]);
   }
   deviation_.index(mean, g);

@@ -153,6 +153,30 @@ TEST(Confirmation, EveryOneDrawsSamplesThatNoneBeforeHasSeen) {
   for (std::size_t k = 2; k < seen.size(); ++k) EXPECT_NE(place(seen[k][0][0]), place(seen[k - 1][0][0]));
 }
 
+TEST(Confirmation, SaysInWordsWhatItsNumbersAre) {
+  AllocationPlan plan = plan_with(11, 1);
+  plan.requirement.limit = 3.0 * kMilli;
+  const AllocationResult result = run_allocation(
+      plan, sum_of_gaps(), 0.0,
+      [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+        return std::vector<Outcome>(gaps.size(), near_limit(plan, -0.1));
+      },
+      "synthetic", {});
+  ASSERT_FALSE(result.confirmations.empty());
+  const AllocationConfirmation& c = result.confirmations.front();
+  // All of 80 within: with risk r the share is at least r^(1/80). Of the tenth that may be wrong each confirmation has its part.
+  const double confidence = confirmation_confidence(plan.requirement);
+  EXPECT_NEAR(c.share_low, std::pow(1.0 - confidence, 1.0 / 80.0), 1e-9);
+  char expected[200];
+  std::snprintf(expected, sizeof expected, "80 fresh samples of the synthetic rung with seed %llu: 100 %% within the limit, at least %.4g %% ",
+                static_cast<unsigned long long>(c.seed), 100.0 * c.share_low);
+  EXPECT_THAT(c.sentence, testing::StartsWith(expected));
+  std::snprintf(expected, sizeof expected, "with %.4g %% confidence (90 %% over the ", 100.0 * confidence);
+  EXPECT_THAT(c.sentence, testing::HasSubstr(expected));
+  EXPECT_GT(confidence, kConfidence);
+  EXPECT_LT(confidence, 1.0);
+}
+
 // e = 2 - c1 + c2 (mm): the wider first gap points better, and the tightest set keeps no limit below 2 mm.
 TEST(Allocation, FindsTheWiderGapThatWorksAgainstAnother) {
   AllocationPlan plan = plan_with(3, 6);

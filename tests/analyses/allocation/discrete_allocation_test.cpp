@@ -172,5 +172,31 @@ TEST(StatisticalRequirement, ReachesThatLimitAndNoLess) {
   EXPECT_FALSE(requirement.is_met(choice));
 }
 
+TEST(StatisticalRequirement, ReachesTheLargestIndexWhereNoneMayExceedAndNothingWhereNoneIsEnough) {
+  const Scene s = scene(3, 3, 12);
+  const std::vector<int> choice = {1, 0, 2};
+  const StatisticalRequirement none_may(s.deviation, s.gap, s.unit, 0, 0.0), not_enough(s.deviation, s.gap, s.unit, -1, 0.0);
+  const std::vector<double> indices = none_may.indices(choice);
+  EXPECT_EQ(none_may.reached(choice), *std::max_element(indices.begin(), indices.end()));
+  EXPECT_TRUE(std::isinf(not_enough.reached(choice)));
+}
+
+// e = c1 + 2 c2, of gaps that vary alike: variances 1 : 4 of the same width, and 1 : 1 where the second is half as wide.
+TEST(StatisticalRequirement, SharesTheVarianceBySensitivityAndWidth) {
+  const LinearDeviation deviation({0.0}, {0, 0, 0}, {{1, 0, 0}, {2, 0, 0}}, "max");
+  std::vector<double> u;
+  for (int k = 0; k < 100; ++k) u.push_back((k + 0.5) / 100.0);
+  const std::vector<std::vector<DistributionPtr>> gap = {{make_uniform(1e-5, 3e-5)}, {make_uniform(1e-5, 3e-5), make_uniform(1e-5, 2e-5)}};
+  const StatisticalRequirement requirement(deviation, gap, {u, u}, 0, 1.0);
+  const std::vector<double> alike = requirement.error_shares(std::vector<int>{0, 0}), half = requirement.error_shares(std::vector<int>{0, 1});
+  EXPECT_NEAR(alike[0], 0.2, 1e-12);
+  EXPECT_NEAR(alike[1], 0.8, 1e-12);
+  EXPECT_NEAR(half[0], 0.5, 1e-12);
+  EXPECT_NEAR(half[1], 0.5, 1e-12);
+  // Gaps that do not vary bring nothing.
+  const StatisticalRequirement still(deviation, {{make_discrete({1e-5}, {1.0})}, {make_discrete({1e-5}, {1.0})}}, {u, u}, 0, 1.0);
+  EXPECT_EQ(still.error_shares(std::vector<int>{0, 0}), (std::vector<double>{0.0, 0.0}));
+}
+
 }  // namespace
 }  // namespace boresight
