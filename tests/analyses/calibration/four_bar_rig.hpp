@@ -1,7 +1,9 @@
 // A four-bar on a test rig, whose contacts are known because its data are made here.
 #pragma once
 
+#include <cmath>
 #include <map>
+#include <random>
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight_analyses/calibration/calibrate.hpp"
@@ -84,6 +86,40 @@ struct Bench {
 inline const std::vector<std::string> kFour = {"clearance.D.radial", "clearance.D.contact.restitution",
                                                "clearance.D.friction.coefficient",
                                                "clearance.D.contact.stiffness_scale"};
+
+// With first-order noise, of this share of the largest root mean square of the displacements or rotations.
+inline CalibrationProblem with_following_noise(const Bench& bench, const std::vector<std::string>& paths, double noise, double follows,
+                                               unsigned seed) {
+  SyntheticRig rig;
+  rig.noise = 0.0;
+  CalibrationProblem p = bench.problem(rig, paths);
+  std::mt19937_64 engine(seed);
+  std::normal_distribution<double> normal;
+  p.sigma.resize(6);
+  for (CalibrationRun& run : p.runs) {
+    MatX& value = run.data.value;
+    for (int kind = 0; kind < 2; ++kind) {
+      const double size = value.middleCols(3 * kind, 3).colwise().norm().maxCoeff() / std::sqrt(double(value.rows()));
+      for (int c = 3 * kind; c < 3 * kind + 3; ++c) {
+        p.sigma[c] = noise * size;
+        double last = normal(engine);
+        for (Eigen::Index i = 0; i < value.rows(); ++i) {
+          last = follows * last + std::sqrt(1.0 - follows * follows) * normal(engine);
+          value(i, c) += p.sigma[c] * last;
+        }
+      }
+    }
+  }
+  return p;
+}
+
+// Where the truth stands in the fit's coordinates.
+inline Globals truth_of(const Bench& bench, const CalibrationProblem& problem) {
+  Globals at = problem.start();
+  for (int p = 0; p < problem.parameter_count(); ++p)
+    at.u[p] = problem.parameters[p].coordinate(bench.truth(problem.parameters[p].path));
+  return at;
+}
 
 // Ten runs of 1 s at 1 kHz, each at its own speed.
 inline Bench ten_runs() {

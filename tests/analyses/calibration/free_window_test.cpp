@@ -1,6 +1,7 @@
 // Windows that begin anywhere: their residuals' derivatives, their start states, and what they find together.
 #include <gtest/gtest.h>
 
+#include "boresight_analyses/calibration/law_comparison.hpp"
 #include "four_bar_rig.hpp"
 
 namespace boresight {
@@ -8,19 +9,13 @@ namespace {
 
 using four_bar::Bench;
 using four_bar::kFour;
+using four_bar::truth_of;
 
 CalibrationProblem windows_of(const Bench& bench, double length) {
   CalibrationProblem problem = bench.problem({}, kFour);
   problem.prepare(length, false);
   problem.sigma = noise_from_differences(problem);
   return problem;
-}
-
-Globals truth_of(const Bench& bench, const CalibrationProblem& problem) {
-  Globals at = problem.start();
-  for (int p = 0; p < problem.parameter_count(); ++p)
-    at.u[p] = problem.parameters[p].coordinate(bench.truth(kFour[p]));
-  return at;
 }
 
 TEST(FreeWindow, ResidualsChangeWithParametersAndStartStateAsDifferencesSay) {
@@ -69,6 +64,27 @@ TEST(FreeWindow, AStartStateIsGuessedFromItsData) {
     const double values = 6.0 * (window.last - window.first + 1);
     EXPECT_LT(problem.cost(window, at, state), 1.5 * values) << "from " << window.start << " s";
   }
+}
+
+// Of the residuals of a window that starts freely, as many as its start state has numbers are used up by it.
+TEST(FreeWindow, HeldOutOnesAreScoredByWhatTheirStartStatesLeave) {
+  const Bench bench({2.4}, 0.06, false);
+  CalibrationProblem problem = windows_of(bench, 0.012);
+  const Globals at = truth_of(bench, problem);
+  EXPECT_FALSE(score_held_out(problem, at, 1));
+  hold_out_windows(problem, 0.5);
+  long values = 0;
+  for (std::size_t w = 0; w < problem.windows.size(); ++w) {
+    const Window& window = problem.windows[w];
+    EXPECT_EQ(window.held_out, w % 2 == 1);
+    if (window.held_out) values += 6 * (window.last - window.first + 1) - problem.state_size(window);
+  }
+  const auto score = score_held_out(problem, at, 1);
+  ASSERT_TRUE(score);
+  EXPECT_EQ(score->values, values);
+  EXPECT_GT(values, 50);
+  // Three deviations of a root mean square of so many.
+  EXPECT_NEAR(score->rms, 1.0, 3.0 / std::sqrt(2.0 * static_cast<double>(values)));
 }
 
 TEST(FreeWindowLong, FitsRecoverTheTruthWindowByWindow) {

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <random>
 
 #include "four_bar_rig.hpp"
 
@@ -17,29 +16,8 @@ using four_bar::Bench;
 const std::vector<std::string> kThree = {"clearance.D.radial", "clearance.D.contact.restitution",
                                          "clearance.D.friction.coefficient"};
 
-// With first-order noise, of this share of the largest root mean square of the displacements or rotations.
 CalibrationProblem problem_of(const Bench& bench, double noise, double follows, unsigned seed) {
-  SyntheticRig rig;
-  rig.noise = 0.0;
-  CalibrationProblem p = bench.problem(rig, kThree);
-  std::mt19937_64 engine(seed);
-  std::normal_distribution<double> normal;
-  p.sigma.resize(6);
-  for (CalibrationRun& run : p.runs) {
-    MatX& value = run.data.value;
-    for (int kind = 0; kind < 2; ++kind) {
-      const double size = value.middleCols(3 * kind, 3).colwise().norm().maxCoeff() / std::sqrt(double(value.rows()));
-      for (int c = 3 * kind; c < 3 * kind + 3; ++c) {
-        p.sigma[c] = noise * size;
-        double last = normal(engine);
-        for (Eigen::Index i = 0; i < value.rows(); ++i) {
-          last = follows * last + std::sqrt(1.0 - follows * follows) * normal(engine);
-          value(i, c) += p.sigma[c] * last;
-        }
-      }
-    }
-  }
-  return p;
+  return four_bar::with_following_noise(bench, kThree, noise, follows, seed);
 }
 
 std::vector<LawScore> scores(const CalibrationProblem& problem, const std::vector<std::string>& laws,

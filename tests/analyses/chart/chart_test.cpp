@@ -161,5 +161,11 @@ TEST_F(MeasureTest, AChartStopsWhereItIsTold) {
   EXPECT_TRUE(make_chart(mechanism_, mechanism_->parameters(), options).interrupted);
 }
 
+TEST(ChartWays, SayHowFinelyTheyStep) {
+  EXPECT_EQ(fineness({.rung = "quasistatic", .tolerance = 1e-3}), "no steps");
+  EXPECT_EQ(fineness({.rung = "multibody", .integrator = "dopri5", .tolerance = 1e-3}), "tolerance 0.001");
+  EXPECT_EQ(fineness({.rung = "multibody", .step = 5e-5}), "h = 50 us");
+}
+
 }  // namespace
 }  // namespace boresight

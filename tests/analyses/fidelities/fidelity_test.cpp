@@ -244,5 +244,20 @@ TEST(FidelityPlan, IsRefusedWhereThePilotOrTheBudgetIsTooSmall) {
   EXPECT_THROW(plan_fidelities(Hierarchy{}.pilot(engine, 50, {1.0, 0.0, 0.01}), 1e3), std::invalid_argument);
 }
 
+// Each group's mean needs two samples: those shared with the model before, and one at least beyond them.
+TEST(FidelityEstimate, RefusesGroupsOfWhichFewerThanTwoDidNotFail) {
+  const double failed = std::numeric_limits<double>::quiet_NaN();
+  FidelityPlan plan;
+  plan.models = {0, 1};
+  plan.samples = {3, 6};
+  plan.weight = {1.0, 0.5};
+  const std::vector<double> dear = {1.0, 2.0, 3.0}, cheap = {1.1, 2.1, 2.9, 1.0, 2.0, 3.0};
+  EXPECT_NO_THROW(estimate_fidelities(plan, {dear, cheap}, 0.95));
+  EXPECT_NO_THROW(estimate_fidelities(plan, {dear, {1.1, 2.1, failed, 1.0, failed, failed}}, 0.95));
+  EXPECT_THROW(estimate_fidelities(plan, {{1.0, failed, failed}, cheap}, 0.95), std::invalid_argument);
+  EXPECT_THROW(estimate_fidelities(plan, {dear, {1.1, failed, failed, 1.0, 2.0, 3.0}}, 0.95), std::invalid_argument);
+  EXPECT_THROW(estimate_fidelities(plan, {dear, {1.1, 2.1, 2.9, failed, failed, failed}}, 0.95), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace boresight

@@ -167,5 +167,16 @@ TEST(SampleStore, KnowsWhatEarlierPartsCost) {
   EXPECT_LE(all, 3.0 * now);
 }
 
+// The number that says how the file is to be written: an SQLite that does not know it reads it all the same, and never writes it.
+TEST(DamagedStore, AFirstPageThatForbidsWritingIsSeenWhereTheFileMayBeWritten) {
+  const Folder folder("first-page");
+  std::string bytes = whole_store();
+  bytes[18] = 9;
+  put_bytes(folder.path() / "samples.db", bytes);
+  auto store = open_sum_store(folder);
+  EXPECT_THAT(store->damage(), testing::HasSubstr("its first page is not what was stored"));
+  EXPECT_EQ(run_sum(SumModel(), sum_plan(kSamples), *store, folder).values, uninterrupted());
+}
+
 }  // namespace
 }  // namespace boresight

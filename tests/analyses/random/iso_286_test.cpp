@@ -39,6 +39,50 @@ TEST(Iso286, ShaftBasisGivesTheSameClearanceAsHoleBasis) {
   }
 }
 
+// ISO 286-1:2010, Table 1, grade by grade as it is printed: one number per range of nominal sizes [um].
+TEST(Iso286, GradesAreThoseOfTheStandardsTable) {
+  const double ends[] = {3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500};
+  const double grades[13][13] = {{0.8, 1, 1, 1.2, 1.5, 1.5, 2, 2.5, 3.5, 4.5, 6, 7, 8},
+                                 {1.2, 1.5, 1.5, 2, 2.5, 2.5, 3, 4, 5, 7, 8, 9, 10},
+                                 {2, 2.5, 2.5, 3, 4, 4, 5, 6, 8, 10, 12, 13, 15},
+                                 {3, 4, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20},
+                                 {4, 5, 6, 8, 9, 11, 13, 15, 18, 20, 23, 25, 27},
+                                 {6, 8, 9, 11, 13, 16, 19, 22, 25, 29, 32, 36, 40},
+                                 {10, 12, 15, 18, 21, 25, 30, 35, 40, 46, 52, 57, 63},
+                                 {14, 18, 22, 27, 33, 39, 46, 54, 63, 72, 81, 89, 97},
+                                 {25, 30, 36, 43, 52, 62, 74, 87, 100, 115, 130, 140, 155},
+                                 {40, 48, 58, 70, 84, 100, 120, 140, 160, 185, 210, 230, 250},
+                                 {60, 75, 90, 110, 130, 160, 190, 220, 250, 290, 320, 360, 400},
+                                 {100, 120, 150, 180, 210, 250, 300, 350, 400, 460, 520, 570, 630},
+                                 {140, 180, 220, 270, 330, 390, 460, 540, 630, 720, 810, 890, 970}};
+  for (int g = 0; g < 13; ++g)
+    for (int r = 0; r < 13; ++r) {
+      const std::string name = std::to_string(ends[r]) + " H" + std::to_string(g + 1) + "/h6";
+      EXPECT_NEAR(1e6 * parse_fit(name).hole.upper, grades[g][r], 1e-9) << name;
+    }
+}
+
+// ISO 286-1:2010, Table 4, letter by letter: -es [um], per range, and of c per its finer ranges.
+TEST(Iso286, DeviationsAreThoseOfTheStandardsTable) {
+  const auto es = [](double size, const std::string& letter) {
+    return -1e6 * parse_fit(std::to_string(size) + " H7/" + letter + "6").shaft.upper;
+  };
+  const double ends[] = {3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500};
+  const struct {
+    const char* letter;
+    double es[13];
+  } letters[] = {{"d", {20, 30, 40, 50, 65, 80, 100, 120, 145, 170, 190, 210, 230}},
+                 {"e", {14, 20, 25, 32, 40, 50, 60, 72, 85, 100, 110, 125, 135}},
+                 {"f", {6, 10, 13, 16, 20, 25, 30, 36, 43, 50, 56, 62, 68}},
+                 {"g", {2, 4, 5, 6, 7, 9, 10, 12, 14, 15, 17, 18, 20}}};
+  for (const auto& l : letters)
+    for (int r = 0; r < 13; ++r) EXPECT_NEAR(es(ends[r], l.letter), l.es[r], 1e-9) << l.letter << ' ' << ends[r];
+  const double c[][2] = {{3, 60},    {6, 70},    {10, 80},   {14, 95},   {18, 95},   {24, 110},  {30, 110},  {40, 120},  {50, 130},
+                         {65, 140},  {80, 150},  {100, 170}, {120, 180}, {140, 200}, {160, 210}, {180, 230}, {200, 240}, {225, 260},
+                         {250, 280}, {280, 300}, {315, 330}, {355, 360}, {400, 400}, {450, 440}, {500, 480}};
+  for (const auto& [size, expected] : c) EXPECT_NEAR(es(size, "c"), expected, 1e-9) << "c " << size;
+}
+
 // i = 0.45 D^(1/3) + 0.001 D um, D the geometric mean of the range; the standard rounds. Grades 6 to 11 are 10 i ..
 // 100 i.
 TEST(Iso286, GradesFollowTheToleranceUnitWithinTheStandardsRounding) {

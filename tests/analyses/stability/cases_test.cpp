@@ -190,5 +190,13 @@ TEST(Stability, OfAMechanismWithoutClearanceSaysSoAndKeepsTheRest) {
     EXPECT_NE(c.standing, FailureCase::Standing::differs) << c.name << ": " << c.measured;
 }
 
+TEST(RedundantRows, WhereThereAreNoneAreSaidToBeIndependent) {
+  Scene scene;
+  scene.mechanism = scenes::build(scenes::four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, false, "0.4*sin(3*t)"));
+  const FailureCase c = case_of_redundant_rows(scene);
+  // Two revolutes, a spherical and a cylindrical joint: 5 + 5 + 3 + 4.
+  EXPECT_EQ(c.measured, "17 rows, all independent");
+}
+
 }  // namespace
 }  // namespace boresight

@@ -7,6 +7,7 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/study/pilot_choice.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 
 namespace boresight {
@@ -166,6 +167,68 @@ TEST(RungChoice, AsksNoPilotWhereThereIsNothingToChoose) {
   EXPECT_EQ(choose_rung({.asked = "envelope"}, mechanism, {mechanism->parameters()}).name, "envelope");
   EXPECT_EQ(choose_rung({.asked = "auto", .accuracy = 0.01, .wants_multibody = true}, mechanism, {mechanism->parameters()}).name,
             "multibody");
+}
+
+TEST(Pilot, SaysInWordsWhatItMeasured) {
+  PilotResult result;
+  result.accuracy = 0.01;
+  result.index = "position error, RMS";
+  result.reference_error = 0.002;
+  PilotTrial cheap, dear;
+  cheap.rung = "quasistatic";
+  cheap.error = 0.2;
+  cheap.cpu_seconds = 1.0;
+  dear.rung = "perturbation";
+  dear.error = 0.0035;
+  dear.cpu_seconds = 2.0;
+  dear.accepted = true;
+  result.trials = {cheap, dear};
+  conclude(result);
+  EXPECT_EQ(chosen(result).rung, "perturbation");
+  EXPECT_EQ(result.why,
+            "the cheapest that comes within 1 % of multibody in the position error, RMS: off by 0.35 % at most (reference good to 0.2 %)");
+  result.pairs = 24;
+  conclude(result);
+  EXPECT_NE(result.why.find("off by 0.35 % at most over 24 paired samples (reference"), std::string::npos) << result.why;
+  result.trials[1].accepted = false;
+  conclude(result);
+  EXPECT_EQ(result.why.rfind("none is shown to come within 1 % of multibody", 0), 0u) << result.why;
+}
+
+TEST(Pilot, SaysWhatSingleMotionsScatterByWhereThatIsWhyNothingCanBeShown) {
+  PilotResult result;
+  result.accuracy = 0.01;
+  result.index = "position error, maximum";
+  result.reference_error = 0.05;
+  result.scatter = 0.034;
+  PilotTrial trial;
+  trial.rung = "perturbation";
+  trial.error = 0.3;
+  trial.difference = 0.25;
+  result.trials = {trial};
+  conclude(result);
+  const std::string scattered = "; single motions scatter by 3.4 %, standard deviation";
+  EXPECT_EQ(result.why, "an accuracy of 1 % cannot be shown: multibody itself is good to 5 % only in the position error, maximum" + scattered +
+                            "; this one comes nearest");
+  result.pairs = 12;  // pairs scatter less: what single motions do is not the reason
+  conclude(result);
+  EXPECT_EQ(result.why.find(scattered), std::string::npos) << result.why;
+  result.pairs = 0;
+  result.scatter = 0.0005;
+  conclude(result);
+  EXPECT_EQ(result.why.find("single motions"), std::string::npos) << result.why;
+}
+
+TEST(PilotOfScatter, CountsItsRunsFromNone) {
+  const auto mechanism = rrcpr({{"motion.duration", "20 ms"}});
+  PilotOptions options = of_scatter(0.05, {0.95});
+  std::vector<int> told;
+  options.progress = [&](int runs) {
+    told.push_back(runs);
+    return told.size() < 3;
+  };
+  EXPECT_THROW(run_pilot(mechanism, scattered(*mechanism, 16), options), PilotInterrupted);
+  EXPECT_EQ(told, (std::vector<int>{0, 1, 2}));
 }
 
 }  // namespace

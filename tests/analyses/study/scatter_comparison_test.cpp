@@ -105,5 +105,22 @@ TEST(ChosenSamples, AreTakenOnceEach) {
   EXPECT_EQ(sorted.size(), 96u);
 }
 
+// Every second one from the tail, as they come in it; the farthest out belongs to it.
+TEST(ChosenSamples, TakeTheTailFromItsVeryEnd) {
+  for (const bool high : {true, false}) {
+    std::vector<double> ranked_by;
+    for (int k = 0; k < 256; ++k) ranked_by.push_back(high ? k : -k);
+    ranked_by[10] = high ? 1000.0 : -1000.0;
+    const ChosenSamples chosen = choose_samples(ranked_by, 256, 24, {high ? 0.95 : 0.05});
+    ASSERT_EQ(chosen.sample.size(), 24u);
+    // 3 * 5 % of 256 are 38: number 10 and the last 37.
+    EXPECT_EQ(chosen.sample[0], 0u);
+    EXPECT_EQ(chosen.sample[1], 10u);
+    EXPECT_EQ(chosen.sample[2], 1u);
+    EXPECT_EQ(chosen.sample[3], 219u);
+    for (std::size_t k = 1; k < chosen.sample.size(); ++k) EXPECT_EQ(chosen.score[k] > chosen.score[0], high) << k;
+  }
+}
+
 }  // namespace
 }  // namespace boresight

@@ -51,5 +51,17 @@ TEST(SweepLine, AwayFromTheBoreIsTheTimeOutsideRadialContacts) {
   EXPECT_NEAR(*off_the_bore_share(result), 0.3, 1e-12);
 }
 
+TEST(SweepLine, AngularDisturbanceIsHeldAgainstTheLargestOfTheIdealMotion) {
+  RunResult result;
+  EXPECT_FALSE(angular_acceleration_disturbance(result));  // no histories
+  result.boresight.samples.resize(3);
+  result.boresight.samples[0].alpha = Vec3(0.0, 0.03, 0.04);
+  EXPECT_FALSE(angular_acceleration_disturbance(result));  // ideally it does not turn
+  result.boresight.samples[1].alpha = result.boresight.samples[1].ideal_alpha = Vec3(0.2, 0.0, 0.0);
+  result.boresight.samples[2].ideal_alpha = Vec3(0.0, 0.1, 0.0);
+  result.boresight.samples[2].alpha = Vec3(0.0, 0.0, 0.0);
+  EXPECT_NEAR(*angular_acceleration_disturbance(result), 0.1 / 0.2, 1e-12);
+}
+
 }  // namespace
 }  // namespace boresight

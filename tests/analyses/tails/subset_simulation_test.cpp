@@ -80,5 +80,47 @@ TEST(SubsetSimulation, GivesTheSameBitsForTheSameSeed) {
   EXPECT_EQ(a.beyond, b.beyond);
 }
 
+// The chains of the second level, put together again from the points that were asked for: every one of them moves, and the
+// scatter stated is Au and Beck's, Eqs. 25-28, of these chains.
+TEST(SubsetSimulation, MovesEveryChainAndStatesTheScatterOfThem) {
+  SubsetOptions options;
+  options.samples = 100;
+  std::vector<Points> asked;
+  const double limit = 2.0;
+  const SubsetResult s = subset_simulation(
+      [&](const Points& points) {
+        asked.push_back(points);
+        return pointwise(problems::linear)(points);
+      },
+      2, limit, options);
+  ASSERT_EQ(s.levels.size(), 2u);
+  Points at = asked[0];
+  std::stable_sort(at.begin(), at.end(), [](const Point& a, const Point& b) { return problems::linear(a) > problems::linear(b); });
+  constexpr std::size_t kChains = 10, kLength = 10;
+  at.resize(kChains);
+  std::vector<std::vector<double>> beyond(kChains);
+  double P = 0.0;
+  for (std::size_t step = 0; step < kLength; ++step) {
+    if (step > 0) {
+      ASSERT_EQ(asked[step].size(), kChains);
+      for (std::size_t c = 0; c < kChains; ++c) {
+        EXPECT_NE(asked[step][c], at[c]) << "chain " << c << " stands still";
+        if (problems::linear(asked[step][c]) > s.levels[0].threshold) at[c] = asked[step][c];
+      }
+    }
+    for (std::size_t c = 0; c < kChains; ++c) beyond[c].push_back(problems::linear(at[c]) > limit ? 1.0 : 0.0);
+    for (std::size_t c = 0; c < kChains; ++c) P += beyond[c].back() / double(kChains * kLength);
+  }
+  EXPECT_NEAR(s.levels[1].probability, P, 1e-12);
+  double gamma = 0.0;
+  for (std::size_t lag = 1; lag < kLength; ++lag) {
+    double product = 0.0;
+    for (const std::vector<double>& chain : beyond)
+      for (std::size_t k = lag; k < kLength; ++k) product += chain[k - lag] * chain[k] / double(kChains * (kLength - lag));
+    gamma += 2.0 * (1.0 - double(lag) / kLength) * (product - P * P) / (P * (1.0 - P));
+  }
+  EXPECT_NEAR(s.levels[1].coefficient_of_variation, std::sqrt((1.0 - P) / (P * kChains * kLength) * (1.0 + gamma)), 1e-12);
+}
+
 }  // namespace
 }  // namespace boresight

@@ -223,5 +223,15 @@ TEST(TwoLevelPilot, ThatSawNoExcessForecastsNothing) {
   EXPECT_TRUE(std::isnan(plan.standard_error));
 }
 
+// Half of what the cheap model sees beyond the limit is there: of it, which costs next to nothing, half is taken off.
+TEST(TwoLevelPilot, LeansOnTheCheapModelByHowMuchOfItsTailIsThere) {
+  const BatchModel half = pointwise([](const Point& u) { return u[1] > 0.0 ? u[0] : u[0] - 10.0; });
+  const TwoLevelPlan plan = two_level_pilot(kExact, half, 2, 3.0, 2000, {1e-4, 1.0}, 300.0, {});
+  EXPECT_GT(plan.control, 0.3);
+  EXPECT_LT(plan.control, 0.7);
+  EXPECT_LT(plan.standard_error, plan.exact_standard_error);
+  EXPECT_GT(plan.cheap_points, 0);
+}
+
 }  // namespace
 }  // namespace boresight

@@ -179,5 +179,16 @@ TEST(Predictability, IsTheTimeUpToWhichTwinsStayTogether) {
   EXPECT_LT(found.rms_difference, 1e-6);
 }
 
+TEST(Perturbation, TakesTheStepThatItIsGiven) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "0.05 s"}}));
+  const auto rung = make_rung("perturbation", mechanism);
+  RunOptions options;
+  options.integrator = "rk4";
+  for (const double step : {1e-4, 4e-5}) {
+    options.step = step;
+    EXPECT_EQ(rung->run(mechanism->parameters(), options).cost.steps, std::lround(0.05 / step)) << step;
+  }
+}
+
 }  // namespace
 }  // namespace boresight

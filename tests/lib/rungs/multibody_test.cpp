@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/formulation.hpp"
+#include "boresight/rungs/ideal_simulation.hpp"
 #include "reference/reference.hpp"
 #include "scenes.hpp"
 
@@ -142,6 +144,36 @@ TEST(Multibody, AsTheClearanceVanishesOnlyTheHertzDeflectionIsLeft) {
   }
   // At 1 um the stiffness is 5.4e11 N/m^1.5: some 300 N deflect it by about 1 um, and the error has a lever of order two.
   EXPECT_LT(last, 1e-5);
+}
+
+// A body's quaternion and its negative are the same pose: what closes the joints keeps the one that the state has, of length one.
+TEST(PaperFormulation, KeepsUnitQuaternionsAndTheirSigns) {
+  const auto mechanism = scenes::build(scenes::rrcpr());
+  const IdealMotion ideal = ideal_motion(*mechanism, mechanism->parameters());
+  const auto formulation = make_paper_formulation(*mechanism, mechanism->parameters(), &ideal, {.stabilisation = Stabilisation::projection});
+  IdealState state;
+  ideal.state(0.3, state);
+  constexpr int kPerBody = 13;
+  for (const double sign : {1.0, -1.0}) {
+    VecX y;
+    formulation->start(state, y);
+    std::vector<Eigen::Vector4d> before;
+    for (int b = 0; b < mechanism->bodies(); ++b) {
+      auto q = y.segment<4>(kPerBody * b + 3);
+      q *= sign;
+      before.push_back(q);
+      y[kPerBody * b] += 1e-6 * (b + 1);  // open the joints, so that there is something to close
+    }
+    formulation->settle(0.3, y);
+    VecX dy(y.size());
+    formulation->derivative(0.3, y, std::vector<ContactMemory>(1), dy);
+    EXPECT_LT(formulation->violation(), 1e-12);
+    for (int b = 0; b < mechanism->bodies(); ++b) {
+      const Eigen::Vector4d q = y.segment<4>(kPerBody * b + 3);
+      EXPECT_NEAR(q.norm(), 1.0, 1e-12) << b;
+      EXPECT_GT(q.dot(before[static_cast<std::size_t>(b)]), 1.0 - 1e-6) << b;
+    }
+  }
 }
 
 }  // namespace
