@@ -3,6 +3,7 @@
     python3 tests/mutation/mutate.py --count 200 --seed 1            # draws, and goes on where an earlier start of it stopped
     python3 tests/mutation/mutate.py --count 200 --seed 1 --list     # what would be tried
     python3 tests/mutation/mutate.py --only lib/contact/flores.hpp   # of these files alone
+    python3 tests/mutation/mutate.py --like FILE                     # those of an earlier draw's results, found again by their lines
     python3 tests/mutation/mutate.py --report                        # share killed and the survivors, of what has been tried
 
 README.md says how it goes about it.
@@ -23,14 +24,18 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 ROOMS = ("lib/contact", "lib/rungs", "analyses")
 
+# Without NDEBUG and with the library's assertions: a loop that reads beyond an end is then noticed, whatever lies there.
+FLAGS = "-O1 -D_GLIBCXX_ASSERTIONS"
+
 # Operators as the formatter leaves them, with a blank on either side, so that neither pointers nor templates are met.
 SWAPS = {"+": "-", "-": "+", "*": "/", "/": "*", "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==", "&&": "||",
          "||": "&&", "+=": "-=", "-=": "+=", "*=": "/="}
 OPERATOR = re.compile(r"(?<=[\w)\]]) (\+=|-=|\*=|<=|>=|==|!=|&&|\|\||[-+*/<>]) (?=[\w(\-!*&])")
 SIGN = re.compile(r"(?:(?<=[(,{] )|(?<=[({])|(?<== )|(?<=return )|(?<=\? )|(?<=: ))-(?=[A-Za-z(])")
 NUMBER = re.compile(r"(?<![\w.\"'])(\d+\.\d*(?:e[-+]?\d+)?|\.\d+|\d+e[-+]?\d+|\d+)(?![\w.])")
-# Lines whose mutation changes no answer (words for people, room set aside, what the compiler checks) or is no part of what runs.
-SKIPPED = re.compile(r"^\s*#|static_assert|\breserve\(|fmt::|\.push_back\(\"|throw |std::string\b.*=|EXPECT|assert\(|^\s*(using|template|enum|case)\b"
+# Lines whose mutation changes no answer (words for people and the room for them, room set aside, what the compiler checks) or is no part
+# of what runs.
+SKIPPED = re.compile(r"^\s*#|static_assert|\bchar \w+\[\d+\]|\breserve\(|fmt::|\.push_back\(\"|throw |std::string\b.*=|EXPECT|assert\(|^\s*(using|template|enum|case)\b"
                      r"|progress|_why|\bwhy\b|warnings|message|precision\(|operator")
 
 
@@ -82,8 +87,27 @@ def places(path):
     return found
 
 
+def found_again(records):
+    """The mutations of an earlier draw where their lines stand now; those whose lines are gone are named and left out."""
+    found = []
+    for r in records:
+        path = ROOT / r["file"]
+        lines = path.read_text().split("\n") if path.is_file() else []
+        same = [n for n, line in enumerate(lines, 1) if line.strip() == r["text"]]
+        if not same or SKIPPED.search(r["text"]):
+            print(f"{r['file']}:{r['line']}: {'no such line any more' if not same else 'left alone now'}: {r['text']}", file=sys.stderr)
+            continue
+        here = min(same, key=lambda n: abs(n - r["line"]))
+        columns = [c for n, c, before, _ in places(r["file"]) if n == here and before == r["before"]]
+        found.append((r["file"], here, min(columns, key=lambda c: abs(c - r["column"])), r["before"], r["after"]))
+    return found
+
+
 def drawn(options):
     """The mutations in the order in which they are tried: file, line, column, before, after."""
+    if options.like:
+        found = found_again([json.loads(line) for line in options.like.read_text().splitlines()])
+        return found, len(found)
     files = [str(p.relative_to(ROOT)) for room in ROOMS for p in sorted((ROOT / room).rglob("*.[ch]pp"))]
     if options.only:
         unknown = [f for f in options.only if f not in files]
@@ -264,6 +288,16 @@ def tried(scratch, mutation, known, options):
     return verdict
 
 
+def unfinished(record):
+    """What a survivor was spared, in words."""
+    left = record.get("not_run")
+    if record.get("by"):
+        return f"   ({record['by']})"
+    if isinstance(left, list):
+        return f"   (for want of time not run: {', '.join(left)})" if left else ""
+    return f"   ({record['ran']} tests ran, {left} did not for want of time)"
+
+
 def report(records):
     counts = {}
     for r in records:
@@ -274,27 +308,36 @@ def report(records):
         print(f"{noticed} of {noticed + passed} that compile and change a program were noticed: {100.0 * noticed / (noticed + passed):.1f} %")
     for r in records:
         if r["verdict"] == "survived":
-            rest = f"   (for want of time not run: {', '.join(r['not_run'])})" if r.get("not_run") else ""
-            print(f"survived  {r['file']}:{r['line']}: {r['before']!r} -> {r['after']!r}   {r['text']}{rest}")
+            print(f"survived  {r['file']}:{r['line']}: {r['before']!r} -> {r['after']!r}   {r['text']}{unfinished(r)}")
+
+
+def arguments_of_both(parser):
+    """What mutate.py and together.py are both asked for."""
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", action="append", default=[], metavar="FILE", help="mutate this file alone; may be given again")
+    parser.add_argument("--like", type=pathlib.Path, metavar="FILE", help="in place of a draw those of these results, found again by their lines")
+    parser.add_argument("--report", action="store_true", help="of what has been tried")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="side by side")
+
+
+def records_in(file):
+    return [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=200, help="how many are drawn")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", action="append", default=[], metavar="FILE", help="mutate this file alone; may be given again")
+    arguments_of_both(parser)
     parser.add_argument("--list", action="store_true", help="say what would be tried, and try nothing")
-    parser.add_argument("--report", action="store_true", help="of what has been tried")
     parser.add_argument("--results", type=pathlib.Path, default=ROOT / "build" / "mutation.jsonl", help="a line for each that was tried")
     parser.add_argument("--scratch", type=pathlib.Path, default=ROOT / "build" / "mutation", help="the copy that is built and tested")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="of the build")
     parser.add_argument("--most-seconds", type=float, default=1200.0, help="for one mutation; programs that are left then are named as not run")
     parser.add_argument("--programs", default="", help="test programs that are enough, separated by commas; otherwise all of the fast suite")
     parser.add_argument("--cmake", action="append", default=[], metavar="ARGUMENT",
                         help="how the copy is configured; otherwise -O1 without debug symbols, the lanes' kernel of this machine alone")
     options = parser.parse_args()
 
-    records = [json.loads(line) for line in options.results.read_text().splitlines()] if options.results.exists() else []
+    records = records_in(options.results)
     if options.report:
         report(records)
         return
@@ -304,7 +347,7 @@ def main():
         for f, line, _, before, after in mutations:
             print(f"{f}:{line}: {before!r} -> {after!r}   {(ROOT / f).read_text().split(chr(10))[line - 1].strip()}")
         return
-    arguments = options.cmake or ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", "-DBORESIGHT_LANES=native"]
+    arguments = options.cmake or ["-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_CXX_FLAGS_RELEASE={FLAGS}", "-DBORESIGHT_LANES=native"]
     scratch = Scratch(options.scratch, options.jobs, arguments)
     scratch.prepare()
     wanted = [p for p in (options.programs.split(",") if options.programs else (*LIBRARY, *ANALYSES, *PROGRAMS)) if p]

@@ -1,12 +1,14 @@
 """As mutate.py, with all mutations in one build, each behind a switch: seconds a mutation instead of minutes.
 
     python3 tests/mutation/together.py --count 200 --seed 1          # draws, builds, tries; goes on where an earlier start stopped
+    python3 tests/mutation/together.py --like FILE                   # those of an earlier draw's results, found again by their lines
     python3 tests/mutation/together.py --report                      # share noticed, and the survivors
 
 README.md says how it goes about it.
 """
 
 import argparse
+import concurrent.futures
 import json
 import os
 import pathlib
@@ -16,7 +18,7 @@ import sys
 import time
 
 import mutate
-from mutate import ANALYSES, LIBRARY, PROGRAMS, ROOT, Scratch
+from mutate import ANALYSES, FLAGS, LIBRARY, PROGRAMS, ROOT, Scratch
 from switches import LIVE, NONE, VARIABLE, switched
 
 HEADER = pathlib.Path(__file__).resolve().parent / "mutants.hpp"
@@ -114,19 +116,23 @@ def one_test(binary, test, seconds, environment, folder):
 def looked_at(scratch, wanted, file):
     """Every test once without a mutation: how long it takes, and which mutations it meets. Tests that fail as it is are left out."""
     known = json.loads(file.read_text()) if file.exists() else {}
+
+    def look(program, test):
+        marks = scratch.folder / f"met-{program}-{test.replace('/', '-')}"
+        marks.unlink(missing_ok=True)
+        failed, seconds = one_test(scratch.binary(program), test, 600, {"BORESIGHT_MUTANTS_MET": str(marks)}, scratch.folder)
+        met = marks.read_bytes() if marks.exists() else b""
+        marks.unlink(missing_ok=True)
+        if failed is not None:
+            print(f"{program}: {test} fails without a mutation ({failed}) and is left out", file=sys.stderr, flush=True)
+        return {"seconds": round(seconds, 3), "passes": failed is None, "met": [k for k, mark in enumerate(met) if mark == 1],
+                "not_valid": [k for k, mark in enumerate(met) if mark == 2]}
+
     for program in wanted:
         of = known.setdefault(program, {})
-        for test in tests_in(scratch.binary(program)):
-            if test in of:
-                continue
-            marks = scratch.folder / "met"
-            marks.unlink(missing_ok=True)
-            failed, seconds = one_test(scratch.binary(program), test, 600, {"BORESIGHT_MUTANTS_MET": str(marks)}, scratch.folder)
-            met = marks.read_bytes() if marks.exists() else b""
-            of[test] = {"seconds": round(seconds, 3), "passes": failed is None, "met": [k for k, mark in enumerate(met) if mark == 1],
-                        "not_valid": [k for k, mark in enumerate(met) if mark == 2]}
-            if failed is not None:
-                print(f"{program}: {test} fails without a mutation ({failed}) and is left out", file=sys.stderr, flush=True)
+        tests = [t for t in tests_in(scratch.binary(program)) if t not in of]
+        with concurrent.futures.ThreadPoolExecutor(scratch.jobs) as threads:
+            of.update(zip(tests, threads.map(lambda t: look(program, t), tests)))
         file.write_text(json.dumps(known))
         print(f"{program}: {len(of)} tests, {sum(t['seconds'] for t in of.values()):.0f} s", file=sys.stderr, flush=True)
     return known
@@ -150,42 +156,27 @@ def tried(scratch, id, file, known, most_seconds):
     return {"verdict": "survived", "by": None, "ran": len(meet), "not_run": 0, "seconds": round(time.monotonic() - start, 1)}
 
 
-def report(records):
-    counts = {}
-    for r in records:
-        counts[r["verdict"]] = counts.get(r["verdict"], 0) + 1
-    noticed, passed = counts.get("killed", 0) + counts.get("timed out", 0), counts.get("survived", 0)
-    print(", ".join(f"{counts[v]} {v}" for v in sorted(counts)) or "nothing tried yet")
-    if noticed + passed:
-        print(f"{noticed} of {noticed + passed} were noticed: {100.0 * noticed / (noticed + passed):.1f} %")
-    for r in records:
-        if r["verdict"] == "survived":
-            rest = f"   ({r['by']})" if r["by"] else f"   ({r['ran']} tests ran, {r['not_run']} did not for want of time)"
-            print(f"survived  {r['file']}:{r['line']}: {r['before']!r} -> {r['after']!r}   {r['text']}{rest}")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=200, help="how many are tried; more are drawn, as some cannot be switched")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", action="append", default=[], metavar="FILE", help="mutate this file alone; may be given again")
+    mutate.arguments_of_both(parser)
     parser.add_argument("--build-only", action="store_true", help="build, run every test once, and try nothing")
     parser.add_argument("--again", action="store_true", help="try those that survived once more: after tests were added")
-    parser.add_argument("--report", action="store_true", help="of what has been tried")
     parser.add_argument("--results", type=pathlib.Path, default=ROOT / "build" / "mutants.jsonl", help="a line for each that was tried")
     parser.add_argument("--scratch", type=pathlib.Path, default=ROOT / "build" / "mutants", help="the copy that is built and tested")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="of the build")
     parser.add_argument("--most-seconds", type=float, default=300.0, help="of tests for one mutation; how many were left is said")
     parser.add_argument("--programs", default="", help="build and run these alone, separated by commas, and try what is in their rooms; otherwise all of the fast suite")
     options = parser.parse_args()
 
-    records = [json.loads(line) for line in options.results.read_text().splitlines()] if options.results.exists() else []
+    records = mutate.records_in(options.results)
     if options.report:
-        report(records)
+        mutate.report(records)
         return
     drawn = argparse.Namespace(**{**vars(options), "count": int(DRAWN_BESIDE * options.count)})
+    if options.like:
+        options.count = len(options.like.read_text().splitlines())
     mutations, of_all = mutate.drawn(drawn)
-    scratch = Scratch(options.scratch, options.jobs, ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", "-DBORESIGHT_LANES=scalar",
+    scratch = Scratch(options.scratch, options.jobs, ["-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_CXX_FLAGS_RELEASE={FLAGS}", "-DBORESIGHT_LANES=scalar",
                       "-DBORESIGHT_MPI=OFF", "-DBORESIGHT_BENCHMARKS=OFF", "-DBORESIGHT_WARNINGS_AS_ERRORS=OFF", "-DCMAKE_CXX_FLAGS=-w"])
     scratch.prepare(leave={m[0] for m in mutations})
     wanted = [p for p in (options.programs.split(",") if options.programs else (*LIBRARY, *ANALYSES, *PROGRAMS)) if p]
@@ -197,29 +188,36 @@ def main():
 
     not_valid = {id for tests in known.values() for t in tests.values() for id in t["not_valid"]}
     met = {id for tests in known.values() for t in tests.values() for id in t["met"]}
-    last = {json.dumps([r[k] for k in ("file", "line", "column", "after", "text")]): r for r in records}
-    tried_so_far = 0
+    name = lambda r: json.dumps([r[k] for k in ("file", "line", "column", "after", "text")])
+    last, to_try, counted = {name(r): r for r in records}, [], 0
     for id, mutation in enumerate(mutations, 1):
-        if tried_so_far == options.count:
+        if counted == options.count:
             break
         what = mutate.key(mutation)
-        before = last.get(json.dumps([what[k] for k in ("file", "line", "column", "after", "text")]))
+        before = last.get(name(what))
         if before and not (options.again and before["verdict"] == "survived"):
-            tried_so_far += before["verdict"] != "not switched"
-            continue
-        if pathlib.PurePath(mutation[0]).parts[1] + "_tests" not in wanted:
+            counted += before["verdict"] != "not switched"
+        elif pathlib.PurePath(mutation[0]).parts[1] + "_tests" not in wanted:
             continue  # without its own room's tests nothing would be said of it
-        if id not in met and (id in not_valid or levels.get(id, VARIABLE) > VARIABLE):
-            verdict = {"verdict": "not switched", "by": None, "ran": 0, "not_run": 0, "seconds": 0.0}
+        elif id not in met and (id in not_valid or levels.get(id, VARIABLE) > VARIABLE):
+            last[name(what)] = {**what, "verdict": "not switched", "by": None, "ran": 0, "not_run": 0, "seconds": 0.0}
         else:
-            verdict = tried(scratch, id, mutation[0], known, options.most_seconds)
-            tried_so_far += 1
-        last[json.dumps([what[k] for k in ("file", "line", "column", "after", "text")])] = {**what, **verdict}
-        options.results.write_text("".join(json.dumps(r) + "\n" for r in last.values()))
-        print(f"{tried_so_far} of {options.count}: {what['file']}:{what['line']}: {what['before']!r} -> {what['after']!r}: {verdict['verdict']}"
-              f"{' by ' + str(verdict['by']) if verdict['by'] else ''}, {verdict['seconds']:.0f} s", file=sys.stderr, flush=True)
-    print(f"{tried_so_far} of {of_all} mutations")
-    report(list(last.values()))
+            to_try.append((id, what))
+            counted += 1
+
+    threads = concurrent.futures.ThreadPoolExecutor(options.jobs)
+    try:
+        trials = {threads.submit(tried, scratch, id, what["file"], known, options.most_seconds): what for id, what in to_try}
+        for number, trial in enumerate(concurrent.futures.as_completed(trials), 1):
+            what, verdict = trials[trial], trial.result()
+            last[name(what)] = {**what, **verdict}
+            options.results.write_text("".join(json.dumps(r) + "\n" for r in last.values()))
+            print(f"{number} of {len(to_try)}: {what['file']}:{what['line']}: {what['before']!r} -> {what['after']!r}: {verdict['verdict']}"
+                  f"{' by ' + str(verdict['by']) if verdict['by'] else ''}, {verdict['seconds']:.0f} s", file=sys.stderr, flush=True)
+    finally:
+        threads.shutdown(cancel_futures=True)
+    print(f"{counted} of {of_all} mutations")
+    mutate.report(list(last.values()))
 
 
 if __name__ == "__main__":
