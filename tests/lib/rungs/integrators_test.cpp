@@ -10,6 +10,7 @@
 #include "boresight/rungs/predictability.hpp"
 #include "boresight/rungs/scene_rung.hpp"
 #include "scenes.hpp"
+#include "tree_formulation_scenes.hpp"
 
 namespace boresight {
 namespace {
@@ -187,6 +188,42 @@ TEST(Perturbation, TakesTheStepThatItIsGiven) {
   for (const double step : {1e-4, 4e-5}) {
     options.step = step;
     EXPECT_EQ(rung->run(mechanism->parameters(), options).cost.steps, std::lround(0.05 / step)) << step;
+  }
+}
+
+// A wheel balanced about the middle of its bearing, but for its principal axes, which stand ten microradians off: in flight within the
+// play nothing but its tilt moves, which error control has to hold to the tolerance by itself, at the sleeve's ends.
+TEST(Perturbation, HoldsTiltsToTheToleranceWhereNothingElseMoves) {
+  MechanismDescription m;
+  m.gravity = Vec3::Zero();
+  const int wheel = scenes::add_body(m, "wheel", 2.0, Vec3::Zero(), Vec3(1e-5, 0.0, 0.0));
+  m.bodies[wheel].inertia = Vec3(0.004, 0.004, 0.007).asDiagonal();
+  m.bodies[wheel].boresight = Vec3::UnitZ();
+  const auto spin = std::make_shared<scenes::FunctionOfTime>([](double t) { return TimeValue{600.0 * t, 600.0, 0.0}; });
+  scenes::add_clearance(m, scenes::add_joint(m, JointType::revolute, kGround, wheel, Vec3::Zero(), Vec3::UnitZ(), spin), true, JournalAxes::free);
+  m.motion.duration = 0.1;
+  m.journals = JournalStart::centred;
+  const auto mechanism = scenes::build(std::move(m));
+  const auto rung = make_rung("perturbation", mechanism);
+  const double length = mechanism->parameters().clearance[0].radial, half = 0.5 * mechanism->parameters().clearance[0].sleeve_length;
+  RunOptions options;
+  options.integrator = "dopri5";
+  const auto tilted = [&](double tolerance) {
+    options.tolerance = tolerance;
+    const RunResult result = rung->run(mechanism->parameters(), options);
+    EXPECT_EQ(result.contact[0].impacts, 0);
+    return std::pair{result.cost.steps, result.index.boresight_error.max};
+  };
+  const auto exact = tilted(1e-12);
+  EXPECT_GT(exact.second, 1e-4);
+  for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
+    const auto [steps, tilt] = tilted(tolerance);
+    // Nothing but the tilt asks for finer steps.
+    if (tolerance > 1e-5) {
+      EXPECT_GT(exact.first, 2 * steps);
+    }
+    // Of every step, and they add up.
+    EXPECT_LT(std::abs(tilt - exact.second) * half, tolerance * length * static_cast<double>(steps)) << tolerance;
   }
 }
 
