@@ -1,0 +1,50 @@
+// What a matching's table may say.
+#include "boresight_analyses/matching/matching_plan.hpp"
+
+#include <gmock/gmock.h>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+MechanismDescription mechanism() { return read_mechanism(BORESIGHT_EXAMPLES "/crank-slider/crank-slider.toml"); }
+
+MatchingPlan read(const std::string& table, const std::string& starts = "0.1 mm") {
+  Document document = Document::from_text("[match]\nminimise = \"free_flight_share\"\n" + table +
+                                              "\n[[match.variable]]\nparameter = \"clearance.A.axial\"\nfrom = \"0.05 mm\"\nto = \"0.5 mm\"\n"
+                                              "starts = [\"" +
+                                              starts + "\"]\n",
+                                          "study.toml");
+  Cursor root(document);
+  return read_matching_plan(root, Study{}, mechanism(), [](const Setting&) {});
+}
+
+std::string fault(const std::string& table, const std::string& starts = "0.1 mm") {
+  try {
+    read(table, starts);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no fault";
+}
+
+TEST(MatchingPlan, TakesNumbersUpToTheEndsThatItNames) {
+  EXPECT_EQ(read("front = 0").front, 0);
+  EXPECT_EQ(read("front = 100").front, 100);
+  EXPECT_EQ(read("map = 200").map, 200);
+  EXPECT_THAT(fault("front = 101"), testing::HasSubstr("0 to 100"));
+  EXPECT_THAT(fault("front = -1"), testing::HasSubstr("0 to 100"));
+  EXPECT_THAT(fault("map = 1"), testing::HasSubstr("0, or 2 to 200"));
+}
+
+TEST(MatchingPlan, VariablesStartAnywhereBetweenTheirEndsTheseIncluded) {
+  EXPECT_NEAR(read("", "0.05 mm").variables[0].starts[0], 0.05e-3, 1e-18);
+  EXPECT_NEAR(read("", "0.5 mm").variables[0].starts[0], 0.5e-3, 1e-18);
+  EXPECT_THAT(fault("", "0.049 mm"), testing::HasSubstr("values between from and to"));
+  EXPECT_THAT(fault("", "0.51 mm"), testing::HasSubstr("values between from and to"));
+}
+
+}  // namespace
+}  // namespace boresight
