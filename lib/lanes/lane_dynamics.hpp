@@ -189,11 +189,15 @@ class LaneDynamics {
         }
       } else {
         for (int i = 0; i < n; ++i) by_v[i] += d_rate * row[joint.slide_gain + i];
+        if (joint.gains_move)
+          for (int i = 0; i < n; ++i) by_z[i] += d_rate * row[joint.slide_drift + i];
       }
     });
     each_index<spins>(spins, [&](auto s) {
       const T& d = part.v[2 * offsets + s];
       each_index<N>(n, [&](auto i) { by_v[i] = fused(d, row[joint.spin_gain + s * n + i], by_v[i]); });
+      if (joint.gains_move)
+        for (int i = 0; i < n; ++i) by_z[i] += d * row[joint.spin_drift + s * n + i];
     });
   }
 
@@ -216,12 +220,16 @@ class LaneDynamics {
         by_offset = change[joint.slide];
         by_rate = change[joint.slide + 1];
         for (int i = 0; i < n; ++i) by_rate += change[joint.slide_gain + i] * v[i];
+        if (joint.gains_move)
+          for (int i = 0; i < n; ++i) by_rate += change[joint.slide_drift + i] * z[i];
       }
       rate += part.v[k] * by_offset + part.v[offsets + k] * by_rate;
     });
     each_index<spins>(spins, [&](auto s) {
       T spin = change[joint.spin + s];
       each_index<N>(n, [&](auto i) { spin = fused(change[joint.spin_gain + s * n + i], v[i], spin); });
+      if (joint.gains_move)
+        for (int i = 0; i < n; ++i) spin += change[joint.spin_drift + s * n + i] * z[i];
       rate += part.v[2 * offsets + s] * spin;
     });
     return rate;

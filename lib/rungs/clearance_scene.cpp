@@ -163,7 +163,7 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows, cons
   const TimeTable table(2.0 * spacing_, width, coarse);
   std::vector<int> ends = {layout_.Ar, layout_.AC, layout_.AK, layout_.joints_at};
   for (const SceneLayout::Joint& j : layout_.joints)
-    for (int end : {j.spin_gain, j.slide, j.slide_gain, j.dependent}) ends.push_back(end);
+    for (int end : {j.spin_gain, j.spin_drift, j.slide, j.slide_gain, j.slide_drift, j.dependent}) ends.push_back(end);
   ends.push_back(width);
   std::vector<double> miss(ends.size(), 0.0), size(ends.size(), 0.0);
   for (std::size_t k = 0; k < knots_.size(); ++k) {
@@ -180,6 +180,8 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows, cons
   const double rate = slowest_rate(rows, parameters);
   size[2] = std::max(size[2], 1e-3 / mechanism_.duration());  // a thousandth of a speed is lost over the whole motion
   size[3] = std::max(size[3], rate * rate);
+  for (std::size_t c = 0; c < layout_.joints.size(); ++c)  // a drift against its gain: what the coordinates do within the motion
+    for (const std::size_t gain : {5 + 6 * c, 8 + 6 * c}) size[gain + 1] = std::max(size[gain + 1], size[gain] / mechanism_.duration());
   double worst = 0.0;
   for (std::size_t g = 0; g < ends.size(); ++g)
     if (size[g] > 1e-9) worst = std::max(worst, miss[g] / size[g]);
@@ -193,7 +195,7 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
   MatX B_rate;
   coordinates_.rates(knot.T, knot.T_rate, knot.T_second, B_rate);
   ideal.state(t, knot.state);
-  add_joints(knot.T, B_rate, knot);
+  add_joints(B_rate, knot);
   if (layout_.n == 0) return knot;  // no play can move
   knot.elements.assign(groups_.size() * element_size(), 0.0);
   for (std::size_t g = 0; g < groups_.size(); ++g)
@@ -210,8 +212,8 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
   return knot;
 }
 
-// Relative spins and slides of the journals, ideal and per coordinate rate.
-void ClearanceScene::add_joints(const MatX& T, const MatX& B_rate, Knot& knot) const {
+// Relative spins and slides of the journals, ideal and per coordinate rate; where gains move, what the coordinates themselves add.
+void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
   const MechanismDescription& m = mechanism_.description();
   const int n = layout_.n;
   for (int c = 0; c < mechanism_.clearances(); ++c) {
@@ -223,11 +225,12 @@ void ClearanceScene::add_joints(const MatX& T, const MatX& B_rate, Knot& knot) c
     const auto motion = [&](int body) -> const BodyMotion& {
       return body == kGround ? kGroundMotion : knot.state.bodies[body];
     };
-    const auto gain = [&](int body) -> MatX {
-      return body == kGround ? MatX(MatX::Zero(6, n)) : MatX(T.middleRows<6>(6 * body));
+    const auto gain = [&](const MatX& of, int body) -> MatX {
+      return body == kGround ? MatX(MatX::Zero(6, n)) : MatX(of.middleRows<6>(6 * body));
     };
     const BodyMotion &S = motion(sleeve.body), &J = motion(journal.body);
-    const MatX TS = gain(sleeve.body), TJ = gain(journal.body);
+    const MatX TS = gain(knot.T, sleeve.body), TJ = gain(knot.T, journal.body);
+    const MatX TdS = gain(knot.T_rate, sleeve.body), TdJ = gain(knot.T_rate, journal.body);
     const Mat3 R_WS = S.R * sleeve.R;
     const Vec3 spin = R_WS.transpose() * (J.w - S.w);
     const MatX spin_gain = R_WS.transpose() * (TJ.bottomRows<3>() - TS.bottomRows<3>());
@@ -238,12 +241,30 @@ void ClearanceScene::add_joints(const MatX& T, const MatX& B_rate, Knot& knot) c
       knot.joints.push_back(spin.y());
       append(knot.joints, spin_gain.row(1));
     }
+    if (at.gains_move) {
+      // w of a body turned by theta = T_w z is w_ideal + thetadot + theta x w_ideal, and the sleeve's axes turn with it.
+      const MatX drift =
+          R_WS.transpose() * (TdJ.bottomRows<3>() - TdS.bottomRows<3>() - cross_matrix(J.w) * (TJ.bottomRows<3>() - TS.bottomRows<3>()));
+      if (at.tilts)
+        append(knot.joints, drift);
+      else
+        append(knot.joints, drift.row(1));
+    }
     if (at.slides) {
+      using Gain = Eigen::Matrix<double, 3, Eigen::Dynamic>;
       const Vec3 rS = S.R * sleeve.p, rJ = J.R * journal.p, distance = J.p + rJ - S.p - rS, y = R_WS.col(1);
+      const Gain across = TJ.topRows<3>() - cross_matrix(rJ) * TJ.bottomRows<3>() - TS.topRows<3>() +
+                          cross_matrix(rS + distance) * TS.bottomRows<3>();
       knot.joints.push_back(y.dot(distance));
       knot.joints.push_back(y.dot(J.v + J.w.cross(rJ) - S.v - S.w.cross(rS + distance)));
-      append(knot.joints, Eigen::RowVectorXd(y.transpose() * (TJ.topRows<3>() - cross_matrix(rJ) * TJ.bottomRows<3>() -
-                                                              TS.topRows<3>() + cross_matrix(rS + distance) * TS.bottomRows<3>())));
+      append(knot.joints, Eigen::RowVectorXd(y.transpose() * across));
+      if (at.gains_move) {
+        const Vec3 rJ_rate = J.w.cross(rJ), on_sleeve_rate = J.v + rJ_rate - S.v;  // of rS + distance
+        const Gain across_rate = TdJ.topRows<3>() - cross_matrix(rJ_rate) * TJ.bottomRows<3>() - cross_matrix(rJ) * TdJ.bottomRows<3>() -
+                                 TdS.topRows<3>() + cross_matrix(on_sleeve_rate) * TS.bottomRows<3>() +
+                                 cross_matrix(rS + distance) * TdS.bottomRows<3>();
+        append(knot.joints, Eigen::RowVectorXd(S.w.cross(y).transpose() * across + y.transpose() * across_rate));
+      }
     }
     if (at.has_dependent) {
       append(knot.joints, knot.B.middleRows(offsets_.joint(c).first, at.offsets));

@@ -18,7 +18,7 @@
 // (gyroscopic - w x) T'] is then kept, which says that it is the bodies' motion T z that has no force of its own, and not z.
 // The generalised contact force of a joint is its whole wrench on the journal: the force along the offset, the moment
 // through what z does to the relative spin, w_rel = w_ideal + S zdot, and on a cylindrical joint the axial friction through
-// what it does to the slide, slide_ideal + Y zdot. No number of a contact changes any of this. Masses and gravity enter
+// what it does to the slide's rate, slide_ideal' + Y zdot; where T'' is kept so are S' z and Y' z. No number of a contact changes any of this. Masses and gravity enter
 // M_r, C and r affinely, so a payload, body-mass or gravity sweep needs no new scene (unless the ideal motion itself hangs on
 // them).
 // Derived for this program; held against the multibody rung in a test.
@@ -55,7 +55,7 @@ class ClearanceScene {
   // springs and loads only.
   ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
                  double accuracy = kAccuracy);
-  static constexpr double kAccuracy = 1e-5;
+  static constexpr double kAccuracy = 2e-6;
 
   // The scene as motions start alone.
   struct Start {
@@ -104,7 +104,7 @@ class ClearanceScene {
     MatX stiffness;                // A K, where by differences
   };
   Knot knot_at(double t, const IdealMotion& ideal, const Parameters& parameters);
-  void add_joints(const MatX& T, const MatX& B_rate, Knot& knot) const;
+  void add_joints(const MatX& B_rate, Knot& knot) const;
   void add_element(const Element& element, const Knot& knot, double* out) const;
   double units_of(std::size_t group, const Parameters& parameters) const;
   void assemble(const Parameters& parameters, const Knot& knot, MatX& M, MatX& C, VecX& r) const;

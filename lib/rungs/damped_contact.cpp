@@ -59,18 +59,28 @@ DampedContact most_damped_contact(const OffsetLayout& layout, const std::vector<
 
 DampingWatch::DampingWatch(const Mechanism& mechanism, double step, double limit) : mechanism_(mechanism), step_(step), limit_(limit) {}
 
-void DampingWatch::look(const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
+void DampingWatch::look(double t, const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
                         const std::vector<JournalMotion<double>>& motion, const std::vector<ContactTracker>& trackers,
                         const Eigen::Ref<const MatX>& compliance) {
-  const DampedContact now = most_damped_contact(layout, joints, motion, trackers, compliance);
+  // A journal that rests may part or press on by what rounding leaves: either way damping is what it is where nothing moves.
+  std::vector<JournalMotion<double>> at_rest;
+  if (t == 0.0) {
+    at_rest = motion;
+    for (JournalMotion<double>& m : at_rest) {
+      m.e_dot.setZero();
+      m.slope_rate.setZero();
+    }
+  }
+  const DampedContact now = most_damped_contact(layout, joints, t == 0.0 ? at_rest : motion, trackers, compliance);
   if (now.clearance < 0) return;
   ++looks_;
   if (!(now.rate * step_ > limit_)) return;
   ++beyond_;
+  from_the_start_ = from_the_start_ || t == 0.0;
   if (now.rate > fastest_.rate) fastest_ = now;
 }
 
-bool DampingWatch::beyond() const { return beyond_ > kAsARule * looks_; }
+bool DampingWatch::beyond() const { return from_the_start_ || beyond_ > kAsARule * looks_; }
 
 std::string DampingWatch::warning() const {
   if (!beyond()) return "";

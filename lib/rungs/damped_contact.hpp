@@ -32,9 +32,10 @@ class DampingWatch {
   // step [s]; limit: the method's, on the negative real axis.
   DampingWatch(const Mechanism& mechanism, double step, double limit);
 
-  void look(const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints, const std::vector<JournalMotion<double>>& motion,
+  void look(double t, const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints, const std::vector<JournalMotion<double>>& motion,
             const std::vector<ContactTracker>& trackers, const Eigen::Ref<const MatX>& compliance);
-  // Whether a contact was damped beyond the limit as a rule, not in single impacts.
+  // Whether a contact was damped beyond the limit as a rule, not in single impacts; or where the motion starts from rest: the first steps then
+  // throw the journal off, and what it strikes later on is damped less.
   bool beyond() const;
   // Then a sentence; else empty.
   std::string warning() const;
@@ -43,6 +44,7 @@ class DampingWatch {
   const Mechanism& mechanism_;
   double step_, limit_;
   int looks_ = 0, beyond_ = 0;
+  bool from_the_start_ = false;
   DampedContact fastest_;
 };
 

@@ -64,7 +64,7 @@ class Multibody final : public Rung {
     } else {
       const double own = options.step > 0.0 ? options.step : own_step(*mechanism_, parameters, ideal);
       result = follow_by_default(
-          options, own, [&](double step) { return integrate(parameters, options, ideal, step); },
+          options, own, [&](const RunOptions& by_steps, double step) { return integrate(parameters, by_steps, ideal, step); },
           [&](const RunOptions& located) {
             check_options(located, name(), *mechanism_, parameters);
             return integrate_located(parameters, located, ideal, located.integrator);
@@ -183,7 +183,7 @@ class Multibody final : public Rung {
         if (compliance.size() == 0 || i - compliance_age >= compliance_every) {
           compliance = formulation->offset_compliance();
           compliance_age = i;
-          damping.look(layout, joints, motion, trackers, compliance);
+          damping.look(t, layout, joints, motion, trackers, compliance);
         }
         const StiffestContact stiffest = stiffest_contact(layout, joints, motion, compliance);
         if (h * stiffest.angular_frequency > classical_rk4().real_limit) throw UnstableStep(mechanism, stiffest, t, h);

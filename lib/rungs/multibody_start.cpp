@@ -1,5 +1,6 @@
 #include "boresight/rungs/multibody_start.hpp"
 
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -128,6 +129,53 @@ double rest_nearly_linear(ExactBalance& exact, VecX& z) {
   return least;
 }
 
+// Follows the rest as all clearances grow together from next to nothing, where the pose is linear in them: from there each rest is near the
+// one before, and no search among contacts is asked for. Returns the length of the last step at full clearances; infinity where the way ends
+// before (the rest snaps over).
+double rest_as_clearances_grow(const Mechanism& mechanism, const Parameters& parameters, const ClearanceScene::Start& scene,
+                               Formulation& formulation, VecX& z) {
+  constexpr double kFirst = 1.0 / 256.0, kFastest = 2.0, kSlowest = 1.02;
+  const auto rest_at = [&](double share, VecX* from) {
+    Parameters narrowed = parameters;
+    for (ClearanceParameters& c : narrowed.clearance) {
+      c.radial *= share;
+      c.axial *= share;
+    }
+    const RestingBalance balance(scene.layout, scene.numbers.row.data(), clearance_joints(mechanism.description(), narrowed));
+    if (!from) {
+      const RestingStart linear = balance.solve();
+      if (!linear.refusal.empty()) return std::numeric_limits<double>::infinity();
+      z = linear.z;
+    } else {
+      z = *from;
+    }
+    const ElasticOnly elastic(formulation.forces(), balance.joints());
+    ExactBalance exact(mechanism, parameters, scene, balance, formulation);
+    return rest_nearly_linear(exact, z);
+  };
+  double share = kFirst, growth = kFastest, length = rest_at(share, nullptr);
+  if (!(length <= kAcceptableRest)) return std::numeric_limits<double>::infinity();
+  while (share < 1.0) {
+    const double next = std::min(1.0, growth * share);
+    const VecX before = z;
+    VecX from = before * (next / share);
+    try {
+      length = rest_at(next, &from);
+    } catch (const ComputationError&) {
+      length = std::numeric_limits<double>::infinity();
+    }
+    if (length <= kAcceptableRest) {
+      share = next;
+      growth = std::min(kFastest, growth * growth);
+      continue;
+    }
+    z = before;
+    growth = std::sqrt(growth);
+    if (growth < kSlowest) return std::numeric_limits<double>::infinity();
+  }
+  return length;
+}
+
 }  // namespace
 
 RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
@@ -152,6 +200,13 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
   ExactBalance exact(mechanism, parameters, scene, balance, *formulation);
   VecX z = rest.z;
   double length = rest_nearly_linear(exact, z);
+  if (!(length <= kSettledRest)) {
+    VecX other;
+    if (const double grown = rest_as_clearances_grow(mechanism, parameters, scene, *formulation, other); grown < length) {
+      z = other;
+      length = grown;
+    }
+  }
   // From where the linear balance is, or where that lies beyond what the pose bends by, from nearer to the middle of the sleeves.
   for (double share : {1.0, 0.5, 0.25, 0.0}) {
     if (length <= kSettledRest) break;

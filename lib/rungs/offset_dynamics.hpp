@@ -29,6 +29,8 @@ JournalMotion<T> journal_motion(const Layout& at, const Joint& joint, const S* s
       offset[k] = T(scene[joint.slide]);
       offset_rate[k] = T(scene[joint.slide + 1]);
       for (int j = 0; j < at.n; ++j) offset_rate[k] += T(scene[joint.slide_gain + j]) * rate[j];
+      if (joint.gains_move)
+        for (int j = 0; j < at.n; ++j) offset_rate[k] += T(scene[joint.slide_drift + j]) * z[j];
     }
   }
   JournalMotion<T> m;
@@ -46,6 +48,8 @@ JournalMotion<T> journal_motion(const Layout& at, const Joint& joint, const S* s
     T spin(scene[joint.spin + i]);
     const S* gain = scene + joint.spin_gain + i * at.n;
     for (int j = 0; j < at.n; ++j) spin = fused(T(gain[j]), rate[j], spin);
+    if (joint.gains_move)
+      for (int j = 0; j < at.n; ++j) spin = fused(T(scene[joint.spin_drift + i * at.n + j]), z[j], spin);
     m.w[joint.tilts ? i : 1] = spin;
   }
   return m;

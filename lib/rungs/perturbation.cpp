@@ -44,7 +44,7 @@ class Perturbation final : public SceneRung {
     if (integrator != "rk4") return integrate_located(prepared, parameters, options, integrator);
     const double own = options.step > 0.0 ? options.step : own_step(mechanism(), parameters, prepared.ideal());
     return follow_by_default(
-        options, own, [&](double step) { return integrate(prepared, parameters, options, step); },
+        options, own, [&](const RunOptions& by_steps, double step) { return integrate(prepared, parameters, by_steps, step); },
         [&](const RunOptions& located) {
           check_options(located, name(), mechanism(), parameters);
           return integrate_located(prepared, parameters, located, located.integrator);
@@ -87,7 +87,7 @@ class Perturbation final : public SceneRung {
           const StiffestContact stiffest = stiffest_contact(offsets, system.joints(), system.motion(), compliance);
           if (h * stiffest.angular_frequency > limit) throw UnstableStep(mechanism, stiffest, t, h);
         }
-        if (i % damping_every == 0) damping.look(offsets, system.joints(), system.motion(), system.trackers(), compliance);
+        if (i % damping_every == 0) damping.look(t, offsets, system.joints(), system.motion(), system.trackers(), compliance);
       }
       record(prepared, t, y, method.first_slope(), system, recorder, largest);
       if (i == steps) break;

@@ -36,10 +36,15 @@ void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const d
       }
     } else {
       for (int j = 0; j < n; ++j) gain(rate, n + j) = scene[joint.slide_gain + j];
+      for (int j = 0; joint.gains_move && j < n; ++j) gain(rate, j) = scene[joint.slide_drift + j];
     }
   }
   for (int i = 0; i < joint.spins; ++i)
-    for (int j = 0; j < n; ++j) gain(6 + (joint.tilts ? i : 1), n + j) = scene[joint.spin_gain + i * n + j];
+    for (int j = 0; j < n; ++j) {
+      const int spin = 6 + (joint.tilts ? i : 1);
+      gain(spin, n + j) = scene[joint.spin_gain + i * n + j];
+      if (joint.gains_move) gain(spin, j) = scene[joint.spin_drift + i * n + j];
+    }
 }
 
 }  // namespace

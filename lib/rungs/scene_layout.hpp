@@ -20,10 +20,15 @@ struct SceneLayout {
     int spins = 1;        // components of the relative spin kept: y, or x y z where the journal tilts
     int spin = 0;         // ideal spin
     int spin_gain = 0;    // spins x n: what coordinate rates add to it
+    int spin_drift = 0;   // spins x n: what coordinates add to it (where gains move)
     int slide = 0;        // ideal displacement along the axis and its rate (where it slides)
     int slide_gain = 0;   // 1 x n
+    int slide_drift = 0;  // 1 x n, as spin_drift
     int dependent = 0;    // B and then Bdot, offsets x n each (where an offset is dependent)
     bool has_dependent = false;
+    // Where redundant joints tie offsets together, which of them are coordinates is the drawing's choice. It does not matter only if what the
+    // coordinates' gains change by as the mechanism moves is kept.
+    bool gains_move = false;
   };
 
   SceneLayout() = default;
@@ -45,6 +50,7 @@ struct SceneLayout {
         j.has_dependent = j.has_dependent || j.source[k] == DeviationCoordinates::kDependent;
       }
       j.spins = j.tilts ? 3 : 1;
+      j.gains_move = coordinates.has_dependent();
       const auto take = [this](int numbers) {
         const int at = width;
         width += numbers;
@@ -52,8 +58,10 @@ struct SceneLayout {
       };
       j.spin = take(j.spins);
       j.spin_gain = take(j.spins * n);
+      j.spin_drift = take(j.gains_move ? j.spins * n : 0);
       j.slide = take(j.slides ? 2 : 0);
       j.slide_gain = take(j.slides ? n : 0);
+      j.slide_drift = take(j.gains_move && j.slides ? n : 0);
       j.dependent = take(j.has_dependent ? 2 * j.offsets * n : 0);
       joints.push_back(j);
     }

@@ -43,7 +43,7 @@ Json momentum_change(const std::shared_ptr<const Mechanism>& mechanism, const As
   }
   // Against the largest part of the whole motion: before the first impact nothing may move but rounding.
   const double worst = scale.minCoeff() > 0.0 ? change.cwiseQuotient(scale).norm() : 0.0;
-  return {{"change", std::isfinite(worst) ? worst : 1e300}};
+  return {{"change", std::isfinite(worst) ? worst : 1e300}, {"step", r.cost.steps > 0 ? r.end_time / static_cast<double>(r.cost.steps) : 0.0}};
 }
 
 Json energy_change(const std::shared_ptr<const Mechanism>& mechanism) {

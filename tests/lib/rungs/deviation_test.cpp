@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/clearance_scene.hpp"
 #include "boresight/rungs/contact_report.hpp"
 #include "boresight/rungs/deviation_coordinates.hpp"
 #include "boresight/rungs/ideal_simulation.hpp"
@@ -160,6 +161,48 @@ TEST(DeviationCoordinates, ChangeAsTheMotionGoesOn) {
         EXPECT_LT((T_second - second).norm(), 1e-6 * second.norm()) << mechanism->name() << " at " << t;
       }
       EXPECT_LE((B_rate - B_difference).norm(), 1e-6 * std::max(1.0, B_difference.norm())) << mechanism->name() << " at " << t;
+    }
+  }
+}
+
+// What coordinates add to spins and slides while they stand still is what their rates' gains change by: seen from the sleeve, which turns, and
+// across whose axis the journal's own spin carries a slope along.
+TEST(ClearanceScene, KeepsTheDriftOfTheGainsWhereOffsetsHangOnEachOther) {
+  for (const JointType first : {JointType::revolute, JointType::cylindrical}) {
+    MechanismDescription d = driven_four_bar(2)->description();
+    d.joints[1].type = first;
+    for (ClearanceDescription& c : d.clearances) c.axes = first == JointType::cylindrical ? JournalAxes::free : JournalAxes::parallel;
+    const auto mechanism = scenes::build(std::move(d));
+    const IdealMotion ideal = ideal_motion(*mechanism, mechanism->parameters());
+    const ClearanceScene scene(*mechanism, ideal, mechanism->parameters(), 1e-9);
+    const SceneTables tables = scene.tables(mechanism->parameters());
+    const int n = tables.layout.n;
+    constexpr double kStep = 1e-4;
+    std::vector<double> before(tables.dynamics.width()), row = before, after = before;
+    for (double t : {0.06, 0.17, 0.33}) {
+      tables.dynamics.at(t - kStep, before.data());
+      tables.dynamics.at(t, row.data());
+      tables.dynamics.at(t + kStep, after.data());
+      const auto rate = [&](int at) { return (after[at] - before[at]) / (2.0 * kStep); };
+      double size = 0.0;
+      for (const SceneLayout::Joint& joint : tables.layout.joints) {
+        ASSERT_TRUE(joint.gains_move);
+        for (int j = 0; j < n; ++j) {
+          const double spin = row[joint.spin + (joint.tilts ? 1 : 0)];
+          for (int i = 0; i < joint.spins; ++i) {
+            double expected = rate(joint.spin_gain + i * n + j);
+            if (joint.tilts && i == 0) expected -= spin * row[joint.spin_gain + 2 * n + j];
+            if (joint.tilts && i == 2) expected += spin * row[joint.spin_gain + j];
+            EXPECT_NEAR(row[joint.spin_drift + i * n + j], expected, 1e-4 * (1.0 + std::abs(expected))) << "spin " << i << " of " << j << " at " << t;
+            size = std::max(size, std::abs(expected));
+          }
+          if (joint.slides) {
+            const double expected = rate(joint.slide_gain + j);
+            EXPECT_NEAR(row[joint.slide_drift + j], expected, 1e-4 * (1.0 + std::abs(expected))) << "slide of " << j << " at " << t;
+          }
+        }
+      }
+      EXPECT_GT(size, 0.1);
     }
   }
 }
