@@ -95,7 +95,8 @@ class ExactBalance {
   const MatX& unit() const { return balance_.unit(); }
   VecX step(const MatX& by_z, const VecX& left) const { return balance_.correction(by_z, left); }
 
-  void place(const VecX& z, VecX& y) {
+  void place(const VecX& offsets, VecX& y) {
+    const VecX z = balance_.completed(offsets);
     formulation_.place_bodies(displaced_bodies(scene_, z, scene_.numbers.rates * z), y);
     formulation_.close_joints(0.0, y);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
@@ -14,6 +15,7 @@ constexpr double kSpacing = 5e-4;
 constexpr int kFewestInstants = 400;
 // More than so many only as far as the scene is tabled that finely.
 constexpr int kManyInstants = 200000, kInstantsPerKnot = 4;
+constexpr char kTied[] = "redundant joints tie the offsets of clearance joints together: none rests on its own; use perturbation";
 // Share of the offsets that counts as none.
 constexpr double kNothing = 1e-6;
 // Of the largest load: its direction is then known to a hundredth of a radian.
@@ -38,6 +40,12 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& s
   spacing_ = scene.spacing() / per_knot;
   const SceneTables tables = scene.tables(parameters);
   const int n = layout_.n, width = 7 * n + mechanism.clearances();
+  // Across its axis, or in tilt, a journal that is free in one direction alone is tied in most others: which of them are offsets is a matter
+  // of how the mechanism lies in space.
+  for (const SceneLayout::Joint& joint : layout_.joints)
+    for (const auto& [one, other] : {std::pair{0, 2}, std::pair{3, 4}})
+      if (other < joint.offsets && (joint.source[one] == DeviationCoordinates::kDependent) != (joint.source[other] == DeviationCoordinates::kDependent))
+        throw ComputationError(kTied);
   std::vector<double> values, row(layout_.width);
   MatX M, C;
   VecX r;
@@ -48,8 +56,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& s
       for (int i = 0; i < layout_.joints[c].offsets; ++i)
         if (layout_.joints[c].source[i] == DeviationCoordinates::kDependent &&
             B.row(scene.offsets().joint(c).first + i).cwiseAbs().maxCoeff() > kNothing)
-          throw ComputationError("redundant joints tie the offsets of clearance joints together: none rests on its own; use "
-                                 "perturbation");
+          throw ComputationError(kTied);
     scene.assemble(parameters, k, M, C, r);
     values.insert(values.end(), r.data(), r.data() + n);
     const MatX E = scene.pose_gain_at(k);

@@ -33,6 +33,17 @@ JournalInSleeve elastic_only(JournalInSleeve joint) {
   return joint;
 }
 
+// z per offset: M_r of the other coordinates pulls them to where the bodies move least, T z in the metric of their masses.
+MatX carried_along(const MatX& mass, const std::vector<bool>& held) {
+  const auto n = static_cast<Eigen::Index>(held.size());
+  std::vector<Eigen::Index> offsets, others;
+  for (Eigen::Index k = 0; k < n; ++k) (held[static_cast<std::size_t>(k)] ? offsets : others).push_back(k);
+  MatX along = MatX::Zero(n, n);
+  for (Eigen::Index k : offsets) along(k, k) = 1.0;
+  if (!offsets.empty() && !others.empty()) along(others, offsets) = -mass(others, others).llt().solve(MatX(mass(others, offsets)));
+  return along;
+}
+
 constexpr std::array<double, kContactPlaces> kSlow = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3};  // of no account where nothing dissipates
 
 }  // namespace
@@ -77,6 +88,7 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
     for (int i = 0; i < joint.spins; ++i)
       V.row(3 + (joint.tilts ? i : 1)) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.spin_gain + i * n, n);
   }
+  with_offsets_ = carried_along(mass_, held_);
   reaction_ = balanceable(reaction_);
   const VecX parts = reaction_.cwiseProduct(scale).cwiseAbs();
   for (int k = 0; k < n; ++k)
@@ -104,8 +116,9 @@ JournalMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z
   return m;
 }
 
-void RestingBalance::evaluate(const VecX& z, VecX& F, MatX& by_z) const {
-  F = reaction_ - stiffness_ * z;
+void RestingBalance::evaluate(const VecX& offsets, VecX& F, MatX& by_z) const {
+  const VecX z = completed(offsets);
+  F = -stiffness_ * z;
   std::vector<JournalMotion<double>> journals;
   JournalWrench<double> wrench;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
@@ -115,7 +128,7 @@ void RestingBalance::evaluate(const VecX& z, VecX& F, MatX& by_z) const {
     load << wrench.force, wrench.moment - motion.e.cross(wrench.force);
     F.noalias() += works_on_[c].transpose() * load;
   }
-  F = balanceable(std::move(F));
+  F = reaction_ + balanceable(F);
   by_z = stiffness_at(journals);
 }
 
@@ -132,15 +145,11 @@ MatX RestingBalance::stiffness_at(const std::vector<JournalMotion<double>>& jour
     of_offsets << of_motion.leftCols<3>(), of_motion.middleCols<2>(9);
     by_z.noalias() += works_on_[c].transpose() * (of_offsets * offsets_of_[c]);
   }
-  for (int k = 0; k < at_.n; ++k)
-    if (!held_[k]) {
-      by_z.row(k).setZero();
-      by_z.col(k).setZero();
-    }
-  return by_z;
+  return with_offsets_.transpose() * by_z * with_offsets_;
 }
 
-double RestingBalance::energy(const VecX& z) const {
+double RestingBalance::energy(const VecX& offsets) const {
+  const VecX z = completed(offsets);
   double sum = 0.5 * z.dot(stiffness_ * z) - reaction_.dot(z);
   for (std::size_t c = 0; c < joints_.size(); ++c) sum += joints_[c].elastic_energy(motion_of(c, z));
   return sum;
@@ -152,12 +161,6 @@ VecX RestingBalance::correction(const MatX& by_z, const VecX& F) const {
   solver.setThreshold(kSoft);
   solver.compute(H);
   return unit_ * solver.solve(unit_.transpose() * F);
-}
-
-VecX RestingBalance::balanceable(VecX load) const {
-  for (int k = 0; k < at_.n; ++k)
-    if (!held_[k]) load[k] = 0.0;
-  return load;
 }
 
 // Each journal where its own offsets' loads alone would have it; where redundant joints tie offsets together, the loads that are least,
@@ -223,13 +226,16 @@ RestingStart RestingBalance::solve() const {
     const double length = search_rest(left, unit_, rest.z);
     if (rest.z.allFinite()) {
       const double remains = size(left(rest.z));
-      if (remains <= kAcceptable * load_ || (length <= kSettledRest && remains <= kLeftToMotion * load_)) return rest;
+      if (remains <= kAcceptable * load_ || (length <= kSettledRest && remains <= kLeftToMotion * load_)) {
+        rest.z = completed(rest.z);
+        return rest;
+      }
     }
     rest.z.setZero();
     rest.refusal = "no position was found in which the journals' contacts carry the loads of t = 0";
     return rest;
   }
-  rest.z = z;
+  rest.z = completed(z);
   return rest;
 }
 

@@ -2,8 +2,9 @@
 //
 //     r(0) + f_elastic(z) - K z = 0
 //
-// all joints together. Nothing moves against the ideal motion yet, so contacts neither dissipate nor rub. Directions in which
-// no load acts and coordinates that are no offsets stay where the ideal motion has them.
+// all joints together. Nothing moves against the ideal motion yet, so contacts neither dissipate nor rub. In directions in which
+// no load acts offsets stay where the ideal motion has them. Coordinates that are no offsets go where the bodies move least, weighed by
+// their masses: which joints' coordinates these are hangs on the order of lists.
 //
 // The bodies start with the velocities of the ideal motion: start_rates.hpp.
 //
@@ -33,14 +34,16 @@ class RestingBalance {
 
   RestingStart solve() const;
 
-  // Of what is left unbalanced at z, F = r + f - K z, and of its change with z: n, n x n [N, N m; per m, per slope].
-  void evaluate(const VecX& z, VecX& F, MatX& by_z) const;
+  // Of what is left unbalanced with the offsets of z, F = r + f - K z, and of its change with z: n, n x n [N, N m; per m, per slope].
+  void evaluate(const VecX& offsets, VecX& F, MatX& by_z) const;
   // The latter where the journals stand as given, which a mechanism's own geometry may put a little off z.
   MatX stiffness_at(const std::vector<JournalMotion<double>>& journals) const;
   // The step of z that balances F: the shortest, in offsets over clearances, where contact holds no direction.
   VecX correction(const MatX& by_z, const VecX& F) const;
   // A load on z without the part that no journal's place can balance.
-  VecX balanceable(VecX load) const;
+  VecX balanceable(const VecX& load) const { return with_offsets_.transpose() * load; }
+  // z with the coordinates that are no offsets where the bodies move least.
+  VecX completed(const VecX& z) const { return with_offsets_ * z; }
   // Of a step of z: the offsets that it makes, each over its clearance, as one length. It does not hang on which offsets are coordinates.
   double length(const VecX& dz) const { return unit_.triangularView<Eigen::Upper>().solve(dz).norm(); }
   // Of a load on z, likewise [N m].
@@ -50,7 +53,7 @@ class RestingBalance {
 
  private:
   JournalMotion<double> motion_of(std::size_t joint, const VecX& z) const;
-  double energy(const VecX& z) const;
+  double energy(const VecX& offsets) const;
   VecX guess() const;
 
   const SceneLayout& at_;
@@ -59,7 +62,8 @@ class RestingBalance {
   using Offsets = Eigen::Matrix<double, 5, 1>;
   VecX reaction_;
   MatX unit_;                         // upper triangle
-  std::vector<bool> held_;            // coordinates that the balance may move
+  std::vector<bool> held_;            // coordinates that the balance may move: offsets
+  MatX with_offsets_;                 // n x n: z per offset, the others' columns zero
   std::vector<Offsets> widths_;       // per joint: what each offset crosses its clearance with
   std::vector<MatX> offsets_of_;      // per joint: 5 x n, offsets per coordinate
   std::vector<MatX> over_widths_;     // the same over the widths, of coordinates that the balance may move
