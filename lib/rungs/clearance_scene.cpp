@@ -308,6 +308,7 @@ double ClearanceScene::units_of(std::size_t group, const Parameters& parameters)
 MatX ClearanceScene::moving_stiffness(const Parameters& parameters, const Knot& knot) const {
   const int n = layout_.n;
   MatX K = MatX::Zero(n, n);
+  if (n == 0) return K;
   for (std::size_t g = 0; g < groups_.size(); ++g)
     K += units_of(g, parameters) * Eigen::Map<const MatX>(&knot.elements[g * element_size()] + 2 * n * n + 4 * n, n, n);
   return K;
