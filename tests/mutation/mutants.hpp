@@ -85,10 +85,15 @@ struct At {
         else return settled(r);
       });
     } else {
+      // A yes or no counts as a number: the negative of a yes would be a yes.
+      constexpr auto value = [](auto&& v) {
+        if constexpr (std::is_same_v<std::decay_t<R>, bool>) return static_cast<int>(v);
+        else return settled(std::forward<decltype(v)>(v));
+      };
       constexpr bool valid = requires { -r; };
-      return either<id, valid>([&] { return settled(r); }, [&] {
-        if constexpr (valid) return static_cast<decltype(settled(r))>(settled(-r));
-        else return settled(r);
+      return either<id, valid>([&] { return value(r); }, [&] {
+        if constexpr (valid) return static_cast<decltype(value(r))>(settled(-r));
+        else return value(r);
       });
     }
   }

@@ -108,6 +108,14 @@ TEST(ErrorIndexOfAHistory, PreLooksFromEveryWindowOfEveryObservationIntoTheNext)
   for (std::size_t k = 0; k < across.size(); ++k) EXPECT_NEAR(across[k].x(), k < 91 ? 3.0 : 12.0, 1e-12) << k;
 }
 
+TEST(ErrorIndexOfAHistory, PreOfARevisitWithinAnObservationTakesWhatLiesInTwo) {
+  // Ten samples, the squares of 0 to 9, two observations of five; three samples apart, 2 to 4 and 5 to 7 lie in both.
+  const PointingHistory h = history_of(1.0, 10, [](double t) { return Vec3(std::pow(std::floor(10.0 * t + 1e-6), 2), 0, 0); });
+  const std::vector<Vec3> across = index_values(ErrorIndex::pre, h, {.window = 0.1, .observation = 0.5, .revisit = 0.3});
+  ASSERT_EQ(across.size(), 3u);
+  for (std::size_t k = 0; k < across.size(); ++k) EXPECT_NEAR(across[k].x(), std::pow(k + 5.0, 2) - std::pow(k + 2.0, 2), 1e-9);
+}
+
 TEST(ErrorIndexOfAHistory, SaysWhatItNeeds) {
   EXPECT_EQ(Windows{}.missing_for(ErrorIndex::ape, 1.0), "");
   EXPECT_EQ(Windows{}.missing_for(ErrorIndex::mpe, 1.0), "a window");

@@ -193,9 +193,11 @@ TEST(StatedErrors, OfTheLinearDeviationGrowWithTheClearanceAndHoldInFlight) {
   }
 }
 
-// The envelope bounds journals that stay in contact; those that strike leave it, by what the warning says.
+// The envelope bounds journals that stay in contact; those that strike leave it, by what the warning says of the position. The slider
+// does not turn.
 TEST(Envelope, SaysByHowMuchImpactsExceedIt) {
-  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "0.1 s"}, {"initial.journals", "centred"}}));
+  const auto mechanism = std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", {{"motion.duration", "0.1 s"}, {"initial.journals", "centred"}}));
   const RunResult bound = make_rung("envelope", mechanism)->run(mechanism->parameters(), {});
   const RunResult motion = make_rung("perturbation", mechanism)->run(mechanism->parameters(), {});
   const std::string begin = "largest position error is ";
@@ -203,7 +205,7 @@ TEST(Envelope, SaysByHowMuchImpactsExceedIt) {
   for (const std::string& w : bound.warnings)
     if (const std::size_t at = w.find(begin); at != std::string::npos) said = std::stod(w.substr(at + begin.size()));
   const double above = 100.0 * (motion.index.position_error.max / bound.index.position_error.max - 1.0);
-  ASSERT_GT(above, 5.0);
+  ASSERT_GT(above, 2.0);
   // Said with two digits, of the largest of three neighbouring motions.
   EXPECT_NEAR(said, above, 0.15 * above);
 }
