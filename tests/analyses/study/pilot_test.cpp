@@ -219,6 +219,14 @@ TEST(Pilot, SaysWhatSingleMotionsScatterByWhereThatIsWhyNothingCanBeShown) {
   EXPECT_EQ(result.why.find("single motions"), std::string::npos) << result.why;
 }
 
+// What is clear from the first pairs is not asked of more of them.
+TEST(PilotOfScatter, TakesNoMorePairsThanTheAnswerNeeds) {
+  const auto mechanism = rrcpr({{"motion.duration", "20 ms"}});
+  const PilotResult result = run_pilot(mechanism, scattered(*mechanism, 64), of_scatter(0.5, {}));
+  EXPECT_TRUE(result.met) << result.why;
+  EXPECT_EQ(result.pairs, 6u);
+}
+
 TEST(PilotOfScatter, CountsItsRunsFromNone) {
   const auto mechanism = rrcpr({{"motion.duration", "20 ms"}});
   PilotOptions options = of_scatter(0.05, {0.95});

@@ -11,6 +11,7 @@
 #include "boresight/rungs/measured_error.hpp"
 #include "boresight/rungs/rung.hpp"
 #include "finer_run.hpp"
+#include "bearing_pair_scenes.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
@@ -208,6 +209,23 @@ TEST(Envelope, SaysByHowMuchImpactsExceedIt) {
   ASSERT_GT(above, 2.0);
   // Said with two digits, of the largest of three neighbouring motions.
   EXPECT_NEAR(said, above, 0.15 * above);
+}
+
+// Turns count as much as displacements however large a mechanism is drawn, in metres or in kilometres.
+TEST(StatedErrors, OfRestingJournalsHoldForTurnsOfALargeDrawing) {
+  MechanismDescription d = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml", {{"motion.duration", "0.1 s"}});
+  d.journals = JournalStart::centred;
+  for (const double scale : {1.0, 3000.0}) {
+    const auto mechanism = scenes::build(scenes::drawn_elsewhere(d, Mat3::Identity(), Vec3::Zero(), scale));
+    const RunResult rest = make_rung("quasistatic", mechanism)->run(mechanism->parameters(), {});
+    const RunResult motion = make_rung("perturbation", mechanism)->run(mechanism->parameters(), {});
+    // That of the turns is what the stated error is about: displacements are met far better.
+    for (const auto quantity : {&PointingIndices::position_error, &PointingIndices::orientation_error})
+      for (const auto statistic : {&Statistics::max, &Statistics::rms}) {
+        const double off = std::abs(rest.index.*quantity.*statistic / (motion.index.*quantity.*statistic) - 1.0);
+        EXPECT_LE(off, rest.error.model) << scale;
+      }
+  }
 }
 
 }  // namespace
