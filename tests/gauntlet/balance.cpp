@@ -42,6 +42,10 @@ Json momentum_change(const std::shared_ptr<const Mechanism>& mechanism, const As
     change = change.cwiseMax((momentum - first).cwiseAbs());
   }
   // Against the largest part of the whole motion: before the first impact nothing may move but rounding.
+  // Turning and moving on the mechanism's size: where nothing strikes, bodies may turn in place and their momentum be rounding.
+  const double length = mechanism->characteristic_length();
+  scale.head<3>() = scale.head<3>().cwiseMax(scale.tail<3>() / length);
+  scale.tail<3>() = scale.tail<3>().cwiseMax(scale.head<3>() * length);
   const double worst = scale.minCoeff() > 0.0 ? change.cwiseQuotient(scale).norm() : 0.0;
   return {{"change", std::isfinite(worst) ? worst : 1e300}, {"step", r.cost.steps > 0 ? r.end_time / static_cast<double>(r.cost.steps) : 0.0}};
 }
