@@ -54,6 +54,17 @@ TEST(ReplicatedSamples, LeaveATailWithFewSamplesUnbounded) {
   EXPECT_LT(s.quantile(0.95, 0.95).high, std::numeric_limits<double>::infinity());
 }
 
+// 1 to 400, dealt to four replicates in turn: every one has its half below 200.5, and what is left is the rounding of their shares,
+// 1 / (100 sqrt(12 * 4)). By Student's t of three degrees, 3.18245, that is 0.01837 on the logit scale: shares 0.49541 and 0.50459.
+TEST(ReplicatedSamples, ReadWoodruffsIntervalThroughThePooledSamples) {
+  Lists dealt(4);
+  for (int k = 0; k < 400; ++k) dealt[static_cast<std::size_t>(k % 4)].push_back(k + 1);
+  const ReplicatedInterval median = ReplicatedSamples(std::move(dealt)).quantile(0.5, 0.95);
+  EXPECT_EQ(median.value, 200.5);
+  EXPECT_EQ(median.low, 198.0);   // 198.2 samples
+  EXPECT_EQ(median.high, 202.0);  // 201.8 samples
+}
+
 TEST(ReplicatedSamples, OfALatinHypercubeAreFarNarrowerThanIndependentOnes) {
   std::mt19937_64 engine(8);
   const ReplicatedInterval mean = replicates(engine, repetition::latin_hypercube, 16, 256).mean(0.95);
