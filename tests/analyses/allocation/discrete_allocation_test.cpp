@@ -198,5 +198,28 @@ TEST(StatisticalRequirement, SharesTheVarianceBySensitivityAndWidth) {
   EXPECT_EQ(still.error_shares(std::vector<int>{0, 0}), (std::vector<double>{0.0, 0.0}));
 }
 
+// Gaps that work against each other, the widest option first: the cheapest is no option that is left out for standing first.
+TEST(DiscreteAllocation, IsExactForRootSumSquaresWhateverTheOrderOfOptions) {
+  int partly = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    Scene s = scene(3, 4, 500 + seed);
+    for (auto& options : s.gap) std::reverse(options.begin(), options.end());
+    for (auto& prices : s.price) std::reverse(prices.begin(), prices.end());
+    for (const double limit : {15e-6, 25e-6, 35e-6}) {
+      const RootSumSquareRequirement requirement(s.deviation, s.gap, 0.95, limit);
+      std::int64_t meeting = 0;
+      const double best = brute_force(s.price, requirement, meeting);
+      partly += meeting > 0 && meeting < 64;
+      const DiscreteAllocation found = allocate_discrete(s.price, tightest_options(s.gap), requirement);
+      ASSERT_TRUE(found.proven);
+      ASSERT_EQ(found.feasible, meeting > 0) << seed << ' ' << limit;
+      if (meeting > 0) {
+        EXPECT_NEAR(found.price, best, 1e-9) << seed << ' ' << limit;
+      }
+    }
+  }
+  EXPECT_GT(partly, 60);
+}
+
 }  // namespace
 }  // namespace boresight

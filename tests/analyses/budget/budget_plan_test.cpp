@@ -125,5 +125,14 @@ TEST_F(BudgetPlanTest, AnObservationMayTakeTheWholeMotionAndNoMore) {
   EXPECT_THAT(fault("observation = \"" + more + "\"\n"), HasSubstr("no longer than the motion"));
 }
 
+TEST_F(BudgetPlanTest, WithoutRequirementsIsAboutThePointingErrorOfAllAxesWithoutALimit) {
+  const BudgetRequirement headline = read("").headline(BudgetAxes(PointingQuantity::boresight_error));
+  EXPECT_EQ(headline.index, ErrorIndex::ape);
+  EXPECT_EQ(headline.axis, 2u);
+  EXPECT_EQ(headline.interpretation, Interpretation::mixed);
+  EXPECT_EQ(headline.limit, 0.0);
+  EXPECT_EQ(headline.probability, 0.95);
+}
+
 }  // namespace
 }  // namespace boresight

@@ -259,5 +259,12 @@ TEST(FidelityEstimate, RefusesGroupsOfWhichFewerThanTwoDidNotFail) {
   EXPECT_THROW(estimate_fidelities(plan, {dear, {1.1, 2.1, 2.9, failed, failed, failed}}, 0.95), std::invalid_argument);
 }
 
+TEST(FidelityPlan, OfModelsThatDoNotScatterGainsNothing) {
+  const FidelityPlan plan = plan_fidelities({{std::vector<double>(20, 3.0), std::vector<double>(20, 2.0)}, {1.0, 0.01}}, 100.0);
+  EXPECT_EQ(plan.gain, 1.0);
+  EXPECT_EQ(plan.gain_low, 1.0);
+  EXPECT_EQ(plan.gain_high, 1.0);
+}
+
 }  // namespace
 }  // namespace boresight

@@ -23,6 +23,9 @@ TEST(MeasuredGrowth, IsTheLargerOfTwoPowers) {
   }
   EXPECT_NEAR(measured_growth(real), 0.9, 1e-12);
   EXPECT_NEAR(measured_growth(complex), 1.05, 1e-12);
+  // Two powers are two unknowns: four values tell them, three do not.
+  EXPECT_NEAR(measured_growth(std::vector<double>(real.begin(), real.begin() + 4)), 0.9, 1e-12);
+  EXPECT_TRUE(std::isnan(measured_growth(std::vector<double>(real.begin(), real.begin() + 3))));
 }
 
 // The axes' limits (tests/reference/stability_limits.py) are the roots of |R| = 1 for R = 1 + z + z^2/2 + z^3/6 + z^4/24.

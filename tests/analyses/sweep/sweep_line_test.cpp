@@ -40,6 +40,7 @@ TEST(SweepLine, MeanContactMeetsHertzWhereTheForceIsHertz) {
   ASSERT_TRUE(mean);
   EXPECT_NEAR(mean->penetration, 2.5e-6, 1e-15);
   EXPECT_NEAR(mean->hertz, mean->penetration, 1e-15);
+  EXPECT_NEAR(mean->force, 0.5 * K * (1e-9 + 8e-9), 1e-9);
 }
 
 TEST(SweepLine, AwayFromTheBoreIsTheTimeOutsideRadialContacts) {

@@ -205,5 +205,17 @@ TEST(CylinderLaws, SatisfyTheirPrintedRelations) {
   }
 }
 
+// Without damping all energy is elastic at the deepest: m v^2 / 2 = 2/5 K d^(5/2), and the force there is K d^(3/2), however small.
+TEST(Impact, WithoutDampingIsAsDeepAndAsHardAsItsEnergySays) {
+  for (const double speed : {1e-3, 0.1, 5.0}) {
+    const double K = 1e9, mass = 1e-3, depth = std::pow(1.25 * mass * speed * speed / K, 0.4);
+    const Impact found = impact({K, normal_law("hertz").damping_factor(0.9)}, mass, speed);
+    EXPECT_NEAR(found.depth / depth, 1.0, 1e-6) << speed;
+    EXPECT_NEAR(found.force / (K * std::pow(depth, 1.5)), 1.0, 1e-6) << speed;
+    // Hertz: 2.9432 depths at the speed of approach.
+    EXPECT_NEAR(found.duration / (2.943276 * depth / speed), 1.0, 1e-3) << speed;
+  }
+}
+
 }  // namespace
 }  // namespace boresight

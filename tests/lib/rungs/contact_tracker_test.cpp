@@ -34,10 +34,12 @@ TEST(ContactTracker, PlacesTheStartOfAFlightWithAParabolaForItsRateExactly) {
   for (const double t : {0.380, 0.387, 0.392, 0.398}) EXPECT_FALSE(accept(t)) << t;
   EXPECT_TRUE(accept(0.404));
   std::vector<ContactEvent> events;
-  tracker.finish(0.405, events);
+  const ContactSummary summary = tracker.finish(0.405, events);
   ASSERT_EQ(events.size(), 1u);
   EXPECT_NEAR(events[0].start, kFrom, 1e-12);
   EXPECT_NEAR(events[0].start_speed, kSpeed, 1e-10);
+  EXPECT_EQ(summary.impacts, 1);
+  EXPECT_NEAR(summary.max_impact_speed, kSpeed, 1e-10);
 }
 
 }  // namespace
