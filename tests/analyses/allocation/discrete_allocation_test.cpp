@@ -198,6 +198,17 @@ TEST(StatisticalRequirement, SharesTheVarianceBySensitivityAndWidth) {
   EXPECT_EQ(still.error_shares(std::vector<int>{0, 0}), (std::vector<double>{0.0, 0.0}));
 }
 
+// e = 2 - c1 + c2 (mm): only the wide first gap, which stands first, keeps 1.2 mm, beside the tight second one.
+TEST(RootSumSquareRequirement, MayBeMetByAnOptionThatStandsFirstAndIsNotTheTightest) {
+  constexpr double kMilli = 1e-3;
+  const LinearDeviation opposed({0.0}, {2.0 * kMilli, 0, 0}, {{-1, 0, 0}, {1, 0, 0}}, "max");
+  const std::vector<DistributionPtr> options = {make_uniform(0.99 * kMilli, 1.01 * kMilli), make_uniform(0.09 * kMilli, 0.11 * kMilli)};
+  const RootSumSquareRequirement requirement(opposed, {options, options}, 0.95, 1.2 * kMilli);
+  EXPECT_TRUE(requirement.is_met(std::vector<int>{0, 1}));
+  EXPECT_TRUE(requirement.may_be_met(std::vector<int>{0, -1}));
+  EXPECT_FALSE(requirement.may_be_met(std::vector<int>{1, -1}));
+}
+
 // Gaps that work against each other, the widest option first: the cheapest is no option that is left out for standing first.
 TEST(DiscreteAllocation, IsExactForRootSumSquaresWhateverTheOrderOfOptions) {
   int partly = 0;
