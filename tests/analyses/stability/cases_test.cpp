@@ -154,7 +154,9 @@ TEST_F(StabilityOfTheDefaultScene, CoversEveryCaseAndFindsNoneThatFailsUnannounc
   }
   EXPECT_LT(result.largest_difference(), 0.02);
   EXPECT_EQ(result.limits.size(), 6u);
-  EXPECT_EQ(result.baumgarte.limits.size(), 14u);
+  ASSERT_EQ(result.baumgarte.limits.size(), 14u);
+  for (std::size_t k = 1; k < result.baumgarte.limits.size(); ++k)
+    EXPECT_GT(result.baumgarte.limits[k].zeta, result.baumgarte.limits[k - 1].zeta) << "a damping ratio twice";
   EXPECT_LT(result.baumgarte.largest_difference, 1e-3);
   // Stiff columns stop at smaller steps, never within half of the limit foreseen.
   ASSERT_EQ(result.steps.frequency.size(), static_cast<std::size_t>(kStepMapColumns));
@@ -196,6 +198,15 @@ TEST(RedundantRows, WhereThereAreNoneAreSaidToBeIndependent) {
   const FailureCase c = case_of_redundant_rows(scene);
   // Two revolutes, a spherical and a cylindrical joint: 5 + 5 + 3 + 4.
   EXPECT_EQ(c.measured, "17 rows, all independent");
+}
+
+// A micrometre deep: K d^(3/2) is 100 N at 1e11 N/m^(3/2), and Flores' damping grows as 8 (1 - e) / (5 e): at 0.1 m/s, of 1e-3 m/s at the
+// start of the contact, 100 N (1 + 1.6e8).
+TEST(VanishingRestitution, IsSaidWithTheForcesOfTheDepthItNames) {
+  Scene scene;
+  scene.contacts.push_back({.joint = "A", .hertz_stiffness = 1e11});
+  const FailureCase c = case_of_vanishing_restitution(scene);
+  EXPECT_NE(c.measured.find("at e = 1e-6 and 0.1 m/s a depth of 1 um gives 1.6e+10 N (elastic 100 N), finite"), std::string::npos) << c.measured;
 }
 
 }  // namespace
