@@ -18,6 +18,8 @@ constexpr int kManyInstants = 200000, kInstantsPerKnot = 4;
 constexpr char kTied[] = "redundant joints tie the offsets of clearance joints together: none rests on its own; use perturbation";
 // Share of the offsets that counts as none.
 constexpr double kNothing = 1e-6;
+// Of the largest load of all joints: below it a table's error decides.
+constexpr double kRounding = 10.0 * ClearanceScene::kAccuracy;
 // Of the largest load: its direction is then known to a hundredth of a radian.
 constexpr double kDecides = 100.0 * ClearanceScene::kAccuracy;
 
@@ -75,6 +77,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& s
     const Instant now = at(i);
     for (std::size_t c = 0; c < joints_.size(); ++c) largest_load_[c] = std::max(largest_load_[c], size(now.load[c].force, joints_[c]));
   }
+  for (double load : largest_load_) largest_of_all_ = std::max(largest_of_all_, load);
 }
 
 bool ReactionTable::decides(const Instant& instant, int clearance) const {
@@ -93,6 +96,10 @@ ReactionTable::Instant ReactionTable::at_time(double t) const {
     Load load{Eigen::Matrix<double, 5, 1>::Zero(), row[7 * n + c]};
     for (int k = 0; k < layout_.joints[c].offsets; ++k)
       if (const int source = layout_.joints[c].source[k]; source >= 0) load.force[k] = now.reaction[source];
+    // Along the axis and in tilt next to nothing would push a journal all the way that its play leaves.
+    const double least = kRounding * largest_of_all_;
+    if (std::abs(load.force[1]) < least) load.force[1] = 0.0;
+    if (joints_[c].tilts && load.force.tail<2>().norm() < least * joints_[c].half_length) load.force.tail<2>().setZero();
     now.load.push_back(load);
   }
   return now;

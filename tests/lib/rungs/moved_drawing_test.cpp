@@ -3,6 +3,8 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/rungs/rung.hpp"
+#include "scenes.hpp"
+#include "tree_formulation_scenes.hpp"
 
 namespace boresight {
 namespace {
@@ -58,6 +60,29 @@ TEST(MovedDrawing, ChangesNoIndex) {
     expect_equal(own, indices(placed(here, Mat3::Identity(), {300, -800, 500}), rung), 1e-4, std::string(rung) + ", a kilometre");
     const Mat3 turn = Eigen::AngleAxisd(0.8, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
     expect_equal(own, indices(placed(here, turn, {0.1, 0.2, 0.3}), rung), 1e-6, std::string(rung) + ", turned");
+  }
+}
+
+// In a planar mechanism nothing pushes a journal along its axis but what rounding makes of a drawing that lies askew; without friction at its
+// faces that decided, instant by instant, at which of them it lay.
+TEST(MovedDrawing, PushesNoJournalAlongItsAxis) {
+  MechanismDescription d = scenes::planar_four_bar();
+  d.bodies[0].boresight.reset();
+  d.bodies[1].boresight = Vec3::UnitZ();
+  d.joints[0].driven = true;
+  d.joints[2].type = JointType::cylindrical;
+  d.motion.drives[0] = scenes::sine(0.3, 6.0);
+  d.motion.duration = 0.4;
+  scenes::add_clearance(d, 1, false);
+  d.clearances[0].parameters.friction.coefficient = 0.0;
+  d.line_of_sight = {.from = {0.3, 0.0, 0.3}, .target = {0.5, -0.3, 2.0}, .origin = {}};
+  const Mat3 turn = Eigen::AngleAxisd(0.8, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+  for (const MechanismDescription& drawn : {d, placed(d, turn, {0.1, 0.2, 0.3})}) {
+    const auto m = std::make_shared<const Mechanism>(drawn);
+    const RunResult r = make_rung("quasistatic", m)->run(m->parameters(), {});
+    ASSERT_GT(r.clearances[0].size(), 100u);
+    for (const ClearanceSample& s : r.clearances[0]) EXPECT_EQ(s.offset.y(), 0.0);
+    EXPECT_GT(r.index.position_error.rms, 0.0);
   }
 }
 
