@@ -20,8 +20,8 @@ constexpr char kTied[] = "redundant joints tie the offsets of clearance joints t
 constexpr double kNothing = 1e-6;
 // Of the largest load of all joints: below it a table's error decides.
 constexpr double kRounding = 10.0 * ClearanceScene::kAccuracy;
-// Of the largest load: its direction is then known to a hundredth of a radian.
-constexpr double kDecides = 100.0 * ClearanceScene::kAccuracy;
+// Of the largest load: its direction is then known to two thousandths of a radian.
+constexpr double kDecides = 500.0 * ClearanceScene::kAccuracy;
 
 // Of a load: its force, and its couple as forces at the sleeve's ends [N].
 double size(const Eigen::Matrix<double, 5, 1>& load, const JournalInSleeve& joint) {

@@ -25,7 +25,7 @@ TEST(LinearDeviation, FoundOnASceneIsItsQuasistaticRungForEveryQuantityAndGap) {
   const auto mechanism = crank_slider();
   const ParameterPath place(mechanism->description(), "clearance.A.radial");
   const double nominal = place.get(mechanism->parameters());
-  constexpr std::size_t kInstants = 100;
+  constexpr std::size_t kInstants = 400;
   // Second order of the gap over the lengths, how far the contact gives way, which hangs on the gap a little,
   // and instants that fall beside the largest.
   constexpr double kClose = 0.01;
