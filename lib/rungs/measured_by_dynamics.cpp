@@ -21,6 +21,7 @@ constexpr std::array kShares = {1.0, 0.97, 0.5};
 // Steps after which a motion counts as too long to be followed for an estimate, in the looks that a rung
 // grants (every 4096).
 constexpr int kMostLooks = 1000;
+constexpr double kRounding = 1e-12;  // of a motion in metres [m or rad]
 // What is smaller than this share of the largest, on the mechanism's size, is next to nothing: what it is off by counts against the largest.
 constexpr double kNextToNothing = 1e-4;
 // Where numbers scatter that begin at zero, every sample may stand for itself alone.
@@ -221,7 +222,10 @@ class MeasuredByDynamics final : public Rung {
         const double mean = sum / static_cast<double>(motions.size());
         const double off = std::abs(index.*quantity.*statistic - mean) + kOfRange * (high - low);
         const double against = unit(quantity) * mean > kNextToNothing * largest ? mean : largest / unit(quantity);
-        if (against > 0.0) measured.error.model = std::max(measured.error.model, off / against);
+        if (against > 0.0)
+          measured.error.model = std::max(measured.error.model, off / against);
+        else if (off > kRounding)  // where nothing moves at all, all of it is wrong
+          measured.error.model = std::max(measured.error.model, 1.0);
         if (statistic == &Statistics::max && quantity == quantities[0])
           measured.exceeded = high / (index.*quantity).max - 1.0;
       }
