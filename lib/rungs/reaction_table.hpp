@@ -51,7 +51,7 @@ class ReactionTable {
   TimeTable table_;  // r (n), E (6 x n), slides (one per clearance)
   std::vector<JournalInSleeve> joints_;
   std::vector<double> largest_load_;  // per clearance [N]
-  double largest_of_all_ = 0.0;         // the largest of these [N]
+  double largest_of_all_ = 0.0;       // the largest of these [N]
 };
 
 }  // namespace boresight

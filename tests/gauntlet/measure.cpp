@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <stdexcept>
 
@@ -85,25 +84,6 @@ std::array<double, kFigures.size()> figures(const PointingIndices& i) {
           i.orientation_error.max, i.orientation_error.rms, sight.max,             sight.rms};
 }
 
-// What a run says of its steps by how they were chosen: its tolerance, on the mechanism's size, or how far halving them changed the indices.
-std::array<double, kFigures.size()> by_choice(const RunResult& r, RunOptions options, const Mechanism& mechanism) {
-  std::array<double, kFigures.size()> stated{};
-  if (options.integrator.empty()) options.integrator = r.integrator_taken;
-  const std::array<double, kFigures.size()> own = figures(r.index);
-  const double length = mechanism.characteristic_length();
-  const auto& sight = mechanism.description().line_of_sight;
-  double agreed = 0.0;  // [%]
-  for (const std::string& warning : r.warnings)
-    if (std::sscanf(warning.c_str(), "steps were halved %*d times, until that changed the indices by less than %lf", &agreed) == 1) break;
-  for (std::size_t k = 0; k < stated.size(); ++k) {
-    stated[k] = 0.01 * agreed * own[k];
-    if (!controls_error(options)) continue;
-    const double over = k < 2 ? 1.0 : k >= 6 && sight ? std::max(length, (sight->target - sight->from).norm()) : length;
-    stated[k] = 2.0 * tolerance_of(options, r.rung) * smallest_clearance(mechanism.parameters()) / over;
-  }
-  return stated;
-}
-
 }  // namespace
 
 Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked, double most_seconds) {
@@ -118,7 +98,6 @@ Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& ask
   for (const ContactSummary& c : r.contact) deepest = std::max(deepest, c.max_penetration);
   const double play = smallest_clearance(mechanism->parameters());
   return {{"figure", figures(r.index)},
-          {"by_choice", by_choice(r, options, *mechanism)},
           {"model", r.error.model},
           {"basis", r.error.basis},
           {"step", r.cost.steps > 0 ? mechanism->duration() / static_cast<double>(r.cost.steps) : 0.0},
@@ -145,7 +124,6 @@ Measured measured(const Json& json) {
   m.not_finite = json.at("not_finite");
   if (!m.not_finite.empty()) return m;  // JSON has no infinity: nothing else can be relied on
   for (std::size_t k = 0; k < kFigures.size(); ++k) m.figure[k] = json.at("figure").at(k);
-  for (std::size_t k = 0; k < kFigures.size(); ++k) m.by_choice[k] = json.at("by_choice").at(k);
   m.taken = json.at("taken");
   m.model = json.at("model");
   m.basis = json.at("basis");

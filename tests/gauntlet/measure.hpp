@@ -28,7 +28,6 @@ struct Measured {
   std::array<double, kFigures.size()> figure{};
   double model = 0.0;  // what the rung states of its model, relative
   std::array<double, kFigures.size()> by_steps{};  // what further runs show that steps do, of each figure; zero until measured
-  std::array<double, kFigures.size()> by_choice{};  // what the run says of its steps without further runs: by its tolerance
   bool steps_measured = false;
   double step = 0.0;              // mean [s]
   std::string taken;              // the integrator that took over, if one did
