@@ -4,4 +4,4 @@ set -euo pipefail
 . .ci/install.sh
 install_packages .ci/packages.txt
 
-cmake --preset release
+cmake --preset developer

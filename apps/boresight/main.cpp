@@ -11,19 +11,19 @@
 #include <iostream>
 #include <new>
 
-#include "boresight_analyses/montecarlo/sample_store.hpp"
-#include "boresight_analyses/study/pilot.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
-#include "completion.hpp"
-#include "exit_status.hpp"
-#include "interruption.hpp"
-#include "montecarlo_study.hpp"
-#include "output_directory.hpp"
-#include "summary.hpp"
-#include "terminal.hpp"
-#include "verb.hpp"
-#include "work_line.hpp"
+#include "boresight_analyses/runs/sample_store.hpp"
+#include "boresight_analyses/study/pilot.hpp"
+#include "command_line/completion.hpp"
+#include "command_line/montecarlo_study.hpp"
+#include "command_line/verb.hpp"
+#include "results/output_directory.hpp"
+#include "results/summary.hpp"
+#include "terminal/exit_status.hpp"
+#include "terminal/interruption.hpp"
+#include "terminal/terminal.hpp"
+#include "terminal/work_line.hpp"
 
 namespace {
 
@@ -54,6 +54,25 @@ int unknown_verb(const std::string& word, const std::vector<std::unique_ptr<Verb
                              (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
 }
 
+// An option that the verb does not have: named, with the nearest one that it has or the verbs that have it.
+std::string unknown_option(const std::vector<std::string>& left_over, const std::string& verb,
+                           const std::vector<CLI::App*>& commands) {
+  const auto option = std::find_if(left_over.begin(), left_over.end(),
+                                   [](const std::string& word) { return word.size() > 1 && word.starts_with('-'); });
+  if (option == left_over.end()) return "found \"" + left_over.front() + "\", expected no further argument";
+  const std::string name = option->substr(0, option->find('='));
+  std::vector<std::string> own;
+  std::string others;
+  for (const CLI::App* command : commands)
+    for (const CLI::Option* known : command->get_options()) {
+      if (command->get_name() == verb) own.push_back(known->get_name());
+      if (known->check_name(name)) others += (others.empty() ? "" : ", ") + command->get_name();
+    }
+  if (!others.empty()) return name + " is not an option of " + verb + ", but of " + others;
+  const std::string nearest = nearest_name(name, own);
+  return name + " is not an option of " + verb + (nearest.empty() ? "" : "; did you mean " + nearest + "?");
+}
+
 int run_program(int argc, char** argv) {
   const auto verbs = all_verbs();
   std::vector<CommandOptions> options(verbs.size());
@@ -67,25 +86,28 @@ int run_program(int argc, char** argv) {
       "interrupted.");
   for (std::size_t i = 0; i < verbs.size(); ++i) {
     CLI::App* command = app.add_subcommand(verbs[i]->name(), verbs[i]->summary());
-    options[i].declare(*command, verbs[i]->file_kind(), verbs[i]->needs_file());
+    options[i].declare(*command, verbs[i]->file_kind(), verbs[i]->needs_file(), verbs[i]->unused_options());
     verbs[i]->declare_options(*command);
     command->footer("Example:\n  " + verbs[i]->example());
     commands.push_back(command);
   }
 
   std::string shell;
-  CLI::App* completion = app.add_subcommand("completion", "completion of verbs and options in a shell: bash, zsh, fish");
+  CLI::App* completion =
+      app.add_subcommand("completion", "completion of verbs and options in a shell: bash, zsh, fish");
   completion->add_option("SHELL", shell, "bash, zsh or fish")->required()->type_name("");
   completion->footer("Example:\n  source <(boresight completion bash)");
 
-  if (argc < 2)
-    return fail(kBadInput, "found no verb, expected boresight VERB FILE; boresight --help tells more");
+  if (argc < 2) return fail(kBadInput, "found no verb, expected boresight VERB FILE; boresight --help tells more");
   const bool known =
       std::any_of(verbs.begin(), verbs.end(), [&](const auto& verb) { return verb->name() == argv[1]; }) ||
       completion->get_name() == argv[1];
   if (argv[1][0] != '-' && !known) return unknown_verb(argv[1], verbs);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    return fail(kBadInput, unknown_option(app.remaining(true), argv[1], commands) + "; boresight " + argv[1] +
+                               " --help tells more");
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return fail(kBadInput, std::string(error.what()) + "; boresight " +
@@ -94,7 +116,8 @@ int run_program(int argc, char** argv) {
   if (completion->parsed()) {
     const auto& shells = completion_shells();
     if (std::find(shells.begin(), shells.end(), shell) == shells.end())
-      throw InputError({"command line", 0}, "SHELL", "\"" + shell + "\"", "bash, zsh or fish", nearest_name(shell, shells));
+      throw InputError({"command line", 0}, "SHELL", "\"" + shell + "\"", "bash, zsh or fish",
+                       nearest_name(shell, shells));
     std::cout << completion_script(app, shell);
     return kDone;
   }
@@ -124,7 +147,9 @@ int main(int argc, char** argv) {
   } catch (const Interrupted&) {
     return fail(kInterrupted, "interrupted before there was anything new to keep");
   } catch (const PilotInterrupted&) {
-    return fail(kInterrupted, "interrupted while a rung was being chosen: nothing is lost, nothing was begun; --rung NAME does without the choice");
+    return fail(kInterrupted,
+                "interrupted while a rung was being chosen: nothing is lost, nothing was begun; --rung NAME does "
+                "without the choice");
   } catch (const OutputDirectoryError& error) {
     return fail(kBadInput, error.what());
   } catch (const SilentExit& exit) {

@@ -1,4 +1,4 @@
-#include "verb.hpp"
+#include "command_line/verb.hpp"
 
 namespace boresight::app {
 

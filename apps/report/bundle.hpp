@@ -13,12 +13,10 @@ extern const char boresight_report_style_end[];
 namespace boresight::report {
 
 inline std::string_view bundled_script() {
-  return {boresight_report_script,
-          static_cast<std::size_t>(boresight_report_script_end - boresight_report_script)};
+  return {boresight_report_script, static_cast<std::size_t>(boresight_report_script_end - boresight_report_script)};
 }
 inline std::string_view bundled_style() {
-  return {boresight_report_style,
-          static_cast<std::size_t>(boresight_report_style_end - boresight_report_style)};
+  return {boresight_report_style, static_cast<std::size_t>(boresight_report_style_end - boresight_report_style)};
 }
 
 }  // namespace boresight::report

@@ -19,12 +19,10 @@ void axis(const Place& place) {
   flag_where_given(place, {"log"});
   if (!place.has("range")) return;
   const Place range = place.at("range");
-  if (!range.value.is_array() || range.value.size() != 2)
-    range.fail(range.found(), "two numbers, [from, to]");
+  if (!range.value.is_array() || range.value.size() != 2) range.fail(range.found(), "two numbers, [from, to]");
   finite(range.at(std::size_t{0}));
   finite(range.at(std::size_t{1}));
-  if (range.value[0].get<double>() >= range.value[1].get<double>())
-    range.fail(range.value.dump(), "from < to");
+  if (range.value[0].get<double>() >= range.value[1].get<double>()) range.fail(range.value.dump(), "from < to");
   if (place.value.value("log", false) && range.value[0].get<double>() <= 0.0) {
     range.fail(range.value.dump(), "positive ends, as the axis is logarithmic");
   }
@@ -298,16 +296,14 @@ void item(const Place& place) {
 void fact(const Place& place) {
   object(place, {"label", "value"}, {"unit", "note"});
   text(place.at("label"), false);
-  if (!place.at("value").value.is_primitive())
-    place.at("value").fail(place.at("value").found(), "text or a number");
+  if (!place.at("value").value.is_primitive()) place.at("value").fail(place.at("value").found(), "text or a number");
   text_where_given(place, {"unit", "note"});
 }
 
 void provenance(const Place& place) {
   object(place, {"label", "value"}, {});
   text(place.at("label"), false);
-  if (!place.at("value").value.is_primitive())
-    place.at("value").fail(place.at("value").found(), "text or a number");
+  if (!place.at("value").value.is_primitive()) place.at("value").fail(place.at("value").found(), "text or a number");
 }
 
 void section(const Place& place) {

@@ -176,11 +176,7 @@ void to_json(json& json, const StripRow& row) {
 }
 
 void to_json(json& json, const Strip& strip) {
-  json = {{"kind", "strip"},
-          {"title", strip.title},
-          {"x", strip.x},
-          {"states", strip.states},
-          {"rows", strip.rows}};
+  json = {{"kind", "strip"}, {"title", strip.title}, {"x", strip.x}, {"states", strip.states}, {"rows", strip.rows}};
   set(json, "caption", strip.caption);
 }
 
@@ -266,8 +262,7 @@ std::pair<Numbers, Numbers> thinned(const Numbers& x, const Numbers& y, std::siz
         if (y[stop] < y[least]) least = stop;
         if (y[stop] > y[greatest]) greatest = stop;
       }
-      std::array<std::size_t, 4> points{begin, std::min(least, greatest), std::max(least, greatest),
-                                        stop - 1};
+      std::array<std::size_t, 4> points{begin, std::min(least, greatest), std::max(least, greatest), stop - 1};
       for (std::size_t k = 0; k < points.size(); ++k)
         if (k == 0 || points[k] != points[k - 1]) keep(points[k]);
       begin = stop;

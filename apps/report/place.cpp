@@ -27,8 +27,7 @@ void object(const Place& place, Words required, Words optional) {
 
 void text(const Place& place, bool may_be_empty) {
   if (!place.value.is_string()) place.fail(place.found(), "text");
-  if (!may_be_empty && place.value.get_ref<const std::string&>().empty())
-    place.fail("empty text", "some text");
+  if (!may_be_empty && place.value.get_ref<const std::string&>().empty()) place.fail("empty text", "some text");
 }
 void text_where_given(const Place& place, Words keys) {
   for (const char* key : keys)
@@ -37,8 +36,7 @@ void text_where_given(const Place& place, Words keys) {
 
 void flag_where_given(const Place& place, Words keys) {
   for (const char* key : keys) {
-    if (place.has(key) && !place.at(key).value.is_boolean())
-      place.at(key).fail(place.at(key).found(), "true or false");
+    if (place.has(key) && !place.at(key).value.is_boolean()) place.at(key).fail(place.at(key).found(), "true or false");
   }
 }
 
@@ -50,15 +48,12 @@ void one_of(const Place& place, Words words) {
   }
 }
 
-void finite(const Place& place, double least,
-            double most) {
+void finite(const Place& place, double least, double most) {
   if (!place.value.is_number() || !std::isfinite(place.value.get<double>()))
     place.fail(place.found(), "a finite number");
   const double number = place.value.get<double>();
   if (number < least || number > most) {
-    const auto end = [](double limit) {
-      return std::isfinite(limit) ? json(limit).dump() : std::string("any");
-    };
+    const auto end = [](double limit) { return std::isfinite(limit) ? json(limit).dump() : std::string("any"); };
     place.fail(place.found(), "a number from " + end(least) + " to " + end(most));
   }
 }

@@ -18,8 +18,8 @@ struct Place {
   std::string path;
 
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
-    throw std::invalid_argument("report document: " + (path.empty() ? std::string("(root)") : path) +
-                                ": found " + found + ", expected " + expected);
+    throw std::invalid_argument("report document: " + (path.empty() ? std::string("(root)") : path) + ": found " +
+                                found + ", expected " + expected);
   }
   // What stands here, short enough for one line of message.
   std::string found() const {

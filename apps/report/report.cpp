@@ -88,13 +88,11 @@ void write_html(std::ostream& out, const json& document) {
          "<link rel=\"icon\" href=\"data:,\">\n"
          "<title>"
       << title << "</title>\n<style>" << bundled_style()
-      << "</style>\n</head>\n<body>\n<div id=\"report\"></div>\n<noscript><h1>" << title << "</h1><p>"
-      << verdict
+      << "</style>\n</head>\n<body>\n<div id=\"report\"></div>\n<noscript><h1>" << title << "</h1><p>" << verdict
       << "</p><p>The charts and tables of this report are drawn by a script inside the file. Allow scripts "
          "to see "
          "them.</p></noscript>\n<script type=\"application/json\" id=\"document\">"
-      << script_data(rounded(document)) << "</script>\n<script>" << bundled_script()
-      << "</script>\n</body>\n</html>\n";
+      << script_data(rounded(document)) << "</script>\n<script>" << bundled_script() << "</script>\n</body>\n</html>\n";
 }
 
 std::string html(const json& document) {

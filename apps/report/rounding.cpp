@@ -13,8 +13,7 @@ using checks::json, checks::Words;
 
 double round_to(double value, int digits) {
   char buffer[48];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific, digits - 1).ptr;
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::scientific, digits - 1).ptr;
   double result = value;
   std::from_chars(buffer, end, result);
   return result;

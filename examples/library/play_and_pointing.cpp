@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "boresight/io/mechanism_file.hpp"
-#include "boresight/rungs/rung.hpp"
+#include "boresight/ladder/ladder.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 2) {
@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
       std::printf("%4.1f nominal  %8.2f arcsec  %8.2f um\n", play, result.index.boresight_error.max * radians_to_arcsec,
                   result.index.position_error.max * 1e6);
     }
-  } catch (const std::exception& error) {  // InputError: one line with file, line, key; ComputationError: what cannot be followed
+  } catch (const std::exception&
+               error) {  // InputError: one line with file, line, key; ComputationError: what cannot be followed
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
   }

@@ -6,8 +6,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "boresight/formulations/formulation.hpp"
 #include "boresight/mechanism/constraint_system.hpp"
-#include "boresight/rungs/formulation.hpp"
 
 namespace boresight::benchmarks {
 

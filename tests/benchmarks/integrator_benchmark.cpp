@@ -8,13 +8,13 @@
 
 #include <map>
 
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/integrate/explicit_method.hpp"
 #include "boresight/integrate/integrator.hpp"
 #include "boresight/integrate/rosenbrock_method.hpp"
-#include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/perturbation/perturbation_system.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
-#include "boresight/rungs/perturbation_system.hpp"
-#include "boresight/rungs/scene_rung.hpp"
+#include "boresight/scene/scene_rung.hpp"
 #include "scenes.hpp"
 
 #ifdef BORESIGHT_SUNDIALS
@@ -37,8 +37,7 @@ struct Scene {
   double position_error(double t, const double* z) const {
     gain->at(t, row.data());
     const int n = tables->layout.n;
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> E(
-        row.data(), 3, n);
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> E(row.data(), 3, n);
     return (E * Eigen::Map<const VecX>(z, n)).norm();
   }
   VecX tolerances(double tolerance) const {
@@ -105,8 +104,7 @@ Outcome rk4(const Scene& s, double) {
     const double t = kGrid * i;
     system.accept(t, y);
     system.derivative(t, y, method.first_slope());
-    method.step(t, kGrid, y,
-                [&](double at, const VecX& state, VecX& slope) { system.derivative(at, state, slope); });
+    method.step(t, kGrid, y, [&](double at, const VecX& state, VecX& slope) { system.derivative(at, state, slope); });
     outcome.largest = std::max(outcome.largest, s.position_error(t + kGrid, y.data()));
     outcome.evaluations += 4;
   }
@@ -148,12 +146,9 @@ BENCHMARK_CAPTURE(integrator, dopri5_1e4, dopri5, 1e-4)->Apply(at_both_loads);
 BENCHMARK_CAPTURE(integrator, rosenbrock_1e3, rosenbrock, 1e-3)->Apply(at_both_loads);
 BENCHMARK_CAPTURE(integrator, rosenbrock_1e4, rosenbrock, 1e-4)->Apply(at_both_loads);
 #ifdef BORESIGHT_SUNDIALS
-BENCHMARK_CAPTURE(integrator, cvode_bdf_1e3, sundials<peers::SundialsMethod::cvode_bdf>, 1e-3)
-    ->Apply(at_both_loads);
-BENCHMARK_CAPTURE(integrator, cvode_bdf_1e4, sundials<peers::SundialsMethod::cvode_bdf>, 1e-4)
-    ->Apply(at_both_loads);
-BENCHMARK_CAPTURE(integrator, arkode_erk_1e4, sundials<peers::SundialsMethod::arkode_erk>, 1e-4)
-    ->Apply(at_both_loads);
+BENCHMARK_CAPTURE(integrator, cvode_bdf_1e3, sundials<peers::SundialsMethod::cvode_bdf>, 1e-3)->Apply(at_both_loads);
+BENCHMARK_CAPTURE(integrator, cvode_bdf_1e4, sundials<peers::SundialsMethod::cvode_bdf>, 1e-4)->Apply(at_both_loads);
+BENCHMARK_CAPTURE(integrator, arkode_erk_1e4, sundials<peers::SundialsMethod::arkode_erk>, 1e-4)->Apply(at_both_loads);
 BENCHMARK_CAPTURE(integrator, arkode_dirk_1e3, sundials<peers::SundialsMethod::arkode_dirk>, 1e-3)
     ->Apply(at_both_loads);
 BENCHMARK_CAPTURE(integrator, arkode_dirk_1e4, sundials<peers::SundialsMethod::arkode_dirk>, 1e-4)

@@ -2,7 +2,7 @@
 // second of motion on each rung at the paper's step.
 #include <benchmark/benchmark.h>
 
-#include "boresight/rungs/rung.hpp"
+#include "boresight/ladder/ladder.hpp"
 #include "dense_baseline.hpp"
 #include "scenes.hpp"
 
@@ -42,7 +42,8 @@ void right_hand_side(benchmark::State& state, bool paper, JournalAxes axes) {
   double difference = 0.0;
   for (int b = 0; b < mechanism.bodies(); ++b)
     difference = std::max(difference, (formulation->acceleration()[b] - exact.segment<6>(6 * b)).norm());
-  if (axes == JournalAxes::parallel && difference > 1e-6 * exact.norm()) state.SkipWithError("the formulations disagree");
+  if (axes == JournalAxes::parallel && difference > 1e-6 * exact.norm())
+    state.SkipWithError("the formulations disagree");
   // A run never asks twice for the same state: neither does this.
   double t = 0.23;
   for (auto _ : state) {

@@ -13,7 +13,8 @@ inline std::uint64_t fuzz_seed() {
   static const std::uint64_t seed = [] {
     const char* given = std::getenv("BORESIGHT_FUZZ_SEED");
     const auto day = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()).time_since_epoch().count();
-    const std::uint64_t found = given != nullptr ? std::strtoull(given, nullptr, 10) : static_cast<std::uint64_t>(day) * 1'000'000;
+    const std::uint64_t found =
+        given != nullptr ? std::strtoull(given, nullptr, 10) : static_cast<std::uint64_t>(day) * 1'000'000;
     std::printf("BORESIGHT_FUZZ_SEED=%llu\n", static_cast<unsigned long long>(found));
     std::fflush(stdout);
     return found;

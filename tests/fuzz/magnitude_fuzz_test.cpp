@@ -9,13 +9,13 @@
 #include <iterator>
 #include <memory>
 
+#include "boresight/contact_events/contact_report.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/io/units.hpp"
+#include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/kinematic_report.hpp"
-#include "boresight/rungs/contact_report.hpp"
-#include "boresight/rungs/rung.hpp"
 #include "fuzz_seed.hpp"
 #include "mutation.hpp"
 
@@ -32,9 +32,12 @@ std::vector<std::pair<std::size_t, std::size_t>> numbers_of(const std::string& t
   std::vector<std::pair<std::size_t, std::size_t>> found;
   for (std::size_t i = 1; i < text.size();) {
     const char before = text[i - 1];
-    const bool starts = (before == '"' || before == ' ' || before == '[') && (std::isdigit(static_cast<unsigned char>(text[i])) || text[i] == '-');
+    const bool starts = (before == '"' || before == ' ' || before == '[') &&
+                        (std::isdigit(static_cast<unsigned char>(text[i])) || text[i] == '-');
     std::size_t end = i;
-    while (end < text.size() && (std::isdigit(static_cast<unsigned char>(text[end])) || std::string("+-.eE").find(text[end]) != std::string::npos)) ++end;
+    while (end < text.size() && (std::isdigit(static_cast<unsigned char>(text[end])) ||
+                                 std::string("+-.eE").find(text[end]) != std::string::npos))
+      ++end;
     double value = 0.0;
     if (starts && end > i && parse_number(text.substr(i, end - i), value)) found.emplace_back(i, end - i);
     i = std::max(end, i + 1);
@@ -52,9 +55,11 @@ std::string with_other_magnitudes(std::string text, Mutator& mutator) {
     parse_number(text.substr(begin, length), value);
     char number[40];
     if (mutator.below(2) == 0)
-      std::snprintf(number, sizeof number, "%de%d", 1 + static_cast<int>(mutator.below(9)), static_cast<int>(mutator.below(632)) - 323);
+      std::snprintf(number, sizeof number, "%de%d", 1 + static_cast<int>(mutator.below(9)),
+                    static_cast<int>(mutator.below(632)) - 323);
     else
-      std::snprintf(number, sizeof number, "%.6g", (value == 0.0 ? 1.0 : value) * std::pow(10.0, static_cast<double>(mutator.below(13)) - 6.0));
+      std::snprintf(number, sizeof number, "%.6g",
+                    (value == 0.0 ? 1.0 : value) * std::pow(10.0, static_cast<double>(mutator.below(13)) - 6.0));
     text.replace(begin, length, number);
   }
   return text;
@@ -73,7 +78,8 @@ std::string computed(const std::string& text) {
     const auto mechanism = std::make_shared<const Mechanism>(read_mechanism_text(text, "fuzz.toml"));
     const KinematicReport k = analyse_kinematics(*mechanism, 11);
     for (const ConditioningSample& s : k.along)
-      if (!std::isfinite(s.smallest_singular_value) || !std::isfinite(s.orientation) || !std::isfinite(s.position)) return "conditioning";
+      if (!std::isfinite(s.smallest_singular_value) || !std::isfinite(s.orientation) || !std::isfinite(s.position))
+        return "conditioning";
     if (!k.feasible) return "refused";
     for (const ContactFrequency& c : analyse_contacts(*mechanism, mechanism->parameters()))
       for (const double value : {c.hertz_stiffness, c.axial_stiffness, c.effective_mass, c.typical_load, c.largest_load,
@@ -110,7 +116,9 @@ void run_fuzz(int count, std::uint64_t seed) {
     begun = std::clock();
     const std::string found = computed(text);
     ++(found.empty() ? finite : found == "long" ? long_work : refused);
-    EXPECT_TRUE(found.empty() || found == "refused" || found == "long") << "BORESIGHT_FUZZ_SEED=" << seed + static_cast<std::uint64_t>(i) << ": " << found << "\n" << text;
+    EXPECT_TRUE(found.empty() || found == "refused" || found == "long")
+        << "BORESIGHT_FUZZ_SEED=" << seed + static_cast<std::uint64_t>(i) << ": " << found << "\n"
+        << text;
     EXPECT_LT(seconds_since_begin(), 2.0 * kLongest) << "input " << i << "\n" << text;
   }
   watch_work(nullptr);

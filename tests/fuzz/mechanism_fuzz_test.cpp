@@ -50,7 +50,8 @@ void run_fuzz(int count, std::uint64_t seed, Tally& tally) {
     Mutator mutator(seed + static_cast<std::uint64_t>(k));
     const std::string text = mutator.mutate(seeds[mutator.below(seeds.size())]);
     std::vector<Setting> settings;
-    if (mutator.below(4) == 0) settings.push_back({mutator.below(2) == 0 ? "payload.mass" : "clearance.*.radial", mutator.mutate("0.2 mm")});
+    if (mutator.below(4) == 0)
+      settings.push_back({mutator.below(2) == 0 ? "payload.mass" : "clearance.*.radial", mutator.mutate("0.2 mm")});
     const auto begin = std::chrono::steady_clock::now();
     try {
       const std::string fault = fault_of(read_mechanism_text(text, "fuzz.toml", settings));
@@ -64,7 +65,9 @@ void run_fuzz(int count, std::uint64_t seed, Tally& tally) {
       EXPECT_NE(line.find("expected "), std::string::npos) << "input " << k << ": " << line;
       ++tally.refused;
     } catch (const std::exception& error) {
-      ADD_FAILURE() << "BORESIGHT_FUZZ_SEED=" << seed + static_cast<std::uint64_t>(k) << " threw something else: " << error.what() << "\n" << text.substr(0, 4000);
+      ADD_FAILURE() << "BORESIGHT_FUZZ_SEED=" << seed + static_cast<std::uint64_t>(k)
+                    << " threw something else: " << error.what() << "\n"
+                    << text.substr(0, 4000);
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     EXPECT_LT(seconds, kLongest) << "input " << k;
@@ -86,9 +89,11 @@ TEST(LongMechanismFuzz, DamagedFilesAreRefusedInOneLineOrHold) {
 }
 
 void run_small(int count, std::uint64_t seed) {
-  const std::vector<std::string> expressions = {"2*pi*sin(pi*t)", "500*sin(theta)*cos(psi) + 5*sin(pi*t)", "atan2(t, 1+t^2)^3/(2-t)",
-                                                "pow(abs(t), 2.5)*exp(-3*t)", "log(sqrt(1+t^2))^-2", "9^2^3 + (2*t)^8*(t+1)^7"};
-  const std::vector<std::string> quantities = {"0.1 mm", "72 GPa", "5 kg m^2", "3 N s/m", "10 µm", "1e-3 m/s^2", "30 deg"};
+  const std::vector<std::string> expressions = {"2*pi*sin(pi*t)",          "500*sin(theta)*cos(psi) + 5*sin(pi*t)",
+                                                "atan2(t, 1+t^2)^3/(2-t)", "pow(abs(t), 2.5)*exp(-3*t)",
+                                                "log(sqrt(1+t^2))^-2",     "9^2^3 + (2*t)^8*(t+1)^7"};
+  const std::vector<std::string> quantities = {"0.1 mm", "72 GPa",     "5 kg m^2", "3 N s/m",
+                                               "10 µm",  "1e-3 m/s^2", "30 deg"};
   for (int k = 0; k < count; ++k) {
     Mutator mutator(seed + static_cast<std::uint64_t>(k));
     const std::string expression = mutator.mutate(expressions[mutator.below(expressions.size())]);
@@ -113,7 +118,9 @@ void run_small(int count, std::uint64_t seed) {
 }
 
 TEST(ValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) { run_small(10000, fuzz_seed()); }
-TEST(LongValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) { run_small(125000 * fuzz_times(), fuzz_seed() + 100'000); }
+TEST(LongValueFuzz, DamagedExpressionsAndQuantitiesAreRefusedOrHold) {
+  run_small(125000 * fuzz_times(), fuzz_seed() + 100'000);
+}
 
 }  // namespace
 }  // namespace boresight

@@ -11,8 +11,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const std::string fault = boresight::fault_of(
-        boresight::read_mechanism_text({reinterpret_cast<const char*>(data), size}, "fuzz.toml"));
+    const std::string fault =
+        boresight::fault_of(boresight::read_mechanism_text({reinterpret_cast<const char*>(data), size}, "fuzz.toml"));
     if (!fault.empty()) {
       std::fprintf(stderr, "let through: %s\n", fault.c_str());
       std::abort();

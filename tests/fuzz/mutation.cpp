@@ -20,7 +20,8 @@ std::vector<Span> lines_of(const std::string& text) {
 }
 
 bool is_word(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-' || c == '"';
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ||
+         c == '-' || c == '"';
 }
 
 std::vector<Span> tokens_of(const std::string& text) {
@@ -40,7 +41,8 @@ std::vector<Span> values_of(const std::string& text) {
   for (const auto& [begin, length] : lines_of(text)) {
     const std::string line = text.substr(begin, length);
     const std::size_t equals = line.find('=');
-    if (equals != std::string::npos && length > equals + 2) values.emplace_back(begin + equals + 2, length - equals - 3);
+    if (equals != std::string::npos && length > equals + 2)
+      values.emplace_back(begin + equals + 2, length - equals - 3);
     for (std::size_t open = line.find('"'); open != std::string::npos;) {
       const std::size_t close = line.find('"', open + 1);
       if (close == std::string::npos) break;
@@ -58,12 +60,71 @@ std::string repeated(const std::string& part, std::size_t count) {
 }
 
 const std::vector<std::string>& nasty_values() {
-  static const std::vector<std::string> values = {
-      "1e999", "-1e999", "nan", "inf", "-inf", "-1", "0", "\"\"", "", "1e308", "1e-320", "true", "[]", "{}", "[[]]", "9223372036854775807",
-      "99999999999999999999", "\"nan mm\"", "\"-1 mm\"", "\"0 mm\"", "\"1e308 km\"", "\"1e300 kg\"", "\"1e-300 kg\"", "\"5 deg\"", "\"%s%n\"",
-      "9^9^9^9", "1/t", "sqrt(t-1)", "t^64", "((((", "exp(exp(exp(9*t)))", "2*pi*t", "0*t", "atan2(t,t)", "psi", "ground", "platform", "rod1",
-      "A1", "free", "revolute", "spherical", "universal", "cylindrical", "planar", "fixed", "prismatic", "{i}", "{i}{i}", "clearance", "\\u0000", "\\n", "\xff\xfe", "1979-05-27T07:32:00Z",
-      "0x7fffffff", "1_000", "'''", "\"\"\"", "1 mm", "1 kg", "0.1 mm", "1 N", "-0.0 s", "1e-9 s", "1e9 s"};
+  static const std::vector<std::string> values = {"1e999",
+                                                  "-1e999",
+                                                  "nan",
+                                                  "inf",
+                                                  "-inf",
+                                                  "-1",
+                                                  "0",
+                                                  "\"\"",
+                                                  "",
+                                                  "1e308",
+                                                  "1e-320",
+                                                  "true",
+                                                  "[]",
+                                                  "{}",
+                                                  "[[]]",
+                                                  "9223372036854775807",
+                                                  "99999999999999999999",
+                                                  "\"nan mm\"",
+                                                  "\"-1 mm\"",
+                                                  "\"0 mm\"",
+                                                  "\"1e308 km\"",
+                                                  "\"1e300 kg\"",
+                                                  "\"1e-300 kg\"",
+                                                  "\"5 deg\"",
+                                                  "\"%s%n\"",
+                                                  "9^9^9^9",
+                                                  "1/t",
+                                                  "sqrt(t-1)",
+                                                  "t^64",
+                                                  "((((",
+                                                  "exp(exp(exp(9*t)))",
+                                                  "2*pi*t",
+                                                  "0*t",
+                                                  "atan2(t,t)",
+                                                  "psi",
+                                                  "ground",
+                                                  "platform",
+                                                  "rod1",
+                                                  "A1",
+                                                  "free",
+                                                  "revolute",
+                                                  "spherical",
+                                                  "universal",
+                                                  "cylindrical",
+                                                  "planar",
+                                                  "fixed",
+                                                  "prismatic",
+                                                  "{i}",
+                                                  "{i}{i}",
+                                                  "clearance",
+                                                  "\\u0000",
+                                                  "\\n",
+                                                  "\xff\xfe",
+                                                  "1979-05-27T07:32:00Z",
+                                                  "0x7fffffff",
+                                                  "1_000",
+                                                  "'''",
+                                                  "\"\"\"",
+                                                  "1 mm",
+                                                  "1 kg",
+                                                  "0.1 mm",
+                                                  "1 N",
+                                                  "-0.0 s",
+                                                  "1e-9 s",
+                                                  "1e9 s"};
   return values;
 }
 
@@ -72,11 +133,18 @@ const std::vector<std::string>& nasty_values() {
 std::string Mutator::once(std::string text) {
   if (text.empty()) return text;
   switch (below(13)) {
-    case 0: text[below(text.size())] ^= static_cast<char>(1u << below(8)); return text;
-    case 1: text[below(text.size())] = static_cast<char>(below(256)); return text;
-    case 2: return text.erase(below(text.size()), 1 + below(below(4) == 0 ? 200 : 4));
-    case 3: return text.insert(below(text.size()), 1, "[]{}\"'=#\n\\.,"[below(12)]);
-    case 4: return text.substr(0, below(text.size()));
+    case 0:
+      text[below(text.size())] ^= static_cast<char>(1u << below(8));
+      return text;
+    case 1:
+      text[below(text.size())] = static_cast<char>(below(256));
+      return text;
+    case 2:
+      return text.erase(below(text.size()), 1 + below(below(4) == 0 ? 200 : 4));
+    case 3:
+      return text.insert(below(text.size()), 1, "[]{}\"'=#\n\\.,"[below(12)]);
+    case 4:
+      return text.substr(0, below(text.size()));
     case 5: {  // a line lost
       const auto lines = lines_of(text);
       const Span line = lines[below(lines.size())];
@@ -121,8 +189,13 @@ std::string Mutator::once(std::string text) {
     default: {  // a key or table header nested too deep, or a table from elsewhere
       const auto lines = lines_of(text);
       const std::size_t place = lines[below(lines.size())].first;
-      const std::string parts[] = {"[" + repeated("a.", 20000) + "a]\n", "[[body]]\n", "[[pattern]]\ncount = 100000\naxis = \"z\"\n", "[motion]\n",
-                                   "[[clearance]]\njoint = \"F2\"\njournal = \"rod2\"\n", "[[load]]\n", "[initial]\nrates = { B1 = \"1 rad/s\" }\n"};
+      const std::string parts[] = {"[" + repeated("a.", 20000) + "a]\n",
+                                   "[[body]]\n",
+                                   "[[pattern]]\ncount = 100000\naxis = \"z\"\n",
+                                   "[motion]\n",
+                                   "[[clearance]]\njoint = \"F2\"\njournal = \"rod2\"\n",
+                                   "[[load]]\n",
+                                   "[initial]\nrates = { B1 = \"1 rad/s\" }\n"};
       return text.insert(place, parts[below(7)]);
     }
   }

@@ -47,7 +47,8 @@ void see(const std::string& what, Tally& tally, const Look& look) {
     EXPECT_EQ(line.find_first_of("\n\r"), std::string::npos) << what << "\n" << line;
     EXPECT_LT(line.size(), 2000u) << what;
     EXPECT_NE(line.find("expected "), std::string::npos) << what << "\n" << line;
-    for (const char c : line) EXPECT_FALSE(static_cast<unsigned char>(c) < 0x20 || c == 0x7f) << "raw text on the terminal: " << what;
+    for (const char c : line)
+      EXPECT_FALSE(static_cast<unsigned char>(c) < 0x20 || c == 0x7f) << "raw text on the terminal: " << what;
     ++tally.refused;
   } catch (const std::exception& error) {
     ADD_FAILURE() << what << "\nthrew something else: " << error.what();
@@ -62,13 +63,30 @@ void run_studies(int count, std::uint64_t seed, Tally& tally) {
     const std::uint64_t one = seed + static_cast<std::uint64_t>(k);
     Mutator mutator(one);
     const std::string text = mutator.mutate(seeds[mutator.below(seeds.size())]);
-    see("BORESIGHT_FUZZ_SEED=" + std::to_string(one) + ":\n" + text.substr(0, 4000), tally, [&] { return fault_of_study(text, BORESIGHT_FUZZ_STUDIES); });
+    see("BORESIGHT_FUZZ_SEED=" + std::to_string(one) + ":\n" + text.substr(0, 4000), tally,
+        [&] { return fault_of_study(text, BORESIGHT_FUZZ_STUDIES); });
   }
 }
 
 // Fields of a table of numbers, damaged as a spreadsheet, a locale or a logger would.
 std::string damaged_table(std::string text, Mutator& mutator) {
-  const std::string fields[] = {"nan", "NA", "", "1e999", "-inf", "0x10", "1,5", "\"3.2\"", "3.2 um", "+4", " 5 ", "=1+1", "\t", "1e-320", "#", "\r", std::string(300, '9')};
+  const std::string fields[] = {"nan",
+                                "NA",
+                                "",
+                                "1e999",
+                                "-inf",
+                                "0x10",
+                                "1,5",
+                                "\"3.2\"",
+                                "3.2 um",
+                                "+4",
+                                " 5 ",
+                                "=1+1",
+                                "\t",
+                                "1e-320",
+                                "#",
+                                "\r",
+                                std::string(300, '9')};
   for (std::size_t n = 1 + mutator.below(3); n > 0; --n) {
     if (mutator.below(3) == 0) {
       text = mutator.mutate(text);
@@ -87,13 +105,16 @@ std::string damaged_table(std::string text, Mutator& mutator) {
 void run_tables(int count, std::uint64_t seed, Tally& tally) {
   std::string table = bytes_of(BORESIGHT_EXAMPLES "/calibration/fast.csv");
   table.resize(table.find('\n', 2000) + 1);  // a few dozen lines
-  const std::string file = testing::TempDir() + "boresight-fuzz-" + std::to_string(std::hash<std::string>{}(testing::UnitTest::GetInstance()->current_test_info()->name())) + ".csv";
+  const std::string file =
+      testing::TempDir() + "boresight-fuzz-" +
+      std::to_string(std::hash<std::string>{}(testing::UnitTest::GetInstance()->current_test_info()->name())) + ".csv";
   for (int k = 0; k < count && !testing::Test::HasFailure(); ++k) {
     const std::uint64_t one = seed + static_cast<std::uint64_t>(k);
     Mutator mutator(one);
     const std::string text = damaged_table(table, mutator);
     std::ofstream(file, std::ios::binary) << text;
-    see("BORESIGHT_FUZZ_SEED=" + std::to_string(one) + ":\n" + text.substr(0, 4000), tally, [&] { return fault_of_data(file); });
+    see("BORESIGHT_FUZZ_SEED=" + std::to_string(one) + ":\n" + text.substr(0, 4000), tally,
+        [&] { return fault_of_data(file); });
   }
   std::filesystem::remove(file);
 }

@@ -50,7 +50,8 @@ std::string fault_of(const RandomInputs& inputs) {
 }
 
 std::string fault_of(const Requirement& r) {
-  const bool holds = std::isfinite(r.limit) && r.limit > 0.0 && r.probability > 0.0 && r.probability < 1.0 && r.confidence > 0.0 && r.confidence < 1.0;
+  const bool holds = std::isfinite(r.limit) && r.limit > 0.0 && r.probability > 0.0 && r.probability < 1.0 &&
+                     r.confidence > 0.0 && r.confidence < 1.0;
   return holds ? "" : "requirement";
 }
 
@@ -61,16 +62,20 @@ std::string fault_of(const MonteCarloPlan& plan) {
   if (!is_share(plan.confidence)) return "confidence";
   if (plan.requirement && !fault_of(*plan.requirement).empty()) return "requirement";
   if (!(plan.stop.width >= 0.0 && plan.stop.seconds >= 0.0)) return "stop";
-  if (plan.fidelities && (plan.fidelities->models.empty() || !(plan.fidelities->budget > 0.0) || plan.fidelities->pilot == 0)) return "fidelities";
+  if (plan.fidelities &&
+      (plan.fidelities->models.empty() || !(plan.fidelities->budget > 0.0) || plan.fidelities->pilot == 0))
+    return "fidelities";
   if (plan.tail && (!(plan.tail->budget > 0.0) || plan.tail->cheap.empty() || plan.tail->exact.empty())) return "tail";
   return fault_of(plan.inputs);
 }
 
 std::string fault_of(const BudgetPlan& plan) {
   if (plan.members == 0 || plan.attribution > plan.members || !is_share(plan.confidence)) return "members";
-  if (!(plan.sampling > 0.0) || !(plan.start >= 0.0) || !(plan.duration > 0.0) || plan.duration / plan.sampling > 1e9) return "sampling";
+  if (!(plan.sampling > 0.0) || !(plan.start >= 0.0) || !(plan.duration > 0.0) || plan.duration / plan.sampling > 1e9)
+    return "sampling";
   for (const BudgetRequirement& r : plan.requirements)
-    if (!(std::isfinite(r.limit) && r.limit > 0.0 && is_share(r.probability) && is_share(r.confidence))) return "requirement";
+    if (!(std::isfinite(r.limit) && r.limit > 0.0 && is_share(r.probability) && is_share(r.confidence)))
+      return "requirement";
   for (const Contributor& c : plan.contributors)
     if (c.name.empty()) return "contributor";
   return fault_of(plan.inputs);
@@ -100,7 +105,8 @@ std::string fault_of(const MatchingPlan& plan) {
 }
 
 std::string fault_of(const SensitivityPlan& plan) {
-  if (plan.rows == 0 || plan.groups.empty() || plan.groups.size() != plan.names.size() || !is_share(plan.confidence)) return "rows or groups";
+  if (plan.rows == 0 || plan.groups.empty() || plan.groups.size() != plan.names.size() || !is_share(plan.confidence))
+    return "rows or groups";
   std::vector<double> values(plan.inputs.size());
   plan.values(0, values);
   for (const double value : values)
@@ -118,7 +124,8 @@ std::string fault_of(const SweepPlan& plan) {
 
 std::string fault_of(const CalibrationPlan& plan) {
   if (plan.parameters.empty() || plan.runs.empty()) return "nothing to fit";
-  if (!(plan.window > 0.0) || plan.starts < 1 || !is_share(plan.confidence) || !(plan.loss.scale > 0.0)) return "calibration";
+  if (!(plan.window > 0.0) || plan.starts < 1 || !is_share(plan.confidence) || !(plan.loss.scale > 0.0))
+    return "calibration";
   for (const PlannedParameter& p : plan.parameters)
     for (const std::optional<double>& x : {p.start, p.lower, p.upper})
       if (x && !std::isfinite(*x)) return "start or bound";
@@ -157,7 +164,9 @@ std::string fault_of_study(std::string_view text, const std::string& folder) {
 std::string fault_of_data(const std::string& file) {
   const MeasuredData data = read_measured_data(file);
   const auto samples = static_cast<Eigen::Index>(data.time.size());
-  if (data.channels.empty() || data.value.rows() != samples || data.value.cols() != static_cast<Eigen::Index>(data.channels.size())) return "sizes";
+  if (data.channels.empty() || data.value.rows() != samples ||
+      data.value.cols() != static_cast<Eigen::Index>(data.channels.size()))
+    return "sizes";
   if (data.line.size() != data.time.size()) return "lines";
   for (const int channel : data.channels)
     if (channel < 0 || channel >= static_cast<int>(channel_names().size())) return "channel";

@@ -26,7 +26,8 @@ std::string fault_of_body(const BodyDescription& body) {
   if (body.name.empty() || body.name == "ground") return "body name";
   if (!std::isfinite(body.mass) || body.mass <= 0.0) return "body mass";
   if (!body.center_of_mass.allFinite()) return "centre of mass";
-  if (!((body.axes.transpose() * body.axes - Mat3::Identity()).norm() < 1e-12) || body.axes.determinant() < 0.0) return "body axes";
+  if (!((body.axes.transpose() * body.axes - Mat3::Identity()).norm() < 1e-12) || body.axes.determinant() < 0.0)
+    return "body axes";
   if (!body.inertia.allFinite() || body.inertia != body.inertia.transpose()) return "inertia";
   const Mat3 scaled = body.inertia / body.inertia.cwiseAbs().maxCoeff();
   const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(scaled).eigenvalues();
@@ -41,24 +42,44 @@ std::string fault_of_clearance(const MechanismDescription& m, const ClearanceDes
   if (joint.type != JointType::revolute && joint.type != JointType::cylindrical) return "clearance joint type";
   if (c.journal != joint.first && c.journal != joint.second) return "journal";
   const ClearanceParameters& p = c.parameters;
-  for (const double x : {p.radial, p.axial, p.journal_radius, p.cap_radius, p.sleeve_length, p.contact.restitution,
-                         p.contact.young[0], p.contact.young[1], p.contact.poisson[0], p.contact.poisson[1], p.contact.density,
-                         p.contact.minimum_impact_speed, p.contact.stiffness_scale, p.friction.coefficient,
-                         p.friction.static_speed, p.friction.dynamic_speed, p.contact.linear_stiffness, p.contact.linear_damping,
-                         p.friction.static_coefficient, p.friction.stribeck_speed, p.friction.bristle_stiffness,
-                         p.friction.bristle_damping, p.friction.viscosity}) {
+  for (const double x : {p.radial,
+                         p.axial,
+                         p.journal_radius,
+                         p.cap_radius,
+                         p.sleeve_length,
+                         p.contact.restitution,
+                         p.contact.young[0],
+                         p.contact.young[1],
+                         p.contact.poisson[0],
+                         p.contact.poisson[1],
+                         p.contact.density,
+                         p.contact.minimum_impact_speed,
+                         p.contact.stiffness_scale,
+                         p.friction.coefficient,
+                         p.friction.static_speed,
+                         p.friction.dynamic_speed,
+                         p.contact.linear_stiffness,
+                         p.contact.linear_damping,
+                         p.friction.static_coefficient,
+                         p.friction.stribeck_speed,
+                         p.friction.bristle_stiffness,
+                         p.friction.bristle_damping,
+                         p.friction.viscosity}) {
     if (!std::isfinite(x) || x < 0.0) return "clearance number";
   }
   if (p.radial <= 0.0 || p.journal_radius <= 0.0) return "radii";
-  if (joint.type == JointType::revolute && !(p.cap_radius > p.journal_radius + p.radial && p.sleeve_length > 0.0)) return "caps";
+  if (joint.type == JointType::revolute && !(p.cap_radius > p.journal_radius + p.radial && p.sleeve_length > 0.0))
+    return "caps";
   if (c.axes == JournalAxes::free && p.sleeve_length <= 0.0) return "sleeve length";
   if (p.contact.restitution < 0.0 || p.contact.restitution > 1.0) return "restitution";
   const NormalLaw law = make_normal_law(c.contact_law, c.dissipation_law, p);
-  if (!std::isfinite(law.stiffness) || !(law.stiffness > 0.0) || !std::isfinite(law.damping_factor)) return "contact law";
+  if (!std::isfinite(law.stiffness) || !(law.stiffness > 0.0) || !std::isfinite(law.damping_factor))
+    return "contact law";
   for (int k = 0; k < 2; ++k) {
     if (p.contact.young[k] <= 0.0 || p.contact.poisson[k] >= 0.5) return "material";
   }
-  if (p.contact.density <= 0.0 || p.contact.minimum_impact_speed <= 0.0 || p.contact.stiffness_scale <= 0.0) return "contact";
+  if (p.contact.density <= 0.0 || p.contact.minimum_impact_speed <= 0.0 || p.contact.stiffness_scale <= 0.0)
+    return "contact";
   if (p.friction.dynamic_speed <= p.friction.static_speed) return "friction speeds";
   return "";
 }
@@ -70,7 +91,8 @@ std::string fault_of_motion(const MechanismDescription& m) {
   if (m.motion.pose) {
     if (m.motion.pose->body < 0 || m.motion.pose->body >= static_cast<int>(m.bodies.size())) return "pose body";
     for (int k = 0; k < 3; ++k) {
-      if (!finite(m.motion.pose->angle[k], duration) || !finite(m.motion.pose->position[k], duration)) return "pose law";
+      if (!finite(m.motion.pose->angle[k], duration) || !finite(m.motion.pose->position[k], duration))
+        return "pose law";
       const int axis = m.motion.pose->sequence[k];
       if (axis < 0 || axis > 2 || (k > 0 && axis == m.motion.pose->sequence[k - 1])) return "sequence";
     }
@@ -101,14 +123,17 @@ std::string fault_of(const MechanismDescription& m) {
   if (m.payload) {
     const PayloadDescription& p = *m.payload;
     if (p.body < 0 || p.body >= bodies || !std::isfinite(p.mass) || p.mass < 0.0) return "payload";
-    if (!p.center_of_mass.allFinite() || !p.gyration.allFinite() || p.gyration.minCoeff() < 0.0) return "payload vectors";
+    if (!p.center_of_mass.allFinite() || !p.gyration.allFinite() || p.gyration.minCoeff() < 0.0)
+      return "payload vectors";
   }
   for (const JointDescription& joint : m.joints) {
     if (joint.name.empty() || !joint_names.insert(joint.name).second) return "joint name";
-    if (joint.first < kGround || joint.first >= bodies || joint.second < kGround || joint.second >= bodies) return "joint bodies";
+    if (joint.first < kGround || joint.first >= bodies || joint.second < kGround || joint.second >= bodies)
+      return "joint bodies";
     if (joint.first == joint.second) return "joint within one body";
     if (!joint.point.allFinite() || !is_unit(joint.axis) || !is_unit(joint.second_axis)) return "joint geometry";
-    if (joint.type == JointType::universal && std::abs(joint.axis.dot(joint.second_axis)) > 1e-12) return "universal axes";
+    if (joint.type == JointType::universal && std::abs(joint.axis.dot(joint.second_axis)) > 1e-12)
+      return "universal axes";
     if (joint.driven && !can_turn_or_slide(joint.type)) return "driven joint";
   }
   std::set<int> with_clearance;
@@ -126,7 +151,8 @@ std::string fault_of(const MechanismDescription& m) {
   }
   for (const LoadDescription& load : m.loads) {
     if (load.joint) {
-      if (*load.joint < 0 || *load.joint >= joints || !can_turn_or_slide(m.joints[*load.joint].type)) return "load joint";
+      if (*load.joint < 0 || *load.joint >= joints || !can_turn_or_slide(m.joints[*load.joint].type))
+        return "load joint";
       if (!finite(load.along_joint, m.motion.duration)) return "load law";
     } else {
       if (load.body < 0 || load.body >= bodies || !load.point.allFinite()) return "load body";
@@ -136,7 +162,8 @@ std::string fault_of(const MechanismDescription& m) {
     }
   }
   for (const InitialRateDescription& rate : m.initial_rates) {
-    if (rate.joint < 0 || rate.joint >= joints || m.joints[rate.joint].driven || !std::isfinite(rate.rate)) return "initial rate";
+    if (rate.joint < 0 || rate.joint >= joints || m.joints[rate.joint].driven || !std::isfinite(rate.rate))
+      return "initial rate";
   }
   if (m.content_hash.size() != 32) return "content hash";
   return "";

@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/formulations/formulation.hpp"
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/integrate/explicit_runge_kutta.hpp"
-#include "boresight/rungs/formulation.hpp"
-#include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/ladder/ladder.hpp"
 #include "measure.hpp"
 
 namespace boresight::gauntlet {
@@ -56,8 +57,10 @@ Json energy_change(const std::shared_ptr<const Mechanism>& mechanism) {
   IdealState start;
   ideal.state(0.0, start);
   for (const char* name : {"tree", "paper"}) {
-    const std::unique_ptr<Formulation> f = std::string(name) == "tree" ? make_tree_formulation(*mechanism, mechanism->parameters(), &ideal, {.with_clearance = false})
-                                                                       : make_paper_formulation(*mechanism, mechanism->parameters(), &ideal, {.with_clearance = false});
+    const std::unique_ptr<Formulation> f =
+        std::string(name) == "tree"
+            ? make_tree_formulation(*mechanism, mechanism->parameters(), &ideal, {.with_clearance = false})
+            : make_paper_formulation(*mechanism, mechanism->parameters(), &ideal, {.with_clearance = false});
     const std::vector<ContactMemory> none;
     VecX y;
     f->start(start, y);
@@ -73,7 +76,8 @@ Json energy_change(const std::shared_ptr<const Mechanism>& mechanism) {
       const std::vector<BodyMotion>& bodies = f->bodies(t, y);
       double sum = 0.0;
       for (std::size_t b = 0; b < bodies.size(); ++b) {
-        const Vec3 v = bodies[b].v + bodies[b].w.cross(bodies[b].R * masses[b].c), w = bodies[b].R.transpose() * bodies[b].w;
+        const Vec3 v = bodies[b].v + bodies[b].w.cross(bodies[b].R * masses[b].c),
+                   w = bodies[b].R.transpose() * bodies[b].w;
         sum += 0.5 * masses[b].mass * v.squaredNorm() + 0.5 * w.dot(masses[b].inertia * w);
       }
       return sum;

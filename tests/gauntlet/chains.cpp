@@ -34,7 +34,8 @@ void draw_pendulum(Draw& draw, Scene& scene) {
   for (int k = 1; k <= links; ++k) {
     const int body = scene.add_body(fmt::format("link{}", k));
     const int joint = scene.add_joint({fmt::format("joint{}", k), "revolute", inner, body, at, axis, Vec3::UnitX()});
-    if (k == 1 || draw.chance(0.5)) scene.rates.push_back({joint, draw.between(-1.0, 1.0) * std::sqrt(9.8 / scene.size)});
+    if (k == 1 || draw.chance(0.5))
+      scene.rates.push_back({joint, draw.between(-1.0, 1.0) * std::sqrt(9.8 / scene.size)});
     at += scene.size / links * (down + 0.5 * draw.direction()).normalized();
     if (draw.chance(0.5)) axis = (axis + 0.7 * draw.direction()).normalized();
     inner = body;
@@ -49,7 +50,8 @@ void draw_sprung_slide(Draw& draw, Scene& scene) {
   const Vec3 along = draw.direction(), axis = across(along);
   const int carriage = scene.add_body("carriage"), head = scene.add_body("head");
   const int slide = scene.add_joint({"slide", "prismatic", kGroundBody, carriage, Vec3::Zero(), along, Vec3::UnitX()});
-  scene.add_joint({"hinge", "revolute", carriage, head, 0.2 * scene.size * axis, axis, Vec3::UnitX(), turning_law(draw, scene, 0.5 * scene.size)});
+  scene.add_joint({"hinge", "revolute", carriage, head, 0.2 * scene.size * axis, axis, Vec3::UnitX(),
+                   turning_law(draw, scene, 0.5 * scene.size)});
   scene.rates.push_back({slide, draw.between(-0.5, 0.5) * std::sqrt(9.8 * scene.size)});
   SceneSpring s;
   s.second = carriage;

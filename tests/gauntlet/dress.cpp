@@ -20,14 +20,16 @@ SceneContact draw_contact(Draw& draw, const Scene& scene, const ScenePlay& play)
     c.law = draw.one_of(names);
   }
   c.restitution = draw.chance(0.1) ? 1.0 : draw.between(0.3, 0.95);
-  const std::vector<std::array<double, 3>> materials = {{210e9, 0.3, 7800}, {72e9, 0.33, 2700}, {110e9, 0.34, 4500}, {3e9, 0.4, 1400}};
+  const std::vector<std::array<double, 3>> materials = {
+      {210e9, 0.3, 7800}, {72e9, 0.33, 2700}, {110e9, 0.34, 4500}, {3e9, 0.4, 1400}};
   const auto journal = draw.one_of(materials), sleeve = draw.one_of(materials);
   c.young = {journal[0], sleeve[0]};
   c.poisson = {journal[1], sleeve[1]};
   c.density = sleeve[2];
   c.minimum_impact_speed = draw.log_between(1e-4, 1e-2);
   const bool line = normal_law(c.law).geometry == ContactGeometry::line;
-  if (line && draw.chance(0.3)) c.dissipation = draw.one_of<std::string>({"hunt-crossley", "lankarani-nikravesh", "exact"});
+  if (line && draw.chance(0.3))
+    c.dissipation = draw.one_of<std::string>({"hunt-crossley", "lankarani-nikravesh", "exact"});
   if (c.law == "kelvin-voigt") {
     double mass = 1e300;
     for (const SceneBody& b : scene.bodies) mass = std::min(mass, b.mass);
@@ -67,7 +69,8 @@ void finish_bodies(Draw& draw, Scene& scene) {
     for (const Vec3& p : points) extent = std::max(extent, 2.0 * (p - mean).norm());
     b.center_of_mass = mean + draw.inside_box(0.15 * extent);
     b.mass = 5.0 * std::pow(extent / 0.3, 2.3) * draw.log_between(0.2, 3.0);
-    const Vec3 sides = extent * Vec3(draw.between(0.7, 1.1), draw.between(0.15, 0.6), draw.between(0.15, 0.6)), squares = sides.cwiseProduct(sides);
+    const Vec3 sides = extent * Vec3(draw.between(0.7, 1.1), draw.between(0.15, 0.6), draw.between(0.15, 0.6)),
+               squares = sides.cwiseProduct(sides);
     b.inertia = b.mass / 12.0 * Vec3(squares.y() + squares.z(), squares.x() + squares.z(), squares.x() + squares.y());
     b.axes = draw.rotation();
   }
@@ -136,10 +139,13 @@ void add_forces(Draw& draw, Scene& scene) {
   }
   if (draw.chance(0.2)) {
     SceneLoad l;
-    const double w = 6.283 / scene.duration * draw.between(0.3, 2.0), weight = 0.5 * mass * kGravity * draw.log_between(0.05, 1.0);
+    const double w = 6.283 / scene.duration * draw.between(0.3, 2.0),
+                 weight = 0.5 * mass * kGravity * draw.log_between(0.05, 1.0);
     l.body = draw.whole(0, static_cast<int>(scene.bodies.size()) - 1);
     l.point = scene.bodies[l.body].center_of_mass + draw.inside_box(0.2 * scene.size);
-    l.force = {fmt::format("{:.6g}*sin({:.6g}*t)", weight * draw.between(-1, 1), w), fmt::format("{:.6g}", weight * draw.between(-1, 1)), fmt::format("{:.6g}*cos({:.6g}*t)", weight * draw.between(-1, 1), w)};
+    l.force = {fmt::format("{:.6g}*sin({:.6g}*t)", weight * draw.between(-1, 1), w),
+               fmt::format("{:.6g}", weight * draw.between(-1, 1)),
+               fmt::format("{:.6g}*cos({:.6g}*t)", weight * draw.between(-1, 1), w)};
     scene.loads.push_back(l);
   }
 }

@@ -23,8 +23,8 @@ const std::vector<Family>& families();
 std::string turning_law(Draw& draw, const Scene& scene, double reach);
 std::string sliding_law(Draw& draw, const Scene& scene, double reach);
 
-void draw_gimbal(Draw& draw, Scene& scene);       // gimbals.cpp
-void draw_planar_loop(Draw& draw, Scene& scene);  // planar.cpp
+void draw_gimbal(Draw& draw, Scene& scene);        // gimbals.cpp
+void draw_planar_loop(Draw& draw, Scene& scene);   // planar.cpp
 void draw_spatial_loop(Draw& draw, Scene& scene);  // spatial.cpp
 void draw_platform(Draw& draw, Scene& scene);      // platforms.cpp
 void draw_redundant(Draw& draw, Scene& scene);     // redundant.cpp

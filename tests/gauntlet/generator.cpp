@@ -12,10 +12,14 @@ namespace boresight::gauntlet {
 const std::vector<Family>& families() {
   static const std::vector<Family> all = {
       {"gimbal", 3.0, draw_gimbal},
-      {"planar loop", 2.0, draw_planar_loop},   {"spatial loop", 2.0, draw_spatial_loop},
-      {"platform", 2.0, draw_platform},         {"redundant", 2.0, draw_redundant},
-      {"arm", 1.5, draw_arm},                   {"pendulum", 1.0, draw_pendulum},
-      {"sprung slide", 0.5, draw_sprung_slide}, {"free chain", 0.8, draw_free_chain},
+      {"planar loop", 2.0, draw_planar_loop},
+      {"spatial loop", 2.0, draw_spatial_loop},
+      {"platform", 2.0, draw_platform},
+      {"redundant", 2.0, draw_redundant},
+      {"arm", 1.5, draw_arm},
+      {"pendulum", 1.0, draw_pendulum},
+      {"sprung slide", 0.5, draw_sprung_slide},
+      {"free chain", 0.8, draw_free_chain},
   };
   return all;
 }
@@ -27,10 +31,14 @@ std::string law(Draw& draw, const Scene& scene, double largest, double largest_a
   const double w = 6.2831853 / scene.duration * draw.between(0.4, 2.0);
   const double a = draw.sign() * std::min(largest, largest_acceleration / (w * w));
   switch (draw.whole(0, 3)) {
-    case 0: return fmt::format("{:.8g}*sin({:.8g}*t)", a, w);
-    case 1: return fmt::format("{:.8g}*(1-cos({:.8g}*t))", 0.5 * a, w);
-    case 2: return fmt::format("{:.8g}*t^2", 0.5 * a * w * w / 4.0);
-    default: return fmt::format("{:.8g}*t", a * w);
+    case 0:
+      return fmt::format("{:.8g}*sin({:.8g}*t)", a, w);
+    case 1:
+      return fmt::format("{:.8g}*(1-cos({:.8g}*t))", 0.5 * a, w);
+    case 2:
+      return fmt::format("{:.8g}*t^2", 0.5 * a * w * w / 4.0);
+    default:
+      return fmt::format("{:.8g}*t", a * w);
   }
 }
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/io/mechanism_file.hpp"
-#include "boresight/rungs/ideal_simulation.hpp"
 #include "families.hpp"
 
 namespace boresight::gauntlet {

@@ -15,7 +15,12 @@ void draw_gimbal(Draw& draw, Scene& scene) {
     const double span = scene.size * draw.between(0.3, 1.0);
     SceneJoint motor{fmt::format("motor{}", k), "revolute", inner, body, center - 0.5 * span * axis, axis};
     motor.law = turning_law(draw, scene, scene.size);
-    SceneJoint far{fmt::format("bearing{}", k), draw.one_of<std::string>({"revolute", "cylindrical", "cylindrical", "spherical"}), inner, body, center + 0.5 * span * axis, axis};
+    SceneJoint far{fmt::format("bearing{}", k),
+                   draw.one_of<std::string>({"revolute", "cylindrical", "cylindrical", "spherical"}),
+                   inner,
+                   body,
+                   center + 0.5 * span * axis,
+                   axis};
     scene.add_joint(motor);
     if (draw.chance(0.8)) scene.add_joint(far);  // else the shaft is held at one end
     inner = body;

@@ -1,16 +1,16 @@
 // boresight_gauntlet: generated mechanisms and those of files through every rung, integrator and verb. README.md.
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <sstream>
 #include <thread>
-#include <mutex>
-#include <poll.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "generator.hpp"
 #include "table.hpp"
@@ -32,7 +32,8 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 // Several scenes at once, each in its own process; verdicts in the order of the scenes.
-std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, const TrialOptions& options, int jobs, KnownFaults& known) {
+std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, const TrialOptions& options, int jobs,
+                             KnownFaults& known) {
   std::vector<Verdict> verdicts(scenes.size());
   struct Running {
     pid_t process;
@@ -113,13 +114,15 @@ int run(int argc, char** argv) {
   app.add_flag("--corpus", corpus, "the archetypes of tests/gauntlet/corpus");
   app.add_option("--write", write, "SEED FILE: writes the mechanism file of a seed")->expected(2);
   app.add_option("--save", save, "folder for the mechanism files of scenes with faults");
-  app.add_option("--known", known_file, "file of known faults, which are printed and do not count")->check(CLI::ExistingFile);
+  app.add_option("--known", known_file, "file of known faults, which are printed and do not count")
+      ->check(CLI::ExistingFile);
   app.add_option("--cpu", options.limits.cpu_seconds, "limit of one stage, s of CPU")->capture_default_str();
   app.add_flag("--auto", options.automatic, "`run --accuracy` by the program, against the reference");
   app.add_flag("--verbs", options.verbs, "a small study of every verb");
   app.add_option("--program", options.program, "the boresight program");
   app.add_flag("--integrators,!--no-integrators", options.integrators, "all integrators, or each rung's own only");
-  app.add_flag("--invariances,!--no-invariances", options.invariances, "the drawing moved, turned, renamed, reordered, in other units");
+  app.add_flag("--invariances,!--no-invariances", options.invariances,
+               "the drawing moved, turned, renamed, reordered, in other units");
   CLI11_PARSE(app, argc, argv);
 
   if (!write.empty()) {
@@ -131,8 +134,7 @@ int run(int argc, char** argv) {
     for (const auto& entry : std::filesystem::directory_iterator(GAUNTLET_CORPUS))
       if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
-  for (const std::string& file : files)
-    scenes.push_back([file] { return Entry{file, "file", text_of(file)}; });
+  for (const std::string& file : files) scenes.push_back([file] { return Entry{file, "file", text_of(file)}; });
   for (std::uint64_t seed = from; seed < from + count; ++seed) seeds.push_back(seed);
   for (std::uint64_t seed : seeds)
     scenes.push_back([seed] {

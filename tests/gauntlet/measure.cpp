@@ -5,8 +5,9 @@
 #include <ctime>
 #include <stdexcept>
 
+#include "boresight/ladder/ladder.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
-#include "boresight/rungs/measured_error.hpp"
+#include "boresight/stepping/measured_error.hpp"
 
 namespace boresight::gauntlet {
 namespace {
@@ -49,11 +50,13 @@ std::string first_not_finite(const RunResult& r) {
   see_statistics(check, "orientation error", r.index.orientation_error);
   see_statistics(check, "boresight error", r.index.boresight_error);
   for (const ContactSummary& c : r.contact)
-    for (double x : {c.contact_fraction, c.max_penetration, c.max_force, c.max_impact_speed}) check.see("contact summary", x);
+    for (double x : {c.contact_fraction, c.max_penetration, c.max_force, c.max_impact_speed})
+      check.see("contact summary", x);
   check.see("platform acceleration", r.platform_acceleration_max);
   check.see("constraint drift", r.constraint_drift);
   check.see("error estimate, model", r.error.model);
-  if (!std::isnan(r.error.discretisation)) check.see("error estimate, discretisation", r.error.discretisation);  // NaN: not measured
+  if (!std::isnan(r.error.discretisation))
+    check.see("error estimate, discretisation", r.error.discretisation);  // NaN: not measured
   see_history(check, r.boresight);
   for (const BodyHistory& h : r.others) see_history(check, h);
   for (const auto& clearance : r.clearances)
@@ -63,7 +66,8 @@ std::string first_not_finite(const RunResult& r) {
       check.see("normal force", s.normal_force);
     }
   for (const ContactEvent& e : r.events)
-    for (double x : {e.start, e.start_speed, e.duration, e.max_penetration, e.max_force, e.end_speed}) check.see("event", x);
+    for (double x : {e.start, e.start_speed, e.duration, e.max_penetration, e.max_force, e.end_speed})
+      check.see("event", x);
   return check.first();
 }
 
@@ -80,15 +84,23 @@ RunOptions options_of(const Asked& asked, const Mechanism& mechanism) {
 
 std::array<double, kFigures.size()> figures(const PointingIndices& i) {
   const Statistics none, &sight = i.has_line_of_sight ? i.line_of_sight_error : none;
-  return {i.position_error.max,    i.position_error.rms,    i.boresight_error.max, i.boresight_error.rms,
-          i.orientation_error.max, i.orientation_error.rms, sight.max,             sight.rms};
+  return {i.position_error.max,
+          i.position_error.rms,
+          i.boresight_error.max,
+          i.boresight_error.rms,
+          i.orientation_error.max,
+          i.orientation_error.rms,
+          sight.max,
+          sight.rms};
 }
 
 }  // namespace
 
 Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& asked, double most_seconds) {
   RunOptions options = options_of(asked, *mechanism);
-  options.progress = [most_seconds](const RunProgress&) { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC < most_seconds; };
+  options.progress = [most_seconds](const RunProgress&) {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC < most_seconds;
+  };
   const RunResult r = make_rung(asked.rung, mechanism)->run(mechanism->parameters(), options);
   if (r.interrupted) throw std::runtime_error("longer than the limit, ended when asked to");
   std::string start;
@@ -112,7 +124,8 @@ Json measure_steps(const std::shared_ptr<const Mechanism>& mechanism, const Aske
   const std::unique_ptr<Rung> rung = make_rung(asked.rung, mechanism);
   const RunOptions options = options_of(asked, *mechanism);
   const RunResult result = rung->run(mechanism->parameters(), options);
-  const MeasuredError error = measure_discretisation(*rung, mechanism->parameters(), options, result, {.most_seconds = most_seconds});
+  const MeasuredError error =
+      measure_discretisation(*rung, mechanism->parameters(), options, result, {.most_seconds = most_seconds});
   if (!error.measured) return {{"why_not", error.why_not}};
   PointingIndices stated = error.stated;
   stated.has_line_of_sight = result.index.has_line_of_sight;

@@ -12,26 +12,30 @@
 namespace boresight::gauntlet {
 
 // The figures that rungs are compared by.
-inline constexpr std::array<const char*, 8> kFigures = {"position max",    "position rms",    "boresight max",     "boresight rms",
-                                                               "orientation max", "orientation rms", "line of sight max", "line of sight rms"};
+inline constexpr std::array<const char*, 8> kFigures = {"position max",      "position rms",     "boresight max",
+                                                        "boresight rms",     "orientation max",  "orientation rms",
+                                                        "line of sight max", "line of sight rms"};
 
 struct Asked {
   std::string rung, integrator = {}, formulation = {};
   double step = 0.0;
   double start_offset = 0.0;
   double tolerance = 0.0;
-  std::string label() const { return rung + (formulation.empty() ? "" : " " + formulation) + (integrator.empty() ? "" : " " + integrator); }
+  std::string label() const {
+    return rung + (formulation.empty() ? "" : " " + formulation) + (integrator.empty() ? "" : " " + integrator);
+  }
 };
 
 // One figure each of kFigures, what the run says of its error, and the first number that is not finite ("" if none).
 struct Measured {
   std::array<double, kFigures.size()> figure{};
   double model = 0.0;  // what the rung states of its model, relative
-  std::array<double, kFigures.size()> by_steps{};  // what further runs show that steps do, of each figure; zero until measured
+  std::array<double, kFigures.size()>
+      by_steps{};  // what further runs show that steps do, of each figure; zero until measured
   bool steps_measured = false;
-  double step = 0.0;              // mean [s]
-  std::string taken;              // the integrator that took over, if one did
-  double deepest = 0.0;           // deepest penetration over the smallest play [-]
+  double step = 0.0;                     // mean [s]
+  std::string taken;                     // the integrator that took over, if one did
+  double deepest = 0.0;                  // deepest penetration over the smallest play [-]
   std::string basis, start, not_finite;  // start: what the run says of how its journals start, if anything
   double cpu_seconds = 0.0;
 };

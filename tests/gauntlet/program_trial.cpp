@@ -37,7 +37,8 @@ std::string last_line(const std::string& output) {
 
 }  // namespace
 
-ProgramTrial::ProgramTrial(const Mechanism& mechanism, const std::string& text, const TrialOptions& options, Verdict& verdict)
+ProgramTrial::ProgramTrial(const Mechanism& mechanism, const std::string& text, const TrialOptions& options,
+                           Verdict& verdict)
     : mechanism_(mechanism), options_(options), verdict_(verdict) {
   std::string pattern = (std::filesystem::temp_directory_path() / "gauntlet-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
@@ -62,7 +63,8 @@ int ProgramTrial::call(const std::string& stage, const std::vector<std::string>&
   if (outcome.end == Outcome::End::out_of_time) verdict_.fault("hang", stage, outcome.reason);
   if (outcome.end != Outcome::End::answered) return -1;
   const std::string said = last_line(outcome.output);
-  if (outcome.asked_to_end && outcome.status == kInterrupted) {  // long, but it hears; what it wrote must still be whole
+  if (outcome.asked_to_end &&
+      outcome.status == kInterrupted) {  // long, but it hears; what it wrote must still be whole
     verdict_.refusals.push_back({stage, "longer than the limit, ended when asked to"});
     if (std::filesystem::exists(path(out) + "/summary.json")) search_outputs(stage, out);
     return -1;
@@ -100,7 +102,9 @@ void ProgramTrial::search_outputs(const std::string& stage, const std::string& o
       verdict_.fault("not finite", stage, "index." + name + " is null");
 }
 
-Json ProgramTrial::summary(const std::string& out) const { return Json::parse(read(path(out) + "/summary.json"), nullptr, false); }
+Json ProgramTrial::summary(const std::string& out) const {
+  return Json::parse(read(path(out) + "/summary.json"), nullptr, false);
+}
 
 void ProgramTrial::check() { call("check", {"check", "scene.toml"}, "check"); }
 
@@ -115,9 +119,10 @@ void ProgramTrial::automatic(const AutoReference& reference) {
   if (json.contains("pilot") && json["pilot"]["reference_error"].is_null()) return;  // it says that it knows none
   const double allowed = (kAutoAccuracy + error) * reference.value + reference.slack;
   if (std::abs(value - reference.value) > allowed)
-    verdict_.fault("auto", json.value("rung", std::string("?")),
-                               fmt::format("{:.4g}, reference {:.4g} ({:.2g} % apart, {:.2g} % allowed): {}", value, reference.value, 100 * std::abs(value / reference.value - 1.0),
-                                           100 * allowed / reference.value, why));
+    verdict_.fault(
+        "auto", json.value("rung", std::string("?")),
+        fmt::format("{:.4g}, reference {:.4g} ({:.2g} % apart, {:.2g} % allowed): {}", value, reference.value,
+                    100 * std::abs(value / reference.value - 1.0), 100 * allowed / reference.value, why));
 }
 
 void ProgramTrial::verbs() {
@@ -143,7 +148,9 @@ void ProgramTrial::verbs() {
     if (study.verb == "calibrate" && motion != 0) continue;
     if (study.verb == "export" && !std::filesystem::exists(path("out montecarlo"))) continue;
     if (!study.file.empty()) write(path(study.file), study.text);
-    std::vector<std::string> arguments = {study.verb, study.verb == "export" ? "out montecarlo" : study.file.empty() ? "scene.toml" : study.file};
+    std::vector<std::string> arguments = {study.verb, study.verb == "export" ? "out montecarlo"
+                                                      : study.file.empty()   ? "scene.toml"
+                                                                             : study.file};
     arguments.insert(arguments.end(), study.arguments.begin(), study.arguments.end());
     call(study.stage, arguments, study.verb == "export" ? "exported" : "out " + study.stage);
   }

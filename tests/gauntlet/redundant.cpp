@@ -46,7 +46,12 @@ void draw_door(Draw& draw, Scene& scene) {
   const bool driven = draw.chance(0.6);
   const double s = scene.size;
   for (int k = 0; k < hinges; ++k) {
-    SceneJoint h{fmt::format("hinge{}", k + 1), "revolute", kGroundBody, panel, Vec3(0, 0, s * (k / (hinges - 1.0) - 0.5)), Vec3::UnitZ()};
+    SceneJoint h{fmt::format("hinge{}", k + 1),
+                 "revolute",
+                 kGroundBody,
+                 panel,
+                 Vec3(0, 0, s * (k / (hinges - 1.0) - 0.5)),
+                 Vec3::UnitZ()};
     if (k == 0 && driven) h.law = turning_law(draw, scene, s);
     const int joint = scene.add_joint(h);
     if (k == 0 && !driven) scene.rates.push_back({joint, draw.between(-1.0, 1.0)});
@@ -77,8 +82,10 @@ void draw_six_bar(Draw& draw, Scene& scene) {
   const bool watt = draw.chance(0.5);
   const Vec3 n = Vec3::UnitZ(), A(0, 0, 0), B(0.1 * s, 0.3 * s, 0), C(0.9 * s, 0.7 * s, 0), D(s, 0, 0);
   const Vec3 E = watt ? Vec3(1.25 * s, 0.55 * s, 0) : Vec3(0.45 * s, 0.8 * s, 0);
-  const Vec3 G = watt ? Vec3(2.0 * s, 0, 0) : Vec3(0.2 * s, 1.6 * s, 0), F = watt ? Vec3(1.95 * s, 0.7 * s, 0) : Vec3(0.9 * s, 1.4 * s, 0);
-  const int crank = scene.add_body("crank"), coupler = scene.add_body("coupler"), rocker = scene.add_body("rocker"), link = scene.add_body("link"), output = scene.add_body("output");
+  const Vec3 G = watt ? Vec3(2.0 * s, 0, 0) : Vec3(0.2 * s, 1.6 * s, 0),
+             F = watt ? Vec3(1.95 * s, 0.7 * s, 0) : Vec3(0.9 * s, 1.4 * s, 0);
+  const int crank = scene.add_body("crank"), coupler = scene.add_body("coupler"), rocker = scene.add_body("rocker"),
+            link = scene.add_body("link"), output = scene.add_body("output");
   scene.add_joint({"A", "revolute", kGroundBody, crank, A, n, Vec3::UnitX(), turning_law(draw, scene, s)});
   scene.add_joint({"B", "revolute", crank, coupler, B, n});
   scene.add_joint({"C", "revolute", coupler, rocker, C, n});
@@ -94,10 +101,17 @@ void draw_six_bar(Draw& draw, Scene& scene) {
 
 void draw_redundant(Draw& draw, Scene& scene) {
   switch (draw.whole(0, 3)) {
-    case 0: draw_parallelogram(draw, scene); break;
-    case 1: draw_sarrus(draw, scene); break;
-    case 2: draw_door(draw, scene); break;
-    default: draw_six_bar(draw, scene);
+    case 0:
+      draw_parallelogram(draw, scene);
+      break;
+    case 1:
+      draw_sarrus(draw, scene);
+      break;
+    case 2:
+      draw_door(draw, scene);
+      break;
+    default:
+      draw_six_bar(draw, scene);
   }
   scene.boresight = draw.direction();
 }

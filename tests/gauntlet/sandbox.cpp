@@ -83,7 +83,9 @@ Ended listen(int file, pid_t child, double wall_seconds, std::optional<double> p
   close(file);
   rusage used{};
   wait4(child, &ended.status, 0, &used);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   ended.cpu_seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
   return ended;
 }

@@ -86,10 +86,10 @@ struct Scene {
   Vec3 boresight = Vec3::UnitZ();
   int payload_body = -2;  // -2: none
   double payload_mass = 0.0;
-  bool floats = false;        // nothing holds it to the ground
+  bool floats = false;            // nothing holds it to the ground
   bool journals_centred = false;  // else they start at rest
   double sight = 0.0;             // how far away its target is [m]; 0: it has none
-  int undriven_freedoms = 0;  // as its family means it: of the mechanism without play
+  int undriven_freedoms = 0;      // as its family means it: of the mechanism without play
 
   int add_body(const std::string& body_name);
   int add_joint(const SceneJoint& joint);

@@ -5,18 +5,25 @@
 namespace boresight::gauntlet {
 namespace {
 
-std::string head() { return "format = 1\nmechanism = \"scene.toml\"\naccuracy = \"10 %\"\n\n[index]\nquantity = \"position_error\"\nstatistic = \"rms\"\n"; }
+std::string head() {
+  return "format = 1\nmechanism = \"scene.toml\"\naccuracy = \"10 %\"\n\n[index]\nquantity = "
+         "\"position_error\"\nstatistic = \"rms\"\n";
+}
 
 std::string scatter(const Mechanism& mechanism) {
   std::string text;
   const MechanismDescription& m = mechanism.description();
   for (const ClearanceDescription& c : m.clearances) {
     const std::string path = "clearance." + m.joints[c.joint].name;
-    text += fmt::format("\n[[random]]\nparameter = \"{}.radial\"\ndistribution = {{ uniform = {{ min = \"{:.9g} m\", max = \"{:.9g} m\" }} }}\n", path,
-                        0.8 * c.parameters.radial, 1.2 * c.parameters.radial);
+    text += fmt::format(
+        "\n[[random]]\nparameter = \"{}.radial\"\ndistribution = {{ uniform = {{ min = \"{:.9g} m\", max = \"{:.9g} "
+        "m\" }} }}\n",
+        path, 0.8 * c.parameters.radial, 1.2 * c.parameters.radial);
     if (c.friction_law != "none")
-      text += fmt::format("\n[[random]]\nparameter = \"{}.friction.coefficient\"\ndistribution = {{ uniform = {{ min = {:.9g}, max = {:.9g} }} }}\n", path,
-                          0.7 * c.parameters.friction.coefficient, 0.95 * c.parameters.friction.coefficient);
+      text += fmt::format(
+          "\n[[random]]\nparameter = \"{}.friction.coefficient\"\ndistribution = {{ uniform = {{ min = {:.9g}, max = "
+          "{:.9g} }} }}\n",
+          path, 0.7 * c.parameters.friction.coefficient, 0.95 * c.parameters.friction.coefficient);
     if (text.size() > 600) break;
   }
   return text;
@@ -35,22 +42,49 @@ std::vector<Study> studies(const Mechanism& mechanism, double typical, const std
   const std::string random = scatter(mechanism);
 
   all.push_back({"montecarlo", "montecarlo", "mc.toml",
-                 head() + random + fmt::format("\n[montecarlo]\nsamples = 12\nseed = 3\nrequirement = {{ limit = \"{:.9g} m\", probability = 0.8, confidence = 0.8 }}\n", 1.2 * typical),
+                 head() + random +
+                     fmt::format("\n[montecarlo]\nsamples = 12\nseed = 3\nrequirement = {{ limit = \"{:.9g} m\", "
+                                 "probability = 0.8, confidence = 0.8 }}\n",
+                                 1.2 * typical),
                  cheap});
   for (const char* integrator : {"dopri5", "rosenbrock"})
-    all.push_back({std::string("montecarlo ") + integrator, "montecarlo", "mc.toml", all[0].text, {"--rung", "perturbation", "--integrator", integrator}});
+    all.push_back({std::string("montecarlo ") + integrator,
+                   "montecarlo",
+                   "mc.toml",
+                   all[0].text,
+                   {"--rung", "perturbation", "--integrator", integrator}});
   all.push_back({"montecarlo auto", "montecarlo", "mc.toml", all[0].text, {}});
-  all.push_back({"montecarlo tail", "montecarlo", "tail.toml",
-                 head() + random + fmt::format("\n[montecarlo]\nseed = 3\nrequirement = {{ limit = \"{:.9g} m\", probability = 0.99, confidence = 0.8 }}\n"
-                                               "tail = {{ cheap = \"quasistatic\", exact = \"perturbation\", budget = \"1 s\", pilot = 20 }}\n", 1.1 * typical), {}});
-  all.push_back({"montecarlo fidelities", "montecarlo", "fidelities.toml",
-                 head() + random + "\n[montecarlo]\nseed = 3\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"1 s\", pilot = 20 }\n", {}});
-  all.push_back({"sweep", "sweep", "sweep.toml",
-                 head() + fmt::format("\n[sweep]\n[[sweep.axis]]\nparameter = \"{}\"\nvalues = [\"{:.9g} m\", \"{:.9g} m\"]\n", path, 0.8 * radial, 1.2 * radial), cheap});
-  all.push_back({"sensitivity", "sensitivity", "sensitivity.toml", head() + random + "\n[sensitivity]\nsamples = 16\nseed = 3\n", cheap});
+  all.push_back(
+      {"montecarlo tail",
+       "montecarlo",
+       "tail.toml",
+       head() + random +
+           fmt::format("\n[montecarlo]\nseed = 3\nrequirement = {{ limit = \"{:.9g} m\", probability = 0.99, "
+                       "confidence = 0.8 }}\n"
+                       "tail = {{ cheap = \"quasistatic\", exact = \"perturbation\", budget = \"1 s\", pilot = 20 }}\n",
+                       1.1 * typical),
+       {}});
+  all.push_back({"montecarlo fidelities",
+                 "montecarlo",
+                 "fidelities.toml",
+                 head() + random +
+                     "\n[montecarlo]\nseed = 3\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget = "
+                     "\"1 s\", pilot = 20 }\n",
+                 {}});
+  all.push_back(
+      {"sweep", "sweep", "sweep.toml",
+       head() + fmt::format("\n[sweep]\n[[sweep.axis]]\nparameter = \"{}\"\nvalues = [\"{:.9g} m\", \"{:.9g} m\"]\n",
+                            path, 0.8 * radial, 1.2 * radial),
+       cheap});
+  all.push_back({"sensitivity", "sensitivity", "sensitivity.toml",
+                 head() + random + "\n[sensitivity]\nsamples = 16\nseed = 3\n", cheap});
   all.push_back({"match", "match", "match.toml",
-                 head() + random + fmt::format("\n[match]\nminimise = \"index\"\nover = \"mean\"\nsamples = 4\nseed = 3\nevaluations = 6\nmap = 0\nfront = 0\nconfirm = 4\n"
-                                               "[[match.variable]]\nparameter = \"{}\"\nfrom = \"{:.9g} m\"\nto = \"{:.9g} m\"\n", path, 0.7 * radial, 1.3 * radial), cheap});
+                 head() + random +
+                     fmt::format("\n[match]\nminimise = \"index\"\nover = \"mean\"\nsamples = 4\nseed = 3\nevaluations "
+                                 "= 6\nmap = 0\nfront = 0\nconfirm = 4\n"
+                                 "[[match.variable]]\nparameter = \"{}\"\nfrom = \"{:.9g} m\"\nto = \"{:.9g} m\"\n",
+                                 path, 0.7 * radial, 1.3 * radial),
+                 cheap});
   if (random.find(path) != std::string::npos) {
     // What is matched may not scatter as well.
     std::string& text = all.back().text;
@@ -59,17 +93,31 @@ std::vector<Study> studies(const Mechanism& mechanism, double typical, const std
     if (next == std::string::npos) text.replace(text.find("over = \"mean\""), 13, "over = \"nominal\"");
   }
   all.push_back({"allocate", "allocate", "allocate.toml",
-                 head() + fmt::format("\n[allocate]\nrequirement = {{ limit = \"{:.9g} m\", probability = 0.9, confidence = 0.8 }}\nsamples = 40\nconfirm = 12\nseed = 3\nfront = 0\n"
-                                      "processes = [{{ name = \"coarse\", tolerance = \"{:.9g} m\", price = 1 }}, {{ name = \"fine\", tolerance = \"{:.9g} m\", price = 3 }}]\n"
-                                      "[[allocate.joint]]\nparameter = \"{}\"\n", 1.3 * typical, 0.5 * radial, 0.1 * radial, path), cheap});
+                 head() + fmt::format("\n[allocate]\nrequirement = {{ limit = \"{:.9g} m\", probability = 0.9, "
+                                      "confidence = 0.8 }}\nsamples = 40\nconfirm = 12\nseed = 3\nfront = 0\n"
+                                      "processes = [{{ name = \"coarse\", tolerance = \"{:.9g} m\", price = 1 }}, {{ "
+                                      "name = \"fine\", tolerance = \"{:.9g} m\", price = 3 }}]\n"
+                                      "[[allocate.joint]]\nparameter = \"{}\"\n",
+                                      1.3 * typical, 0.5 * radial, 0.1 * radial, path),
+                 cheap});
   const std::string random_budget = random;
-  all.push_back({"budget", "budget", "budget.toml",
-                 "format = 1\nmechanism = \"scene.toml\"\n\n[index]\nquantity = \"orientation_error\"\n" + random_budget +
-                     fmt::format("\n[budget]\nmembers = 8\nattribution = 4\nseed = 3\nsampling = \"{:.9g} s\"\nwindow = \"{:.9g} s\"\n[[budget.requirement]]\nindex = \"APE\"\naxis = \"half cone\"\n"
-                                 "interpretation = \"mixed\"\nlimit = \"2 mrad\"\nprobability = 0.8\nconfidence = 0.8\n", m.motion.duration / 100, m.motion.duration / 10), cheap});
-  all.push_back({"calibrate", "calibrate", "calibrate.toml",
-                 fmt::format("format = 1\nmechanism = \"scene.toml\"\n\n[calibrate]\nstarts = 1\ncorrections = 0\n[[calibrate.parameter]]\npath = \"{}\"\nstart = \"{:.9g} m\"\n[[calibrate.run]]\ndata = \"{}\"\n",
-                             path, 1.1 * radial, data), cheap});
+  all.push_back(
+      {"budget", "budget", "budget.toml",
+       "format = 1\nmechanism = \"scene.toml\"\n\n[index]\nquantity = \"orientation_error\"\n" + random_budget +
+           fmt::format("\n[budget]\nmembers = 8\nattribution = 4\nseed = 3\nsampling = \"{:.9g} s\"\nwindow = \"{:.9g} "
+                       "s\"\n[[budget.requirement]]\nindex = \"APE\"\naxis = \"half cone\"\n"
+                       "interpretation = \"mixed\"\nlimit = \"2 mrad\"\nprobability = 0.8\nconfidence = 0.8\n",
+                       m.motion.duration / 100, m.motion.duration / 10),
+       cheap});
+  all.push_back(
+      {"calibrate",
+       "calibrate",
+       "calibrate.toml",
+       fmt::format(
+           "format = 1\nmechanism = \"scene.toml\"\n\n[calibrate]\nstarts = 1\ncorrections = "
+           "0\n[[calibrate.parameter]]\npath = \"{}\"\nstart = \"{:.9g} m\"\n[[calibrate.run]]\ndata = \"{}\"\n",
+           path, 1.1 * radial, data),
+       {}});
   all.push_back({"laws", "laws", "", "", {}});
   all.push_back({"stability", "stability", "", "", {}});
   all.push_back({"chart", "chart", "", "", {"--time", "10 s"}});

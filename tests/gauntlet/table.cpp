@@ -27,10 +27,12 @@ double ratio(const Claim& claim) {
 }  // namespace
 
 void print_faults(const Verdict& v) {
-  for (const Fault& f : v.faults) fmt::print("  {} ({}): {}{} in {}: {}\n", v.scene, v.family, f.known ? "known: " : "", f.kind, f.stage, f.text);
+  for (const Fault& f : v.faults)
+    fmt::print("  {} ({}): {}{} in {}: {}\n", v.scene, v.family, f.known ? "known: " : "", f.kind, f.stage, f.text);
   if (v.faults.empty()) return;
   const bool seeded = v.scene.rfind("seed ", 0) == 0;
-  fmt::print("    again: boresight_gauntlet {}\n", seeded ? "--from " + v.scene.substr(5) + " --count 1" : "--scene " + v.scene);
+  fmt::print("    again: boresight_gauntlet {}\n",
+             seeded ? "--from " + v.scene.substr(5) + " --count 1" : "--scene " + v.scene);
   if (seeded) fmt::print("    file:  boresight_gauntlet --write {} scene.toml\n", v.scene.substr(5));
 }
 
@@ -57,18 +59,25 @@ void print_table(const std::vector<Verdict>& verdicts) {
       ++agreed;
     }
   }
-  fmt::print("\n{} scenes: {} agreed, {} refused, {} wrong{}; {:.1f} s of CPU\n", verdicts.size(), agreed, refused, wrong,
-             known > 0 ? fmt::format(", {} with known faults only", known) : "", cpu);
+  fmt::print("\n{} scenes: {} agreed, {} refused, {} wrong{}; {:.1f} s of CPU\n", verdicts.size(), agreed, refused,
+             wrong, known > 0 ? fmt::format(", {} with known faults only", known) : "", cpu);
   fmt::print("\nscenes by family (wrong of all)\n");
-  for (const auto& [family, count] : families) fmt::print("  {:<20} {:4} of {:4}\n", family, wrong_families[family], count);
+  for (const auto& [family, count] : families)
+    fmt::print("  {:<20} {:4} of {:4}\n", family, wrong_families[family], count);
   print_counts("wrong, scenes by kind and stage", wrong_kinds);
   print_counts("scenes refused as a whole, by reason", scene_refusals);
   print_counts("stages refused, by reason", stage_refusals);
-  fmt::print("\nactual error over stated, where the comparison asked for the steps\' part\n  {:<32} {:>5} {:>8} {:>8} {:>8} {:>8} {:>8}\n", "", "runs", "median", "90 %", "95 %", "99 %", "max");
+  fmt::print(
+      "\nactual error over stated, where the comparison asked for the steps\' part\n  {:<32} {:>5} {:>8} {:>8} {:>8} "
+      "{:>8} {:>8}\n",
+      "", "runs", "median", "90 %", "95 %", "99 %", "max");
   for (auto& [stage, values] : ratios) {
     std::sort(values.begin(), values.end());
-    const auto quantile = [&](double p) { return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))]; };
-    fmt::print("  {:<32} {:5} {:8.3g} {:8.3g} {:8.3g} {:8.3g} {:8.3g}\n", stage, values.size(), quantile(0.5), quantile(0.9), quantile(0.95), quantile(0.99), values.back());
+    const auto quantile = [&](double p) {
+      return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
+    };
+    fmt::print("  {:<32} {:5} {:8.3g} {:8.3g} {:8.3g} {:8.3g} {:8.3g}\n", stage, values.size(), quantile(0.5),
+               quantile(0.9), quantile(0.95), quantile(0.99), values.back());
   }
 }
 

@@ -8,7 +8,7 @@
 namespace boresight::gauntlet {
 
 struct TrialOptions {
-  Limits limits;           // of one stage
+  Limits limits;  // of one stage
   bool integrators = true;
   bool invariances = true;
   std::string program;     // the boresight program, for `auto` and the verbs
@@ -16,6 +16,7 @@ struct TrialOptions {
   bool verbs = false;      // every verb of the program
 };
 
-Verdict try_scene(const std::string& name, const std::string& family, const std::string& text, const TrialOptions& options);
+Verdict try_scene(const std::string& name, const std::string& family, const std::string& text,
+                  const TrialOptions& options);
 
 }  // namespace boresight::gauntlet

@@ -13,7 +13,8 @@ namespace {
 // sum_k a_k f_k + b
 class Combination final : public TimeFunction {
  public:
-  Combination(std::vector<std::pair<double, TimeFunctionPtr>> parts, double constant) : parts_(std::move(parts)), constant_(constant) {}
+  Combination(std::vector<std::pair<double, TimeFunctionPtr>> parts, double constant)
+      : parts_(std::move(parts)), constant_(constant) {}
   TimeValue at(double t) const override {
     TimeValue sum{constant_, 0.0, 0.0};
     for (const auto& [factor, f] : parts_) {
@@ -53,11 +54,15 @@ MechanismDescription drawn_elsewhere(MechanismDescription m, const Mat3& R, cons
     place(l.point);
     const auto before = l.force;
     for (int row = 0; row < 3; ++row)
-      l.force[row] = std::make_shared<Combination>(std::vector<std::pair<double, TimeFunctionPtr>>{{R(row, 0), before[0]}, {R(row, 1), before[1]}, {R(row, 2), before[2]}}, 0.0);
+      l.force[row] = std::make_shared<Combination>(
+          std::vector<std::pair<double, TimeFunctionPtr>>{
+              {R(row, 0), before[0]}, {R(row, 1), before[1]}, {R(row, 2), before[2]}},
+          0.0);
   }
   if (m.motion.pose)
     for (int k = 0; k < 3; ++k)
-      m.motion.pose->position[k] = std::make_shared<Combination>(std::vector<std::pair<double, TimeFunctionPtr>>{{1.0, m.motion.pose->position[k]}}, p[k]);
+      m.motion.pose->position[k] = std::make_shared<Combination>(
+          std::vector<std::pair<double, TimeFunctionPtr>>{{1.0, m.motion.pose->position[k]}}, p[k]);
   if (m.line_of_sight) {
     place(m.line_of_sight->from);
     place(m.line_of_sight->target);
@@ -97,8 +102,10 @@ MechanismDescription reordered(MechanismDescription m) {
     body(s.second);
   }
   for (LoadDescription& l : m.loads) {
-    if (l.joint) joint(*l.joint);
-    else body(l.body);
+    if (l.joint)
+      joint(*l.joint);
+    else
+      body(l.body);
   }
   for (InitialRateDescription& r : m.initial_rates) joint(r.joint);
   if (m.payload) body(m.payload->body);
@@ -133,7 +140,8 @@ std::optional<MechanismDescription> variant(const MechanismDescription& mechanis
   double reach = 0.0;
   for (const JointDescription& a : mechanism.joints)
     for (const JointDescription& b : mechanism.joints) reach = std::max(reach, (a.point - b.point).norm());
-  if (name == "moved") return drawn_elsewhere(mechanism, Mat3::Identity(), std::max(reach, 0.01) * Vec3(3.1, -2.3, 1.7));
+  if (name == "moved")
+    return drawn_elsewhere(mechanism, Mat3::Identity(), std::max(reach, 0.01) * Vec3(3.1, -2.3, 1.7));
   if (name == "renamed") return renamed(mechanism);
   if (name == "reordered") return reordered(mechanism);
   if (mechanism.motion.pose) return {};
@@ -147,9 +155,12 @@ std::string in_other_units(const std::string& toml) {
   };
   // Longest first, so that "kg m^2" is not taken for "kg".
   static const std::vector<Unit> units = {
-      {"kg m^2", "g mm^2", 1e9}, {"kg/m^3", "g/cm^3", 1e-3}, {"N s/m", "N s/mm", 1e-3}, {"N/m", "N/mm", 1e-3}, {"m/s^2", "cm/s^2", 100.0},
-      {"rad/s", "deg/s", 180.0 / std::numbers::pi}, {"mm/s", "m/s", 1e-3}, {"m/s", "mm/s", 1e3}, {"GPa", "Pa", 1e9}, {"Pa", "MPa", 1e-6},
-      {"mm", "m", 1e-3}, {"um", "m", 1e-6}, {"m", "mm", 1e3}, {"kg", "g", 1e3}, {"ms", "s", 1e-3}, {"s", "ms", 1e3}};
+      {"kg m^2", "g mm^2", 1e9}, {"kg/m^3", "g/cm^3", 1e-3}, {"N s/m", "N s/mm", 1e-3},
+      {"N/m", "N/mm", 1e-3},     {"m/s^2", "cm/s^2", 100.0}, {"rad/s", "deg/s", 180.0 / std::numbers::pi},
+      {"mm/s", "m/s", 1e-3},     {"m/s", "mm/s", 1e3},       {"GPa", "Pa", 1e9},
+      {"Pa", "MPa", 1e-6},       {"mm", "m", 1e-3},          {"um", "m", 1e-6},
+      {"m", "mm", 1e3},          {"kg", "g", 1e3},           {"ms", "s", 1e-3},
+      {"s", "ms", 1e3}};
   static const std::regex quantity("\"([-+]?[0-9][0-9.]*(?:e[-+]?[0-9]+)?) ([a-zA-Z][a-zA-Z0-9/^ ]*)\"");
   std::string out;
   auto last = toml.cbegin();
@@ -157,7 +168,8 @@ std::string in_other_units(const std::string& toml) {
     out.append(last, toml.cbegin() + it->position());
     last = toml.cbegin() + it->position() + it->length();
     const auto unit = std::find_if(units.begin(), units.end(), [&](const Unit& u) { return (*it)[2] == u.from; });
-    out += unit == units.end() ? it->str() : fmt::format("\"{:.17g} {}\"", std::stod((*it)[1]) * unit->factor, unit->to);
+    out +=
+        unit == units.end() ? it->str() : fmt::format("\"{:.17g} {}\"", std::stod((*it)[1]) * unit->factor, unit->to);
   }
   out.append(last, toml.cend());
   return out;

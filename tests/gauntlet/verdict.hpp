@@ -10,8 +10,8 @@ namespace boresight::gauntlet {
 
 struct Fault {
   bool known = false;  // on the list of faults not mended yet
-  std::string kind;   // crash, hang, not finite, disagreement, bound, invariance, momentum, energy, auto, verb
-  std::string stage;  // "perturbation rosenbrock"
+  std::string kind;    // crash, hang, not finite, disagreement, bound, invariance, momentum, energy, auto, verb
+  std::string stage;   // "perturbation rosenbrock"
   std::string text;
 };
 
@@ -26,7 +26,7 @@ struct Claim {
 };
 
 struct Verdict {
-  std::string scene;    // "seed 17", or the file
+  std::string scene;  // "seed 17", or the file
   std::string family;
   std::vector<Fault> faults;
   std::vector<Refusal> refusals;
@@ -35,7 +35,9 @@ struct Verdict {
   std::string refused;  // why nothing could be compared; "" if something was
   double cpu_seconds = 0.0;
 
-  void fault(std::string kind, std::string stage, std::string text) { faults.push_back({false, std::move(kind), std::move(stage), std::move(text)}); }
+  void fault(std::string kind, std::string stage, std::string text) {
+    faults.push_back({false, std::move(kind), std::move(stage), std::move(text)});
+  }
 };
 
 Json to_json(const Verdict& verdict);

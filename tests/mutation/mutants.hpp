@@ -24,7 +24,8 @@ inline constexpr int kMost = 4096;
 inline constexpr int kLive = 1 << 16;
 inline int active = 0;
 inline unsigned char nobody_looks[kMost] = {};
-inline unsigned char* met = nobody_looks;  // shared with other processes, so that those which are killed have said it too
+inline unsigned char* met =
+    nobody_looks;  // shared with other processes, so that those which are killed have said it too
 
 struct FromEnvironment {
   FromEnvironment() {
@@ -49,7 +50,10 @@ inline bool chosen(int id) {
 // What an expression of a matrix library stands for: both sides of a switch need one type, and none may refer to what is gone.
 template <typename E>
 constexpr auto settled(E&& e) {
-  if constexpr (requires { e.eval(); typename std::decay_t<E>::PlainObject; })
+  if constexpr (requires {
+                  e.eval();
+                  typename std::decay_t<E>::PlainObject;
+                })
     return typename std::decay_t<E>::PlainObject(std::forward<E>(e));
   else
     return std::decay_t<E>(std::forward<E>(e));
@@ -80,21 +84,29 @@ struct At {
   constexpr auto operator=(R&& r) const {
     if constexpr (op == '*') {
       constexpr bool valid = !std::is_integral_v<std::decay_t<R>> && requires { std::decay_t<R>(1.0) / r; };
-      return either<id, valid>([&] { return settled(r); }, [&] {
-        if constexpr (valid) return settled(std::decay_t<R>(1.0) / r);
-        else return settled(r);
-      });
+      return either<id, valid>([&] { return settled(r); },
+                               [&] {
+                                 if constexpr (valid)
+                                   return settled(std::decay_t<R>(1.0) / r);
+                                 else
+                                   return settled(r);
+                               });
     } else {
       // A yes or no counts as a number: the negative of a yes would be a yes.
       constexpr auto value = [](auto&& v) {
-        if constexpr (std::is_same_v<std::decay_t<R>, bool>) return static_cast<int>(v);
-        else return settled(std::forward<decltype(v)>(v));
+        if constexpr (std::is_same_v<std::decay_t<R>, bool>)
+          return static_cast<int>(v);
+        else
+          return settled(std::forward<decltype(v)>(v));
       };
       constexpr bool valid = requires { -r; };
-      return either<id, valid>([&] { return value(r); }, [&] {
-        if constexpr (valid) return static_cast<decltype(value(r))>(settled(-r));
-        else return value(r);
-      });
+      return either<id, valid>([&] { return value(r); },
+                               [&] {
+                                 if constexpr (valid)
+                                   return static_cast<decltype(value(r))>(settled(-r));
+                                 else
+                                   return value(r);
+                               });
     }
   }
 };
@@ -114,22 +126,22 @@ constexpr bool logical() {
   return either<id, true>([] { return false; }, [] { return true; });
 }
 
-#define MUTANTS_BINARY(TAG, OP, OTHER)                                                                              \
-  template <typename L, int id>                                                                                     \
-  constexpr Left<id, TAG, L&&> operator OP(L&& l, const At<id>&) {                                                  \
-    return {std::forward<L>(l)};                                                                                    \
-  }                                                                                                                 \
-  template <int id, typename L, typename R>                                                                         \
-  constexpr auto operator OP(const Left<id, TAG, L>& left, R&& r) {                                                 \
-    auto& l = left.l;                                                                                               \
-    constexpr bool valid = requires { static_cast<decltype(settled(l OP r))>(settled(l OTHER r)); };                \
-    return either<id, valid>([&] { return settled(l OP r); },                                                       \
-                             [&] {                                                                                  \
-                               if constexpr (valid)                                                                 \
-                                 return static_cast<decltype(settled(l OP r))>(settled(l OTHER r));                 \
-                               else                                                                                 \
-                                 return settled(l OP r);                                                            \
-                             });                                                                                    \
+#define MUTANTS_BINARY(TAG, OP, OTHER)                                                               \
+  template <typename L, int id>                                                                      \
+  constexpr Left<id, TAG, L&&> operator OP(L&& l, const At<id>&) {                                   \
+    return {std::forward<L>(l)};                                                                     \
+  }                                                                                                  \
+  template <int id, typename L, typename R>                                                          \
+  constexpr auto operator OP(const Left<id, TAG, L>& left, R&& r) {                                  \
+    auto& l = left.l;                                                                                \
+    constexpr bool valid = requires { static_cast<decltype(settled(l OP r))>(settled(l OTHER r)); }; \
+    return either<id, valid>([&] { return settled(l OP r); },                                        \
+                             [&] {                                                                   \
+                               if constexpr (valid)                                                  \
+                                 return static_cast<decltype(settled(l OP r))>(settled(l OTHER r));  \
+                               else                                                                  \
+                                 return settled(l OP r);                                             \
+                             });                                                                     \
   }
 MUTANTS_BINARY('+', +, -)
 MUTANTS_BINARY('-', -, +)

@@ -2,7 +2,7 @@
 
     python3 tests/mutation/mutate.py --count 200 --seed 1            # draws, and goes on where an earlier start of it stopped
     python3 tests/mutation/mutate.py --count 200 --seed 1 --list     # what would be tried
-    python3 tests/mutation/mutate.py --only lib/contact/flores.hpp   # of these files alone
+    python3 tests/mutation/mutate.py --only lib/boresight/contact/flores.hpp   # of these files alone
     python3 tests/mutation/mutate.py --like FILE                     # those of an earlier draw's results, found again by their lines
     python3 tests/mutation/mutate.py --report                        # share killed and the survivors, of what has been tried
 
@@ -22,7 +22,9 @@ import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-ROOMS = ("lib/contact", "lib/rungs", "analyses")
+CORE = "lib/boresight/"
+ROOMS = tuple(CORE + room for room in ("contact", "contact_events", "formulations", "rungs", "stepping", "scene", "multibody", "perturbation", "statics",
+                                    "ladder")) + ("analyses",)
 
 # Without NDEBUG and with the library's assertions: a loop that reads beyond an end is then noticed, whatever lies there.
 FLAGS = "-O1 -D_GLIBCXX_ASSERTIONS"
@@ -180,8 +182,8 @@ def run(command, seconds, cwd=None):
 
 
 # The programs of the fast suite, nearest first: by room, then those that everything ends in.
-LIBRARY = ("contact_tests", "integrate_tests", "mechanism_tests", "rungs_tests", "lanes_tests", "io_tests", "pointing_tests", "math_tests")
-ANALYSES = ("statistics_tests", "random_tests", "laws_tests", "nonlinear_tests", "tails_tests", "fidelities_tests", "study_tests", "montecarlo_tests",
+LIBRARY = ("contact_tests", "integrate_tests", "mechanism_tests", "formulations_tests", "scene_tests", "stepping_tests", "ladder_tests", "lanes_tests", "io_tests", "pointing_tests", "math_tests")
+ANALYSES = ("statistics_tests", "random_tests", "laws_tests", "nonlinear_tests", "tails_tests", "fidelities_tests", "study_tests", "threads_tests", "runs_tests", "montecarlo_tests",
             "sensitivity_tests", "calibration_tests", "chart_tests", "stability_tests", "sweep_tests", "optimise_tests", "matching_tests",
             "allocation_tests", "budget_tests")
 PROGRAMS = ("program_tests", "montecarlo_program_tests", "several_rungs_program_tests", "optimise_program_tests", "budget_program_tests",
@@ -191,7 +193,8 @@ CALL_THE_PROGRAM = set(PROGRAMS)
 
 def programs_for(path, known):
     """Test programs in the order in which a mutation of this file meets them."""
-    own = pathlib.PurePath(path).parts[1] + "_tests"
+    own = pathlib.PurePath(path).parts[2] + "_tests"
+    own = own if own in LIBRARY + ANALYSES else "ladder_tests"
     order = [own] + [p for p in (*LIBRARY, *ANALYSES, *PROGRAMS) if p != own]
     if path.startswith("analyses/"):
         order = [own] + [p for p in (*ANALYSES, *PROGRAMS) if p != own]

@@ -43,8 +43,7 @@ TEST(SobolIndicesAgreeWithOpenTurns, OnIshigamiWithinBothIntervals) {
   OT::SaltelliSensitivityAlgorithm peer(cube(), 10000, theirs());
   peer.setConfidenceLevel(kConfidence);
   const OT::Point first = peer.getFirstOrderIndices(), total = peer.getTotalOrderIndices();
-  const OT::Interval firsts = peer.getFirstOrderIndicesInterval(),
-                     totals = peer.getTotalOrderIndicesInterval();
+  const OT::Interval firsts = peer.getFirstOrderIndicesInterval(), totals = peer.getTotalOrderIndicesInterval();
 
   std::mt19937_64 engine(1);
   Points ab(10000, Point(6));
@@ -57,9 +56,7 @@ TEST(SobolIndicesAgreeWithOpenTurns, OnIshigamiWithinBothIntervals) {
     nets.push_back(sobol_rows(kOurs, repetition::scrambled_sobol(engine, 1024, 6), single_parameters(3)));
   const auto replicated = sobol_indices(nets, kConfidence);
 
-  const auto overlap = [](const auto& ours, double low, double high) {
-    return ours.low <= high && low <= ours.high;
-  };
+  const auto overlap = [](const auto& ours, double low, double high) { return ours.low <= high && low <= ours.high; };
   for (unsigned g = 0; g < 3; ++g) {
     const double f0 = firsts.getLowerBound()[g], f1 = firsts.getUpperBound()[g];
     const double t0 = totals.getLowerBound()[g], t1 = totals.getUpperBound()[g];
@@ -75,9 +72,8 @@ TEST(SobolIndicesAgreeWithOpenTurns, OnIshigamiWithinBothIntervals) {
     std::printf(
         "  x%u first %.4f [%.4f, %.4f] theirs, %.4f [%.4f, %.4f] ours; total %.4f [%.4f, %.4f], %.4f [%.4f, "
         "%.4f]\n",
-        g + 1, first[g], f0, f1, random.groups[g].first.value, random.groups[g].first.low,
-        random.groups[g].first.high, total[g], t0, t1, random.groups[g].total.value,
-        random.groups[g].total.low, random.groups[g].total.high);
+        g + 1, first[g], f0, f1, random.groups[g].first.value, random.groups[g].first.low, random.groups[g].first.high,
+        total[g], t0, t1, random.groups[g].total.value, random.groups[g].total.low, random.groups[g].total.high);
   }
 }
 

@@ -42,9 +42,8 @@ class Peer {
     laws[0] = x1;
     laws[1] = x2;
     joint_ = OT::ComposedDistribution(laws);
-    event_ =
-        OT::ThresholdEvent(OT::CompositeRandomVector(OT::SymbolicFunction(in, out), OT::RandomVector(joint_)),
-                           OT::Greater(), limit);
+    event_ = OT::ThresholdEvent(OT::CompositeRandomVector(OT::SymbolicFunction(in, out), OT::RandomVector(joint_)),
+                                OT::Greater(), limit);
   }
   double form() const {
     OT::Cobyla solver;
@@ -105,8 +104,8 @@ void print(const char* what, double form, const RunningMoments& theirs, const Ru
   std::printf(
       "  %s: FORM %.4g, subsets %.4g +- %.1g theirs, %.4g +- %.1g ours, importance sampling %.4g [%.4g, "
       "%.4g]\n",
-      what, form, theirs.mean(), theirs.sd() / std::sqrt(kRuns), ours.mean(), ours.sd() / std::sqrt(kRuns),
-      i.value, i.low, i.high);
+      what, form, theirs.mean(), theirs.sd() / std::sqrt(kRuns), ours.mean(), ours.sd() / std::sqrt(kRuns), i.value,
+      i.low, i.high);
 }
 
 TEST(TailsAgreeWithOpenTurns, OnALinearLimitState) {
@@ -156,8 +155,7 @@ TEST(TailsAgreeWithOpenTurns, OnLoadOverStrength) {
   print("load over strength", peer.form(), theirs, ours, i);
   // P(S > R) = E[survival of S at R], by their functions alone.
   double truth = 0.0;
-  for (double y = 0.5; y < 20.0; y += 1e-3)
-    truth += 1e-3 * strength.computePDF(y) * load.computeComplementaryCDF(y);
+  for (double y = 0.5; y < 20.0; y += 1e-3) truth += 1e-3 * strength.computePDF(y) * load.computeComplementaryCDF(y);
   expect_held(i, truth);
   EXPECT_NEAR(peer.form() / truth, 1.0, 0.3);
   expect_the_same(ours, theirs);

@@ -10,12 +10,13 @@
 #include "boresight/io/expression.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/io/units.hpp"
+#include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight_analyses/montecarlo/montecarlo.hpp"
-#include "boresight_analyses/optimise/parallel_evaluation.hpp"
+#include "boresight_analyses/runs/parallel_evaluation.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "boresight_analyses/sweep/sweep.hpp"
-#include "montecarlo/closed_form.hpp"
+#include "closed_form.hpp"
 
 namespace boresight {
 namespace {
@@ -68,23 +69,26 @@ TEST(ParallelLoops, SamplesOfRungsThatShareTheirScene) {
   for (const char* rung : {"quasistatic", "envelope", "perturbation"}) {
     RunOptions options;
     if (std::string(rung) == "perturbation") options.integrator = "rosenbrock";
-    expect_the_same_bits(RungSampleModel(rung, scene(), parameters_of(false), index, options, false), plan_of(12, false));
+    expect_the_same_bits(RungSampleModel(rung, scene(), parameters_of(false), index, options, false),
+                         plan_of(12, false));
   }
 }
 
 TEST(ParallelLoops, SamplesOfRungsWithAScenePerThread) {
   RunOptions options;
   options.integrator = "rosenbrock";
-  expect_the_same_bits(RungSampleModel("perturbation", scene(), parameters_of(true), {"position_error", "max"}, options, true),
-                       plan_of(8, true));
+  expect_the_same_bits(
+      RungSampleModel("perturbation", scene(), parameters_of(true), {"position_error", "max"}, options, true),
+      plan_of(8, true));
 }
 
 TEST(ParallelLoops, SamplesOfMultibody) {
   RunOptions options;
   options.step = 5e-5;
   for (const bool varies : {false, true})
-    expect_the_same_bits(RungSampleModel("multibody", scene(), parameters_of(varies), {"position_error", "max"}, options, varies),
-                         plan_of(8, varies));
+    expect_the_same_bits(
+        RungSampleModel("multibody", scene(), parameters_of(varies), {"position_error", "max"}, options, varies),
+        plan_of(8, varies));
 }
 
 TEST(ParallelLoops, AnInterruptionFromOutside) {
@@ -94,7 +98,8 @@ TEST(ParallelLoops, AnInterruptionFromOutside) {
     double step() const override { return 0.0; }
     std::string leaves_out() const override { return ""; }
     std::size_t batch() const override { return 7; }
-    void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>& stop) const override {
+    void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                  const std::atomic<bool>& stop) const override {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       sum_.evaluate(samples, outcomes, stop);
     }
@@ -107,7 +112,8 @@ TEST(ParallelLoops, AnInterruptionFromOutside) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     enough = true;
   });
-  const MonteCarloResult cut = run_sum(slow, sum_plan(200'000), *store, folder, kThreads, [&] { return enough.load(); });
+  const MonteCarloResult cut =
+      run_sum(slow, sum_plan(200'000), *store, folder, kThreads, [&] { return enough.load(); });
   EXPECT_EQ(cut.ended, Ended::interrupted);
   EXPECT_EQ(cut.stored, slow.sum_.evaluated);
 }
@@ -128,7 +134,8 @@ TEST(ParallelLoops, PointsOfASweepOnOneRung) {
     ASSERT_EQ(results[0].points.size(), 6u);
     EXPECT_EQ(results[0].failed, 0u);
     for (std::size_t k = 0; k < 6; ++k)
-      EXPECT_EQ(results[0].points[k].result.index.position_error.max, results[1].points[k].result.index.position_error.max);
+      EXPECT_EQ(results[0].points[k].result.index.position_error.max,
+                results[1].points[k].result.index.position_error.max);
   }
 }
 
@@ -137,16 +144,24 @@ TEST(ParallelLoops, ListsOfSamplesAndWhatTheirReaderThrows) {
   std::vector<std::vector<double>> values;
   for (int k = 0; k < 200; ++k) values.push_back({1.0 * k, 2.0});
   std::size_t landed = 0;  // not atomic: told of one at a time
-  const auto outcomes = evaluate_all(model, values, {.jobs = kThreads, .landed = [&](std::size_t, const Outcome&) { ++landed; }});
+  const auto outcomes =
+      evaluate_all(model, values, {.jobs = kThreads, .landed = [&](std::size_t, const Outcome&) { ++landed; }});
   EXPECT_EQ(landed, 200u);
   for (int k = 0; k < 200; ++k) EXPECT_EQ(outcomes[static_cast<std::size_t>(k)].value, k + 2.0);
   EXPECT_THROW(evaluate_all(model, values,
                             {.jobs = kThreads,
-                             .landed = [](std::size_t k, const Outcome&) { if (k == 50) throw std::runtime_error("enough"); }}),
+                             .landed =
+                                 [](std::size_t k, const Outcome&) {
+                                   if (k == 50) throw std::runtime_error("enough");
+                                 }}),
                std::runtime_error);
-  EXPECT_THROW(evaluate_all(model, values, {.jobs = kThreads, .interrupted = [] { return true; },
-                                            .landed = [](std::size_t, const Outcome&) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }}),
-               EvaluationInterrupted);
+  EXPECT_THROW(
+      evaluate_all(
+          model, values,
+          {.jobs = kThreads,
+           .interrupted = [] { return true; },
+           .landed = [](std::size_t, const Outcome&) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }}),
+      EvaluationInterrupted);
 }
 
 TEST(ParallelLoops, FilesReadAndLawsOfTimeAskedSideBySide) {

@@ -17,9 +17,7 @@ namespace {
 constexpr double kProbability = 0.9, kConfidence = 0.9, kRisk = 1.0 - kConfidence;
 constexpr double kMilli = 1e-3, kStep = 0.01, kWidth = 0.005;  // option o of a joint: (1 + kStep o + kWidth u) mm
 
-double normal_quantile(double u) {
-  return quantile(boost::math::normal(), std::clamp(u, 1e-12, 1.0 - 1e-12));
-}
+double normal_quantile(double u) { return quantile(boost::math::normal(), std::clamp(u, 1e-12, 1.0 - 1e-12)); }
 
 AllocationPlan plan_with(std::uint64_t seed, int options) {
   AllocationPlan plan;
@@ -56,7 +54,8 @@ Outcome near_limit(const AllocationPlan& plan, double excess) {
 
 TEST(Confirmation, CountsSamplesWithoutAnAnswerAsFailedAndAsNotWithin) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  const AllocationConfirmation c = confirmation_of({1.0, kNone, 2.0, 3.0, kNone}, {2.0, kProbability, kConfidence}, kConfidence);
+  const AllocationConfirmation c =
+      confirmation_of({1.0, kNone, 2.0, 3.0, kNone}, {2.0, kProbability, kConfidence}, kConfidence);
   EXPECT_EQ(c.samples, 5u);
   EXPECT_EQ(c.failed, 2u);
   EXPECT_EQ(c.share_within, 0.4);
@@ -132,13 +131,13 @@ TEST(Confirmation, GapsAndOtherRandomParametersAreIndependent) {
 TEST(Confirmation, EveryOneDrawsSamplesThatNoneBeforeHasSeen) {
   const AllocationPlan plan = plan_with(7, 6);
   std::vector<std::vector<std::vector<double>>> seen;
-  const AllocationResult result = run_allocation(
-      plan, sum_of_gaps(), 0.0,
-      [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
-        seen.push_back(gaps);
-        return std::vector<Outcome>(gaps.size(), near_limit(plan, 0.1));
-      },
-      "synthetic", {});
+  const AllocationResult result =
+      run_allocation(plan, sum_of_gaps(), 0.0,
+                     [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+                       seen.push_back(gaps);
+                       return std::vector<Outcome>(gaps.size(), near_limit(plan, 0.1));
+                     },
+                     "synthetic", {});
   EXPECT_FALSE(result.feasible);
   ASSERT_GE(result.confirmations.size(), 3u);
   std::vector<std::uint64_t> seeds;
@@ -156,19 +155,20 @@ TEST(Confirmation, EveryOneDrawsSamplesThatNoneBeforeHasSeen) {
 TEST(Confirmation, SaysInWordsWhatItsNumbersAre) {
   AllocationPlan plan = plan_with(11, 1);
   plan.requirement.limit = 3.0 * kMilli;
-  const AllocationResult result = run_allocation(
-      plan, sum_of_gaps(), 0.0,
-      [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
-        return std::vector<Outcome>(gaps.size(), near_limit(plan, -0.1));
-      },
-      "synthetic", {});
+  const AllocationResult result =
+      run_allocation(plan, sum_of_gaps(), 0.0,
+                     [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+                       return std::vector<Outcome>(gaps.size(), near_limit(plan, -0.1));
+                     },
+                     "synthetic", {});
   ASSERT_FALSE(result.confirmations.empty());
   const AllocationConfirmation& c = result.confirmations.front();
   // All of 80 within: with risk r the share is at least r^(1/80). Of the tenth that may be wrong each confirmation has its part.
   const double confidence = confirmation_confidence(plan.requirement);
   EXPECT_NEAR(c.share_low, std::pow(1.0 - confidence, 1.0 / 80.0), 1e-9);
   char expected[200];
-  std::snprintf(expected, sizeof expected, "80 fresh samples of the synthetic rung with seed %llu: 100 %% within the limit, at least %.4g %% ",
+  std::snprintf(expected, sizeof expected,
+                "80 fresh samples of the synthetic rung with seed %llu: 100 %% within the limit, at least %.4g %% ",
                 static_cast<unsigned long long>(c.seed), 100.0 * c.share_low);
   EXPECT_THAT(c.sentence, testing::StartsWith(expected));
   std::snprintf(expected, sizeof expected, "with %.4g %% confidence (90 %% over the ", 100.0 * confidence);
@@ -204,16 +204,17 @@ TEST(Allocation, TriesTheTightestGapsOnTheConfirmingRungBeforeItSaysThatNothingD
   AllocationPlan plan = plan_with(5, 4);
   plan.requirement.limit = 1.0 * kMilli;  // the linear deviation never falls to it
   int calls = 0;
-  const AllocationResult result = run_allocation(
-      plan, sum_of_gaps(), 0.0,
-      [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
-        // What the search tries first says that the rung is as the deviation.
-        const bool first = calls++ == 0;
-        std::vector<Outcome> outcomes;
-        for (const auto& g : gaps) outcomes.push_back(done(first ? g[0] + g[1] : 0.9 * plan.requirement.limit));
-        return outcomes;
-      },
-      "synthetic", {});
+  const AllocationResult result =
+      run_allocation(plan, sum_of_gaps(), 0.0,
+                     [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+                       // What the search tries first says that the rung is as the deviation.
+                       const bool first = calls++ == 0;
+                       std::vector<Outcome> outcomes;
+                       for (const auto& g : gaps)
+                         outcomes.push_back(done(first ? g[0] + g[1] : 0.9 * plan.requirement.limit));
+                       return outcomes;
+                     },
+                     "synthetic", {});
   EXPECT_TRUE(result.feasible);
   EXPECT_EQ(result.chosen.choice, (std::vector<int>{0, 0}));
   EXPECT_FALSE(result.chosen.proven);
@@ -227,14 +228,14 @@ TEST(Allocation, OverCostCurvesClaimsNoProof) {
   }
   plan.requirement.limit = 0.08 * kMilli;
   const LinearDeviation deviation = sum_of_gaps();
-  const AllocationResult result = run_allocation(
-      plan, deviation, 0.0,
-      [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
-        std::vector<Outcome> outcomes;
-        for (const auto& g : gaps) outcomes.push_back(done(deviation.index(g)));
-        return outcomes;
-      },
-      "synthetic", {});
+  const AllocationResult result =
+      run_allocation(plan, deviation, 0.0,
+                     [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+                       std::vector<Outcome> outcomes;
+                       for (const auto& g : gaps) outcomes.push_back(done(deviation.index(g)));
+                       return outcomes;
+                     },
+                     "synthetic", {});
   EXPECT_TRUE(result.feasible);
   EXPECT_TRUE(result.chosen.finished);
   EXPECT_FALSE(result.chosen.proven);

@@ -20,8 +20,7 @@ const std::vector<double> kB = {0.5, 0.2, 1.0, 0.35};
 
 std::vector<ContinuousJoint> joints(double exponent) {
   std::vector<ContinuousJoint> all;
-  for (const double b : kB)
-    all.push_back({make_cost_curve("reciprocal-power", 1.0, b, exponent, 1e-3), 1e-7, 1e-2});
+  for (const double b : kB) all.push_back({make_cost_curve("reciprocal-power", 1.0, b, exponent, 1e-3), 1e-7, 1e-2});
   return all;
 }
 
@@ -95,8 +94,7 @@ TEST(ContinuousAllocation, WithSamplesPutsTheRequiredOrderStatisticOnTheLimit) {
   const LinearDeviation deviation({0.0, 1.0}, {0, 0, 0, 0, 0, 0}, {{1.5, 0, 0, 2.0, 0, 0}}, "max");
   std::vector<double> z(200);
   for (std::size_t k = 0; k < z.size(); ++k) z[k] = (static_cast<double>(k) + 0.5) / 200.0;
-  const auto requirement =
-      statistical_tolerances(deviation, {1e-5}, {z}, 9);  // the tenth largest: z = 190.5 / 200
+  const auto requirement = statistical_tolerances(deviation, {1e-5}, {z}, 9);  // the tenth largest: z = 190.5 / 200
   const ContinuousAllocation found =
       allocate_continuous({{make_cost_curve("reciprocal", 0, 1, 1, 1e-3), 1e-7, 1e-2}}, requirement, 1e-4);
   EXPECT_NEAR(found.tolerance[0], (1e-4 / 2.0 - 1e-5) / (190.5 / 200.0), 1e-11);
@@ -106,8 +104,7 @@ TEST(CostCurve, HasTheSlopeOfItsPrice) {
   for (const std::string& law : cost_law_names()) {
     const CostCurve curve = make_cost_curve(law, 2.0, 0.3, 1.7, 1e-3);
     const double t = 4e-4, h = 1e-9;
-    EXPECT_NEAR(curve.slope(t), (curve.price(t + h) - curve.price(t - h)) / (2 * h),
-                1e-5 * std::abs(curve.slope(t)))
+    EXPECT_NEAR(curve.slope(t), (curve.price(t + h) - curve.price(t - h)) / (2 * h), 1e-5 * std::abs(curve.slope(t)))
         << law;
   }
 }
@@ -126,7 +123,8 @@ TEST(RootSumSquare, AddsTheMiddlesAndAThirdOfEachHalfWidthAsItsDeviation) {
   const ToleranceRequirement requirement = root_sum_square_tolerances(deviation, {1e-4 - 3e-5, 1e-4 - 6e-5}, 0.95);
   std::vector<double> gradient(2);
   const double one_sided = 1.6448536269514722;
-  EXPECT_NEAR(requirement(std::vector<double>{6e-5, 1.2e-4}, gradient), 6e-4 + one_sided * std::hypot(1e-5, 4e-5), 1e-12);
+  EXPECT_NEAR(requirement(std::vector<double>{6e-5, 1.2e-4}, gradient), 6e-4 + one_sided * std::hypot(1e-5, 4e-5),
+              1e-12);
   EXPECT_NEAR(gradient[0], 0.5 * 1.0 + one_sided / 6.0 * 1e-5 / std::hypot(1e-5, 4e-5), 1e-4);
   EXPECT_NEAR(gradient[1], 0.5 * 2.0 + one_sided / 3.0 * 4e-5 / std::hypot(1e-5, 4e-5), 1e-4);
 }

@@ -42,8 +42,7 @@ Scene scene(std::size_t joints, std::size_t options, unsigned seed, const std::s
       gap[j].push_back(make_uniform(0.25 * width, width));
     }
   }
-  return {prices, gap, LinearDeviation(time, offset, sensitivity, statistic),
-          unit_samples(joints, 150, seed)};
+  return {prices, gap, LinearDeviation(time, offset, sensitivity, statistic), unit_samples(joints, 150, seed)};
 }
 
 // The cheapest of all sets, one by one.
@@ -86,8 +85,8 @@ TEST(DiscreteAllocation, IsExactOnFiveJointsForEveryWayOfJudging) {
     const Scene s = scene(5, 4, 100 + seed);
     const StatisticalRequirement statistical(s.deviation, s.gap, s.unit, 5, 45e-6);
     const WorstCaseRequirement worst(s.deviation, s.gap, 60e-6);
-    for (const AllocationRequirement* requirement : {static_cast<const AllocationRequirement*>(&statistical),
-                                                     static_cast<const AllocationRequirement*>(&worst)}) {
+    for (const AllocationRequirement* requirement :
+         {static_cast<const AllocationRequirement*>(&statistical), static_cast<const AllocationRequirement*>(&worst)}) {
       std::int64_t meeting = 0;
       const double best = brute_force(s.price, *requirement, meeting);
       const DiscreteAllocation found = allocate_discrete(s.price, tightest_options(s.gap), *requirement);
@@ -175,7 +174,8 @@ TEST(StatisticalRequirement, ReachesThatLimitAndNoLess) {
 TEST(StatisticalRequirement, ReachesTheLargestIndexWhereNoneMayExceedAndNothingWhereNoneIsEnough) {
   const Scene s = scene(3, 3, 12);
   const std::vector<int> choice = {1, 0, 2};
-  const StatisticalRequirement none_may(s.deviation, s.gap, s.unit, 0, 0.0), not_enough(s.deviation, s.gap, s.unit, -1, 0.0);
+  const StatisticalRequirement none_may(s.deviation, s.gap, s.unit, 0, 0.0),
+      not_enough(s.deviation, s.gap, s.unit, -1, 0.0);
   const std::vector<double> indices = none_may.indices(choice);
   EXPECT_EQ(none_may.reached(choice), *std::max_element(indices.begin(), indices.end()));
   EXPECT_TRUE(std::isinf(not_enough.reached(choice)));
@@ -186,15 +186,18 @@ TEST(StatisticalRequirement, SharesTheVarianceBySensitivityAndWidth) {
   const LinearDeviation deviation({0.0}, {0, 0, 0}, {{1, 0, 0}, {2, 0, 0}}, "max");
   std::vector<double> u;
   for (int k = 0; k < 100; ++k) u.push_back((k + 0.5) / 100.0);
-  const std::vector<std::vector<DistributionPtr>> gap = {{make_uniform(1e-5, 3e-5)}, {make_uniform(1e-5, 3e-5), make_uniform(1e-5, 2e-5)}};
+  const std::vector<std::vector<DistributionPtr>> gap = {{make_uniform(1e-5, 3e-5)},
+                                                         {make_uniform(1e-5, 3e-5), make_uniform(1e-5, 2e-5)}};
   const StatisticalRequirement requirement(deviation, gap, {u, u}, 0, 1.0);
-  const std::vector<double> alike = requirement.error_shares(std::vector<int>{0, 0}), half = requirement.error_shares(std::vector<int>{0, 1});
+  const std::vector<double> alike = requirement.error_shares(std::vector<int>{0, 0}),
+                            half = requirement.error_shares(std::vector<int>{0, 1});
   EXPECT_NEAR(alike[0], 0.2, 1e-12);
   EXPECT_NEAR(alike[1], 0.8, 1e-12);
   EXPECT_NEAR(half[0], 0.5, 1e-12);
   EXPECT_NEAR(half[1], 0.5, 1e-12);
   // Gaps that do not vary bring nothing.
-  const StatisticalRequirement still(deviation, {{make_discrete({1e-5}, {1.0})}, {make_discrete({1e-5}, {1.0})}}, {u, u}, 0, 1.0);
+  const StatisticalRequirement still(deviation, {{make_discrete({1e-5}, {1.0})}, {make_discrete({1e-5}, {1.0})}},
+                                     {u, u}, 0, 1.0);
   EXPECT_EQ(still.error_shares(std::vector<int>{0, 0}), (std::vector<double>{0.0, 0.0}));
 }
 
@@ -202,7 +205,8 @@ TEST(StatisticalRequirement, SharesTheVarianceBySensitivityAndWidth) {
 TEST(RootSumSquareRequirement, MayBeMetByAnOptionThatStandsFirstAndIsNotTheTightest) {
   constexpr double kMilli = 1e-3;
   const LinearDeviation opposed({0.0}, {2.0 * kMilli, 0, 0}, {{-1, 0, 0}, {1, 0, 0}}, "max");
-  const std::vector<DistributionPtr> options = {make_uniform(0.99 * kMilli, 1.01 * kMilli), make_uniform(0.09 * kMilli, 0.11 * kMilli)};
+  const std::vector<DistributionPtr> options = {make_uniform(0.99 * kMilli, 1.01 * kMilli),
+                                                make_uniform(0.09 * kMilli, 0.11 * kMilli)};
   const RootSumSquareRequirement requirement(opposed, {options, options}, 0.95, 1.2 * kMilli);
   EXPECT_TRUE(requirement.is_met(std::vector<int>{0, 1}));
   EXPECT_TRUE(requirement.may_be_met(std::vector<int>{0, -1}));

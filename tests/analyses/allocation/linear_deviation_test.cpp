@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "boresight/io/mechanism_file.hpp"
-#include "boresight/rungs/rung.hpp"
+#include "boresight/ladder/ladder.hpp"
 
 namespace boresight {
 namespace {
@@ -15,8 +15,7 @@ std::shared_ptr<const Mechanism> crank_slider() {
                                           {{"motion.duration", "0.1 s"}});
   for (const BodyDescription& b : d.bodies)
     if (b.boresight)
-      d.line_of_sight =
-          LineOfSightDescription{.from = b.center_of_mass, .target = Vec3(0.0, 3.0, 1.0), .origin = {}};
+      d.line_of_sight = LineOfSightDescription{.from = b.center_of_mass, .target = Vec3(0.0, 3.0, 1.0), .origin = {}};
   return std::make_shared<const Mechanism>(std::move(d));
 }
 
@@ -29,13 +28,11 @@ TEST(LinearDeviation, FoundOnASceneIsItsQuasistaticRungForEveryQuantityAndGap) {
   // Second order of the gap over the lengths, how far the contact gives way, which hangs on the gap a little,
   // and instants that fall beside the largest.
   constexpr double kClose = 0.01;
-  for (const char* quantity :
-       {"position_error", "orientation_error", "boresight_error", "line_of_sight_error"})
+  for (const char* quantity : {"position_error", "orientation_error", "boresight_error", "line_of_sight_error"})
     for (const char* statistic : {"max", "rms"}) {
       const IndexChoice index{quantity, statistic};
       double misfit = -1.0;
-      const LinearDeviation found =
-          find_linear_deviation(mechanism, {{place}}, {nominal}, index, kInstants, misfit);
+      const LinearDeviation found = find_linear_deviation(mechanism, {{place}}, {nominal}, index, kInstants, misfit);
       EXPECT_GE(misfit, 0.0);
       EXPECT_LT(misfit, kClose) << quantity << ' ' << statistic;
       RunOptions options;

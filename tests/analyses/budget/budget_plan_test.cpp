@@ -120,7 +120,8 @@ TEST_F(BudgetPlanTest, MistakesAreOneLineWithFileLineAndKey) {
 }
 
 TEST_F(BudgetPlanTest, AnObservationMayTakeTheWholeMotionAndNoMore) {
-  const std::string whole = std::to_string(mechanism_->duration()) + " s", more = std::to_string(1.001 * mechanism_->duration()) + " s";
+  const std::string whole = std::to_string(mechanism_->duration()) + " s",
+                    more = std::to_string(1.001 * mechanism_->duration()) + " s";
   EXPECT_EQ(read("observation = \"" + whole + "\"\n").windows.observation, mechanism_->duration());
   EXPECT_THAT(fault("observation = \"" + more + "\"\n"), HasSubstr("no longer than the motion"));
 }

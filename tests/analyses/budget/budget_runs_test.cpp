@@ -26,16 +26,14 @@ struct Budgeted {
     Cursor root(document);
     Study study;
     study.index.quantity = "position_error";
-    plan =
-        read_budget_plan(root, study, mechanism->description(), mechanism->duration(), [](const Setting&) {});
+    plan = read_budget_plan(root, study, mechanism->description(), mechanism->duration(), [](const Setting&) {});
   }
 };
 
 TEST(BudgetModel, RunsEveryNumberInTheVariantThatItStandsFor) {
   const Budgeted budgeted;
   const BudgetRuns runs(budgeted.plan, *budgeted.mechanism);
-  const BudgetModel model("quasistatic", budgeted.mechanism, budgeted.plan, runs, {"position_error", "max"},
-                          {}, false);
+  const BudgetModel model("quasistatic", budgeted.mechanism, budgeted.plan, runs, {"position_error", "max"}, {}, false);
   ASSERT_EQ(runs.groups(), 1u);
   ASSERT_EQ(runs.joints(), 1u);
   const std::size_t count = static_cast<std::size_t>(runs.count());
@@ -54,8 +52,8 @@ TEST(BudgetModel, RunsEveryNumberInTheVariantThatItStandsFor) {
     ASSERT_EQ(outcome.history.size(), 3 * instants);
     double largest = 0.0;
     for (std::size_t i = 0; i < instants; ++i)
-      largest = std::max(largest, std::hypot(outcome.history[3 * i], outcome.history[3 * i + 1],
-                                             outcome.history[3 * i + 2]));
+      largest =
+          std::max(largest, std::hypot(outcome.history[3 * i], outcome.history[3 * i + 1], outcome.history[3 * i + 2]));
     // The value is the maximum over every step, of which the history holds some.
     EXPECT_LE(largest, outcome.value * (1.0 + 1e-9));
     EXPECT_GT(largest, 0.5 * outcome.value);
@@ -81,12 +79,10 @@ TEST(HistoryOnGrid, InterpolatesBetweenTheSamplesOfARun) {
   for (const double t : run.time) {
     PoseSample s;
     s.ideal.p = Vec3(7.0, 8.0, 9.0);
-    s.pose.p =
-        s.ideal.p + Vec3(t, 1.0 - t, 2.0);  // straight in time, so that the samples' places do not matter
+    s.pose.p = s.ideal.p + Vec3(t, 1.0 - t, 2.0);  // straight in time, so that the samples' places do not matter
     run.boresight.samples.push_back(s);
   }
-  const std::vector<double> history =
-      history_on_grid(run, PointingQuantity::position_error, Pointing{}, plan);
+  const std::vector<double> history = history_on_grid(run, PointingQuantity::position_error, Pointing{}, plan);
   ASSERT_EQ(history.size(), 12u);
   for (std::size_t k = 0; k < 4; ++k) {
     const double t = 0.25 + 0.25 * static_cast<double>(k);

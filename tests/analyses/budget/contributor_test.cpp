@@ -59,8 +59,11 @@ TEST(Contributor, OfNoiseEntersTheEnsembleWithThreeDeviations) {
 
 // Table B-1: the worst of a distribution without ends is three deviations off its mean, on the side that is farther from zero.
 TEST(Contributor, WithoutEndsIsThreeDeviationsOffAtItsWorst) {
-  Contributor bias{.name = "b", .kind = ContributorClass::bias, .parameter = {make_normal(2.0, 0.1), make_normal(-2.0, 0.1)}};
-  const auto worst = [&](int axis, ErrorIndex index) { return moments(bias, axis, index, Interpretation::temporal, {}, 1.0).mean; };
+  Contributor bias{
+      .name = "b", .kind = ContributorClass::bias, .parameter = {make_normal(2.0, 0.1), make_normal(-2.0, 0.1)}};
+  const auto worst = [&](int axis, ErrorIndex index) {
+    return moments(bias, axis, index, Interpretation::temporal, {}, 1.0).mean;
+  };
   EXPECT_NEAR(worst(0, ErrorIndex::ape), 2.3, 1e-9);
   EXPECT_NEAR(worst(1, ErrorIndex::ape), -2.3, 1e-9);
   bias.recalibrated = true;  // two observations differ by the whole width at most
@@ -77,7 +80,8 @@ TEST(Contributor, OfAPeriodBeginsAnywhereInIt) {
   std::vector<std::vector<double>> phase(9);
   for (std::uint64_t stream = 0; stream < 3; ++stream)
     for (std::uint64_t member = 0; member < kMembers; ++member) {
-      const std::vector<Vec3> e = course(c, 3, member, stream, 0.25, 2, {});  // a quarter of a period apart: sine and cosine
+      const std::vector<Vec3> e =
+          course(c, 3, member, stream, 0.25, 2, {});  // a quarter of a period apart: sine and cosine
       for (int axis = 0; axis < 3; ++axis) {
         const double turn = std::atan2(e[0][axis], e[1][axis]) / (2.0 * M_PI) - 0.125;
         phase[3 * stream + static_cast<std::uint64_t>(axis)].push_back(turn - std::floor(turn));
@@ -85,7 +89,8 @@ TEST(Contributor, OfAPeriodBeginsAnywhereInIt) {
     }
   for (std::size_t k = 0; k < phase.size(); ++k) {
     std::vector<int> count(kParts, 0);
-    for (const double turn : phase[k]) ++count[std::min<std::size_t>(kParts - 1, static_cast<std::size_t>(kParts * turn))];
+    for (const double turn : phase[k])
+      ++count[std::min<std::size_t>(kParts - 1, static_cast<std::size_t>(kParts * turn))];
     for (const int n : count) EXPECT_NEAR(n, expected, most) << k;
     for (std::size_t other = 0; other < k; ++other) EXPECT_NE(phase[k], phase[other]) << k << ' ' << other;
   }

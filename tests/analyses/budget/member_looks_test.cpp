@@ -44,7 +44,8 @@ FalseMet repeated(Interpretation interpretation, double leave_out, const std::fu
     std::optional<FirstLook> first;
     bool judged = false, by_itself = false;
     for (std::size_t n = 50; n <= 700; n += n / 8) {
-      while (sizes.size() < n) sizes.push_back(member(exceeding(stream.uniform(static_cast<std::uint64_t>(study), sizes.size()))));
+      while (sizes.size() < n)
+        sizes.push_back(member(exceeding(stream.uniform(static_cast<std::uint64_t>(study), sizes.size()))));
       const EnsembleInTime members(sizes);
       const Judgement judgement = judgement_of(asked, at, n, first);
       if (!first) first = first_look_of(asked, at, n);

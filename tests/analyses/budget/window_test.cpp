@@ -102,7 +102,9 @@ TEST(ErrorIndexOfAHistory, WindowsStayWithinAnObservationAndPreLooksAcrossTwo) {
 
 TEST(ErrorIndexOfAHistory, PreLooksFromEveryWindowOfEveryObservationIntoTheNext) {
   // Three observations of 100 samples, 1, 4 and 16: 91 whole windows of ten samples in each of the first two.
-  const PointingHistory h = history_of(1.5, 300, [](double t) { return Vec3(t < 0.5 ? 1.0 : t < 1.0 ? 4.0 : 16.0, 0, 0); });
+  const PointingHistory h = history_of(1.5, 300, [](double t) {
+    return Vec3(t < 0.5 ? 1.0 : t < 1.0 ? 4.0 : 16.0, 0, 0);
+  });
   std::vector<Vec3> across = index_values(ErrorIndex::pre, h, {.window = 0.05, .observation = 0.5});
   ASSERT_EQ(across.size(), 182u);
   for (std::size_t k = 0; k < across.size(); ++k) EXPECT_NEAR(across[k].x(), k < 91 ? 3.0 : 12.0, 1e-12) << k;
@@ -110,10 +112,13 @@ TEST(ErrorIndexOfAHistory, PreLooksFromEveryWindowOfEveryObservationIntoTheNext)
 
 TEST(ErrorIndexOfAHistory, PreOfARevisitWithinAnObservationTakesWhatLiesInTwo) {
   // Ten samples, the squares of 0 to 9, two observations of five; three samples apart, 2 to 4 and 5 to 7 lie in both.
-  const PointingHistory h = history_of(1.0, 10, [](double t) { return Vec3(std::pow(std::floor(10.0 * t + 1e-6), 2), 0, 0); });
-  const std::vector<Vec3> across = index_values(ErrorIndex::pre, h, {.window = 0.1, .observation = 0.5, .revisit = 0.3});
+  const PointingHistory h =
+      history_of(1.0, 10, [](double t) { return Vec3(std::pow(std::floor(10.0 * t + 1e-6), 2), 0, 0); });
+  const std::vector<Vec3> across =
+      index_values(ErrorIndex::pre, h, {.window = 0.1, .observation = 0.5, .revisit = 0.3});
   ASSERT_EQ(across.size(), 3u);
-  for (std::size_t k = 0; k < across.size(); ++k) EXPECT_NEAR(across[k].x(), std::pow(k + 5.0, 2) - std::pow(k + 2.0, 2), 1e-9);
+  for (std::size_t k = 0; k < across.size(); ++k)
+    EXPECT_NEAR(across[k].x(), std::pow(k + 5.0, 2) - std::pow(k + 2.0, 2), 1e-9);
 }
 
 TEST(ErrorIndexOfAHistory, SaysWhatItNeeds) {
@@ -143,7 +148,8 @@ TEST(WindowFilter, KnowsTheLargestRelativeErrorOfASinusoid) {
   }
   // A tenth of the period; sqrt(1 - s^2), what the mean square keeps, is 0.180.
   EXPECT_NEAR(peak_of_sinusoid(ErrorIndex::rpe, 2.0 * M_PI, {.window = 0.1}), 0.311, 5e-4);
-  EXPECT_NEAR(peak_of_sinusoid(ErrorIndex::mpe, 2.0 * M_PI, {.window = 0.1}), std::sin(0.1 * M_PI) / (0.1 * M_PI), 1e-12);
+  EXPECT_NEAR(peak_of_sinusoid(ErrorIndex::mpe, 2.0 * M_PI, {.window = 0.1}), std::sin(0.1 * M_PI) / (0.1 * M_PI),
+              1e-12);
 }
 
 }  // namespace

@@ -46,8 +46,7 @@ TEST(Calibrate, FindsClearanceToOnePercentAndFrictionToTenInMultibodyData) {
   const CalibrationResult result = calibrate(problem, options_with(2));
   EXPECT_NEAR(result.inference.parameters[0].value / bench.truth(kFour[0]), 1.0, 0.01);
   EXPECT_NEAR(result.inference.parameters[2].value / bench.truth(kFour[2]), 1.0, 0.10);
-  for (const ParameterEstimate& e : result.inference.parameters)
-    EXPECT_LT(deviations_off(bench, e), 3.5) << e.name;
+  for (const ParameterEstimate& e : result.inference.parameters) EXPECT_LT(deviations_off(bench, e), 3.5) << e.name;
   // Multibody itself leaves at the optimum what the noise does.
   EXPECT_NEAR(result.confirmation, 1.0, 0.1);
 }
@@ -129,8 +128,8 @@ TEST(Calibrate, GrossOutliersMoveTheAnswerByLessThanAStandardError) {
   };
   const auto clean = answer(0.0), spoilt = answer(0.1);
   for (std::size_t p = 0; p < clean.size(); ++p) {
-    std::printf("  %s %.5g, %.5g; moved by %.2f standard errors\n", clean[p].name.c_str(), clean[p].value, spoilt[p].value,
-                std::abs(spoilt[p].value - clean[p].value) / clean[p].standard_error);
+    std::printf("  %s %.5g, %.5g; moved by %.2f standard errors\n", clean[p].name.c_str(), clean[p].value,
+                spoilt[p].value, std::abs(spoilt[p].value - clean[p].value) / clean[p].standard_error);
     EXPECT_LT(std::abs(spoilt[p].value - clean[p].value), clean[p].standard_error) << clean[p].name;
   }
 }
@@ -168,11 +167,10 @@ TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) {
     const char* asked = std::getenv(name);
     return asked ? std::atoi(asked) : otherwise;
   };
-  const int sets = number("BORESIGHT_CALIBRATION_SETS", 14),
-            first = number("BORESIGHT_CALIBRATION_SEED", 2000);
+  const int sets = number("BORESIGHT_CALIBRATION_SETS", 14), first = number("BORESIGHT_CALIBRATION_SEED", 2000);
   const Bench bench({2.0, 2.4, 2.8}, 0.2, true);
   std::vector<std::vector<ParameterEstimate>> found(sets);
-  in_parallel(sets, 2, [&](int set) {
+  for_each_on_threads(sets, 2, [&](int set) {
     SyntheticRig rig;
     rig.seed = static_cast<std::uint64_t>(first) + static_cast<std::uint64_t>(set);
     CalibrationProblem problem = bench.problem(rig, kFour);
@@ -188,11 +186,10 @@ TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) {
       inside += set[p].low <= truth && truth <= set[p].high;
       worst = std::max(worst, std::abs(set[p].value / truth - 1.0));
     }
-    std::printf("  %s: truth inside %d of %d intervals of 95 %%, largest error %.3g %%\n", kFour[p].c_str(),
-                inside, sets, 100.0 * worst);
+    std::printf("  %s: truth inside %d of %d intervals of 95 %%, largest error %.3g %%\n", kFour[p].c_str(), inside,
+                sets, 100.0 * worst);
     // 90 to 99 % of many sets; of few, what chance makes of 95 % (2.5 deviations of the binomial).
-    EXPECT_GE(inside, sets >= 100 ? 0.90 * sets : 0.95 * sets - 2.5 * std::sqrt(0.95 * 0.05 * sets))
-        << kFour[p];
+    EXPECT_GE(inside, sets >= 100 ? 0.90 * sets : 0.95 * sets - 2.5 * std::sqrt(0.95 * 0.05 * sets)) << kFour[p];
     if (sets >= 100) {
       EXPECT_LE(inside, 0.99 * sets) << kFour[p];
     }

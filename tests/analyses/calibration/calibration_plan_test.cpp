@@ -12,10 +12,11 @@ namespace {
 MechanismDescription mechanism() { return read_mechanism(BORESIGHT_EXAMPLES "/crank-slider/crank-slider.toml"); }
 
 CalibrationPlan read(const std::string& table) {
-  Document document = Document::from_text("[calibrate]\n" + table +
-                                              "\n[[calibrate.parameter]]\npath = \"clearance.A.radial\"\nstart = \"0.05 mm\"\n"
-                                              "[[calibrate.run]]\ndata = \"slow.csv\"\n",
-                                          "study.toml");
+  Document document =
+      Document::from_text("[calibrate]\n" + table +
+                              "\n[[calibrate.parameter]]\npath = \"clearance.A.radial\"\nstart = \"0.05 mm\"\n"
+                              "[[calibrate.run]]\ndata = \"slow.csv\"\n",
+                          "study.toml");
   Cursor root(document);
   return read_calibration_plan(root, Study{}, mechanism());
 }

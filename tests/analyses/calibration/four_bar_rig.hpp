@@ -6,14 +6,14 @@
 #include <random>
 
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight/ladder/ladder.hpp"
 #include "boresight_analyses/calibration/calibrate.hpp"
 #include "boresight_analyses/calibration/channel_noise.hpp"
 #include "boresight_analyses/calibration/rig.hpp"
 
 namespace boresight::four_bar {
 
-inline std::shared_ptr<const Mechanism> mechanism(double speed, double duration,
-                                                  std::vector<Setting> more = {}) {
+inline std::shared_ptr<const Mechanism> mechanism(double speed, double duration, std::vector<Setting> more = {}) {
   std::vector<Setting> settings = {{"motion.duration", std::to_string(duration) + " s"},
                                    {"motion.drives.A", "2*pi*" + std::to_string(speed) + "*t"},
                                    {"initial.journals", "centred"},
@@ -58,9 +58,8 @@ struct Bench {
       : t(times(duration)), multibody(by_multibody) {
     for (double speed : speeds) {
       mechanisms.push_back(mechanism(speed, duration, more));
-      clean.push_back(
-          by_multibody ? multibody_readings(mechanisms.back(), mechanisms.back()->parameters(), t, channels)
-                       : own_readings(mechanisms.back(), t, channels));
+      clean.push_back(by_multibody ? multibody_readings(mechanisms.back(), mechanisms.back()->parameters(), t, channels)
+                                   : own_readings(mechanisms.back(), t, channels));
     }
   }
 
@@ -72,8 +71,8 @@ struct Bench {
                           with_rig_errors(rig, t, clean[r], static_cast<int>(r)));
     for (const std::string& path : paths) {
       const double truth = ParameterPath(mechanisms[0]->description(), path).get(mechanisms[0]->parameters());
-      p.parameters.push_back(fitted_parameter(mechanisms[0]->description(), path,
-                                              truth * (path.ends_with("restitution") ? 0.8 : 1.2)));
+      p.parameters.push_back(
+          fitted_parameter(mechanisms[0]->description(), path, truth * (path.ends_with("restitution") ? 0.8 : 1.2)));
     }
     p.prepare(10.0, true);
     return p;
@@ -88,8 +87,8 @@ inline const std::vector<std::string> kFour = {"clearance.D.radial", "clearance.
                                                "clearance.D.contact.stiffness_scale"};
 
 // With first-order noise, of this share of the largest root mean square of the displacements or rotations.
-inline CalibrationProblem with_following_noise(const Bench& bench, const std::vector<std::string>& paths, double noise, double follows,
-                                               unsigned seed) {
+inline CalibrationProblem with_following_noise(const Bench& bench, const std::vector<std::string>& paths, double noise,
+                                               double follows, unsigned seed) {
   SyntheticRig rig;
   rig.noise = 0.0;
   CalibrationProblem p = bench.problem(rig, paths);

@@ -29,8 +29,7 @@ TEST(FreeWindow, ResidualsChangeWithParametersAndStartStateAsDifferencesSay) {
   for (const Window& window : problem.windows) {
     state = problem.guess_state(window, at);
     problem.evaluate(window, at, state, true, exact);
-    if (!window.from_rest && !exact.motion.impact_speed.empty() && exact.motion.grazing.empty())
-      seen = &window;
+    if (!window.from_rest && !exact.motion.impact_speed.empty() && exact.motion.grazing.empty()) seen = &window;
     if (seen != nullptr) break;
   }
   ASSERT_NE(seen, nullptr);

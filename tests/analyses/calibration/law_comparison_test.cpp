@@ -24,8 +24,10 @@ std::vector<LawScore> scores(const CalibrationProblem& problem, const std::vecto
                              const std::vector<bool>& fixed = {}) {
   Globals start = problem.start();
   for (int p = 0; p < problem.parameter_count(); ++p) {
-    const ParameterPath path(problem.runs[0].mechanism->description(), problem.parameters[static_cast<std::size_t>(p)].path);
-    start.u[p] = problem.parameters[static_cast<std::size_t>(p)].coordinate(path.get(problem.runs[0].mechanism->parameters()));
+    const ParameterPath path(problem.runs[0].mechanism->description(),
+                             problem.parameters[static_cast<std::size_t>(p)].path);
+    start.u[p] =
+        problem.parameters[static_cast<std::size_t>(p)].coordinate(path.get(problem.runs[0].mechanism->parameters()));
   }
   FitOptions options;
   options.most_iterations = 15;
@@ -65,8 +67,9 @@ TEST(LawComparisonLong, TheWrongLawIsDecidedForNoMoreOftenForNoiseThatFollowsIts
       wrong_as_if_white += found[1].cost + 2.0 * found[1].parameters > 10.0 + found[0].cost + 2.0 * found[0].parameters;
       per_one += static_cast<double>(found[0].values) / found[0].effective_values / kStudies;
     }
-    std::printf("autocorrelation %.1f: wrong law %.3f (as if white: %.3f), nominal %.3f; %.3g values an independent one\n", follows,
-                double(wrong) / kStudies, double(wrong_as_if_white) / kStudies, nominal, per_one);
+    std::printf(
+        "autocorrelation %.1f: wrong law %.3f (as if white: %.3f), nominal %.3f; %.3g values an independent one\n",
+        follows, double(wrong) / kStudies, double(wrong_as_if_white) / kStudies, nominal, per_one);
     EXPECT_LE(double(wrong) / kStudies, nominal + 2.0 * std::sqrt(nominal * (1.0 - nominal) / kStudies)) << follows;
     if (follows > 0.0) {
       EXPECT_GT(double(wrong_as_if_white) / kStudies, 0.05);

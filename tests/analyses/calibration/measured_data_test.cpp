@@ -19,9 +19,8 @@ class MeasuredDataTest : public testing::Test {
     std::ofstream(file_) << text;
     return read_measured_data(file_);
   }
-  const std::string file_ = testing::TempDir() +
-                            testing::UnitTest::GetInstance()->current_test_info()->name() +
-                            std::string(".csv");
+  const std::string file_ =
+      testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + std::string(".csv");
 };
 
 TEST_F(MeasuredDataTest, AreReadInTheUnitOfEachColumn) {

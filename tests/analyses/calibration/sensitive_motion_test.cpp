@@ -1,26 +1,24 @@
 // Derivatives carried through impacts are those that differences of whole motions give.
-#include "boresight_analyses/calibration/sensitive_motion.hpp"
+#include "boresight/slopes/sensitive_motion.hpp"
 
 #include <gtest/gtest.h>
 
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/parameter_path.hpp"
-#include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
-#include "boresight/rungs/scene_rung.hpp"
+#include "boresight/scene/scene_rung.hpp"
 
 namespace boresight {
 namespace {
 
 const std::vector<std::string> kFlores = {"clearance.A.radial", "clearance.A.contact.restitution",
-                                          "clearance.A.contact.stiffness_scale",
-                                          "clearance.A.friction.coefficient"};
+                                          "clearance.A.contact.stiffness_scale", "clearance.A.friction.coefficient"};
 
 class Scene {
  public:
   explicit Scene(const std::vector<Setting>& settings = {}, const std::vector<std::string>& varied = kFlores)
-      : mechanism(
-            read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", settings)),
+      : mechanism(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", settings)),
         prepared(mechanism, ideal_motion(mechanism, mechanism.parameters()), mechanism.parameters()),
         tables(prepared.tables(mechanism.parameters())) {
     for (const std::string& path : varied) paths.emplace_back(mechanism.description(), path);
@@ -66,11 +64,7 @@ void expect_derivatives_of_differences(const Scene& scene, const MotionRequest& 
   const std::size_t last = request.times.size() - 1;
   for (std::size_t d = 0; d < 10; ++d) {
     // Friction and the way along the pin have little effect: they are moved ten times as far.
-    const double unit = d == 3   ? 10.0 * scene.values[3]
-                        : d < 4  ? scene.values[d]
-                        : d == 5 ? 5e-4
-                        : d < 7  ? 5e-5
-                                 : 5e-2;
+    const double unit = d == 3 ? 10.0 * scene.values[3] : d < 4 ? scene.values[d] : d == 5 ? 5e-4 : d < 7 ? 5e-5 : 5e-2;
     const auto moved = [&](double share) {
       std::vector<double> v = scene.values;
       MotionRequest r = request;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "scenes.hpp"
 
@@ -22,8 +23,8 @@ ChartPoint point(double cpu, double error, const std::string& refusal = "") {
 }
 
 TEST(ParetoFront, HoldsThePointsThatNoOtherBeats) {
-  const std::vector<ChartPoint> points = {point(3.0, 0.01), point(1.0, 0.1), point(2.0, 0.2),
-                                          point(4.0, 0.001), point(0.1, 1e-9, "failed")};
+  const std::vector<ChartPoint> points = {point(3.0, 0.01), point(1.0, 0.1), point(2.0, 0.2), point(4.0, 0.001),
+                                          point(0.1, 1e-9, "failed")};
   EXPECT_EQ(pareto_front(points, 0.0), (std::vector<std::size_t>{1, 0, 3}));
 }
 
@@ -47,8 +48,8 @@ TEST(ChartWays, CoverEveryRungFormulationAndIntegratorFromCoarseToFine) {
   EXPECT_EQ(rungs.size(), rung_names().size());
   for (const char* name : {"rk4", "dopri5", "rosenbrock", "generalized-alpha"})
     EXPECT_TRUE(integrators.count(name)) << name;
-  for (const char* name : {"multibody, tree, projection, rk4", "multibody, paper, baumgarte, rk4",
-                           "multibody, paper, projection, rk4"})
+  for (const char* name :
+       {"multibody, tree, projection, rk4", "multibody, paper, baumgarte, rk4", "multibody, paper, projection, rk4"})
     EXPECT_TRUE(names.count(name)) << name;
 }
 

@@ -45,11 +45,18 @@ struct Hierarchy {
 
 // Two models, speed-up at equal variance: the closed form of Peherstorfer et al. 2016, Eq. 3.16, tabulated.
 TEST(FidelityPlan, GainOfTwoModelsMeetsTheTable) {
-  const struct { double rho; double gain[3]; double within; } rows[] = {
-      {0.9, {1.9, 3.6, 4.6}, 0.051}, {0.95, {2.7, 6.0, 8.5}, 0.051}, {0.99, {4.8, 17.4, 33.7}, 0.051}, {0.999, {7.7, 47.8, 172.0}, 0.51}};
+  const struct {
+    double rho;
+    double gain[3];
+    double within;
+  } rows[] = {{0.9, {1.9, 3.6, 4.6}, 0.051},
+              {0.95, {2.7, 6.0, 8.5}, 0.051},
+              {0.99, {4.8, 17.4, 33.7}, 0.051},
+              {0.999, {7.7, 47.8, 172.0}, 0.51}};
   const double ratios[] = {0.1, 0.01, 0.001};
   for (const auto& row : rows)
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(1.0 / price_of_models({1.0, row.rho}, {1.0, ratios[k]}), row.gain[k], row.within) << row.rho;
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(1.0 / price_of_models({1.0, row.rho}, {1.0, ratios[k]}), row.gain[k], row.within) << row.rho;
 }
 
 TEST(FidelityPlan, RefusesAnOrderThatBreaksTheTheorem) {
@@ -128,7 +135,8 @@ TEST(FidelityEstimate, OfAProbabilityIsUnbiasedAndGainsLess) {
   const FidelityPlan plan = plan_fidelities(pilot.indicators, 1000.0);
   RunningMoments values;
   for (int k = 0; k < 300; ++k)
-    values.add(estimate_fidelities(plan, excess_indicators(plan, hierarchy.values(engine, plan), pilot.limits), 0.95).value.value);
+    values.add(estimate_fidelities(plan, excess_indicators(plan, hierarchy.values(engine, plan), pilot.limits), 0.95)
+                   .value.value);
   EXPECT_NEAR(values.mean(), 0.1, 3.0 * values.sd() / std::sqrt(300.0));
   EXPECT_LT(values.variance(), 0.09 / 1000.0);
 }
@@ -260,7 +268,8 @@ TEST(FidelityEstimate, RefusesGroupsOfWhichFewerThanTwoDidNotFail) {
 }
 
 TEST(FidelityPlan, OfModelsThatDoNotScatterGainsNothing) {
-  const FidelityPlan plan = plan_fidelities({{std::vector<double>(20, 3.0), std::vector<double>(20, 2.0)}, {1.0, 0.01}}, 100.0);
+  const FidelityPlan plan =
+      plan_fidelities({{std::vector<double>(20, 3.0), std::vector<double>(20, 2.0)}, {1.0, 0.01}}, 100.0);
   EXPECT_EQ(plan.gain, 1.0);
   EXPECT_EQ(plan.gain_low, 1.0);
   EXPECT_EQ(plan.gain_high, 1.0);

@@ -41,8 +41,7 @@ TEST(LawTable, HasEveryLawWithTheRestitutionsItReturns) {
 TEST(LawTable, LeavesOutTheLawsForCylindersWhereASleeveHasNoLength) {
   ClearanceParameters p = pin();
   p.sleeve_length = 0.0;
-  for (const NormalLawRow& row : normal_law_table(p, 1.0, 0.1))
-    EXPECT_NE(row.entry->geometry, ContactGeometry::line);
+  for (const NormalLawRow& row : normal_law_table(p, 1.0, 0.1)) EXPECT_NE(row.entry->geometry, ContactGeometry::line);
 }
 
 TEST(LawTable, FrictionOfEveryLawComesToItsKineticCoefficient) {

@@ -12,11 +12,12 @@ namespace {
 MechanismDescription mechanism() { return read_mechanism(BORESIGHT_EXAMPLES "/crank-slider/crank-slider.toml"); }
 
 MatchingPlan read(const std::string& table, const std::string& starts = "0.1 mm") {
-  Document document = Document::from_text("[match]\nminimise = \"free_flight_share\"\n" + table +
-                                              "\n[[match.variable]]\nparameter = \"clearance.A.axial\"\nfrom = \"0.05 mm\"\nto = \"0.5 mm\"\n"
-                                              "starts = [\"" +
-                                              starts + "\"]\n",
-                                          "study.toml");
+  Document document = Document::from_text(
+      "[match]\nminimise = \"free_flight_share\"\n" + table +
+          "\n[[match.variable]]\nparameter = \"clearance.A.axial\"\nfrom = \"0.05 mm\"\nto = \"0.5 mm\"\n"
+          "starts = [\"" +
+          starts + "\"]\n",
+      "study.toml");
   Cursor root(document);
   return read_matching_plan(root, Study{}, mechanism(), [](const Setting&) {});
 }

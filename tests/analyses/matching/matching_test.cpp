@@ -1,13 +1,13 @@
 // Matching on models whose optimum is known.
 #include "boresight_analyses/matching/matching.hpp"
 
-#include "boresight/io/mechanism_file.hpp"
-#include "boresight_analyses/matching/design_slopes.hpp"
-#include "boresight_analyses/study/rung_sample_model.hpp"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight_analyses/matching/design_slopes.hpp"
+#include "boresight_analyses/study/rung_sample_model.hpp"
 
 namespace boresight {
 namespace {
@@ -20,16 +20,13 @@ class Valley final : public SampleModel {
   double step() const override { return 0.0; }
   std::string leaves_out() const override { return ""; }
   std::size_t batch() const override { return 1; }
-  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
-                const std::atomic<bool>&) const override {
+  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>&) const override {
     for (std::size_t k = 0; k < samples.size(); ++k) {
-      const double x = samples[k].values[0],
-                   scatter = samples[k].values.size() > 1 ? samples[k].values[1] : 0.0;
+      const double x = samples[k].values[0], scatter = samples[k].values.size() > 1 ? samples[k].values[1] : 0.0;
       outcomes[k].status = Outcome::Status::done;
       outcomes[k].value = 1.0 + std::pow(x - 3.0 - shift_, 2) + 0.2 * (scatter - 0.5);
-      outcomes[k].motion = {.free_flight_share = 0.1 + 0.02 * std::pow(x - 7.0, 2),
-                            .impacts_per_second = 1.0,
-                            .peak_acceleration = 1.0};
+      outcomes[k].motion = {
+          .free_flight_share = 0.1 + 0.02 * std::pow(x - 7.0, 2), .impacts_per_second = 1.0, .peak_acceleration = 1.0};
     }
   }
 
@@ -151,16 +148,15 @@ TEST(Matching, GradientsOfTheMechanismLeadToTheOptimumThatASearchWithoutFinds) {
   p.map = p.front = 0;
   const IndexChoice index{.quantity = "position_error", .statistic = "rms"};
   const RungSampleModel model(
-      "perturbation", mechanism, [&](std::span<const double> values) { return p.parameters_with(*mechanism, values); }, index, {},
-      false);
+      "perturbation", mechanism, [&](std::span<const double> values) { return p.parameters_with(*mechanism, values); },
+      index, {}, false);
   MatchingResult with, without;
   const auto solve = [&](bool gradients) {
     MatchingOptions options;
     ASSERT_EQ(why_no_slopes(p), "");
     if (gradients)
-      options.slopes = [slopes = DesignSlopes(mechanism, p, index, {})](const std::vector<double>& design, std::string& why) {
-        return slopes.at(design, why);
-      };
+      options.slopes = [slopes = DesignSlopes(mechanism, p, index, {})](
+                           const std::vector<double>& design, std::string& why) { return slopes.at(design, why); };
     DesignEvaluator evaluator(model, nullptr, nullptr, {});
     (gradients ? with : without) = run_matching(p, evaluator, nullptr, "", options);
   };

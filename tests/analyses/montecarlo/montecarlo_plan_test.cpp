@@ -91,7 +91,8 @@ TEST_F(MonteCarloPlanTest, MistakesAreOneLineWithFileLineAndKey) {
 }
 
 TEST_F(MonteCarloPlanTest, StopsByWidthAloneOrByTimeAlone) {
-  const StopRule width = read("samples = 100\nstop = { width = \"2 %\" }\n").stop, time = read("samples = 100\nstop = { time = \"0.5 s\" }\n").stop;
+  const StopRule width = read("samples = 100\nstop = { width = \"2 %\" }\n").stop,
+                 time = read("samples = 100\nstop = { time = \"0.5 s\" }\n").stop;
   EXPECT_NEAR(width.width, 0.02, 1e-15);
   EXPECT_EQ(width.seconds, 0.0);
   EXPECT_EQ(time.width, 0.0);

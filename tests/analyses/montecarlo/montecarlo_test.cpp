@@ -75,7 +75,8 @@ class OneByOne final : public SampleModel {
   double step() const override { return 0.0; }
   std::string leaves_out() const override { return ""; }
   std::size_t batch() const override { return 1024; }
-  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>& stop) const override {
+  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                const std::atomic<bool>& stop) const override {
     evaluate_each(samples, outcomes, stop, [](std::size_t) {});
   }
   void evaluate_each(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>& stop,
@@ -97,9 +98,9 @@ TEST(MonteCarlo, SamplesThatTakeLongAreStoredSoonAfterEachIsDoneNotWithTheirBatc
   auto store = open_sum_store(folder);
   const auto start = std::chrono::steady_clock::now();
   // A batch of these takes half a minute.
-  const MonteCarloResult cut = run_sum(OneByOne(std::chrono::milliseconds(150)), sum_plan(4096), *store, folder, 1, [&] {
-    return std::chrono::steady_clock::now() - start > std::chrono::milliseconds(1000);
-  });
+  const MonteCarloResult cut =
+      run_sum(OneByOne(std::chrono::milliseconds(150)), sum_plan(4096), *store, folder, 1,
+              [&] { return std::chrono::steady_clock::now() - start > std::chrono::milliseconds(1000); });
   const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_EQ(cut.ended, Ended::interrupted);
   EXPECT_GE(cut.stored, 3u);

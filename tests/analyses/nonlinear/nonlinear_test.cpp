@@ -121,8 +121,7 @@ TEST(PoincareSection, OfAPeriodDoubledMotionHasTwoPoints) {
 
 TEST(PoincareSection, OfAnIncommensurateMotionNeverComesBack) {
   StateSeries s{0.1, 10, MatX(1, 801)};
-  for (int k = 0; k <= 800; ++k)
-    s.states(0, k) = std::sin(2.0 * std::numbers::pi * k / 10.0 * std::numbers::phi);
+  for (int k = 0; k <= 800; ++k) s.states(0, k) = std::sin(2.0 * std::numbers::pi * k / 10.0 * std::numbers::phi);
   EXPECT_EQ(section_period(poincare_section(s, 0), VecX::Constant(1, 2.0)), 0);
 }
 

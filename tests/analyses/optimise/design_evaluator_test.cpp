@@ -18,15 +18,13 @@ class Sum final : public SampleModel {
   double step() const override { return 0.0; }
   std::string leaves_out() const override { return ""; }
   std::size_t batch() const override { return 3; }
-  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
-                const std::atomic<bool>&) const override {
+  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>&) const override {
     calls += static_cast<int>(samples.size());
     for (std::size_t k = 0; k < samples.size(); ++k) {
       const auto& v = samples[k].values;
       outcomes[k].status = v[0] < 0 ? Outcome::Status::failed : Outcome::Status::done;
       if (v[0] >= 0) outcomes[k].value = v[0] + (v.size() > 1 ? v[1] : 0.0);
-      outcomes[k].motion = {
-          .free_flight_share = 0.1 * v[0], .impacts_per_second = 2.0, .peak_acceleration = 3.0};
+      outcomes[k].motion = {.free_flight_share = 0.1 * v[0], .impacts_per_second = 2.0, .peak_acceleration = 3.0};
     }
   }
   mutable std::atomic<int> calls{0};
@@ -54,8 +52,7 @@ TEST(DesignEvaluator, DrawsTheSameNumbersForEveryDesign) {
   const Sum model;
   const RandomInputs inputs = one_uniform();
   DesignEvaluator evaluator(model, &inputs, nullptr, {.samples = 20, .seed = 3, .jobs = 2});
-  const std::vector<Outcome> a = evaluator.at(std::vector<double>{1.0}),
-                             b = evaluator.at(std::vector<double>{4.0});
+  const std::vector<Outcome> a = evaluator.at(std::vector<double>{1.0}), b = evaluator.at(std::vector<double>{4.0});
   ASSERT_EQ(a.size(), 20U);
   for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(b[k].value - a[k].value, 3.0, 1e-12);
   EXPECT_NE(a[0].value, a[1].value);
@@ -89,8 +86,7 @@ TEST(DesignEvaluator, ReusesWhatAnEarlierRunPaidFor) {
 TEST(EvaluationStore, RefusesAnotherStudysEvaluations) {
   const Folder folder;
   { EvaluationStore store(folder.path / "evaluations.db", {{"study", "a"}}, {"d"}, "sum", 0.0); }
-  EXPECT_THROW(EvaluationStore(folder.path / "evaluations.db", {{"study", "b"}}, {"d"}, "sum", 0.0),
-               StoreRefused);
+  EXPECT_THROW(EvaluationStore(folder.path / "evaluations.db", {{"study", "b"}}, {"d"}, "sum", 0.0), StoreRefused);
 }
 
 TEST(MeasureChoice, SaysMeanQuantileAndWorstOfTheSamples) {

@@ -13,16 +13,12 @@ using testing::HasSubstr;
 using Values = std::span<const double>;
 using Gradient = std::span<double>;
 
-MinimisationOptions fine() {
-  return {.global_evaluations = 200, .local_evaluations = 2000, .tolerance = 1e-9};
-}
+MinimisationOptions fine() { return {.global_evaluations = 200, .local_evaluations = 2000, .tolerance = 1e-9}; }
 
 // (x-1)^2 + 10 (y-0.3 x)^2, least at (1, 0.3).
 MinimisationProblem quadratic() {
   MinimisationProblem p{.lower = {-2, -1}, .upper = {3, 4}, .start = {2.5, 3}};
-  p.objective = [](Values x, Gradient) {
-    return std::pow(x[0] - 1, 2) + 10 * std::pow(x[1] - 0.3 * x[0], 2);
-  };
+  p.objective = [](Values x, Gradient) { return std::pow(x[0] - 1, 2) + 10 * std::pow(x[1] - 0.3 * x[0], 2); };
   return p;
 }
 

@@ -67,7 +67,8 @@ TEST_F(RandomInputsTest, ReadsEveryDistribution) {
   std::ofstream(csv) << "part, \"gap\"\n1, 90\n2, 110\n3, 130\n";
   for (const char* text : {"{ triangular = { min = \"50 um\", mode = \"0.1 mm\", max = \"0.2 mm\" } }",
                            "{ beta = { alpha = 2, beta = 3.5, min = \"50 um\", max = \"0.2 mm\" } }",
-                           "{ beta = { alpha = 0.5, beta = 0.5, min = \"50 um\", max = \"0.2 mm\" } }", "{ weibull = { shape = 0.8, scale = \"0.1 mm\", location = \"10 um\" } }",
+                           "{ beta = { alpha = 0.5, beta = 0.5, min = \"50 um\", max = \"0.2 mm\" } }",
+                           "{ weibull = { shape = 0.8, scale = \"0.1 mm\", location = \"10 um\" } }",
                            "{ weibull = { shape = 1.5, scale = \"0.1 mm\", location = \"10 um\" } }",
                            "{ discrete = { values = [\"0.1 mm\", \"0.2 mm\"], probabilities = [0.25, 0.75] } }",
                            "{ empirical = { file = \"gaps.csv\", column = \"gap\", unit = \"um\" } }",
@@ -117,9 +118,11 @@ TEST_F(RandomInputsTest, MistakesAreOneLineWithFileLineAndKey) {
 TEST_F(RandomInputsTest, AFitOfAnotherSizeThanTheJointIsRefused) {
   for (const char* size : {"18", "30", "10", "20.5"})
     for (const char* path : {"clearance.F1.radial", "clearance.*.radial"})
-      EXPECT_THAT(fault(one(path, std::string("{ fit = \"") + size + " H7/g6\" }")),
-                  AllOf(HasSubstr("study.toml:3"), HasSubstr("fit"), HasSubstr(std::string("of nominal size ") + size + " mm"),
-                        HasSubstr("the journal of F1 has a diameter of 20 mm"), HasSubstr("expected a fit of nominal size 20 mm")))
+      EXPECT_THAT(
+          fault(one(path, std::string("{ fit = \"") + size + " H7/g6\" }")),
+          AllOf(HasSubstr("study.toml:3"), HasSubstr("fit"), HasSubstr(std::string("of nominal size ") + size + " mm"),
+                HasSubstr("the journal of F1 has a diameter of 20 mm"),
+                HasSubstr("expected a fit of nominal size 20 mm")))
           << size;
   // Off by the fit's own deviations, or by rounding, it is the joint's.
   for (const char* fits : {"20.1 H9/d9", "20.02 H7/g6", "19.99 H7/g6"})

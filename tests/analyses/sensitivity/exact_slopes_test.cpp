@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight/ladder/ladder.hpp"
 
 namespace boresight {
 namespace {
@@ -18,10 +19,9 @@ struct Study {
   RunOptions run;
 
   explicit Study(const std::string& duration, double restitution = 0.9)
-      : mechanism(std::make_shared<const Mechanism>(
-            read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml",
-                           {{"motion.duration", duration},
-                            {"clearance.A.contact.restitution", std::to_string(restitution)}}))) {
+      : mechanism(std::make_shared<const Mechanism>(read_mechanism(
+            std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml",
+            {{"motion.duration", duration}, {"clearance.A.contact.restitution", std::to_string(restitution)}}))) {
     for (const char* path : {"clearance.A.radial", "clearance.A.contact.restitution", "body.rod.mass"}) {
       RandomParameter p;
       p.paths = {path};
@@ -47,8 +47,7 @@ struct Study {
       for (int side = 0; side < 2; ++side) {
         std::vector<double> at = medians;
         at[i] *= side == 0 ? 1.0 + share : 1.0 - share;
-        const RunResult result =
-            make_rung("perturbation", mechanism)->run(inputs.parameters_with(*mechanism, at), run);
+        const RunResult result = make_rung("perturbation", mechanism)->run(inputs.parameters_with(*mechanism, at), run);
         value[side] = index.of(result.index);
       }
       local.parameters[i].derivative.back() = (value[0] - value[1]) / (2.0 * share * medians[i]);

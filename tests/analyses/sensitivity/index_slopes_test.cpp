@@ -3,9 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/parameter_path.hpp"
-#include "boresight/rungs/ideal_simulation.hpp"
 
 namespace boresight {
 namespace {
@@ -13,7 +13,8 @@ namespace {
 MechanismDescription crank_slider() {
   MechanismDescription d = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", {});
   for (const BodyDescription& b : d.bodies)
-    if (b.boresight) d.line_of_sight = LineOfSightDescription{.from = b.center_of_mass, .target = Vec3::Zero(), .origin = {}};
+    if (b.boresight)
+      d.line_of_sight = LineOfSightDescription{.from = b.center_of_mass, .target = Vec3::Zero(), .origin = {}};
   return d;
 }
 
@@ -54,8 +55,7 @@ struct Scene {
       below[k] *= 1.0 - share;
       return (slopes(above, index).value - slopes(below, index).value) / (2.0 * share * values[k]);
     };
-    const double h =
-        2e-4;  // below, the rounding of two motions, above, their curvature outweighs 1e-7 of the slope
+    const double h = 2e-4;  // below, the rounding of two motions, above, their curvature outweighs 1e-7 of the slope
     return (4.0 * central(0.5 * h) - central(h)) / 3.0;
   }
 };

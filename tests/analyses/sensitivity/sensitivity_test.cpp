@@ -1,12 +1,11 @@
 #include "boresight_analyses/sensitivity/sensitivity.hpp"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-
-#include <unistd.h>
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -31,7 +30,8 @@ class ClosedForm final : public SampleModel {
         continue;
       }
       outcomes[k].status = Outcome::Status::done;
-      outcomes[k].value = 3.0 * (v[0] - 1e-4) / 1e-5 + 2.0 * (v[1] - 0.8) / 0.01 + 5.0 * std::abs((v[2] - 0.03) / 0.001);
+      outcomes[k].value =
+          3.0 * (v[0] - 1e-4) / 1e-5 + 2.0 * (v[1] - 0.8) / 0.01 + 5.0 * std::abs((v[2] - 0.03) / 0.001);
     }
   }
   mutable std::atomic<int> evaluations{0};
@@ -41,9 +41,8 @@ class ClosedForm final : public SampleModel {
 class SensitivityTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("boresight-sensitivity-" + std::to_string(::getpid()) + "-" +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = std::filesystem::temp_directory_path() / ("boresight-sensitivity-" + std::to_string(::getpid()) + "-" +
+                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directory(folder_);
   }
@@ -70,7 +69,8 @@ distribution = { normal = { mean = 0.03, sd = 0.001 } }
   std::unique_ptr<SampleStore> store(const SensitivityPlan& plan, const std::string& name = "samples.db") const {
     std::vector<std::string> names;
     for (const RandomParameter& p : plan.inputs.parameters) names.push_back(p.name());
-    auto s = std::make_unique<SampleStore>(folder_ / name, std::map<std::string, std::string>{{"study", "test"}}, names);
+    auto s =
+        std::make_unique<SampleStore>(folder_ / name, std::map<std::string, std::string>{{"study", "test"}}, names);
     s->use_rung("closed form", 0.0);
     return s;
   }
@@ -88,7 +88,8 @@ distribution = { normal = { mean = 0.03, sd = 0.001 } }
 // V(|z|) = 1 - 2/pi: the variance is 9 + 4 + 25 (1 - 2/pi).
 TEST_F(SensitivityTest, MeetsTheIndicesOfAnAdditiveModelInBothDesigns) {
   const double v[] = {9.0, 4.0, 25.0 * (1.0 - 2.0 / M_PI)}, total = v[0] + v[1] + v[2];
-  for (const char* table : {"[sensitivity]\nsamples = 4096\n", "[sensitivity]\nsamples = 6000\ndesign = \"random\"\n"}) {
+  for (const char* table :
+       {"[sensitivity]\nsamples = 4096\n", "[sensitivity]\nsamples = 6000\ndesign = \"random\"\n"}) {
     const SensitivityPlan p = plan(table);
     const auto s = store(p, p.design.kind == DesignKind::random ? "r.db" : "s.db");
     ASSERT_TRUE(compute_sensitivity_runs(ClosedForm{}, p, *s, {.jobs = 2, .progress = {}, .interrupted = {}}));
@@ -107,7 +108,8 @@ TEST_F(SensitivityTest, IsTheSameInOnePieceOrResumed) {
   const ClosedForm whole, parts;
   const auto one = store(p, "one.db"), two = store(p, "two.db");
   compute_sensitivity_runs(whole, p, *one, {.jobs = 1, .progress = {}, .interrupted = {}});
-  EXPECT_FALSE(compute_sensitivity_runs(parts, p, *two, {.jobs = 2, .progress = {}, .interrupted = [&] { return parts.evaluations > 100; }}));
+  EXPECT_FALSE(compute_sensitivity_runs(
+      parts, p, *two, {.jobs = 2, .progress = {}, .interrupted = [&] { return parts.evaluations > 100; }}));
   EXPECT_TRUE(compute_sensitivity_runs(parts, p, *two, {.jobs = 2, .progress = {}, .interrupted = {}}));
   EXPECT_EQ(parts.evaluations, static_cast<int>(p.runs()));  // none twice
   const auto a = global_sensitivity(p, *one), b = global_sensitivity(p, *two);
@@ -150,9 +152,12 @@ TEST_F(SensitivityTest, RefusesWhatContradictsItself) {
   expect_refused("[sensitivity]\nsamples = 64\ndesign = \"random\"\nreplicates = 4\n", "replicates");
   expect_refused("[sensitivity]\nsamples = 64\nsampels = 3\n", "samples");
   expect_refused("[sensitivity]\nsamples = 64\ngroups = { a = [\"clearance.F1.radiall\"] }\n", "clearance.F1.radial");
-  expect_refused("[sensitivity]\nsamples = 64\ngroups = { a = [\"clearance.F1.radial\"], b = [\"clearance.F1.radial\"] }\n", "second time");
+  expect_refused(
+      "[sensitivity]\nsamples = 64\ngroups = { a = [\"clearance.F1.radial\"], b = [\"clearance.F1.radial\"] }\n",
+      "second time");
   expect_refused("[sensitivity]\nsamples = 64\n", "one group",
-                 "[[correlation]]\nparameters = [\"clearance.F1.radial\", \"clearance.F1.friction.coefficient\"]\ncoefficient = 0.5\n");
+                 "[[correlation]]\nparameters = [\"clearance.F1.radial\", "
+                 "\"clearance.F1.friction.coefficient\"]\ncoefficient = 0.5\n");
 }
 
 }  // namespace

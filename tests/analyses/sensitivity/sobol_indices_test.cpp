@@ -53,8 +53,8 @@ Points independent_points(std::mt19937_64& engine, int n, int d) {
   return x;
 }
 
-std::vector<std::vector<SobolRow>> net_rows(const BatchModel& model, int d, const ParameterGroups& groups, int replicates,
-                                            int n, unsigned seed) {
+std::vector<std::vector<SobolRow>> net_rows(const BatchModel& model, int d, const ParameterGroups& groups,
+                                            int replicates, int n, unsigned seed) {
   std::mt19937_64 engine(seed);
   std::vector<std::vector<SobolRow>> rows;
   for (int r = 0; r < replicates; ++r)
@@ -106,7 +106,8 @@ TEST(SobolIndices, DoNotMindALargeConstant) {
 
 TEST(SobolIndices, LeaveOutRowsWithAFailedEvaluationAndCountThem) {
   std::mt19937_64 engine(5);
-  std::vector<SobolRow> rows = sobol_rows(pointwise(ishigami), independent_points(engine, 200, 6), single_parameters(3));
+  std::vector<SobolRow> rows =
+      sobol_rows(pointwise(ishigami), independent_points(engine, 200, 6), single_parameters(3));
   std::vector<SobolRow> fewer(rows.begin() + 2, rows.end());
   rows[0].b = std::numeric_limits<double>::quiet_NaN();
   rows[1].exchanged[2] = std::numeric_limits<double>::infinity();
@@ -118,7 +119,8 @@ TEST(SobolIndices, LeaveOutRowsWithAFailedEvaluationAndCountThem) {
 
 TEST(SobolIndices, SayWhenTheSampleDoesNotSettleThem) {
   std::mt19937_64 engine(6);
-  const auto few = sobol_indices(sobol_rows(pointwise(ishigami), independent_points(engine, 30, 6), single_parameters(3)), {});
+  const auto few =
+      sobol_indices(sobol_rows(pointwise(ishigami), independent_points(engine, 30, 6), single_parameters(3)), {});
   EXPECT_TRUE(few.groups[0].undersampled());
   const auto many = sobol_indices(net_rows(pointwise(ishigami), 3, single_parameters(3), 16, 1024, 1), 0.95);
   EXPECT_FALSE(many.groups[0].undersampled());
@@ -126,8 +128,9 @@ TEST(SobolIndices, SayWhenTheSampleDoesNotSettleThem) {
 
 TEST(SobolIndices, OfAConstantAreZero) {
   std::mt19937_64 engine(7);
-  const auto i = sobol_indices(sobol_rows(pointwise([](const Point&) { return 2.0; }), independent_points(engine, 30, 4),
-                                          single_parameters(2)), {});
+  const auto i = sobol_indices(
+      sobol_rows(pointwise([](const Point&) { return 2.0; }), independent_points(engine, 30, 4), single_parameters(2)),
+      {});
   EXPECT_EQ(i.variance, 0.0);
   EXPECT_EQ(i.groups[1].total.value, 0.0);
   EXPECT_EQ(i.interactions.value, 0.0);
@@ -154,7 +157,8 @@ TEST(SobolIndices, BootstrapIntervalsHoldTheTruth) {
       [](unsigned k) {
         std::mt19937_64 engine(100 + k);
         return sobol_indices(sobol_rows(pointwise(ishigami), independent_points(engine, 400, 6), single_parameters(3)),
-                             {0.95, 300, k}).groups;
+                             {0.95, 300, k})
+            .groups;
       },
       0.92);
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight_analyses/stability/baumgarte_drift.hpp"
 #include "boresight_analyses/stability/contact_oscillator.hpp"
 #include "reference/reference.hpp"
@@ -52,8 +52,7 @@ TEST(ExplicitPairs, HoldALinearContactUpToTheLimitsOfTheirTables) {
     const auto damped = [&](double z) {
       return measured_growth(*table, {1.0, 1e-9 * omega * omega, omega}, z / omega);
     };
-    EXPECT_NEAR(measured_limit(undamped, table->imaginary_limit) / table->imaginary_limit, 1.0, 1e-3)
-        << table->name;
+    EXPECT_NEAR(measured_limit(undamped, table->imaginary_limit) / table->imaginary_limit, 1.0, 1e-3) << table->name;
     EXPECT_NEAR(measured_limit(damped, table->real_limit) / table->real_limit, 1.0, 1e-4) << table->name;
   }
 }

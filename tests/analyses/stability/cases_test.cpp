@@ -5,12 +5,12 @@
 
 #include <cmath>
 
+#include "boresight/formulations/formulation.hpp"
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/io/expression.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/kinematic_report.hpp"
-#include "boresight/rungs/formulation.hpp"
-#include "boresight/rungs/ideal_simulation.hpp"
 #include "boresight_analyses/stability/stability.hpp"
 #include "scenes.hpp"
 
@@ -24,8 +24,7 @@ TEST(SingularPose, OfAFourBarAtItsChangePointIsNamedWithItsTime) {
   const KinematicReport report = analyse_kinematics(*mechanism);
   ASSERT_FALSE(report.lost.empty());
   EXPECT_NEAR(report.lost.front().t, 0.25, 0.005);
-  EXPECT_NE(report.lost.front().description.find("bar1"), std::string::npos)
-      << report.lost.front().description;
+  EXPECT_NE(report.lost.front().description.find("bar1"), std::string::npos) << report.lost.front().description;
   EXPECT_NE(report.lost.front().description.find("while every drive stands still"), std::string::npos);
 }
 
@@ -116,9 +115,9 @@ TEST(Chatter, EndsInLastingContactAndTheStepRecovers) {
 
 TEST(Impacts, PartNeighbouringTrajectoriesAndKeepTheirStatistics) {
   // Nothing is lost at an impact, and the gap is wide: the crank pin of the slider rattles, falling from its middle.
-  const auto mechanism = std::make_shared<const Mechanism>(
-      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml",
-                     {{"clearance.A.radial", "0.5 mm"}, {"clearance.A.contact.restitution", "1"}, {"initial.journals", "centred"}}));
+  const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(
+      std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml",
+      {{"clearance.A.radial", "0.5 mm"}, {"clearance.A.contact.restitution", "1"}, {"initial.journals", "centred"}}));
   const Followed followed = follow(mechanism);
   const std::vector<Separation> apart = separations(*mechanism, followed, {1e-12, 1e-9, 1e-6});
   for (const Separation& s : apart) {
@@ -194,7 +193,8 @@ TEST(Stability, OfAMechanismWithoutClearanceSaysSoAndKeepsTheRest) {
 
 TEST(RedundantRows, WhereThereAreNoneAreSaidToBeIndependent) {
   Scene scene;
-  scene.mechanism = scenes::build(scenes::four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, false, "0.4*sin(3*t)"));
+  scene.mechanism =
+      scenes::build(scenes::four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, false, "0.4*sin(3*t)"));
   const FailureCase c = case_of_redundant_rows(scene);
   // Two revolutes, a spherical and a cylindrical joint: 5 + 5 + 3 + 4.
   EXPECT_EQ(c.measured, "17 rows, all independent");
@@ -206,7 +206,9 @@ TEST(VanishingRestitution, IsSaidWithTheForcesOfTheDepthItNames) {
   Scene scene;
   scene.contacts.push_back({.joint = "A", .hertz_stiffness = 1e11});
   const FailureCase c = case_of_vanishing_restitution(scene);
-  EXPECT_NE(c.measured.find("at e = 1e-6 and 0.1 m/s a depth of 1 um gives 1.6e+10 N (elastic 100 N), finite"), std::string::npos) << c.measured;
+  EXPECT_NE(c.measured.find("at e = 1e-6 and 0.1 m/s a depth of 1 um gives 1.6e+10 N (elastic 100 N), finite"),
+            std::string::npos)
+      << c.measured;
 }
 
 }  // namespace

@@ -95,7 +95,8 @@ TEST(FirstBet, IsHoeffdingsBoundWhereItBegins) {
   for (const std::int64_t n : {60, 200}) {
     for (const std::int64_t zeros : {0, 1, 5}) {
       const double mean = double(n - zeros) / double(n);
-      EXPECT_NEAR(first_bet_lower(n, {}, n - zeros, zeros, kConfidence), bounded_mean_lower(mean, double(n), kConfidence), 1e-6);
+      EXPECT_NEAR(first_bet_lower(n, {}, n - zeros, zeros, kConfidence),
+                  bounded_mean_lower(mean, double(n), kConfidence), 1e-6);
       const std::vector<double> level(static_cast<std::size_t>(n), mean);
       EXPECT_GE(first_bet_lower(n, level, 0, 0, kConfidence), bounded_mean_lower(mean, double(n), kConfidence) - 1e-9);
     }
@@ -129,8 +130,9 @@ TEST(FirstBet, KeepsTheRiskTogetherWithTheFirstLookHoweverOftenOneLooks) {
       misled += here;
       misled_by_hoeffding += hoeffding;
     }
-    std::printf("%s: misled %.3f (by Hoeffding's bound each time: %.3f), nominal %.3f\n", spread ? "spread" : "hit or miss",
-                double(misled) / kRepetitions, double(misled_by_hoeffding) / kRepetitions, kRisk);
+    std::printf("%s: misled %.3f (by Hoeffding's bound each time: %.3f), nominal %.3f\n",
+                spread ? "spread" : "hit or miss", double(misled) / kRepetitions,
+                double(misled_by_hoeffding) / kRepetitions, kRisk);
     EXPECT_LE(double(misled) / kRepetitions, allowed(kRepetitions)) << spread;
   }
 }

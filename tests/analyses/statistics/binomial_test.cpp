@@ -17,7 +17,8 @@ TEST(Wilks, OneSidedSizesMeetTheTables) {
   EXPECT_EQ(wilks_one_sided(0.95, 0.95, 1), 93);
   EXPECT_EQ(wilks_one_sided(0.95, 0.95, 2), 124);
   for (const reference::Row& row : reference::table("statistics_tables", "wilks"))
-    EXPECT_EQ(wilks_one_sided(row[0], row[1], static_cast<std::int64_t>(row[2])), static_cast<std::int64_t>(row[3])) << row[1];
+    EXPECT_EQ(wilks_one_sided(row[0], row[1], static_cast<std::int64_t>(row[2])), static_cast<std::int64_t>(row[3]))
+        << row[1];
 }
 
 // Two-sided 95/95: 93, and 90/90: 38, 99/99: 662 (Wilks 1941; Guba, Makai, Pal 2003, Table 2).

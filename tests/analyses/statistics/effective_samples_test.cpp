@@ -58,7 +58,8 @@ std::vector<double> autocorrelations(const std::vector<double>& r, std::size_t l
 
 ResidualsOfBest residuals_of(const Fit& line) {
   const auto n = static_cast<double>(line.residuals.size());
-  return {line.loss / n, values_per_independent_one(autocorrelations(line.residuals, 400), 3.0 / std::sqrt(n), n, 2.0), 2.0};
+  return {line.loss / n, values_per_independent_one(autocorrelations(line.residuals, 400), 3.0 / std::sqrt(n), n, 2.0),
+          2.0};
 }
 
 TEST(EffectiveSamples, OfFirstOrderNoiseAreThoseOfItsSumOfAutocorrelations) {
@@ -93,8 +94,8 @@ TEST(EffectiveSamples, TheWrongModelIsChosenNoMoreOftenForResidualsThatFollowOne
       const ResidualsOfBest best = residuals_of(line);
       wrong += akaike(line.loss, n, 3.0, best) < akaike(constant.loss, n, 2.0, best);
     }
-    std::printf("autocorrelation %.2f: wrong choices %.3f (as if white: %.3f), nominal %.3f\n", follows, double(wrong) / kStudies,
-                double(wrong_as_if_white) / kStudies, kNominal);
+    std::printf("autocorrelation %.2f: wrong choices %.3f (as if white: %.3f), nominal %.3f\n", follows,
+                double(wrong) / kStudies, double(wrong_as_if_white) / kStudies, kNominal);
     EXPECT_LE(double(wrong) / kStudies, kNominal + 2.0 * std::sqrt(kNominal * (1.0 - kNominal) / kStudies)) << follows;
     if (follows > 0.4) {
       EXPECT_GT(double(wrong_as_if_white) / kStudies, 0.3) << follows;

@@ -50,7 +50,8 @@ TEST(IndependentSamples, FailedSamplesWidenAQuantileAndCountAsBad) {
   EXPECT_EQ(with.quantile(0.9, 0.95).low, IndependentSamples(below).quantile(0.9, 0.95).low);
   EXPECT_EQ(with.quantile(0.9, 0.95).high, IndependentSamples(above).quantile(0.9, 0.95).high);
   EXPECT_EQ(with.quantile(0.97, 0.95).high, std::numeric_limits<double>::infinity());
-  const IndependentInterval good = with.probability_below(1e9, 0.95), counted = IndependentSamples(above).probability_below(1000, 0.95);
+  const IndependentInterval good = with.probability_below(1e9, 0.95),
+                            counted = IndependentSamples(above).probability_below(1000, 0.95);
   EXPECT_EQ(good.value, 0.98);
   EXPECT_EQ(good.low, counted.low);
   EXPECT_EQ(good.high, counted.high);
@@ -75,23 +76,33 @@ void expect_nominal(double share) {
 }
 
 TEST(IndependentSamples, Cover95PercentOfTheTimeTheMean) {
-  expect_nominal(coverage(std::exp(0.125), [](auto& e) { return lognormals(e, 400).mean(0.95); }, 1));
+  expect_nominal(coverage(
+      std::exp(0.125), [](auto& e) { return lognormals(e, 400).mean(0.95); }, 1));
 }
 TEST(IndependentSamples, Cover95PercentOfTheTimeTheSd) {
-  expect_nominal(coverage(std::exp(0.125) * std::sqrt(std::expm1(0.25)), [](auto& e) { return lognormals(e, 2000).sd(0.95); }, 2));
+  expect_nominal(coverage(
+      std::exp(0.125) * std::sqrt(std::expm1(0.25)), [](auto& e) { return lognormals(e, 2000).sd(0.95); }, 2));
 }
 TEST(IndependentSamples, Cover95PercentOfTheTimeTheMedian) {
-  expect_nominal(coverage(1.0, [](auto& e) { return lognormals(e, 500).quantile(0.5, 0.95); }, 3));
+  expect_nominal(coverage(
+      1.0, [](auto& e) { return lognormals(e, 500).quantile(0.5, 0.95); }, 3));
 }
 TEST(IndependentSamples, Cover95PercentOfTheTimeThe95thPercentile) {
-  expect_nominal(coverage(std::exp(0.5 * gsl_cdf_ugaussian_Pinv(0.95)), [](auto& e) { return lognormals(e, 1000).quantile(0.95, 0.95); }, 4));
+  expect_nominal(coverage(
+      std::exp(0.5 * gsl_cdf_ugaussian_Pinv(0.95)), [](auto& e) { return lognormals(e, 1000).quantile(0.95, 0.95); },
+      4));
 }
 TEST(IndependentSamples, Cover95PercentOfTheTimeThe9973Percentile) {
-  expect_nominal(coverage(std::exp(0.5 * gsl_cdf_ugaussian_Pinv(0.9973)), [](auto& e) { return lognormals(e, 4000).quantile(0.9973, 0.95); }, 5));
+  expect_nominal(coverage(
+      std::exp(0.5 * gsl_cdf_ugaussian_Pinv(0.9973)),
+      [](auto& e) { return lognormals(e, 4000).quantile(0.9973, 0.95); }, 5));
 }
 // Clopper-Pearson's discreteness: at n p of some hundreds it is close to nominal.
 TEST(IndependentSamples, Cover95PercentOfTheTimeTheProbability) {
-  expect_nominal(coverage(0.8, [](auto& e) { return lognormals(e, 1000).probability_below(std::exp(0.5 * gsl_cdf_ugaussian_Pinv(0.8)), 0.95); }, 6));
+  expect_nominal(coverage(
+      0.8,
+      [](auto& e) { return lognormals(e, 1000).probability_below(std::exp(0.5 * gsl_cdf_ugaussian_Pinv(0.8)), 0.95); },
+      6));
 }
 
 }  // namespace

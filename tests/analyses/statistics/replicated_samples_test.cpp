@@ -14,7 +14,8 @@ using repetition::Points;
 // exp of the sum of three normals with sd 0.4, 0.3, 0.2: lognormal in closed form, monotone, three dimensions.
 const double kLogSd = std::sqrt(0.16 + 0.09 + 0.04);
 double value(const std::vector<double>& u) {
-  return std::exp(0.4 * gsl_cdf_ugaussian_Pinv(u[0]) + 0.3 * gsl_cdf_ugaussian_Pinv(u[1]) + 0.2 * gsl_cdf_ugaussian_Pinv(u[2]));
+  return std::exp(0.4 * gsl_cdf_ugaussian_Pinv(u[0]) + 0.3 * gsl_cdf_ugaussian_Pinv(u[1]) +
+                  0.2 * gsl_cdf_ugaussian_Pinv(u[2]));
 }
 template <typename Design>
 ReplicatedSamples replicates(std::mt19937_64& engine, Design&& design, int count, int size) {
@@ -80,28 +81,33 @@ class ReplicatedDesigns : public testing::TestWithParam<Case> {
  protected:
   template <typename F>
   void expect_covered(double truth, F&& interval, int size) {
-    const double held =
-        coverage(truth, [&](auto& e) { return interval(replicates(e, GetParam().design, 16, size)); }, 11);
+    const double held = coverage(
+        truth, [&](auto& e) { return interval(replicates(e, GetParam().design, 16, size)); }, 11);
     RecordProperty("coverage", std::to_string(held));
     EXPECT_GE(held, 0.93);
   }
 };
 
 TEST_P(ReplicatedDesigns, CoverTheMean) {
-  expect_covered(std::exp(0.5 * kLogSd * kLogSd), [](const ReplicatedSamples& s) { return s.mean(0.95); }, 32);
+  expect_covered(
+      std::exp(0.5 * kLogSd * kLogSd), [](const ReplicatedSamples& s) { return s.mean(0.95); }, 32);
 }
 TEST_P(ReplicatedDesigns, CoverTheSd) {
-  expect_covered(std::exp(0.5 * kLogSd * kLogSd) * std::sqrt(std::expm1(kLogSd * kLogSd)),
-                 [](const ReplicatedSamples& s) { return s.sd(0.95); }, 128);
+  expect_covered(
+      std::exp(0.5 * kLogSd * kLogSd) * std::sqrt(std::expm1(kLogSd * kLogSd)),
+      [](const ReplicatedSamples& s) { return s.sd(0.95); }, 128);
 }
 TEST_P(ReplicatedDesigns, CoverTheMedian) {
-  expect_covered(1.0, [](const ReplicatedSamples& s) { return s.quantile(0.5, 0.95); }, 32);
+  expect_covered(
+      1.0, [](const ReplicatedSamples& s) { return s.quantile(0.5, 0.95); }, 32);
 }
 TEST_P(ReplicatedDesigns, CoverThe9973Percentile) {
-  expect_covered(true_quantile(0.9973), [](const ReplicatedSamples& s) { return s.quantile(0.9973, 0.95); }, 128);
+  expect_covered(
+      true_quantile(0.9973), [](const ReplicatedSamples& s) { return s.quantile(0.9973, 0.95); }, 128);
 }
 TEST_P(ReplicatedDesigns, CoverTheProbability) {
-  expect_covered(0.99, [](const ReplicatedSamples& s) { return s.probability_below(true_quantile(0.99), 0.95); }, 32);
+  expect_covered(
+      0.99, [](const ReplicatedSamples& s) { return s.probability_below(true_quantile(0.99), 0.95); }, 32);
 }
 
 INSTANTIATE_TEST_SUITE_P(Designs, ReplicatedDesigns,

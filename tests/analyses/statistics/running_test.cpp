@@ -46,7 +46,8 @@ TEST(RunningQuantiles, MeetTheOrderStatisticsToTheirAccuracy) {
   first.merge(second);
   const IndependentSamples all(values, 3);
   for (const double p : {0.5, 0.95, 0.9973}) {
-    const IndependentInterval exact = all.quantile(p, 0.95), one = running.quantile(p, 0.95), two = first.quantile(p, 0.95);
+    const IndependentInterval exact = all.quantile(p, 0.95), one = running.quantile(p, 0.95),
+                              two = first.quantile(p, 0.95);
     EXPECT_NEAR(one.value, exact.value, 0.01 * exact.value);
     EXPECT_LE(one.low, exact.low);
     EXPECT_GE(one.low, exact.low * (1.0 - 2.1e-3));

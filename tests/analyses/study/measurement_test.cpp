@@ -29,11 +29,8 @@ TEST(Way, FinerIsHalfTheStepOrATenthOfTheTolerance) {
 }
 
 TEST(Way, IsNamedByAllButHowFinely) {
-  const Way way{.rung = "multibody",
-                .formulation = "paper",
-                .stabilisation = "baumgarte",
-                .integrator = "rk4",
-                .step = 1e-4};
+  const Way way{
+      .rung = "multibody", .formulation = "paper", .stabilisation = "baumgarte", .integrator = "rk4", .step = 1e-4};
   EXPECT_EQ(way.family(), "multibody, paper, baumgarte, rk4");
   EXPECT_EQ(way.finer().family(), way.family());
   EXPECT_EQ((Way{.rung = "quasistatic", .integrator = "rk4"}.family()), "quasistatic");

@@ -62,7 +62,9 @@ TEST(Pilot, TriesIntegratorsWithErrorControlWhereItIsAskedTo) {
 
 TEST(Pilot, ClimbsWhereClearanceIsLarge) {
   // A gap of a hundredth of the lengths, and of small contact stiffness: the deviation is no longer small.
-  const auto mechanism = rrcpr({{"motion.duration", "0.15 s"}, {"clearance.F1.radial", "8 mm"}, {"clearance.F1.cap_radius", "25 mm"},
+  const auto mechanism = rrcpr({{"motion.duration", "0.15 s"},
+                                {"clearance.F1.radial", "8 mm"},
+                                {"clearance.F1.cap_radius", "25 mm"},
                                 {"clearance.F1.axial", "8 mm"}});
   const PilotResult result = fly(mechanism, 0.005, {"position_error", "max"});
   EXPECT_EQ(chosen(result).rung, "multibody");
@@ -144,7 +146,9 @@ TEST(PilotOfScatter, TakesLanesWhereTheyAnswerWhatTheStudyAsks) {
 }
 
 TEST(PilotOfScatter, ClimbsWhereClearanceIsLarge) {
-  const auto mechanism = rrcpr({{"motion.duration", "0.1 s"}, {"clearance.F1.radial", "8 mm"}, {"clearance.F1.cap_radius", "25 mm"},
+  const auto mechanism = rrcpr({{"motion.duration", "0.1 s"},
+                                {"clearance.F1.radial", "8 mm"},
+                                {"clearance.F1.cap_radius", "25 mm"},
                                 {"clearance.F1.axial", "8 mm"}});
   const PilotResult result = run_pilot(mechanism, scattered(*mechanism, 64), of_scatter(0.005, {}));
   EXPECT_EQ(chosen(result).rung, "multibody") << result.why;
@@ -165,8 +169,10 @@ TEST(RungChoice, AsksNoPilotWhereThereIsNothingToChoose) {
   const auto mechanism = rrcpr({{"motion.duration", "0.1 s"}});
   EXPECT_EQ(choose_rung({.asked = "auto"}, mechanism, {mechanism->parameters()}).name, "multibody");
   EXPECT_EQ(choose_rung({.asked = "envelope"}, mechanism, {mechanism->parameters()}).name, "envelope");
-  EXPECT_EQ(choose_rung({.asked = "auto", .accuracy = 0.01, .wants_multibody = true}, mechanism, {mechanism->parameters()}).name,
-            "multibody");
+  EXPECT_EQ(
+      choose_rung({.asked = "auto", .accuracy = 0.01, .wants_multibody = true}, mechanism, {mechanism->parameters()})
+          .name,
+      "multibody");
 }
 
 TEST(Pilot, SaysInWordsWhatItMeasured) {
@@ -186,10 +192,12 @@ TEST(Pilot, SaysInWordsWhatItMeasured) {
   conclude(result);
   EXPECT_EQ(chosen(result).rung, "perturbation");
   EXPECT_EQ(result.why,
-            "the cheapest that comes within 1 % of multibody in the position error, RMS: off by 0.35 % at most (reference good to 0.2 %)");
+            "the cheapest that comes within 1 % of multibody in the position error, RMS: off by 0.35 % at most "
+            "(reference good to 0.2 %)");
   result.pairs = 24;
   conclude(result);
-  EXPECT_NE(result.why.find("off by 0.35 % at most over 24 paired samples (reference"), std::string::npos) << result.why;
+  EXPECT_NE(result.why.find("off by 0.35 % at most over 24 paired samples (reference"), std::string::npos)
+      << result.why;
   result.trials[1].accepted = false;
   conclude(result);
   EXPECT_EQ(result.why.rfind("none is shown to come within 1 % of multibody", 0), 0u) << result.why;
@@ -208,8 +216,9 @@ TEST(Pilot, SaysWhatSingleMotionsScatterByWhereThatIsWhyNothingCanBeShown) {
   result.trials = {trial};
   conclude(result);
   const std::string scattered = "; single motions scatter by 3.4 %, standard deviation";
-  EXPECT_EQ(result.why, "an accuracy of 1 % cannot be shown: multibody itself is good to 5 % only in the position error, maximum" + scattered +
-                            "; this one comes nearest");
+  EXPECT_EQ(result.why,
+            "an accuracy of 1 % cannot be shown: multibody itself is good to 5 % only in the position error, maximum" +
+                scattered + "; this one comes nearest");
   result.pairs = 12;  // pairs scatter less: what single motions do is not the reason
   conclude(result);
   EXPECT_EQ(result.why.find(scattered), std::string::npos) << result.why;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight/ladder/ladder.hpp"
 #include "boresight_analyses/study/failures.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 
@@ -11,8 +12,8 @@ namespace boresight {
 namespace {
 
 std::shared_ptr<const Mechanism> scene() {
-  return std::make_shared<const Mechanism>(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml",
-                                                          {{"motion.duration", "50 ms"}}));
+  return std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml", {{"motion.duration", "50 ms"}}));
 }
 
 class WithIntegrator : public testing::TestWithParam<const char*> {};
@@ -47,9 +48,11 @@ INSTANTIATE_TEST_SUITE_P(Integrators, WithIntegrator, testing::Values("dopri5", 
 
 // What rosenbrock took where it took over is no step for rk4: each sample then goes the way of its own run.
 TEST(CommonStep, IsNoneWhereRosenbrockTakesOver) {
-  const auto mechanism = std::make_shared<const Mechanism>(
-      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml",
-                     {{"motion.duration", "20 ms"}, {"initial.journals", "rest"}, {"clearance.F1.contact.minimum_impact_speed", "1e-6 m/s"}}));
+  const auto mechanism =
+      std::make_shared<const Mechanism>(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml",
+                                                       {{"motion.duration", "20 ms"},
+                                                        {"initial.journals", "rest"},
+                                                        {"clearance.F1.contact.minimum_impact_speed", "1e-6 m/s"}}));
   const std::vector<Parameters> samples(2, mechanism->parameters());
   EXPECT_EQ(common_step("multibody", mechanism, samples, {}), 0.0);
   EXPECT_EQ(common_step("perturbation", mechanism, samples, {}), 0.0);
@@ -70,7 +73,8 @@ TEST(CommonStep, TakesWhatAnEarlierStartFoundAndFliesTheOthersOnly) {
   ASSERT_EQ(steps.size(), 3u);
   EXPECT_EQ(steps[0], own);
   flown.clear();
-  EXPECT_EQ(common_step("perturbation", mechanism, samples, options, {own, 0.5 * own, 0.0}, found), 0.5 * own) << "the smallest";
+  EXPECT_EQ(common_step("perturbation", mechanism, samples, options, {own, 0.5 * own, 0.0}, found), 0.5 * own)
+      << "the smallest";
   EXPECT_EQ(flown, (std::vector<std::size_t>{2}));
 }
 

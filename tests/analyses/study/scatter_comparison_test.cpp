@@ -73,7 +73,9 @@ TEST(ScatterComparison, PairsFromTheTailSayMoreAboutItAndNothingElse) {
     const ScatterDifference from_tail = compare_scatter(x, y, chosen.score, {0.9973});
     chosen_width += from_tail.half_width / kRepetitions;
     chosen_mean += from_tail.difference / kRepetitions;
-    plain_width += compare_scatter(std::span(pairs.x).first(24), std::span(pairs.y).first(24), {}, {0.9973}).half_width / kRepetitions;
+    plain_width +=
+        compare_scatter(std::span(pairs.x).first(24), std::span(pairs.y).first(24), {}, {0.9973}).half_width /
+        kRepetitions;
   }
   EXPECT_LT(chosen_width, plain_width);
   EXPECT_NEAR(chosen_mean, 0.02, 0.002);

@@ -47,18 +47,16 @@ TEST(Study, ReadsAccuracyAndIndex) {
 }
 
 TEST(Study, LeavesTheTablesOfOtherVerbsAlone) {
-  EXPECT_NO_THROW(study_of(
-      "format = 1\nmechanism = \"m.toml\"\n[montecarlo]\nsamples = 10\n[[random]]\nparameter = \"x\"\n"));
+  EXPECT_NO_THROW(
+      study_of("format = 1\nmechanism = \"m.toml\"\n[montecarlo]\nsamples = 10\n[[random]]\nparameter = \"x\"\n"));
 }
 
 TEST(Study, NamesLineKeyAndNearestName) {
-  EXPECT_THAT(fault_of("format = 1\nmechanism = \"m.toml\"\n[index]\nquantity = \"position_eror\"\n"),
-              testing::AllOf(HasSubstr("folder/study.toml:4: index.quantity"),
-                             HasSubstr("did you mean position_error?")));
-  EXPECT_THAT(fault_of("format = 1\nmechanism = \"m.toml\"\nacuracy = \"1 %\"\n"),
-              HasSubstr("did you mean accuracy?"));
-  EXPECT_THAT(fault_of("format = 1\nmechanism = \"m.toml\"\naccuracy = \"-1 %\"\n"),
-              HasSubstr("accuracy: found"));
+  EXPECT_THAT(
+      fault_of("format = 1\nmechanism = \"m.toml\"\n[index]\nquantity = \"position_eror\"\n"),
+      testing::AllOf(HasSubstr("folder/study.toml:4: index.quantity"), HasSubstr("did you mean position_error?")));
+  EXPECT_THAT(fault_of("format = 1\nmechanism = \"m.toml\"\nacuracy = \"1 %\"\n"), HasSubstr("did you mean accuracy?"));
+  EXPECT_THAT(fault_of("format = 1\nmechanism = \"m.toml\"\naccuracy = \"-1 %\"\n"), HasSubstr("accuracy: found"));
   EXPECT_THAT(fault_of("format = 2\nmechanism = \"m.toml\"\n"), HasSubstr("format: found"));
 }
 
@@ -101,8 +99,9 @@ TEST(Study, AnIndexThatTheMotionDoesNotHaveIsRefusedWithItsLine) {
     }
     return std::string("no fault");
   };
-  EXPECT_THAT(fault("quantity = \"line_of_sight_error\"\n"),
-              testing::AllOf(HasSubstr("folder/study.toml:4: index.quantity"), HasSubstr("[pointing]"), HasSubstr("m.toml")));
+  EXPECT_THAT(
+      fault("quantity = \"line_of_sight_error\"\n"),
+      testing::AllOf(HasSubstr("folder/study.toml:4: index.quantity"), HasSubstr("[pointing]"), HasSubstr("m.toml")));
   EXPECT_THAT(fault("start = \"0.5 s\"\n"), HasSubstr("folder/study.toml:4: index.start: found 0.5 s"));
   EXPECT_EQ(fault("start = \"0.4 s\"\n"), "no fault");
   d.line_of_sight = LineOfSightDescription{.from = Vec3::Zero(), .target = Vec3(0, 0, 1), .origin = {}};

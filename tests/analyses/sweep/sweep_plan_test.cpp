@@ -56,46 +56,40 @@ TEST_F(SweepPlanTest, ALogarithmicAxisHasEqualRatios) {
 }
 
 TEST_F(SweepPlanTest, PureNumbersArePlain) {
-  EXPECT_EQ(plan("[[sweep.axis]]\nparameter = \"clearance.F1.contact.restitution\"\nvalues = [0.7, 0.9]\n")
-                .axes[0]
-                .values,
-            (std::vector<double>{0.7, 0.9}));
+  EXPECT_EQ(
+      plan("[[sweep.axis]]\nparameter = \"clearance.F1.contact.restitution\"\nvalues = [0.7, 0.9]\n").axes[0].values,
+      (std::vector<double>{0.7, 0.9}));
 }
 
 TEST_F(SweepPlanTest, FaultsNameLineKeyAndWhatIsExpected) {
   EXPECT_THAT(fault("[[sweep.axis]]\nparameter = \"clearance.F1.radiall\"\nvalues = [\"1 mm\"]\n"),
               AllOf(HasSubstr("study.toml:3"), HasSubstr("did you mean clearance.F1.radial?")));
-  EXPECT_THAT(fault("[[sweep.axis]]\nparameter = \"payload.mass\"\nvalues = [\"1 mm\"]\n"),
-              HasSubstr("mass"));
-  EXPECT_THAT(
-      fault("[[sweep.axis]]\nparameter = [\"payload.mass\", \"clearance.F1.radial\"]\nvalues = [\"1 kg\"]\n"),
-      HasSubstr("parameters that take the same values"));
+  EXPECT_THAT(fault("[[sweep.axis]]\nparameter = \"payload.mass\"\nvalues = [\"1 mm\"]\n"), HasSubstr("mass"));
+  EXPECT_THAT(fault("[[sweep.axis]]\nparameter = [\"payload.mass\", \"clearance.F1.radial\"]\nvalues = [\"1 kg\"]\n"),
+              HasSubstr("parameters that take the same values"));
   EXPECT_THAT(fault("[[sweep.axis]]\nparameter = \"payload.mass\"\n"), HasSubstr("values = [...]"));
   EXPECT_THAT(fault("[[sweep.axis]]\nparameter = \"payload.mass\"\nvalues = [\"1 kg\", \"1000 g\"]\n"),
               HasSubstr("differ"));
   EXPECT_THAT(fault("[[sweep.axis]]\nparameter = \"payload.mass\"\nfrom = \"0 kg\"\nto = \"1 kg\"\ncount = "
                     "3\nscale = \"log\"\n"),
               HasSubstr("more than 0"));
-  EXPECT_THAT(
-      fault("findings = \"nobody\"\n[[sweep.axis]]\nparameter = \"payload.mass\"\nvalues = [\"1 kg\"]\n"),
-      HasSubstr("sun-3-rrcpr"));
+  EXPECT_THAT(fault("findings = \"nobody\"\n[[sweep.axis]]\nparameter = \"payload.mass\"\nvalues = [\"1 kg\"]\n"),
+              HasSubstr("sun-3-rrcpr"));
   EXPECT_THAT(fault(""), HasSubstr("at least one"));
 }
 
 TEST_F(SweepPlanTest, TakesNoValueThatAMechanismFileMayNotHold) {
   EXPECT_THAT(fault("[[sweep.axis]]\nparameter = \"payload.mass\"\nvalues = [\"1 kg\", \"-1 kg\"]\n"),
               AllOf(HasSubstr("study.toml:4"), HasSubstr("payload.mass")));
-  EXPECT_THAT(
-      fault("[[sweep.axis]]\nparameter = \"clearance.F1.contact.restitution\"\nvalues = [0.5, 1.5]\n"),
-      HasSubstr("study.toml:4"));
+  EXPECT_THAT(fault("[[sweep.axis]]\nparameter = \"clearance.F1.contact.restitution\"\nvalues = [0.5, 1.5]\n"),
+              HasSubstr("study.toml:4"));
 }
 
 TEST_F(SweepPlanTest, RefusesAGridBeyondReason) {
-  EXPECT_THAT(
-      fault("[[sweep.axis]]\nparameter = \"payload.mass\"\nfrom = \"0 kg\"\nto = \"1 kg\"\ncount = 1000\n"
-            "[[sweep.axis]]\nparameter = \"clearance.F1.radial\"\nfrom = \"1 um\"\nto = \"1 mm\"\ncount = "
-            "1000\n"),
-      HasSubstr("1000000 points"));
+  EXPECT_THAT(fault("[[sweep.axis]]\nparameter = \"payload.mass\"\nfrom = \"0 kg\"\nto = \"1 kg\"\ncount = 1000\n"
+                    "[[sweep.axis]]\nparameter = \"clearance.F1.radial\"\nfrom = \"1 um\"\nto = \"1 mm\"\ncount = "
+                    "1000\n"),
+              HasSubstr("1000000 points"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "boresight/ladder/ladder.hpp"
 #include "example.hpp"
 
 namespace boresight {
@@ -14,8 +15,7 @@ const char* const kGrid =
 
 class SweepTest : public testing::Test {
  protected:
-  SweepResult sweep(int jobs, const std::function<bool(const SweepProgress&)>& progress = {},
-                    double step = 0.0) const {
+  SweepResult sweep(int jobs, const std::function<bool(const SweepProgress&)>& progress = {}, double step = 0.0) const {
     SweepOptions options;
     options.jobs = jobs;
     options.run.step = step;
@@ -35,8 +35,7 @@ void expect_same(const RunResult& a, const RunResult& b) {
   EXPECT_EQ(a.contact[0].impacts, b.contact[0].impacts);
   EXPECT_EQ(a.contact[0].max_force, b.contact[0].max_force);
   ASSERT_EQ(a.time, b.time);
-  for (std::size_t i = 0; i < a.time.size(); ++i)
-    EXPECT_EQ(a.boresight.samples[i].a, b.boresight.samples[i].a);
+  for (std::size_t i = 0; i < a.time.size(); ++i) EXPECT_EQ(a.boresight.samples[i].a, b.boresight.samples[i].a);
 }
 
 TEST_F(SweepTest, APointIsTheSingleRunWithItsParameters) {
@@ -49,8 +48,7 @@ TEST_F(SweepTest, APointIsTheSingleRunWithItsParameters) {
     parameters.payload_mass = result.points[k].values[1];
     expect_same(result.points[k].result, rung_->run(parameters, {}));
   }
-  EXPECT_GT(result.points[3].result.index.position_error.max,
-            result.points[0].result.index.position_error.max);
+  EXPECT_GT(result.points[3].result.index.position_error.max, result.points[0].result.index.position_error.max);
 }
 
 TEST_F(SweepTest, GivesTheSameBitsForAnyNumberOfThreads) {

@@ -43,7 +43,9 @@ TEST(SubsetSimulation, MeetsALinearLimitStateInAnyDimension) {
 TEST(SubsetSimulation, MeetsAParallelSystem) {
   expect_meets(runs(pointwise(problems::parallel), 2, 2.0, 40), phi(-2.0) * phi(-2.0));
 }
-TEST(SubsetSimulation, MeetsTwoRegions) { expect_meets(runs(pointwise(problems::two_sided), 3, 3.5, 40), 2.0 * phi(-3.5)); }
+TEST(SubsetSimulation, MeetsTwoRegions) {
+  expect_meets(runs(pointwise(problems::two_sided), 3, 3.5, 40), 2.0 * phi(-3.5));
+}
 
 // Au and Beck's estimate takes levels as independent: the right order, on the low side.
 TEST(SubsetSimulation, StatesTheOrderOfItsScatter) {
@@ -68,14 +70,16 @@ TEST(SubsetSimulation, SaysThatALimitIsOutOfReach) {
 
 TEST(SubsetSimulation, CountsFailedPointsAsBeyond) {
   const SubsetResult s = subset_simulation(
-      pointwise([](const Point& u) { return u[0] > 3.0 ? std::numeric_limits<double>::quiet_NaN() : u[0]; }), 2, 3.0, {});
+      pointwise([](const Point& u) { return u[0] > 3.0 ? std::numeric_limits<double>::quiet_NaN() : u[0]; }), 2, 3.0,
+      {});
   EXPECT_TRUE(s.reached);
   EXPECT_GT(s.failed, 0);
   EXPECT_NEAR(s.probability / phi(-3.0), 1.0, 0.6);
 }
 
 TEST(SubsetSimulation, GivesTheSameBitsForTheSameSeed) {
-  const SubsetResult a = subset_simulation(pointwise(problems::linear), 3, 3.0, {}), b = subset_simulation(pointwise(problems::linear), 3, 3.0, {});
+  const SubsetResult a = subset_simulation(pointwise(problems::linear), 3, 3.0, {}),
+                     b = subset_simulation(pointwise(problems::linear), 3, 3.0, {});
   EXPECT_EQ(a.probability, b.probability);
   EXPECT_EQ(a.beyond, b.beyond);
 }
@@ -95,7 +99,8 @@ TEST(SubsetSimulation, MovesEveryChainAndStatesTheScatterOfThem) {
       2, limit, options);
   ASSERT_EQ(s.levels.size(), 2u);
   Points at = asked[0];
-  std::stable_sort(at.begin(), at.end(), [](const Point& a, const Point& b) { return problems::linear(a) > problems::linear(b); });
+  std::stable_sort(at.begin(), at.end(),
+                   [](const Point& a, const Point& b) { return problems::linear(a) > problems::linear(b); });
   constexpr std::size_t kChains = 10, kLength = 10;
   at.resize(kChains);
   std::vector<std::vector<double>> beyond(kChains);
@@ -116,10 +121,12 @@ TEST(SubsetSimulation, MovesEveryChainAndStatesTheScatterOfThem) {
   for (std::size_t lag = 1; lag < kLength; ++lag) {
     double product = 0.0;
     for (const std::vector<double>& chain : beyond)
-      for (std::size_t k = lag; k < kLength; ++k) product += chain[k - lag] * chain[k] / double(kChains * (kLength - lag));
+      for (std::size_t k = lag; k < kLength; ++k)
+        product += chain[k - lag] * chain[k] / double(kChains * (kLength - lag));
     gamma += 2.0 * (1.0 - double(lag) / kLength) * (product - P * P) / (P * (1.0 - P));
   }
-  EXPECT_NEAR(s.levels[1].coefficient_of_variation, std::sqrt((1.0 - P) / (P * kChains * kLength) * (1.0 + gamma)), 1e-12);
+  EXPECT_NEAR(s.levels[1].coefficient_of_variation, std::sqrt((1.0 - P) / (P * kChains * kLength) * (1.0 + gamma)),
+              1e-12);
 }
 
 }  // namespace

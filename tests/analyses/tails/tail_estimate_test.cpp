@@ -78,7 +78,8 @@ TEST(ImportanceSampling, IsUnbiasedAndCoversTwoRegions) {
 
 // The cheap model leans by 0.15 rad and lies off by 0.1: it alone is wrong by a third, the corrected one is not.
 const BatchModel kExact = pointwise([](const Point& u) { return u[0]; });
-const BatchModel kLeaning = pointwise([](const Point& u) { return std::cos(0.15) * u[0] + std::sin(0.15) * u[1] - 0.1; });
+const BatchModel kLeaning =
+    pointwise([](const Point& u) { return std::cos(0.15) * u[0] + std::sin(0.15) * u[1] - 0.1; });
 
 TEST(TwoLevelImportanceSampling, IsUnbiasedForTheExactModelWhateverTheCheapOneIs) {
   const double limit = 3.5, truth = phi(-3.5);
@@ -89,11 +90,13 @@ TEST(TwoLevelImportanceSampling, IsUnbiasedForTheExactModelWhateverTheCheapOneIs
   double mean = 0.0, square = 0.0, alone = 0.0;
   constexpr int kRepetitions = 300;
   for (std::uint64_t k = 0; k < kRepetitions; ++k) {
-    const TailEstimate e = two_level_importance_sampling(kLeaning, kExact, limit, plan.proposal.mixture, 5000, 300, control, {0.95, 1, k});
+    const TailEstimate e =
+        two_level_importance_sampling(kLeaning, kExact, limit, plan.proposal.mixture, 5000, 300, control, {0.95, 1, k});
     held += e.probability.low <= truth && truth <= e.probability.high;
     mean += e.probability.value / kRepetitions;
     square += e.probability.value * e.probability.value / kRepetitions;
-    alone += importance_sampling(kLeaning, limit, plan.proposal.mixture, 500, {0.95, 1, k}).probability.value / kRepetitions;
+    alone +=
+        importance_sampling(kLeaning, limit, plan.proposal.mixture, 500, {0.95, 1, k}).probability.value / kRepetitions;
     if (k == 0) {
       EXPECT_EQ(e.exact_evaluations, 300);
       EXPECT_EQ(e.cheap_evaluations, 5300);
@@ -127,8 +130,10 @@ TEST(TwoLevelPilot, ForecastsTheStandardError) {
   const TwoLevelPlan plan = two_level_pilot(near, kExact, 2, 3.5, 1000, {0.01, 1.0}, 300.0, {});
   RunningMoments values;
   for (std::uint64_t k = 0; k < 200; ++k)
-    values.add(two_level_importance_sampling(near, kExact, 3.5, plan.proposal.mixture, std::max<std::int64_t>(2, plan.cheap_points),
-                                             plan.exact_points, plan.control, {0.95, 1, k}).probability.value);
+    values.add(two_level_importance_sampling(near, kExact, 3.5, plan.proposal.mixture,
+                                             std::max<std::int64_t>(2, plan.cheap_points), plan.exact_points,
+                                             plan.control, {0.95, 1, k})
+                   .probability.value);
   EXPECT_NEAR(values.mean(), phi(-3.5), 3.0 * values.sd() / std::sqrt(200.0));
   EXPECT_NEAR(values.sd() / plan.standard_error, 1.0, 0.3);
 }
@@ -145,7 +150,8 @@ TEST(ImportanceSampling, CountsFailedPointsAsBeyond) {
 struct Verdicts {
   double met = 0.0, met_by_central_limit = 0.0;
 };
-Verdicts verdicts(const BatchModel& cheap, const BatchModel& exact, double limit, double truth, double budget, int repetitions) {
+Verdicts verdicts(const BatchModel& cheap, const BatchModel& exact, double limit, double truth, double budget,
+                  int repetitions) {
   constexpr double kConfidence = 0.95;
   Verdicts v;
   for (int r = 0; r < repetitions; ++r) {
@@ -156,8 +162,8 @@ Verdicts verdicts(const BatchModel& cheap, const BatchModel& exact, double limit
     const TwoLevelPlan plan = two_level_pilot(cheap, exact, 2, limit, 50, {0.01, 1.0}, budget, options);
     const TailOptions tail{.confidence = 2.0 * kConfidence - 1.0, .seed = options.subset.seed};
     const TailEstimate e = plan.control > 0.0
-                               ? two_level_importance_sampling(cheap, exact, limit, plan.proposal.mixture, plan.cheap_points,
-                                                               plan.exact_points, plan.control, tail)
+                               ? two_level_importance_sampling(cheap, exact, limit, plan.proposal.mixture,
+                                                               plan.cheap_points, plan.exact_points, plan.control, tail)
                                : importance_sampling(exact, limit, plan.proposal.mixture, plan.exact_points, tail);
     v.met += double(e.bounds.high <= truth) / repetitions;
     v.met_by_central_limit += double(e.standard_error > 0.0 && e.probability.high <= truth) / repetitions;

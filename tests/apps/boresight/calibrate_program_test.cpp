@@ -34,21 +34,20 @@ TEST_F(CalibrateProgram, LongRecoversTheExamplesTruthAndItsPosteriorFeedsMonteCa
   for (const char* path : {"clearance.D.radial", "clearance.D.contact.restitution"}) {
     EXPECT_TRUE(summary["identifiable"][path]["value"].get<bool>());
     EXPECT_GT(summary["standard_error"][path].get<double>(), 0.0);
-    EXPECT_LT(summary["interval"][path]["low"].get<double>(),
-              summary["interval"][path]["high"].get<double>());
+    EXPECT_LT(summary["interval"][path]["low"].get<double>(), summary["interval"][path]["high"].get<double>());
     EXPECT_NEAR(summary["correlation"][path][path].get<double>(), 1.0, 1e-9);
   }
   std::ofstream(folder_ / "scatter.toml") << "format = 1\nmechanism = \"rig.toml\"\n"
                                           << text("out/posterior.toml") << "\n[montecarlo]\nsamples = 20\n";
-  const Ended scatter =
-      call({"montecarlo", "scatter.toml", "--rung", "perturbation", "--out", "mc", "--quiet"});
+  const Ended scatter = call({"montecarlo", "scatter.toml", "--rung", "perturbation", "--out", "mc", "--quiet"});
   EXPECT_EQ(scatter.status, 0) << scatter.err;
 }
 
 TEST_F(CalibrateProgram, RefusesAPlayThatAnotherBearingHolds) {
   std::string rig = text("rig.toml");
-  rig.insert(rig.find("[initial]"), "[[joint]]\nname = \"D2\"\ntype = \"revolute\"\nconnects = [\"ground\", \"rocker\"]\n"
-                                    "point = [\"190 mm\", \"100 mm\", \"0 mm\"]\naxis = [1, 0, 0]\n\n");
+  rig.insert(rig.find("[initial]"),
+             "[[joint]]\nname = \"D2\"\ntype = \"revolute\"\nconnects = [\"ground\", \"rocker\"]\n"
+             "point = [\"190 mm\", \"100 mm\", \"0 mm\"]\naxis = [1, 0, 0]\n\n");
   std::ofstream(folder_ / "rig.toml") << rig;
   const Ended ended = call({"calibrate", "calibrate.toml", "--out", "out"});
   EXPECT_EQ(ended.status, 3);
@@ -88,7 +87,10 @@ TEST_F(CalibrateProgram, AnImpossibleReadingIsNamedAndMovesNothing) {
   std::istringstream lines(rows);
   int number = 0;
   for (std::string line; std::getline(lines, line);)
-    changed += (++number == 60 ? line.substr(0, line.find(',')) + ",1e8" + line.substr(line.find(',', line.find(',') + 1)) : line) + "\n";
+    changed +=
+        (++number == 60 ? line.substr(0, line.find(',')) + ",1e8" + line.substr(line.find(',', line.find(',') + 1))
+                        : line) +
+        "\n";
   std::ofstream(folder_ / "slow.csv") << changed;
   ASSERT_EQ(call({"calibrate", "small.toml", "--out", "spoilt", "--quiet"}).status, 0);
   const nlohmann::json clean = json("clean/summary.json"), spoilt = json("spoilt/summary.json");
@@ -112,7 +114,8 @@ TEST_F(CalibrateProgram, AnInterruptionAnnouncesOnlyWhatIsThere) {
     const Ended ended = wait_for(child);
     EXPECT_EQ(ended.status, 130) << ended.err;
     for (const char* file : {"posterior.toml", "report.html"})
-      EXPECT_EQ(ended.out.find(file) != std::string::npos, std::filesystem::exists(folder_ / out / file)) << file << ended.out;
+      EXPECT_EQ(ended.out.find(file) != std::string::npos, std::filesystem::exists(folder_ / out / file))
+          << file << ended.out;
     if (std::filesystem::exists(folder_ / out / "posterior.toml")) {
       EXPECT_NE(text(out + "/posterior.toml").find("\ninterrupted = true\n"), std::string::npos);
     }
@@ -124,7 +127,9 @@ TEST_F(CalibrateProgram, AnInterruptionAnnouncesOnlyWhatIsThere) {
 
 TEST_F(CalibrateProgram, SyntheticDataOverwriteSyntheticDataAlone) {
   std::ofstream(folder_ / "small.toml") << kSmall;
-  const auto made = [&](const char* seed) { return call({"calibrate", "small.toml", "--make-data", "1 %", "--make-seed", seed}); };
+  const auto made = [&](const char* seed) {
+    return call({"calibrate", "small.toml", "--make-data", "1 %", "--make-seed", seed});
+  };
   // The example's are synthetic, and known as such.
   ASSERT_EQ(made("1").status, 0);
   const std::string first = text("slow.csv");
@@ -132,12 +137,14 @@ TEST_F(CalibrateProgram, SyntheticDataOverwriteSyntheticDataAlone) {
   EXPECT_NE(text("slow.csv"), first);
   // What somebody changed is no longer what it wrote, and nor is what somebody measured.
   const std::string measured = "t [s], dx [um]\n0, 1\n0.001, 2\n";
-  for (const std::string& there : {first + "# of Monday\n", first.substr(0, 200) + "9" + first.substr(201), measured, std::string()}) {
+  for (const std::string& there :
+       {first + "# of Monday\n", first.substr(0, 200) + "9" + first.substr(201), measured, std::string()}) {
     std::ofstream(folder_ / "slow.csv") << there;
     const Ended refused = made("2");
     EXPECT_EQ(refused.status, 2);
     EXPECT_TRUE(is_one_line(refused.err)) << refused.err;
-    EXPECT_NE(refused.err.find("slow.csv: is there already, and not as --make-data wrote it"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("slow.csv: is there already, and not as --make-data wrote it"), std::string::npos)
+        << refused.err;
     EXPECT_EQ(text("slow.csv"), there);
   }
   std::filesystem::remove(folder_ / "slow.csv");

@@ -13,8 +13,9 @@ namespace boresight::app {
 struct Left {
   Ended ended;
   nlohmann::json summary;
-  std::function<std::string(const std::string&)> file;                           // text of a file of its folder
-  std::function<nlohmann::json(const std::vector<std::string>& options)> again;            // summary of the same command with more options
+  std::function<std::string(const std::string&)> file;  // text of a file of its folder
+  std::function<nlohmann::json(const std::vector<std::string>& options)>
+      again;  // summary of the same command with more options
 };
 
 struct Edit {

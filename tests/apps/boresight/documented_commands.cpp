@@ -101,8 +101,10 @@ std::vector<std::string> shell_words(const std::string& command) {
   bool inside = false;
   for (const char c : command) {
     if (quote != 0) {
-      if (c == quote) quote = 0;
-      else word += c;
+      if (c == quote)
+        quote = 0;
+      else
+        word += c;
     } else if (c == '"' || c == '\'') {
       quote = c;
       inside = true;

@@ -1,11 +1,12 @@
 // Every command that README.md, the examples and .ci/start tell a user to give runs here, shortened where it is long, and does what the text
 // around it says. A command or an example file that is new and not run here makes a test fail.
+#include "documented_commands.hpp"
+
 #include <gmock/gmock.h>
 
 #include <fstream>
 
 #include "command_table.hpp"
-#include "documented_commands.hpp"
 #include "documented_summary.hpp"
 
 namespace boresight::app {
@@ -34,7 +35,8 @@ class DocumentedCommands : public Program, public testing::WithParamInterface<Co
   }
   // As the program names it: results/FILE-VERB, or results/FILE where that says the verb already.
   std::string folder_of_results() const {
-    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "results")) return "results/" + entry.path().filename().string();
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "results"))
+      return "results/" + entry.path().filename().string();
     return "";
   }
 };
@@ -75,7 +77,8 @@ std::string name_of(const testing::TestParamInfo<Command>& one) {
     if (word == "boresight") continue;
     std::string last = word.substr(word.find_last_of('/') + 1);
     last = last.substr(0, last.find(".toml"));
-    std::replace_if(last.begin(), last.end(), [](char ch) { return !std::isalnum(static_cast<unsigned char>(ch)); }, '_');
+    std::replace_if(
+        last.begin(), last.end(), [](char ch) { return !std::isalnum(static_cast<unsigned char>(ch)); }, '_');
     name += "_" + last;
   }
   return name;
@@ -96,8 +99,9 @@ TEST(Documents, TellNoCommandThatIsNotRunHere) {
 TEST(Documents, ExplainNoKeyOfASummaryThatNothingWrites) { EXPECT_THAT(keys_without_a_source(), testing::IsEmpty()); }
 
 TEST(Documents, OtherCommandsOfTheReadmeAreKnownAndHeldElsewhere) {
-  EXPECT_THAT(other_documented_commands(), testing::UnorderedElementsAre("bash .ci/start",   // its commands are among the above
-                                                                         "bash .ci/test"));  // is what runs this
+  EXPECT_THAT(other_documented_commands(),
+              testing::UnorderedElementsAre("bash .ci/start",   // its commands are among the above
+                                            "bash .ci/test"));  // is what runs this
 }
 
 TEST(Examples, EveryFileIsRunByADocumentedCommand) {
@@ -110,7 +114,8 @@ TEST(Examples, EveryFileIsRunByADocumentedCommand) {
     // Or it is the mechanism of a study that is.
     bool taken = false;
     for (const auto& other : std::filesystem::directory_iterator(entry.path().parent_path())) {
-      if (other.path().extension() != ".toml" || all.find("/" + other.path().filename().string()) == std::string::npos) continue;
+      if (other.path().extension() != ".toml" || all.find("/" + other.path().filename().string()) == std::string::npos)
+        continue;
       std::ifstream in(other.path());
       const std::string study{std::istreambuf_iterator<char>(in), {}};
       taken = taken || study.find("mechanism = \"" + name + "\"") != std::string::npos;

@@ -33,7 +33,9 @@ Rows rows_of(const std::string& verb) {
     if (line.starts_with("## ")) part = line.substr(3);
     if (verb != kAllVerbs && part != "Every verb" && part != verb) continue;
     // Of the sentence on failures, too: it is a row without bars.
-    const std::size_t begin = line.starts_with("| ") ? line.find('|', 1) : line.starts_with("Studies whose") ? line.find(':') : std::string::npos;
+    const std::size_t begin = line.starts_with("| ")              ? line.find('|', 1)
+                              : line.starts_with("Studies whose") ? line.find(':')
+                                                                  : std::string::npos;
     if (begin == std::string::npos) continue;
     for (const std::string& key : quoted(line.substr(0, begin))) rows[key] += line;
   }
@@ -41,8 +43,9 @@ Rows rows_of(const std::string& verb) {
 }
 
 // One entry per joint, parameter, rung, law, channel or letter: their names are the user's.
-const std::set<std::string> kByName = {"contacts", "start", "contact",  "compared",    "optimum", "standard_error", "interval",     "identifiable", "correlation",
-                                       "noise",    "errors",   "sobol",       "local",   "sources",        "contact_laws", "friction_laws"};
+const std::set<std::string> kByName = {
+    "contacts",    "start", "contact", "compared", "optimum", "standard_error", "interval",     "identifiable",
+    "correlation", "noise", "errors",  "sobol",    "local",   "sources",        "contact_laws", "friction_laws"};
 // "The same", "a level each".
 const std::map<std::string, std::string> kAsAnother = {{"errors", "error"}, {"requirements", "levels"}};
 const std::set<std::string> kOfAnInterval = {"value", "low", "high", "confidence", "coverage", "basis"};
@@ -53,7 +56,7 @@ const std::set<std::string> kInWords = {"assumed", "definitions", "correlation"}
 
 std::vector<std::string> keys_without_a_source() {
   std::string sources;
-  for (const auto& entry : std::filesystem::directory_iterator(BORESIGHT_SOURCE "/apps/boresight")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(BORESIGHT_SOURCE "/apps/boresight")) {
     if (entry.path().extension() != ".cpp") continue;
     std::ifstream in(entry.path());
     sources.append(std::istreambuf_iterator<char>(in), {});
@@ -77,7 +80,8 @@ std::vector<std::string> unexplained_keys(const nlohmann::json& summary) {
     std::vector<std::string> words = quoted(row->second);
     if (const auto other = kAsAnother.find(key); other != kAsAnother.end())
       for (const std::string& word : quoted(rows.at(other->second))) words.push_back(word);
-    if (row->second.find("an interval") != std::string::npos) words.insert(words.end(), kOfAnInterval.begin(), kOfAnInterval.end());
+    if (row->second.find("an interval") != std::string::npos)
+      words.insert(words.end(), kOfAnInterval.begin(), kOfAnInterval.end());
     const std::set<std::string> explained(words.begin(), words.end());
     const auto look = [&](const nlohmann::json& entry) {
       if (!entry.is_object()) return;

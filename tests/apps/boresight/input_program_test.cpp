@@ -33,31 +33,39 @@ class InputProgram : public Program {
     for (std::string line; std::getline(in, line);) {
       const std::size_t first = line.find_first_not_of(' ');
       if (first != std::string::npos && line[first] == '[')
-        left_out = line.find("[clearance.contact]") != std::string::npos || line.find("[clearance.friction]") != std::string::npos;
+        left_out = line.find("[clearance.contact]") != std::string::npos ||
+                   line.find("[clearance.friction]") != std::string::npos;
       if (!left_out) out << line << '\n';
     }
   }
 };
 
 // A number without bounds as a word of its own.
-bool says_infinity(const std::string& text) { return std::regex_search(text, std::regex("(^|[^a-zA-Z])-?(inf|nan)([^a-zA-Z]|$)")); }
+bool says_infinity(const std::string& text) {
+  return std::regex_search(text, std::regex("(^|[^a-zA-Z])-?(inf|nan)([^a-zA-Z]|$)"));
+}
 
 TEST_F(InputProgram, OptionsOutOfAllProportionAreRefusedByName) {
   const auto run = [&](const std::string& option, const std::string& value) {
     return std::vector<std::string>{"run", four_bar_, option, value, "--rung", "perturbation"};
   };
-  for (const char* value : {"0 s", "-1 ms", "1e-300 s", "1e300 s", "1 fs", "2 s"}) expect_refused(run("--step", value), "--step");
-  for (const char* value : {"0 s", "-1 ms", "1e-300 s", "1e300 s", "1 ns"}) expect_refused(run("--sample", value), "--sample");
-  for (const char* value : {"0.01", "0 %", "-1 %", "1e-300 %", "1e300 %", "1 mm"}) expect_refused(run("--accuracy", value), "--accuracy");
+  for (const char* value : {"0 s", "-1 ms", "1e-300 s", "1e300 s", "1 fs", "2 s"})
+    expect_refused(run("--step", value), "--step");
+  for (const char* value : {"0 s", "-1 ms", "1e-300 s", "1e300 s", "1 ns"})
+    expect_refused(run("--sample", value), "--sample");
+  for (const char* value : {"0.01", "0 %", "-1 %", "1e-300 %", "1e300 %", "1 mm"})
+    expect_refused(run("--accuracy", value), "--accuracy");
   for (const char* value : {"-1", "5000"}) expect_refused(run("--jobs", value), "--jobs");
   for (const char* value : {"0 %", "-1 %", "1e-300 %", "1e300 %"})
     expect_refused({"run", four_bar_, "--integrator", "dopri5", "--tolerance", value}, "--tolerance");
-  for (const char* value : {"0 s", "1e-300 s", "1e300 s"}) expect_refused({"chart", four_bar_, "--time", value}, "--time");
+  for (const char* value : {"0 s", "1e-300 s", "1e300 s"})
+    expect_refused({"chart", four_bar_, "--time", value}, "--time");
 }
 
 TEST_F(InputProgram, HistoriesThatMemoryCannotHoldAreRefusedWithTheirSize) {
   std::vector<std::string> arguments = {"run", mechanism_, "--sample", "0.6 us", "--rung", "perturbation"};
-  for (const char* body : {"rod1", "rod2", "rod3", "tube1", "tube2", "crank1"}) arguments.insert(arguments.end(), {"--pose", body});
+  for (const char* body : {"rod1", "rod2", "rod3", "tube1", "tube2", "crank1"})
+    arguments.insert(arguments.end(), {"--pose", body});
   expect_refused(arguments, "GB of histories");
 }
 
@@ -76,8 +84,8 @@ TEST_F(InputProgram, AbsurdNumbersAreRefusedByEveryVerbThatReadsThem) {
 
 // Forces within their ranges and beyond what the joint can bear.
 TEST_F(InputProgram, CheckFindsAJournalThatWouldBePressedThroughItsSleeve) {
-  const Ended ended = call({"check", four_bar_, "--set", "gravity.z=-1e7 m/s^2", "--set", "payload.mass=1e6 kg", "--set",
-                            "clearance.D.contact.young=1 MPa", "--out", "out"});
+  const Ended ended = call({"check", four_bar_, "--set", "gravity.z=-1e7 m/s^2", "--set", "payload.mass=1e6 kg",
+                            "--set", "clearance.D.contact.young=1 MPa", "--out", "out"});
   EXPECT_EQ(ended.status, 1) << ended.err;
   EXPECT_THAT(ended.out, AllOf(HasSubstr("problem: D: its largest load"), Not(HasSubstr("nothing stands in the way"))));
   EXPECT_FALSE(says_infinity(ended.out)) << ended.out;
@@ -86,7 +94,8 @@ TEST_F(InputProgram, CheckFindsAJournalThatWouldBePressedThroughItsSleeve) {
 
 TEST_F(InputProgram, CheckOfAMotionThatMemoryCannotHoldSaysSo) {
   for (const char* duration : {"1e4 s", "1e6 s"}) {
-    const Ended ended = call({"check", mechanism_, "--set", std::string("motion.duration=") + duration, "--out", std::string("out-") + duration});
+    const Ended ended = call({"check", mechanism_, "--set", std::string("motion.duration=") + duration, "--out",
+                              std::string("out-") + duration});
     EXPECT_EQ(ended.status, 1) << ended.err;
     EXPECT_THAT(ended.out, AllOf(HasSubstr("GB of memory; shorten motion.duration"), Not(HasSubstr("beyond t = 0"))));
   }
@@ -94,7 +103,8 @@ TEST_F(InputProgram, CheckOfAMotionThatMemoryCannotHoldSaysSo) {
 
 TEST_F(InputProgram, CtrlCIsHeardWhileTheIdealMotionIsFollowed) {
   for (const char* verb : {"check", "run"}) {
-    const pid_t child = start({verb, mechanism_, "--set", "motion.duration=300 s", "--out", std::string("out-") + verb, "--rung", "perturbation"});
+    const pid_t child =
+        start({verb, mechanism_, "--set", "motion.duration=300 s", "--out", std::string("out-") + verb});
     ::usleep(1'000'000);
     ::kill(child, SIGINT);
     const Ended ended = wait_for(child);
@@ -107,8 +117,9 @@ TEST_F(InputProgram, WhatAFileLeavesOutIsSaidAndKept) {
   write_bare("bare.toml");
   const Ended checked = call({"check", "bare.toml", "--out", "check"});
   EXPECT_EQ(checked.status, 0) << checked.err;
-  EXPECT_THAT(checked.out, AllOf(HasSubstr("D: not given, so assumed:"), HasSubstr("contact.young = 72 GPa (aluminium)"),
-                                 HasSubstr("friction.coefficient = 0 (none)")));
+  EXPECT_THAT(checked.out,
+              AllOf(HasSubstr("D: not given, so assumed:"), HasSubstr("contact.young = 72 GPa (aluminium)"),
+                    HasSubstr("friction.coefficient = 0 (none)")));
   const Ended ran = call({"run", "bare.toml", "--rung", "quasistatic", "--out", "run"});
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("warning: D: not given, so assumed: contact.law"));
@@ -117,15 +128,17 @@ TEST_F(InputProgram, WhatAFileLeavesOutIsSaidAndKept) {
   EXPECT_THAT(summary["warnings"].dump(), HasSubstr("contact.restitution = 0.9"));
   EXPECT_THAT(text("run/report.html"), HasSubstr("contact.young = 72 GPa (aluminium)"));
   // Given on the command line, it is not assumed.
-  const Ended given = call({"run", "bare.toml", "--rung", "quasistatic", "--set", "clearance.D.contact.young=210 GPa", "--out", "given"});
+  const Ended given = call(
+      {"run", "bare.toml", "--rung", "quasistatic", "--set", "clearance.D.contact.young=210 GPa", "--out", "given"});
   EXPECT_EQ(given.status, 0) << given.err;
   EXPECT_FALSE(json("given/summary.json")["assumed"].contains("clearance.D.contact.young"));
 }
 
 TEST_F(InputProgram, RestitutionZeroRunsWithALawThatTakesIt) {
   expect_refused({"run", four_bar_, "--set", "clearance.D.contact.restitution=0"}, "laws that take 0: hunt-crossley");
-  const Ended ended = call({"run", four_bar_, "--rung", "perturbation", "--set", "clearance.D.contact.law=lankarani-nikravesh", "--set",
-                            "clearance.D.contact.restitution=0", "--set", "motion.duration=0.1 s", "--out", "out"});
+  const Ended ended =
+      call({"run", four_bar_, "--rung", "perturbation", "--set", "clearance.D.contact.law=lankarani-nikravesh", "--set",
+            "clearance.D.contact.restitution=0", "--set", "motion.duration=0.1 s", "--out", "out"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_TRUE(json("out/summary.json")["index"]["position_error"]["max"].is_number());
 }

@@ -28,8 +28,7 @@ class InterruptionTest : public Program {
 TEST_F(InterruptionTest, CtrlCLeavesWholeFilesOfWhatWasReached) {
   const Ended ended = interrupted({"run", mechanism_, "--step", "0.2 us", "--out", "out"}, SIGINT);
   EXPECT_EQ(ended.status, 130) << ended.err;
-  EXPECT_THAT(files("out"),
-              testing::ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
+  EXPECT_THAT(files("out"), testing::ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
   const auto summary = json("out/summary.json");
   EXPECT_TRUE(summary["interrupted"].get<bool>());
   EXPECT_GT(summary["end_time"].get<double>(), 0.0);
@@ -39,18 +38,20 @@ TEST_F(InterruptionTest, CtrlCLeavesWholeFilesOfWhatWasReached) {
 }
 
 TEST_F(InterruptionTest, APoliteKillIsTheSame) {
-  EXPECT_EQ(interrupted({"run", mechanism_, "--step", "0.2 us", "--out", "out", "--quiet"}, SIGTERM).status,
-            130);
+  EXPECT_EQ(interrupted({"run", mechanism_, "--step", "0.2 us", "--out", "out", "--quiet"}, SIGTERM).status, 130);
   EXPECT_TRUE(json("out/summary.json")["interrupted"].get<bool>());
 }
 
 TEST_F(InterruptionTest, ASweepKeepsThePointsThatWereDone) {
   constexpr std::size_t kPoints = 5000;  // of some milliseconds each
   const auto write = [&](const std::string& values) {
-    std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << mechanism_ << "\"\n[[sweep.axis]]\nparameter = \"payload.mass\"\n" << values << "\n";
+    std::ofstream(folder_ / "study.toml")
+        << "format = 1\nmechanism = \"" << mechanism_ << "\"\n[[sweep.axis]]\nparameter = \"payload.mass\"\n"
+        << values << "\n";
   };
   write("from = \"0 kg\"\nto = \"500 kg\"\ncount = " + std::to_string(kPoints));
-  const Ended ended = interrupted({"sweep", "study.toml", "--rung", "perturbation", "--step", "50 us", "--out", "out", "--jobs", "2"}, SIGINT);
+  const Ended ended = interrupted(
+      {"sweep", "study.toml", "--rung", "perturbation", "--step", "50 us", "--out", "out", "--jobs", "2"}, SIGINT);
   EXPECT_EQ(ended.status, 130) << ended.err;
   const auto summary = json("out/summary.json");
   EXPECT_TRUE(summary["interrupted"].get<bool>());
@@ -79,7 +80,9 @@ TEST_F(InterruptionTest, ASweepKeepsThePointsThatWereDone) {
   // What was done is what a sweep of these points alone gives, with the same step (a sweep takes one for all its points).
   const auto mass = [&](std::size_t k) { return "\"" + points[k]["parameters"]["payload.mass"].dump() + " kg\""; };
   write("values = [" + mass(done.front()) + ", " + mass(done.back()) + "]");
-  ASSERT_EQ(call({"sweep", "study.toml", "--rung", "perturbation", "--step", "50 us", "--out", "alone", "--quiet"}).status, 0);
+  ASSERT_EQ(
+      call({"sweep", "study.toml", "--rung", "perturbation", "--step", "50 us", "--out", "alone", "--quiet"}).status,
+      0);
   const auto alone = json("alone/summary.json")["points"];
   EXPECT_EQ(points[done.front()]["index"], alone[0]["index"]);
   EXPECT_EQ(points[done.back()]["index"], alone[1]["index"]);

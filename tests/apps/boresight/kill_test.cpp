@@ -34,7 +34,7 @@ struct Case {
   std::set<std::string> not_compared = {};  // tables with times in them
   std::set<int> statuses = {0};
   std::string mechanism = BORESIGHT_EXAMPLES "/3-rrcpr/3-rrcpr.toml", duration = "100ms";  // "": as the file says
-  std::set<std::string> measured = {};      // keys of the summary that hang on times without saying so
+  std::set<std::string> measured = {};  // keys of the summary that hang on times without saying so
   std::string name() const { return what.empty() ? verb : what; }
 };
 
@@ -56,8 +56,12 @@ std::vector<Case> cases() {
       {.verb = "check"},
       {.verb = "laws"},
       {.verb = "run", .options = {"--step-error", "off"}},
-      {.verb = "sweep", .study = "[[sweep.axis]]\nparameter = \"payload.mass\"\nfrom = \"0 kg\"\nto = \"100 kg\"\ncount = 4\n"},
-      {.verb = "montecarlo", .study = scatter + "[montecarlo]\nsamples = 600\nseed = 1\n", .options = {"--rung", "perturbation"}, .resumes = true},
+      {.verb = "sweep",
+       .study = "[[sweep.axis]]\nparameter = \"payload.mass\"\nfrom = \"0 kg\"\nto = \"100 kg\"\ncount = 4\n"},
+      {.verb = "montecarlo",
+       .study = scatter + "[montecarlo]\nsamples = 600\nseed = 1\n",
+       .options = {"--rung", "perturbation"},
+       .resumes = true},
       {.verb = "montecarlo",
        .study = scatter + "[montecarlo]\nsamples = 60\nseed = 1\n",
        .what = "pilot",
@@ -65,50 +69,65 @@ std::vector<Case> cases() {
        .resumes = true,
        .duration = "20ms"},
       {.verb = "montecarlo",
-       .study = scatter + "[montecarlo]\nseed = 1\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"1 s\", pilot = 12 }\n",
+       .study = scatter + "[montecarlo]\nseed = 1\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget "
+                          "= \"1 s\", pilot = 12 }\n",
        .what = "fidelities",
        .resumes = true,
        .not_compared = {"rungs.csv"},
        .duration = "20ms",
        .measured = {"gain"}},
       {.verb = "montecarlo",
-       .study = "[[random]]\nparameter = \"clearance.F1.radial\"\ndistribution = { uniform = { min = \"0.08 mm\", max = \"0.13 mm\" } }\n"
+       .study = "[[random]]\nparameter = \"clearance.F1.radial\"\ndistribution = { uniform = { min = \"0.08 mm\", max "
+                "= \"0.13 mm\" } }\n"
                 "[montecarlo]\nseed = 1\nrequirement = { limit = \"0.25 mm\", probability = 0.9, confidence = 0.9 }\n"
-                          "tail = { cheap = \"perturbation\", exact = \"quasistatic\", budget = \"0.3 s\", pilot = 10 }\n",
+                "tail = { cheap = \"perturbation\", exact = \"quasistatic\", budget = \"0.3 s\", pilot = 10 }\n",
        .what = "tail",
        .resumes = true,
        .statuses = {0, 1},
        .duration = "20ms"},
-      {.verb = "sensitivity", .study = scatter + "[sensitivity]\nsamples = 32\nseed = 1\ndesign = \"random\"\n", .options = {"--rung", "quasistatic"}, .resumes = true},
+      {.verb = "sensitivity",
+       .study = scatter + "[sensitivity]\nsamples = 32\nseed = 1\ndesign = \"random\"\n",
+       .options = {"--rung", "quasistatic"},
+       .resumes = true},
       {.verb = "match",
-       .study = "[match]\nminimise = \"index\"\nover = \"nominal\"\nevaluations = 8\nmap = 0\n[[match.variable]]\nparameter = \"payload.mass\"\n"
+       .study = "[match]\nminimise = \"index\"\nover = \"nominal\"\nevaluations = 8\nmap = "
+                "0\n[[match.variable]]\nparameter = \"payload.mass\"\n"
                 "from = \"0 kg\"\nto = \"100 kg\"\n",
        .options = {"--rung", "quasistatic"},
        .statuses = {0, 1}},
       {.verb = "match",
-       .study = "[match]\nminimise = \"index\"\nover = \"nominal\"\nevaluations = 8\nmap = 5\n[[match.variable]]\nparameter = \"payload.mass\"\n"
-                "from = \"0 kg\"\nto = \"100 kg\"\n[[match.variable]]\nparameter = \"clearance.F1.radial\"\nfrom = \"0.05 mm\"\nto = \"0.15 mm\"\n",
+       .study = "[match]\nminimise = \"index\"\nover = \"nominal\"\nevaluations = 8\nmap = "
+                "5\n[[match.variable]]\nparameter = \"payload.mass\"\n"
+                "from = \"0 kg\"\nto = \"100 kg\"\n[[match.variable]]\nparameter = \"clearance.F1.radial\"\nfrom = "
+                "\"0.05 mm\"\nto = \"0.15 mm\"\n",
        .what = "map",
        .options = {"--rung", "quasistatic"},
        .statuses = {0, 1}},
       {.verb = "allocate",
-       .study = "[allocate]\nrequirement = { limit = \"0.5 mm\", probability = 0.9, confidence = 0.9 }\nsamples = 200\nconfirm = 40\nseed = 1\n"
-                "fits = [ { fit = \"20 H9/d9\", price = 4 }, { fit = \"20 H7/g6\", price = 12 } ]\n[[allocate.joint]]\nparameter = \"clearance.F1.radial\"\n",
+       .study = "[allocate]\nrequirement = { limit = \"0.5 mm\", probability = 0.9, confidence = 0.9 }\nsamples = "
+                "200\nconfirm = 40\nseed = 1\n"
+                "fits = [ { fit = \"20 H9/d9\", price = 4 }, { fit = \"20 H7/g6\", price = 12 } "
+                "]\n[[allocate.joint]]\nparameter = \"clearance.F1.radial\"\n",
        .options = {"--rung", "quasistatic"},
        .statuses = {0, 1}},
       {.verb = "budget",
-       .study = scatter + "[budget]\nmembers = 40\nattribution = 8\nseed = 1\nsampling = \"1 ms\"\nwindow = \"10 ms\"\n",
+       .study =
+           scatter + "[budget]\nmembers = 40\nattribution = 8\nseed = 1\nsampling = \"1 ms\"\nwindow = \"10 ms\"\n",
        .options = {"--rung", "quasistatic"},
        .resumes = true,
        .statuses = {0, 1}},
       {.verb = "calibrate",
-       .study = "[calibrate]\nstarts = 1\ncorrections = 0\nprofile = false\n[[calibrate.parameter]]\npath = \"clearance.D.radial\"\nstart = \"0.24 mm\"\n"
-                "[[calibrate.run]]\ndata = \"" BORESIGHT_EXAMPLES "/calibration/slow.csv\"\nset = [\"motion.drives.A=2*pi*2*t\"]\n",
+       .study = "[calibrate]\nstarts = 1\ncorrections = 0\nprofile = false\n[[calibrate.parameter]]\npath = "
+                "\"clearance.D.radial\"\nstart = \"0.24 mm\"\n"
+                "[[calibrate.run]]\ndata = \"" BORESIGHT_EXAMPLES
+                "/calibration/slow.csv\"\nset = [\"motion.drives.A=2*pi*2*t\"]\n",
        .mechanism = BORESIGHT_EXAMPLES "/calibration/rig.toml",
        .duration = ""},
       {.verb = "calibrate",
-       .study = "[calibrate]\nstarts = 2\ncorrections = 1\nlaws = [\"flores\", \"hertz\"]\n[[calibrate.parameter]]\npath = \"clearance.D.radial\"\nstart = \"0.24 mm\"\n"
-                "[[calibrate.run]]\ndata = \"" BORESIGHT_EXAMPLES "/calibration/slow.csv\"\nset = [\"motion.drives.A=2*pi*2*t\"]\n",
+       .study = "[calibrate]\nstarts = 2\ncorrections = 1\nlaws = [\"flores\", "
+                "\"hertz\"]\n[[calibrate.parameter]]\npath = \"clearance.D.radial\"\nstart = \"0.24 mm\"\n"
+                "[[calibrate.run]]\ndata = \"" BORESIGHT_EXAMPLES
+                "/calibration/slow.csv\"\nset = [\"motion.drives.A=2*pi*2*t\"]\n",
        .what = "posterior",
        .mechanism = BORESIGHT_EXAMPLES "/calibration/rig.toml",
        .duration = ""},
@@ -139,7 +158,8 @@ class KillTest : public Program, public testing::WithParamInterface<Case> {
  protected:
   std::vector<std::string> arguments(const std::string& out) const {
     const Case& c = GetParam();
-    std::vector<std::string> words = {c.verb, c.study.empty() ? c.mechanism : "study.toml", "--jobs", "1", "--quiet", "--out", out};
+    std::vector<std::string> words = {
+        c.verb, c.study.empty() ? c.mechanism : "study.toml", "--jobs", "1", "--quiet", "--out", out};
     if (!c.duration.empty()) words.insert(words.end(), {"--set", "motion.duration=" + c.duration});
     words.insert(words.end(), c.options.begin(), c.options.end());
     if (c.resumes) words.push_back("--resume");
@@ -152,7 +172,8 @@ class KillTest : public Program, public testing::WithParamInterface<Case> {
     nlohmann::json summary;
     ASSERT_NO_THROW(summary = json(out + "/summary.json"));
     if (!summary.contains("files")) return;
-    for (const auto& name : summary["files"]) EXPECT_TRUE(std::filesystem::exists(folder_ / out / name.get<std::string>())) << name;
+    for (const auto& name : summary["files"])
+      EXPECT_TRUE(std::filesystem::exists(folder_ / out / name.get<std::string>())) << name;
   }
 
   // What is in killed/ against what is in whole/, but for times.
@@ -163,9 +184,11 @@ class KillTest : public Program, public testing::WithParamInterface<Case> {
       if (name.ends_with(".csv") && !c.not_compared.contains(name)) {
         EXPECT_EQ(text("killed/" + name), text("whole/" + name)) << name;
       }
-    auto mine = without_times(json("killed/summary.json"), c.measured), theirs = without_times(json("whole/summary.json"), c.measured);
+    auto mine = without_times(json("killed/summary.json"), c.measured),
+         theirs = without_times(json("whole/summary.json"), c.measured);
     if (c.verb != "chart") {
-      for (const char* key : {"evaluations", "evaluations_reused", "reused"}) mine.erase(key), theirs.erase(key);  // what was known already is not computed again
+      for (const char* key : {"evaluations", "evaluations_reused", "reused"})
+        mine.erase(key), theirs.erase(key);  // what was known already is not computed again
       EXPECT_EQ(mine, theirs) << nlohmann::json::diff(theirs, mine).dump(1);
     }
     if (c.name() == "montecarlo") {
@@ -178,14 +201,17 @@ class KillTest : public Program, public testing::WithParamInterface<Case> {
 
 TEST_P(KillTest, LeavesAWholeResultOrNoneAndTheEndIsThatOfAnUninterruptedOne) {
   const Case& c = GetParam();
-  if (!c.study.empty()) std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << c.mechanism << "\"\n" << c.study;
+  if (!c.study.empty())
+    std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << c.mechanism << "\"\n" << c.study;
   const auto begin = Clock::now();
   const Ended whole = call(arguments("whole"));
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   ASSERT_TRUE(c.statuses.contains(whole.status)) << whole.status << whole.err;
 
   std::mt19937_64 random(std::hash<std::string>{}(c.name()));
-  const auto a_while = [&] { return static_cast<useconds_t>(1e6 * seconds * std::uniform_real_distribution<double>(0.0, 1.05)(random)); };
+  const auto a_while = [&] {
+    return static_cast<useconds_t>(1e6 * seconds * std::uniform_real_distribution<double>(0.0, 1.05)(random));
+  };
   int killed = 0, pairs = 0, refused = 0, ends = 0;
   for (int round = 0; killed < kills_of_each() && round < 3 * kills_of_each(); ++round) {
     const bool two = round % 3 == 2;
@@ -200,7 +226,8 @@ TEST_P(KillTest, LeavesAWholeResultOrNoneAndTheEndIsThatOfAnUninterruptedOne) {
       killed += status == 128 + SIGKILL;
       ended = ended || c.statuses.contains(status);
       refusals += status == 2;
-      EXPECT_TRUE(status == 128 + SIGKILL || c.statuses.contains(status) || (two && status == 2)) << "blocked: " << status << text("stderr");
+      EXPECT_TRUE(status == 128 + SIGKILL || c.statuses.contains(status) || (two && status == 2))
+          << "blocked: " << status << text("stderr");
     }
     EXPECT_LE(refusals, 1) << "one of two may have the folder";
     pairs += two;
@@ -216,8 +243,9 @@ TEST_P(KillTest, LeavesAWholeResultOrNoneAndTheEndIsThatOfAnUninterruptedOne) {
   const Ended last = call(arguments("killed"));
   EXPECT_EQ(last.status, whole.status) << last.err;
   expect_as_uninterrupted();
-  std::printf("%s: %d kills; %d times two at once, one refused %d times; %d ends as an uninterrupted one; %.2f s a run\n", c.name().c_str(), killed, pairs,
-              refused, ends + 1, seconds);
+  std::printf(
+      "%s: %d kills; %d times two at once, one refused %d times; %d ends as an uninterrupted one; %.2f s a run\n",
+      c.name().c_str(), killed, pairs, refused, ends + 1, seconds);
 }
 
 // Verbs that read or make folders instead: the same, with folders of their own.
@@ -250,8 +278,12 @@ class LongExportKillTest : public ShortKillTest {
 };
 
 TEST_F(LongExportKillTest, LeavesAllSamplesInTheTableOrNoTable) {
-  std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << mechanism_ << "\"\n" << kScatter << "[montecarlo]\nsamples = 3000\nseed = 1\n";
-  ASSERT_EQ(call({"montecarlo", "study.toml", "--rung", "quasistatic", "--set", "motion.duration=5ms", "--out", "out", "--quiet"}).status, 0);
+  std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << mechanism_ << "\"\n"
+                                        << kScatter << "[montecarlo]\nsamples = 3000\nseed = 1\n";
+  ASSERT_EQ(call({"montecarlo", "study.toml", "--rung", "quasistatic", "--set", "motion.duration=5ms", "--out", "out",
+                  "--quiet"})
+                .status,
+            0);
   ASSERT_EQ(call({"export", "out", "--quiet"}).status, 0);
   const std::string whole = text("out/samples.csv");
   const auto files_of_study = files("out");
@@ -282,7 +314,8 @@ TEST_F(LongNewKillTest, LeavesWholeFilesAndTheNextStartCompletesThem) {
       if (std::filesystem::exists(folder_ / "antenna" / name)) {
         EXPECT_EQ(text("antenna/" + name), text("whole/" + name)) << name;
       }
-    if (files("antenna").size() == 1) {  // cut short between the two: the moment that is hard to meet, and played here below
+    if (files("antenna").size() ==
+        1) {  // cut short between the two: the moment that is hard to meet, and played here below
       EXPECT_EQ(call({"new", "antenna"}).status, 0);
     }
   });

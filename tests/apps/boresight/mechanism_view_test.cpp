@@ -1,6 +1,6 @@
 // The report's view shows what the run found: joints stay closed but for their clearance, and the boresight
 // is where it was.
-#include "mechanism_view.hpp"
+#include "report_parts/mechanism_view.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "boresight/io/mechanism_file.hpp"
-#include "boresight/rungs/rung.hpp"
+#include "boresight/ladder/ladder.hpp"
 #include "report/contract.hpp"
 
 namespace boresight::app {
@@ -29,12 +29,8 @@ RunResult run_with_frames(const std::shared_ptr<const Mechanism>& mechanism) {
 double along(const report::Numbers& track, std::size_t i) {
   return track.empty() ? 0.0 : track[track.size() == 1 ? 0 : i];
 }
-Vec3 ideal(const report::ViewPoint& p, std::size_t i) {
-  return {along(p.x, i), along(p.y, i), along(p.z, i)};
-}
-Vec3 deviation(const report::ViewPoint& p, std::size_t i) {
-  return {along(p.dx, i), along(p.dy, i), along(p.dz, i)};
-}
+Vec3 ideal(const report::ViewPoint& p, std::size_t i) { return {along(p.x, i), along(p.y, i), along(p.z, i)}; }
+Vec3 deviation(const report::ViewPoint& p, std::size_t i) { return {along(p.dx, i), along(p.dy, i), along(p.dz, i)}; }
 
 TEST(MechanismView, KeepsJointsClosedButForTheirClearance) {
   const auto mechanism = example("3-rrcpr/3-rrcpr.toml");
@@ -55,8 +51,7 @@ TEST(MechanismView, KeepsJointsClosedButForTheirClearance) {
       if (c >= 0) {
         EXPECT_NEAR(apart.norm(), 1e3 * result.clearances[c][result.frames[i].sample].offset.norm(), 1e-9)
             << joint.name;
-      } else if (type != JointType::prismatic && type != JointType::cylindrical &&
-                 type != JointType::planar) {
+      } else if (type != JointType::prismatic && type != JointType::cylindrical && type != JointType::planar) {
         EXPECT_LT((ideal(second, i) - ideal(first, i)).norm(), 1e-6) << joint.name;
         EXPECT_LT(apart.norm(), 1e-6) << joint.name;
       }
@@ -80,13 +75,12 @@ TEST(MechanismView, PointsWhereTheBodyPoints) {
 }
 
 TEST(MechanismView, OfEveryExampleKeepsTheReportSmall) {
-  for (const char* file : {"3-rrcpr/3-rrcpr.toml", "2-us-pointing/2-us-pointing.toml",
-                           "pendulum/pendulum.toml", "bricard/bricard.toml"}) {
+  for (const char* file :
+       {"3-rrcpr/3-rrcpr.toml", "2-us-pointing/2-us-pointing.toml", "pendulum/pendulum.toml", "bricard/bricard.toml"}) {
     const auto mechanism = example(file);
     const report::View view = mechanism_view(*mechanism, run_with_frames(mechanism));
     const nlohmann::json document = {
-        {"title", "T"},
-        {"sections", {{{"id", "s"}, {"title", "S"}, {"items", nlohmann::json::array({view})}}}}};
+        {"title", "T"}, {"sections", {{{"id", "s"}, {"title", "S"}, {"items", nlohmann::json::array({view})}}}}};
     EXPECT_NO_THROW(report::check(document)) << file;
     EXPECT_LT(report::rounded(document).dump().size(), 1'000'000u) << file;
     EXPECT_GE(view.time.size(), 40u) << file;

@@ -125,16 +125,17 @@ TEST_F(MonteCarloProgram, ContinuedWithMoreSamplesItGivesTheTableOfOneRun) {
   EXPECT_EQ(csv_of("more.toml", "out", {"--resume"}), csv_of("more.toml", "once"));
 }
 
-TEST_F(MonteCarloProgram, SamplesAreNeverOverwritten) {
-  csv_of("study.toml", "out");
-  Ended again = call(quick("study.toml", "out"));
-  EXPECT_EQ(again.status, 2);
-  EXPECT_THAT(again.err, AllOf(HasSubstr("--resume"), HasSubstr("--out")));
-  EXPECT_TRUE(is_one_line(again.err));
+TEST_F(MonteCarloProgram, TheSameCommandGoesOnAndAnotherStudyIsLeftAlone) {
+  const std::string table = csv_of("study.toml", "out");
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--resume"}}) {
+    std::filesystem::remove(folder_ / "out/samples.csv");
+    EXPECT_EQ(csv_of("study.toml", "out", more), table);
+  }
   study("other.toml", 400, "seed = 2");
-  again = call(quick("other.toml", "out", {"--resume"}));
+  const Ended again = call(quick("other.toml", "out"));
   EXPECT_EQ(again.status, 2);
-  EXPECT_THAT(again.err, HasSubstr("another study"));
+  EXPECT_THAT(again.err, AllOf(HasSubstr("another study"), HasSubstr("--out")));
+  EXPECT_TRUE(is_one_line(again.err));
   EXPECT_EQ(call({"export", "nothing"}).status, 2);
 }
 
@@ -149,8 +150,8 @@ double value_of_sample_7(const std::string& csv) {
 
 TEST_F(MonteCarloProgram, ASampleIsReplayedToTheSameBitsWhereAllTakeOneStep) {
   const double stored = value_of_sample_7(csv_of("study.toml", "out", {"--step", "50 us"}));
-  const Ended ended = call({"run", "study.toml", "--set", "motion.duration=20ms", "--rung", "perturbation", "--step", "50 us",
-                            "--sample-number", "7", "--out", "seven"});
+  const Ended ended = call({"run", "study.toml", "--set", "motion.duration=20ms", "--rung", "perturbation", "--step",
+                            "50 us", "--sample-number", "7", "--out", "seven"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(json("seven/summary.json")["index"]["position_error"]["max"].get<double>(), stored);
   EXPECT_EQ(call({"run", "study.toml", "--sample-number", "-1"}).status, 2);
@@ -161,8 +162,8 @@ TEST_F(MonteCarloProgram, ASampleIsReplayedToTheSameBitsWhereAllTakeOneStep) {
 TEST_F(MonteCarloProgram, ASampleOfLanesIsReplayedWithinItsStatedError) {
   const double stored = value_of_sample_7(csv_of("study.toml", "out"));
   EXPECT_THAT(json("out/summary.json")["replay"], HasSubstr("--integrator rosenbrock"));
-  const Ended ended = call({"run", "study.toml", "--set", "motion.duration=20ms", "--rung", "perturbation", "--integrator",
-                            "rosenbrock", "--sample-number", "7", "--out", "seven"});
+  const Ended ended = call({"run", "study.toml", "--set", "motion.duration=20ms", "--rung", "perturbation",
+                            "--integrator", "rosenbrock", "--sample-number", "7", "--out", "seven"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_NEAR(json("seven/summary.json")["index"]["position_error"]["max"].get<double>(), stored, 5e-3 * stored);
 }
@@ -170,13 +171,15 @@ TEST_F(MonteCarloProgram, ASampleOfLanesIsReplayedWithinItsStatedError) {
 // One step for all samples, the mean of what error control took in a pilot, is far too long for a contact.
 TEST_F(MonteCarloProgram, WithAnIntegratorASampleIsTheRunOfItsNumber) {
   study("few.toml", 9);
-  const double stored = value_of_sample_7(csv_of("few.toml", "out", {"--integrator", "rosenbrock", "--tolerance", "1e-4"}));
+  const double stored =
+      value_of_sample_7(csv_of("few.toml", "out", {"--integrator", "rosenbrock", "--tolerance", "1e-4"}));
   const nlohmann::json summary = json("out/summary.json");
   EXPECT_EQ(summary["failed"], 0);
   EXPECT_EQ(summary["step"], 0.0);
   EXPECT_THAT(summary["replay"], HasSubstr("--integrator rosenbrock --tolerance 1e-4"));
-  const Ended ended = call({"run", "few.toml", "--set", "motion.duration=20ms", "--rung", "perturbation", "--integrator",
-                            "rosenbrock", "--tolerance", "1e-4", "--sample-number", "7", "--out", "seven"});
+  const Ended ended =
+      call({"run", "few.toml", "--set", "motion.duration=20ms", "--rung", "perturbation", "--integrator", "rosenbrock",
+            "--tolerance", "1e-4", "--sample-number", "7", "--out", "seven"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(json("seven/summary.json")["index"]["position_error"]["max"].get<double>(), stored);
   // Neither resumed with another tolerance nor with another integrator.
@@ -190,7 +193,8 @@ TEST_F(MonteCarloProgram, AStudyThatFailsSaysWhyOnTheTerminalInTheSummaryAndInTh
   arguments.erase(std::find(arguments.begin(), arguments.end(), "--quiet"));
   const Ended ended = call(arguments);
   EXPECT_EQ(ended.status, 3);
-  EXPECT_THAT(ended.out, AllOf(HasSubstr("4 of 4 samples failed"), HasSubstr("the first of them, sample 0: step too large")));
+  EXPECT_THAT(ended.out,
+              AllOf(HasSubstr("4 of 4 samples failed"), HasSubstr("the first of them, sample 0: step too large")));
   const nlohmann::json summary = json("out/summary.json");
   EXPECT_EQ(summary["first_failure"]["sample"], 0);
   EXPECT_THAT(summary["first_failure"]["reason"].get<std::string>(), HasSubstr("step too large"));
@@ -198,7 +202,8 @@ TEST_F(MonteCarloProgram, AStudyThatFailsSaysWhyOnTheTerminalInTheSummaryAndInTh
 }
 
 TEST_F(MonteCarloProgram, WhatEverySampleWouldRefuseIsRefusedAtTheStart) {
-  const Ended ended = call(quick("study.toml", "out", {"--set", "clearance.F1.friction.law=lugre", "--integrator", "dopri5"}));
+  const Ended ended =
+      call(quick("study.toml", "out", {"--set", "clearance.F1.friction.law=lugre", "--integrator", "dopri5"}));
   EXPECT_EQ(ended.status, 2);
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
   EXPECT_THAT(ended.err, AllOf(HasSubstr("--integrator: found \"dopri5\""), HasSubstr("LuGre")));
@@ -235,7 +240,9 @@ TEST_F(MonteCarloProgram, LookingAgainWithMoreSamplesIsJudgedByTheRiskThatWasLef
 
 TEST_F(MonteCarloProgram, AnAccuracyThatThePilotDidNotReachIsStatusOneAlsoWhenResumed) {
   study("rough.toml", 8);
-  const std::vector<std::string> arguments = {"montecarlo", "rough.toml", "--set", "motion.duration=20ms", "--accuracy", "0.0001 %", "--out", "out", "--quiet", "--resume"};
+  const std::vector<std::string> arguments = {"montecarlo", "rough.toml", "--set", "motion.duration=20ms",
+                                              "--accuracy", "0.0001 %",   "--out", "out",
+                                              "--quiet",    "--resume"};
   EXPECT_EQ(call(arguments).status, 1);
   const auto first = json("out/summary.json");
   ASSERT_TRUE(first.contains("pilot"));
@@ -246,7 +253,9 @@ TEST_F(MonteCarloProgram, AnAccuracyThatThePilotDidNotReachIsStatusOneAlsoWhenRe
 
 TEST_F(MonteCarloProgram, InterruptedWhileItsStepsAreMeasuredItHasItsSamplesAndTheirTable) {
   study("few.toml", 8);
-  const std::vector<std::string> arguments = {"montecarlo", "few.toml", "--set", "motion.duration=60s", "--rung", "perturbation", "--out", "out", "--resume", "--jobs", "1"};
+  const std::vector<std::string> arguments = {"montecarlo", "few.toml",     "--set", "motion.duration=60s",
+                                              "--rung",     "perturbation", "--out", "out",
+                                              "--resume",   "--jobs",       "1"};
   const pid_t child = start(arguments);
   for (int k = 0; k < 60'000 && text("stderr").find("runs that measure what the steps do") == std::string::npos; ++k)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -265,7 +274,7 @@ TEST_F(MonteCarloProgram, AFullDiskIsOneLineAndLeavesTheStoreIntact) {
   const Ended ended = wait_for(start(quick("long.toml", "out"), 200'000));
   EXPECT_EQ(ended.status, 3) << ended.err;
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
-  EXPECT_THAT(ended.err, AllOf(HasSubstr("samples.db"), HasSubstr("--resume")));
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("samples.db"), HasSubstr("the same command goes on")));
   study("long.toml", 100);
   EXPECT_EQ(csv_of("long.toml", "out", {"--resume"}).substr(0, 2000), csv_of("long.toml", "fresh").substr(0, 2000));
 }
@@ -305,7 +314,8 @@ TEST_F(MonteCarloProgram, ADiskThatFillsAtAnyByteIsOneLineAndCostsNoSampleThatWa
   const std::string whole = csv_of("study.toml", "whole");
   std::uintmax_t result = 0;
   for (const std::string& name : files("whole")) result += std::filesystem::file_size(folder_ / "whole" / name);
-  for (const std::uintmax_t room : {std::uintmax_t{0}, std::uintmax_t{3000}, std::uintmax_t{40'000}, result / 4, result / 2}) {
+  for (const std::uintmax_t room :
+       {std::uintmax_t{0}, std::uintmax_t{3000}, std::uintmax_t{40'000}, result / 4, result / 2}) {
     SCOPED_TRACE("room for " + std::to_string(room) + " bytes");
     std::filesystem::remove_all(folder_ / "disk");
     std::filesystem::create_directory(folder_ / "disk");
@@ -400,10 +410,10 @@ TEST_F(MonteCarloRanks, ARankThatIsKilledCostsOnlyWhatItHadNotStored) {
   const std::string whole = csv_of("long.toml", "whole");
   // The shell of rank 1 kills its program from outside once samples are being stored.
   const std::string script = (folder_ / "rank.sh").string();
-  std::ofstream(script) << "if [ \"$OMPI_COMM_WORLD_RANK\" = 1 ]; then '" BORESIGHT_PROGRAM
-                           "' \"$@\" & child=$!; for k in $(seq 200); do ls out/*.db > /dev/null 2>&1 && break; sleep 0.05; done; "
-                           "sleep 0.2; kill -9 $child; wait $child; else exec '" BORESIGHT_PROGRAM
-                           "' \"$@\"; fi\n";
+  std::ofstream(script)
+      << "if [ \"$OMPI_COMM_WORLD_RANK\" = 1 ]; then '" BORESIGHT_PROGRAM
+         "' \"$@\" & child=$!; for k in $(seq 200); do ls out/*.db > /dev/null 2>&1 && break; sleep 0.05; done; "
+         "sleep 0.2; kill -9 $child; wait $child; else exec '" BORESIGHT_PROGRAM "' \"$@\"; fi\n";
   std::string command = "cd '" + folder_.string() +
                         "' && OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 '" BORESIGHT_MPIEXEC
                         "' --oversubscribe -np 2 bash rank.sh";

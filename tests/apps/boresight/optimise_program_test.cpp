@@ -23,8 +23,7 @@ class OptimiseProgram : public Program {
               const std::vector<std::string>& more = {}) const {
     return call(arguments(verb, study, out, more));
   }
-  static std::vector<std::string> arguments(const std::string& verb, const std::string& study,
-                                            const std::string& out,
+  static std::vector<std::string> arguments(const std::string& verb, const std::string& study, const std::string& out,
                                             const std::vector<std::string>& more = {}) {
     std::vector<std::string> all = {verb, study, "--set", "motion.duration=20ms", "--out", out, "--quiet"};
     all.insert(all.end(), more.begin(), more.end());
@@ -177,7 +176,8 @@ TEST_F(OptimiseProgram, MistakesAreOneLineWithTheNearestName) {
 
 // The journal of F1 is 20 mm thick; whether a joint has fits of its own or those of all joints.
 TEST_F(OptimiseProgram, FitsOfAnotherSizeThanTheJointAreRefused) {
-  const std::string own = allocate("0.1 mm", "fits = [{ fit = \"20 H8/f7\", price = 1 }, { fit = \"30 H8/f7\", price = 1 }]\n");
+  const std::string own =
+      allocate("0.1 mm", "fits = [{ fit = \"20 H8/f7\", price = 1 }, { fit = \"30 H8/f7\", price = 1 }]\n");
   std::string common = allocate("0.1 mm", "");
   common.insert(common.find("[[allocate.joint]]"), "fits = [{ fit = \"30 H8/f7\", price = 1 }]\n");
   for (const auto& [study, key] : {std::pair{own, "fit"}, std::pair{common, "parameter"}}) {
@@ -185,8 +185,9 @@ TEST_F(OptimiseProgram, FitsOfAnotherSizeThanTheJointAreRefused) {
     const Ended ended = quick("allocate", "study.toml", "out");
     EXPECT_EQ(ended.status, 2);
     EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
-    EXPECT_THAT(ended.err, AllOf(HasSubstr("study.toml:"), HasSubstr(key), HasSubstr("\"30 H8/f7\" of nominal size 30 mm"),
-                                 HasSubstr("expected a fit of nominal size 20 mm")));
+    EXPECT_THAT(ended.err,
+                AllOf(HasSubstr("study.toml:"), HasSubstr(key), HasSubstr("\"30 H8/f7\" of nominal size 30 mm"),
+                      HasSubstr("expected a fit of nominal size 20 mm")));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "output_directory.hpp"
+#include "results/output_directory.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -44,8 +44,7 @@ class OutputDirectoryTest : public testing::Test {
   }
 
   fs::path root_;
-  const Json mine_ = {{"verb", "run"}, {"mechanism", "abc"}},
-             other_ = {{"verb", "run"}, {"mechanism", "def"}};
+  const Json mine_ = {{"verb", "run"}, {"mechanism", "abc"}}, other_ = {{"verb", "run"}, {"mechanism", "def"}};
 };
 
 TEST_F(OutputDirectoryTest, TheSameStudyMayBeRunAgain) {
@@ -162,7 +161,8 @@ TEST_F(OutputDirectoryTest, AKillAmidTheMovesIsCompletedByTheNextThatOpens) {
   std::ofstream(root_ / "out" / "a.csv") << "new";
   std::ofstream(root_ / "out" / ".written" / "b.csv") << "new";
   std::ofstream(root_ / "out" / ".written" / "summary.json") << Json({{"identity", mine_}});
-  EXPECT_THROW(OutputDirectory::open(root_ / "out", "run", "m.toml", other_), OutputDirectoryError) << "it is another study's";
+  EXPECT_THROW(OutputDirectory::open(root_ / "out", "run", "m.toml", other_), OutputDirectoryError)
+      << "it is another study's";
   EXPECT_THAT(names_in(root_ / "out"), testing::ElementsAre("a.csv", "b.csv", "summary.json"));
   EXPECT_NO_THROW(OutputDirectory::open(root_ / "out", "run", "m.toml", mine_));
 }
@@ -205,8 +205,7 @@ TEST_F(OutputDirectoryTest, ADirectoryThatWentAwayIsAWriteError) {
     out.write("a.csv", [](std::ostream& s) { s << "x"; });
     FAIL();
   } catch (const WriteError& error) {
-    EXPECT_THAT(error.what(),
-                testing::AllOf(testing::HasSubstr("a.csv"), testing::HasSubstr("No such file")));
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("a.csv"), testing::HasSubstr("No such file")));
   }
 }
 

@@ -69,7 +69,8 @@ F next(const char* name) {
 // How many of the bytes [begin, begin + size) of a file there is room for; what the file already holds needs none.
 size_t granted(int descriptor, long long begin, size_t size) {
   struct stat now;
-  if (!has_an_end() || ::fstat(descriptor, &now) != 0 || !S_ISREG(now.st_mode) || !is_within(path_of(descriptor))) return size;
+  if (!has_an_end() || ::fstat(descriptor, &now) != 0 || !S_ISREG(now.st_mode) || !is_within(path_of(descriptor)))
+    return size;
   const long long end = begin + static_cast<long long>(size), grows = end - (now.st_size > begin ? now.st_size : begin);
   if (grows <= 0) return size;
   long long left = room().load();
@@ -122,8 +123,12 @@ ssize_t write(int descriptor, const void* bytes, size_t size) {
   if (is_full(some, size)) return -1;
   return next<ssize_t (*)(int, const void*, size_t)>("write")(descriptor, bytes, some);
 }
-ssize_t pwrite(int descriptor, const void* bytes, size_t size, off_t place) { return written_at("pwrite", descriptor, bytes, size, place); }
-ssize_t pwrite64(int descriptor, const void* bytes, size_t size, off_t place) { return written_at("pwrite64", descriptor, bytes, size, place); }
+ssize_t pwrite(int descriptor, const void* bytes, size_t size, off_t place) {
+  return written_at("pwrite", descriptor, bytes, size, place);
+}
+ssize_t pwrite64(int descriptor, const void* bytes, size_t size, off_t place) {
+  return written_at("pwrite64", descriptor, bytes, size, place);
+}
 ssize_t writev(int descriptor, const struct iovec* parts, int count) {
   if (!has_an_end()) return next<ssize_t (*)(int, const struct iovec*, int)>("writev")(descriptor, parts, count);
   ssize_t sum = 0;

@@ -22,9 +22,7 @@ class ProgramTest : public Program {
     EXPECT_EQ(ended.out, "");
     EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));
   }
-  void write(const std::string& name, const std::string& content) const {
-    std::ofstream(folder_ / name) << content;
-  }
+  void write(const std::string& name, const std::string& content) const { std::ofstream(folder_ / name) << content; }
   // A motion of 50 ms, so that tests are quick.
   std::vector<std::string> quick(std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments = {"run", mechanism_, "--set", "motion.duration=50ms", "--out", "out"};
@@ -39,8 +37,7 @@ TEST_F(ProgramTest, HelpAndVersion) {
   for (const char* verb : {"check", "run", "sweep", "chart", "stability"}) {
     const Ended ended = call({verb, "--help"});
     EXPECT_EQ(ended.status, 0);
-    EXPECT_THAT(ended.out,
-                AllOf(HasSubstr("Example:"), HasSubstr("--set"), HasSubstr("--out"), HasSubstr("--quiet")));
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("Example:"), HasSubstr("--set"), HasSubstr("--out"), HasSubstr("--quiet")));
   }
 }
 
@@ -50,8 +47,7 @@ TEST_F(ProgramTest, BadInputIsOneLineAndStatusTwo) {
   expect_refused({"run"}, "FILE");
   expect_refused({"run", "nothing.toml"}, "nothing.toml");
   expect_refused({"run", mechanism_, "--colour"}, "--colour");
-  expect_refused({"run", mechanism_, "--set", "clearance.F1.radiall=1mm"},
-                 "did you mean clearance.F1.radial?");
+  expect_refused({"run", mechanism_, "--set", "clearance.F1.radiall=1mm"}, "did you mean clearance.F1.radial?");
   expect_refused({"run", mechanism_, "--set", "clearance.F1.radial"}, "PATH=VALUE");
   expect_refused({"run", mechanism_, "--set", "clearance.F1.radial=3kg"}, "clearance.F1.radial");
   expect_refused({"run", mechanism_, "--step", "1 mm"}, "--step");
@@ -68,7 +64,19 @@ TEST_F(ProgramTest, BadInputIsOneLineAndStatusTwo) {
   expect_refused({"sweep", mechanism_}, "expected a study file");
   expect_refused({"chart", mechanism_, "--index", "position_error.biggest"}, "--index");
   expect_refused({"chart", mechanism_, "--time", "3 kg"}, "--time");
-  expect_refused({"stability", mechanism_, "--rung", "multybody"}, "did you mean multibody?");
+}
+
+TEST_F(ProgramTest, AnOptionThatAVerbHasNoUseForIsRefusedByItsName) {
+  expect_refused({"stability", mechanism_, "--rung", "multibody"}, "--rung is not an option of stability, but of run");
+  expect_refused({"check", mechanism_, "--accuracy", "1 %", "--quiet"}, "--accuracy is not an option of check");
+  expect_refused({"chart", mechanism_, "--rung", "multibody"}, "--rung is not an option of chart");
+  expect_refused({"laws", mechanism_, "--accuracy=1 %"}, "--accuracy is not an option of laws");
+  expect_refused({"calibrate", mechanism_, "--rung", "auto"}, "--rung is not an option of calibrate");
+  expect_refused({"export", ".", "--set", "payload.mass=1kg"}, "--set is not an option of export");
+  expect_refused({"new", "antenna", "--out", "there"}, "--out is not an option of new");
+  expect_refused({"run", mechanism_, "--resum"}, "--resum is not an option of run");
+  expect_refused({"montecarlo", mechanism_, "--resum"}, "did you mean --resume?");
+  expect_refused({"run", mechanism_, "another.toml"}, "found \"another.toml\", expected no further argument");
 }
 
 TEST_F(ProgramTest, AnUnknownFormulationIsBadInput) {
@@ -85,17 +93,15 @@ TEST_F(ProgramTest, ARunLeavesWhatTheInterfacePromises) {
   EXPECT_THAT(files("out"), ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
   EXPECT_THAT(text("out/report.html"), AllOf(HasSubstr("\"kind\":\"view\""), HasSubstr("boresight of ")));
   const auto summary = json("out/summary.json");
-  for (const char* key : {"verb", "mechanism", "version", "rung", "seed", "cpu_seconds", "wall_seconds",
-                          "warnings", "index", "contact", "platform_acceleration_max", "constraint_drift"})
+  for (const char* key : {"verb", "mechanism", "version", "rung", "seed", "cpu_seconds", "wall_seconds", "warnings",
+                          "index", "contact", "platform_acceleration_max", "constraint_drift"})
     EXPECT_TRUE(summary.contains(key)) << key;
   EXPECT_EQ(summary["verb"], "run");
   EXPECT_FALSE(summary["interrupted"].get<bool>());
-  for (const char* quantity :
-       {"position_error", "orientation_error", "boresight_error", "line_of_sight_error"})
+  for (const char* quantity : {"position_error", "orientation_error", "boresight_error", "line_of_sight_error"})
     for (const char* statistic : {"max", "rms", "mean", "p99.73"})
       EXPECT_TRUE(summary["index"][quantity][statistic].is_number()) << quantity;
-  for (const char* key :
-       {"contact_fraction", "impacts", "max_penetration", "max_force", "impact_speed_above_validity"})
+  for (const char* key : {"contact_fraction", "impacts", "max_penetration", "max_force", "impact_speed_above_validity"})
     EXPECT_TRUE(summary["contact"]["F1"][key].is_number()) << key;
   EXPECT_GT(summary["index"]["position_error"]["max"].get<double>(), 1e-5);
   const std::string table = text("out/timeseries.csv");
@@ -120,9 +126,11 @@ TEST_F(ProgramTest, QuietSaysNothing) {
 }
 
 TEST_F(ProgramTest, QuietStillSaysWhyPointsFailed) {
-  write("sweep.toml", "format = 1\nmechanism = \"" + mechanism_ +
-                          "\"\n[sweep]\n[[sweep.axis]]\nparameter = \"clearance.F1.radial\"\nvalues = [\"0.1 mm\", \"0.2 mm\"]\n");
-  const Ended ended = call({"sweep", "sweep.toml", "--quiet", "--rung", "multibody", "--step", "1 ms", "--set", "motion.duration=200ms"});
+  write("sweep.toml",
+        "format = 1\nmechanism = \"" + mechanism_ +
+            "\"\n[sweep]\n[[sweep.axis]]\nparameter = \"clearance.F1.radial\"\nvalues = [\"0.1 mm\", \"0.2 mm\"]\n");
+  const Ended ended = call(
+      {"sweep", "sweep.toml", "--quiet", "--rung", "multibody", "--step", "1 ms", "--set", "motion.duration=200ms"});
   EXPECT_EQ(ended.status, 3);
   EXPECT_EQ(ended.out, "");
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
@@ -159,8 +167,7 @@ TEST_F(ProgramTest, CheckNamesTheLostMotionOfASingularMechanismAndAnswersNo) {
   };
   replace("axis = [0.816496580927726, 0, -0.5773502691896258]", "axis = [1, 0, 0]");
   replace("axis = [0.5773502691896258, 0, 0.816496580927726]", "axis = [0, 0, 1]");
-  replace("point = [\"100 mm\", \"0 mm\", \"-70.71067811865476 mm\"]",
-          "point = [\"100 mm\", \"0 mm\", \"0 mm\"]");
+  replace("point = [\"100 mm\", \"0 mm\", \"-70.71067811865476 mm\"]", "point = [\"100 mm\", \"0 mm\", \"0 mm\"]");
   replace("axis = [0.352643299482912, 0, 0.9357578230128805]", "axis = [200, 0, 460]");
   write("flat.toml", file);
   const Ended ended = call({"check", "flat.toml"});
@@ -186,14 +193,16 @@ TEST_F(ProgramTest, LawsPrintsTheTableWithAndWithoutAMechanism) {
 }
 
 TEST_F(ProgramTest, RunWarnsOfALawOutsideOfItsRangeAndNamesOneThatFits) {
-  const Ended ended = call({"run", mechanism_, "--rung", "quasistatic", "--set", "clearance.F1.radial=20um", "--out", "tight"});
+  const Ended ended =
+      call({"run", mechanism_, "--rung", "quasistatic", "--set", "clearance.F1.radial=20um", "--out", "tight"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_THAT(ended.out, AllOf(HasSubstr("outside of its range"), HasSubstr("fits")));
 }
 
 TEST_F(ProgramTest, NonlinearToolsAreInTheReportTheSummaryAndATable) {
-  const Ended ended = call({"run", BORESIGHT_EXAMPLES "/spatial-double-crank/spatial-double-crank.toml", "--rung", "perturbation",
-                            "--set", "motion.duration=5s", "--nonlinear", "0.5 s", "--sample", "5 ms", "--out", "map"});
+  const Ended ended =
+      call({"run", BORESIGHT_EXAMPLES "/spatial-double-crank/spatial-double-crank.toml", "--rung", "perturbation",
+            "--set", "motion.duration=5s", "--nonlinear", "0.5 s", "--sample", "5 ms", "--out", "map"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   const auto nonlinear = json("map/summary.json")["nonlinear"];
   EXPECT_EQ(nonlinear["periods"], 10);
@@ -205,11 +214,11 @@ TEST_F(ProgramTest, NonlinearToolsAreInTheReportTheSummaryAndATable) {
 }
 
 TEST_F(ProgramTest, OtherMechanismsRun) {
-  for (const std::string name : {"crank-slider", "four-bar", "3-rrr", "spatial-slider-crank", "spatial-double-crank", "2-us-pointing"}) {
+  for (const std::string name :
+       {"crank-slider", "four-bar", "3-rrr", "spatial-slider-crank", "spatial-double-crank", "2-us-pointing"}) {
     const Ended ended = call({"run", BORESIGHT_EXAMPLES "/" + name + "/" + name + ".toml", "--quiet"});
     EXPECT_EQ(ended.status, 0) << ended.err;
-    EXPECT_GT(json("results/" + name + "-run/summary.json")["index"]["position_error"]["max"].get<double>(),
-              0.0);
+    EXPECT_GT(json("results/" + name + "-run/summary.json")["index"]["position_error"]["max"].get<double>(), 0.0);
   }
 }
 
@@ -225,8 +234,7 @@ TEST_F(ProgramTest, ASweepHasARowPerPointWhateverTheJobs) {
   std::vector<std::string> rows;
   for (std::string row; std::getline(table, row);) rows.push_back(row);
   ASSERT_EQ(rows.size(), 4u);
-  EXPECT_THAT(rows[0],
-              testing::StartsWith("point,clearance.F1.radial,clearance.F1.axial,position_error.max,"));
+  EXPECT_THAT(rows[0], testing::StartsWith("point,clearance.F1.radial,clearance.F1.axial,position_error.max,"));
   EXPECT_THAT(rows[3], testing::EndsWith(",done"));
   const auto summary = json("results/study-sweep/summary.json");
   EXPECT_EQ(summary["points"].size(), 3u);
@@ -237,9 +245,10 @@ TEST_F(ProgramTest, ASweepHasARowPerPointWhateverTheJobs) {
 TEST_F(ProgramTest, StabilityLeavesMapsAndCasesWithTheLimitsOfTheory) {
   const Ended ended = call({"stability", mechanism_, "--set", "motion.duration=50ms", "--out", "out"});
   ASSERT_EQ(ended.status, 0) << ended.err << ended.out;
-  EXPECT_THAT(ended.out, AllOf(HasSubstr("step limit 2.8284 measured"), HasSubstr("Grazing and chatter"), HasSubstr("out/report.html")));
-  EXPECT_THAT(files("out"), ElementsAre("baumgarte.csv", "cases.csv", "growth.csv", "horizon.csv", "limits.csv", "report.html",
-                                        "steps.csv", "summary.json"));
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("step limit 2.8284 measured"), HasSubstr("Grazing and chatter"),
+                               HasSubstr("out/report.html")));
+  EXPECT_THAT(files("out"), ElementsAre("baumgarte.csv", "cases.csv", "growth.csv", "horizon.csv", "limits.csv",
+                                        "report.html", "steps.csv", "summary.json"));
   const auto summary = json("out/summary.json");
   EXPECT_EQ(summary["cases"].size(), 11u);
   EXPECT_LT(summary["largest_difference_from_theory"].get<double>(), 0.02);
@@ -254,8 +263,8 @@ TEST_F(ProgramTest, AChartOfAStudyTakesItsIndexAndItsAccuracy) {
                           "\"\naccuracy = \"20 %\"\n[index]\nquantity = \"position_error\"\nstatistic = \"rms\"\n");
   const Ended ended = call({"chart", "study.toml", "--set", "motion.duration=50ms", "--time", "1 s", "--out", "out"});
   ASSERT_EQ(ended.status, 0) << ended.err << ended.out;
-  EXPECT_THAT(ended.out, AllOf(HasSubstr("position error, RMS"), HasSubstr("Pareto front"), HasSubstr("the paper's own setting"),
-                               HasSubstr("cheapest within 20 %")));
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("position error, RMS"), HasSubstr("Pareto front"),
+                               HasSubstr("the paper's own setting"), HasSubstr("cheapest within 20 %")));
   EXPECT_THAT(files("out"), ElementsAre("chart.csv", "flight.csv", "report.html", "summary.json"));
   const auto summary = json("out/summary.json");
   EXPECT_EQ(summary["papers"]["way"], "multibody, paper, baumgarte, rk4");

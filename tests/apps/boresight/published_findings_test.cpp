@@ -1,4 +1,4 @@
-#include "published_findings.hpp"
+#include "sweep/published_findings.hpp"
 
 #include <gmock/gmock.h>
 

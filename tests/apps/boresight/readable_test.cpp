@@ -1,4 +1,4 @@
-#include "readable.hpp"
+#include "terminal/readable.hpp"
 
 #include <gtest/gtest.h>
 

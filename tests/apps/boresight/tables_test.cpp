@@ -1,4 +1,4 @@
-#include "tables.hpp"
+#include "results/tables.hpp"
 
 #include <gmock/gmock.h>
 
@@ -38,12 +38,11 @@ class TablesTest : public testing::Test {
 };
 
 TEST_F(TablesTest, TheTimeSeriesHasTheColumnsOfTheInterface) {
-  EXPECT_EQ(
-      timeseries()[0],
-      "t,dx,dy,dz,rx,ry,rz,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,"
-      "F1.offset_x,F1.offset_y,F1.offset_z,F1.penetration,F1.normal_force,F1.contact,"
-      "rod1.dx,rod1.dy,rod1.dz,rod1.rx,rod1.ry,rod1.rz,rod1.x,rod1.y,rod1.z,rod1.qw,rod1.qx,rod1.qy,rod1.qz,"
-      "rod1.vx,rod1.vy,rod1.vz,rod1.wx,rod1.wy,rod1.wz,rod1.ax,rod1.ay,rod1.az");
+  EXPECT_EQ(timeseries()[0],
+            "t,dx,dy,dz,rx,ry,rz,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz,ax,ay,az,"
+            "F1.offset_x,F1.offset_y,F1.offset_z,F1.penetration,F1.normal_force,F1.contact,"
+            "rod1.dx,rod1.dy,rod1.dz,rod1.rx,rod1.ry,rod1.rz,rod1.x,rod1.y,rod1.z,rod1.qw,rod1.qx,rod1.qy,rod1.qz,"
+            "rod1.vx,rod1.vy,rod1.vz,rod1.wx,rod1.wy,rod1.wz,rod1.ax,rod1.ay,rod1.az");
 }
 
 TEST_F(TablesTest, EveryRowHasEveryColumn) {

@@ -1,31 +1,39 @@
-#include "terminal.hpp"
+#include "terminal/terminal.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cstdio>
 
-#include "tables.hpp"
+#include "results/tables.hpp"
 
 namespace boresight::app {
 namespace {
 
 TEST(Terminal, ShowsControlCharactersAsTheirNumbers) {
   EXPECT_EQ(printable("\x1b[2J\x07 a\x7f"), "\\x1b[2J\\x07 a\\x7f");
-  EXPECT_EQ(printable("\xc2\x9b" "31m"), "\\u009b31m");      // the control sequence introducer of 8 bits
-  EXPECT_EQ(printable("a\xe2\x80\xae" "b"), "a\\u202eb");   // right-to-left override
-  EXPECT_EQ(printable("\x9b" "31m"), "\\x9b31m");           // no UTF-8
+  EXPECT_EQ(printable("\xc2\x9b"
+                      "31m"),
+            "\\u009b31m");  // the control sequence introducer of 8 bits
+  EXPECT_EQ(printable("a\xe2\x80\xae"
+                      "b"),
+            "a\\u202eb");  // right-to-left override
+  EXPECT_EQ(printable("\x9b"
+                      "31m"),
+            "\\x9b31m");  // no UTF-8
   EXPECT_EQ(printable("cut \xe2\x80"), "cut \\xe2\\x80");
   EXPECT_EQ(printable("0.231 mm, 22 µm ± 3 m/s²\n\tnext"), "0.231 mm, 22 µm ± 3 m/s²\n\tnext");
 }
 
 TEST(Csv, ATextIsNoFormulaAndANumberStaysOne) {
-  for (const char* text : {"=1+1", "+cmd", "-2+3", "@SUM(A1)", "\tx", "\rx"}) EXPECT_EQ(csv_field(text).find('\''), csv_field(text)[0] == '"' ? 1u : 0u) << text;
+  for (const char* text : {"=1+1", "+cmd", "-2+3", "@SUM(A1)", "\tx", "\rx"})
+    EXPECT_EQ(csv_field(text).find('\''), csv_field(text)[0] == '"' ? 1u : 0u) << text;
   EXPECT_EQ(csv_field("=HYPERLINK(\"x\",1)"), "\"'=HYPERLINK(\"\"x\"\",1)\"");
   for (const char* text : {"-1.5", "+3e-4", "clearance.F1.radial", "radial-", ""}) EXPECT_EQ(csv_field(text), text);
 }
 
 TEST(ShellWord, IsTheSameWordForAShell) {
-  for (const std::string word : {"study.toml", "a b", "it's", "$(touch x)", "`x`", "a;b", "--set", "x=1 mm", "", "*", "\"q\"", "tab\there", "~/x", "!x"}) {
+  for (const std::string word : {"study.toml", "a b", "it's", "$(touch x)", "`x`", "a;b", "--set", "x=1 mm", "", "*",
+                                 "\"q\"", "tab\there", "~/x", "!x"}) {
     std::FILE* shell = ::popen(("printf %s " + shell_word(word)).c_str(), "r");
     std::string said;
     for (int c = std::fgetc(shell); c != EOF; c = std::fgetc(shell)) said += static_cast<char>(c);

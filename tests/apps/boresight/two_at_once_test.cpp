@@ -28,7 +28,8 @@ std::map<std::string, std::string> results_by_setting(const std::filesystem::pat
 TEST_F(TwoAtOnceTest, RunsOfOneFileGetAFolderEachAndKeepTheirOwnTables) {
   const std::vector<std::string> radii = {"0.1mm", "0.2mm", "0.3mm"};
   const auto arguments = [&](const std::string& radius) {
-    return std::vector<std::string>{"run", mechanism_, "--set", "motion.duration=20ms", "--set", "clearance.F1.radial=" + radius, "--quiet"};
+    return std::vector<std::string>{
+        "run", mechanism_, "--set", "motion.duration=20ms", "--set", "clearance.F1.radial=" + radius, "--quiet"};
   };
   std::vector<pid_t> children;
   for (const std::string& radius : radii) children.push_back(start(arguments(radius)));
@@ -41,17 +42,20 @@ TEST_F(TwoAtOnceTest, RunsOfOneFileGetAFolderEachAndKeepTheirOwnTables) {
 }
 
 TEST_F(TwoAtOnceTest, TheSecondInOneFolderIsToldAndTheFirstIsWhole) {
-  const std::vector<std::string> arguments = {"run", mechanism_, "--set", "motion.duration=50ms", "--out", "out", "--quiet"};
+  const std::vector<std::string> arguments = {"run",   mechanism_, "--set",  "motion.duration=50ms",
+                                              "--out", "out",      "--quiet"};
   const std::vector<pid_t> children = {start(arguments), start(arguments)};
   std::vector<int> statuses;
   for (const pid_t child : children) statuses.push_back(wait_for(child).status);
   std::sort(statuses.begin(), statuses.end());
-  EXPECT_THAT(statuses, testing::ElementsAre(0, testing::AnyOf(0, 2))) << "0 where one had ended before the other began";
+  EXPECT_THAT(statuses, testing::ElementsAre(0, testing::AnyOf(0, 2)))
+      << "0 where one had ended before the other began";
   EXPECT_THAT(files("out"), testing::ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
 }
 
 TEST_F(TwoAtOnceTest, AStudyWithStoredSamplesIsNotBegunTwice) {
-  std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << mechanism_ << "\"\n[[random]]\n"
+  std::ofstream(folder_ / "study.toml")
+      << "format = 1\nmechanism = \"" << mechanism_ << "\"\n[[random]]\n"
       << "parameter = \"clearance.F1.radial\"\ndistribution = { uniform = { min = \"0.05 mm\", max = \"0.15 mm\" } }\n"
       << "[montecarlo]\nsamples = 2000000\nseed = 1\n";
   const std::vector<std::string> arguments = {"montecarlo", "study.toml", "--rung", "envelope", "--resume", "--quiet"};

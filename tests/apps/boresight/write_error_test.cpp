@@ -23,13 +23,15 @@ TEST_F(WriteErrorTest, AFileThatMayNotGrowIsOneLineAndLeavesNothingOfTheResult) 
 }
 
 TEST_F(WriteErrorTest, AFullDiskIsOneLineAndLeavesTheResultBefore) {
-  const std::vector<std::string> run = {"run", mechanism_, "--set", "motion.duration=50ms", "--sample", "10 ms", "--out", "disk/out"};
+  const std::vector<std::string> run = {"run",      mechanism_, "--set", "motion.duration=50ms",
+                                        "--sample", "10 ms",    "--out", "disk/out"};
   ASSERT_EQ(call(run).status, 0);
   std::filesystem::copy(folder_ / "disk/out", folder_ / "before");
   ASSERT_THAT(files("before"), ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
   std::uintmax_t result = 0;
   for (const std::string& name : files("before")) result += std::filesystem::file_size(folder_ / "before" / name);
-  for (const std::uintmax_t room : {std::uintmax_t{0}, std::uintmax_t{1}, std::uintmax_t{5000}, result / 2, result - 1000}) {
+  for (const std::uintmax_t room :
+       {std::uintmax_t{0}, std::uintmax_t{1}, std::uintmax_t{5000}, result / 2, result - 1000}) {
     SCOPED_TRACE("room for " + std::to_string(room) + " bytes");
     const Ended ended = call(run, PlayedDisk{"disk", room});
     EXPECT_EQ(ended.status, 3);
@@ -47,17 +49,18 @@ TEST_F(WriteErrorTest, AFullFileSystemIsOneLineAndLeavesTheResultBefore) {
   std::filesystem::create_directory(folder_ / "disk");
   std::string in_name_space;
   for (const char* privilege : {"-m", "-rm"}) {
-    const std::string tried = "cd '" + folder_.string() + "' && unshare " + privilege + " sh -c 'mount -t tmpfs -o size=4m tmpfs disk && ";
+    const std::string tried =
+        "cd '" + folder_.string() + "' && unshare " + privilege + " sh -c 'mount -t tmpfs -o size=4m tmpfs disk && ";
     if (std::system((tried + "true' 2>/dev/null").c_str()) == 0) in_name_space = tried;
   }
   if (in_name_space.empty()) {
     std::puts("no file system may be mounted here: the played disk above stands alone");
     return;
   }
-  const std::string run =
-      std::string(BORESIGHT_PROGRAM) + " run " + mechanism_ + " --set motion.duration=50ms --sample \"10 ms\" --out disk/out >out 2>err; ";
-  const std::string command = in_name_space + run + "cp -r disk/out before; cat /dev/zero >disk/filler 2>/dev/null; " + run +
-                              "echo $? >status; cp -r disk/out after'";
+  const std::string run = std::string(BORESIGHT_PROGRAM) + " run " + mechanism_ +
+                          " --set motion.duration=50ms --sample \"10 ms\" --out disk/out >out 2>err; ";
+  const std::string command = in_name_space + run + "cp -r disk/out before; cat /dev/zero >disk/filler 2>/dev/null; " +
+                              run + "echo $? >status; cp -r disk/out after'";
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_EQ(text("status"), "3\n");
   EXPECT_TRUE(is_one_line(text("err"))) << text("err");
@@ -81,10 +84,10 @@ TEST_F(WriteErrorTest, AFileInTheWayIsBadInput) {
 }
 
 TEST_F(WriteErrorTest, ATerminalThatWentAwayIsAFailure) {
-  const int status = std::system((std::string(BORESIGHT_PROGRAM) + " run " + mechanism_ +
-                                  " --set motion.duration=20ms --out '" + (folder_ / "out").string() +
-                                  "' >/dev/full 2>'" + (folder_ / "err").string() + "'")
-                                     .c_str());
+  const int status =
+      std::system((std::string(BORESIGHT_PROGRAM) + " run " + mechanism_ + " --set motion.duration=20ms --out '" +
+                   (folder_ / "out").string() + "' >/dev/full 2>'" + (folder_ / "err").string() + "'")
+                      .c_str());
   EXPECT_EQ(WEXITSTATUS(status), 3);
   EXPECT_THAT(text("err"), HasSubstr("standard output"));
 }

@@ -15,8 +15,7 @@ namespace {
 using nlohmann::json;
 
 json with_item(const json& item) {
-  return {{"title", "T"},
-          {"sections", json::array({{{"id", "s"}, {"title", "S"}, {"items", json::array({item})}}})}};
+  return {{"title", "T"}, {"sections", json::array({{{"id", "s"}, {"title", "S"}, {"items", json::array({item})}}})}};
 }
 
 json small_chart() {
@@ -63,8 +62,7 @@ TEST(Contract, NamesThePlaceOfSeriesOfUnequalLength) {
 TEST(Contract, NamesUnknownKeys) {
   json chart = small_chart();
   chart["serie"] = 1;
-  EXPECT_NE(refusal(with_item(chart)).find("sections[0].items[0]: found unknown key 'serie'"),
-            std::string::npos);
+  EXPECT_NE(refusal(with_item(chart)).find("sections[0].items[0]: found unknown key 'serie'"), std::string::npos);
 }
 
 TEST(Contract, NamesMissingKeys) {
@@ -127,12 +125,10 @@ TEST(Contract, RefusesTablesWhoseRowsDoNotFit) {
 
 TEST(Contract, RefusesStripsWithUnknownStatesOrTimeRunningBack) {
   const auto strip = [](double end, const char* state) {
-    return json(
-        Strip{.title = "S", .x = {"t", "s"}, .states = {{"free"}}, .rows = {{"F1", {1}, {end}, {state}}}});
+    return json(Strip{.title = "S", .x = {"t", "s"}, .states = {{"free"}}, .rows = {{"F1", {1}, {end}, {state}}}});
   };
   EXPECT_EQ(refusal(with_item(strip(2, "free"))), "accepted");
-  EXPECT_NE(refusal(with_item(strip(2, "stuck"))).find("found \"stuck\", expected one of free"),
-            std::string::npos);
+  EXPECT_NE(refusal(with_item(strip(2, "stuck"))).find("found \"stuck\", expected one of free"), std::string::npos);
   EXPECT_NE(refusal(with_item(strip(0.5, "free"))).find("end[0]"), std::string::npos);
 }
 
@@ -157,8 +153,7 @@ TEST(Contract, TakesThePointsOfAViewAtRestOrForEachInstant) {
 TEST(Contract, RefusesViewsOfPointsThatAreNotThere) {
   json view = small_view();
   view["bodies"][0]["points"] = {0, 2};
-  EXPECT_NE(refusal(with_item(view))
-                .find("bodies[0].points[1]: found 2, expected the index of one of the 2 points"),
+  EXPECT_NE(refusal(with_item(view)).find("bodies[0].points[1]: found 2, expected the index of one of the 2 points"),
             std::string::npos);
   view = small_view();
   view["joints"][0]["tip"] = -1;
@@ -190,9 +185,7 @@ Numbers rounded_y(const Numbers& y) {
   return values;
 }
 
-TEST(Rounding, KeepsSevenDigits) {
-  EXPECT_EQ(rounded_y({1.23456789, 2e-9 / 3}), (Numbers{1.234568, 6.666667e-10}));
-}
+TEST(Rounding, KeepsSevenDigits) { EXPECT_EQ(rounded_y({1.23456789, 2e-9 / 3}), (Numbers{1.234568, 6.666667e-10})); }
 
 TEST(Rounding, KeepsTheShapeOfASeriesThatHardlyVaries) {
   EXPECT_EQ(rounded_y({1000.00001234, 1000.00002345}), (Numbers{1000.00001234, 1000.00002345}));

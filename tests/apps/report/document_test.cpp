@@ -17,16 +17,11 @@ TEST(Document, LeavesOutWhatSaysNothing) {
 }
 
 TEST(Document, WritesASeriesAsTheContractSays) {
-  const Series series{.name = "a",
-                      .x = Names{"F1"},
-                      .y = Numbers{2},
-                      .style = Style::bars,
-                      .muted = true,
-                      .error_high = {0.5}};
+  const Series series{
+      .name = "a", .x = Names{"F1"}, .y = Numbers{2}, .style = Style::bars, .muted = true, .error_high = {0.5}};
   EXPECT_EQ(
       json(series),
-      json::parse(
-          R"({"name": "a", "x": ["F1"], "y": [2.0], "style": "bars", "muted": true, "error_high": [0.5]})"));
+      json::parse(R"({"name": "a", "x": ["F1"], "y": [2.0], "style": "bars", "muted": true, "error_high": [0.5]})"));
 }
 
 TEST(Document, WritesAHistogramWithoutY) {
@@ -54,9 +49,7 @@ TEST(Thinned, KeepsGaps) {
   EXPECT_TRUE(std::any_of(kept.begin(), kept.end(), [](double one) { return std::isnan(one); }));
 }
 
-TEST(Thinned, LeavesShortSeriesAlone) {
-  EXPECT_EQ(thinned({1, 2, 3}, {4, 5, 6}, 100).second, (Numbers{4, 5, 6}));
-}
+TEST(Thinned, LeavesShortSeriesAlone) { EXPECT_EQ(thinned({1, 2, 3}, {4, 5, 6}, 100).second, (Numbers{4, 5, 6})); }
 
 }  // namespace
 }  // namespace boresight::report

@@ -35,21 +35,19 @@ Numbers rattle(const Numbers& t, double size, double phase) {
 
 Section charts() {
   const Numbers t = range(0, 1, 2000);
-  Chart error{
-      .title = "Position error of the platform",
-      .caption = "Statistics use every accepted step; the curve keeps the extremes of each millisecond.",
-      .x = {"Time", "s"},
-      .y = {"Position error", "mm"}};
-  error.series = {{.name = "multibody", .x = t, .y = rattle(t, 0.18, 0.0)},
-                  {.name = "quasistatic",
-                   .x = t,
-                   .y = over(t, [](double s) { return 0.11 + 0.06 * std::sin(2 * pi * s); })},
-                  {.name = "ideal", .x = t, .y = over(t, [](double) { return 0.0; }), .muted = true},
-                  {.name = "envelope",
-                   .x = t,
-                   .y = over(t, [](double s) { return 0.27 + 0.02 * std::sin(4 * pi * s); }),
-                   .style = Style::area,
-                   .y_low = over(t, [](double s) { return 0.02 - 0.01 * std::sin(4 * pi * s); })}};
+  Chart error{.title = "Position error of the platform",
+              .caption = "Statistics use every accepted step; the curve keeps the extremes of each millisecond.",
+              .x = {"Time", "s"},
+              .y = {"Position error", "mm"}};
+  error.series = {
+      {.name = "multibody", .x = t, .y = rattle(t, 0.18, 0.0)},
+      {.name = "quasistatic", .x = t, .y = over(t, [](double s) { return 0.11 + 0.06 * std::sin(2 * pi * s); })},
+      {.name = "ideal", .x = t, .y = over(t, [](double) { return 0.0; }), .muted = true},
+      {.name = "envelope",
+       .x = t,
+       .y = over(t, [](double s) { return 0.27 + 0.02 * std::sin(4 * pi * s); }),
+       .style = Style::area,
+       .y_low = over(t, [](double s) { return 0.02 - 0.01 * std::sin(4 * pi * s); })}};
   error.series[1].y = [&] {  // a gap, where the quasistatic rung had no answer
     Numbers y = std::get<Numbers>(error.series[1].y);
     for (int i = 900; i < 1000; ++i) y[i] = NAN;
@@ -66,8 +64,7 @@ Section charts() {
   orbit.series = {
       {.name = "journal centre",
        .x = over(a, [](double s) { return 100.5 * std::cos(s) * (1 - 0.35 * std::exp(-std::fmod(s, 7.0))); }),
-       .y = over(a,
-                 [](double s) { return 100.5 * std::sin(s) * (1 - 0.35 * std::exp(-std::fmod(s, 7.0))); })}};
+       .y = over(a, [](double s) { return 100.5 * std::sin(s) * (1 - 0.35 * std::exp(-std::fmod(s, 7.0))); })}};
   orbit.circles = {{0, 0, 100, "clearance circle, 100 µm"}};
 
   Chart work{.title = "Accuracy against work",
@@ -84,13 +81,12 @@ Section charts() {
                            .style = Style::line_markers,
                            .text = {"1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9"}});
   }
-  return {
-      .id = "charts",
-      .title = "Error along the motion",
-      .intro =
-          "The platform follows its spiral in one second. Three of its joints have a clearance of 0.1 mm.\n\n"
-          "What the rungs agree on is statics; what they differ in is impact.",
-      .items = {error, orbit, work}};
+  return {.id = "charts",
+          .title = "Error along the motion",
+          .intro =
+              "The platform follows its spiral in one second. Three of its joints have a clearance of 0.1 mm.\n\n"
+              "What the rungs agree on is statics; what they differ in is impact.",
+          .items = {error, orbit, work}};
 }
 
 Section multiples() {
@@ -99,8 +95,7 @@ Section multiples() {
                 .columns = 3};
   const Numbers t = range(0, 1, 400);
   for (int i = 1; i <= 6; ++i) {
-    Chart chart{
-        .title = numbered("Clearance ", 20 * i).append(" µm"), .x = {"Time", "s"}, .y = {"Offset", "µm"}};
+    Chart chart{.title = numbered("Clearance ", 20 * i).append(" µm"), .x = {"Time", "s"}, .y = {"Offset", "µm"}};
     chart.series = {{.name = "F1", .x = t, .y = rattle(t, 20.0 * i, 0.03 * i)},
                     {.name = "F2", .x = t, .y = rattle(t, 17.0 * i, 0.3 + 0.02 * i)},
                     {.name = "ideal", .x = t, .y = over(t, [](double) { return 0.0; }), .muted = true}};
@@ -108,8 +103,7 @@ Section multiples() {
   }
   Panels orbits{.title = "Journal centres in their sleeves", .columns = 3};
   for (const char* joint : {"F1", "F2", "F3"}) {
-    Chart chart{
-        .title = joint, .x = {"Offset along x", "µm"}, .y = {"Offset along z", "µm"}, .equal_axes = true};
+    Chart chart{.title = joint, .x = {"Offset along x", "µm"}, .y = {"Offset along z", "µm"}, .equal_axes = true};
     const Numbers a = range(0, 40, 500);
     chart.series = {{.name = "journal centre",
                      .x = over(a, [](double s) { return 60 * std::cos(s) + 40 * std::cos(3.1 * s); }),
@@ -117,14 +111,13 @@ Section multiples() {
     chart.circles = {{0, 0, 100}};
     orbits.panels.push_back(chart);
   }
-  Strip strip{
-      .title = "Contact states",
-      .caption = "The edge of a bar is never thinner than a line, so that short impacts stay visible.",
-      .x = {"Time", "s"},
-      .states = {{"free", "free flight", true},
-                 {"radial", "radial contact"},
-                 {"axial", "axial contact"},
-                 {"both", "radial and axial"}}};
+  Strip strip{.title = "Contact states",
+              .caption = "The edge of a bar is never thinner than a line, so that short impacts stay visible.",
+              .x = {"Time", "s"},
+              .states = {{"free", "free flight", true},
+                         {"radial", "radial contact"},
+                         {"axial", "axial contact"},
+                         {"both", "radial and axial"}}};
   std::mt19937 random(4);
   for (const char* joint : {"F1", "F2", "F3"}) {
     StripRow row{.name = joint};
@@ -144,12 +137,8 @@ Section multiples() {
 Section maps() {
   const Numbers clearance = range(0.02, 0.2, 25),
                 speed = over(range(-1, 2, 30), [](double p) { return std::pow(10, p); });
-  Heatmap map{.x = clearance,
-              .y = speed,
-              .label = "Largest position error",
-              .unit = "mm",
-              .log = true,
-              .contours = {0.1, 1}};
+  Heatmap map{
+      .x = clearance, .y = speed, .label = "Largest position error", .unit = "mm", .log = true, .contours = {0.1, 1}};
   for (const double v : speed)
     map.z.push_back(over(clearance, [&](double c) { return c * (1 + 3 * v / (1 + 40 * c)); }));
   map.z[3][4] = NAN;
@@ -158,17 +147,15 @@ Section maps() {
                   .x = {"Radial clearance", "mm"},
                   .y = {"Speed of the drives", "rad/s", true},
                   .heatmap = map};
-  const Names parameters{"clearance.F1.radial", "clearance.F2.radial", "contact.restitution",
-                         "friction.coefficient"};
-  Chart correlation{
-      .title = "Correlation of the estimates",
-      .x = {"Parameter"},
-      .y = {"Parameter"},
-      .heatmap = Heatmap{.x = parameters,
-                         .y = parameters,
-                         .z = {{1, .3, -.6, .1}, {.3, 1, -.2, 0}, {-.6, -.2, 1, .7}, {.1, 0, .7, 1}},
-                         .label = "Correlation",
-                         .diverging = true}};
+  const Names parameters{"clearance.F1.radial", "clearance.F2.radial", "contact.restitution", "friction.coefficient"};
+  Chart correlation{.title = "Correlation of the estimates",
+                    .x = {"Parameter"},
+                    .y = {"Parameter"},
+                    .heatmap = Heatmap{.x = parameters,
+                                       .y = parameters,
+                                       .z = {{1, .3, -.6, .1}, {.3, 1, -.2, 0}, {-.6, -.2, 1, .7}, {.1, 0, .7, 1}},
+                                       .label = "Correlation",
+                                       .diverging = true}};
   Chart sobol{.title = "Which scatter matters",
               .caption = "Bars: Sobol' indices; whiskers: 95 % intervals.",
               .x = {"Share of the variance"},
@@ -192,14 +179,12 @@ Section maps() {
   for (int i = 0; i < 3000; ++i) samples.push_back(normal(random));
   for (int i = 0; i < 300; ++i)
     joints.push_back(numbered("F", 1 + i % 3)), joint_values.push_back(normal(random) * (1 + i % 3));
-  Chart distribution{
-      .title = "Distribution of the index", .x = {"Largest position error", "mm"}, .y = {"Samples"}};
+  Chart distribution{.title = "Distribution of the index", .x = {"Largest position error", "mm"}, .y = {"Samples"}};
   distribution.series = {{.name = "3000 samples", .x = samples, .style = Style::histogram, .bins = 40}};
   distribution.lines = {{'x', 0.25, "requirement 0.25 mm"}, {'x', 0.262, "p97.5"}};
   Chart boxes{.title = "Penetration by joint", .x = {"Joint"}, .y = {"Greatest penetration", "µm"}};
   boxes.series = {{.name = "3 joints", .x = joints, .y = joint_values, .style = Style::box}};
-  Chart steps{
-      .title = "Step size of the integrator", .x = {"Time", "s"}, .y = {"Step", "s", true}, .height = 260};
+  Chart steps{.title = "Step size of the integrator", .x = {"Time", "s"}, .y = {"Step", "s", true}, .height = 260};
   const Numbers t = range(0, 1, 120);
   steps.series = {{.name = "RADAU IIA 5",
                    .x = t,
@@ -216,26 +201,21 @@ Section maps() {
 }
 
 Section words() {
-  Table table{.title = "Contacts by joint",
-              .caption = "Sort by pressing a heading.",
-              .columns = {{"Joint"},
-                          {"Impacts"},
-                          {"Contact", "%"},
-                          {"Penetration", "m"},
-                          {"Force", "N"},
-                          {"Above validity"}}};
+  Table table{
+      .title = "Contacts by joint",
+      .caption = "Sort by pressing a heading.",
+      .columns = {{"Joint"}, {"Impacts"}, {"Contact", "%"}, {"Penetration", "m"}, {"Force", "N"}, {"Above validity"}}};
   table.rows = {{"F1", 148, 81.23456, 1.2345678e-6, 512.3456, false},
                 {"F2", 96, 77.1, 9.87e-7, 1420.5, false},
                 {"F3", 12045, 3.0, nullptr, -0.0001234, true}};
   Table lengthy{.title = "Every sample", .columns = {{"Sample"}, {"Value", "mm"}, {"Status"}}};
   for (int i = 0; i < 80; ++i) lengthy.rows.push_back({i, 0.2 + 0.001 * i, i % 17 ? "done" : "failed"});
   Findings findings{.title = "Against the paper"};
-  findings.items = {
-      {"The error grows linearly with clearance", Agreement::agrees, "slope 1.02 ± 0.03",
-       "Table 3 of the paper gives 1.0."},
-      {"Payload lowers the error", Agreement::differs, "0.21 mm at 0 kg, 0.24 mm at 30 kg",
-       "Beyond 20 kg the platform falls out of contact."},
-      {"The error peaks at 0.25 s", Agreement::explained, "0.27 s", "The paper samples every 20 ms."}};
+  findings.items = {{"The error grows linearly with clearance", Agreement::agrees, "slope 1.02 ± 0.03",
+                     "Table 3 of the paper gives 1.0."},
+                    {"Payload lowers the error", Agreement::differs, "0.21 mm at 0 kg, 0.24 mm at 30 kg",
+                     "Beyond 20 kg the platform falls out of contact."},
+                    {"The error peaks at 0.25 s", Agreement::explained, "0.27 s", "The paper samples every 20 ms."}};
   return {.id = "tables",
           .title = "Tables and findings",
           .items = {Text{"A paragraph.\n\nAnother one."}, table, lengthy, findings}};
@@ -256,14 +236,12 @@ View crank(const std::string& name) {
     view.points.push_back(made);
   };
   const auto turning = [](double x, double y, double z) {
-    return [=](double t) {
-      return std::array<double, 3>{x + 80 * std::cos(pi * t), y, z + 80 * std::sin(pi * t)};
-    };
+    return [=](double t) { return std::array<double, 3>{x + 80 * std::cos(pi * t), y, z + 80 * std::sin(pi * t)}; };
   };
   view.points.push_back({.x = {0}, .y = {0}, .z = {0}});
   view.points.push_back({.x = {300}, .y = {0}, .z = {0}});
   view.points.push_back({.x = {0}, .y = {20}, .z = {0}});  // along the ground's axis
-  point(turning(0, 0, 0), 0.0);                             // 3: the crank's end
+  point(turning(0, 0, 0), 0.0);                            // 3: the crank's end
   point(turning(0, 20, 0), 0.0);
   point(turning(0, 0, 0), 0.1);  // 5: the journal
   point(turning(0, 20, 0), 0.1);
@@ -276,14 +254,10 @@ View crank(const std::string& name) {
                  {.name = "crank", .points = {0, 3}},
                  {.name = "rod", .points = {5, 7}},
                  {.name = "plate", .points = {7, 8, 9}, .closed = true}};
-  view.joints = {{.name = "O", .first = 0, .second = 0, .tip = 2},
-                 {.name = name,
-                  .first = 3,
-                  .second = 5,
-                  .tip = 4,
-                  .second_tip = 6,
-                  .clearance = ViewClearance{0.1, 0.05}},
-                 {.name = "S", .first = 7, .second = 7}};
+  view.joints = {
+      {.name = "O", .first = 0, .second = 0, .tip = 2},
+      {.name = name, .first = 3, .second = 5, .tip = 4, .second_tip = 6, .clearance = ViewClearance{0.1, 0.05}},
+      {.name = "S", .first = 7, .second = 7}};
   view.rays = {{.name = "boresight", .from = 10, .to = 11}};
   return view;
 }
@@ -304,8 +278,7 @@ Document every_kind() {
       .title = "3-RRCPR parallel pointing mechanism",
       .subtitle = "One motion of one second, clearance 0.1 mm at F1, F2 and F3",
       .verb = "run",
-      .verdict = Verdict{Standing::bad,
-                         "The requirement is not met: largest position error 0.412 mm, limit 0.35 mm"},
+      .verdict = Verdict{Standing::bad, "The requirement is not met: largest position error 0.412 mm, limit 0.35 mm"},
       .facts = {{"Largest position error", 0.41234567, "mm", "at t = 0.262 s, rung multibody"},
                 {"Boresight error, rms", 0.3121, "mrad"},
                 {"Impacts", 12289, "", "3 joints"},
@@ -326,8 +299,7 @@ Document hostile() {
       "</script><script>document.title='broken'</script> \"quoted\" 'single' <b>bold</b> & <!-- %{x} µ 日本 "
       "\xE2\x80\xA8 $x$";
   Chart chart{.title = text, .caption = text, .x = {text, text}, .y = {text, "<i>"}};
-  chart.series = {
-      {.name = text, .x = {Numbers{1, 2, 3}}, .y = Numbers{1, NAN, INFINITY}, .text = {text, text, text}}};
+  chart.series = {{.name = text, .x = {Numbers{1, 2, 3}}, .y = Numbers{1, NAN, INFINITY}, .text = {text, text, text}}};
   chart.lines = {{'y', 0.5, text}};
   Table table{.title = text, .columns = {{text, text}}, .rows = {{text}, {"=1+1"}}};
   Findings findings{.title = text, .items = {{text, Agreement::differs, text, text}}};
@@ -351,8 +323,7 @@ Document many_charts(int charts, int points) {
   for (int i = 0; i < charts; ++i) {
     Chart chart{.title = numbered("Chart ", i + 1), .x = {"Time", "s"}, .y = {"Error", "mm"}};
     for (int k = 0; k < 3; ++k)
-      chart.series.push_back(
-          {.name = numbered("rung ", k + 1), .x = t, .y = rattle(t, 0.1 * (k + 1), 0.01 * i)});
+      chart.series.push_back({.name = numbered("rung ", k + 1), .x = t, .y = rattle(t, 0.1 * (k + 1), 0.01 * i)});
     if (i % 10 == 0)
       document.sections.push_back({.id = numbered("part-", i / 10), .title = numbered("Part ", i / 10 + 1)});
     document.sections.back().items.push_back(chart);

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <functional>
+#include <numbers>
 
 #include "boresight/contact/contact_friction.hpp"
 
@@ -69,8 +69,7 @@ void follow(const LuGreT<double>& law, Block b, double belt, double duration, do
             const Seen& seen) {
   using State = Eigen::Vector3d;
   const auto derivative = [&](double t, const State& y) {
-    const auto traction =
-        law.traction({y[1] - belt, 0.0}, {y[2], 0.0}, std::numeric_limits<double>::infinity());
+    const auto traction = law.traction({y[1] - belt, 0.0}, {y[2], 0.0}, std::numeric_limits<double>::infinity());
     return State(y[1], force(t, y[0]) + traction.force[0], traction.rate[0]);
   };
   State y(b.x, b.v, b.z);
@@ -99,8 +98,7 @@ TEST(LuGre, HoldsALoadBelowTheStaticCoefficientWhereCoulombCreeps) {
   // 1.2 N for 0.5 s: the bristles bend by 1.2e-5 m and then nothing moves.
   double middle = 0.0, last = 0.0;
   follow(
-      demonstration(), {0.0, 0.0, 0.0}, 0.0, 0.5, 2e-5,
-      [](double t, double) { return 1.2 * std::min(1.0, t / 0.1); },
+      demonstration(), {0.0, 0.0, 0.0}, 0.0, 0.5, 2e-5, [](double t, double) { return 1.2 * std::min(1.0, t / 0.1); },
       [&](double t, const Eigen::Vector3d& y) {
         if (t < 0.3) middle = y[0];
         last = y[0];
@@ -125,8 +123,7 @@ TEST(LuGre, KeepsItsSteadyForceWhereTheStepCannotFollowTheBristles) {
   law.bristle_damping = 0.0;
   Eigen::Vector2d z(0.0, 0.0);
   const double h = 1e-4;
-  for (int k = 0; k < 40; ++k)
-    z += h * law.traction({3.0, 4.0}, z, 1.0 / h).rate;  // relaxes at 5e5 1/s unbounded
+  for (int k = 0; k < 40; ++k) z += h * law.traction({3.0, 4.0}, z, 1.0 / h).rate;  // relaxes at 5e5 1/s unbounded
   const Eigen::Vector2d force = law.traction({3.0, 4.0}, z, 1.0 / h).force;
   EXPECT_NEAR(force[0], -0.6, 1e-9);
   EXPECT_NEAR(force[1], -0.8, 1e-9);
@@ -159,7 +156,8 @@ TEST(LuGre, SticksAndSlipsOnABeltAsCoulombsFrictionDoesTheMoreTheStifferItsBrist
   // x = 0.5 + 0.25 cos wt + (v / w) sin wt from the slip on, until it has the belt's speed again, at 0.25 m; then the belt takes it 0.5 m on.
   constexpr double v = 0.1, k = 2.0, stuck_again = 0.25;
   const double w = std::sqrt(k), amplitude = std::hypot(0.25, v / w);
-  const double first = 0.75 / v, period = (std::numbers::pi + 2.0 * std::atan2(v / w, 0.25)) / w + (0.75 - stuck_again) / v;
+  const double first = 0.75 / v,
+               period = (std::numbers::pi + 2.0 * std::atan2(v / w, 0.25)) / w + (0.75 - stuck_again) / v;
   const double highest = 0.5 + amplitude, lowest = 0.5 - amplitude, slowest = -w * amplitude;
   const Figures soft = with_bristles(1e5, 4e-5), stiff = with_bristles(1e6, 4e-6);
   EXPECT_NEAR(soft.first / first, 1.0, 0.01);
@@ -184,8 +182,7 @@ TEST(FrictionLaws, LetABlockSlideDownAnInclineAsCoulombsDoes) {
       const FrictionLaw law = make_friction_law(entry.name, p);
       double v = 0.0;
       const double h = 1e-5;
-      for (int k = 0; k < 100000; ++k)
-        v += h * (g * std::sin(slope) - g * std::cos(slope) * over_normal(law, v));
+      for (int k = 0; k < 100000; ++k) v += h * (g * std::sin(slope) - g * std::cos(slope) * over_normal(law, v));
       const double factor = entry.kind == FrictionKind::threlfall ? 1.0 - std::exp(-3.0) : 1.0;
       EXPECT_NEAR(v, g * (std::sin(slope) - factor * mu * std::cos(slope)), 2e-3) << entry.name;  // v_d is 1e-3 m/s
     }
@@ -193,7 +190,8 @@ TEST(FrictionLaws, LetABlockSlideDownAnInclineAsCoulombsDoes) {
 
 TEST(FrictionLaws, BringASlidingSphereToRollAsCoulombsDoes) {
   // It slides at -mu g and spins up at 5/2 mu g until both meet, at 5/7 of its speed: after 2 v0 / (7 mu g).
-  constexpr double v0 = 2.0, mu = 0.2, g = 9.81, rolls_from = 2.0 * v0 / (7.0 * mu * g), on_the_way = v0 * rolls_from - 0.5 * mu * g * rolls_from * rolls_from;
+  constexpr double v0 = 2.0, mu = 0.2, g = 9.81, rolls_from = 2.0 * v0 / (7.0 * mu * g),
+                   on_the_way = v0 * rolls_from - 0.5 * mu * g * rolls_from * rolls_from;
   for (const char* name : {"modified-coulomb", "brown-mcphee", "bengisu-akay"}) {
     FrictionParameters p;
     p.coefficient = 0.2;

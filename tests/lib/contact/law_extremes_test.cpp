@@ -56,13 +56,12 @@ std::vector<Joint> joints_at_the_ends() {
 // At the centre, just not touching, just touching, deep; at rest, drifting, fast.
 std::vector<std::array<double, 13>> motions(double radial) {
   std::vector<std::array<double, 13>> out;
-  for (const double offset :
-       {0.0, radial, radial * (1.0 + 1e-15), radial + 1e-15, radial + 1e-9, radial + 1e-4})
+  for (const double offset : {0.0, radial, radial * (1.0 + 1e-15), radial + 1e-15, radial + 1e-9, radial + 1e-4})
     for (const double along : {0.0, radial + 1e-6, -1e-4})
       for (const double speed : {0.0, 1e-12, -0.1, 1e3})
         for (const double slope : {0.0, 1e-3})
-          out.push_back({offset, along, 0.0, speed, speed, -speed, 0.0, 1e2 * speed, speed, slope, -slope,
-                         slope * speed, 0.0});
+          out.push_back(
+              {offset, along, 0.0, speed, speed, -speed, 0.0, 1e2 * speed, speed, slope, -slope, slope * speed, 0.0});
   return out;
 }
 
@@ -93,8 +92,7 @@ TEST(EveryPairOfLaws, StaysFiniteAtTheEndsOfWhatAFileMaySay) {
   int pressing = 0;
   for (const Joint& joint : joints_at_the_ends()) {
     for (const double speed : {0.0, 1e-300, 1e-9, 1e3})
-      ASSERT_TRUE(std::isfinite(joint.numbers.friction.force_per_velocity(speed)))
-          << joint.name << " at " << speed;
+      ASSERT_TRUE(std::isfinite(joint.numbers.friction.force_per_velocity(speed))) << joint.name << " at " << speed;
     for (const double impact_speed : {1e-9, 10.0})
       for (const std::array<double, 13>& x : motions(joint.numbers.radial_clearance)) {
         std::array<double, kContactPlaces> impact_speeds;
@@ -116,8 +114,8 @@ TEST(EveryPairOfLaws, StaysFiniteAtTheEndsOfWhatAFileMaySay) {
           for (int i = 0; i < 13; ++i) jets[i] = Jet(x[i], i);
           JournalWrench<Jet> with_slopes;
           joint.numbers.wrench(as_motion(jets), impact_speeds, with_slopes);
-          ASSERT_TRUE(is_finite(with_slopes)) << joint.name << ": a derivative, at offset " << x[0] << ", "
-                                              << x[1] << ", speed " << x[3] << ", slope " << x[9];
+          ASSERT_TRUE(is_finite(with_slopes)) << joint.name << ": a derivative, at offset " << x[0] << ", " << x[1]
+                                              << ", speed " << x[3] << ", slope " << x[9];
         }
         pressing += wrench.force.norm() > 0.0;
         ASSERT_TRUE(std::isfinite(joint.numbers.elastic_energy(motion))) << joint.name;

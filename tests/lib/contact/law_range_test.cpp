@@ -19,8 +19,7 @@ TEST(LawRange, OfHertzEndsWhereThePatchSpansFifteenDegrees) {
   const ClearanceParameters p = joint(0.1e-3);
   const NormalLaw law = make_normal_law("flores", "", p);
   // a = R_a sin 15 degrees, d = a^2 / R.
-  const double a = 10e-3 * std::sin(M_PI / 12.0), d = a * a / (10e-3 * 10.1e-3 / 0.1e-3),
-               limit = law.elastic_force(d);
+  const double a = 10e-3 * std::sin(M_PI / 12.0), d = a * a / (10e-3 * 10.1e-3 / 0.1e-3), limit = law.elastic_force(d);
   EXPECT_FALSE(out_of_range("flores", p, 0.99 * limit));
   EXPECT_TRUE(out_of_range("flores", p, 1.01 * limit));
 }

@@ -25,7 +25,8 @@ Impact impact_of(double e, const char* name) {
 TEST(FloresLaw, GivesTheRestitutionThatTheoryForesees) {
   const double asked[] = {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99};
   const reference::Row returned = reference::named("contact_laws", "returned", "flores");
-  for (std::size_t k = 0; k < std::size(asked); ++k) EXPECT_NEAR(impact_of(asked[k], "flores").restitution, returned[k], 2e-5) << asked[k];
+  for (std::size_t k = 0; k < std::size(asked); ++k)
+    EXPECT_NEAR(impact_of(asked[k], "flores").restitution, returned[k], 2e-5) << asked[k];
 }
 
 TEST(FloresLaw, ReachesTheDepthThatTheoryForesees) {
@@ -83,7 +84,8 @@ TEST(Hertz, ModulusTakesTheNumbersOfEachMaterialTogether) {
 TEST(Hertz, DepthUnderALoadAndBounceOfAJournalAtRest) {
   for (const double K : {6.610198e10, 1.508882e11}) {
     const NormalLaw law{K, 0.0};
-    for (const double load : {9.81, 10.0, 100.0, 1000.0}) EXPECT_NEAR(law.depth_under(load) / std::pow(load / K, 2.0 / 3.0), 1.0, 1e-12);
+    for (const double load : {9.81, 10.0, 100.0, 1000.0})
+      EXPECT_NEAR(law.depth_under(load) / std::pow(load / K, 2.0 / 3.0), 1.0, 1e-12);
     const double depth = law.depth_under(9.81);
     EXPECT_NEAR(std::sqrt(law.elastic_slope(depth)) / std::sqrt(1.5 * 9.81 / depth), 1.0, 1e-12);
   }

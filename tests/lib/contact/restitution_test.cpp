@@ -20,7 +20,8 @@ constexpr double kAsked[] = {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 
 // contactSphereSphereTest (0.90903 at 0.9, 0.66298 at 0.5 for the first; 0.30424 at 0.3, 0.10099 at 0.1 for the second; 0.90002 at 0.9
 // for the third).
 std::map<std::string, std::vector<double>> returned_by_law() {
-  std::map<std::string, std::vector<double>> laws = {{"exact", {std::begin(kAsked), std::end(kAsked)}}, {"hertz", std::vector<double>(12, 1.0)}};
+  std::map<std::string, std::vector<double>> laws = {{"exact", {std::begin(kAsked), std::end(kAsked)}},
+                                                     {"hertz", std::vector<double>(12, 1.0)}};
   for (const reference::Row& row : reference::table("contact_laws", "returned")) laws[row.name] = row.values;
   return laws;
 }
@@ -30,8 +31,7 @@ TEST(ContactLaws, ReturnTheRestitutionThatTheoryForesees) {
     ASSERT_EQ(returned.size(), std::size(kAsked)) << name;
     for (std::size_t k = 0; k < returned.size(); ++k) {
       const NormalLaw law{1e9, normal_law(name).damping_factor(kAsked[k])};
-      EXPECT_NEAR(impact(law, 1.0, 1.0, 3000).restitution, returned[k], 2e-5)
-          << name << " asked for " << kAsked[k];
+      EXPECT_NEAR(impact(law, 1.0, 1.0, 3000).restitution, returned[k], 2e-5) << name << " asked for " << kAsked[k];
     }
   }
 }
@@ -50,8 +50,7 @@ TEST(ContactLaws, ReturnWhatExudynPrintsForALinearSpring) {
         Row{"carvalho-martins", .5, .50018}}) {
     NormalLaw law{1e9, normal_law(row.name).damping_factor(row.asked)};
     law.curve = ElasticCurve::linear;
-    EXPECT_NEAR(impact(law, 1.0, 10.0, 3000).restitution, row.returned, 5e-5)
-        << row.name << " asked for " << row.asked;
+    EXPECT_NEAR(impact(law, 1.0, 10.0, 3000).restitution, row.returned, 5e-5) << row.name << " asked for " << row.asked;
   }
 }
 
@@ -92,8 +91,7 @@ TEST(ContactLaws, ReachTheDepthAndForceThatTheoryForesees) {
     const double e = row[0];
     const NormalLaw law{1e9, normal_law(row.name).damping_factor(e)};
     const Impact hit = impact(law, 1.0, 1.0, 8000);
-    const double depth = std::pow(5.0 / (4.0 * law.stiffness), 0.4),
-                 force = law.stiffness * std::pow(depth, 1.5);
+    const double depth = std::pow(5.0 / (4.0 * law.stiffness), 0.4), force = law.stiffness * std::pow(depth, 1.5);
     EXPECT_NEAR(hit.depth / depth, row[1], 2e-6) << row.name;
     EXPECT_NEAR(hit.force / force, row[2], 2e-6) << row.name;
     EXPECT_NEAR(hit.duration / depth, row[3], 5e-5) << row.name;
@@ -167,15 +165,12 @@ TEST(ElasticCurves, SlopeAndEnergyAreTheForcesDerivativeAndIntegralAndDepthItsIn
     const NormalLaw law = make_normal_law(entry.name, "", p);
     for (const double d : {1e-9, 3e-7, 0.99e-6, 1.01e-6, 5e-6, 0.4e-4, 0.1e-3, 0.5e-3}) {
       const double h = 1e-6 * d, F = law.elastic_force(d);
-      EXPECT_NEAR((law.elastic_force(d + h) - law.elastic_force(d - h)) / (2.0 * h) / law.elastic_slope(d),
-                  1.0, 1e-6)
+      EXPECT_NEAR((law.elastic_force(d + h) - law.elastic_force(d - h)) / (2.0 * h) / law.elastic_slope(d), 1.0, 1e-6)
           << entry.name << " at " << d;
       EXPECT_NEAR(law.depth_under(F) / d, 1.0, 1e-9) << entry.name << " at " << d;
       // Simpson's rule over the last tenth of the way.
-      const double a = 0.9 * d,
-                   sum = (law.elastic_force(a) + 4.0 * law.elastic_force(0.95 * d) + F) * 0.1 * d / 6.0;
-      EXPECT_NEAR((law.elastic_energy(d) - law.elastic_energy(a)) / sum, 1.0, 1e-5)
-          << entry.name << " at " << d;
+      const double a = 0.9 * d, sum = (law.elastic_force(a) + 4.0 * law.elastic_force(0.95 * d) + F) * 0.1 * d / 6.0;
+      EXPECT_NEAR((law.elastic_energy(d) - law.elastic_energy(a)) / sum, 1.0, 1e-5) << entry.name << " at " << d;
     }
   }
 }

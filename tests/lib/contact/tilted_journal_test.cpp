@@ -1,11 +1,10 @@
-#include "boresight/contact/journal_in_sleeve.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
 #include "boresight/contact/contact_tangent.hpp"
+#include "boresight/contact/journal_in_sleeve.hpp"
 
 namespace boresight {
 namespace {
@@ -84,14 +83,15 @@ TEST(TiltedJournal, HasThePapersForcesWhenItIsParallel) {
   for (int k = 0; k < 1000; ++k) {
     Offsets o = random_offsets(generator, 0.0);
     o.tail<2>().setZero();
-    const JournalMotion<double> m =
-        at(o, 0.01 * Vec3(uniform(generator), uniform(generator), uniform(generator)), {0.0, 5.0 * uniform(generator), 0.0});
+    const JournalMotion<double> m = at(o, 0.01 * Vec3(uniform(generator), uniform(generator), uniform(generator)),
+                                       {0.0, 5.0 * uniform(generator), 0.0});
     JournalWrench<double> a, b;
     tilts.wrench(m, kImpactSpeed, a);
     parallel.wrench(m, kImpactSpeed, b);
     EXPECT_LT((a.force - b.force).norm(), 1e-10 * (1.0 + b.force.norm()));
     // The parallel journal's normal forces meet at the sleeve's centre, the tilting one's at its own: no work without tilt.
-    const JournalInSleeve smooth = joint(), smooth_parallel = joint(JointType::revolute, 0.0, "hertz", JournalAxes::parallel);
+    const JournalInSleeve smooth = joint(),
+                          smooth_parallel = joint(JointType::revolute, 0.0, "hertz", JournalAxes::parallel);
     JournalWrench<double> normal, normal_parallel;
     smooth.wrench(m, kImpactSpeed, normal);
     smooth_parallel.wrench(m, kImpactSpeed, normal_parallel);
@@ -100,7 +100,8 @@ TEST(TiltedJournal, HasThePapersForcesWhenItIsParallel) {
     Vec3 pushed(0.0, 0.0, 0.0);
     for (int side : {-1, 1}) {
       pushed.y() += side * a.contact[static_cast<int>(TiltedJournal::axial_place(side))].normal_force;
-      const double F = a.contact[static_cast<int>(TiltedJournal::radial_place(side))].normal_force / std::hypot(o[0], o[2]);
+      const double F =
+          a.contact[static_cast<int>(TiltedJournal::radial_place(side))].normal_force / std::hypot(o[0], o[2]);
       pushed -= F * Vec3(o[0], 0.0, o[2]);
     }
     const Vec3 shift = m.e.cross(pushed);
@@ -138,7 +139,8 @@ TEST(TiltedJournal, TangentIsTheChangeOfForce) {
       for (int i = 0; i < tangent.count; ++i) stiffness += tangent.column[i].n * tangent.column[i].n.transpose();
       // Second differences of the energy; forces that stand add a geometric part of (force / offset), which the tangent
       // leaves out: along the offset's own direction there is none.
-      const Eigen::Matrix<double, 5, 1> probe = tangent.count > 0 ? Offsets(tangent.column[0].n.normalized()) : Offsets(o);
+      const Eigen::Matrix<double, 5, 1> probe =
+          tangent.count > 0 ? Offsets(tangent.column[0].n.normalized()) : Offsets(o);
       if (tangent.count != 1) continue;
       ++touching;
       const double h = 1e-8;

@@ -50,8 +50,7 @@ Ball dropped(double height, double restitution, double shortest_flight) {
   VecX y = state_of(height, 0.0);
   Integrator<ExplicitMethod> integrator(ExplicitMethod(dormand_prince54(), 2), 1);
   const IntegrationSummary summary = integrator.run(
-      ball, 0.0, 10.0, y,
-      {.relative_tolerance = 1e-9, .absolute_tolerance = 1e-12, .event_floor = shortest_flight});
+      ball, 0.0, 10.0, y, {.relative_tolerance = 1e-9, .absolute_tolerance = 1e-12, .event_floor = shortest_flight});
   EXPECT_TRUE(summary.completed()) << summary;
   return ball;
 }
@@ -77,7 +76,8 @@ TEST(BouncingBall, StrikesAndComesToRestWhenTheSeriesSays) {
 TEST(FixedSteps, ThroughAnElasticImpactErrAsMuchAsComputed) {
   BouncingMass mass;
   mass.follows_memory = false;
-  const double contact = reference::line("contact_laws", "undamped duration over depth and speed")[0] * mass.depth(1.0);  // of an impact at 1 m/s [s]
+  const double contact = reference::line("contact_laws", "undamped duration over depth and speed")[0] *
+                         mass.depth(1.0);  // of an impact at 1 m/s [s]
   for (const reference::Row& row : reference::table("bouncing", "fixed steps")) {
     const double steps = row[0], error = row[1];
     const double h = contact / steps;
@@ -108,9 +108,7 @@ struct Robertson {
 // y'' = mu (1 - y^2) y' - y with mu = 1000.
 struct VanDerPol {
   static constexpr bool autonomous = true;
-  void derivative(double, const VecX& y, VecX& dy) const {
-    dy << y[1], 1e3 * (1.0 - y[0] * y[0]) * y[1] - y[0];
-  }
+  void derivative(double, const VecX& y, VecX& dy) const { dy << y[1], 1e3 * (1.0 - y[0] * y[0]) * y[1] - y[0]; }
   void jacobian(double, const VecX& y, MatX& j) const {
     j << 0.0, 1.0, -2e3 * y[0] * y[1] - 1.0, 1e3 * (1.0 - y[0] * y[0]);
   }

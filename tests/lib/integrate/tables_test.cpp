@@ -9,8 +9,7 @@ namespace boresight {
 namespace {
 
 const std::vector<const ExplicitTable*>& explicit_tables() {
-  static const std::vector<const ExplicitTable*> tables{&classical_rk4(), &bogacki_shampine32(),
-                                                        &dormand_prince54()};
+  static const std::vector<const ExplicitTable*> tables{&classical_rk4(), &bogacki_shampine32(), &dormand_prince54()};
   return tables;
 }
 const std::vector<const RosenbrockTable*>& rosenbrock_tables() {
@@ -78,8 +77,7 @@ TEST(ExplicitTables, HaveTheirOrderAndNoMore) {
 TEST(ExplicitTables, EvaluateAtTheTimeOfTheirStages) {
   for (const ExplicitTable* table : explicit_tables()) {
     const VecX sums = coefficients(*table).alpha.rowwise().sum();
-    for (int i = 0; i < table->stages; ++i)
-      EXPECT_NEAR(sums[i], table->c[i], 1e-14) << table->name << " stage " << i;
+    for (int i = 0; i < table->stages; ++i) EXPECT_NEAR(sums[i], table->c[i], 1e-14) << table->name << " stage " << i;
   }
 }
 
@@ -146,8 +144,7 @@ TEST(RosenbrockTables, AreLStable) {
     EXPECT_GT(table->gamma, 0.0);
     // and it forgets what is infinitely stiff, in every direction of the left half plane.
     for (double angle : {0.5, 0.7, 0.9, 1.0})
-      EXPECT_LT(std::abs(stability_function(method, std::polar(1e8, angle * std::acos(-1.0)))), 1e-6)
-          << table->name;
+      EXPECT_LT(std::abs(stability_function(method, std::polar(1e8, angle * std::acos(-1.0)))), 1e-6) << table->name;
   }
 }
 

@@ -1,10 +1,10 @@
 // What a file leaves out of a clearance is said, and what it gives is not.
+#include "boresight/io/assumed_values.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
-
-#include "boresight/io/assumed_values.hpp"
 
 namespace boresight {
 namespace {
@@ -70,8 +70,9 @@ std::set<std::string> keys_of(const std::string& text, const std::vector<Setting
 TEST(AssumedValues, AreNoneWhereEverythingIsGiven) { EXPECT_EQ(keys_of(kFile + kWhole), std::set<std::string>{}); }
 
 TEST(AssumedValues, NameEachKeyThatResultsHangOn) {
-  EXPECT_EQ(keys_of(kFile), (std::set<std::string>{"axes", "contact.law", "contact.young", "contact.poisson", "contact.restitution",
-                                                   "contact.minimum_impact_speed", "contact.density", "friction.coefficient"}));
+  EXPECT_EQ(keys_of(kFile),
+            (std::set<std::string>{"axes", "contact.law", "contact.young", "contact.poisson", "contact.restitution",
+                                   "contact.minimum_impact_speed", "contact.density", "friction.coefficient"}));
 }
 
 TEST(AssumedValues, AreNotAssumedWhereASettingGivesThem) {
@@ -89,14 +90,17 @@ TEST(AssumedValues, FollowTheLawsInForce) {
 }
 
 TEST(AssumedValues, AreSaidInOneSentenceForJointsThatLackTheSame) {
-  const std::string second = "[[clearance]]\njoint = \"S\"\njournal = \"hand\"\nradial = \"0.1 mm\"\naxial = \"0.1 mm\"\n"
-                             "journal_radius = \"10 mm\"\ncap_radius = \"16 mm\"\nsleeve_length = \"30 mm\"\n";
+  const std::string second =
+      "[[clearance]]\njoint = \"S\"\njournal = \"hand\"\nradial = \"0.1 mm\"\naxial = \"0.1 mm\"\n"
+      "journal_radius = \"10 mm\"\ncap_radius = \"16 mm\"\nsleeve_length = \"30 mm\"\n";
   const auto sentences = in_words(assumed_values_of_text(kFile + second, "f.toml"));
   ASSERT_EQ(sentences.size(), 1u);
-  EXPECT_EQ(sentences[0],
-            "R, S: not given, so assumed: axes = \"parallel\", contact.law = \"flores\", contact.young = 72 GPa (aluminium), "
-            "contact.poisson = 0.33, contact.restitution = 0.9, contact.minimum_impact_speed = 1 mm/s, contact.density = 2700 kg/m^3, "
-            "friction.coefficient = 0 (none)");
+  EXPECT_EQ(
+      sentences[0],
+      "R, S: not given, so assumed: axes = \"parallel\", contact.law = \"flores\", contact.young = 72 GPa (aluminium), "
+      "contact.poisson = 0.33, contact.restitution = 0.9, contact.minimum_impact_speed = 1 mm/s, contact.density = "
+      "2700 kg/m^3, "
+      "friction.coefficient = 0 (none)");
   EXPECT_EQ(in_words(assumed_values_of_text(kFile + second + kWhole, "f.toml")).size(), 1u);
 }
 

@@ -119,8 +119,7 @@ TEST(ErrorLine, NamesKeysThatAreUnknownMissingOrWithoutMeaning) {
        R"~(f.toml:59: load.1.force: found a key that has no meaning here, expected no such key; did you mean torque?)~"},
       {"[payload]", "[payloads]",
        R"~(f.toml:16: payloads: found an unknown key, expected one of format, name, gravity, body, payload, pattern, joint, motion, clearance, initial, spring, load, pointing; did you mean payload?)~"},
-      {"format = 1\n", "# no format\n",
-       R"~(f.toml:1: format: found nothing, expected a whole number)~"},
+      {"format = 1\n", "# no format\n", R"~(f.toml:1: format: found nothing, expected a whole number)~"},
       {"boresight = [0, 0, 1]\n", "# none\n",
        R"~(f.toml:4: body: found no body with a boresight, expected boresight = [0, 0, 1] or another direction on one body)~"},
       {"[motion]\nduration = \"1 s\"\n", "[motion]\n# none\n",
@@ -142,8 +141,7 @@ TEST(ErrorLine, SaysWhatKindOfValueAndWhichDimensionIsExpected) {
        R"~(f.toml:6: body.arm.mass: found "1 kgg" with the unknown unit "kgg", expected a mass such as "1.5 kg"; did you mean kg?)~"},
       {"mass = \"1 kg\"", "mass = \"nan kg\"",
        R"~(f.toml:6: body.arm.mass: found "nan kg", expected a mass such as "1.5 kg")~"},
-      {"mass = \"1 kg\"", "mass = true",
-       R"~(f.toml:6: body.arm.mass: found true, expected a mass such as "1.5 kg")~"},
+      {"mass = \"1 kg\"", "mass = true", R"~(f.toml:6: body.arm.mass: found true, expected a mass such as "1.5 kg")~"},
       {"mass = \"1 kg\"", "mass = [\"1 kg\"]",
        R"~(f.toml:6: body.arm.mass: found ["1 kg"], expected a mass such as "1.5 kg")~"},
       {"mass = \"1 kg\"", "mass = 1979-05-27",
@@ -156,14 +154,12 @@ TEST(ErrorLine, SaysWhatKindOfValueAndWhichDimensionIsExpected) {
        R"~(f.toml:3: gravity: found ["0 m/s^2", "-9.81 m/s^2"], expected a list of three, each an acceleration such as "-9.81 m/s^2")~"},
       {"axis = [1, 0, 0]", "axis = [1, 0]",
        R"~(f.toml:26: joint.R.axis: found [1, 0], expected a direction: three numbers, not all zero)~"},
-      {"axis = [1, 0, 0]", "axis = [1, 0, \"0\"]",
-       R"~(f.toml:26: joint.R.axis.z: found "0", expected a number)~"},
+      {"axis = [1, 0, 0]", "axis = [1, 0, \"0\"]", R"~(f.toml:26: joint.R.axis.z: found "0", expected a number)~"},
       {"axis = [1, 0, 0]", "axis = [1, 0, nan]",
        R"~(f.toml:26: joint.R.axis.z: found the number nan, expected a number)~"},
       {"axis = [1, 0, 0]", "axis = \"x\"",
        R"~(f.toml:26: joint.R.axis: found "x", expected a direction: three numbers, not all zero)~"},
-      {"driven = true", "driven = \"yes\"",
-       R"~(f.toml:33: joint.P.driven: found "yes", expected true or false)~"},
+      {"driven = true", "driven = \"yes\"", R"~(f.toml:33: joint.P.driven: found "yes", expected true or false)~"},
       {"restitution = 0.9", "restitution = \"0.9\"",
        R"~(f.toml:46: clearance.R.contact.restitution: found "0.9", expected a number)~"},
       {"restitution = 0.9", "restitution = inf",
@@ -172,14 +168,10 @@ TEST(ErrorLine, SaysWhatKindOfValueAndWhichDimensionIsExpected) {
        R"~(f.toml:5: body[1].name: found the number 5, expected a text in quotation marks)~"},
       {"rates = { R = \"6 rad/s\" }", "rates = { R = \"6 Hz\" }",
        R"~(f.toml:50: initial.rates.R: found "6 Hz", expected an angular rate such as "6 rad/s")~"},
-      {"format = 1\n", "format = 2\n",
-       R"~(f.toml:1: format: found the number 2, expected 1)~"},
-      {"format = 1\n", "format = \"1\"\n",
-       R"~(f.toml:1: format: found "1", expected a whole number)~"},
-      {"[motion]", "[[motion]]",
-       R"~(f.toml:34: motion: found a list of 1, expected a table [motion])~"},
-      {"[[spring]]", "[spring]",
-       R"~(f.toml:51: spring: found a table, expected tables [[spring]])~"},
+      {"format = 1\n", "format = 2\n", R"~(f.toml:1: format: found the number 2, expected 1)~"},
+      {"format = 1\n", "format = \"1\"\n", R"~(f.toml:1: format: found "1", expected a whole number)~"},
+      {"[motion]", "[[motion]]", R"~(f.toml:34: motion: found a list of 1, expected a table [motion])~"},
+      {"[[spring]]", "[spring]", R"~(f.toml:51: spring: found a table, expected tables [[spring]])~"},
       {"connects = [\"arm\", \"slider\"]", "connects = [\"arm\"]",
        R"~(f.toml:30: joint.P.connects: found ["arm"], expected two names of bodies)~"},
   });
@@ -189,8 +181,7 @@ TEST(ErrorLine, RefusesNumbersThatNothingRealHas) {
   check({
       {"mass = \"1 kg\"", "mass = \"-1 kg\"",
        R"~(f.toml:6: body.arm.mass: found "-1 kg", expected a mass above zero)~"},
-      {"mass = \"1 kg\"", "mass = \"0 kg\"",
-       R"~(f.toml:6: body.arm.mass: found "0 kg", expected a mass above zero)~"},
+      {"mass = \"1 kg\"", "mass = \"0 kg\"", R"~(f.toml:6: body.arm.mass: found "0 kg", expected a mass above zero)~"},
       {"mass = \"0 kg\"", "mass = \"-1 g\"",
        R"~(f.toml:18: payload.mass: found "-1 g", expected a mass of zero or more)~"},
       {"[\"2 kg m^2\", \"2 kg m^2\", \"1 kg m^2\"]", "[\"2 kg m^2\", \"2 kg m^2\", \"-1 kg m^2\"]",
@@ -209,8 +200,7 @@ TEST(ErrorLine, RefusesNumbersThatNothingRealHas) {
        R"~(f.toml:26: joint.R.axis: found three numbers without a direction, expected a direction: three numbers, not all zero)~"},
       {"x = [0, 1, 0]", "x = [0, 1, 0.1]",
        R"~(f.toml:9: body.arm.axes.z: found a direction that is not perpendicular to x, expected perpendicular axes)~"},
-      {"x = [0, 1, 0], ", "",
-       R"~(f.toml:9: body.arm.axes: found a table, expected at least two of x, y, z)~"},
+      {"x = [0, 1, 0], ", "", R"~(f.toml:9: body.arm.axes: found a table, expected at least two of x, y, z)~"},
       {"x = [0, 1, 0],", "x = [0, 1, 0], y = [1, 0, 0],",
        R"~(f.toml:9: body.arm.axes: found left-handed axes, expected right-handed axes)~"},
       {"duration = \"1 s\"", "duration = \"0 s\"",
@@ -252,13 +242,15 @@ TEST(ErrorLine, RefusesNumbersThatNothingRealHas) {
 
 TEST(ErrorLine, IsOfTheLetterBeyondAsciiThatStandsOutsideQuotationMarks) {
   const auto refused_at = [](int line) {
-    return "f.toml:" + std::to_string(line) + ": found a letter beyond ASCII outside quotation marks, expected it inside them, or none";
+    return "f.toml:" + std::to_string(line) +
+           ": found a letter beyond ASCII outside quotation marks, expected it inside them, or none";
   };
   const std::string name = "name = \"test\"";
-  for (const char* fine : {"name = \"t\u00e9st\"  # \u00b5, \"", "name = 't\u00e9st\\'", "name = \"a \\\" \u00b5\"", "name = \"\"\"\n\u00b5 \\\"\" \"\"\"\"\"  # \u00b5",
-                           "name = \'\'\'\u3000\n\\\'\'\'"})
+  for (const char* fine : {"name = \"t\u00e9st\"  # \u00b5, \"", "name = 't\u00e9st\\'", "name = \"a \\\" \u00b5\"",
+                           "name = \"\"\"\n\u00b5 \\\"\" \"\"\"\"\"  # \u00b5", "name = \'\'\'\u3000\n\\\'\'\'"})
     EXPECT_EQ(error_of(with(name, fine)), "no error") << fine;
-  for (const char* stray : {"name = \"test\" \u00b5", "n\u00e4me = \"test\"", "name = \"test\"\u00a0", "name = \u00e9", "name = \u4e00\"test\""})
+  for (const char* stray : {"name = \"test\" \u00b5", "n\u00e4me = \"test\"", "name = \"test\"\u00a0", "name = \u00e9",
+                            "name = \u4e00\"test\""})
     EXPECT_EQ(error_of(with(name, stray)), refused_at(2)) << stray;
   EXPECT_EQ(error_of(with(name, "name = \"\"\"\n\u00b5\\\n\"\"\" \u00b5")), refused_at(4));
   EXPECT_EQ(error_of("\xEF\xBB\xBF" + kGood), "no error");
@@ -377,13 +369,15 @@ TEST(ErrorLine, RefusesNestingThatWouldExhaustTheStack) {
   for (int i = 0; i < 100; ++i) key += ".a";
   EXPECT_EQ(error_of(with("[motion]", "[" + key + "]\n[motion]")),
             "f.toml:34: found a key of more than 64 parts, expected a shorter key");
-  EXPECT_EQ(error_of(with("mass = \"1 kg\"", "mass = " + std::string(400, '['))),
-            "f.toml:6: found a fault in the TOML (Error while parsing value: exceeded maximum nested value depth of 256 "
-            "(TOML_MAX_NESTED_VALUES)), expected TOML 1.0");
+  EXPECT_EQ(
+      error_of(with("mass = \"1 kg\"", "mass = " + std::string(400, '['))),
+      "f.toml:6: found a fault in the TOML (Error while parsing value: exceeded maximum nested value depth of 256 "
+      "(TOML_MAX_NESTED_VALUES)), expected TOML 1.0");
 }
 
 TEST(ErrorLine, StaysOneLineWhateverTheFileHolds) {
-  const std::string line = error_of(with("connects = [\"arm\", \"slider\"]", "connects = [\"a\\nb\\u0007" + std::string(5000, 'x') + "\", \"slider\"]"));
+  const std::string line = error_of(with("connects = [\"arm\", \"slider\"]",
+                                         "connects = [\"a\\nb\\u0007" + std::string(5000, 'x') + "\", \"slider\"]"));
   EXPECT_LT(line.size(), 400u);
   EXPECT_EQ(line.substr(0, 45), "f.toml:30: joint.P.connects: found \"a b xxxxx");
 }
@@ -397,7 +391,8 @@ TEST(ErrorLine, SaysThatAFileIsNotThereOrTooLarge) {
     }
     return "no error";
   };
-  EXPECT_EQ(error_of_file("/nowhere/at/all.toml"), "/nowhere/at/all.toml: found no such file, expected a file that exists");
+  EXPECT_EQ(error_of_file("/nowhere/at/all.toml"),
+            "/nowhere/at/all.toml: found no such file, expected a file that exists");
   EXPECT_EQ(error_of_file("/tmp"), "/tmp: found a folder, expected a file");
   const std::string path = testing::TempDir() + "boresight_too_large.toml";
   std::ofstream(path) << std::string((16u << 20) + 1, ' ');
@@ -412,10 +407,12 @@ TEST(ErrorLine, OfASettingNamesTheSettingAndNoLine) {
   EXPECT_EQ(error_of(kGood, {{"body.arm.mass", "2"}}),
             "--set body.arm.mass=2: body.arm.mass: found \"2\" without a unit, expected a mass such as \"1.5 kg\"");
   EXPECT_EQ(error_of(kGood, {{"body.arn.mass", "2 kg"}}),
-            "--set body.arn.mass=2 kg: body.arn.mass: found a path that names nothing, expected the path of a value; did you mean "
+            "--set body.arn.mass=2 kg: body.arn.mass: found a path that names nothing, expected the path of a value; "
+            "did you mean "
             "body.arm.mass?");
   EXPECT_EQ(error_of(kGood, {{"clearance.R.contact.young.sleeve", "0 Pa"}}),
-            "--set clearance.R.contact.young.sleeve=0 Pa: clearance.R.contact.young: found \"0 Pa\", expected elastic moduli above zero");
+            "--set clearance.R.contact.young.sleeve=0 Pa: clearance.R.contact.young: found \"0 Pa\", expected elastic "
+            "moduli above zero");
   EXPECT_EQ(error_of(kGood, {{"gravity.z", "1 m"}}),
             "--set gravity.z=1 m: gravity.z: found \"1 m\", expected an acceleration such as \"-9.81 m/s^2\"");
 }

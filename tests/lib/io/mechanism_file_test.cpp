@@ -1,10 +1,10 @@
 // What a mechanism file becomes.
+#include "boresight/io/mechanism_file.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-
-#include "boresight/io/mechanism_file.hpp"
 
 namespace boresight {
 namespace {
@@ -76,7 +76,8 @@ TEST(DefaultScene, HasTheClearanceAndThePoseLawOfTheStudy) {
   ASSERT_TRUE(m.motion.pose.has_value());
   const auto& pose = *m.motion.pose;
   EXPECT_EQ(pose.sequence, (std::array<int, 3>{2, 1, 2}));
-  const double t = 0.3, s = std::sin(std::numbers::pi * t), psi = 2 * std::numbers::pi * s, theta = std::numbers::pi / 6 * s;
+  const double t = 0.3, s = std::sin(std::numbers::pi * t), psi = 2 * std::numbers::pi * s,
+               theta = std::numbers::pi / 6 * s;
   EXPECT_NEAR(pose.angle[0]->at(t).value, psi, 1e-14);
   EXPECT_NEAR(pose.position[0]->at(t).value, 0.5 * std::sin(theta) * std::cos(psi), 1e-15);
   EXPECT_NEAR(pose.position[2]->at(t).value, 0.5 * std::cos(theta) + 0.005 * s, 1e-15);

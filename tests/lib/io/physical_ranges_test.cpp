@@ -1,4 +1,6 @@
 // Numbers that nothing built can have are refused where they are read, wherever they come from.
+#include "boresight/io/physical_ranges.hpp"
+
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -7,7 +9,6 @@
 
 #include "boresight/contact/normal_law.hpp"
 #include "boresight/io/mechanism_file.hpp"
-#include "boresight/io/physical_ranges.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
@@ -59,41 +60,47 @@ TEST(PhysicalRanges, RefuseEveryValueOfAFileThatIsBlownUpBeyondTheReal) {
         std::string changed = text;
         changed.replace(begin, length, absurd);
         const std::string error = error_of(changed);
-        EXPECT_NE(error.find("expected "), std::string::npos) << name << " at " << text.substr(begin, 30) << " -> " << absurd << ": " << error;
+        EXPECT_NE(error.find("expected "), std::string::npos)
+            << name << " at " << text.substr(begin, 30) << " -> " << absurd << ": " << error;
       }
   }
 }
 
 TEST(PhysicalRanges, AreNamedWithTheirBounds) {
   EXPECT_EQ(error_with({"clearance.F1.contact.young", "1e-308 GPa"}),
-            "--set clearance.F1.contact.young=1e-308 GPa: clearance.F1.contact.young: found \"1e-308 GPa\", expected an elastic modulus "
+            "--set clearance.F1.contact.young=1e-308 GPa: clearance.F1.contact.young: found \"1e-308 GPa\", expected "
+            "an elastic modulus "
             "from 1 kPa to 10 TPa");
   EXPECT_EQ(error_with({"clearance.F1.cap_radius", "1e300 mm"}),
-            "--set clearance.F1.cap_radius=1e300 mm: clearance.F1.cap_radius: found \"1e300 mm\", expected a length from 1 pm to 10000 km");
-  EXPECT_EQ(error_with({"gravity.z", "-1e300 m/s^2"}),
-            "--set gravity.z=-1e300 m/s^2: gravity: found \"-1e300 m/s^2\", expected an acceleration of at most 1e7 m/s^2");
+            "--set clearance.F1.cap_radius=1e300 mm: clearance.F1.cap_radius: found \"1e300 mm\", expected a length "
+            "from 1 pm to 10000 km");
+  EXPECT_EQ(
+      error_with({"gravity.z", "-1e300 m/s^2"}),
+      "--set gravity.z=-1e300 m/s^2: gravity: found \"-1e300 m/s^2\", expected an acceleration of at most 1e7 m/s^2");
   EXPECT_EQ(error_with({"motion.duration", "1e12 s"}),
             "--set motion.duration=1e12 s: motion.duration: found \"1e12 s\", expected a time from 1 ns to 1e9 s");
 }
 
 TEST(PhysicalRanges, TakeWhatHasBeenBuilt) {
-  for (const Setting& setting : std::vector<Setting>{{"clearance.F1.contact.young", "50 kPa"},     // foam
-                                                     {"clearance.F1.contact.young", "1.2 TPa"},    // diamond
+  for (const Setting& setting : std::vector<Setting>{{"clearance.F1.contact.young", "50 kPa"},   // foam
+                                                     {"clearance.F1.contact.young", "1.2 TPa"},  // diamond
                                                      {"clearance.F1.radial", "5 nm"},
                                                      {"clearance.F1.contact.density", "22.6 g/cm^3"},  // osmium
-                                                     {"payload.mass", "420000 kg"},                // a space station
+                                                     {"payload.mass", "420000 kg"},  // a space station
                                                      {"payload.mass", "0 kg"},
                                                      {"gravity.z", "0 m/s^2"},
-                                                     {"gravity.z", "-1e6 m/s^2"},                  // a centrifuge
+                                                     {"gravity.z", "-1e6 m/s^2"},  // a centrifuge
                                                      {"motion.duration", "1 us"},
                                                      {"motion.duration", "30 days"}})
     EXPECT_EQ(error_with(setting), "no error") << setting.path << " = " << setting.value;
 }
 
 TEST(PhysicalRanges, HoldAtTheirOwnBounds) {
-  for (const PhysicalRange& range : {kSizeRange, kMassRange, kDurationRange, kYoungRange, kContactSpeedRange, kStiffnessRange}) {
+  for (const PhysicalRange& range :
+       {kSizeRange, kMassRange, kDurationRange, kYoungRange, kContactSpeedRange, kStiffnessRange}) {
     const double least = parse_quantity(range.least, range.unit), most = parse_quantity(range.most, range.unit);
-    EXPECT_TRUE(holds(range, least) && holds(range, most) && holds(range, -most) && holds(range, 0.0)) << in_words(range);
+    EXPECT_TRUE(holds(range, least) && holds(range, most) && holds(range, -most) && holds(range, 0.0))
+        << in_words(range);
     EXPECT_FALSE(holds(range, 0.99 * least) || holds(range, 1.01 * most) || holds(range, 5e-324)) << in_words(range);
   }
 }
@@ -131,9 +138,11 @@ TEST(Restitution, OfZeroIsTakenByLawsThatStayFiniteAndRefusedByOthersWithTheirNa
       EXPECT_EQ(error, "no error") << law.name;
       ++taken;
     } else {
-      EXPECT_NE(error.find("laws that take 0: hunt-crossley, herbert-mcwhannell, lee-wang, lankarani-nikravesh, zhiying-qishao, "
-                           "carvalho-martins"),
-                std::string::npos)
+      EXPECT_NE(
+          error.find(
+              "laws that take 0: hunt-crossley, herbert-mcwhannell, lee-wang, lankarani-nikravesh, zhiying-qishao, "
+              "carvalho-martins"),
+          std::string::npos)
           << law.name << ": " << error;
       ++refused;
     }
@@ -144,7 +153,8 @@ TEST(Restitution, OfZeroIsTakenByLawsThatStayFiniteAndRefusedByOthersWithTheirNa
 
 TEST(Restitution, OfZeroIsTakenByALawForCylindersWithADissipationThatTakesIt) {
   const std::string text = example("/3-rrcpr/3-rrcpr.toml");
-  const std::vector<Setting> zero = {{"clearance.F1.contact.law", "johnson"}, {"clearance.F1.contact.restitution", "0"}};
+  const std::vector<Setting> zero = {{"clearance.F1.contact.law", "johnson"},
+                                     {"clearance.F1.contact.restitution", "0"}};
   EXPECT_NE(error_of(text, zero).find("beside the law \"johnson\""), std::string::npos);
   std::vector<Setting> with = zero;
   with.push_back({"clearance.F1.contact.dissipation", "hunt-crossley"});

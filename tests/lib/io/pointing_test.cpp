@@ -58,8 +58,9 @@ TEST(Pointing, IsNoneWhereAFileNamesNone) {
 }
 
 TEST(Pointing, RefusesWhatNamesNoLine) {
-  EXPECT_EQ(error_of(kArm + "[pointing]\nfrom = [\"0 m\", \"0 m\", \"0 m\"]\n"),
-            R"~(f.toml:19: pointing.target: found nothing, expected a target, such as ["0 m", "0 m", "5 m"], or a distance along the boresight)~");
+  EXPECT_EQ(
+      error_of(kArm + "[pointing]\nfrom = [\"0 m\", \"0 m\", \"0 m\"]\n"),
+      R"~(f.toml:19: pointing.target: found nothing, expected a target, such as ["0 m", "0 m", "5 m"], or a distance along the boresight)~");
   EXPECT_EQ(error_of(kArm + "[pointing]\ndistance = \"1 m\"\ntarget = [\"0 m\", \"0 m\", \"0 m\"]\n"),
             "f.toml:20: pointing.distance: found both a target and a distance, expected one of the two");
   EXPECT_EQ(error_of(kArm + "[pointing]\ntarget = [\"0 mm\", \"0 mm\", \"100 mm\"]\n").substr(0, 40),
@@ -76,8 +77,9 @@ TEST(Initial, JournalsRestUnlessTheFileCentresThem) {
   EXPECT_EQ(journals("[initial]\njournals = \"rest\"\n"), JournalStart::rest);
   EXPECT_EQ(journals("[initial]\njournals = \"centred\"\n"), JournalStart::centred);
   EXPECT_EQ(journals("", {{"initial.journals", "centred"}}), JournalStart::centred);
-  EXPECT_EQ(error_of(kArm + "[initial]\njournals = \"centered\"\n"),
-            R"~(f.toml:20: initial.journals: found "centered", expected one of "rest", "centred"; did you mean centred?)~");
+  EXPECT_EQ(
+      error_of(kArm + "[initial]\njournals = \"centered\"\n"),
+      R"~(f.toml:20: initial.journals: found "centered", expected one of "rest", "centred"; did you mean centred?)~");
 }
 
 TEST(Clearance, OfACylindricalJointHasNoAxialOne) {
@@ -94,8 +96,9 @@ radial = "0.1 mm"
 axial = "1 um"
 journal_radius = "10 mm"
 )toml";
-  EXPECT_EQ(error_of(kArm + slides),
-            R"~(f.toml:29: clearance.C.axial: found it on "C", a cylindrical joint, expected no axial clearance: the journal slides through its sleeve and has no end faces)~");
+  EXPECT_EQ(
+      error_of(kArm + slides),
+      R"~(f.toml:29: clearance.C.axial: found it on "C", a cylindrical joint, expected no axial clearance: the journal slides through its sleeve and has no end faces)~");
 }
 
 }  // namespace

@@ -52,30 +52,47 @@ TEST(Setting, ReplacesAnyValueByItsPath) {
   EXPECT_EQ(m.motion.duration, 0.5);
   EXPECT_DOUBLE_EQ(m.motion.pose->angle[1]->at(0.5).value, 0.05);
   for (const BodyDescription& body : m.bodies) {
-    if (body.name == "rod1") { EXPECT_EQ(body.mass, 2.0); }
-    if (body.name == "rod2") { EXPECT_EQ(body.mass, 1.5); }
-    if (body.name == "crank2") { EXPECT_DOUBLE_EQ(body.center_of_mass.z(), 1e-3); }
-    if (body.name == "crank3") { EXPECT_DOUBLE_EQ(body.center_of_mass.z(), -0.06254571230937749); }
-    if (body.name == "platform") { EXPECT_EQ(body.inertia(2, 2), 0.7); }
+    if (body.name == "rod1") {
+      EXPECT_EQ(body.mass, 2.0);
+    }
+    if (body.name == "rod2") {
+      EXPECT_EQ(body.mass, 1.5);
+    }
+    if (body.name == "crank2") {
+      EXPECT_DOUBLE_EQ(body.center_of_mass.z(), 1e-3);
+    }
+    if (body.name == "crank3") {
+      EXPECT_DOUBLE_EQ(body.center_of_mass.z(), -0.06254571230937749);
+    }
+    if (body.name == "platform") {
+      EXPECT_EQ(body.inertia(2, 2), 0.7);
+    }
   }
 }
 
 TEST(Setting, TheLastOneOfAPathWins) {
   EXPECT_EQ(scene({{"payload.mass", "1 kg"}, {"payload.mass", "2 kg"}}).payload->mass, 2.0);
-  EXPECT_DOUBLE_EQ(scene({{"clearance.F1.radial", "1 mm"}, {"clearance.*.radial", "2 mm"}}).clearances[0].parameters.radial, 2e-3);
+  EXPECT_DOUBLE_EQ(
+      scene({{"clearance.F1.radial", "1 mm"}, {"clearance.*.radial", "2 mm"}}).clearances[0].parameters.radial, 2e-3);
 }
 
 TEST(Setting, MaySwitchADriveOffAfterThePatternWasCopied) {
   const MechanismDescription m = scene({{"joint.A1.driven", "false"}});
   for (const JointDescription& joint : m.joints) {
-    if (joint.name == "A1") { EXPECT_FALSE(joint.driven); }
-    if (joint.name == "A2") { EXPECT_TRUE(joint.driven); }
+    if (joint.name == "A1") {
+      EXPECT_FALSE(joint.driven);
+    }
+    if (joint.name == "A2") {
+      EXPECT_TRUE(joint.driven);
+    }
   }
 }
 
 TEST(Setting, OfAPathThatNamesNothingIsRefusedWithTheNearest) {
-  for (const auto& [path, nearest] : {std::pair{"clearance.F2.radial", "clearance.F1.radial"}, {"payload.mas", "payload.mass"},
-                                      {"gravity", "gravity.x"}, {"clearance.F1.contact.restitutoin", "clearance.F1.contact.restitution"}}) {
+  for (const auto& [path, nearest] : {std::pair{"clearance.F2.radial", "clearance.F1.radial"},
+                                      {"payload.mas", "payload.mass"},
+                                      {"gravity", "gravity.x"},
+                                      {"clearance.F1.contact.restitutoin", "clearance.F1.contact.restitution"}}) {
     try {
       scene({{path, "1 mm"}});
       ADD_FAILURE() << path;
@@ -164,8 +181,12 @@ TEST(Pattern, TurnsPointsAxesBodiesSpringsAndLoadsWithTheCopy) {
 }
 
 TEST(Pattern, SettingsNameTheCopies) {
-  const MechanismDescription m = read_mechanism_text(
-      kRing, "ring.toml", {{"spring.3.stiffness", "9 N/m"}, {"clearance.*.radial", "0.2 mm"}, {"joint.J2.point.x", "5 m"}, {"load.4.force.z", "8"}, {"initial.rates.C1.displacement", "0 m/s"}});
+  const MechanismDescription m = read_mechanism_text(kRing, "ring.toml",
+                                                     {{"spring.3.stiffness", "9 N/m"},
+                                                      {"clearance.*.radial", "0.2 mm"},
+                                                      {"joint.J2.point.x", "5 m"},
+                                                      {"load.4.force.z", "8"},
+                                                      {"initial.rates.C1.displacement", "0 m/s"}});
   EXPECT_EQ(m.springs[2].parameters.stiffness, 9.0);
   for (const auto& clearance : m.clearances) EXPECT_DOUBLE_EQ(clearance.parameters.radial, 2e-4);
   EXPECT_EQ(m.joints[2].point.x(), 5.0);
@@ -192,17 +213,17 @@ TEST(Examples, AreAllReadable) {
   EXPECT_EQ(four_bar.joints[four_bar.clearances[0].joint].first, kGround);
 }
 
-TEST(ContentHash, IsFnv1aOf128Bits) {
-  EXPECT_EQ(ContentHash().hexadecimal(), "6c62272e07bb014262b821756295c58d");
-}
+TEST(ContentHash, IsFnv1aOf128Bits) { EXPECT_EQ(ContentHash().hexadecimal(), "6c62272e07bb014262b821756295c58d"); }
 
 TEST(ContentHash, IsTheSameForTheSameBytesAndSettingsOnly) {
   const std::string hash = scene().content_hash;
   EXPECT_EQ(scene().content_hash, hash);
   EXPECT_NE(scene({{"payload.mass", "0 kg"}}).content_hash, hash);
   EXPECT_EQ(scene({{"payload.mass", "0 kg"}}).content_hash, scene({{"payload.mass", "0 kg"}}).content_hash);
-  EXPECT_NE(read_mechanism_text(kRing, "ring.toml").content_hash, read_mechanism_text(kRing + "\n", "ring.toml").content_hash);
-  EXPECT_EQ(read_mechanism_text(kRing, "ring.toml").content_hash, read_mechanism_text(kRing, "other.toml").content_hash);
+  EXPECT_NE(read_mechanism_text(kRing, "ring.toml").content_hash,
+            read_mechanism_text(kRing + "\n", "ring.toml").content_hash);
+  EXPECT_EQ(read_mechanism_text(kRing, "ring.toml").content_hash,
+            read_mechanism_text(kRing, "other.toml").content_hash);
 }
 
 }  // namespace

@@ -22,24 +22,57 @@ struct Case {
 };
 
 TEST(Units, ConvertToSi) {
-  const Case cases[] = {
-      {"0.1 mm", kLength, 1e-4},        {"0.2mm", kLength, 2e-4},          {"3 um", kLength, 3e-6},
-      {"3 µm", kLength, 3e-6},          {"3 μm", kLength, 3e-6},           {"2 m", kLength, 2.0},
-      {"2 km", kLength, 2000.0},        {"180 deg", kAngle, kPi},          {"60 arcmin", kAngle, kPi / 180},
-      {"3600 arcsec", kAngle, kPi / 180}, {"1.5 rad", kAngle, 1.5},        {"2 mrad", kAngle, 2e-3},
-      {"2 urad", kAngle, 2e-6},         {"2 µrad", kAngle, 2e-6},          {"60 rpm", kAngularRate, 2 * kPi},
-      {"5000 rpm", kAngularRate, 5000 * 2 * kPi / 60}, {"6 rad/s", kAngularRate, 6.0}, {"180 deg/s", kAngularRate, kPi},
-      {"50 Hz", kFrequency, 50.0},      {"1 s", kDuration, 1.0},           {"5 ms", kDuration, 5e-3},
-      {"15 kg", kMass, 15.0},           {"15 g", kMass, 0.015},            {"10 N", kForce, 10.0},
-      {"10 kN", kForce, 1e4},           {"0.033 N m", kTorque, 0.033},     {"8e5 N/m", kStiffness, 8e5},
-      {"4e4 N s/m", kDamping, 4e4},     {"1 Pa", kElasticModulus, 1.0},    {"1 kPa", kElasticModulus, 1e3},
-      {"1 MPa", kElasticModulus, 1e6},  {"72 GPa", kElasticModulus, 72e9}, {"2700 kg/m^3", kDensity, 2700.0},
-      {"0.45 kg m^2", kInertia, 0.45},  {"1 g mm^2", kInertia, 1e-9},      {"2 m/s", kSpeed, 2.0},
-      {"1 mm/s", kSpeed, 1e-3},         {"-9.81 m/s^2", kAcceleration, -9.81}, {"1 %", kRatio, 0.01},
-      {"0.3 1", kRatio, 0.3},           {"0 mm", kLength, 0.0},            {"-0.0 kg", kMass, 0.0},
-      {"+5 mm", kLength, 5e-3},         {" 5 mm ", kLength, 5e-3},         {".5 m", kLength, 0.5},
-      {"1e-3 m", kLength, 1e-3},        {"5 kg m2", kInertia, 5.0},        {"5 kg.m^2", kInertia, 5.0},
-      {"5 kg*m^2", kInertia, 5.0},      {"5 m s-2", kAcceleration, 5.0},   {"3 1/s", kFrequency, 3.0}};
+  const Case cases[] = {{"0.1 mm", kLength, 1e-4},
+                        {"0.2mm", kLength, 2e-4},
+                        {"3 um", kLength, 3e-6},
+                        {"3 µm", kLength, 3e-6},
+                        {"3 μm", kLength, 3e-6},
+                        {"2 m", kLength, 2.0},
+                        {"2 km", kLength, 2000.0},
+                        {"180 deg", kAngle, kPi},
+                        {"60 arcmin", kAngle, kPi / 180},
+                        {"3600 arcsec", kAngle, kPi / 180},
+                        {"1.5 rad", kAngle, 1.5},
+                        {"2 mrad", kAngle, 2e-3},
+                        {"2 urad", kAngle, 2e-6},
+                        {"2 µrad", kAngle, 2e-6},
+                        {"60 rpm", kAngularRate, 2 * kPi},
+                        {"5000 rpm", kAngularRate, 5000 * 2 * kPi / 60},
+                        {"6 rad/s", kAngularRate, 6.0},
+                        {"180 deg/s", kAngularRate, kPi},
+                        {"50 Hz", kFrequency, 50.0},
+                        {"1 s", kDuration, 1.0},
+                        {"5 ms", kDuration, 5e-3},
+                        {"15 kg", kMass, 15.0},
+                        {"15 g", kMass, 0.015},
+                        {"10 N", kForce, 10.0},
+                        {"10 kN", kForce, 1e4},
+                        {"0.033 N m", kTorque, 0.033},
+                        {"8e5 N/m", kStiffness, 8e5},
+                        {"4e4 N s/m", kDamping, 4e4},
+                        {"1 Pa", kElasticModulus, 1.0},
+                        {"1 kPa", kElasticModulus, 1e3},
+                        {"1 MPa", kElasticModulus, 1e6},
+                        {"72 GPa", kElasticModulus, 72e9},
+                        {"2700 kg/m^3", kDensity, 2700.0},
+                        {"0.45 kg m^2", kInertia, 0.45},
+                        {"1 g mm^2", kInertia, 1e-9},
+                        {"2 m/s", kSpeed, 2.0},
+                        {"1 mm/s", kSpeed, 1e-3},
+                        {"-9.81 m/s^2", kAcceleration, -9.81},
+                        {"1 %", kRatio, 0.01},
+                        {"0.3 1", kRatio, 0.3},
+                        {"0 mm", kLength, 0.0},
+                        {"-0.0 kg", kMass, 0.0},
+                        {"+5 mm", kLength, 5e-3},
+                        {" 5 mm ", kLength, 5e-3},
+                        {".5 m", kLength, 0.5},
+                        {"1e-3 m", kLength, 1e-3},
+                        {"5 kg m2", kInertia, 5.0},
+                        {"5 kg.m^2", kInertia, 5.0},
+                        {"5 kg*m^2", kInertia, 5.0},
+                        {"5 m s-2", kAcceleration, 5.0},
+                        {"3 1/s", kFrequency, 3.0}};
   for (const Case& c : cases) {
     try {
       EXPECT_NEAR(parse_quantity(c.text, c.unit), c.value, 1e-14 * std::abs(c.value)) << c.text;
@@ -50,18 +83,46 @@ TEST(Units, ConvertToSi) {
 }
 
 TEST(Units, RefuseAnotherDimensionTheRadianIncluded) {
-  const Case cases[] = {{"5 mm", kAngle, 0},      {"5 deg", kLength, 0},     {"20 %", kAngle, 0},   {"1 1", kAngle, 0},
-                        {"5 Hz", kAngularRate, 0}, {"5 1/s", kAngularRate, 0}, {"5 rad/s", kFrequency, 0}, {"5 rpm", kFrequency, 0},
-                        {"5 deg", kRatio, 0},     {"5 kg", kForce, 0},       {"5 N", kMass, 0},     {"5 N/m^2", kStiffness, 0},
-                        {"5 m/s", kAcceleration, 0}, {"5 J", kMass, 0},      {"5 rad m", kLength, 0}};
-  for (const Case& c : cases) EXPECT_THROW(parse_quantity(c.text, c.unit), ValueFault) << c.text << " as " << c.unit.what;
+  const Case cases[] = {{"5 mm", kAngle, 0},         {"5 deg", kLength, 0},     {"20 %", kAngle, 0},
+                        {"1 1", kAngle, 0},          {"5 Hz", kAngularRate, 0}, {"5 1/s", kAngularRate, 0},
+                        {"5 rad/s", kFrequency, 0},  {"5 rpm", kFrequency, 0},  {"5 deg", kRatio, 0},
+                        {"5 kg", kForce, 0},         {"5 N", kMass, 0},         {"5 N/m^2", kStiffness, 0},
+                        {"5 m/s", kAcceleration, 0}, {"5 J", kMass, 0},         {"5 rad m", kLength, 0}};
+  for (const Case& c : cases)
+    EXPECT_THROW(parse_quantity(c.text, c.unit), ValueFault) << c.text << " as " << c.unit.what;
 }
 
 TEST(Units, RefuseWhatIsNotOneFiniteNumberWithOneUnit) {
-  for (const char* text :
-       {"", " ", "mm", "5", "5 ", "nan mm", "inf mm", "-inf mm", "0x10 mm", "1e999 mm", "1e308 km", "5 mm mm^-1 x", "5 2 mm", "5 mm 2",
-        "5,0 mm", "5 mm; 6", "--5 mm", "+-5 mm", "- 5 mm", "5e mm", "5 degC", "5 K @ 2", "5 s since 2000-01-01", "5 lg(re mW)", "5 m^999",
-        "5 (m", "5 \xff", "1 m\n", "5 m m", "5 m^0"}) {
+  for (const char* text : {"",
+                           " ",
+                           "mm",
+                           "5",
+                           "5 ",
+                           "nan mm",
+                           "inf mm",
+                           "-inf mm",
+                           "0x10 mm",
+                           "1e999 mm",
+                           "1e308 km",
+                           "5 mm mm^-1 x",
+                           "5 2 mm",
+                           "5 mm 2",
+                           "5,0 mm",
+                           "5 mm; 6",
+                           "--5 mm",
+                           "+-5 mm",
+                           "- 5 mm",
+                           "5e mm",
+                           "5 degC",
+                           "5 K @ 2",
+                           "5 s since 2000-01-01",
+                           "5 lg(re mW)",
+                           "5 m^999",
+                           "5 (m",
+                           "5 \xff",
+                           "1 m\n",
+                           "5 m m",
+                           "5 m^0"}) {
     EXPECT_THROW(parse_quantity(text, kLength), ValueFault) << text;
   }
   EXPECT_THROW(parse_quantity(std::string(100000, '9') + " mm", kLength), ValueFault);

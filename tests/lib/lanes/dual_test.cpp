@@ -1,10 +1,10 @@
 // Dual numbers give the derivatives that Ceres' jets give, of the contact law itself.
-#include <gtest/gtest.h>
+#include "boresight/math/dual.hpp"
 
 #include <ceres/jet.h>
+#include <gtest/gtest.h>
 
 #include "boresight/contact/journal_in_sleeve.hpp"
-#include "boresight/math/dual.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
@@ -59,7 +59,8 @@ void expect_derivatives_of_jets(bool tilts, const std::array<double, 13>& x) {
     for (int i = 0; i < 13; ++i) {
       const double scale = std::abs(jets.force[k].v[i]) + 1e-9;
       EXPECT_NEAR(duals.force[k].v[i], jets.force[k].v[i], 1e-10 * scale) << k << ", " << i;
-      EXPECT_NEAR(duals.moment[k].v[i], jets.moment[k].v[i], 1e-10 * (std::abs(jets.moment[k].v[i]) + 1e-9)) << k << ", " << i;
+      EXPECT_NEAR(duals.moment[k].v[i], jets.moment[k].v[i], 1e-10 * (std::abs(jets.moment[k].v[i]) + 1e-9))
+          << k << ", " << i;
       largest = std::max(largest, std::abs(jets.force[k].v[i]));
     }
   EXPECT_GT(largest, 1.0);

@@ -4,9 +4,9 @@
 #include <limits>
 #include <random>
 
+#include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/ladder/ladder.hpp"
 #include "boresight/lanes/perturbation_lanes.hpp"
-#include "boresight/rungs/ideal_simulation.hpp"
-#include "boresight/rungs/rung.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
@@ -14,8 +14,9 @@ namespace {
 
 bool operator==(const LaneOutcome& a, const LaneOutcome& b) {
   return a.status == b.status && a.t == b.t && a.max == b.max && a.time_of_max == b.time_of_max && a.mean == b.mean &&
-         a.mean_square == b.mean_square && a.touching_time == b.touching_time && a.max_penetration == b.max_penetration &&
-         a.impacts == b.impacts && a.steps == b.steps && a.rejected == b.rejected;
+         a.mean_square == b.mean_square && a.touching_time == b.touching_time &&
+         a.max_penetration == b.max_penetration && a.impacts == b.impacts && a.steps == b.steps &&
+         a.rejected == b.rejected;
 }
 
 std::shared_ptr<const Mechanism> scene(const char* duration, JournalAxes axes = JournalAxes::parallel) {
@@ -58,8 +59,8 @@ void expect_same_bits(JournalAxes axes, PointingQuantity quantity, LanePrecision
     lanes.run(target, samples, together);
     for (std::size_t k = 0; k < samples.size(); ++k) {
       EXPECT_EQ(together[k].status, LaneStatus::done) << target.name << ", sample " << k;
-      EXPECT_TRUE(together[k] == alone[k]) << target.name << ", sample " << k << ": " << together[k].max << " and "
-                                           << alone[k].max;
+      EXPECT_TRUE(together[k] == alone[k])
+          << target.name << ", sample " << k << ": " << together[k].max << " and " << alone[k].max;
     }
   }
 }
@@ -77,11 +78,11 @@ TEST(Lanes, TellOfEverySampleOnceAsItEnds) {
   std::vector<int> times(samples.size());
   double attempts = 0.0;
   lanes.run(samples, outcomes, kLaneTolerance, {.stop = nullptr, .ended = [&](std::size_t k, double so_far) {
-              ++times[k];
-              told[k] = outcomes[k];
-              EXPECT_GE(so_far, attempts);
-              attempts = so_far;
-            }});
+                                                  ++times[k];
+                                                  told[k] = outcomes[k];
+                                                  EXPECT_GE(so_far, attempts);
+                                                  attempts = so_far;
+                                                }});
   lanes.run(samples, silent);
   double all = 0.0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -99,7 +100,8 @@ TEST(Lanes, LeaveWhenStoppedAndSayWhatWasNotReached) {
   std::vector<LaneOutcome> outcomes(samples.size()), whole(samples.size());
   std::atomic<bool> stop{false};
   std::size_t done = 0;
-  lanes.run(samples, outcomes, kLaneTolerance, {.stop = &stop, .ended = [&](std::size_t, double) { stop = ++done == 3; }});
+  lanes.run(samples, outcomes, kLaneTolerance,
+            {.stop = &stop, .ended = [&](std::size_t, double) { stop = ++done == 3; }});
   lanes.run(samples, whole);
   std::size_t reached = 0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -140,7 +142,8 @@ TEST(Lanes, AreAsAccurateInEitherPrecisionWithAndWithoutFusedSumsAtTheTolerances
       const auto median_error = [&](const LaneTarget& target) {
         lanes.run(target, samples, found, tolerance);
         std::vector<double> errors;
-        for (std::size_t k = 0; k < samples.size(); ++k) errors.push_back(std::abs(found[k].mean / converged[k].mean - 1.0));
+        for (std::size_t k = 0; k < samples.size(); ++k)
+          errors.push_back(std::abs(found[k].mean / converged[k].mean - 1.0));
         std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
         return errors[errors.size() / 2];
       };
@@ -149,8 +152,9 @@ TEST(Lanes, AreAsAccurateInEitherPrecisionWithAndWithoutFusedSumsAtTheTolerances
       const double expected = median_error(twice.back());  // scalar, nothing fused
       for (const LaneTarget& target : {twice.front(), single.front(), single.back()}) {
         const double error = median_error(target);
-        std::printf("tolerance %.0e, %s axes: median error of the mean %.2e in double precision, %.2e on %d lanes of %s\n",
-                    tolerance, axes == JournalAxes::parallel ? "parallel" : "free", expected, error, target.lanes, target.name);
+        std::printf(
+            "tolerance %.0e, %s axes: median error of the mean %.2e in double precision, %.2e on %d lanes of %s\n",
+            tolerance, axes == JournalAxes::parallel ? "parallel" : "free", expected, error, target.lanes, target.name);
         EXPECT_LT(error, 1.3 * expected);  // each of the two medians scatters by 6 %
       }
     }
@@ -242,9 +246,11 @@ TEST(Lanes, LeaveOutWhatTheRungLeavesOut) {
     options.step = 2e-6;
     options.sample_spacing = 0.0;
     options.start = start;
-    const Statistics expected = make_rung("perturbation", mechanism)->run(mechanism->parameters(), options).index.position_error;
+    const Statistics expected =
+        make_rung("perturbation", mechanism)->run(mechanism->parameters(), options).index.position_error;
     LaneOutcome out;
-    PerturbationLanes(mechanism, PointingQuantity::position_error, start).run({&mechanism->parameters(), 1}, {&out, 1}, 1e-4);
+    PerturbationLanes(mechanism, PointingQuantity::position_error, start)
+        .run({&mechanism->parameters(), 1}, {&out, 1}, 1e-4);
     EXPECT_NEAR(out.max, expected.max, 2e-3 * expected.max) << start;
     EXPECT_GE(out.time_of_max, start);
     EXPECT_NEAR(std::sqrt(out.mean_square), expected.rms, 1e-3 * expected.rms) << start;
@@ -341,8 +347,8 @@ TEST(LanesLong, MeetOnePercentOverClearancesAndLoads) {
       std::sort(rms.begin(), rms.end());
       LaneOutcome out;
       PerturbationLanes(mechanism, PointingQuantity::position_error).run({&sample, 1}, {&out, 1});
-      std::printf("c %.1f mm, %3.0f kg: maximum %.4f mm (%+.2f %%), RMS %.4f mm (%+.2f %%), %ld steps, %ld rejected\n", 1e3 * c,
-                  payload, 1e3 * out.max, 100.0 * (out.max / max[1] - 1.0), 1e3 * std::sqrt(out.mean_square),
+      std::printf("c %.1f mm, %3.0f kg: maximum %.4f mm (%+.2f %%), RMS %.4f mm (%+.2f %%), %ld steps, %ld rejected\n",
+                  1e3 * c, payload, 1e3 * out.max, 100.0 * (out.max / max[1] - 1.0), 1e3 * std::sqrt(out.mean_square),
                   100.0 * (std::sqrt(out.mean_square) / rms[1] - 1.0), out.steps, out.rejected);
       EXPECT_NEAR(out.max, max[1], 0.01 * max[1]);
       EXPECT_NEAR(std::sqrt(out.mean_square), rms[1], 0.005 * rms[1]);

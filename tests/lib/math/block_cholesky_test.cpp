@@ -9,8 +9,9 @@ namespace boresight {
 namespace {
 
 // A mechanism-like graph: three chains of five blocks whose last ones all meet.
-const std::vector<BlockCholesky::Pair> kPairs = {{1, 0},   {2, 1},   {3, 2},   {4, 3},  {6, 5},  {7, 6},  {8, 7}, {9, 8},
-                                                 {11, 10}, {12, 11}, {13, 12}, {14, 13}, {9, 4}, {14, 4}, {14, 9}};
+const std::vector<BlockCholesky::Pair> kPairs = {{1, 0},   {2, 1},   {3, 2}, {4, 3},   {6, 5},
+                                                 {7, 6},   {8, 7},   {9, 8}, {11, 10}, {12, 11},
+                                                 {13, 12}, {14, 13}, {9, 4}, {14, 4},  {14, 9}};
 constexpr int kBlocks = 15;
 
 struct Problem {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "boresight/mechanism/kinematic_report.hpp"
 #include "boresight/io/expression.hpp"
+#include "boresight/mechanism/kinematic_report.hpp"
 #include "reference/reference.hpp"
 #include "scenes.hpp"
 
@@ -148,7 +148,8 @@ TEST(ConstraintSystem, RedundantRowsGiveTheSameMotionAsAnIndependentSet) {
   // Three rows of a planar four-bar in space repeat others; with one revolute made spherical and one cylindrical the same motion
   // has independent rows.
   const auto four_bar = [](bool redundant) {
-    return scenes::build(scenes::four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, redundant, "0.4*sin(3*t)+0.1*t"));
+    return scenes::build(
+        scenes::four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, redundant, "0.4*sin(3*t)+0.1*t"));
   };
   const auto loose = four_bar(false), tight = four_bar(true);
   EXPECT_EQ(analyse_kinematics(*tight, 21).redundant_rows, 3);

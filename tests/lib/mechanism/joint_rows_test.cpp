@@ -8,8 +8,9 @@
 namespace boresight {
 namespace {
 
-constexpr JointType kTypes[] = {JointType::revolute,  JointType::prismatic, JointType::cylindrical, JointType::universal,
-                                JointType::spherical, JointType::planar,    JointType::fixed};
+constexpr JointType kTypes[] = {JointType::revolute,  JointType::prismatic, JointType::cylindrical,
+                                JointType::universal, JointType::spherical, JointType::planar,
+                                JointType::fixed};
 
 MechanismDescription two_bodies(JointType type, bool driven, JournalAxes* axes, bool journal_first) {
   MechanismDescription m;
@@ -146,7 +147,8 @@ TEST(JointRows, AllRowsVanishAtHome) {
   for (JointType type : kTypes) {
     const Mechanism mechanism(two_bodies(type, false, nullptr, false));
     std::vector<BodyMotion> home;
-    for (const BodyDescription& b : mechanism.description().bodies) home.push_back({b.center_of_mass, b.axes, Vec3::Zero(), Vec3::Zero()});
+    for (const BodyDescription& b : mechanism.description().bodies)
+      home.push_back({b.center_of_mass, b.axes, Vec3::Zero(), Vec3::Zero()});
     JointRows rows;
     JointConstraint(mechanism, 0, ClearanceRows::closed, true).evaluate(home, {}, rows);
     EXPECT_LT(rows.value.lpNorm<Eigen::Infinity>(), 1e-15) << to_string(type);

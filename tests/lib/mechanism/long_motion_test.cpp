@@ -54,7 +54,8 @@ TEST(LongMotion, ThatMemoryCannotHoldIsRefusedWithWhatItWouldTake) {
       IdealMotion::kinematic(mechanism);
       ADD_FAILURE() << duration;
     } catch (const MotionTooDense& refusal) {
-      EXPECT_NE(std::string(refusal.what()).find("GB of memory; shorten motion.duration"), std::string::npos) << refusal.what();
+      EXPECT_NE(std::string(refusal.what()).find("GB of memory; shorten motion.duration"), std::string::npos)
+          << refusal.what();
     }
     const KinematicReport report = analyse_kinematics(mechanism);
     EXPECT_FALSE(report.feasible);
@@ -87,14 +88,15 @@ TEST(LongMotion, ThatLeavesWhatTheMechanismReachesIsSaidToWhere) {
   // The driven bar is longer than the others let it turn: it reaches a dead point.
   for (const char* duration : {"1 s", "1000 s"}) {
     const double T = parse_quantity(duration, kDuration);
-    MechanismDescription driven = scenes::four_bar({Vec3(0, 0, 0), Vec3(0.3, 0, 0.1), Vec3(0.4, 0, 0.3), Vec3(0.5, 0, 0)}, false,
-                                                   "2*pi*t/" + std::to_string(T));
+    MechanismDescription driven = scenes::four_bar(
+        {Vec3(0, 0, 0), Vec3(0.3, 0, 0.1), Vec3(0.4, 0, 0.3), Vec3(0.5, 0, 0)}, false, "2*pi*t/" + std::to_string(T));
     driven.motion.duration = T;
     try {
       IdealMotion::kinematic(Mechanism(driven));
       ADD_FAILURE() << "a bar longer than the frame turned round";
     } catch (const ComputationError& refusal) {
-      EXPECT_NE(std::string(refusal.what()).find("cannot be followed beyond t = "), std::string::npos) << refusal.what();
+      EXPECT_NE(std::string(refusal.what()).find("cannot be followed beyond t = "), std::string::npos)
+          << refusal.what();
       EXPECT_EQ(std::string(refusal.what()).find("beyond t = 0 s"), std::string::npos) << refusal.what();
     }
   }

@@ -71,8 +71,9 @@ TEST(SpanningTree, PutsParentsFirstAndBranchesOneAfterTheOther) {
 
 TEST(SpanningTree, CutsWhereFewestRowsAreNeeded) {
   const Mechanism crank_slider = example("crank-slider");
-  EXPECT_EQ(cut(crank_slider, SpanningTree(crank_slider, true)), (std::set<std::string>{"A"}));    // opened: two rows
-  EXPECT_EQ(cut(crank_slider, SpanningTree(crank_slider, false)), (std::set<std::string>{"B"}));   // spherical: three rows
+  EXPECT_EQ(cut(crank_slider, SpanningTree(crank_slider, true)), (std::set<std::string>{"A"}));  // opened: two rows
+  EXPECT_EQ(cut(crank_slider, SpanningTree(crank_slider, false)),
+            (std::set<std::string>{"B"}));  // spherical: three rows
   const Mechanism four_bar = example("four-bar");
   EXPECT_EQ(cut(four_bar, SpanningTree(four_bar, true)), (std::set<std::string>{"D"}));
   EXPECT_EQ(cut(four_bar, SpanningTree(four_bar, false)), (std::set<std::string>{"C"}));

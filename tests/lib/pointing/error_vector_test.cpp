@@ -30,8 +30,7 @@ TEST_F(ErrorVector, OfTheBoresightIsTheTurnAboutTheBodysOwnAxesAcrossIt) {
   for (int axis = 0; axis < 3; ++axis) {
     const Pose turned{ideal_.p, ideal_.q * turn(1e-3, Vec3::Unit(axis))};
     const Vec3 expected = axis < 2 ? Vec3(1e-3 * Vec3::Unit(axis)) : Vec3::Zero();  // turning about itself moves it not
-    EXPECT_LT((error_vector(PointingQuantity::boresight_error, turned, ideal_, Pointing{}) - expected).norm(),
-              1e-15);
+    EXPECT_LT((error_vector(PointingQuantity::boresight_error, turned, ideal_, Pointing{}) - expected).norm(), 1e-15);
     const Vec3 all = error_vector(PointingQuantity::orientation_error, turned, ideal_, Pointing{});
     EXPECT_LT((all - 1e-3 * Vec3::Unit(axis)).norm(), 1e-15);
   }

@@ -35,8 +35,9 @@ TEST(LineOfSight, KeepsAllDigitsToATargetInOrbit) {
   const Pose ideal{Vec3::Zero(), kTurned}, truth{{3.1e-5, -4.2e-5, 7e-6}, kTurned};
   const double expected = std::hypot(3.1e-5, 4.2e-5) / (range - 7e-6);
   EXPECT_NEAR(line_of_sight(truth, ideal, sight) / expected, 1.0, 1e-14);
-  EXPECT_NEAR(error_vector(PointingQuantity::line_of_sight_error, truth, ideal, {Vec3::UnitZ(), sight}).norm() / expected, 1.0,
-              1e-14);
+  EXPECT_NEAR(
+      error_vector(PointingQuantity::line_of_sight_error, truth, ideal, {Vec3::UnitZ(), sight}).norm() / expected, 1.0,
+      1e-14);
 }
 
 TEST(LineOfSight, ItsGainIsTheErrorToFirstOrder) {

@@ -16,8 +16,7 @@
 
 int main(int argc, char** argv) {
   using namespace boresight;
-  CLI::App app{
-      "Our rungs beside whole programs on the default mechanism: accuracy against speed in one chart"};
+  CLI::App app{"Our rungs beside whole programs on the default mechanism: accuracy against speed in one chart"};
   std::string out = "peers.html";
   double accuracy = 0.01, most_seconds = 8.0;
   std::vector<std::string> texts;

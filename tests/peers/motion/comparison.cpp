@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/ladder/ladder.hpp"
 #include "boresight/lanes/perturbation_lanes.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight_analyses/chart/ways.hpp"
@@ -42,12 +43,11 @@ Measurement over_neighbours(Run&& run) {
 // Beyond this many times the reference a journal has left its sleeve: a contact that was stepped over.
 constexpr double kLost = 10.0;
 
-Measurement measure_peer(const Peer& peer, const PeerScene& scene, const PeerSetting& setting,
-                         double reference, double most_seconds) {
+Measurement measure_peer(const Peer& peer, const PeerScene& scene, const PeerSetting& setting, double reference,
+                         double most_seconds) {
   try {
     return over_neighbours([&](double share) -> OneRun {
-      const PeerMotion motion =
-          peer.follow(scene, {.setting = setting.scaled(share), .most_seconds = most_seconds});
+      const PeerMotion motion = peer.follow(scene, {.setting = setting.scaled(share), .most_seconds = most_seconds});
       if (!(motion.largest < kLost * reference)) throw PeerFailure("the journal leaves the sleeve");
       return {motion.largest, motion.cpu_seconds};
     });
@@ -97,8 +97,8 @@ class Comparing {
     for (const auto& peer : peers()) {
       options_.progress("what " + peer->name() + " models");
       const PeerSetting setting = peer->proving_setting();
-      out_.proofs.push_back({peer->name(), peer->models(), setting.method + ", " + setting.fineness(),
-                             prove(*peer, scene_, setting)});
+      out_.proofs.push_back(
+          {peer->name(), peer->models(), setting.method + ", " + setting.fineness(), prove(*peer, scene_, setting)});
       theirs(*peer);
     }
     return out_;
@@ -131,7 +131,8 @@ class Comparing {
     for (double tolerance : kTolerances) {
       const Way way{.rung = "perturbation", .tolerance = tolerance};
       add({.program = "perturbation on lanes",
-           .way = std::string("a sample of ") + std::to_string(kBatch) + ", " + lane_targets(LanePrecision::single_precision).front().name,
+           .way = std::string("a sample of ") + std::to_string(kBatch) + ", " +
+                  lane_targets(LanePrecision::single_precision).front().name,
            .fineness = fineness(way),
            .ours = true,
            .measured = measure_lanes(lanes, parameters_, tolerance)});
@@ -159,9 +160,7 @@ class Comparing {
   }
   // Two in a row below what the reference can tell apart, or given up.
   bool done_with_line() const {
-    const auto below = [&](const ComparedPoint& p) {
-      return p.done() && p.error <= out_.reference.uncertainty;
-    };
+    const auto below = [&](const ComparedPoint& p) { return p.done() && p.error <= out_.reference.uncertainty; };
     const std::size_t n = out_.points.size();
     const ComparedPoint& last = out_.points.back();
     if (last.measured.refusal.rfind("given up", 0) == 0) return true;
@@ -177,12 +176,11 @@ class Comparing {
 
 }  // namespace
 
-const ComparedPoint* Comparison::cheapest_within(
-    double accuracy, const std::function<bool(const ComparedPoint&)>& wanted) const {
+const ComparedPoint* Comparison::cheapest_within(double accuracy,
+                                                 const std::function<bool(const ComparedPoint&)>& wanted) const {
   const ComparedPoint* best = nullptr;
   for (const ComparedPoint& p : points)
-    if (p.done() && p.error <= accuracy && wanted(p) &&
-        (!best || p.measured.cpu_seconds < best->measured.cpu_seconds))
+    if (p.done() && p.error <= accuracy && wanted(p) && (!best || p.measured.cpu_seconds < best->measured.cpu_seconds))
       best = &p;
   return best;
 }

@@ -37,8 +37,7 @@ struct Comparison {
   Machine machine;
 
   // Null if none of those wanted comes within it.
-  const ComparedPoint* cheapest_within(double accuracy,
-                                       const std::function<bool(const ComparedPoint&)>& wanted) const;
+  const ComparedPoint* cheapest_within(double accuracy, const std::function<bool(const ComparedPoint&)>& wanted) const;
 };
 
 struct ComparisonOptions {

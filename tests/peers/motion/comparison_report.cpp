@@ -11,8 +11,7 @@ namespace {
 double drawn(double error) { return std::max(error, 1e-9); }
 
 const ComparedPoint* best_of(const Comparison& all, double accuracy, const std::string& begins) {
-  return all.cheapest_within(accuracy,
-                             [&](const ComparedPoint& p) { return p.program.rfind(begins, 0) == 0; });
+  return all.cheapest_within(accuracy, [&](const ComparedPoint& p) { return p.program.rfind(begins, 0) == 0; });
 }
 const ComparedPoint* best_peer(const Comparison& all, double accuracy) {
   return all.cheapest_within(accuracy, [](const ComparedPoint& p) { return p.stands_alone; });
@@ -22,10 +21,9 @@ Claim claim(std::string text, double asked, const ComparedPoint* ours, const Com
   Claim out{.text = std::move(text), .asked = asked, .measured = 0.0, .how = {}};
   if (ours && theirs) {
     out.measured = theirs->measured.cpu_seconds / ours->measured.cpu_seconds;
-    out.how =
-        fmt::format("{}, {}: {:.4g} ms, off by {:.2g} %; {}, {}: {:.4g} ms, off by {:.2g} %", ours->line(),
-                    ours->fineness, 1e3 * ours->measured.cpu_seconds, 100.0 * ours->error, theirs->line(),
-                    theirs->fineness, 1e3 * theirs->measured.cpu_seconds, 100.0 * theirs->error);
+    out.how = fmt::format("{}, {}: {:.4g} ms, off by {:.2g} %; {}, {}: {:.4g} ms, off by {:.2g} %", ours->line(),
+                          ours->fineness, 1e3 * ours->measured.cpu_seconds, 100.0 * ours->error, theirs->line(),
+                          theirs->fineness, 1e3 * theirs->measured.cpu_seconds, 100.0 * theirs->error);
   } else {
     out.how = ours ? "no setting of the peer comes within it" : "no setting of ours comes within it";
   }
@@ -85,14 +83,12 @@ report::Chart chart_of(const Comparison& all, double accuracy) {
 }
 
 report::Table cheapest_table(const Comparison& all, double accuracy) {
-  report::Table table{
-      .title = fmt::format("Cheapest within {:g} % of the index", 100.0 * accuracy),
-      .caption = "Ratios to the cheapest whole program that is not ours.",
-      .columns = {{"Program"}, {"Way"}, {"Fineness"}, {"Error", "%"}, {"CPU", "ms"}, {"Times faster"}}};
+  report::Table table{.title = fmt::format("Cheapest within {:g} % of the index", 100.0 * accuracy),
+                      .caption = "Ratios to the cheapest whole program that is not ours.",
+                      .columns = {{"Program"}, {"Way"}, {"Fineness"}, {"Error", "%"}, {"CPU", "ms"}, {"Times faster"}}};
   const ComparedPoint* peer = best_peer(all, accuracy);
   for (const std::string& name : programs_of(all)) {
-    const ComparedPoint* p =
-        all.cheapest_within(accuracy, [&](const ComparedPoint& q) { return q.program == name; });
+    const ComparedPoint* p = all.cheapest_within(accuracy, [&](const ComparedPoint& q) { return q.program == name; });
     if (!p) {
       table.rows.push_back({name, "none comes within it", nullptr, nullptr, nullptr, nullptr});
       continue;
@@ -117,31 +113,25 @@ report::Table proof_table(const Comparison& all) {
                                   {"Ours", "ms"},
                                   {"How it is written"}}};
   for (const ProvedPeer& p : all.proofs)
-    table.rows.push_back({p.name, p.setting,
-                          p.proof.has_ideal ? nlohmann::json(1e9 * p.proof.from_ideal) : nlohmann::json(),
-                          1e9 * p.proof.flight_difference, 1e3 * p.proof.first_contact,
-                          1e3 * p.proof.our_first_contact, p.models});
+    table.rows.push_back(
+        {p.name, p.setting, p.proof.has_ideal ? nlohmann::json(1e9 * p.proof.from_ideal) : nlohmann::json(),
+         1e9 * p.proof.flight_difference, 1e3 * p.proof.first_contact, 1e3 * p.proof.our_first_contact, p.models});
   return table;
 }
 
 report::Table every_table(const Comparison& all) {
-  report::Table table{.title = "Every setting",
-                      .caption = {},
-                      .columns = {{"Way"},
-                                  {"Fineness"},
-                                  {"Index", "mm"},
-                                  {"Half spread", "%"},
-                                  {"Error", "%"},
-                                  {"CPU", "ms"},
-                                  {"Outcome"}}};
+  report::Table table{
+      .title = "Every setting",
+      .caption = {},
+      .columns = {
+          {"Way"}, {"Fineness"}, {"Index", "mm"}, {"Half spread", "%"}, {"Error", "%"}, {"CPU", "ms"}, {"Outcome"}}};
   for (const ComparedPoint& p : all.points) {
     if (p.done())
       table.rows.push_back({p.line(), p.fineness, 1e3 * p.measured.value,
                             100.0 * p.measured.half_spread / all.reference.value, 100.0 * p.error,
                             1e3 * p.measured.cpu_seconds, "done"});
     else
-      table.rows.push_back(
-          {p.line(), p.fineness, nullptr, nullptr, nullptr, nullptr, "failed: " + p.measured.refusal});
+      table.rows.push_back({p.line(), p.fineness, nullptr, nullptr, nullptr, nullptr, "failed: " + p.measured.refusal});
   }
   return table;
 }
@@ -152,14 +142,14 @@ std::vector<Claim> claims(const Comparison& all, double accuracy) {
   const ComparedPoint* multibody = best_of(all, accuracy, "multibody");
   std::vector<Claim> out;
   if (best_of(all, 1e300, "MuJoCo"))
-    out.push_back(claim("multibody is at least 2 times faster than MuJoCo", 2.0, multibody,
-                        best_of(all, accuracy, "MuJoCo")));
+    out.push_back(
+        claim("multibody is at least 2 times faster than MuJoCo", 2.0, multibody, best_of(all, accuracy, "MuJoCo")));
   if (best_of(all, 1e300, "Simbody"))
-    out.push_back(claim("multibody is at least 5 times faster than Simbody", 5.0, multibody,
-                        best_of(all, accuracy, "Simbody")));
+    out.push_back(
+        claim("multibody is at least 5 times faster than Simbody", 5.0, multibody, best_of(all, accuracy, "Simbody")));
   if (best_peer(all, 1e300))
-    out.push_back(claim("a sample of perturbation is at least 1,500 times faster than the best of them",
-                        1500.0, best_of(all, accuracy, "perturbation"), best_peer(all, accuracy)));
+    out.push_back(claim("a sample of perturbation is at least 1,500 times faster than the best of them", 1500.0,
+                        best_of(all, accuracy, "perturbation"), best_peer(all, accuracy)));
   return out;
 }
 
@@ -167,11 +157,11 @@ void print(const Comparison& all, double accuracy) {
   fmt::print("reference {:.5g} mm, known to {:.2g} %; {}, load {:.2g}\n", 1e3 * all.reference.value,
              100.0 * all.reference.uncertainty, all.machine.processor, all.machine.load);
   for (const ProvedPeer& p : all.proofs)
-    fmt::print("{} ({}): {}{:.2g} nm from our flight to the first contact, at {:.5g} ms, ours at {:.5g} ms\n",
-               p.name, p.setting,
-               p.proof.has_ideal ? fmt::format("{:.2g} nm from the ideal motion without clearance, ",
-                                               1e9 * p.proof.from_ideal)
-                                 : "",
+    fmt::print("{} ({}): {}{:.2g} nm from our flight to the first contact, at {:.5g} ms, ours at {:.5g} ms\n", p.name,
+               p.setting,
+               p.proof.has_ideal
+                   ? fmt::format("{:.2g} nm from the ideal motion without clearance, ", 1e9 * p.proof.from_ideal)
+                   : "",
                1e9 * p.proof.flight_difference, 1e3 * p.proof.first_contact, 1e3 * p.proof.our_first_contact);
   fmt::print("{:<62} {:<18} {:>9} {:>9} {:>10}\n", "way", "fineness", "index mm", "error %", "CPU ms");
   for (const ComparedPoint& p : all.points) {
@@ -183,8 +173,7 @@ void print(const Comparison& all, double accuracy) {
   }
   fmt::print("\nwithin {:g} % of the index\n", 100.0 * accuracy);
   for (const Claim& c : claims(all, accuracy))
-    fmt::print("  {}: {:.4g} times, {}\n    {}\n", c.text, c.measured, c.holds() ? "holds" : "does not hold",
-               c.how);
+    fmt::print("  {}: {:.4g} times, {}\n    {}\n", c.text, c.measured, c.holds() ? "holds" : "does not hold", c.how);
 }
 
 report::Document comparison_document(const Mechanism& mechanism, const Comparison& all, double accuracy) {

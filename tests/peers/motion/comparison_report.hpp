@@ -17,7 +17,6 @@ struct Claim {
 std::vector<Claim> claims(const Comparison& comparison, double accuracy);
 
 void print(const Comparison& comparison, double accuracy);
-report::Document comparison_document(const Mechanism& mechanism, const Comparison& comparison,
-                                     double accuracy);
+report::Document comparison_document(const Mechanism& mechanism, const Comparison& comparison, double accuracy);
 
 }  // namespace boresight::peers

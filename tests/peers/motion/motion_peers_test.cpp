@@ -39,13 +39,11 @@ TEST_P(PeerProves, ThatItModelsTheSameMechanism) {
   EXPECT_LT(proof.turn_from_ideal, 1e-5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, PeerProves, testing::Range(0, static_cast<int>(peers().size())),
-                         [](const auto& which) {
-                           std::string name = peers()[static_cast<std::size_t>(which.param)]->name();
-                           std::erase_if(name,
-                                         [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Each, PeerProves, testing::Range(0, static_cast<int>(peers().size())), [](const auto& which) {
+  std::string name = peers()[static_cast<std::size_t>(which.param)]->name();
+  std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+  return name;
+});
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(PeerProves);
 
 #ifdef BORESIGHT_SIMBODY

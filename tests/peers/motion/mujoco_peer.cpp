@@ -38,15 +38,13 @@ class ModelText {
         "<flag contact=\"disable\" frictionloss=\"disable\" limit=\"disable\" actuation=\"disable\" "
         "sensornoise=\"disable\"/>"
         "</option><worldbody>",
-        request.setting.step, runge_kutta ? "RK4" : request.setting.method,
-        numbers(scene.parameters().gravity));
+        request.setting.step, runge_kutta ? "RK4" : request.setting.method, numbers(scene.parameters().gravity));
     for (const PeerScene::TreeJoint& t : scene.tree())
       if (t.parent == kGround) body(t, request.with_clearance);
     text_ += "</worldbody><equality>";
     for (int loop : scene.loops()) {
       const JointDescription& d = m_.joints[loop];
-      hold(m_.bodies[d.first].name, m_.bodies[d.second].name, scene.mechanism().geometry(loop).first,
-           request);
+      hold(m_.bodies[d.first].name, m_.bodies[d.second].name, scene.mechanism().geometry(loop).first, request);
     }
     const std::string& journal = m_.bodies[scene.journal()].name;
     if (request.with_clearance)
@@ -77,8 +75,8 @@ class ModelText {
     text_ += fmt::format(
         "<body name=\"{}\" pos=\"{}\" quat=\"{}\"><inertial mass=\"{:.17g}\" pos=\"{}\" "
         "fullinertia=\"{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\"/>",
-        child.name, numbers(p), turn(R), mass.mass, numbers(mass.c), I(0, 0), I(1, 1), I(2, 2), I(0, 1),
-        I(0, 2), I(1, 2));
+        child.name, numbers(p), turn(R), mass.mass, numbers(mass.c), I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2),
+        I(1, 2));
     const JointDescription& d = m_.joints[t.joint];
     const JointFrame& f = scene_.mechanism().geometry(t.joint).second;
     if (d.type != JointType::prismatic) joint(d.name, "hinge", f.p, f.R.col(1), d.driven);
@@ -90,8 +88,7 @@ class ModelText {
           "<body name=\"grain\" pos=\"{}\" quat=\"{}\"><inertial mass=\"1e-3\" pos=\"0 0 0\" "
           "diaginertia=\"1e-8 1e-8 1e-8\"/>",
           numbers(sleeve.p), turn(sleeve.R));
-      for (int k = 0; k < 3; ++k)
-        joint("play" + std::to_string(k), "slide", Vec3::Zero(), Vec3::Unit(k), false);
+      for (int k = 0; k < 3; ++k) joint("play" + std::to_string(k), "slide", Vec3::Zero(), Vec3::Unit(k), false);
       text_ += "</body>";
     }
     for (const PeerScene::TreeJoint& next : scene_.tree())
@@ -100,13 +97,12 @@ class ModelText {
   }
 
   void joint(const std::string& name, const char* type, const Vec3& p, const Vec3& axis, bool driven) {
-    text_ += fmt::format("<joint name=\"{}\" type=\"{}\" pos=\"{}\" axis=\"{}\" armature=\"{:g}\"/>", name,
-                         type, numbers(p), numbers(axis), driven ? kArmature : 0.0);
+    text_ += fmt::format("<joint name=\"{}\" type=\"{}\" pos=\"{}\" axis=\"{}\" armature=\"{:g}\"/>", name, type,
+                         numbers(p), numbers(axis), driven ? kArmature : 0.0);
   }
 
   // The axis of a joint's frame, at two points.
-  void hold(const std::string& first, const std::string& second, const JointFrame& f,
-            const PeerRequest& request) {
+  void hold(const std::string& first, const std::string& second, const JointFrame& f, const PeerRequest& request) {
     for (double side : {-kHalfAxis, kHalfAxis})
       text_ += fmt::format(
           "<connect body1=\"{}\" body2=\"{}\" anchor=\"{}\" solref=\"{:.17g} 1\" solimp=\"0.9999 0.9999 "
@@ -146,8 +142,7 @@ class Run {
     }
     journal_ = mj_name2id(model_.get(), mjOBJ_BODY, m.bodies[scene.journal()].name.c_str());
     sleeve_ = mj_name2id(model_.get(), mjOBJ_BODY, m.bodies[scene.sleeve()].name.c_str());
-    pointing_ =
-        mj_name2id(model_.get(), mjOBJ_BODY, m.bodies[scene.mechanism().boresight_body()].name.c_str());
+    pointing_ = mj_name2id(model_.get(), mjOBJ_BODY, m.bodies[scene.mechanism().boresight_body()].name.c_str());
   }
 
   PeerMotion follow() {
@@ -155,8 +150,7 @@ class Run {
     const long steps = std::lround(std::ceil(duration / request_.setting.step - 1e-9));
     model_->opt.timestep = duration / static_cast<double>(steps);
     const double start = thread_cpu_seconds();
-    mju_user_warning = [](const char*) {
-    };  // it would write them to a file of its own; follow() says what went wrong
+    mju_user_warning = [](const char*) {};  // it would write them to a file of its own; follow() says what went wrong
     current_ = this;
     mjcb_passive = [](const mjModel*, mjData*) { current_->passive_forces(); };
     for (long k = 0; k < steps; ++k) {
@@ -219,15 +213,14 @@ class Run {
       index_.accept(d->time, p);
       if (request_.keep_path)
         out_.path.push_back(
-            {d->time, p,
-             Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(d->xmat + 9 * pointing_)});
+            {d->time, p, Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(d->xmat + 9 * pointing_)});
     }
     if (!request_.with_clearance) return;
     Vec6 on_journal, on_sleeve;
     contact_.forces(d->time, on_journal, on_sleeve);
     if (on_journal.isZero(0.0)) return;
-    mj_applyFT(model_.get(), d, on_journal.data(), on_journal.data() + 3, contact_.journal().p.data(),
-               journal_, d->qfrc_passive);
+    mj_applyFT(model_.get(), d, on_journal.data(), on_journal.data() + 3, contact_.journal().p.data(), journal_,
+               d->qfrc_passive);
     mj_applyFT(model_.get(), d, on_sleeve.data(), on_sleeve.data() + 3, contact_.sleeve().p.data(), sleeve_,
                d->qfrc_passive);
   }

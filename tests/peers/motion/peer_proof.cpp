@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "boresight/rungs/rung.hpp"
+#include "boresight/ladder/ladder.hpp"
 
 namespace boresight::peers {
 namespace {
@@ -16,13 +16,11 @@ struct Flight {
 
   Vec3 at(double time) const {
     const std::size_t k =
-        std::clamp<std::size_t>(
-            static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time) - t.begin()), 1,
-            t.size() - 1) -
+        std::clamp<std::size_t>(static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), time) - t.begin()), 1,
+                                t.size() - 1) -
         1;
     const double h = t[k + 1] - t[k], s = (time - t[k]) / h, r = 1.0 - s;
-    return r * r * (1.0 + 2.0 * s) * p[k] + s * s * (1.0 + 2.0 * r) * p[k + 1] +
-           h * s * r * (r * v[k] - s * v[k + 1]);
+    return r * r * (1.0 + 2.0 * s) * p[k] + s * s * (1.0 + 2.0 * r) * p[k + 1] + h * s * r * (r * v[k] - s * v[k + 1]);
   }
 };
 
@@ -49,13 +47,11 @@ PeerProof prove(const Peer& peer, const PeerScene& scene, const PeerSetting& set
   PeerProof proof;
   const int body = scene.mechanism().boresight_body();
   try {
-    const PeerMotion closed =
-        peer.follow(scene, {.setting = setting, .with_clearance = false, .keep_path = true});
+    const PeerMotion closed = peer.follow(scene, {.setting = setting, .with_clearance = false, .keep_path = true});
     for (const PeerPose& pose : closed.path) {
       const BodyMotion ideal = scene.ideal().body(pose.t, body);
       proof.from_ideal = std::max(proof.from_ideal, (pose.p - ideal.p).norm());
-      proof.turn_from_ideal =
-          std::max(proof.turn_from_ideal, Eigen::AngleAxisd(pose.R * ideal.R.transpose()).angle());
+      proof.turn_from_ideal = std::max(proof.turn_from_ideal, Eigen::AngleAxisd(pose.R * ideal.R.transpose()).angle());
     }
   } catch (const NoIdealMotion&) {
     proof.has_ideal = false;

@@ -13,8 +13,7 @@ struct PeerProof {
   // With clearance, up to the first contact: how far it strays from our multibody rung's.
   double flight_difference = 0.0;                         // [m]
   double first_contact = -1.0, our_first_contact = -1.0;  // [s]
-  bool has_ideal =
-      true;  // false: it has no motion without clearance (the perturbation rung's right-hand side)
+  bool has_ideal = true;  // false: it has no motion without clearance (the perturbation rung's right-hand side)
 };
 
 // The setting: the finest that is worth it here, not the fastest.

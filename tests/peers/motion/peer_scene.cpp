@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "boresight/rungs/contact_tracker.hpp"
-#include "boresight/rungs/force_elements.hpp"
-#include "boresight/rungs/ideal_simulation.hpp"
+#include "boresight/contact_events/contact_tracker.hpp"
+#include "boresight/formulations/force_elements.hpp"
+#include "boresight/formulations/ideal_simulation.hpp"
 
 namespace boresight::peers {
 namespace {
@@ -59,8 +59,7 @@ int PeerScene::sleeve() const {
 
 double PeerScene::turning_rate(int joint) const {
   const JointDescription& j = description().joints[joint];
-  const Vec3 w =
-      start_.bodies[j.second].w - (j.first == kGround ? Vec3::Zero().eval() : start_.bodies[j.first].w);
+  const Vec3 w = start_.bodies[j.second].w - (j.first == kGround ? Vec3::Zero().eval() : start_.bodies[j.first].w);
   return w.dot(j.axis);
 }
 

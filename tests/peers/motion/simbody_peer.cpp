@@ -96,8 +96,7 @@ class Model {
     for (int loop : scene.loops()) close(loop, true);
     close(scene.clearance_joint(), !with_clearance);
     if (with_clearance)
-      st::Force::Custom(forces_,
-                        new ContactForce(contact_, bodies_[scene.journal()], bodies_[scene.sleeve()]));
+      st::Force::Custom(forces_, new ContactForce(contact_, bodies_[scene.journal()], bodies_[scene.sleeve()]));
     system_.realizeTopology();
   }
 
@@ -126,10 +125,9 @@ class Model {
     const JointGeometry& g = scene_.mechanism().geometry(t.joint);
     const MassProperties& mass = scene_.mass()[t.child];
     // Simbody's inertia is about the body's origin, which is the body's own centre of mass.
-    const Mat3 I =
-        mass.inertia + mass.mass * (mass.c.squaredNorm() * Mat3::Identity() - mass.c * mass.c.transpose());
-    const st::Body::Rigid rigid(st::MassProperties(
-        mass.mass, vec(mass.c), st::Inertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2))));
+    const Mat3 I = mass.inertia + mass.mass * (mass.c.squaredNorm() * Mat3::Identity() - mass.c * mass.c.transpose());
+    const st::Body::Rigid rigid(
+        st::MassProperties(mass.mass, vec(mass.c), st::Inertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2))));
     const bool slider = d.type == JointType::prismatic;
     const st::Transform in_parent = frame(g.first, slider), in_child = frame(g.second, slider);
     st::MobilizedBody& parent = mobilized(t.parent);
@@ -149,8 +147,7 @@ class Model {
   void close(int joint, bool point) {
     const JointDescription& d = scene_.description().joints[joint];
     const JointGeometry& g = scene_.mechanism().geometry(joint);
-    if (d.type != JointType::revolute)
-      throw std::invalid_argument("the Simbody peer closes loops by revolute joints");
+    if (d.type != JointType::revolute) throw std::invalid_argument("the Simbody peer closes loops by revolute joints");
     st::MobilizedBody &first = mobilized(d.first), &second = mobilized(d.second);
     if (point) st::Constraint::Ball(first, vec(g.first.p), second, vec(g.second.p));
     const st::UnitVec3 axis(vec(g.first.R.col(1)));

@@ -35,11 +35,7 @@ class SundialsRun {
   // start: the state at t = 0, which the system has been started with; tolerances: absolute, one per number
   // of the state.
   SundialsRun(System& system, const VecX& start, const VecX& tolerances)
-      : system_(system),
-        y_(start),
-        dy_(start),
-        g_(VecX::Zero(system.gap_count())),
-        J_(start.size(), start.size()) {
+      : system_(system), y_(start), dy_(start), g_(VecX::Zero(system.gap_count())), J_(start.size(), start.size()) {
     SUNContext_Create(nullptr, &context_);
     state_ = N_VNew_Serial(start.size(), context_);
     absolute_ = N_VNew_Serial(start.size(), context_);
@@ -99,8 +95,7 @@ class SundialsRun {
     std::copy(r.g_.begin(), r.g_.end(), gap);
     return 0;
   }
-  static int jacobian(realtype t, N_Vector state, N_Vector, SUNMatrix out, void* self, N_Vector, N_Vector,
-                      N_Vector) {
+  static int jacobian(realtype t, N_Vector state, N_Vector, SUNMatrix out, void* self, N_Vector, N_Vector, N_Vector) {
     SundialsRun& r = *static_cast<SundialsRun*>(self);
     r.system_.jacobian(t, r.read(state), r.J_);
     for (Eigen::Index i = 0; i < r.y_.size(); ++i)
@@ -124,8 +119,7 @@ class SundialsRun {
     drive(
         memory, CVodeFree, duration, grid, observe,
         [&](double to, realtype& t) { return CVode(memory, to, state_, &t, CV_NORMAL); },
-        [&](int* found) { CVodeGetRootInfo(memory, found); },
-        [&](double t) { CVodeReInit(memory, t, state_); },
+        [&](int* found) { CVodeGetRootInfo(memory, found); }, [&](double t) { CVodeReInit(memory, t, state_); },
         [&](long& steps) { CVodeGetNumSteps(memory, &steps); });
   }
   template <typename Observe>
@@ -165,10 +159,9 @@ class SundialsRun {
   }
 
   // The same for all: from point to point, stopping at contacts, where the solver starts afresh.
-  template <typename Free, typename Observe, typename Evolve, typename Roots, typename Restart,
-            typename Steps>
-  void drive(void*& memory, Free free, double duration, double grid, Observe&& observe, Evolve&& evolve,
-             Roots&& roots, Restart&& restart, Steps&& steps_of) {
+  template <typename Free, typename Observe, typename Evolve, typename Roots, typename Restart, typename Steps>
+  void drive(void*& memory, Free free, double duration, double grid, Observe&& observe, Evolve&& evolve, Roots&& roots,
+             Restart&& restart, Steps&& steps_of) {
     static_assert(CV_ROOT_RETURN == ARK_ROOT_RETURN);
     struct Freed {
       void*& memory;
@@ -193,14 +186,12 @@ class SundialsRun {
         roots(found.data());
         read(state_);
         for (int gap = 0; gap < system_.gap_count(); ++gap)
-          if (found[gap] != 0)
-            system_.on_event({gap, t, found[gap] < 0 ? Crossing::closing : Crossing::opening}, y_);
+          if (found[gap] != 0) system_.on_event({gap, t, found[gap] < 0 ? Crossing::closing : Crossing::opening}, y_);
         std::copy(y_.begin(), y_.end(), N_VGetArrayPointer(state_));
         count();  // a restart sets the solver's own count to zero
         restart(t);
       }
-      if (!observe(grid * static_cast<double>(k), static_cast<const double*>(N_VGetArrayPointer(state_))))
-        break;
+      if (!observe(grid * static_cast<double>(k), static_cast<const double*>(N_VGetArrayPointer(state_)))) break;
     }
     count();
   }

@@ -4,14 +4,14 @@
 #include <functional>
 #include <optional>
 
-#include "boresight/rungs/contact_tracker.hpp"
+#include "boresight/contact_events/contact_tracker.hpp"
+#include "boresight/formulations/formulation.hpp"
+#include "boresight/multibody/multibody_system.hpp"
+#include "boresight/perturbation/perturbation_system.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
-#include "boresight/rungs/formulation.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
-#include "boresight/rungs/multibody_system.hpp"
-#include "boresight/rungs/perturbation_system.hpp"
-#include "boresight/rungs/scene_rung.hpp"
-#include "boresight/rungs/unstable_step.hpp"
+#include "boresight/scene/scene_rung.hpp"
+#include "boresight/stepping/unstable_step.hpp"
 #include "peer.hpp"
 #include "sundials_drive.hpp"
 
@@ -86,9 +86,7 @@ double first_contact(std::vector<ContactTracker>& trackers, double end) {
 class SundialsPeer : public Peer {
  public:
   std::string name() const override { return std::string("SUNDIALS ") + SUNDIALS_VERSION + " on " + rung_; }
-  std::string models() const override {
-    return "Integrators only, on our right-hand side of the " + rung_ + " rung.";
-  }
+  std::string models() const override { return "Integrators only, on our right-hand side of the " + rung_ + " rung."; }
   bool stands_alone() const override { return false; }
   std::vector<PeerSetting> settings() const override {
     std::vector<PeerSetting> all;
@@ -107,9 +105,9 @@ class OnMultibody final : public SundialsPeer {
  public:
   OnMultibody() : SundialsPeer("multibody") {}
   PeerMotion follow(const PeerScene& scene, const PeerRequest& request) const override {
-    const auto formulation = make_tree_formulation(
-        scene.mechanism(), scene.parameters(), &scene.ideal(),
-        {.with_clearance = request.with_clearance, .stabilisation = Stabilisation::baumgarte});
+    const auto formulation =
+        make_tree_formulation(scene.mechanism(), scene.parameters(), &scene.ideal(),
+                              {.with_clearance = request.with_clearance, .stabilisation = Stabilisation::baumgarte});
     std::vector<ContactTracker> trackers;
     if (request.with_clearance) trackers.emplace_back(0, "", formulation->forces().joint(0), true);
     VecX y;
@@ -152,8 +150,7 @@ class OnPerturbation final : public SundialsPeer {
                   scene, request, y.size(), [n](int k) { return k >= n; }, 1.0),
               scene, request, [&](double t, const double* z) -> PeerPose {
                 gain.at(t, row.data());
-                const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>> E(
-                    row.data(), 6, n);
+                const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>> E(row.data(), 6, n);
                 BodyMotion b = scene.ideal().body(t, body);
                 displace(b, E * Eigen::Map<const VecX>(z, n));
                 return {t, b.p, b.R};

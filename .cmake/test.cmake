@@ -1,0 +1,25 @@
+# boresight_test(NAME [SOURCES file...] [LINKS target...] [TIMEOUT seconds] [LONG seconds]): the program NAME and its tests, one of CTest for each.
+# SOURCES: every .cpp of the folder, where none are given. LINKS: rooms (math) or other targets. Tests with "Long" in their name are labelled so and
+# have LONG seconds instead of TIMEOUT (120).
+include(GoogleTest)
+
+function(boresight_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "TIMEOUT;LONG" "SOURCES;LINKS")
+  if(NOT test_SOURCES)
+    file(GLOB test_SOURCES CONFIGURE_DEPENDS *.cpp)
+  endif()
+  if(NOT test_TIMEOUT)
+    set(test_TIMEOUT 120)
+  endif()
+  boresight_rooms_of(links ${test_LINKS})
+  add_executable(${name} ${test_SOURCES})
+  target_include_directories(${name} PRIVATE ${boresight_SOURCE_DIR}/tests ${boresight_SOURCE_DIR}/tests/lib ${boresight_SOURCE_DIR}/tests/analyses)
+  target_link_libraries(${name} PRIVATE ${links} GTest::gmock_main)
+  target_compile_definitions(${name} PRIVATE BORESIGHT_EXAMPLES="${boresight_SOURCE_DIR}/examples")
+  if(test_LONG)
+    gtest_discover_tests(${name} TEST_FILTER "-*Long*" PROPERTIES TIMEOUT ${test_TIMEOUT})
+    gtest_discover_tests(${name} TEST_FILTER "*Long*" TEST_LIST ${name}_long PROPERTIES TIMEOUT ${test_LONG} LABELS long COST 30)
+  else()
+    gtest_discover_tests(${name} PROPERTIES TIMEOUT ${test_TIMEOUT})
+  endif()
+endfunction()

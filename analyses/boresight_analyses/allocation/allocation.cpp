@@ -1,0 +1,241 @@
+#include "boresight_analyses/allocation/allocation.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "boresight_analyses/allocation/allocating.hpp"
+#include "boresight_analyses/statistics/binomial.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr std::size_t kTrialSamples = 12;  // that the first factor is taken from
+constexpr double kPower = 0.8;             // the chance that a set which the search accepts is confirmed
+
+// How many of the search's samples may exceed the limit: no more than shows the requirement, and so few that
+// `confirm` fresh samples of such a set show it with a chance of kPower. (They are fewer, and leave less
+// room: a set that 1000 samples show just so would mostly be refuted by 120 fresh ones.)
+std::int64_t allowed_in_search(const AllocationPlan& plan) {
+  const auto samples = static_cast<std::int64_t>(plan.samples), confirm = static_cast<std::int64_t>(plan.confirm);
+  const Requirement& r = plan.requirement;
+  const std::int64_t shown = allowed_failures(samples, r.probability, r.confidence);
+  const std::int64_t fresh = allowed_failures(confirm, r.probability, confirmation_confidence(r));
+  if (shown < 0 || fresh < 0) return -1;
+  // The share q of bad ones with P(at most `fresh` of `confirm` are bad) = kPower.
+  const double q = clopper_pearson_upper(fresh, confirm, 1.0 - kPower);
+  return std::min(shown, static_cast<std::int64_t>(std::floor(q * static_cast<double>(samples))));
+}
+
+}  // namespace
+
+Allocating::Allocating(const AllocationPlan& plan, const LinearDeviation& deviation, const AllocationOptions& options)
+    : plan_(plan),
+      deviation_(deviation),
+      options_(options),
+      unit_(unit_samples(plan.joints.size() + plan.scattered(), plan.samples, plan.seed)),
+      allowed_(allowed_in_search(plan)) {
+  for (const AllocationJoint& joint : plan.joints) {
+    price_.emplace_back();
+    gap_.emplace_back();
+    for (const AllocationOption& o : joint.options) {
+      price_.back().push_back(o.price);
+      gap_.back().push_back(o.gap);
+    }
+    least_.push_back(joint.least);
+    curves_.push_back(joint.curve);
+    if (plan.is_continuous()) {
+      const DistributionPtr zone = make_zone(0.0, 1.0, plan.zone);
+      auto& z = z_.emplace_back();
+      for (const double u : unit_[z_.size() - 1]) z.push_back(zone->quantile(u));
+    }
+  }
+  if (!plan.is_continuous()) {
+    tightest_ = tightest_options(gap_);
+    statistical_ = std::make_unique<StatisticalRequirement>(deviation_, gap_, unit_, allowed_, plan.requirement.limit);
+  }
+}
+
+AllocationResult Allocating::run(double misfit, const ConfirmingModel& confirm, const std::string& rung) {
+  result_.misfit = misfit;
+  try {
+    search_rounds(confirm, rung);
+    compare();
+    if (result_.feasible) {
+      share_out();
+      price_front();
+    }
+  } catch (const EvaluationInterrupted&) {
+    result_.interrupted = true;
+    result_.converged = false;
+  }
+  return result_;
+}
+
+void Allocating::progress(const std::string& stage, double share) const {
+  if (options_.interrupted && options_.interrupted()) throw EvaluationInterrupted{};
+  if (options_.progress) options_.progress(stage, share);
+}
+
+Allocation Allocating::cheapest(double limit, const std::vector<int>& start) {
+  const auto began = std::chrono::steady_clock::now();
+  Allocation a;
+  a.judged_by = "samples";
+  if (plan_.is_continuous()) {
+    const ContinuousAllocation c =
+        allocate_continuous(curves_, statistical_tolerances(deviation_, least_, z_, allowed_), working_limit(limit));
+    a.feasible = c.feasible;
+    a.finished = c.converged;
+    a.tolerance = c.tolerance;
+    a.price = c.price;
+    a.why = c.why;
+  } else {
+    statistical_->set_limit(working_limit(limit));
+    DiscreteAllocationOptions o;
+    o.start = start;
+    o.progress = [this](const DiscreteAllocation&) { return !(options_.interrupted && options_.interrupted()); };
+    const DiscreteAllocation d = allocate_discrete(price_, tightest_, *statistical_, o);
+    if (options_.interrupted && options_.interrupted()) throw EvaluationInterrupted{};
+    a.feasible = d.feasible;
+    a.finished = a.proven = d.proven;
+    a.choice = d.feasible ? d.choice : tightest_;
+    a.price = price_of(price_, a.choice);
+    a.nodes = d.nodes;
+    a.why = "branch and bound over all sets of options";
+  }
+  judge(a);
+  result_.search_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return a;
+}
+
+std::vector<std::vector<double>> Allocating::gaps_of(const Allocation& a, const UnitSamples& unit,
+                                                     std::size_t count) const {
+  std::vector<std::vector<double>> gaps(count, std::vector<double>(plan_.joints.size()));
+  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+    const DistributionPtr d = a.tolerance.empty() ? gap_[j][static_cast<std::size_t>(a.choice[j])]
+                                                  : make_zone(least_[j], a.tolerance[j], plan_.zone);
+    for (std::size_t k = 0; k < count; ++k) gaps[k][j] = d->quantile(unit[j][k]);
+  }
+  return gaps;
+}
+
+void Allocating::judge(Allocation& a) const {
+  std::vector<double> values;
+  for (const auto& gaps : gaps_of(a, unit_, plan_.samples)) values.push_back(result_.factor * deviation_.index(gaps));
+  std::sort(values.begin(), values.end(), std::greater<>());
+  const auto above =
+      std::count_if(values.begin(), values.end(), [&](double v) { return v > plan_.requirement.limit * (1.0 + 1e-9); });
+  a.share_within = 1.0 - static_cast<double>(above) / static_cast<double>(values.size());
+  a.reached = allowed_ < 0 ? std::numeric_limits<double>::infinity() : values[static_cast<std::size_t>(allowed_)];
+  a.meets = above <= allowed_failures(static_cast<std::int64_t>(values.size()), plan_.requirement.probability,
+                                      plan_.requirement.confidence);
+}
+
+std::vector<std::vector<double>> Allocating::others_of(const UnitSamples& unit, std::size_t count) const {
+  std::vector<std::vector<double>> others(count, std::vector<double>(plan_.scattered()));
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t i = 0; i < others[k].size(); ++i) others[k][i] = unit[plan_.joints.size() + i][k];
+  return others;
+}
+
+AllocationConfirmation Allocating::confirmed(const Allocation& a, const ConfirmingModel& confirm,
+                                             const std::string& rung, double& factor) const {
+  const double confidence = confirmation_confidence(plan_.requirement);
+  const std::uint64_t seed = confirmation_seed(plan_.seed, result_.confirmations.size());
+  const UnitSamples unit = unit_samples(plan_.joints.size() + plan_.scattered(), plan_.confirm, seed);
+  const auto gaps = gaps_of(a, unit, plan_.confirm);
+  AllocationConfirmation c =
+      confirmation_of(values_of(confirm(gaps, others_of(unit, plan_.confirm))), plan_.requirement, confidence);
+  c.rung = rung;
+  c.seed = seed;
+  c.factor = result_.factor;
+  c.price = a.price;
+  std::vector<double> linear;
+  for (const auto& g : gaps) linear.push_back(deviation_.index(g));
+  factor = c.reached / shown_limit(linear, plan_.requirement.probability, confidence);
+  // Far below the limit is a disagreement too: a cheaper set may do.
+  c.agrees = c.met && c.reached > (1.0 - options_.accuracy) * std::min(plan_.requirement.limit, a.reached);
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "%zu fresh samples of the %s rung with seed %llu: %.4g %% within the limit, at least %.4g %% "
+                "with %.4g %% confidence (%g %% over the %d confirmations that a search may take); %s",
+                c.samples, rung.c_str(), static_cast<unsigned long long>(c.seed), 100.0 * c.share_within,
+                100.0 * c.share_low, 100.0 * confidence, 100.0 * plan_.requirement.confidence, kMostConfirmations,
+                c.met ? (c.agrees ? "the requirement is met" : "the requirement is met with room to spare")
+                      : "the requirement is not shown to be met");
+  c.sentence = text;
+  return c;
+}
+
+void Allocating::find_first_factor(const Allocation& a, const ConfirmingModel& confirm) {
+  const auto gaps = gaps_of(a, unit_, kTrialSamples);
+  const std::vector<double> values = values_of(confirm(gaps, others_of(unit_, kTrialSamples)));
+  double sum = 0.0, linear = 0.0;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (std::isfinite(values[k])) {
+      sum += values[k];
+      linear += deviation_.index(gaps[k]);
+    }
+  if (linear > 0.0) result_.factor = sum / linear;
+}
+
+void Allocating::search_rounds(const ConfirmingModel& confirm, const std::string& rung) {
+  progress("searching", 0.0);
+  Allocation a = cheapest(plan_.requirement.limit);
+  progress("trying the rung " + rung, 0.1);
+  find_first_factor(a, confirm);
+  for (int round = 0; round < kMostRounds; ++round) {
+    progress("searching", 0.2 + 0.15 * round);
+    a = cheapest(plan_.requirement.limit, a.feasible ? a.choice : std::vector<int>{});
+    // A set that was refuted is not asked again: its index is taken for larger until another one is found.
+    constexpr double kFurther = 1.005;
+    while (a.feasible && !result_.confirmations.empty() && !result_.confirmations.back().met && same(a, refuted_)) {
+      result_.factor *= kFurther;
+      a = cheapest(plan_.requirement.limit);
+    }
+    if (!a.feasible) break;
+    if (result_.feasible && !(a.price < result_.chosen.price * (1.0 - 1e-9)) && !result_.confirmations.back().agrees) {
+      // Nothing cheaper under the corrected factor than what was confirmed already.
+      result_.confirmations.back().sentence += ", but no cheaper set can be shown";
+      result_.confirmations.back().agrees = true;
+      break;
+    }
+    progress("confirming on the rung " + rung, 0.25 + 0.15 * round);
+    double factor = 1.0;
+    AllocationConfirmation c = confirmed(a, confirm, rung, factor);
+    const bool go_on = !c.agrees && round + 1 < kMostRounds && std::isfinite(factor);
+    if (!c.met) refuted_ = a;
+    if (c.met && (!result_.feasible || a.price < result_.chosen.price)) {
+      result_.feasible = true;
+      result_.chosen = a;
+    }
+    // What costs less and was refuted leaves others between the two.
+    if (!c.met && result_.feasible && !go_on) result_.chosen.proven = result_.chosen.finished = false;
+    if (go_on) c.sentence += "; the search goes on with its factor";
+    result_.confirmations.push_back(c);
+    if (!go_on) break;
+    result_.factor = factor;
+  }
+  if (!result_.feasible) {
+    try_what_points_best(a, confirm, rung);
+    return;
+  }
+  judge(result_.chosen);
+  result_.converged = result_.chosen.finished;
+}
+
+bool Allocating::same(const Allocation& a, const Allocation& b) {
+  if (a.tolerance.empty()) return a.choice == b.choice;
+  for (std::size_t j = 0; j < a.tolerance.size(); ++j)
+    if (std::abs(a.tolerance[j] - b.tolerance[j]) > 1e-3 * a.tolerance[j]) return false;
+  return true;
+}
+
+AllocationResult run_allocation(const AllocationPlan& plan, const LinearDeviation& deviation, double misfit,
+                                const ConfirmingModel& confirm, const std::string& rung,
+                                const AllocationOptions& options) {
+  return Allocating(plan, deviation, options).run(misfit, confirm, rung);
+}
+
+}  // namespace boresight

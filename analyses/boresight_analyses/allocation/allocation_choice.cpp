@@ -1,0 +1,208 @@
+// What an allocation's winner is held against: the tightest and the best-pointing sets, a uniform one, the front of prices.
+#include <algorithm>
+#include <cmath>
+
+#include "boresight_analyses/allocation/allocating.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr double kMicro = 1e-6;  // [m], by which a limit is tightened to see what that costs
+
+}  // namespace
+
+void Allocating::try_what_points_best(const Allocation& a, const ConfirmingModel& confirm, const std::string& rung) {
+  std::vector<Allocation> tries = {tightest_like(a)};
+  if (Allocation best = best_like(a); !same(best, tries.front())) tries.push_back(best);
+  result_.best_reachable = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < tries.size(); ++i) {
+    const std::string which = i == 0 ? "the tightest gaps" : "the gaps that point best";
+    progress("trying " + which + " on the rung " + rung, 0.8);
+    Allocation tried = tries[i];
+    judge(tried);
+    double factor = 1.0;
+    AllocationConfirmation c = confirmed(tried, confirm, rung, factor);
+    c.sentence += ", with " + which;
+    if (c.met) {
+      tried.why = which + ", tried on the confirming rung; the linear deviation had found nothing";
+      c.agrees = true;
+      c.sentence += "; the linear deviation is off by too much here to show anything cheaper";
+      result_.factor = std::isfinite(factor) ? factor : result_.factor;
+      judge(tried);
+      tried.feasible = result_.feasible = true;
+      result_.chosen = tried;
+      result_.confirmations.push_back(c);
+      return;
+    }
+    result_.confirmations.push_back(c);
+    if (i == 0 || c.reached < result_.best_reachable) {
+      result_.best_reachable = c.reached;
+      result_.chosen = tried;
+    }
+  }
+  result_.converged = !a.feasible && a.proven;
+}
+
+Allocation Allocating::tightest_like(const Allocation& a) const {
+  Allocation tight = a;
+  tight.feasible = tight.proven = tight.finished = false;
+  if (plan_.is_continuous()) {
+    for (std::size_t j = 0; j < curves_.size(); ++j) tight.tolerance[j] = curves_[j].lower;
+    tight.price = price_of(curves_, tight.tolerance);
+  } else {
+    tight.choice = tightest_;
+    tight.price = price_of(price_, tightest_);
+  }
+  return tight;
+}
+
+Allocation Allocating::best_like(const Allocation& a) const {
+  Allocation best = tightest_like(a);
+  if (allowed_ < 0 || deviation_.rises_with_every_gap(lowest_gap(), highest_gap())) return best;
+  if (plan_.is_continuous()) {
+    best.tolerance = least_tolerances(curves_, statistical_tolerances(deviation_, least_, z_, allowed_));
+    best.price = price_of(curves_, best.tolerance);
+    return best;
+  }
+  double least = statistical_->reached(best.choice);
+  for (bool better = true; better;) {
+    better = false;
+    for (std::size_t j = 0; j < gap_.size(); ++j)
+      for (int o = 0; o < static_cast<int>(gap_[j].size()); ++o) {
+        std::vector<int> other = best.choice;
+        other[j] = o;
+        const double reached = statistical_->reached(other);
+        if (!(reached < least * (1.0 - 1e-12))) continue;
+        least = reached;
+        best.choice = other;
+        better = true;
+      }
+  }
+  best.price = price_of(price_, best.choice);
+  return best;
+}
+
+std::vector<double> Allocating::extreme_gaps(bool highest) const {
+  std::vector<double> gaps;
+  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+    double low = least_[j], high = least_[j] + curves_[j].upper;
+    if (!gap_[j].empty()) {
+      low = gap_[j].front()->lowest();
+      high = gap_[j].front()->highest();
+    }
+    for (const DistributionPtr& d : gap_[j]) {
+      low = std::min(low, d->lowest());
+      high = std::max(high, d->highest());
+    }
+    gaps.push_back(highest ? high : low);
+  }
+  return gaps;
+}
+
+void Allocating::compare() {
+  progress("worst case and root-sum-square", 0.85);
+  const double limit = working_limit(plan_.requirement.limit);
+  const auto finish = [&](Allocation& a, const std::string& name) {
+    a.judged_by = name;
+    if (a.choice.empty() && a.tolerance.empty()) {
+      a.choice = tightest_;
+      if (!plan_.is_continuous()) a.price = price_of(price_, a.choice);
+    }
+    judge(a);
+  };
+  if (plan_.is_continuous()) {
+    const auto take = [&](Allocation& a, const ToleranceRequirement& requirement, const std::string& name) {
+      const ContinuousAllocation c = allocate_continuous(curves_, requirement, limit);
+      a.feasible = c.feasible;
+      a.finished = c.converged;
+      a.tolerance = c.tolerance;
+      a.price = c.price;
+      finish(a, name);
+    };
+    take(result_.worst_case, worst_case_tolerances(deviation_, least_), "worst case");
+    take(result_.root_sum_square, root_sum_square_tolerances(deviation_, least_, plan_.requirement.probability),
+         "root-sum-square");
+    return;
+  }
+  const auto take = [&](Allocation& a, const AllocationRequirement& requirement, const std::string& name, bool exact) {
+    const DiscreteAllocation d = allocate_discrete(price_, tightest_, requirement, {.most_nodes = 100'000});
+    a.feasible = d.feasible;
+    a.finished = d.proven;
+    a.proven = d.proven && exact;
+    a.choice = d.choice;
+    a.price = d.feasible ? d.price : 0.0;
+    a.nodes = d.nodes;
+    finish(a, name);
+  };
+  take(result_.worst_case, WorstCaseRequirement(deviation_, gap_, limit), "worst case", true);
+  take(result_.root_sum_square, RootSumSquareRequirement(deviation_, gap_, plan_.requirement.probability, limit),
+       "root-sum-square", false);
+}
+
+void Allocating::share_out() {
+  const Allocation& a = result_.chosen;
+  std::vector<double> variance(plan_.joints.size()), mean(plan_.joints.size()), g(plan_.joints.size());
+  const auto gaps = gaps_of(a, unit_, plan_.samples);
+  for (std::size_t j = 0; j < mean.size(); ++j) {
+    for (const auto& c : gaps) mean[j] += c[j] / static_cast<double>(gaps.size());
+    for (const auto& c : gaps) variance[j] += (c[j] - mean[j]) * (c[j] - mean[j]);
+  }
+  deviation_.index(mean, g);
+  double sum = 0.0;
+  for (std::size_t j = 0; j < mean.size(); ++j) sum += variance[j] *= g[j] * g[j];
+  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+    AllocationShare share;
+    share.joint = plan_.joints[j].name();
+    if (plan_.is_continuous()) {
+      share.price = curves_[j].cost.price(a.tolerance[j]);
+    } else {
+      const auto o = static_cast<std::size_t>(a.choice[j]);
+      share.option = plan_.joints[j].options[o].name;
+      share.price = price_[j][o];
+      // The dearest among the cheaper ones.
+      double next = -1.0;
+      for (const double p : price_[j])
+        if (p < share.price) next = std::max(next, p);
+      if (next >= 0.0) share.next_saving = share.price - next;
+    }
+    share.cost_share = a.price > 0.0 ? share.price / a.price : 0.0;
+    share.error_share = sum > 0.0 ? variance[j] / sum : 0.0;
+    result_.shares.push_back(share);
+  }
+}
+
+void Allocating::price_front() {
+  const double limit = plan_.requirement.limit;
+  const auto priced = [&](double at) {
+    const Allocation a = cheapest(at);
+    return CostPoint{at, a.price, a.feasible};
+  };
+  progress("the price of the last micrometre", 0.9);
+  const Allocation here = cheapest(limit, result_.chosen.choice);
+  const CostPoint tighter = priced(limit - kMicro);
+  result_.last_micrometre =
+      tighter.feasible && here.feasible ? tighter.price - here.price : std::numeric_limits<double>::quiet_NaN();
+  // From the least reachable to where the cheapest of all meets it.
+  Allocation tight = best_like(here), wide = here;
+  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+    if (plan_.is_continuous()) {
+      wide.tolerance[j] = curves_[j].upper;
+      continue;
+    }
+    wide.choice[j] = static_cast<int>(std::min_element(price_[j].begin(), price_[j].end()) - price_[j].begin());
+  }
+  judge(tight);
+  judge(wide);
+  result_.front.push_back({limit, here.price, here.feasible});
+  for (int k = 0; k < plan_.front; ++k) {
+    progress("front of cost against accuracy", 0.9 + 0.1 * k / plan_.front);
+    const double share = plan_.front == 1 ? 0.5 : static_cast<double>(k) / (plan_.front - 1);
+    // A hair wider than the ends, so that rounding does not make them unreachable.
+    result_.front.push_back(
+        priced((tight.reached + share * std::max(0.0, wide.reached - tight.reached)) * (1.0 + 1e-9)));
+  }
+  std::sort(result_.front.begin(), result_.front.end(),
+            [](const CostPoint& l, const CostPoint& r) { return l.limit < r.limit; });
+}
+
+}  // namespace boresight

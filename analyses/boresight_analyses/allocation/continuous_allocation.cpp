@@ -1,0 +1,245 @@
+#include "boresight_analyses/allocation/continuous_allocation.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "boresight_analyses/allocation/gap_requirements.hpp"
+#include "boresight_analyses/optimise/minimise.hpp"
+
+namespace boresight {
+namespace {
+
+std::vector<double> exponentials(std::span<const double> x) {
+  std::vector<double> t(x.size());
+  for (std::size_t j = 0; j < t.size(); ++j) t[j] = std::exp(x[j]);
+  return t;
+}
+
+// A share s at which from + s (to - from) keeps the limit, in ln t; `from` keeps it. The last one, where the
+// requirement does not fall along the way.
+double last_within(const ToleranceRequirement& requirement, double limit, const std::vector<double>& from,
+                   const std::vector<double>& to, int& evaluations) {
+  double low = 0.0, high = 1.0;
+  std::vector<double> x(from.size());
+  for (int i = 0; i < 60 && high - low > 1e-12; ++i) {
+    const double s = i == 0 ? 1.0 : 0.5 * (low + high);
+    for (std::size_t j = 0; j < x.size(); ++j) x[j] = from[j] + s * (to[j] - from[j]);
+    ++evaluations;
+    if (requirement(exponentials(x), {}) <= limit)
+      low = s;
+    else
+      high = s;
+    if (low == 1.0) break;
+  }
+  return low;
+}
+
+}  // namespace
+
+double price_of(const std::vector<ContinuousJoint>& joints, std::span<const double> tolerance) {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < joints.size(); ++j) sum += joints[j].cost.price(tolerance[j]);
+  return sum;
+}
+
+std::vector<double> least_tolerances(const std::vector<ContinuousJoint>& joints,
+                                     const ToleranceRequirement& requirement) {
+  MinimisationProblem problem;
+  std::vector<double> corner;
+  for (const ContinuousJoint& joint : joints) {
+    problem.lower.push_back(std::log(joint.lower));
+    problem.upper.push_back(std::log(joint.upper));
+    corner.push_back(joint.lower);
+  }
+  double least = requirement(corner, {});
+  const double scale = std::max(std::abs(least), 1e-300);
+  // One joint after the other at its tightest or its widest, until none gains.
+  for (bool better = true; better;) {
+    better = false;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      std::vector<double> other = corner;
+      other[j] = corner[j] == joints[j].lower ? joints[j].upper : joints[j].lower;
+      const double value = requirement(other, {});
+      if (!(value < least - 1e-12 * scale)) continue;
+      least = value;
+      corner = other;
+      better = true;
+    }
+  }
+  problem.gradients = true;
+  problem.objective = [&](std::span<const double> x, std::span<double> gradient) {
+    const std::vector<double> t = exponentials(x);
+    const double value = requirement(t, gradient);
+    for (std::size_t j = 0; j < gradient.size(); ++j) gradient[j] *= t[j] / scale;
+    return value / scale;
+  };
+  std::vector<double> best = corner;
+  const auto descend = [&](const std::vector<double>& from) {
+    problem.start.clear();
+    for (std::size_t j = 0; j < from.size(); ++j)
+      problem.start.push_back(std::clamp(std::log(from[j]), problem.lower[j], problem.upper[j]));
+    const Minimum minimum =
+        minimise(problem, {.global = "none", .local = "slsqp", .local_evaluations = 200, .tolerance = 1e-8});
+    const std::vector<double> t = exponentials(minimum.x);
+    const double value = requirement(t, {});
+    if (!(value < least - 1e-12 * scale)) return;
+    least = value;
+    best = t;
+  };
+  std::vector<double> middle;
+  for (const ContinuousJoint& joint : joints) middle.push_back(std::sqrt(joint.lower * joint.upper));
+  descend(corner);
+  descend(middle);
+  return best;
+}
+
+ContinuousAllocation allocate_continuous(const std::vector<ContinuousJoint>& joints,
+                                         const ToleranceRequirement& requirement, double limit) {
+  ContinuousAllocation result;
+  MinimisationProblem problem;
+  for (const ContinuousJoint& joint : joints) {
+    problem.lower.push_back(std::log(joint.lower));
+    problem.upper.push_back(std::log(joint.upper));
+  }
+  ++result.evaluations;
+  // Somewhere that keeps the limit: the tightest tolerances, or where gaps work against each other others.
+  std::vector<double> keeps = exponentials(problem.lower);
+  if (!(requirement(keeps, {}) <= limit)) {
+    keeps = least_tolerances(joints, requirement);
+    result.reached = requirement(keeps, {});
+    if (!(result.reached <= limit)) {
+      result.tolerance = keeps;
+      result.price = price_of(joints, keeps);
+      result.converged = true;
+      result.why = "no search of the price: the least value found exceeds the limit";
+      return result;
+    }
+  }
+  std::vector<double> from(keeps);
+  for (std::size_t j = 0; j < from.size(); ++j)
+    from[j] = std::clamp(std::log(keeps[j]), problem.lower[j], problem.upper[j]);
+  const double share = last_within(requirement, limit, from, problem.upper, result.evaluations);
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    problem.start.push_back(from[j] + share * (problem.upper[j] - from[j]));
+  const double price_scale = std::max(price_of(joints, exponentials(problem.start)), 1e-300);
+
+  problem.gradients = true;
+  problem.objective = [&](std::span<const double> x, std::span<double> gradient) {
+    const std::vector<double> t = exponentials(x);
+    for (std::size_t j = 0; j < gradient.size(); ++j) gradient[j] = joints[j].cost.slope(t[j]) * t[j] / price_scale;
+    return price_of(joints, t) / price_scale;
+  };
+  problem.constraints.push_back([&](std::span<const double> x, std::span<double> gradient) {
+    const std::vector<double> t = exponentials(x);
+    ++result.evaluations;
+    const double value = requirement(t, gradient);
+    for (std::size_t j = 0; j < gradient.size(); ++j) gradient[j] *= t[j] / limit;
+    return value / limit - 1.0;
+  });
+
+  // A requirement with kinks (an order statistic, a maximum over time) can stop either algorithm short; the
+  // better one stands, pulled back onto the limit where it lies beyond it.
+  std::vector<double> best = problem.start;
+  const auto offer = [&](const std::vector<double>& x, bool converged) {
+    const double s = last_within(requirement, limit, from, x, result.evaluations);
+    std::vector<double> kept(x.size());
+    for (std::size_t j = 0; j < x.size(); ++j) kept[j] = from[j] + s * (x[j] - from[j]);
+    if (price_of(joints, exponentials(kept)) < price_of(joints, exponentials(best))) {
+      best = kept;
+      result.converged = converged;
+      return true;
+    }
+    return false;
+  };
+  constexpr int kMostDescents = 6;
+  for (int descent = 0; descent < kMostDescents; ++descent) {
+    const double before = price_of(joints, exponentials(best));
+    for (const char* algorithm : {"slsqp", "mma"}) {
+      problem.start = best;
+      const Minimum minimum = minimise(problem, {.global = "none",
+                                                 .local = algorithm,
+                                                 .local_evaluations = 300,
+                                                 .tolerance = 1e-10,
+                                                 .constraint_tolerance = 1e-10});
+      if (offer(minimum.x, minimum.converged))
+        result.why = std::string(algorithm) + " in ln t: gradients are at hand, and reciprocal costs are convex there";
+    }
+    if (price_of(joints, exponentials(best)) > before * (1.0 - 1e-7)) {
+      result.converged = true;  // neither moves on
+      break;
+    }
+  }
+  result.feasible = true;
+  result.tolerance = exponentials(best);
+  result.price = price_of(joints, result.tolerance);
+  result.reached = requirement(result.tolerance, {});
+  return result;
+}
+
+ToleranceRequirement statistical_tolerances(const LinearDeviation& deviation, std::vector<double> least,
+                                            std::vector<std::vector<double>> z, std::int64_t allowed) {
+  return [&deviation, least = std::move(least), z = std::move(z), allowed](std::span<const double> t,
+                                                                           std::span<double> gradient) {
+    if (allowed < 0) return std::numeric_limits<double>::infinity();
+    const std::size_t samples = z.front().size();
+    std::vector<std::pair<double, std::size_t>> values(samples);
+    std::vector<double> c(t.size()), g(t.size());
+    const auto gaps = [&](std::size_t k) {
+      for (std::size_t j = 0; j < c.size(); ++j) c[j] = least[j] + t[j] * z[j][k];
+    };
+    for (std::size_t k = 0; k < samples; ++k) {
+      gaps(k);
+      values[k] = {deviation.index(c), k};
+    }
+    const auto rank = static_cast<std::size_t>(allowed);
+    const std::size_t reach = 1 + rank / 4;
+    const std::size_t last = std::min(samples, rank + reach + 1);
+    std::partial_sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(last), values.end(),
+                      std::greater<>());
+    if (!gradient.empty()) {
+      std::fill(gradient.begin(), gradient.end(), 0.0);
+      const std::size_t first = rank > reach ? rank - reach : 0;
+      for (std::size_t i = first; i < last; ++i) {
+        gaps(values[i].second);
+        deviation.index(c, g);
+        for (std::size_t j = 0; j < g.size(); ++j)
+          gradient[j] += g[j] * z[j][values[i].second] / static_cast<double>(last - first);
+      }
+    }
+    return values[rank].first;
+  };
+}
+
+ToleranceRequirement worst_case_tolerances(const LinearDeviation& deviation, std::vector<double> least) {
+  return [&deviation, least = std::move(least)](std::span<const double> t, std::span<double> gradient) {
+    std::vector<double> c(least);
+    for (std::size_t j = 0; j < c.size(); ++j) c[j] += t[j];
+    return deviation.worst_index(c, gradient);
+  };
+}
+
+ToleranceRequirement root_sum_square_tolerances(const LinearDeviation& deviation, std::vector<double> least,
+                                                double probability) {
+  const double quantile = boost::math::quantile(boost::math::normal(), probability);
+  return [&deviation, least = std::move(least), quantile](std::span<const double> t, std::span<double> gradient) {
+    const auto value = [&](const std::vector<double>& tolerance) {
+      std::vector<double> middle(least), half(tolerance.size());
+      for (std::size_t j = 0; j < half.size(); ++j) middle[j] += half[j] = 0.5 * tolerance[j];
+      return root_sum_square_index(deviation, middle, half, quantile);
+    };
+    std::vector<double> at(t.begin(), t.end());
+    for (std::size_t j = 0; j < gradient.size(); ++j) {
+      const double h = 1e-5 * t[j];
+      at[j] = t[j] + h;
+      const double above = value(at);
+      at[j] = t[j] - h;
+      gradient[j] = (above - value(at)) / (2.0 * h);
+      at[j] = t[j];
+    }
+    return value(at);
+  };
+}
+
+}  // namespace boresight

@@ -1,0 +1,209 @@
+#include "boresight_analyses/allocation/linear_deviation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/ladder/ladder.hpp"
+
+namespace boresight {
+namespace {
+
+double dot(const double* u, const double* v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
+double size_of(const double* v) { return std::sqrt(dot(v, v)); }
+
+// The vector whose length is the quantity, to first order.
+Vec3 error_vector(const PoseSample& sample, const std::string& quantity, const Pointing& pointing) {
+  if (quantity == "orientation_error") return sample.error.rotation;
+  if (quantity == "boresight_error") return sample.error.rotation.cross(sample.ideal.q * pointing.boresight_B);
+  if (quantity == "line_of_sight_error") {
+    const Eigen::Matrix<double, 3, 6> gain = pointing.line_of_sight.value().gain(sample.ideal);
+    return gain.leftCols<3>() * sample.error.displacement + gain.rightCols<3>() * sample.error.rotation;
+  }
+  return sample.error.displacement;
+}
+
+}  // namespace
+
+LinearDeviation::LinearDeviation(std::vector<double> time, std::vector<double> offset,
+                                 std::vector<std::vector<double>> sensitivity, std::string statistic)
+    : time_(std::move(time)),
+      offset_(std::move(offset)),
+      weight_(time_.size(), 1.0),
+      sensitivity_(std::move(sensitivity)),
+      statistic_(std::move(statistic)) {
+  const std::size_t n = time_.size();
+  if (n > 1) {
+    const double whole = time_.back() - time_.front();
+    for (std::size_t i = 0; i < n; ++i)
+      weight_[i] = 0.5 * (time_[std::min(i + 1, n - 1)] - time_[i == 0 ? 0 : i - 1]) / whole;
+  }
+  for (std::size_t i = 0; i < n; ++i) offset_size_.push_back(size_of(&offset_[3 * i]));
+  for (const auto& a : sensitivity_) {
+    size_.emplace_back(n);
+    for (std::size_t i = 0; i < n; ++i) size_.back()[i] = size_of(&a[3 * i]);
+  }
+}
+
+double LinearDeviation::statistic_of(const std::vector<double>& sizes, std::vector<double>* derivative) const {
+  const std::size_t n = sizes.size();
+  if (derivative) derivative->assign(n, 0.0);
+  if (statistic_ == "mean") {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) sum += weight_[i] * sizes[i];
+    if (derivative) *derivative = weight_;
+    return sum;
+  }
+  if (statistic_ == "rms") {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) sum += weight_[i] * sizes[i] * sizes[i];
+    const double rms = std::sqrt(sum);
+    if (derivative && rms > 0.0)
+      for (std::size_t i = 0; i < n; ++i) (*derivative)[i] = weight_[i] * sizes[i] / rms;
+    return rms;
+  }
+  std::size_t at = static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+  if (statistic_ == "p99.73") {
+    // The instant at which the time spent above falls to 0.27 %.
+    std::vector<std::size_t> order(n);
+    for (std::size_t i = 0; i < n; ++i) order[i] = i;
+    std::sort(order.begin(), order.end(), [&](std::size_t l, std::size_t r) { return sizes[l] > sizes[r]; });
+    double above = 0.0;
+    for (const std::size_t i : order) {
+      at = i;
+      if ((above += weight_[i]) > 0.0027) break;
+    }
+  }
+  if (derivative) (*derivative)[at] = 1.0;
+  return sizes[at];
+}
+
+double LinearDeviation::index(std::span<const double> gaps) const { return index(gaps, {}); }
+
+double LinearDeviation::index(std::span<const double> gaps, std::span<double> gradient) const {
+  thread_local std::vector<double> e, sizes, derivative;
+  e = offset_;
+  for (std::size_t j = 0; j < gaps.size(); ++j) {
+    const double c = gaps[j];
+    const double* a = sensitivity_[j].data();
+    for (std::size_t i = 0; i < e.size(); ++i) e[i] += c * a[i];
+  }
+  sizes.resize(time_.size());
+  for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = size_of(&e[3 * i]);
+  const double value = statistic_of(sizes, gradient.empty() ? nullptr : &derivative);
+  if (gradient.empty()) return value;
+  std::fill(gradient.begin(), gradient.end(), 0.0);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (derivative[i] == 0.0 || sizes[i] == 0.0) continue;
+    const double w = derivative[i] / sizes[i];
+    for (std::size_t j = 0; j < gradient.size(); ++j) {
+      const double* a = &sensitivity_[j][3 * i];
+      gradient[j] += w * (a[0] * e[3 * i] + a[1] * e[3 * i + 1] + a[2] * e[3 * i + 2]);
+    }
+  }
+  return value;
+}
+
+double LinearDeviation::least_index(std::span<const double> at, std::span<const double> low,
+                                    std::span<const double> high) const {
+  std::vector<double> e = offset_, sizes(time_.size());
+  for (std::size_t j = 0; j < at.size(); ++j)
+    for (std::size_t i = 0; i < e.size(); ++i) e[i] += at[j] * sensitivity_[j][i];
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double size = size_of(&e[3 * i]);
+    if (size == 0.0) continue;
+    double least = size;
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      if (low[j] == high[j]) continue;
+      const double slope = dot(&e[3 * i], &sensitivity_[j][3 * i]) / size;
+      least += std::min(slope * (low[j] - at[j]), slope * (high[j] - at[j]));
+    }
+    sizes[i] = std::max(0.0, least);
+  }
+  return statistic_of(sizes, nullptr);
+}
+
+bool LinearDeviation::rises_with_every_gap(std::span<const double> low, std::span<const double> high) const {
+  for (std::size_t i = 0; i < time_.size(); ++i)
+    for (std::size_t j = 0; j < gaps(); ++j) {
+      const double* a = &sensitivity_[j][3 * i];
+      double least = dot(&offset_[3 * i], a), scale = std::abs(least);
+      for (std::size_t k = 0; k < gaps(); ++k) {
+        const double product = dot(&sensitivity_[k][3 * i], a);
+        least += std::min(low[k] * product, high[k] * product);
+        scale += high[k] * std::abs(product);
+      }
+      constexpr double kRounding = 1e-12;
+      if (least < -kRounding * scale) return false;
+    }
+  return true;
+}
+
+double LinearDeviation::most_per_gap(std::size_t j) const {
+  return *std::max_element(size_[j].begin(), size_[j].end());
+}
+
+double LinearDeviation::worst_index(std::span<const double> gaps) const { return worst_index(gaps, {}); }
+
+double LinearDeviation::worst_index(std::span<const double> gaps, std::span<double> gradient) const {
+  std::vector<double> sizes = offset_size_, derivative;
+  for (std::size_t j = 0; j < gaps.size(); ++j)
+    for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] += size_[j][i] * gaps[j];
+  const double value = statistic_of(sizes, gradient.empty() ? nullptr : &derivative);
+  for (std::size_t j = 0; j < gradient.size(); ++j) {
+    gradient[j] = 0.0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) gradient[j] += derivative[i] * size_[j][i];
+  }
+  return value;
+}
+
+LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& mechanism,
+                                      const std::vector<std::vector<ParameterPath>>& places,
+                                      const std::vector<double>& probe, const IndexChoice& index, std::size_t instants,
+                                      double& misfit) {
+  index.title();  // throws where the quantity or the statistic is unknown: below these are told apart by name
+  const auto rung = make_rung("quasistatic", mechanism);
+  RunOptions options;
+  options.events = false;
+  options.start = index.start;
+  options.sample_spacing = mechanism->duration() / static_cast<double>(instants);
+  // Error vectors of a run, all instants in a row.
+  std::vector<double> time;
+  const auto vectors = [&](const std::vector<double>& gaps, double* value) {
+    Parameters parameters = mechanism->parameters();
+    for (std::size_t j = 0; j < places.size(); ++j)
+      for (const ParameterPath& place : places[j]) place.set(parameters, gaps[j]);
+    const RunResult result = rung->run(parameters, options);
+    if (value) *value = index.of(result.index);
+    time = result.time;
+    std::vector<double> out;
+    for (const PoseSample& sample : result.boresight.samples) {
+      const Vec3 e = error_vector(sample, index.quantity, mechanism->pointing());
+      out.insert(out.end(), {e.x(), e.y(), e.z()});
+    }
+    return out;
+  };
+  double truth = 0.0;
+  const std::vector<double> whole = vectors(probe, &truth);
+  std::vector<std::vector<double>> sensitivity;
+  std::vector<double> offset = whole;
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    std::vector<double> less = probe;
+    less[j] *= 0.5;
+    const std::vector<double> there = vectors(less, nullptr);
+    std::vector<double>& a = sensitivity.emplace_back(whole.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      a[i] = (whole[i] - there[i]) / (probe[j] - less[j]);
+      offset[i] -= a[i] * probe[j];
+    }
+  }
+  LinearDeviation linear(time, offset, sensitivity, index.statistic);
+  // At the probe itself only the instants can differ; far from it the form is tried too.
+  misfit = truth > 0.0 ? std::abs(linear.index(probe) - truth) / truth : 0.0;
+  std::vector<double> other = probe;
+  for (std::size_t j = 0; j < other.size(); ++j) other[j] *= j % 2 == 0 ? 0.25 : 0.75;
+  vectors(other, &truth);
+  if (truth > 0.0) misfit = std::max(misfit, std::abs(linear.index(other) - truth) / truth);
+  return linear;
+}
+
+}  // namespace boresight

@@ -1,0 +1,348 @@
+#include "boresight_analyses/budget/budget.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/budget/ensemble.hpp"
+#include "boresight_analyses/montecarlo/looks.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr std::size_t kShown = 40;  // members whose histories a chart may draw
+
+using Values = std::vector<std::vector<Vec3>>;  // of an index, per member
+
+// Mean and standard deviation of one axis as the interpretation takes them (contributor.hpp).
+Moments moments_of(const Values& members, Eigen::Index axis, Interpretation interpretation) {
+  if (members.empty()) return {};
+  double sum = 0.0, squares = 0.0, count = 0.0, worst = -1.0;
+  Moments of_worst;
+  for (const std::vector<Vec3>& values : members) {
+    double own_sum = 0.0, own_squares = 0.0, most = 0.0;
+    for (const Vec3& v : values) {
+      own_sum += v[axis];
+      own_squares += v[axis] * v[axis];
+      most = std::max(most, std::abs(v[axis]));
+    }
+    const auto n = static_cast<double>(values.size());
+    if (own_squares / n > worst) {
+      worst = own_squares / n;
+      of_worst.mean = own_sum / n;
+      of_worst.sd = std::sqrt(std::max(0.0, worst - of_worst.mean * of_worst.mean));
+    }
+    const bool ensemble = interpretation == Interpretation::ensemble;
+    sum += ensemble ? most : own_sum;
+    squares += ensemble ? most * most : own_squares;
+    count += ensemble ? 1.0 : n;
+  }
+  if (interpretation == Interpretation::temporal) return of_worst;
+  const double mean = sum / count;
+  return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
+}
+
+double mean_product(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const AxisOf& axis) {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += axis.product(a[k], b[k]);
+  return sum / static_cast<double>(a.size());
+}
+
+class Maker {
+ public:
+  Maker(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,
+        const SampleStore& store, const std::vector<Judgement>& judgements)
+      : plan_(plan), runs_(runs), judgements_(judgements), axes_(quantity), ensemble_(plan, runs, store) {
+    for (const ClearanceDescription& c : mechanism.description().clearances)
+      joints_.push_back(mechanism.description().joints[static_cast<std::size_t>(c.joint)].name);
+    nominal_ = stored_history(store, runs.nominal(), plan);
+    if (nominal_.error.empty())
+      throw ComputationError("the motion with every scattered parameter at its median could not be followed");
+    for (std::size_t j = 0; j < joints_.size(); ++j) alone_.push_back(stored_history(store, runs.alone(j), plan));
+    for (std::uint64_t member = 0; member < plan.members; ++member) {
+      PointingHistory total = ensemble_.total(member);
+      if (!total.error.empty()) totals_.push_back(std::move(total));
+    }
+    if (totals_.empty()) throw ComputationError("no member of the ensemble could be followed");
+    failed_ = static_cast<std::int64_t>(plan.members - totals_.size());
+    attribution_ = runs.rows() == 1 ? plan.attribution : runs.attribution();
+  }
+
+  Budget make() {
+    Budget b;
+    b.headline = plan_.headline(axes_);
+    b.members = static_cast<std::int64_t>(plan_.members);
+    b.failed = failed_;
+    b.attribution = attribution_;
+    b.nominal = nominal_;
+    b.requirements.resize(plan_.requirements.size());
+    b.shown.assign(totals_.begin(), totals_.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, totals_.size())));
+    for (const ErrorIndex index : plan_.indices()) {
+      for (const Interpretation i : kInterpretations) b.tables.push_back(classical(index, i));
+      const Values values = values_of(totals_, index);
+      for (std::size_t axis = 0; axis <= axes_.count(); ++axis) {
+        const EnsembleInTime sizes = in_time(values, axis, failed_);
+        for (const Interpretation i : kInterpretations)
+          b.levels.push_back(level(sizes, table(b, index, i), axis, b.headline.probability, plan_.confidence));
+        for (std::size_t r = 0; r < plan_.requirements.size(); ++r)
+          if (plan_.requirements[r].index == index && plan_.requirements[r].axis == axis)
+            b.requirements[r] = answer(r, sizes, b);
+        if (b.headline.index == index && b.headline.axis == axis)
+          for (const std::vector<Vec3>& v : values) b.headline_sizes.push_back(sizes_of(v, {axis, axes_.count()}));
+      }
+    }
+    contribute(b);
+    relieve(b);
+    return b;
+  }
+
+ private:
+  Values values_of(const std::vector<PointingHistory>& histories, ErrorIndex index) const {
+    Values values;
+    for (const PointingHistory& h : histories) values.push_back(index_values(index, h, plan_.windows));
+    return values;
+  }
+
+  EnsembleInTime in_time(const Values& values, std::size_t axis, std::int64_t failed) const {
+    std::vector<std::vector<double>> sizes;
+    for (const std::vector<Vec3>& v : values) sizes.push_back(sizes_of(v, {axis, axes_.count()}));
+    return EnsembleInTime(std::move(sizes), failed);
+  }
+
+  static const ClassicalTable& table(const Budget& b, ErrorIndex index, Interpretation interpretation) {
+    return *std::find_if(b.tables.begin(), b.tables.end(), [&](const ClassicalTable& t) {
+      return t.index == index && t.interpretation == interpretation;
+    });
+  }
+
+  BudgetLevel level(const EnsembleInTime& sizes, const ClassicalTable& t, std::size_t axis, double probability,
+                    double confidence) const {
+    BudgetLevel l{.index = t.index, .interpretation = t.interpretation, .axis = axis};
+    l.level = sizes.level(t.interpretation, probability, confidence, plan_.leave_out);
+    const bool total = axis == axes_.count();
+    l.by_rule = total ? t.total.radius_by_rule(t.interpretation, probability) : t.total.axis_level(axis, probability);
+    if (total && t.interpretation != Interpretation::ensemble) l.integrated = t.total.radius_integrated(probability);
+    l.standing = standing_of(l.by_rule, l.level.value);
+    return l;
+  }
+
+  RequirementAnswer answer(std::size_t r, const EnsembleInTime& sizes, const Budget& b) const {
+    const BudgetRequirement& asked = plan_.requirements[r];
+    const Judgement judgement =
+        judgements_.empty() ? Judgement{.confidence = asked.confidence, .why = ""} : judgements_[r];
+    return {.asked = asked,
+            .level = level(sizes, table(b, asked.index, asked.interpretation), asked.axis, asked.probability,
+                           asked.confidence),
+            .compliance =
+                sizes.compliance(asked.interpretation, asked.limit, asked.probability, judgement, plan_.leave_out),
+            .judgement = judgement};
+  }
+
+  // Members of the attribution for which both runs are there; the mechanism's part alone, of one index.
+  std::pair<Values, Values> with_and_without(const MemberVariant& variant, ErrorIndex index) const {
+    std::pair<Values, Values> out;
+    for (std::uint64_t member = 0; member < runs_.attribution(); ++member) {
+      const PointingHistory *drawn = ensemble_.mechanism(member), *changed = ensemble_.mechanism(member, variant);
+      if (drawn == nullptr || changed == nullptr) continue;
+      out.first.push_back(index_values(index, *drawn, plan_.windows));
+      out.second.push_back(index_values(index, *changed, plan_.windows));
+    }
+    return out;
+  }
+
+  ClassicalTable classical(ErrorIndex index, Interpretation interpretation) const {
+    ClassicalTable t{.index = index, .interpretation = interpretation, .lines = {}, .total = {}};
+    const auto axes = static_cast<Eigen::Index>(axes_.count());
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      t.lines.push_back({joints_[j], kClearanceKind, "", std::vector<Moments>(axes_.count())});
+      if (alone_[j].error.empty()) continue;
+      const Values values = {index_values(index, alone_[j], plan_.windows)};
+      for (Eigen::Index a = 0; a < axes; ++a)
+        t.lines.back().axes[static_cast<std::size_t>(a)] = moments_of(values, a, interpretation);
+    }
+    for (std::size_t g = 0; g < runs_.groups(); ++g) {
+      t.lines.push_back({plan_.groups.names[g], kScatterKind, "", {}});
+      const auto [drawn, held] = with_and_without({.held = static_cast<int>(g)}, index);
+      for (Eigen::Index a = 0; a < axes; ++a) {
+        const Moments with = moments_of(drawn, a, interpretation), without = moments_of(held, a, interpretation);
+        t.lines.back().axes.push_back(
+            {with.mean - without.mean, std::sqrt(std::max(0.0, with.sd * with.sd - without.sd * without.sd))});
+      }
+    }
+    for (const Contributor& c : plan_.contributors) {
+      t.lines.push_back({c.name, to_string(c.kind), c.group, {}});
+      for (int a = 0; a < static_cast<int>(axes); ++a)
+        t.lines.back().axes.push_back(moments(c, a, index, interpretation, plan_.windows, plan_.duration));
+    }
+    t.total = total_of(t.lines);
+    if (t.total.axes.empty()) t.total.axes.resize(axes_.count());
+    return t;
+  }
+
+  // Mean squares and products of each member, of the headline's index.
+  struct MemberProducts {
+    std::vector<double> all, own;               // per member that did not fail
+    std::vector<std::vector<double>> external;  // [contributor][member]
+    std::vector<std::vector<double>> change;    // [group][member of the attribution with both runs]
+    std::vector<double> alone;                  // [joint]: with the nominal motion; NaN where that joint's run failed
+  };
+
+  MemberProducts products(const Budget& b) const {
+    const AxisOf axis(b.headline.axis, axes_.count());
+    const ErrorIndex index = b.headline.index;
+    MemberProducts p;
+    p.external.resize(plan_.contributors.size());
+    for (std::uint64_t member = 0; member < plan_.members; ++member) {
+      const PointingHistory* mechanism = ensemble_.mechanism(member);
+      if (mechanism == nullptr) continue;
+      const std::vector<Vec3> total = index_values(index, ensemble_.total(member), plan_.windows);
+      p.all.push_back(mean_product(total, total, axis));
+      p.own.push_back(mean_product(index_values(index, *mechanism, plan_.windows), total, axis));
+      for (std::size_t i = 0; i < p.external.size(); ++i)
+        p.external[i].push_back(
+            mean_product(index_values(index, ensemble_.external(member, i), plan_.windows), total, axis));
+    }
+    const std::vector<Vec3> nominal = index_values(index, nominal_, plan_.windows);
+    for (const PointingHistory& alone : alone_)
+      p.alone.push_back(alone.error.empty() ? std::nan("")
+                                            : mean_product(index_values(index, alone, plan_.windows), nominal, axis));
+    for (std::size_t g = 0; g < runs_.groups(); ++g) {
+      const auto [drawn, held] = with_and_without({.held = static_cast<int>(g)}, index);
+      auto& change = p.change.emplace_back();
+      for (std::size_t k = 0; k < drawn.size(); ++k)
+        change.push_back(mean_product(drawn[k], drawn[k], axis) - mean_product(held[k], held[k], axis));
+    }
+    return p;
+  }
+
+  // Shares in the order of joints, groups, external contributors, together; `times`: how often each member counts.
+  static std::vector<double> shares(const MemberProducts& p, const std::vector<std::uint32_t>& times,
+                                    const std::vector<std::uint32_t>& times_of_attribution) {
+    const auto mean = [](const std::vector<double>& values, const std::vector<std::uint32_t>& counts) {
+      double sum = 0.0, all = 0.0;
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        sum += counts[k] * values[k];
+        all += counts[k];
+      }
+      return all > 0.0 ? sum / all : 0.0;
+    };
+    const double square = mean(p.all, times);
+    double together = mean(p.own, times) / square;
+    std::vector<double> out;
+    for (const double alone : p.alone) {
+      out.push_back(alone / square);
+      if (std::isfinite(alone)) together -= out.back();
+    }
+    for (const std::vector<double>& change : p.change) {
+      out.push_back(mean(change, times_of_attribution) / square);
+      together -= out.back();
+    }
+    for (const std::vector<double>& external : p.external) out.push_back(mean(external, times) / square);
+    out.push_back(together);
+    return out;
+  }
+
+  void contribute(Budget& b) const {
+    const MemberProducts p = products(b);
+    b.mean_square = std::accumulate(p.all.begin(), p.all.end(), 0.0) / static_cast<double>(p.all.size());
+    if (b.mean_square <= 0.0) return;
+    std::size_t attributed = 0;
+    for (const auto& change : p.change) attributed = std::max(attributed, change.size());
+    const std::vector<double> found =
+        shares(p, std::vector<std::uint32_t>(p.all.size(), 1), std::vector<std::uint32_t>(attributed, 1));
+    std::vector<std::vector<double>> resampled(found.size());
+    const MemberBootstrap members(p.all.size(), plan_.seed, 1),
+        of_attribution(std::max<std::size_t>(1, attributed), plan_.seed, 2);
+    for (std::uint64_t r = 0; r < MemberBootstrap::kResamples; ++r) {
+      const std::vector<double> again = shares(p, members.times(r), of_attribution.times(r));
+      for (std::size_t i = 0; i < found.size(); ++i) resampled[i].push_back(again[i]);
+    }
+    std::size_t at = 0;
+    const auto add = [&](const std::string& name, const std::string& kind, std::size_t seen) {
+      const MemberInterval interval = expanded_percentiles(resampled[at], found[at], seen, plan_.confidence);
+      b.contributions.push_back({name, kind, found[at], interval});
+    };
+    for (std::size_t j = 0; j < joints_.size(); ++j, ++at)
+      if (std::isfinite(found[at])) add(joints_[j], kClearanceKind, p.all.size());
+    for (std::size_t g = 0; g < runs_.groups(); ++g, ++at)
+      add(plan_.groups.names[g], kScatterKind, std::min(p.all.size(), p.change[g].size()));
+    for (std::size_t i = 0; i < plan_.contributors.size(); ++i, ++at)
+      add(plan_.contributors[i].name, to_string(plan_.contributors[i].kind), p.all.size());
+    if (!joints_.empty())
+      add("together", "joints and scatter", attributed > 0 ? std::min(p.all.size(), attributed) : p.all.size());
+  }
+
+  void relieve(Budget& b) const {
+    const auto add = [&](const std::string& name, const std::string& action, const MemberVariant& variant) {
+      std::vector<PointingHistory> before, after;
+      for (std::uint64_t member = 0; member < attribution_; ++member) {
+        PointingHistory drawn = ensemble_.total(member), changed = ensemble_.total(member, variant);
+        if (drawn.error.empty() || changed.error.empty()) continue;
+        before.push_back(std::move(drawn));
+        after.push_back(std::move(changed));
+      }
+      if (before.empty()) return;
+      const BudgetRequirement& h = b.headline;
+      const EnsembleInTime now = in_time(values_of(before, h.index), h.axis, 0),
+                           then = in_time(values_of(after, h.index), h.axis, 0);
+      const auto value = [&](const EnsembleInTime& e) {
+        return e.level(h.interpretation, h.probability, plan_.confidence, plan_.leave_out).value;
+      };
+      Relief relief{name, action, value(now), value(then)};
+      // The same members now and then: what they have in common falls out.
+      const MemberBootstrap members(before.size(), plan_.seed, 3);
+      std::vector<double> gains;
+      for (std::uint64_t r = 0; r < MemberBootstrap::kResamples; ++r) {
+        const std::vector<std::uint32_t> times = members.times(r);
+        gains.push_back(now.resampled_level(h.interpretation, h.probability, plan_.leave_out, times) -
+                        then.resampled_level(h.interpretation, h.probability, plan_.leave_out, times));
+      }
+      relief.interval = expanded_percentiles(std::move(gains), relief.gain(), before.size(), plan_.confidence);
+      b.reliefs.push_back(std::move(relief));
+    };
+    for (std::size_t j = 0; j < joints_.size(); ++j)
+      add(joints_[j], "half the clearance", {.halved = static_cast<int>(j)});
+    for (std::size_t g = 0; g < runs_.groups(); ++g)
+      add(plan_.groups.names[g], "no scatter", {.held = static_cast<int>(g)});
+    for (std::size_t i = 0; i < plan_.contributors.size(); ++i)
+      add(plan_.contributors[i].name, "half of it", {.external = static_cast<int>(i)});
+    std::stable_sort(b.reliefs.begin(), b.reliefs.end(),
+                     [](const Relief& x, const Relief& y) { return x.gain() > y.gain(); });
+  }
+
+  const BudgetPlan& plan_;
+  const BudgetRuns& runs_;
+  const std::vector<Judgement>& judgements_;
+  const BudgetAxes axes_;
+  const BudgetEnsemble ensemble_;
+  std::vector<std::string> joints_;
+  PointingHistory nominal_;
+  std::vector<PointingHistory> alone_;   // per joint
+  std::vector<PointingHistory> totals_;  // of the members that did not fail
+  std::int64_t failed_ = 0;
+  std::uint64_t attribution_ = 0;
+};
+
+}  // namespace
+
+bool Budget::met() const {
+  return std::all_of(requirements.begin(), requirements.end(),
+                     [](const RequirementAnswer& r) { return r.compliance.met; });
+}
+
+std::vector<Judgement> look_at_requirements(const BudgetPlan& plan, SampleStore& store) {
+  std::vector<Judgement> judgements;
+  for (const BudgetRequirement& r : plan.requirements)
+    judgements.push_back(look(store, question_of(plan, r),
+                              asked_of_members(r.interpretation, r.probability, r.confidence, plan.leave_out),
+                              looked_at_members(r.interpretation, plan.leave_out), plan.members));
+  return judgements;
+}
+
+Budget budget_of(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,
+                 const SampleStore& store, const std::vector<Judgement>& judgements) {
+  return Maker(plan, runs, mechanism, quantity, store, judgements).make();
+}
+
+}  // namespace boresight

@@ -1,0 +1,259 @@
+#include "boresight_analyses/budget/budget_plan.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "boresight/io/content_hash.hpp"
+#include "boresight/io/referred_file.hpp"
+#include "boresight/io/units.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/random/read_distribution.hpp"
+#include "boresight_analyses/study/plan_values.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr long long kMostMembers = 5'000;  // whose histories are held at once
+constexpr double kMostHistorySamples = 100'000;
+constexpr double kUsualHistorySamples = 2000.0;
+
+template <typename Values>
+std::vector<std::string> names_of(const Values& values) {
+  std::vector<std::string> names;
+  for (const auto value : values) names.emplace_back(to_string(value));
+  return names;
+}
+
+template <typename Values>
+auto chosen(Cursor& table, const std::string& key, const Values& values, const std::string& otherwise = "") {
+  const std::vector<std::string> names = names_of(values);
+  const std::string name = table.choice(key, names, otherwise);
+  return values[std::find(names.begin(), names.end(), name) - names.begin()];
+}
+
+double positive_time(Cursor& table, const std::string& key, double otherwise) {
+  if (!table.has(key)) return otherwise;
+  const double time = table.quantity(key, kDuration);
+  table.require(time > 0.0, key, "more than 0");
+  return time;
+}
+
+std::size_t read_axis(Cursor& table, const std::string& key, const BudgetAxes& axes) {
+  const std::vector<std::string> known = axes.all();
+  const std::string name = table.choice(key, known, axes.total);
+  return static_cast<std::size_t>(std::find(known.begin(), known.end(), name) - known.begin());
+}
+
+BudgetRequirement read_requirement(Cursor& table, const BudgetPlan& plan, const BudgetAxes& axes, const SiUnit& unit) {
+  table.only({"index", "axis", "interpretation", "limit", "probability", "confidence"});
+  BudgetRequirement r;
+  r.index = chosen(table, "index", kErrorIndices, "APE");
+  const std::string missing = plan.windows.missing_for(r.index, plan.duration);
+  if (!missing.empty())
+    table.fail("index", std::string("in [budget] ") + missing + ", which " + to_string(r.index) + " needs");
+  r.axis = read_axis(table, "axis", axes);
+  r.interpretation = chosen(table, "interpretation", kInterpretations, "mixed");
+  r.limit = table.quantity("limit", unit);
+  table.require(r.limit > 0.0, "limit", "more than 0");
+  r.probability = share_of(table, "probability", r.probability);
+  r.confidence = share_of(table, "confidence", r.confidence);
+  table.require(r.confidence > 0.5, "confidence", "more than 0.5 and less than 1");
+  table.finish();
+  return r;
+}
+
+Contributor read_contributor(Cursor& table, const BudgetPlan& plan, const BudgetAxes& axes, const SiUnit& unit,
+                             const SiUnit& rate) {
+  table.only({"name", "class", "distribution", "value", "axes", "period", "correlation_time", "recalibrated", "group"});
+  constexpr ContributorClass kClasses[] = {ContributorClass::bias, ContributorClass::random, ContributorClass::periodic,
+                                           ContributorClass::drift};
+  Contributor c;
+  c.name = table.text("name");
+  table.require(!c.name.empty(), "name", "a name");
+  table.rename("budget.contributor." + c.name);
+  c.kind = chosen(table, "class", kClasses);
+  const bool periodic = c.kind == ContributorClass::periodic, random = c.kind == ContributorClass::random;
+
+  const SiUnit& of = c.kind == ContributorClass::drift ? rate : unit;
+  if (table.has("value") == table.has("distribution"))
+    table.fail("distribution", "a distribution, or a value, and not both");
+  DistributionPtr parameter;
+  if (table.has("value")) {
+    parameter = make_discrete({table.quantity("value", of)}, {1.0});
+  } else {
+    Cursor distribution = table.table("distribution");
+    parameter = read_distribution(distribution, of);
+  }
+  const std::vector<std::string> named = table.has("axes") ? table.texts("axes") : axes.names;
+  table.require(!named.empty(), "axes", "at least one axis");
+  for (const std::string& name : named) {
+    const auto at = std::find(axes.names.begin(), axes.names.end(), name);
+    if (at == axes.names.end())
+      table.fail_found("axes", "\"" + name + "\"", "an axis of the error", nearest_name(name, axes.names));
+    c.parameter[static_cast<std::size_t>(at - axes.names.begin())] = parameter;
+  }
+
+  if (table.has("period") && !periodic) table.fail("period", "a period with class = \"periodic\" only");
+  if (periodic && !table.has("period")) table.fail("period", "a period, which class = \"periodic\" needs");
+  if (table.has("correlation_time") && !random)
+    table.fail("correlation_time", "a correlation time with class = \"random\" only");
+  c.period = positive_time(table, "period", 0.0);
+  c.correlation_time = positive_time(table, "correlation_time", plan.sampling);
+  c.recalibrated = table.boolean("recalibrated", false);
+  if (c.recalibrated && (periodic || random))
+    table.fail("recalibrated", "this with class = \"bias\" or \"drift\" only");
+  c.group = table.text("group", "");
+  table.finish();
+  return c;
+}
+
+void read_times(Cursor& table, BudgetPlan& plan, double index_start, double duration) {
+  plan.start = table.quantity("start", kDuration, index_start);
+  table.require(plan.start >= 0.0 && plan.start < duration, "start", "0 or more, and before the end of the motion");
+  plan.duration = duration - plan.start;
+  plan.sampling = positive_time(table, "sampling", duration / kUsualHistorySamples);
+  table.require(duration / plan.sampling <= kMostHistorySamples && plan.sampling <= 0.1 * plan.duration, "sampling",
+                "10 to 100000 samples in the motion");
+  Windows& w = plan.windows;
+  w.start = plan.start;
+  w.window = positive_time(table, "window", 0.0);
+  table.require(w.window == 0.0 || w.window >= 2.0 * plan.sampling, "window", "at least two samples of the history");
+  w.separation = positive_time(table, "separation", 0.0);
+  w.observation = positive_time(table, "observation", 0.0);
+  table.require(w.observation <= plan.duration, "observation", "no longer than the motion from `start` on");
+  w.revisit = positive_time(table, "revisit", 0.0);
+  // What is given is meant: a window that an index cannot use is a mistake, not less of a budget.
+  const auto fits = [&](const char* key, ErrorIndex index) {
+    const std::string missing = w.missing_for(index, plan.duration);
+    if (table.has(key) && !missing.empty()) table.fail(key, missing);
+  };
+  fits("window", ErrorIndex::mpe);
+  fits("separation", ErrorIndex::pde);
+  fits("revisit", ErrorIndex::pre);
+}
+
+// What scatters: the study's [[random]] tables, or those of a calibration's posterior.
+void read_scatter(Cursor& root, Cursor& table, BudgetPlan& plan, const Study& study,
+                  const MechanismDescription& mechanism, const std::function<void(const Setting&)>& accepts) {
+  if (table.has("posterior")) {
+    if (root.has("random")) table.fail("posterior", "a posterior, or [[random]] tables, and not both");
+    const std::filesystem::path named = table.text("posterior");
+    plan.posterior = named.is_absolute()
+                         ? named.string()
+                         : (std::filesystem::path(study.file).parent_path() / named).lexically_normal().string();
+    read_referred(table.origin("posterior"), table.path("posterior"), plan.posterior, [&] {
+      Document document = Document::from_file(plan.posterior);
+      plan.posterior_hash = document.content_hash();
+      Cursor posterior(document);
+      posterior.only({"random", "correlation", "interrupted"});
+      posterior.require(!posterior.boolean("interrupted", false), "interrupted",
+                        "the posterior of a calibration that was not interrupted");
+      plan.inputs = read_random_inputs(posterior, mechanism, accepts);
+    });
+  } else if (root.has("random")) {
+    plan.inputs = read_random_inputs(root, mechanism, accepts);
+  } else {
+    if (table.has("groups")) table.fail("groups", "[[random]] tables, whose parameters are grouped");
+    return;
+  }
+  if (plan.posterior.empty() || table.has("groups")) {
+    plan.groups = read_parameter_groups(table, plan.inputs);
+    return;
+  }
+  // What one fit estimated is correlated, and one group.
+  plan.groups = {{{}}, {"calibrated parameters"}};
+  for (std::size_t i = 0; i < plan.inputs.size(); ++i) plan.groups.members[0].push_back(static_cast<int>(i));
+}
+
+}  // namespace
+
+BudgetAxes::BudgetAxes(PointingQuantity quantity) {
+  const bool two = quantity == PointingQuantity::boresight_error || quantity == PointingQuantity::line_of_sight_error;
+  names = two ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{"x", "y", "z"};
+  total = two ? "half cone" : "total";
+}
+
+std::vector<std::string> BudgetAxes::all() const {
+  std::vector<std::string> out = names;
+  out.push_back(total);
+  return out;
+}
+
+BudgetRequirement BudgetPlan::headline(const BudgetAxes& axes) const {
+  return requirements.empty() ? BudgetRequirement{.axis = axes.count()} : requirements.front();
+}
+
+std::vector<ErrorIndex> BudgetPlan::indices() const {
+  std::vector<ErrorIndex> out;
+  for (const ErrorIndex index : kErrorIndices)
+    if (windows.missing_for(index, duration).empty()) out.push_back(index);
+  return out;
+}
+
+std::string BudgetPlan::sample_text(const Study& study) const {
+  char times[80];
+  std::snprintf(times, sizeof times, "sampling %.17g start %.17g\n", sampling, start);
+  std::string text = inputs.text + design().text() + "\nquantity " + study.index.quantity + "\n" + times;
+  for (const auto& group : groups.members) {
+    text += "group";
+    for (const int i : group) text += " " + std::to_string(i);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string question_of(const BudgetPlan& plan, const BudgetRequirement& r) {
+  const auto number = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, " %.17g", value);
+    return std::string(text);
+  };
+  const Windows& w = plan.windows;
+  std::string text = std::string(to_string(r.index)) + " " + std::to_string(r.axis) + " " + to_string(r.interpretation);
+  for (const double value :
+       {r.limit, r.probability, r.confidence, plan.leave_out, w.window, w.separation, w.observation, w.revisit})
+    text += number(value);
+  for (const Contributor& c : plan.contributors) {
+    text += std::string("\n") + to_string(c.kind) + number(c.period) + number(c.correlation_time) +
+            (c.recalibrated ? " recalibrated " : " ") + c.group;
+    for (const DistributionPtr& parameter : c.parameter)
+      text += "\n" + (parameter ? parameter->text() : std::string("none"));
+  }
+  ContentHash hash;
+  hash.add(text);
+  return "first_look " + hash.hexadecimal();
+}
+
+BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism, double duration,
+                            const std::function<void(const Setting&)>& accepts) {
+  Cursor table = root.table("budget");
+  table.only({"members", "attribution", "seed", "confidence", "sampling", "start", "window", "separation",
+              "observation", "revisit", "leave_out", "posterior", "groups", "requirement", "contributor"});
+  BudgetPlan plan;
+  plan.members = count_of(table, "members", 2, kMostMembers, static_cast<long long>(plan.members));
+  const auto most = static_cast<long long>(plan.members);
+  plan.attribution = count_of(table, "attribution", 2, most, std::min(most, static_cast<long long>(plan.attribution)));
+  plan.seed = seed_of(table);
+  plan.confidence = share_of(table, "confidence", plan.confidence);
+  plan.leave_out = table.number("leave_out", 0.0);
+  table.require(plan.leave_out >= 0.0 && plan.leave_out < 1.0, "leave_out", "0 or more and less than 1");
+  read_times(table, plan, study.index.start, duration);
+  read_scatter(root, table, plan, study, mechanism, accepts);
+  const BudgetAxes axes(study.index.kind());
+  const bool angle = study.index.si_unit() == "rad";
+  const SiUnit unit = angle ? kAngle : kLength, rate = angle ? kAngularRate : kSpeed;
+  for (Cursor& entry : table.tables("contributor")) {
+    plan.contributors.push_back(read_contributor(entry, plan, axes, unit, rate));
+    const std::string& name = plan.contributors.back().name;
+    for (std::size_t i = 0; i + 1 < plan.contributors.size(); ++i)
+      if (plan.contributors[i].name == name)
+        entry.fail_found("name", "\"" + name + "\" a second time", "each contributor once");
+  }
+  for (Cursor& entry : table.tables("requirement"))
+    plan.requirements.push_back(read_requirement(entry, plan, axes, unit));
+  table.finish();
+  return plan;
+}
+
+}  // namespace boresight

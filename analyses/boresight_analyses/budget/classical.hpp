@@ -1,0 +1,40 @@
+// The classical table: contributors by their moments, added up by rule (ECSS-E-ST-60-10C, 5.2; Annex A.2).
+//
+//   means add linearly; standard deviations linearly within a group of correlated contributors, and groups (and those
+//   that belong to none) by the root of the sum of squares
+//   one axis:   |mean| + n_P sd
+//   half cone:  sd sqrt(-2 ln(1 - P)), sd the root mean square of the axes', as if there were no mean; of the ensemble
+//               interpretation, whose means are those of maxima, the root of the sum of the axes' levels squared
+//
+// The rules hold for Gaussian errors without a mean across. Whether they did is only seen against a simulation.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "boresight_analyses/budget/contributor.hpp"
+
+namespace boresight {
+
+struct ClassicalLine {
+  std::string name, kind, group;
+  std::vector<Moments> axes;
+};
+
+struct ClassicalTotal {
+  std::vector<Moments> axes;
+
+  double axis_level(std::size_t axis, double probability) const;
+  double radius_by_rule(Interpretation interpretation, double probability) const;  // of two axes or three
+  double radius_integrated(double probability) const;  // the Gaussian with these moments, mean and all (half_cone.hpp)
+};
+ClassicalTotal total_of(std::span<const ClassicalLine> lines);
+
+// How a level by rule stands against what was simulated.
+enum class RuleStanding { fair, unsafe, wasteful };
+const char* to_string(RuleStanding standing);
+inline constexpr double kUnsafeBelow = 0.98, kWastefulAbove = 1.2;  // times the simulated level
+RuleStanding standing_of(double by_rule, double simulated);
+
+}  // namespace boresight

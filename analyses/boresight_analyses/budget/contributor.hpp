@@ -1,0 +1,57 @@
+// An error that comes from outside of the mechanism's clearances, given by its class (ECSS-E-ST-60-10C, Annex B):
+//
+//   bias      one value B for a member, all the time
+//   random    noise of zero mean and standard deviation s, first order with a correlation time
+//   periodic  a sinusoid of amplitude A and some period, its phase unknown
+//   drift     D t, from the beginning of the motion, whenever the history begins; recalibrated, of each observation
+//
+// B, s, A, D are the ensemble parameter: per axis, with a distribution over members. Two faces of one contributor: its
+// moments, for the classical table, and its course in time in one member, for the simulated one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "boresight_analyses/budget/interpretation.hpp"
+#include "boresight_analyses/budget/window_filter.hpp"
+#include "boresight_analyses/random/distribution.hpp"
+
+namespace boresight {
+
+enum class ContributorClass { bias, random, periodic, drift };
+const char* to_string(ContributorClass kind);
+
+struct Contributor {
+  std::string name;
+  ContributorClass kind = ContributorClass::bias;
+  std::array<DistributionPtr, 3> parameter =
+      {};                         // of the ensemble, per axis; none where it does not act [SI; drift: per s]
+  double period = 0.0;            // periodic [s]
+  double correlation_time = 0.0;  // random [s]
+  bool recalibrated = false;      // with every observation a bias is another one, and a drift begins at zero
+  std::string group = {};         // contributors of one group vary together; "": by itself
+};
+
+struct Moments {
+  double mean = 0.0, sd = 0.0;
+};
+
+// Mean and standard deviation to enter in the budget of one index, by interpretation (ECSS-E-ST-60-10C, Tables B-1 to
+// B-7), with the filters of window_filter.hpp where the standard only tells short from long periods:
+//   ensemble   of the largest size over time; of noise three times its deviation
+//   temporal   over time, with the worst case of the ensemble parameter: the end of its distribution, or three deviations
+//   mixed      over both; the variance of the conditional mean is part of it (law of total variance), which the
+//              standard's integral leaves out
+Moments moments(const Contributor& contributor, int axis, ErrorIndex index, Interpretation interpretation,
+                const Windows& windows, double duration);
+
+// Its course in one member: a function of (seed, member) alone. `stream`: contributors of one group share it, and with
+// it what they draw.
+std::vector<Vec3> course(const Contributor& contributor, std::uint64_t seed, std::uint64_t member, std::uint64_t stream,
+                         double spacing, std::size_t samples, const Windows& windows);
+// Stream of each contributor: its place, or that of the first one of its group.
+std::vector<std::uint64_t> streams_of(const std::vector<Contributor>& contributors);
+
+}  // namespace boresight

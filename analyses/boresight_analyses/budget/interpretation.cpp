@@ -1,0 +1,191 @@
+#include "boresight_analyses/budget/interpretation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "boresight_analyses/statistics/betting_mean.hpp"
+#include "boresight_analyses/statistics/binomial.hpp"
+#include "boresight_analyses/statistics/bounded_mean.hpp"
+#include "boresight_analyses/statistics/independent_samples.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// The least value with at least this share at or below it.
+double quantile_of(const std::vector<double>& ascending, double share) {
+  const double n = static_cast<double>(ascending.size());
+  const double rank = std::ceil(share * n * (1.0 - 1e-12));
+  return ascending[static_cast<std::size_t>(std::clamp(rank, 1.0, n)) - 1];
+}
+
+double share_at_or_below(const std::vector<double>& ascending, double limit) {
+  return static_cast<double>(std::upper_bound(ascending.begin(), ascending.end(), limit) - ascending.begin()) /
+         static_cast<double>(ascending.size());
+}
+
+}  // namespace
+
+const char* to_string(Interpretation interpretation) {
+  static const char* const names[] = {"ensemble", "temporal", "mixed"};
+  return names[static_cast<int>(interpretation)];
+}
+
+AskedShare asked_of_members(Interpretation interpretation, double probability, double confidence, double leave_out) {
+  const bool of_members = interpretation == Interpretation::temporal && leave_out > 0.0;
+  return {of_members ? 1.0 - leave_out : probability, confidence};
+}
+
+LookedAt looked_at_members(Interpretation interpretation, double leave_out) {
+  using Sample = LookedAt::Sample;
+  Sample sample = Sample::hit_or_miss;
+  if (interpretation == Interpretation::mixed) sample = Sample::share;
+  if (interpretation == Interpretation::temporal && leave_out == 0.0) sample = Sample::no_miss_allowed;
+  return {.sample = sample, .name = "members"};
+}
+
+EnsembleInTime::EnsembleInTime(std::vector<std::vector<double>> sizes, std::int64_t failed)
+    : sizes_(std::move(sizes)), failed_(failed) {
+  if (sizes_.empty() || sizes_.front().empty()) throw std::invalid_argument("no member has values");
+  for (std::vector<double>& member : sizes_) {
+    if (member.size() != sizes_.front().size()) throw std::invalid_argument("members of unequal length");
+    std::sort(member.begin(), member.end());
+    maxima_.push_back(member.back());
+  }
+  std::vector<std::pair<double, std::uint32_t>> all;
+  all.reserve(sizes_.size() * sizes_.front().size());
+  for (std::uint32_t k = 0; k < sizes_.size(); ++k)
+    for (const double value : sizes_[k]) all.emplace_back(value, k);
+  std::sort(all.begin(), all.end());
+  for (const auto& [value, member] : all) {
+    pooled_.push_back(value);
+    owner_.push_back(member);
+  }
+}
+
+double EnsembleInTime::resampled_level(Interpretation interpretation, double probability, double leave_out,
+                                       const std::vector<std::uint32_t>& times) const {
+  const double drawn = static_cast<double>(std::accumulate(times.begin(), times.end(), std::uint64_t{0}));
+  const auto at_share = [](auto&& values, auto&& count_of, double all, double share) {
+    const double wanted = share * all * (1.0 - 1e-12);
+    double below = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if ((below += count_of(i)) >= wanted && count_of(i) > 0.0) return values[i];
+    return values.back();
+  };
+  if (interpretation == Interpretation::mixed)
+    return at_share(
+        pooled_, [&](std::size_t i) { return static_cast<double>(times[owner_[i]]); },
+        drawn * static_cast<double>(sizes_.front().size()), probability);
+  const bool ensemble = interpretation == Interpretation::ensemble;
+  std::vector<std::pair<double, std::uint32_t>> members;
+  const std::vector<double> of_member = ensemble ? maxima_ : quantiles_in_time(probability);
+  for (std::uint32_t k = 0; k < of_member.size(); ++k) members.emplace_back(of_member[k], k);
+  std::sort(members.begin(), members.end());
+  std::vector<double> values;
+  for (const auto& [value, k] : members) values.push_back(value);
+  return at_share(
+      values, [&](std::size_t i) { return static_cast<double>(times[members[i].second]); }, drawn,
+      ensemble ? probability : 1.0 - leave_out);
+}
+
+double EnsembleInTime::pooled_quantile(double share) const { return quantile_of(pooled_, share); }
+
+std::vector<double> EnsembleInTime::quantiles_in_time(double probability) const {
+  std::vector<double> quantiles;
+  for (const std::vector<double>& member : sizes_) quantiles.push_back(quantile_of(member, probability));
+  return quantiles;
+}
+
+ReportedInterval EnsembleInTime::level(Interpretation interpretation, double probability, double confidence,
+                                       double leave_out) const {
+  if (interpretation == Interpretation::ensemble)
+    return reported(IndependentSamples(maxima_, failed_).quantile(probability, confidence));
+  if (interpretation == Interpretation::temporal) {
+    const IndependentSamples worst(quantiles_in_time(probability), failed_);
+    if (leave_out > 0.0) return reported(worst.quantile(1.0 - leave_out, confidence));
+    const double value = worst.sorted().back();
+    const auto all = static_cast<double>(members() + failed_);
+    char basis[120];
+    std::snprintf(basis, sizeof basis, "the worst of the members seen; at most %.3g %% of all are worse",
+                  100.0 * (1.0 - std::pow(1.0 - confidence, 1.0 / all)));
+    return {value,
+            value,
+            kInfinity,
+            confidence,
+            confidence,
+            false,
+            failed_ > 0 ? "the worst of the members seen, failed ones left out" : basis,
+            Independent::name};
+  }
+  // The bounds hold for any share; the levels at the shares seen there are the interval.
+  const double side = 0.5 * (1.0 + confidence), all = static_cast<double>(members() + failed_);
+  const double seen = static_cast<double>(members()) / all;
+  const double high = mean_that_shows(probability, all, side) / seen;                   // failed ones above
+  const double low = (mean_that_denies(probability, all, side) - (1.0 - seen)) / seen;  // failed ones below
+  return {pooled_quantile(probability),
+          low > 0.0 ? pooled_quantile(low) : 0.0,
+          high <= 1.0 ? pooled_quantile(high) : kInfinity,
+          confidence,
+          confidence,
+          false,
+          "Hoeffding's bound of the members' shares of the time",
+          Independent::name};
+}
+
+double EnsembleInTime::share_of_members_shown(std::int64_t hits, const Judgement& judgement) const {
+  const std::int64_t all = members() + failed_;
+  return judgement.by == Judgement::By::any_time ? betting_share_lower(hits, all, judgement.confidence)
+                                                 : clopper_pearson_lower(hits, all, judgement.confidence);
+}
+
+EnsembleInTime::Compliance EnsembleInTime::compliance(Interpretation interpretation, double limit, double probability,
+                                                      const Judgement& judgement, double leave_out) const {
+  using By = Judgement::By;
+  const std::int64_t all = members() + failed_;
+  const AskedShare asked = asked_of_members(interpretation, probability, judgement.confidence, leave_out);
+  std::vector<double> shares;  // of the time, per member that did not fail
+  for (const std::vector<double>& member : sizes_) shares.push_back(share_at_or_below(member, limit));
+  Compliance c;
+  c.fewest = fewest_samples(asked, judgement);
+  if (interpretation == Interpretation::mixed) {
+    c.share = share_at_or_below(pooled_, limit) * static_cast<double>(members()) / static_cast<double>(all);
+    if (judgement.by == By::any_time)
+      c.shown = betting_lower(shares, failed_, judgement.confidence);
+    else if (judgement.by == By::first_bet)
+      c.shown = first_bet_lower(static_cast<std::int64_t>(judgement.first), shares, 0, failed_, judgement.confidence);
+    else
+      c.shown = bounded_mean_lower(c.share, static_cast<double>(all), judgement.confidence);
+  } else if (interpretation == Interpretation::ensemble) {
+    const auto hits = std::count_if(maxima_.begin(), maxima_.end(), [&](double m) { return m <= limit; });
+    c.share = static_cast<double>(hits) / static_cast<double>(all);
+    c.shown = share_of_members_shown(hits, judgement);
+  } else {
+    const auto hits = std::count_if(shares.begin(), shares.end(), [&](double s) { return s >= probability; });
+    shares.insert(shares.end(), static_cast<std::size_t>(failed_), 0.0);
+    std::sort(shares.begin(), shares.end());
+    const auto left_out = static_cast<std::size_t>(std::floor(leave_out * static_cast<double>(all)));
+    c.share = shares[std::min(left_out, shares.size() - 1)];
+    // With an exception the answer is no, and what is shown is all that is left to say of a later look.
+    const bool no_answer = leave_out == 0.0 && hits < all;
+    Judgement shown_by = judgement;
+    if (no_answer && judgement.first > 0) shown_by.by = By::any_time;
+    c.shown = share_of_members_shown(hits, shown_by);
+    c.met = !no_answer && judgement.by != By::nothing && c.shown >= asked.probability;
+    return c;
+  }
+  c.met = judgement.by != By::nothing && c.shown >= asked.probability;
+  return c;
+}
+
+EnsembleInTime::Compliance EnsembleInTime::compliance(Interpretation interpretation, double limit, double probability,
+                                                      double confidence, double leave_out) const {
+  return compliance(interpretation, limit, probability, Judgement{.confidence = confidence, .why = ""}, leave_out);
+}
+
+}  // namespace boresight

@@ -1,0 +1,217 @@
+#include "boresight_analyses/calibration/calibrate.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/calibration/calibrator.hpp"
+#include "boresight_analyses/calibration/landscape.hpp"
+#include "boresight_analyses/calibration/multibody_correction.hpp"
+#include "boresight_analyses/random/counter_stream.hpp"
+
+namespace boresight {
+namespace {
+
+// A correction that moves no parameter by more than this many standard errors is the last one.
+constexpr double kSettledShift = 0.1;
+// Slopes of multibody are taken over a standard error, but no wider than this.
+constexpr double kWidestSlope = 0.05;
+
+}  // namespace
+
+Calibrator::Calibrator(CalibrationProblem& problem, const CalibrationOptions& options)
+    : problem_(problem), options_(options) {
+  result_.fixed.assign(problem.parameters.size(), false);
+  // Free windows are short, and jitter has no time to grow in them.
+  if (!follows_from_rest(problem)) loosen(problem);
+}
+
+CalibrationResult Calibrator::run() {
+  try {
+    for (const OutlyingReading& reading : leave_out_lone_readings(problem_))
+      warn_of(reading, "it is left out of the fit");
+    set_noise(noise_from_differences(problem_));
+    search();
+    hold_what_no_impact_shows();
+    set_noise(noise_from_residuals(problem_, result_.fit));
+    refit("noise estimated from the residuals");
+    correct();
+    refit("last");
+    result_.inference = infer_now();
+    name_outliers();
+    profile();
+    explain_what_is_held();
+    judge_fit();
+    result_.hold_out = score_held_out(problem_, result_.fit.globals, options_.jobs);
+    for (const std::string& law : options_.laws) {
+      tell("contact laws", 0.0, law);
+      result_.laws.push_back(
+          law_score(problem_, law, result_.fit.globals, fit_options("law " + law, 25, options_.jobs)));
+      result_.evaluations += result_.laws.back().evaluations;
+    }
+    compare(result_.laws);
+    for (const Candidate& candidate : options_.candidates) {
+      tell("candidates of a next test", 0.0, candidate.name);
+      result_.next_tests.push_back(
+          judge_candidate(problem_, result_.inference, result_.fit.globals, result_.fixed, candidate));
+    }
+    std::stable_sort(result_.next_tests.begin(), result_.next_tests.end(),
+                     [](const NextTest& a, const NextTest& b) { return a.d_gain > b.d_gain; });
+  } catch (const CalibrationInterrupted&) {
+    result_.interrupted = true;
+    if (result_.inference.parameters.empty() && !result_.fit.windows.empty()) result_.inference = infer_now();
+  }
+  if (!result_.inference.parameters.empty()) {
+    const std::vector<std::string> words = boresight::verdict(problem_, result_.inference);
+    result_.verdict.insert(result_.verdict.end(), words.begin(), words.end());
+  }
+  return std::move(result_);
+}
+
+void Calibrator::warn_of(const OutlyingReading& reading, const std::string& what_becomes_of_it) {
+  char text[80];
+  std::snprintf(text, sizeof text, " is %.3g robust standard deviations off: ", reading.deviations);
+  result_.warnings.push_back(reading.file + ":" + std::to_string(reading.line) + ": " +
+                             channel_names()[static_cast<std::size_t>(reading.channel)].name + text +
+                             what_becomes_of_it);
+}
+
+void Calibrator::name_outliers() {
+  constexpr std::size_t kMostNamed = 10;
+  const std::vector<OutlyingReading> found = outlying_readings(problem_, result_.fit);
+  const char* counts = problem_.loss.kind == Loss::none    ? "it counts in full, as loss = \"none\" asks"
+                       : problem_.loss.kind == Loss::huber ? "it counts as one just beyond the noise"
+                                                           : "it hardly counts";
+  for (std::size_t k = 0; k < std::min(kMostNamed, found.size()); ++k)
+    warn_of(found[k], std::string(counts) + "; leave it out of the data if it is no reading");
+  if (found.size() > kMostNamed)
+    result_.warnings.push_back(std::to_string(found.size() - kMostNamed) +
+                               " further readings are more than 10 robust standard deviations off");
+}
+
+void Calibrator::judge_fit() {
+  const VecX rough = noise_from_differences(problem_);
+  double worst = 0.0;
+  int channel = 0;
+  for (Eigen::Index c = 0; c < rough.size(); ++c)
+    if (problem_.sigma[c] * std::sqrt(result_.inference.variance_factor) / rough[c] > worst) {
+      worst = problem_.sigma[c] * std::sqrt(result_.inference.variance_factor) / rough[c];
+      channel = problem_.channels[static_cast<std::size_t>(c)];
+    }
+  if (worst < 1.25) return;
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "The fit leaves %.2g times the noise that neighbouring samples of %s show: it stands in a "
+                "local minimum, or the "
+                "model leaves something out. Its intervals are then too narrow; more starts or shorter "
+                "windows may help.",
+                worst, channel_names()[channel].name);
+  result_.verdict.insert(result_.verdict.begin(), text);
+}
+
+void Calibrator::set_noise(const VecX& sigma) {
+  problem_.sigma = sigma;
+  for (std::size_t c = 0; c < problem_.channels.size(); ++c)
+    if (options_.noise.size() > 0 && std::isfinite(options_.noise[problem_.channels[c]]))
+      problem_.sigma[static_cast<Eigen::Index>(c)] = options_.noise[problem_.channels[c]];
+}
+
+void Calibrator::tell(const std::string& stage, double share, const std::string& estimate) {
+  if (options_.progress && !options_.progress(stage, share, estimate)) throw CalibrationInterrupted{};
+}
+
+void Calibrator::note(FitResult fit) {
+  result_.evaluations += fit.evaluations;
+  if (fit.interrupted) throw CalibrationInterrupted{};
+  result_.fit = std::move(fit);
+}
+
+Inference Calibrator::infer_now() const {
+  return infer(problem_, result_.fit, options_.confidence, result_.fixed, options_.jobs);
+}
+
+void Calibrator::refit(const std::string& stage) {
+  note(fit(problem_, result_.fit.globals, result_.fit.states, fit_options(stage, 15, options_.jobs)));
+}
+
+void Calibrator::hold_what_no_impact_shows() {
+  const Inference first = infer_now();
+  const MechanismDescription& m = problem_.runs.front().mechanism->description();
+  bool any = false;
+  for (std::size_t p = 0; p < problem_.parameters.size(); ++p) {
+    const std::string& path = problem_.parameters[p].path;
+    if (!path.ends_with(".restitution")) continue;
+    int impacts = 0;
+    for (std::size_t c = 0; c < m.clearances.size(); ++c)
+      if (path.starts_with("clearance.*.") ||
+          path.starts_with("clearance." + m.joints[m.clearances[c].joint].name + "."))
+        impacts += first.impacts[c];
+    if (impacts > 0) continue;
+    result_.fixed[p] = any = true;
+    held_.push_back(
+        {static_cast<int>(p), "the data hold no impact in its joint, and restitution shows in impacts alone"});
+  }
+  if (!any) return;
+  for (const auto& [p, why] : held_) result_.fit.globals.u[p] = problem_.start().u[p];
+  refit("restitution held: no impacts");
+}
+
+void Calibrator::explain_what_is_held() {
+  for (const auto& [p, why] : held_) {
+    ParameterEstimate& e = result_.inference.parameters[p];
+    e.identifiable = false;
+    e.reason = why;
+  }
+}
+
+void Calibrator::correct() {
+  if (options_.corrections == 0 || !follows_from_rest(problem_)) return;
+  std::vector<std::vector<MatX>> slopes;
+  VecX slopes_at, width;
+  bool settled = false;
+  for (int step = 0;; ++step) {
+    const Globals at = result_.fit.globals;
+    tell("multibody at the optimum", 0.0, "correction " + std::to_string(step + 1));
+    MultibodyAt multibody = multibody_at(problem_, at, options_.jobs);
+    const CorrectionSize size = size_of(problem_, at, multibody);
+    result_.confirmation = size.confirmation;
+    if (step == options_.corrections || settled) return;
+    const VecX error = infer_now().covariance.diagonal().cwiseSqrt().head(problem_.parameter_count());
+    if (step > 0 && (slopes.empty() || ((at.u - slopes_at).cwiseAbs() - width).maxCoeff() > 0.0)) {
+      slopes_at = at.u;
+      width.setZero(error.size());
+      for (int p = 0; p < width.size(); ++p)
+        if (!result_.fixed[p]) width[p] = std::min(error[p], kWidestSlope);
+      slopes = multibody_slopes(problem_, at, width, options_.jobs);
+    }
+    problem_.corrections.clear();
+    for (std::size_t r = 0; r < problem_.runs.size(); ++r) {
+      ModelCorrection correction{std::move(multibody.difference[r]), {}};
+      if (!slopes.empty())
+        correction.tangent = {at.u,
+                              at.time_offset,
+                              std::move(multibody.reading[r]),
+                              std::move(multibody.by_time[r]),
+                              slopes[r],
+                              std::move(multibody.motion[r])};
+      problem_.corrections.push_back(std::move(correction));
+    }
+    refit("corrected by multibody");
+    // The landscape is another one now.
+    if (step == 0) settle("corrected by multibody");
+    settled = step > 0;
+    for (int p = 0; p < problem_.parameter_count(); ++p)
+      if (!result_.fixed[p] && std::abs(result_.fit.globals.u[p] - at.u[p]) > kSettledShift * error[p]) settled = false;
+    result_.corrections.push_back({problem_.values(result_.fit.globals),
+                                   (result_.fit.globals.u - at.u).lpNorm<Eigen::Infinity>(), size.difference});
+    set_noise(noise_from_residuals(problem_, result_.fit));
+  }
+}
+
+CalibrationResult calibrate(CalibrationProblem& problem, const CalibrationOptions& options) {
+  return Calibrator(problem, options).run();
+}
+
+}  // namespace boresight

@@ -1,0 +1,231 @@
+#include "boresight_analyses/calibration/calibration_fit.hpp"
+
+#include <ceres/ceres.h>
+
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+// Residuals of one window. Parameter blocks: one per parameter, [time offset], [biases], start state.
+class WindowCost final : public ceres::CostFunction {
+ public:
+  WindowCost(const CalibrationProblem& problem, const Window& window, int residuals)
+      : problem_(problem), window_(window), values_(residuals - problem.state_size(window)) {
+    for (int p = 0; p < problem.parameter_count(); ++p) mutable_parameter_block_sizes()->push_back(1);
+    if (problem.fit_time_offset) mutable_parameter_block_sizes()->push_back(1);
+    if (problem.fit_bias) mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.channels.size()));
+    mutable_parameter_block_sizes()->push_back(problem.state_size(window));
+    set_num_residuals(residuals);
+  }
+
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    const int P = problem_.parameter_count(), size = problem_.state_size(window_);
+    const int last = static_cast<int>(parameter_block_sizes().size()) - 1;
+    Globals globals;
+    globals.u.resize(P);
+    for (int p = 0; p < P; ++p) globals.u[p] = blocks[p][0];
+    int block = P;
+    if (problem_.fit_time_offset) globals.time_offset = 1e-3 * blocks[block++][0];
+    if (problem_.fit_bias) {
+      globals.bias = Eigen::Map<const VecX>(blocks[block], parameter_block_sizes()[block]);
+      globals.bias = globals.bias.cwiseProduct(problem_.sigma);
+    }
+    const VecX state = Eigen::Map<const VecX>(blocks[last], size), prior = problem_.prior_deviation(window_);
+    WindowResiduals at;
+    try {
+      problem_.evaluate(window_, globals, state, jacobians != nullptr, at);
+    } catch (const ComputationError&) {
+      return false;
+    }
+    for (int i = 0; i < values_; ++i) residuals[i] = problem_.loss.residual(at.r[i]);
+    for (int i = 0; i < size; ++i) residuals[values_ + i] = state[i] / prior[i];
+    if (!jacobians) return true;
+    VecX slope(values_);
+    for (int i = 0; i < values_; ++i) slope[i] = problem_.loss.slope(at.r[i]);
+    using Rows = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+    for (int b = 0, column = 0; b <= last; ++b) {
+      const int width = parameter_block_sizes()[b];
+      if (jacobians[b]) {
+        Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J = MatX::Zero(num_residuals(), width);
+        if (b == last) {
+          J.topRows(values_) = slope.asDiagonal() * at.by_state;
+          J.bottomRows(size) = prior.cwiseInverse().asDiagonal();
+        } else {
+          J.topRows(values_) = slope.asDiagonal() * at.by_global.middleCols(column, width);
+          // The fit counts the time offset in ms, biases in standard deviations.
+          if (b >= P && problem_.fit_time_offset && b == P)
+            J *= 1e-3;
+          else if (b >= P)
+            J *= problem_.sigma.asDiagonal();
+        }
+        if (width == 1)
+          Eigen::Map<VecX>(jacobians[b], num_residuals()) = J.col(0);
+        else
+          Rows(jacobians[b], num_residuals(), width) = J;
+      }
+      column += width;
+    }
+    return true;
+  }
+
+ private:
+  const CalibrationProblem& problem_;
+  const Window& window_;
+  int values_;
+};
+
+class Watch final : public ceres::IterationCallback {
+ public:
+  explicit Watch(std::function<bool(const ceres::IterationSummary&)> see) : see_(std::move(see)) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& s) override {
+    return see_(s) ? ceres::SOLVER_CONTINUE : ceres::SOLVER_ABORT;
+  }
+
+ private:
+  std::function<bool(const ceres::IterationSummary&)> see_;
+};
+
+int value_count(const CalibrationProblem& problem, const Window& w) {
+  return static_cast<int>(
+      problem.runs[w.run].data.value.middleRows(w.first, w.last - w.first + 1).array().isFinite().count());
+}
+
+}  // namespace
+
+std::vector<int> windows_of(const CalibrationProblem& problem, const FitOptions& options) {
+  if (!options.windows.empty()) return options.windows;
+  std::vector<int> windows;
+  for (std::size_t w = 0; w < problem.windows.size(); ++w)
+    if (!problem.windows[w].held_out) windows.push_back(static_cast<int>(w));
+  return windows;
+}
+
+std::vector<VecX> guess_states(const CalibrationProblem& problem, const std::vector<int>& windows,
+                               const Globals& globals, int jobs) {
+  std::vector<VecX> states(windows.size());
+  // Window after window within a run, so that each may go on from where the one before led.
+  for_each_on_threads(static_cast<int>(problem.runs.size()), jobs, [&](int run) {
+    int before = -1;
+    for (std::size_t k = 0; k < windows.size(); ++k) {
+      const Window& w = problem.windows[windows[k]];
+      if (w.run != run) continue;
+      VecX carried;
+      if (before >= 0 && windows[before] + 1 == windows[k]) {
+        const Window& earlier = problem.windows[windows[before]];
+        try {
+          carried = problem.state_at(earlier, globals, states[before], w.start);
+        } catch (const ComputationError&) {
+        }
+      }
+      states[k] = problem.guess_state(w, globals, carried);
+      before = static_cast<int>(k);
+    }
+  });
+  return states;
+}
+
+FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vector<VecX> states,
+              const FitOptions& options) {
+  FitResult result;
+  result.globals = start;
+  result.windows = windows_of(problem, options);
+  if (states.empty()) states = guess_states(problem, result.windows, start, options.jobs);
+
+  const int P = problem.parameter_count();
+  VecX u = start.u;
+  double offset = 1e3 * start.time_offset;
+  VecX bias = problem.fit_bias ? VecX(start.bias.cwiseQuotient(problem.sigma)) : VecX();
+  ceres::Problem ceres_problem;
+  bool free_states = false;
+  auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  for (std::size_t k = 0; k < result.windows.size(); ++k) {
+    const Window& w = problem.windows[result.windows[k]];
+    std::vector<double*> blocks;
+    for (int p = 0; p < P; ++p) blocks.push_back(&u[p]);
+    if (problem.fit_time_offset) blocks.push_back(&offset);
+    if (problem.fit_bias) blocks.push_back(bias.data());
+    blocks.push_back(states[k].data());
+    ceres_problem.AddResidualBlock(new WindowCost(problem, w, value_count(problem, w) + problem.state_size(w)), nullptr,
+                                   blocks);
+    ordering->AddElementToGroup(states[k].data(), 0);
+    if (w.from_rest) {
+      ceres_problem.SetParameterBlockConstant(states[k].data());
+    } else {
+      free_states = true;
+    }
+  }
+  for (int p = 0; p < P; ++p) {
+    ordering->AddElementToGroup(&u[p], 1);
+    ceres_problem.SetParameterLowerBound(&u[p], 0, problem.parameters[p].lowest_coordinate());
+    ceres_problem.SetParameterUpperBound(&u[p], 0, problem.parameters[p].highest_coordinate());
+    if (!options.fixed.empty() && options.fixed[p]) ceres_problem.SetParameterBlockConstant(&u[p]);
+  }
+  if (problem.fit_time_offset) {
+    ordering->AddElementToGroup(&offset, 1);
+    ceres_problem.SetParameterLowerBound(&offset, 0, -1e3 * problem.largest_time_offset);
+    ceres_problem.SetParameterUpperBound(&offset, 0, 1e3 * problem.largest_time_offset);
+    if (options.fix_nuisance) ceres_problem.SetParameterBlockConstant(&offset);
+  }
+  if (problem.fit_bias) {
+    ordering->AddElementToGroup(bias.data(), 1);
+    if (options.fix_nuisance) ceres_problem.SetParameterBlockConstant(bias.data());
+  }
+
+  const auto take = [&] {
+    result.globals.u = u;
+    result.globals.time_offset = 1e-3 * offset;
+    if (problem.fit_bias) result.globals.bias = bias.cwiseProduct(problem.sigma);
+  };
+  Watch watch([&](const ceres::IterationSummary& s) {
+    if (!options.progress) return true;
+    take();
+    result.interrupted = !options.progress({s.iteration, options.most_iterations, 2.0 * s.cost, result.globals});
+    return !result.interrupted;
+  });
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_SCHUR;
+  solver.linear_solver_ordering = ordering;
+  if (!free_states) {
+    solver.linear_solver_type = ceres::DENSE_QR;
+    solver.linear_solver_ordering.reset();
+  }
+  solver.num_threads = options.jobs;
+  solver.max_num_iterations = options.most_iterations;
+  solver.function_tolerance = options.cost_tolerance;
+  solver.parameter_tolerance = options.parameter_tolerance;
+  solver.update_state_every_iteration = true;
+  solver.callbacks.push_back(&watch);
+  solver.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  // Each window's own landscape is rough, and one radius of trust for all of them together holds the
+  // parameters where the roughest window is: between solves every window looks for its start state alone.
+  const int rounds = free_states ? 3 : 1;
+  solver.max_num_iterations = std::max(1, options.most_iterations / rounds);
+  for (int round = 0; round < rounds; ++round) {
+    ceres::Solve(solver, &ceres_problem, &summary);
+    take();
+    if (round == 0) result.start_cost = 2.0 * summary.initial_cost;
+    result.iterations += static_cast<int>(summary.iterations.size()) - 1;
+    result.evaluations += summary.num_residual_evaluations + summary.num_jacobian_evaluations;
+    if (round + 1 == rounds || result.interrupted || !summary.IsSolutionUsable()) break;
+    for_each_on_threads(static_cast<int>(states.size()), options.jobs, [&](int k) {
+      const Window& w = problem.windows[result.windows[k]];
+      if (!w.from_rest) problem.refine_state(w, result.globals, states[k], 6);
+    });
+  }
+  result.states = std::move(states);
+  result.cost = 2.0 * summary.final_cost;
+  result.converged = summary.termination_type == ceres::CONVERGENCE;
+  if (result.interrupted)
+    result.reason = "interrupted";
+  else if (summary.termination_type == ceres::CONVERGENCE)
+    result.reason = "converged: cost or parameters no longer change";
+  else if (summary.termination_type == ceres::NO_CONVERGENCE)
+    result.reason = "stopped after " + std::to_string(result.iterations) + " iterations, still falling";
+  else
+    result.reason = "failed: " + summary.message;
+  return result;
+}
+
+}  // namespace boresight

@@ -1,0 +1,190 @@
+#include "boresight_analyses/calibration/calibration_plan.hpp"
+
+#include <cstdio>
+
+#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/io/referred_file.hpp"
+#include "boresight/io/units.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/random/csv_column.hpp"
+
+namespace boresight {
+namespace {
+
+std::vector<Setting> settings_of(Cursor& table) {
+  std::vector<Setting> settings;
+  if (!table.has("set")) return settings;
+  for (const std::string& text : table.texts("set")) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) table.fail_found("set", in_quotes(text), "PATH=VALUE");
+    settings.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return settings;
+}
+
+PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechanism) {
+  table.only({"path", "start", "lower", "upper"});
+  PlannedParameter p;
+  p.path = table.text("path");
+  p.origin = table.origin("path");
+  if (!p.path.starts_with("clearance."))
+    table.fail("path", "a parameter of a clearance joint; masses and speeds belong to a run's settings");
+  const std::string unit = ParameterPath(mechanism, p.path, p.origin).unit();
+  const auto value = [&](const char* key) -> std::optional<double> {
+    if (!table.has(key)) return {};
+    const double v = unit == "1" ? table.number(key) : table.quantity(key, unit_called(unit));
+    table.require(v > 0.0, key, "more than 0");
+    return v;
+  };
+  p.start = value("start");
+  p.lower = value("lower");
+  p.upper = value("upper");
+  table.finish();
+  return p;
+}
+
+// What the mechanism's own reader would refuse is refused as a start or a bound.
+void check_values(const PlannedParameter& p, const Mechanism& mechanism,
+                  const std::function<std::shared_ptr<const Mechanism>(const std::vector<Setting>&)>& mechanism_with) {
+  const std::string unit = ParameterPath(mechanism.description(), p.path, p.origin).unit();
+  for (const std::optional<double>& value : {p.start, p.lower, p.upper}) {
+    if (!value) continue;
+    char text[60];
+    std::snprintf(text, sizeof text, unit == "1" ? "%.17g" : "%.17g ", *value);
+    try {
+      mechanism_with({{p.path, unit == "1" ? std::string(text) : text + unit}});
+    } catch (const InputError& error) {
+      throw InputError(p.origin, p.path, error.found, error.expected, error.nearest);
+    }
+  }
+}
+
+}  // namespace
+
+CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism) {
+  Cursor table = root.table("calibrate");
+  table.only({"window", "start", "loss", "loss_scale", "starts", "seed", "confidence", "time_offset", "mounting_bias",
+              "hold_out", "corrections", "profile", "laws", "noise", "parameter", "run", "candidate"});
+  CalibrationPlan plan;
+  if (table.text("window", "whole") != "whole") {
+    plan.window = table.quantity("window", kDuration);
+    table.require(plan.window > 0.0, "window", "more than 0, or \"whole\"");
+  }
+  plan.from_rest = table.choice("start", {"rest", "free"}, "rest") == "rest";
+  plan.data_from = study.index.start;
+  const std::string loss = table.choice("loss", {"none", "huber", "cauchy"}, "huber");
+  plan.loss.kind = loss == "none" ? Loss::none : loss == "huber" ? Loss::huber : Loss::cauchy;
+  plan.loss.scale = table.number("loss_scale", loss == "cauchy" ? 2.4 : 2.0);
+  table.require(plan.loss.scale > 0.0, "loss_scale", "more than 0 standard deviations");
+  const auto whole = [&](const char* key, long long least, long long most, long long otherwise) {
+    const long long value = table.integer(key, otherwise);
+    table.require(value >= least && value <= most, key, std::to_string(least) + " to " + std::to_string(most));
+    return value;
+  };
+  plan.starts = static_cast<int>(whole("starts", 1, 1000, 4));
+  plan.seed = static_cast<std::uint64_t>(whole("seed", 0, 1LL << 62, 1));
+  plan.corrections = static_cast<int>(whole("corrections", 0, 10, 6));
+  plan.confidence = table.number("confidence", 0.95);
+  table.require(plan.confidence > 0.5 && plan.confidence < 1.0, "confidence", "more than 0.5 and less than 1");
+  if (table.has("time_offset")) {
+    plan.largest_time_offset = table.quantity("time_offset", kDuration);
+    table.require(plan.largest_time_offset > 0.0, "time_offset", "more than 0: the largest that is possible");
+  }
+  plan.mounting_bias = table.boolean("mounting_bias", false);
+  if (table.has("hold_out")) {
+    plan.hold_out = table.quantity("hold_out", kRatio);
+    table.require(plan.hold_out > 0.0 && plan.hold_out <= 0.5, "hold_out", "more than 0 % and at most 50 %");
+  }
+  plan.profile = table.boolean("profile", true);
+  if (table.has("laws")) {
+    std::vector<std::string> known;
+    for (const NormalLawEntry& law : normal_laws()) known.emplace_back(law.name);
+    for (const std::string& law : table.texts("laws")) {
+      if (std::find(known.begin(), known.end(), law) == known.end())
+        table.fail_found("laws", in_quotes(law), "contact laws", nearest_name(law, known));
+      plan.laws.push_back(law);
+    }
+  }
+  plan.noise =
+      VecX::Constant(static_cast<Eigen::Index>(channel_names().size()), std::numeric_limits<double>::quiet_NaN());
+  if (table.has("noise")) {
+    Cursor noise = table.table("noise");
+    for (std::size_t c = 0; c < channel_names().size(); ++c) {
+      const ChannelName& channel = channel_names()[c];
+      if (!noise.has(channel.name)) continue;
+      plan.noise[static_cast<Eigen::Index>(c)] = noise.quantity(channel.name, unit_called(channel.si_unit));
+      noise.require(plan.noise[static_cast<Eigen::Index>(c)] > 0.0, channel.name, "more than 0");
+    }
+    noise.finish();
+  }
+  for (Cursor& parameter : table.tables("parameter")) plan.parameters.push_back(read_parameter(parameter, mechanism));
+  table.require(!plan.parameters.empty(), "parameter", "at least one [[calibrate.parameter]]");
+  for (Cursor& run : table.tables("run")) {
+    run.only({"data", "name", "set"});
+    const std::string data = run.text("data");
+    const std::string name = run.text("name", data);
+    run.require(!name.empty(), "name", "a name, or no key at all");
+    plan.runs.push_back({name, beside(study.file, data), settings_of(run), run.origin("data")});
+    run.finish();
+  }
+  table.require(!plan.runs.empty(), "run", "at least one [[calibrate.run]]");
+  for (Cursor& candidate : table.tables("candidate")) {
+    candidate.only({"name", "set"});
+    const std::string name = candidate.text("name");
+    candidate.require(!name.empty(), "name", "a name");
+    plan.candidates.push_back({name, "", settings_of(candidate), candidate.origin()});
+    candidate.finish();
+  }
+  table.finish();
+  return plan;
+}
+
+CalibrationProblem calibration_problem(
+    const CalibrationPlan& plan,
+    const std::function<std::shared_ptr<const Mechanism>(const std::vector<Setting>&)>& mechanism_with) {
+  CalibrationProblem problem;
+  for (const PlannedRun& run : plan.runs)
+    problem.runs.emplace_back(run.name, mechanism_with(run.settings), read_referred(run.origin, "data", run.data, [&] {
+                                return read_measured_data(run.data);
+                              }));
+  for (CalibrationRun& run : problem.runs)
+    for (std::size_t i = 0; i < run.data.time.size() && run.data.time[i] < plan.data_from; ++i)
+      run.data.value.row(static_cast<Eigen::Index>(i)).setConstant(std::numeric_limits<double>::quiet_NaN());
+  const Mechanism& mechanism = *problem.runs.front().mechanism;
+  for (const PlannedParameter& p : plan.parameters) check_values(p, mechanism, mechanism_with);
+  for (const CalibrationRun& run : problem.runs)
+    for (int channel : run.data.channels)
+      if (channel_names()[channel].name == std::string("line_of_sight_error") && !mechanism.pointing().line_of_sight)
+        throw InputError({run.data.file, 1}, "line_of_sight_error", "it of a mechanism that names no target",
+                         "a [pointing] table with a target or a distance in " + mechanism.description().origin.file);
+  for (int c = 0; c < mechanism.clearances(); ++c) {
+    const ClearanceDescription& clearance = mechanism.description().clearances[c];
+    if (JournalInSleeve(clearance, mechanism.description().joints[clearance.joint].type, clearance.parameters).sticks)
+      throw InputError(clearance.origin, "friction.law", in_quotes(clearance.friction_law),
+                       "a law without bristles: calibrate does not follow their state");
+  }
+  for (const PlannedParameter& p : plan.parameters) {
+    const double own = ParameterPath(mechanism.description(), p.path, p.origin).get(mechanism.parameters());
+    if (!(p.start.value_or(own) > 0.0)) throw InputError(p.origin, p.path, "a start of 0", "start = ..., more than 0");
+    FittedParameter fitted = fitted_parameter(mechanism.description(), p.path, p.start.value_or(own), p.origin);
+    fitted.lower = p.lower.value_or(fitted.lower);
+    fitted.upper = p.upper.value_or(fitted.upper);
+    if (!(fitted.lower < fitted.start && fitted.start < fitted.upper))
+      throw InputError(
+          p.origin, p.path, "a start of " + std::to_string(fitted.start),
+          "one between lower and upper, " + std::to_string(fitted.lower) + " and " + std::to_string(fitted.upper));
+    problem.parameters.push_back(fitted);
+  }
+  problem.loss = plan.loss;
+  problem.largest_time_offset = plan.largest_time_offset;
+  problem.fit_time_offset = plan.largest_time_offset > 0.0;
+  problem.fit_bias = plan.mounting_bias;
+  problem.prepare(plan.window, plan.from_rest);
+  hold_out_windows(problem, plan.hold_out);
+  if (std::none_of(problem.windows.begin(), problem.windows.end(), [](const Window& w) { return !w.held_out; }))
+    throw InputError({plan.runs.front().data, 0}, "data", "too few values",
+                     "more in a window than its start state has numbers");
+  return problem;
+}
+
+}  // namespace boresight

@@ -1,0 +1,76 @@
+// What a study file asks of `calibrate`:
+//
+//   [calibrate]
+//   window = "whole"                  # or a time, "20 ms": see calibration_problem.hpp
+//   start = "rest"                    # where a run's first window begins: as the file starts, or "free": anywhere
+//   loss = "huber"                    # "none", "cauchy"; loss_scale: in standard deviations
+//   starts = 4
+//   time_offset = "2 ms"              # the largest; left out: none is fitted
+//   mounting_bias = true
+//   hold_out = "20 %"
+//   corrections = 6                   # by multibody, at most
+//   profile = true
+//   laws = ["flores", "hertz"]
+//   noise = { dx = "1 um" }           # of single channels; those left out are estimated
+//
+//   [[calibrate.parameter]]
+//   path = "clearance.D.radial"
+//   start = "0.25 mm"                 # left out: the mechanism's own; lower, upper likewise
+//
+//   [[calibrate.run]]
+//   data = "run-1.csv"                # beside the study
+//   set = ["motion.drives.A=2*pi*t"]  # the mechanism's settings in this run
+//
+//   [[calibrate.candidate]]           # of a next test
+//   name = "faster"
+//   set = ["motion.drives.A=4*pi*t"]
+#pragma once
+
+#include <optional>
+
+#include "boresight/io/cursor.hpp"
+#include "boresight_analyses/calibration/calibrate.hpp"
+#include "boresight_analyses/study/study.hpp"
+
+namespace boresight {
+
+struct PlannedParameter {
+  std::string path;
+  std::optional<double> start, lower, upper;
+  Origin origin;
+};
+
+struct PlannedRun {
+  std::string name, data;  // data: the file, "" for a candidate
+  std::vector<Setting> settings;
+  Origin origin;  // of the text that names the file
+};
+
+struct CalibrationPlan {
+  double window = std::numeric_limits<double>::infinity();
+  bool from_rest = true;
+  double data_from = 0.0;  // readings before are left out, though the motion is followed from its start [s]
+  ResidualLoss loss;
+  int starts = 4;
+  std::uint64_t seed = 1;
+  double confidence = 0.95;
+  double largest_time_offset = 0.0;
+  bool mounting_bias = false;
+  double hold_out = 0.0;
+  int corrections = 6;
+  bool profile = true;
+  std::vector<std::string> laws;
+  VecX noise;
+  std::vector<PlannedParameter> parameters;
+  std::vector<PlannedRun> runs, candidates;
+};
+
+// mechanism: of the study, for the units of paths. Throws InputError.
+CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism);
+
+// Reads the data and prepares the problem. mechanism_with: the study's mechanism with a run's settings.
+CalibrationProblem calibration_problem(
+    const CalibrationPlan& plan,
+    const std::function<std::shared_ptr<const Mechanism>(const std::vector<Setting>&)>& mechanism_with);
+
+}  // namespace boresight

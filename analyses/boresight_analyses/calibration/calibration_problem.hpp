@@ -1,0 +1,158 @@
+// A calibration as least squares: runs with their data, cut into windows; residuals of a window and their
+// derivatives.
+//
+// Where impacts dissipate, neighbouring motions come together again and a window may be a whole run. Where
+// they part (high restitution, small clearance), one residual over a whole run has a useless landscape: data
+// are then cut into shorter windows; each starts from a state of its own, which is estimated along with the
+// parameters and then eliminated (multiple shooting without continuity: Bock 1981, with every window an
+// experiment of its own).
+//
+//   r = (model(t + offset; theta, start state) + bias - data) / sigma       per sample and channel
+//   f(r): Huber or Cauchy, written as a residual whose square is the loss, so that every sample is bounded
+//   alone
+//
+// A weak prior holds the start state within reach of the clearance where the channels do not see all of it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "boresight/scene/scene_rung.hpp"
+#include "boresight/slopes/sensitive_motion.hpp"
+#include "boresight_analyses/calibration/fitted_parameter.hpp"
+#include "boresight_analyses/calibration/measured_data.hpp"
+
+namespace boresight {
+
+struct CalibrationRun {
+  std::string name;
+  std::shared_ptr<const Mechanism> mechanism;  // with this run's settings
+  std::shared_ptr<const PreparedScene> prepared;
+  std::shared_ptr<const SceneTables> tables;
+  MeasuredData data;
+
+  CalibrationRun() = default;
+  CalibrationRun(std::string run_name, std::shared_ptr<const Mechanism> with_settings, MeasuredData measured);
+};
+
+enum class Loss { none, huber, cauchy };
+
+struct ResidualLoss {
+  Loss kind = Loss::huber;
+  double scale = 2.0;  // standard deviations beyond which a residual counts less
+
+  double residual(double r) const;  // f(r): f^2 is the loss
+  double slope(double r) const;     // f'
+  double score(double r) const;     // psi = f f'
+  double weight(double r) const;    // psi', not below zero
+};
+
+struct Window {
+  int run = 0;
+  int first = 0, last = 0;        // samples, inclusive
+  double start = 0.0, end = 0.0;  // of the motion followed [s]
+  bool held_out = false;
+  bool from_rest = false;  // starts as the mechanism's file says; no start state is estimated
+};
+
+// What all windows share, in the coordinates of the fit.
+struct Globals {
+  VecX u;                    // parameters
+  double time_offset = 0.0;  // model time less data time [s]
+  VecX bias;                 // per channel of channels(), SI; empty: none
+};
+
+struct WindowResiduals {
+  VecX r;                            // standardised, without loss
+  std::vector<int> sample, channel;  // of each
+  MatX by_global;                    // x (parameters, time offset, biases)
+  MatX by_state;                     // x 2n, in units of state_scale(); zero where the window starts from rest
+  SensitiveMotion motion;
+};
+
+// A richer model in place of this one near `at`: its readings and its slopes. Matrices: samples x the run's
+// channels, SI.
+struct TangentModel {
+  VecX at;  // u
+  double time_offset = 0.0;
+  MatX reading, by_time;
+  std::vector<MatX> slope;  // per parameter, by its u
+  SensitiveMotion motion;   // this model's, for its impacts
+};
+
+// What is known of a richer model, of a run's motion from rest: how far its readings are from this model's;
+// once it is there, its tangent.
+struct ModelCorrection {
+  MatX offset;  // added to this model's readings
+  std::optional<TangentModel> tangent;
+};
+
+class CalibrationProblem {
+ public:
+  std::vector<CalibrationRun> runs;
+  std::vector<FittedParameter> parameters;
+  std::vector<Window> windows;
+  std::vector<ModelCorrection> corrections;  // per run; empty: none
+  std::vector<int> channels;                 // among channel_names(), of all runs together
+  VecX sigma;                                // noise per channel [SI]
+  bool fit_time_offset = false, fit_bias = false;
+  double largest_time_offset = 0.0;  // [s]
+  ResidualLoss loss;
+  // Of the integration (MotionRequest). What a motion jitters by from one choice of steps to the next
+  // roughens the landscape at the width of a standard error: at 1e-5 by as much as one unit of the loss, at
+  // 1e-7 by nothing that matters.
+  double tolerance = 1e-7;
+  double derivative_tolerance = 1e-4;
+
+  // Collects the channels, cuts the windows. from_rest: a run's first window starts at t = 0 where the model
+  // does, its journals where the mechanism's file has them. Throws InputError where the data reach beyond the motion.
+  void prepare(double window_length, bool from_rest);
+
+  int parameter_count() const { return static_cast<int>(parameters.size()); }
+  int global_count() const {
+    return parameter_count() + (fit_time_offset ? 1 : 0) + (fit_bias ? static_cast<int>(channels.size()) : 0);
+  }
+  std::vector<std::string> global_names() const;
+  int state_size(const Window& window) const { return 2 * runs[window.run].tables->layout.n; }
+  // A start state of one, SI: the clearance, and the clearance in a millisecond.
+  VecX state_scale(const Window& window) const;
+  // Of the prior on the scaled state.
+  VecX prior_deviation(const Window& window) const;
+  // Column of a run's data, -1 if the run has not this channel (index into `channels`).
+  int column(int run, int channel) const;
+
+  Globals start() const;
+  std::vector<double> values(const Globals& globals) const;
+  Parameters parameters_at(int run, const std::vector<double>& values) const;
+  ContactNumbers contact_numbers_at(int run, const std::vector<double>& values) const;
+
+  // Throws ComputationError. state: scaled.
+  void evaluate(const Window& window, const Globals& globals, const VecX& state, bool derivatives,
+                WindowResiduals& out) const;
+  // Loss over a window, prior included.
+  double cost(const Window& window, const Globals& globals, const VecX& state) const;
+  // A start state that fits the window better, parameters held: Levenberg-Marquardt on the state alone.
+  // Returns the loss.
+  double refine_state(const Window& window, const Globals& globals, VecX& state, int most_iterations) const;
+  // A first guess of a window's start state: of several local fits of its data, and of `carried` where it is
+  // not empty (where the window before led), the one that the model follows best after a few steps of
+  // refinement.
+  VecX guess_state(const Window& window, const Globals& globals, const VecX& carried = {}) const;
+  // Where a window's motion stands at the start of the next window; scaled.
+  VecX state_at(const Window& window, const Globals& globals, const VecX& state, double t) const;
+
+ private:
+  // Into request: what a window's motion starts with.
+  void set_start(const Window& window, const std::vector<double>& values, const VecX& state, bool derivatives,
+                 MotionRequest& request) const;
+  void evaluate_tangent(const Window& window, const Globals& globals, bool derivatives, WindowResiduals& out) const;
+  struct ChannelRows {
+    Eigen::Matrix<double, 3, Eigen::Dynamic> rows;  // one used, or three of which the size counts
+    bool size = false;
+  };
+  void channel_rows(const CalibrationRun& run, int kind, double t, ChannelRows& out) const;
+};
+
+}  // namespace boresight

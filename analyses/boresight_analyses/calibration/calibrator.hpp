@@ -1,0 +1,86 @@
+// One calibration under way: what calibrate() goes through, step by step.
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "boresight_analyses/calibration/calibrate.hpp"
+#include "boresight_analyses/calibration/channel_noise.hpp"
+
+namespace boresight {
+
+// Thrown out of a fit when the user has interrupted it.
+struct CalibrationInterrupted {};
+
+class Calibrator {
+ public:
+  Calibrator(CalibrationProblem& problem, const CalibrationOptions& options);
+
+  CalibrationResult run();
+
+ private:
+  void warn_of(const OutlyingReading& reading, const std::string& what_becomes_of_it);
+  void name_outliers();
+
+  // A fit that has lost its way leaves more than the noise that neighbouring samples show.
+  void judge_fit();
+
+  void set_noise(const VecX& sigma);
+
+  void tell(const std::string& stage, double share, const std::string& estimate);
+
+  FitOptions fit_options(const std::string& stage, int iterations, int jobs);
+
+  void note(FitResult fit);
+
+  // Starts on a short horizon, and from the best of them on to the whole; from the next best, and from more
+  // starts, where that one loses its way. Where all do, the model does not explain the data, and the best
+  // start's fit stands.
+  void search();
+
+  struct Descent {
+    Globals from, to;
+    double cost = 0.0;
+    long evaluations = 0;
+  };
+
+  // The start given, and others within a factor of two of it (restitution: one in the logit).
+  Globals start(int number) const;
+
+  // `count` more of them, side by side.
+  void try_starts(const CalibrationProblem& part, int count, std::vector<Descent>& tried);
+
+  // On a horizon that doubles from a quarter to the whole. give_up: returns false as soon as the place is
+  // lost.
+  bool grow(Globals at, bool give_up);
+
+  // Goes on from other valleys until none leads lower.
+  void settle(const std::string& stage);
+
+  // Intervals by the loss itself. Where a profile comes by a lower place than the optimum, that is the
+  // optimum.
+  void profile();
+
+  Inference infer_now() const;
+
+  void refit(const std::string& stage);
+
+  // Restitution is a matter of impacts alone: where none is seen in its joints, no fit can know it.
+  void hold_what_no_impact_shows();
+  void explain_what_is_held();
+
+  // First an offset, multibody less the fit's rung at the optimum. From there on multibody's own value and
+  // slopes, until that moves nothing that matters; slopes are taken anew where the fit has left the width
+  // over which they were taken.
+  void correct();
+
+  CalibrationProblem& problem_;
+  const CalibrationOptions& options_;
+  CalibrationResult result_;
+  std::vector<std::pair<int, std::string>> held_;
+  std::mutex mutex_;
+};
+
+}  // namespace boresight

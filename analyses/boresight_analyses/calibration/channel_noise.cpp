@@ -1,0 +1,139 @@
+#include "boresight_analyses/calibration/channel_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace boresight {
+
+VecX noise_from_differences(const CalibrationProblem& problem) {
+  VecX sigma(static_cast<Eigen::Index>(problem.channels.size()));
+  for (int c = 0; c < static_cast<int>(problem.channels.size()); ++c) {
+    std::vector<double> differences;
+    std::vector<double> sizes;
+    for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+      const int column = problem.column(static_cast<int>(r), c);
+      if (column < 0) continue;
+      const auto v = problem.runs[r].data.value.col(column);
+      for (Eigen::Index i = 1; i + 1 < v.size(); ++i) {
+        const double d = v[i - 1] - 2.0 * v[i] + v[i + 1];
+        if (std::isfinite(d)) differences.push_back(std::abs(d));
+        if (std::isfinite(v[i])) sizes.push_back(std::abs(v[i]));
+      }
+    }
+    double middle = 0.0;
+    if (!differences.empty()) {
+      std::nth_element(differences.begin(), differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2),
+                       differences.end());
+      middle = differences[differences.size() / 2];
+    }
+    // Data without any noise would weigh without bound. Nine tenths of the readings say how large they are: one that is wrong
+    // says nothing.
+    double large = 0.0;
+    if (!sizes.empty()) {
+      const auto ninth = sizes.begin() + static_cast<std::ptrdiff_t>(9 * (sizes.size() - 1) / 10);
+      std::nth_element(sizes.begin(), ninth, sizes.end());
+      large = *ninth;
+    }
+    sigma[c] = std::max({1.4826 * middle / std::sqrt(6.0), 1e-6 * large, 1e-15});
+  }
+  return sigma;
+}
+
+VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fit) {
+  std::vector<std::vector<double>> sizes(problem.channels.size());
+  int unknowns = problem.global_count();
+  for (std::size_t k = 0; k < fit.windows.size(); ++k) {
+    const Window& w = problem.windows[fit.windows[k]];
+    WindowResiduals at;
+    problem.evaluate(w, fit.globals, fit.states[k], false, at);
+    unknowns += w.from_rest ? 0 : problem.state_size(w);
+    for (Eigen::Index i = 0; i < at.r.size(); ++i) sizes[at.channel[i]].push_back(std::abs(at.r[i]));
+  }
+  std::size_t all = 0;
+  for (const auto& s : sizes) all += s.size();
+  VecX sigma = problem.sigma;
+  for (std::size_t c = 0; c < sizes.size(); ++c) {
+    if (sizes[c].empty()) continue;
+    std::nth_element(sizes[c].begin(), sizes[c].begin() + static_cast<std::ptrdiff_t>(sizes[c].size() / 2),
+                     sizes[c].end());
+    const double freedom = static_cast<double>(all) / std::max(1.0, static_cast<double>(all) - unknowns);
+    // Never far below what differences say: a channel fitted too well is not a quiet one.
+    sigma[static_cast<Eigen::Index>(c)] *= std::max(0.5, 1.4826 * sizes[c][sizes[c].size() / 2] * std::sqrt(freedom));
+  }
+  return sigma;
+}
+
+std::vector<OutlyingReading> leave_out_lone_readings(CalibrationProblem& problem) {
+  constexpr double kAlone = 1000.0;
+  const VecX noise = noise_from_differences(problem);
+  std::vector<OutlyingReading> found;
+  for (std::size_t r = 0; r < problem.runs.size(); ++r) {
+    MeasuredData& data = problem.runs[r].data;
+    for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+      const int column = problem.column(static_cast<int>(r), static_cast<int>(c));
+      if (column < 0) continue;
+      std::vector<Eigen::Index> measured;
+      for (Eigen::Index i = 0; i < data.value.rows(); ++i)
+        if (std::isfinite(data.value(i, column))) measured.push_back(i);
+      const auto n = static_cast<std::ptrdiff_t>(measured.size());
+      if (n < 6) continue;
+      const auto at = [&](std::ptrdiff_t k) { return data.value(measured[static_cast<std::size_t>(k)], column); };
+      std::vector<Eigen::Index> alone;
+      for (std::ptrdiff_t k = 0; k < n; ++k) {
+        // The four measured next to it, at the ends all on one side.
+        std::vector<double> next;
+        for (std::ptrdiff_t j = std::clamp<std::ptrdiff_t>(k - 2, 0, n - 5); next.size() < 4; ++j)
+          if (j != k) next.push_back(at(j));
+        const auto [low, high] = std::minmax_element(next.begin(), next.end());
+        const double off = std::max(at(k) - *high, *low - at(k));
+        if (!(off > kAlone * std::max(*high - *low, noise[static_cast<Eigen::Index>(c)]))) continue;
+        const Eigen::Index sample = measured[static_cast<std::size_t>(k)];
+        alone.push_back(sample);
+        found.push_back({data.file, data.line[static_cast<std::size_t>(sample)], problem.channels[c],
+                         off / noise[static_cast<Eigen::Index>(c)]});
+      }
+      for (const Eigen::Index sample : alone) data.value(sample, column) = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return found;
+}
+
+std::vector<OutlyingReading> outlying_readings(const CalibrationProblem& problem, const FitResult& fit) {
+  constexpr double kOutlying = 10.0;
+  struct Reading {
+    int run, sample, channel;
+    double size;
+  };
+  std::vector<Reading> all;
+  std::vector<std::vector<double>> sizes(problem.channels.size());
+  for (std::size_t k = 0; k < fit.windows.size(); ++k) {
+    const Window& w = problem.windows[fit.windows[k]];
+    WindowResiduals at;
+    problem.evaluate(w, fit.globals, fit.states[k], false, at);
+    for (Eigen::Index i = 0; i < at.r.size(); ++i) {
+      const auto n = static_cast<std::size_t>(i);
+      all.push_back({w.run, at.sample[n], at.channel[n], std::abs(at.r[i])});
+      sizes[static_cast<std::size_t>(at.channel[n])].push_back(std::abs(at.r[i]));
+    }
+  }
+  std::vector<double> deviation;
+  for (std::vector<double>& s : sizes) {
+    if (!s.empty()) std::nth_element(s.begin(), s.begin() + static_cast<std::ptrdiff_t>(s.size() / 2), s.end());
+    deviation.push_back(s.empty() ? 1.0 : std::max(1.0, 1.4826 * s[s.size() / 2]));
+  }
+  std::vector<OutlyingReading> found;
+  for (const Reading& reading : all) {
+    const double deviations = reading.size / deviation[static_cast<std::size_t>(reading.channel)];
+    if (!(deviations > kOutlying)) continue;
+    const MeasuredData& data = problem.runs[static_cast<std::size_t>(reading.run)].data;
+    found.push_back({data.file, data.line[static_cast<std::size_t>(reading.sample)],
+                     problem.channels[static_cast<std::size_t>(reading.channel)], deviations});
+  }
+  std::sort(found.begin(), found.end(),
+            [](const OutlyingReading& a, const OutlyingReading& b) { return a.deviations > b.deviations; });
+  return found;
+}
+
+}  // namespace boresight

@@ -1,0 +1,245 @@
+#include "boresight_analyses/calibration/inference.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "boresight_analyses/statistics/effective_samples.hpp"
+
+namespace boresight {
+namespace {
+
+// A coordinate's standard deviation beyond which the data are said not to know the parameter: as a logarithm,
+// a factor of two at 95 % confidence.
+constexpr double kUnknown = 0.35;
+
+std::vector<double> autocorrelations_of(const std::vector<ResidualSeries>& series, int lags) {
+  std::vector<double> sum(lags + 1, 0.0);
+  for (const ResidualSeries& s : series)
+    for (int l = 0; l <= lags; ++l)
+      for (std::size_t i = 0; i + l < s.residual.size(); ++i) {
+        // Outliers would drown the rest.
+        const auto clipped = [&](std::size_t k) { return std::clamp(s.residual[k], -3.0, 3.0); };
+        sum[l] += clipped(i) * clipped(i + l);
+      }
+  for (int l = lags; l >= 0; --l) sum[l] /= sum[0] > 0.0 ? sum[0] : 1.0;
+  return sum;
+}
+
+// Eliminates what was held.
+MatX inverse_of(const MatX& H, const std::vector<int>& free) {
+  MatX out = MatX::Constant(H.rows(), H.cols(), std::numeric_limits<double>::quiet_NaN());
+  if (free.empty()) return out;
+  MatX part(free.size(), free.size());
+  for (std::size_t a = 0; a < free.size(); ++a)
+    for (std::size_t b = 0; b < free.size(); ++b) part(a, b) = H(free[a], free[b]);
+  // A direction that nothing sees gets a large variance in place of an infinite one.
+  Eigen::SelfAdjointEigenSolver<MatX> eigen(part);
+  VecX values = eigen.eigenvalues();
+  for (double& v : values) v = 1.0 / std::max(v, 1e-8);
+  const MatX inverse = eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
+  for (std::size_t a = 0; a < free.size(); ++a)
+    for (std::size_t b = 0; b < free.size(); ++b) out(free[a], free[b]) = inverse(a, b);
+  return out;
+}
+
+std::string number(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+}  // namespace
+
+void judge(const FittedParameter& parameter, ParameterEstimate& e) {
+  const double share = e.standard_error / e.value;
+  e.identifiable = false;
+  if (parameter.at_bound(parameter.coordinate(e.value))) {
+    e.reason = "the fit ran into the bound of what is allowed for it: the data ask for less or more, or for nothing";
+  } else if (!(share < kUnknown)) {
+    e.reason = "its standard error is " + number("%.0f %%", 100.0 * share) + " of it";
+  } else {
+    e.identifiable = true;
+    e.reason = "known to " + number("%.2g %%", 100.0 * share);
+  }
+}
+
+WindowInformation window_information(const CalibrationProblem& problem, const Window& w, const WindowResiduals& at) {
+  const Eigen::Index N = at.r.size(), G = at.by_global.cols();
+  VecX weight(N), score(N);
+  for (Eigen::Index i = 0; i < N; ++i) {
+    weight[i] = problem.loss.weight(at.r[i]);
+    score[i] = problem.loss.score(at.r[i]);
+  }
+  MatX A = at.by_global;
+  if (!w.from_rest) {
+    MatX Hss = problem.prior_deviation(w).cwiseAbs2().cwiseInverse().asDiagonal();
+    Hss += at.by_state.transpose() * weight.asDiagonal() * at.by_state;
+    A -= at.by_state * Hss.ldlt().solve(at.by_state.transpose() * weight.asDiagonal() * at.by_global);
+  }
+  WindowInformation out;
+  out.information = A.transpose() * weight.asDiagonal() * at.by_global;
+  out.information = 0.5 * (out.information + out.information.transpose()).eval();
+  out.scores = MatX::Zero(w.last - w.first + 1, G);
+  for (Eigen::Index i = 0; i < N; ++i) out.scores.row(at.sample[i] - w.first) += score[i] * A.row(i);
+  return out;
+}
+
+Inference infer(const CalibrationProblem& problem, const FitResult& fit, double confidence,
+                const std::vector<bool>& fixed, int jobs) {
+  const int G = problem.global_count(), P = problem.parameter_count(), count = static_cast<int>(fit.windows.size());
+  Inference out;
+  std::vector<WindowInformation> parts(count);
+  std::vector<WindowResiduals> residuals(count);
+  for_each_on_threads(count, jobs, [&](int k) {
+    const Window& w = problem.windows[fit.windows[k]];
+    problem.evaluate(w, fit.globals, fit.states[k], true, residuals[k]);
+    parts[k] = window_information(problem, w, residuals[k]);
+  });
+  out.information = MatX::Zero(G, G);
+  MatX white = out.information;
+  out.impacts.assign(problem.runs.front().mechanism->clearances(), 0);
+  double psi_square = 0.0, psi_slope = 0.0;
+  for (int k = 0; k < count; ++k) {
+    const Window& w = problem.windows[fit.windows[k]];
+    out.information += parts[k].information;
+    white += parts[k].scores.transpose() * parts[k].scores;
+    out.unknowns += w.from_rest ? 0 : problem.state_size(w);
+    out.values += residuals[k].r.size();
+    for (int joint : residuals[k].motion.impact_joint) ++out.impacts[joint];
+    out.grazing += static_cast<int>(residuals[k].motion.grazing.size());
+    for (Eigen::Index i = 0; i < residuals[k].r.size(); ++i) {
+      const double r = residuals[k].r[i];
+      psi_square += problem.loss.score(r) * problem.loss.score(r);
+      psi_slope += problem.loss.weight(r);
+      if (out.residuals.empty() || out.residuals.back().run != w.run ||
+          out.residuals.back().channel != residuals[k].channel[i] || i == 0) {
+        // A window's residuals come channel by channel.
+        out.residuals.push_back({w.run, residuals[k].channel[i], {}, {}, {}, {}});
+      }
+      ResidualSeries& series = out.residuals.back();
+      const int sample = residuals[k].sample[i], channel = residuals[k].channel[i];
+      const double measured = problem.runs[w.run].data.value(sample, problem.column(w.run, channel));
+      series.time.push_back(problem.runs[w.run].data.time[sample]);
+      series.residual.push_back(r);
+      series.measured.push_back(measured);
+      series.model.push_back(measured + r * problem.sigma[channel]);
+    }
+  }
+  std::vector<int> free;
+  for (int g = 0; g < G; ++g)
+    if (g >= P || fixed.empty() || !fixed[g]) free.push_back(g);
+  out.unknowns += static_cast<int>(free.size());
+  const double freedom = std::max(1.0, static_cast<double>(out.values - out.unknowns));
+  const double mean_slope = psi_slope / static_cast<double>(out.values);
+  out.variance_factor = psi_square / freedom / std::max(mean_slope, 1e-3);
+
+  // Do residuals follow one another?
+  int longest = 0;
+  for (int k = 0; k < count; ++k) longest = std::max(longest, static_cast<int>(parts[k].scores.rows()));
+  out.autocorrelations = autocorrelations_of(out.residuals, std::min(60, std::max(1, longest / 4)));
+  out.autocorrelation = out.autocorrelations.size() > 1 ? out.autocorrelations[1] : 0.0;
+  const double noise = 3.0 / std::sqrt(static_cast<double>(out.values));
+  const bool lost_in_time = *std::min_element(out.autocorrelations.begin(), out.autocorrelations.end()) <= noise;
+  out.per_independent_one = values_per_independent_one(
+      lost_in_time ? out.autocorrelations : autocorrelations_of(out.residuals, std::max(1, longest / 2)), noise,
+      static_cast<double>(out.values), out.unknowns);
+  const MatX inverse = inverse_of(out.information, free);
+  out.covariance = out.variance_factor * inverse;
+  out.white_covariance = inverse;
+  if (out.autocorrelation > noise) {
+    int lost = 1;
+    while (lost + 1 < static_cast<int>(out.autocorrelations.size()) && out.autocorrelations[lost] > noise) ++lost;
+    out.lags = 2 * lost;
+    MatX meat = white;
+    for (const WindowInformation& part : parts)
+      for (int l = 1; l <= out.lags && l < part.scores.rows(); ++l) {
+        const Eigen::Index rest = part.scores.rows() - l;
+        const MatX cross = part.scores.topRows(rest).transpose() * part.scores.bottomRows(rest);
+        meat += (1.0 - l / (out.lags + 1.0)) * (cross + cross.transpose());
+      }
+    MatX bread = inverse;
+    for (double& v : bread.reshaped())
+      if (std::isnan(v)) v = 0.0;
+    const MatX robust = out.values / freedom * bread * meat * bread;
+    // Never narrower than the white ones.
+    for (int g : free) {
+      const double grow = std::sqrt(std::max(1.0, robust(g, g) / out.covariance(g, g)));
+      out.covariance.row(g) *= grow;
+      out.covariance.col(g) *= grow;
+    }
+  }
+  const VecX deviation = out.covariance.diagonal().cwiseSqrt();
+  out.correlation = deviation.cwiseInverse().asDiagonal() * out.covariance * deviation.cwiseInverse().asDiagonal();
+  Eigen::SelfAdjointEigenSolver<MatX> eigen(out.information.topLeftCorner(P, P) / out.variance_factor);
+  out.rank = static_cast<int>((eigen.eigenvalues().array() > 1.0 / (kUnknown * kUnknown)).count());
+
+  const double quantile = boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
+  const std::vector<std::string> names = problem.global_names();
+  for (int g = 0; g < G; ++g) {
+    ParameterEstimate e;
+    e.name = names[g];
+    e.coordinate_error = deviation[g];
+    if (g < P) {
+      const FittedParameter& p = problem.parameters[g];
+      const double u = fit.globals.u[g];
+      e.si_unit = p.si_unit;
+      e.value = p.value(u);
+      e.standard_error = p.slope(u) * deviation[g];
+      e.low = p.value(u - quantile * deviation[g]);
+      e.high = p.value(u + quantile * deviation[g]);
+      if (!fixed.empty() && fixed[g]) {
+        e.identifiable = false;
+        e.reason = "held at its start";
+      } else {
+        judge(p, e);
+      }
+    } else {
+      const bool offset = problem.fit_time_offset && g == P;
+      e.si_unit = offset ? "s" : channel_names()[problem.channels[g - P - (problem.fit_time_offset ? 1 : 0)]].si_unit;
+      e.value = offset ? fit.globals.time_offset : fit.globals.bias[g - P - (problem.fit_time_offset ? 1 : 0)];
+      e.standard_error = deviation[g];
+      e.low = e.value - quantile * deviation[g];
+      e.high = e.value + quantile * deviation[g];
+      e.reason = "nuisance";
+    }
+    out.parameters.push_back(e);
+  }
+  return out;
+}
+
+std::vector<std::string> verdict(const CalibrationProblem& problem, const Inference& inference) {
+  std::vector<std::string> words;
+  const int P = problem.parameter_count();
+  for (int p = 0; p < P; ++p) {
+    const ParameterEstimate& e = inference.parameters[p];
+    if (!e.identifiable) words.push_back(e.name + " cannot be told from these data: " + e.reason + ".");
+  }
+  for (int a = 0; a < P; ++a)
+    for (int b = a + 1; b < P; ++b) {
+      const double rho = inference.correlation(a, b);
+      if (!(std::abs(rho) > 0.9)) continue;
+      words.push_back(
+          inference.parameters[a].name + " and " + inference.parameters[b].name +
+          (std::abs(rho) > 0.97 ? " cannot be told apart by these data: " : " are hard to tell apart: ") +
+          "their correlation is " + number("%.3f", rho) +
+          "; only one combination of them is known. A run under another load or speed would separate them.");
+    }
+  if (inference.rank < P)
+    words.push_back("The data see " + std::to_string(inference.rank) + " of the " + std::to_string(P) +
+                    " directions in which the parameters can change.");
+  if (inference.grazing > 0)
+    words.push_back(std::to_string(inference.grazing) +
+                    " contacts began while barely moving (grazing): derivatives by them hold for small changes only.");
+  if (inference.lags > 0)
+    words.push_back("Neighbouring residuals follow one another (correlation " +
+                    number("%.2f", inference.autocorrelation) +
+                    "): the model leaves something out. Errors are widened for it over " +
+                    std::to_string(inference.lags) + " samples.");
+  if (words.empty()) words.push_back("All parameters are identifiable, and no two are confused with each other.");
+  return words;
+}
+
+}  // namespace boresight

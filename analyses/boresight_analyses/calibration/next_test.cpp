@@ -1,0 +1,71 @@
+#include "boresight_analyses/calibration/next_test.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+
+NextTest judge_candidate(const CalibrationProblem& problem, const Inference& inference, const Globals& globals,
+                         const std::vector<bool>& fixed, const Candidate& candidate) {
+  const int G = problem.global_count(), P = problem.parameter_count();
+  std::vector<int> free;
+  for (int g = 0; g < G; ++g)
+    if (g >= P || !fixed[g]) free.push_back(g);
+  const auto part = [&](const MatX& H) {
+    MatX out(free.size(), free.size());
+    for (std::size_t a = 0; a < free.size(); ++a)
+      for (std::size_t b = 0; b < free.size(); ++b) out(a, b) = H(free[a], free[b]);
+    return MatX(out + 1e-8 * MatX::Identity(out.rows(), out.cols()));
+  };
+  NextTest test{candidate.name, 0.0, 0.0, {}, ""};
+  if (free.empty()) {
+    test.refusal = "no parameter is left to learn of";
+    return test;
+  }
+  const MatX H = part(inference.information);
+  const MatX before = H.inverse();
+  try {
+    CalibrationProblem one = problem;
+    MeasuredData data;
+    for (double t = 0.0; t <= candidate.mechanism->duration() * (1.0 + 1e-12); t += 1e-3) {
+      data.time.push_back(std::min(t, candidate.mechanism->duration()));
+      data.line.push_back(0);
+    }
+    data.channels = problem.channels;
+    data.value =
+        MatX::Zero(static_cast<Eigen::Index>(data.time.size()), static_cast<Eigen::Index>(data.channels.size()));
+    one.runs = {CalibrationRun(candidate.name, candidate.mechanism, data)};
+    one.corrections.clear();
+    one.loss.kind = Loss::none;
+    const double length = problem.windows.front().end - problem.windows.front().start;
+    one.prepare(problem.windows.front().from_rest ? std::max(length, data.time.back()) : length, true);
+    MatX more = MatX::Zero(G, G);
+    for (const Window& w : one.windows) {
+      WindowResiduals at;
+      one.evaluate(w, globals, VecX::Zero(one.state_size(w)), true, at);
+      more += window_information(one, w, at).information;
+    }
+    const MatX with = part(inference.information + more), after = with.inverse();
+    test.d_gain = std::log(with.determinant()) - std::log(H.determinant());
+    double sum_before = 0.0, sum_after = 0.0;
+    for (std::size_t a = 0; a < free.size(); ++a) {
+      if (free[a] >= P) continue;
+      const auto i = static_cast<Eigen::Index>(a);
+      const double relative = std::pow(
+          problem.parameters[free[a]].slope(globals.u[free[a]]) / problem.parameters[free[a]].value(globals.u[free[a]]),
+          2);
+      sum_before += relative * before(i, i);
+      sum_after += relative * after(i, i);
+      test.error_ratio.push_back(std::sqrt(after(i, i) / before(i, i)));
+    }
+    test.a_ratio = sum_after / sum_before;
+  } catch (const ComputationError& fault) {
+    test.refusal = fault.what();
+  }
+  return test;
+}
+
+}  // namespace boresight

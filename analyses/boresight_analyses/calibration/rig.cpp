@@ -1,0 +1,117 @@
+#include "boresight_analyses/calibration/rig.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "boresight/io/content_hash.hpp"
+#include "boresight/ladder/ladder.hpp"
+#include "boresight_analyses/random/counter_stream.hpp"
+
+namespace boresight {
+
+double channel_reading(int channel, const PoseSample& s, const Vec3& boresight_B) {
+  if (channel < 3) return s.error.displacement[channel];
+  if (channel < 6) return s.error.rotation[channel - 3];
+  if (channel < 9) return (s.pose.q * boresight_B - s.ideal.q * boresight_B)[channel - 6];
+  const double sizes[] = {s.error.position, s.error.orientation, s.error.boresight, s.error.line_of_sight};
+  return sizes[channel - 9];
+}
+
+MatX multibody_readings(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters,
+                        const std::vector<double>& times, const std::vector<int>& channels) {
+  double spacing = times.front() > 0.0 ? times.front() : 1e-3;
+  for (std::size_t i = 1; i < times.size(); ++i) spacing = std::min(spacing, times[i] - times[i - 1]);
+  RunOptions options;
+  options.integrator = "dopri5";
+  options.tolerance = 1e-7;
+  options.sample_spacing = std::max(spacing, 1e-5);
+  options.events = false;
+  const RunResult run = make_rung("multibody", mechanism)->run(parameters, options);
+  MatX readings(static_cast<Eigen::Index>(times.size()), static_cast<Eigen::Index>(channels.size()));
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto after = std::lower_bound(run.time.begin(), run.time.end(), times[i] - 1e-9);
+    const std::size_t b = std::min<std::size_t>(after - run.time.begin(), run.time.size() - 1);
+    const std::size_t a = std::abs(run.time[b] - times[i]) < 1e-9 || b == 0 ? b : b - 1;
+    const double share = a == b ? 0.0 : (times[i] - run.time[a]) / (run.time[b] - run.time[a]);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      const double from = channel_reading(channels[c], run.boresight.samples[a], mechanism->boresight_B());
+      const double to = channel_reading(channels[c], run.boresight.samples[b], mechanism->boresight_B());
+      readings(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = from + share * (to - from);
+    }
+  }
+  return readings;
+}
+
+MeasuredData with_rig_errors(const SyntheticRig& rig, const std::vector<double>& times, const MatX& clean, int run) {
+  MeasuredData data;
+  data.channels = rig.channels;
+  data.time = times;
+  data.value = clean;
+  for (std::size_t i = 0; i < times.size(); ++i) data.line.push_back(static_cast<int>(i) + 2);
+  const CounterStream stream(rig.seed, StreamPurpose::sample);
+  const boost::math::normal normal;
+  double largest[2] = {0.0, 0.0};
+  const auto kind = [&](Eigen::Index c) {
+    return std::string(channel_names()[rig.channels[static_cast<std::size_t>(c)]].si_unit) == "rad";
+  };
+  for (Eigen::Index c = 0; c < clean.cols(); ++c)
+    largest[kind(c)] =
+        std::max(largest[kind(c)], std::sqrt(clean.col(c).squaredNorm() / static_cast<double>(clean.rows())));
+  for (Eigen::Index c = 0; c < clean.cols(); ++c) {
+    const double sigma = rig.noise * largest[kind(c)];
+    for (Eigen::Index i = 0; i < clean.rows(); ++i) {
+      const auto draw = [&](std::uint64_t what) {
+        return stream.uniform(static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(c) + 64 * what,
+                              static_cast<std::uint64_t>(run));
+      };
+      data.value(i, c) += sigma * boost::math::quantile(normal, draw(0)) + (rig.bias.size() > 0 ? rig.bias[c] : 0.0);
+      if (draw(1) < rig.outliers) data.value(i, c) += (draw(2) < 0.5 ? -1.0 : 1.0) * (20.0 + 30.0 * draw(3)) * sigma;
+    }
+  }
+  return data;
+}
+
+std::string csv_of(const MeasuredData& data) {
+  std::string out = "t [s]";
+  for (int c : data.channels) {
+    const bool angle = std::string(channel_names()[c].si_unit) == "rad";
+    out += std::string(", ") + channel_names()[c].name + (angle ? " [urad]" : " [um]");
+  }
+  char text[40];
+  for (std::size_t i = 0; i < data.time.size(); ++i) {
+    std::snprintf(text, sizeof text, "\n%.9g", data.time[i]);
+    out += text;
+    for (Eigen::Index c = 0; c < data.value.cols(); ++c) {
+      std::snprintf(text, sizeof text, ", %.4f", 1e6 * data.value(static_cast<Eigen::Index>(i), c));
+      out += std::isfinite(data.value(static_cast<Eigen::Index>(i), c)) ? text : ", ";
+    }
+  }
+  return out + "\n";
+}
+
+namespace {
+
+constexpr std::string_view kSynthetic = "# synthetic, made by boresight calibrate --make-data; checksum ";
+
+std::string checksum_of(const std::string& csv) {
+  ContentHash hash;
+  hash.add(csv);
+  return hash.hexadecimal();
+}
+
+}  // namespace
+
+std::string synthetic_csv_of(const MeasuredData& data) {
+  const std::string csv = csv_of(data);
+  return csv + std::string(kSynthetic) + checksum_of(csv) + "\n";
+}
+
+bool is_synthetic(const std::string& csv) {
+  const std::size_t at = csv.rfind(kSynthetic);
+  if (at == std::string::npos || at == 0 || csv[at - 1] != '\n') return false;
+  return csv.substr(at + kSynthetic.size()) == checksum_of(csv.substr(0, at)) + "\n";
+}
+
+}  // namespace boresight

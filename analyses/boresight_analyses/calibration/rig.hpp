@@ -1,0 +1,38 @@
+// What a rig's channels read of a motion that a rung has computed; and data made that way.
+#pragma once
+
+#include "boresight/rungs/rung.hpp"
+#include "boresight_analyses/calibration/calibration_problem.hpp"
+
+namespace boresight {
+
+// The channel (index into channel_names()) of a sampled pose.
+double channel_reading(int channel, const PoseSample& sample, const Vec3& boresight_B);
+
+// Readings at `times` (rising, from 0) of the multibody rung's motion, contacts located: times x channels.
+// Throws ComputationError.
+MatX multibody_readings(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters,
+                        const std::vector<double>& times, const std::vector<int>& channels);
+
+struct SyntheticRig {
+  std::vector<int> channels = {0, 1, 2, 3, 4, 5};
+  double spacing = 1e-3;     // of the samples [s]
+  double noise = 0.01;       // of the channel's kind's largest rms (displacements, rotations), relative
+  double time_offset = 0.0;  // the rig's clock is this much early [s]
+  VecX bias;                 // per channel; empty: none
+  double outliers = 0.0;     // share of the readings that are gross errors of 20 to 50 deviations
+  std::uint64_t seed = 1;
+};
+// Readings of `clean` (multibody_readings at the times of `data`) with what a rig adds. run: tells runs'
+// noises apart.
+MeasuredData with_rig_errors(const SyntheticRig& rig, const std::vector<double>& times, const MatX& clean, int run);
+
+// As read_measured_data reads it, in um and urad.
+std::string csv_of(const MeasuredData& data);
+
+// The same, with a last line that says that it is synthetic, by which is_synthetic() knows it again as long as nobody changed it:
+// measured data that are there under the same name are not overwritten by synthetic ones.
+std::string synthetic_csv_of(const MeasuredData& data);
+bool is_synthetic(const std::string& csv);
+
+}  // namespace boresight

@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/calibration/calibrator.hpp"
+#include "boresight_analyses/calibration/landscape.hpp"
+#include "boresight_analyses/calibration/profile_likelihood.hpp"
+#include "boresight_analyses/random/counter_stream.hpp"
+
+namespace boresight {
+namespace {
+
+// Where no start leads to residuals like noise, more batches are tried, and more of them followed.
+constexpr int kMostStarts = 24;
+constexpr int kMostFollowed = 6;
+
+// A place lower by this share of s^2, come by along a profile, is gone to, and the profile taken anew. Below
+// it the interval is at most a tenth too wide.
+constexpr double kLower = 1.0;
+
+// Rounds of looking into other valleys, and descents in each.
+constexpr int kMostSettlings = 4, kDescents = 2;
+
+}  // namespace
+
+FitOptions Calibrator::fit_options(const std::string& stage, int iterations, int jobs) {
+  FitOptions o;
+  o.jobs = jobs;
+  o.most_iterations = iterations;
+  o.fixed = result_.fixed;
+  o.progress = [this, stage](const FitProgress& p) {
+    std::string text;
+    const std::vector<double> values = problem_.values(p.globals);
+    char number[160];
+    std::snprintf(number, sizeof number, "iteration %d, cost %.6g", p.iteration, p.cost);
+    text = number;
+    for (std::size_t k = 0; k < std::min<std::size_t>(4, values.size()); ++k) {
+      const std::string& path = problem_.parameters[k].path;
+      std::snprintf(number, sizeof number, ", %s %.4g", path.substr(path.rfind('.') + 1).c_str(), values[k]);
+      text += number;
+    }
+    const std::lock_guard lock(mutex_);
+    return !options_.progress || options_.progress(stage, 0.0, text);
+  };
+  return o;
+}
+
+void Calibrator::search() {
+  const CalibrationProblem part = searched_up_to(problem_, 0.125);
+  const auto cheaper = [](const Descent& a, const Descent& b) { return a.cost < b.cost; };
+  std::vector<Descent> tried;
+  std::size_t next = 0;
+  std::optional<FitResult> best;
+  for (int followed = 0; followed < kMostFollowed; ++followed) {
+    while (static_cast<int>(tried.size()) < kMostStarts &&
+           (next == tried.size() || leaves_more_than_noise(part, tried[next].to))) {
+      try_starts(part, std::max(1, options_.starts), tried);
+      std::sort(tried.begin() + static_cast<std::ptrdiff_t>(next), tried.end(), cheaper);
+    }
+    if (next == tried.size()) break;
+    if (!grow(tried[next++].to, true)) continue;
+    if (!best || result_.fit.cost < best->cost) best = result_.fit;
+    if (!leaves_more_than_noise(problem_, best->globals)) break;
+  }
+  if (!best) {
+    grow(std::min_element(tried.begin(), tried.end(), cheaper)->to, false);
+    best = result_.fit;
+  }
+  result_.fit = *best;
+}
+
+Globals Calibrator::start(int number) const {
+  const CounterStream stream(options_.seed, StreamPurpose::sample);
+  Globals at = problem_.start();
+  for (int p = 0; number > 0 && p < problem_.parameter_count(); ++p) {
+    const FittedParameter& parameter = problem_.parameters[p];
+    const double reach = parameter.transform == Transform::log ? std::log(2.0) : 1.0;
+    const double draw = stream.uniform(static_cast<std::uint64_t>(number), static_cast<std::uint64_t>(p));
+    at.u[p] =
+        std::clamp(at.u[p] + reach * (2.0 * draw - 1.0), parameter.lowest_coordinate(), parameter.highest_coordinate());
+  }
+  return at;
+}
+
+void Calibrator::try_starts(const CalibrationProblem& part, int count, std::vector<Descent>& tried) {
+  const int before = static_cast<int>(tried.size()), side_by_side = std::min(options_.jobs, count);
+  std::vector<Descent> more(count);
+  std::atomic<bool> stop{false};
+  for_each_on_threads(count, side_by_side, [&](int s) {
+    Descent& d = more[s];
+    d.from = d.to = start(before + s);
+    for (const double share :
+         follows_from_rest(part) ? std::vector<double>{0.25, 0.5, 1.0} : std::vector<double>{1.0}) {
+      if (stop) return;
+      FitOptions o = fit_options("start " + std::to_string(before + s + 1) + " of " + std::to_string(before + count),
+                                 12, std::max(1, options_.jobs / side_by_side));
+      o.cost_tolerance = 1e-4;
+      const FitResult found = fit(searched_up_to(part, share), d.to, {}, o);
+      stop = stop || found.interrupted;
+      d.evaluations += found.evaluations;
+      d.to = found.globals;
+      d.cost = found.cost;
+    }
+  });
+  if (stop) throw CalibrationInterrupted{};
+  for (const Descent& d : more) {
+    result_.starts.push_back({problem_.values(d.from), problem_.values(d.to), d.cost});
+    result_.evaluations += d.evaluations;
+    tried.push_back(d);
+  }
+}
+
+bool Calibrator::grow(Globals at, bool give_up) {
+  for (double share = 0.25; share < 0.99 && follows_from_rest(problem_); share *= 2.0) {
+    FitOptions o = fit_options("horizon " + std::to_string(static_cast<int>(100.0 * share)) + " %", 10, options_.jobs);
+    o.cost_tolerance = 1e-5;
+    const CalibrationProblem part = searched_up_to(problem_, share);
+    const FitResult found = fit(part, at, {}, o);
+    result_.evaluations += found.evaluations;
+    if (found.interrupted) throw CalibrationInterrupted{};
+    at = found.globals;
+    if (share > 0.4) look_around(part, result_.fixed, options_.jobs, at);
+    if (give_up && leaves_more_than_noise(part, at)) return false;
+  }
+  if (follows_from_rest(problem_)) {
+    const FitResult found = fit(searched_up_to(problem_, 1.0), at, {}, fit_options("whole data", 20, options_.jobs));
+    result_.evaluations += found.evaluations;
+    if (found.interrupted) throw CalibrationInterrupted{};
+    at = found.globals;
+  }
+  note(fit(problem_, at, {}, fit_options("whole data", 30, options_.jobs)));
+  settle("whole data");
+  return true;
+}
+
+void Calibrator::settle(const std::string& stage) {
+  if (!follows_from_rest(problem_)) return;
+  for (int round = 0; round < kMostSettlings; ++round) {
+    const double before = result_.fit.cost;
+    const Inference inference = infer_now();
+    std::vector<Globals> places =
+        other_valleys(problem_, result_.fit, inference, result_.fixed, options_.jobs, result_.evaluations);
+    places.resize(std::min<std::size_t>(kDescents, places.size()));
+    for (const Globals& place : places) {
+      FitResult found = fit(problem_, place, {}, fit_options(stage + ", another valley", 15, options_.jobs));
+      if (found.interrupted) throw CalibrationInterrupted{};
+      result_.evaluations += found.evaluations;
+      if (found.cost < result_.fit.cost) result_.fit = std::move(found);
+    }
+    if (!(result_.fit.cost < before - 0.1 * inference.variance_factor)) return;
+  }
+}
+
+void Calibrator::profile() {
+  if (!options_.profile) return;
+  for (int round = 0; round < kMostSettlings; ++round) {
+    tell("profile likelihood", 0.0, "");
+    FitResult lower = result_.fit;
+    result_.profiles = profile_likelihood(problem_, result_.fit, result_.inference, result_.fixed, options_.confidence,
+                                          options_.jobs, lower);
+    if (!(lower.cost < result_.fit.cost - kLower * result_.inference.variance_factor)) break;
+    note(fit(problem_, lower.globals, lower.states, fit_options("from a lower place", 15, options_.jobs)));
+    result_.inference = infer_now();
+  }
+  take_intervals(result_.profiles, options_.confidence, problem_, result_.inference);
+}
+
+}  // namespace boresight

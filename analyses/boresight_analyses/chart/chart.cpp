@@ -1,0 +1,137 @@
+#include "boresight_analyses/chart/chart.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+class Chart {
+ public:
+  Chart(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters, const ChartOptions& options)
+      : mechanism_(mechanism), parameters_(parameters), options_(options) {}
+
+  ChartResult run() {
+    result_.index = options_.index.title();
+    result_.unit = options_.index.si_unit();
+    result_.machine = this_machine();
+    try {
+      now_ = "the reference";
+      ReferenceOptions reference{
+          .target = options_.reference_target, .most_seconds = options_.reference_seconds, .measure = measuring(0.0)};
+      const auto multibody = make_rung("multibody", mechanism_);
+      result_.reference = find_reference(*multibody, parameters_, reference);
+      const std::vector<WayFamily> families = chart_ways(result_.reference.own_step);
+      runs_left_ = 0;
+      for (const WayFamily& f : families) runs_left_ += 3 * f.ways.size();
+      runs_left_ += 3;
+      done_before_ = 0.15;
+      runs_ = 0;
+      add(papers_way(), "multibody, paper, baumgarte, rk4", *multibody, true);
+      for (const WayFamily& family : families) measure_family(family);
+      if (options_.flight) {
+        now_ = "the flight before the first impact";
+        done_before_ = 0.85;
+        runs_left_ = 200;
+        runs_ = 0;
+        result_.flight = fly(*mechanism_, parameters_, result_.reference.own_step, 0.2 * options_.total_seconds,
+                             [this] { return advance(); });
+      }
+    } catch (const MeasurementInterrupted&) {
+      result_.interrupted = true;
+    }
+    result_.front = pareto_front(result_.points, result_.reference.uncertainty);
+    return result_;
+  }
+
+ private:
+  bool advance() {
+    const double width = done_before_ == 0.0 ? 0.15 : done_before_ < 0.5 ? 0.7 : 0.15;
+    const double share =
+        done_before_ + width * std::min(1.0, static_cast<double>(runs_++) / std::max<std::size_t>(1, runs_left_));
+    return !options_.progress || options_.progress(share, now_);
+  }
+  MeasureOptions measuring(double most_seconds) {
+    return {.index = options_.index, .most_seconds = most_seconds, .advance = [this] { return advance(); }};
+  }
+
+  // From coarse to fine, until finer ways only cost more: below the floor of the reference, or too long.
+  void measure_family(const WayFamily& family) {
+    now_ = family.name;
+    if (spent_ > options_.total_seconds) {
+      result_.left_out.push_back(family.name);
+      return;
+    }
+    // Each family with a rung of its own: what it precomputes is not charged to it, and not shared.
+    const auto rung = make_rung(family.ways.front().rung, mechanism_);
+    int below = 0;
+    for (const Way& way : family.ways) {
+      const ChartPoint& point = add(way, family.name, *rung, false);
+      const bool too_long = !point.measured.refusal.empty() && point.measured.spent_seconds > options_.most_seconds;
+      below = point.measured.refusal.empty() && point.error <= result_.reference.uncertainty ? below + 1 : 0;
+      if (too_long || below == 2 || spent_ > options_.total_seconds) break;
+    }
+  }
+
+  const ChartPoint& add(const Way& way, const std::string& family, const Rung& rung, bool papers) {
+    ChartPoint point{.way = way,
+                     .family = family,
+                     .measured = measure(rung, parameters_, way, measuring(options_.most_seconds)),
+                     .papers = papers};
+    spent_ += point.measured.spent_seconds;
+    if (point.measured.refusal.empty()) point.error = relative_error(point.measured, result_.reference.value);
+    result_.points.push_back(std::move(point));
+    return result_.points.back();
+  }
+
+  std::shared_ptr<const Mechanism> mechanism_;
+  const Parameters& parameters_;
+  const ChartOptions& options_;
+  ChartResult result_;
+  std::string now_;
+  double done_before_ = 0.0, spent_ = 0.0;
+  std::size_t runs_ = 0, runs_left_ = 15;
+};
+
+}  // namespace
+
+const ChartPoint* ChartResult::papers() const {
+  for (const ChartPoint& p : points)
+    if (p.papers && p.measured.refusal.empty()) return &p;
+  return nullptr;
+}
+
+const ChartPoint* ChartResult::cheapest_within(double accuracy) const {
+  const ChartPoint* best = nullptr;
+  for (const ChartPoint& p : points)
+    if (p.measured.refusal.empty() && p.error <= accuracy &&
+        (!best || p.measured.cpu_seconds < best->measured.cpu_seconds))
+      best = &p;
+  return best;
+}
+
+std::vector<std::size_t> pareto_front(const std::vector<ChartPoint>& points, double floor) {
+  std::vector<std::size_t> order(points.size()), front;
+  std::iota(order.begin(), order.end(), 0);
+  order.erase(
+      std::remove_if(order.begin(), order.end(), [&](std::size_t k) { return !points[k].measured.refusal.empty(); }),
+      order.end());
+  const auto error = [&](std::size_t k) { return std::max(points[k].error, floor); };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const double ta = points[a].measured.cpu_seconds, tb = points[b].measured.cpu_seconds;
+    return ta != tb ? ta < tb : error(a) < error(b);
+  });
+  for (std::size_t k : order)
+    if (front.empty() || error(k) < error(front.back())) front.push_back(k);
+  return front;
+}
+
+ChartResult make_chart(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters,
+                       const ChartOptions& options) {
+  return Chart(mechanism, parameters, options).run();
+}
+
+}  // namespace boresight

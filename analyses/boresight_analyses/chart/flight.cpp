@@ -1,0 +1,110 @@
+#include "boresight_analyses/chart/flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/cpu_clock.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr double kBeforeContact = 0.9;  // share of the time to the first contact
+constexpr int kRepeats = 3;
+constexpr int kCoarsest = 4, kFinest = 512;  // steps in the flight
+
+double first_contact(const Rung& multibody, const Mechanism& mechanism, const Parameters& parameters, double own_step) {
+  RunOptions options;
+  options.step = own_step;
+  options.sample_spacing = 0.0;
+  const RunResult result = multibody.run(parameters, options);
+  double first = mechanism.duration();
+  for (const ContactEvent& e : result.events) first = std::min(first, e.start);
+  return first;
+}
+
+// The position error of the boresight body at the end.
+Vec3 displacement_at_end(const RunResult& result) { return result.boresight.samples.back().error.displacement; }
+
+}  // namespace
+
+Flight fly(const Mechanism& mechanism, const Parameters& parameters, double own_step, double most_seconds,
+           const std::function<bool()>& advance) {
+  const double start = thread_cpu_seconds();
+  Flight flight;
+  const auto ask = [&] {
+    if (!advance()) throw MeasurementInterrupted{};
+  };
+  const auto whole = std::make_shared<const Mechanism>(mechanism);
+  ask();
+  flight.first_contact = first_contact(*make_rung("multibody", whole), mechanism, parameters, own_step);
+  flight.end = kBeforeContact * flight.first_contact;
+  double clearance = 0.0;
+  for (const ClearanceParameters& c : parameters.clearance) clearance = std::max({clearance, c.radial, c.axial});
+  if (!(flight.end > 0.0) || clearance == 0.0) {
+    flight.why_not = clearance == 0.0 ? "no joint has clearance" : "the motion begins in contact";
+    return flight;
+  }
+  MechanismDescription description = mechanism.description();
+  description.motion.duration = flight.end;
+  const auto shortened = std::make_shared<const Mechanism>(std::move(description));
+  const auto run = [&](const Rung& rung, const Way& way) {
+    RunOptions options = way.options();
+    options.sample_spacing =
+        flight.end / 16.0;  // samples may lie a thousandth of this early: less than the finest step
+    return rung.run(parameters, options);
+  };
+
+  const auto multibody = make_rung("multibody", shortened);
+  Way finest{.rung = "multibody", .formulation = "tree", .stabilisation = "projection", .integrator = "rk4"};
+  finest.step = flight.end / (4.0 * kFinest);
+  const Vec3 reference = displacement_at_end(run(*multibody, finest));
+  finest.step *= 2.0;
+  flight.rounding = (displacement_at_end(run(*multibody, finest)) - reference).norm() / clearance;
+
+  for (const WayFamily& family : chart_ways(own_step)) {
+    Way way = family.ways.front();
+    if (way.stepless()) continue;  // they know no trajectory
+    if (thread_cpu_seconds() - start > most_seconds) {
+      flight.left_out.push_back(family.name);
+      continue;
+    }
+    const auto rung = make_rung(way.rung, shortened);
+    std::vector<Way> ways;
+    if (way.integrator == "rk4")
+      for (int steps = kCoarsest; steps <= kFinest; steps *= 2) {
+        way.step = flight.end / steps;
+        ways.push_back(way);
+      }
+    else
+      ways = family.ways;
+    for (const Way& w : ways) {
+      FlightPoint point{.way = w,
+                        .family = family.name,
+                        .error = 0.0,
+                        .cpu_seconds = std::numeric_limits<double>::infinity(),
+                        .refusal = ""};
+      try {
+        for (int k = 0; k < kRepeats; ++k) {
+          ask();
+          const RunResult result = run(*rung, w);
+          point.error = (displacement_at_end(result) - reference).norm() / clearance;
+          point.cpu_seconds = std::min(point.cpu_seconds, result.cost.cpu_seconds);
+        }
+      } catch (const ComputationError& failure) {
+        point.refusal = failure.what();
+      } catch (const std::invalid_argument& failure) {
+        point.refusal = failure.what();
+      }
+      flight.points.push_back(std::move(point));
+      if (!flight.points.back().refusal.empty()) break;
+    }
+  }
+  return flight;
+}
+
+}  // namespace boresight

@@ -1,0 +1,76 @@
+#include "boresight_analyses/chart/ways.hpp"
+
+#include <array>
+#include <cstdio>
+
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/stepping/unstable_step.hpp"
+
+namespace boresight {
+namespace {
+
+// Of a fixed step, against the rung's own; of a tolerance.
+constexpr double kShares[] = {8.0, 4.0, 2.0, 1.0, 0.5, 0.25};
+constexpr double kTolerances[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
+
+WayFamily family_of(Way way, double own_step) {
+  WayFamily family{way.family(), {}};
+  if (way.stepless()) {
+    family.ways = {way};
+  } else if (way.integrator == "rk4") {
+    for (double share : kShares) {
+      way.step = share * own_step;
+      family.ways.push_back(way);
+    }
+  } else {
+    for (double tolerance : kTolerances) {
+      way.tolerance = tolerance;
+      family.ways.push_back(way);
+    }
+  }
+  return family;
+}
+
+}  // namespace
+
+std::vector<WayFamily> chart_ways(double own_step) {
+  std::vector<WayFamily> families;
+  const auto add = [&](const Way& way) { families.push_back(family_of(way, own_step)); };
+  for (const std::string& rung : rung_names()) {
+    if (Way{.rung = rung}.stepless()) add({.rung = rung});
+    if (rung != "multibody") {
+      for (const std::string& integrator : integrator_names(rung)) add({.rung = rung, .integrator = integrator});
+      continue;
+    }
+    // Each formulation with its own habit; with RK4 the other's too. The cheaper formulation first: time may
+    // run out.
+    for (const auto& [formulation, habit, other] :
+         {std::array{"tree", "projection", "baumgarte"}, std::array{"paper", "baumgarte", "projection"}}) {
+      for (const std::string& integrator : integrator_names(rung))
+        add({.rung = rung, .formulation = formulation, .stabilisation = habit, .integrator = integrator});
+      add({.rung = rung, .formulation = formulation, .stabilisation = other, .integrator = "rk4"});
+    }
+  }
+  return families;
+}
+
+Way papers_way() {
+  return {.rung = "multibody",
+          .formulation = "paper",
+          .stabilisation = "baumgarte",
+          .integrator = "rk4",
+          .step = kPaperStep};
+}
+
+std::string fineness(const Way& way) {
+  char text[60];
+  if (way.stepless()) return "no steps";
+  if (way.tolerance > 0.0)
+    std::snprintf(text, sizeof text, "tolerance %.3g", way.tolerance);
+  else
+    std::snprintf(text, sizeof text, "h = %.4g us", 1e6 * way.step);
+  return text;
+}
+
+}  // namespace boresight

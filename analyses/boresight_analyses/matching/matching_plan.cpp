@@ -1,0 +1,135 @@
+#include "boresight_analyses/matching/matching_plan.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "boresight/io/names_of.hpp"
+#include "boresight/io/units.hpp"
+#include "boresight_analyses/matching/design_slopes.hpp"
+#include "boresight_analyses/optimise/minimise.hpp"
+#include "boresight_analyses/study/plan_values.hpp"
+
+namespace boresight {
+namespace {
+
+MeasureChoice read_measure(Cursor& table, const std::string& key) {
+  MeasureChoice m;
+  const std::string measure = table.choice(key, names_of(measure_names()), "index");
+  for (const MeasureName& name : measure_names())
+    if (measure == name.name) m.measure = name.measure;
+  const std::string over = table.choice("over", names_of(over_names()), "nominal");
+  for (const OverName& name : over_names())
+    if (over == name.name) m.over = name.over;
+  if (table.has("probability")) {
+    if (m.over != Over::quantile) table.fail("probability", "probability with over = \"quantile\" only");
+    m.probability = table.number("probability");
+    table.require(m.probability > 0.0 && m.probability < 1.0, "probability", "more than 0 and less than 1");
+  }
+  return m;
+}
+
+int count(Cursor& table, const std::string& key, long long least, long long most, int otherwise) {
+  const long long value = table.integer(key, otherwise);
+  table.require(value >= least && value <= most, key, std::to_string(least) + " to " + std::to_string(most));
+  return static_cast<int>(value);
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> MatchingPlan::starts() const {
+  std::size_t most = 1;
+  for (const DesignVariable& v : variables) most = std::max(most, v.starts.size());
+  std::vector<std::vector<double>> all(most);
+  for (std::size_t k = 0; k < most; ++k)
+    for (const DesignVariable& v : variables)
+      all[k].push_back(v.starts.empty() ? v.from_search(0.5 * (v.to_search(v.from) + v.to_search(v.to)))
+                                        : v.starts[std::min(k, v.starts.size() - 1)]);
+  return all;
+}
+
+Parameters MatchingPlan::parameters_with(const Mechanism& mechanism, std::span<const double> values) const {
+  Parameters p = inputs ? inputs->parameters_with(mechanism, values.subspan(variables.size())) : mechanism.parameters();
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    for (const ParameterPath& place : variables[i].places) place.set(p, values[i]);
+  return p;
+}
+
+std::string MatchingPlan::sample_text(const Study& study) const {
+  std::string text = "index " + study.index.text() + "\nseed " + std::to_string(seed) + " samples " +
+                     std::to_string(samples) + " confirm " + std::to_string(confirm) + "\n";
+  for (const DesignVariable& v : variables) {
+    for (const std::string& path : v.paths) text += path + " ";
+    text += "\n";
+  }
+  return inputs ? text + inputs->text : text;
+}
+
+MatchingPlan read_matching_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
+                                const std::function<void(const Setting&)>& accepts) {
+  Cursor table = root.table("match");
+  table.only({"minimise", "over", "probability", "samples", "seed", "evaluations", "tolerance", "global", "local",
+              "map", "front", "confirm", "variable", "constraint"});
+  MatchingPlan plan;
+  plan.objective = read_measure(table, "minimise");
+  bool scatters = plan.objective.over != Over::nominal;
+  for (Cursor& entry : table.tables("constraint")) {
+    entry.only({"measure", "at_most", "over", "probability"});
+    MatchingConstraint c;
+    c.measure = read_measure(entry, "measure");
+    const std::string unit = c.measure.si_unit(study.index);
+    c.at_most = unit == "1" ? entry.number("at_most") : entry.quantity("at_most", unit_called(unit));
+    entry.require(c.at_most > 0.0, "at_most", "more than 0");
+    if ((c.measure.over == Over::nominal) != (plan.objective.over == Over::nominal))
+      entry.fail("over", "nominal for the objective and all constraints, or for none of them");
+    scatters = scatters || c.measure.over != Over::nominal;
+    plan.constraints.push_back(c);
+    entry.finish();
+  }
+  plan.samples = static_cast<std::size_t>(count(table, "samples", 2, 1'000'000, 32));
+  plan.confirm = static_cast<std::size_t>(count(table, "confirm", 2, 1'000'000, 64));
+  if (!scatters)
+    for (const char* key : {"samples", "confirm"})
+      if (table.has(key)) table.fail(key, std::string(key) + " with over = \"mean\", \"quantile\" or \"worst\" only");
+  plan.seed = seed_of(table);
+  plan.evaluations = count(table, "evaluations", 1, 1'000'000, plan.evaluations);
+  plan.tolerance = table.number("tolerance", plan.tolerance);
+  table.require(plan.tolerance > 0.0 && plan.tolerance < 1.0, "tolerance", "more than 0 and less than 1");
+  plan.global = table.choice("global", global_algorithms(), "auto");
+  plan.local = table.choice("local", local_algorithms(), "auto");
+  plan.map = count(table, "map", 0, 200, plan.map);
+  if (plan.map == 1) table.fail("map", "0, or 2 to 200");
+  plan.front = count(table, "front", 0, 100, plan.front);
+
+  std::set<std::string> taken;
+  for (Cursor& entry : table.tables("variable")) {
+    plan.variables.push_back(read_design_variable(entry, mechanism, accepts));
+    for (const std::string& path : plan.variables.back().paths)
+      if (!taken.insert(path).second)
+        entry.fail_found("parameter", "\"" + path + "\" a second time", "each parameter once");
+  }
+  if (plan.variables.empty()) table.fail("variable", "at least one [[match.variable]] table: what may be chosen");
+  const std::size_t n = plan.variables.size();
+  if (plan.local == "bobyqa" && n < 2) table.fail("local", "cobyla: bobyqa wants two variables or more");
+  if (plan.wants_gradients())
+    if (const std::string why = why_no_slopes(plan); !why.empty())
+      table.fail("local", "cobyla or bobyqa, which need no gradients: " + why);
+  if (!plan.constraints.empty()) {
+    if (plan.local == "bobyqa") table.fail("local", "cobyla: bobyqa takes no constraints");
+    if (plan.global == "crs2" || plan.global == "mlsl")
+      table.fail("global", "direct-l or isres: " + plan.global + " takes no constraints");
+  }
+  table.finish();
+  if (scatters) {
+    plan.inputs = read_random_inputs(root, mechanism, accepts);
+    for (const RandomParameter& p : plan.inputs->parameters)
+      for (const std::string& path : p.paths)
+        if (taken.contains(path))
+          root.fail_found("random", "\"" + path + "\", which is a variable of [match] too",
+                          "parameters that are either chosen or scatter");
+  } else {
+    plan.samples = plan.confirm = 1;
+  }
+  return plan;
+}
+
+}  // namespace boresight

@@ -1,0 +1,174 @@
+#include "boresight_analyses/montecarlo/montecarlo_plan.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "boresight/io/units.hpp"
+#include "boresight/io/value_fault.hpp"
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/study/plan_values.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr long long kMostPerReplicate = 1'000'000;
+
+SiUnit unit_of_index(const std::string& si_unit) { return si_unit == "rad" ? kAngle : kLength; }
+
+StopRule read_stop(Cursor table) {
+  table.only({"width", "of", "time"});
+  StopRule stop;
+  if (table.has("width")) {
+    stop.width = table.quantity("width", kRatio);
+    table.require(stop.width > 0.0 && stop.width < 1.0, "width", "more than 0 % and less than 100 %");
+  }
+  std::vector<std::string> names;
+  for (const Headline& h : headlines()) names.emplace_back(h.name);
+  stop.of = table.choice("of", names, stop.of);
+  if (table.has("time")) {
+    stop.seconds = table.quantity("time", kDuration);
+    table.require(stop.seconds > 0.0, "time", "more than 0");
+  }
+  table.require(stop.width > 0.0 || stop.seconds > 0.0, "width", "width, or time, or both");
+  table.finish();
+  return stop;
+}
+
+void read_budget(Cursor& table, double& budget, std::uint64_t& pilot) {
+  budget = table.quantity("budget", kDuration);
+  table.require(budget > 0.0, "budget", "more than 0");
+  const long long samples = table.integer("pilot", static_cast<long long>(pilot));
+  table.require(samples >= 10 && samples <= 100'000, "pilot", "10 to 100000");
+  pilot = static_cast<std::uint64_t>(samples);
+}
+
+FidelityQuestion read_fidelities(Cursor table) {
+  table.only({"models", "budget", "pilot"});
+  FidelityQuestion q;
+  q.models = table.texts("models");
+  const std::vector<std::string> known = rung_names();
+  for (std::size_t i = 0; i < q.models.size(); ++i) {
+    const std::string& name = q.models[i];
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      table.fail_found("models", "\"" + name + "\"", "the name of a rung", nearest_name(name, known));
+    if (std::find(q.models.begin(), q.models.begin() + static_cast<std::ptrdiff_t>(i), name) !=
+        q.models.begin() + static_cast<std::ptrdiff_t>(i))
+      table.fail_found("models", "\"" + name + "\" a second time", "each rung once");
+  }
+  table.require(q.models.size() >= 2, "models", "two rungs or more, the one to be unbiased for first");
+  read_budget(table, q.budget, q.pilot);
+  table.finish();
+  return q;
+}
+
+TailQuestion read_tail(Cursor table) {
+  table.only({"cheap", "exact", "budget", "pilot"});
+  TailQuestion q;
+  q.cheap = table.choice("cheap", rung_names(), "perturbation");
+  q.exact = table.choice("exact", rung_names(), "multibody");
+  table.require(q.cheap != q.exact, "cheap", "another rung than exact");
+  read_budget(table, q.budget, q.pilot);
+  table.finish();
+  return q;
+}
+
+}  // namespace
+
+Requirement read_requirement(Cursor table, const Study& study) {
+  table.only({"limit", "probability", "confidence"});
+  Requirement r;
+  r.limit = table.quantity("limit", unit_of_index(study.index.si_unit()));
+  table.require(r.limit > 0.0, "limit", "more than 0");
+  r.probability = share_of(table, "probability", r.probability);
+  r.confidence = share_of(table, "confidence", r.confidence);
+  table.require(r.confidence > 0.5, "confidence", "more than 0.5 and less than 1");
+  table.finish();
+  return r;
+}
+
+const std::vector<Headline>& headlines() {
+  static const std::vector<Headline> all = {{"mean", 0.0}, {"sd", 0.0},   {"p50", 0.5},
+                                            {"p95", 0.95}, {"p99", 0.99}, {"p99.73", 0.9973}};
+  return all;
+}
+
+namespace {
+
+// To the last bit: two limits a nanometre apart are two studies.
+std::string exact_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+}  // namespace
+
+std::string MonteCarloPlan::sample_text(const Study& study) const {
+  std::string text = inputs.text + design.text() + "\nindex " + study.index.text() + "\n";
+  // The budget divides the samples: another one is another study.
+  if (fidelities) {
+    text += "fidelities";
+    for (const std::string& model : fidelities->models) text += " " + model;
+    text += " " + exact_text(fidelities->budget) + " " + std::to_string(fidelities->pilot) + "\n";
+  }
+  if (tail)
+    text += "tail " + tail->cheap + " " + tail->exact + " " + exact_text(tail->budget) + " " +
+            std::to_string(tail->pilot) + " " + exact_text(requirement->limit) + "\n";
+  return text;
+}
+
+MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
+                                    const std::function<void(const Setting&)>& accepts) {
+  Cursor table = root.table("montecarlo");
+  table.only(
+      {"samples", "seed", "design", "strata", "replicates", "confidence", "requirement", "stop", "fidelities", "tail"});
+  MonteCarloPlan plan;
+  // Those that have a budget take as many samples as it pays.
+  const bool by_budget = table.has("fidelities") || table.has("tail");
+  const long long samples = by_budget ? table.integer("samples", 1) : table.integer("samples");
+  table.require(samples >= 1 && static_cast<std::uint64_t>(samples) <= kMostMonteCarloSamples, "samples",
+                "1 to " + std::to_string(kMostMonteCarloSamples));
+  plan.samples = static_cast<std::uint64_t>(samples);
+  plan.design.seed = seed_of(table);
+
+  const std::string design = table.choice("design", {"random", "lhs", "sobol"}, "random");
+  for (const DesignKind kind : {DesignKind::random, DesignKind::lhs, DesignKind::sobol})
+    if (design == to_string(kind)) plan.design.kind = kind;
+  if (table.has("strata") && plan.design.kind != DesignKind::lhs)
+    table.fail("strata", "strata with design = \"lhs\" only");
+  if (table.has("replicates") && plan.design.kind != DesignKind::sobol)
+    table.fail("replicates", "replicates with design = \"sobol\" only");
+  plan.design.strata = count_of(table, "strata", 2, kMostPerReplicate, static_cast<long long>(plan.design.strata));
+  plan.design.replicates =
+      count_of(table, "replicates", 2, kMostPerReplicate, static_cast<long long>(plan.design.replicates));
+  const std::uint64_t unit = plan.design.kind == DesignKind::lhs     ? plan.design.strata
+                             : plan.design.kind == DesignKind::sobol ? plan.design.replicates
+                                                                     : 1;
+  if (plan.samples % unit != 0 || (unit > 1 && plan.samples < 2 * unit))
+    table.fail("samples", std::string("a multiple of ") +
+                              (plan.design.kind == DesignKind::lhs ? "strata" : "replicates") + " (" +
+                              std::to_string(unit) + "), at least twice: " +
+                              std::to_string(std::max<std::uint64_t>(2, (plan.samples + unit - 1) / unit) * unit));
+
+  plan.confidence = share_of(table, "confidence", plan.confidence);
+  if (table.has("requirement")) plan.requirement = read_requirement(table.table("requirement"), study);
+  if (table.has("stop")) plan.stop = read_stop(table.table("stop"));
+  if (table.has("fidelities")) plan.fidelities = read_fidelities(table.table("fidelities"));
+  if (table.has("tail")) plan.tail = read_tail(table.table("tail"));
+  if (by_budget) {
+    if (plan.fidelities && plan.tail) table.fail("tail", "fidelities, or tail, not both");
+    if (plan.design.kind != DesignKind::random)
+      table.fail("design", "\"random\" with fidelities or tail: their intervals are for independent samples");
+    if (table.has("stop")) table.fail("stop", "no stop with fidelities or tail: their budget ends them");
+    if (plan.tail && !plan.requirement)
+      table.fail("requirement", "a requirement with tail: its limit is what is exceeded");
+  }
+  table.finish();
+  plan.inputs = read_random_inputs(root, mechanism, accepts);
+  if (plan.design.kind == DesignKind::sobol && plan.inputs.size() > static_cast<std::size_t>(SobolNet::kMostDimensions))
+    table.fail("design", "at most " + std::to_string(SobolNet::kMostDimensions) + " random parameters with \"sobol\"");
+  return plan;
+}
+
+}  // namespace boresight

@@ -1,0 +1,57 @@
+#include "boresight_analyses/optimise/design_variable.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+
+double DesignVariable::to_search(double value) const { return log ? std::log(value) : value; }
+double DesignVariable::slope_of_search(double x) const { return log ? std::exp(x) : 1.0; }
+double DesignVariable::from_search(double x) const {
+  const double value = log ? std::exp(x) : x;
+  return std::min(std::max(value, from), to);  // the logarithm's rounding
+}
+
+DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& mechanism,
+                                    const std::function<void(const Setting&)>& accepts) {
+  entry.only({"parameter", "from", "to", "starts", "scale"});
+  DesignVariable v;
+  v.paths = entry.is_list("parameter") ? entry.texts("parameter") : std::vector<std::string>{entry.text("parameter")};
+  entry.require(!v.paths.empty(), "parameter", "a parameter's path, or a list of them");
+  for (const std::string& path : v.paths) {
+    v.places.emplace_back(mechanism, path, entry.origin("parameter"));
+    if (v.si_unit.empty()) v.si_unit = v.places.back().unit();
+    if (v.places.back().unit() != v.si_unit)
+      entry.fail_found("parameter", "\"" + path + "\" in " + v.places.back().unit(),
+                       "parameters that take the same values, in " + v.si_unit);
+  }
+  const bool pure = v.si_unit == "1";
+  const SiUnit unit = unit_called(v.si_unit);
+  v.from = pure ? entry.number("from") : entry.quantity("from", unit);
+  v.to = pure ? entry.number("to") : entry.quantity("to", unit);
+  entry.require(v.from < v.to, "to", "more than from");
+  v.log = entry.choice("scale", {"linear", "log"}, "linear") == "log";
+  if (v.log) entry.require(v.from > 0.0, "from", "more than 0, as the scale is \"log\"");
+  if (entry.has("starts")) {
+    v.starts = pure ? entry.numbers("starts") : entry.quantities("starts", unit);
+    for (const double start : v.starts)
+      entry.require(start >= v.from && start <= v.to, "starts", "values between from and to");
+  }
+  for (const char* key : {"from", "to"}) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", key == std::string("from") ? v.from : v.to);
+    for (const std::string& path : v.paths) {
+      try {
+        accepts({path, pure ? std::string(text) : text + (" " + v.si_unit)});
+      } catch (const InputError& error) {
+        throw InputError(entry.origin(key), path, error.found, error.expected, error.nearest);
+      }
+    }
+  }
+  entry.finish();
+  return v;
+}
+
+}  // namespace boresight

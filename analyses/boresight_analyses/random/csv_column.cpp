@@ -1,0 +1,47 @@
+#include "boresight_analyses/random/csv_column.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "boresight/io/csv_fields.hpp"
+#include "boresight/io/text_lines.hpp"
+#include "boresight/io/units.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {}  // namespace
+
+std::string beside(const std::string& file, const std::string& name) {
+  const std::filesystem::path path = name;
+  return path.is_absolute() ? name : (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
+}
+
+std::vector<double> read_csv_column(const std::string& file, const std::string& column) try {
+  TextLines lines(file);
+  std::string line;
+  if (!lines.next(line)) throw ColumnFault{true, "an empty file " + in_quotes(file), "a CSV file", ""};
+  const std::vector<std::string> names = csv_fields(line);
+  const auto place = std::find(names.begin(), names.end(), column);
+  if (place == names.end())
+    throw ColumnFault{false, in_quotes(column), "a column of " + in_quotes(file), nearest_name(column, names)};
+  const auto index = static_cast<std::size_t>(place - names.begin());
+  std::vector<double> values;
+  while (lines.next(line)) {
+    if (trimmed(line).empty()) continue;
+    const std::vector<std::string> row = csv_fields(line);
+    double value = 0.0;
+    if (index >= row.size() || !parse_number(row[index], value))
+      throw ColumnFault{false,
+                        (index < row.size() ? in_quotes(row[index]) : std::string("nothing")) + " in line " +
+                            std::to_string(lines.number()) + " of " + in_quotes(file),
+                        "a finite number", ""};
+    values.push_back(value);
+  }
+  if (values.empty()) throw ColumnFault{false, "no values in " + in_quotes(file), "at least one", ""};
+  return values;
+} catch (const InputError& fault) {
+  const std::string line = fault.origin.line > 0 ? " in line " + std::to_string(fault.origin.line) : "";
+  throw ColumnFault{true, in_quotes(file) + ": " + fault.found + line, "a CSV file (" + fault.expected + ")", ""};
+}
+
+}  // namespace boresight

@@ -1,0 +1,158 @@
+#include "boresight_analyses/random/random_inputs.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "boresight/io/units.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/random/read_distribution.hpp"
+
+namespace boresight {
+namespace {
+
+void check_ends(Cursor& entry, const RandomParameter& random, const std::function<void(const Setting&)>& accepts) {
+  constexpr double kRare = 1e-9;
+  for (const double value : {random.distribution->quantile(kRare), random.distribution->upper_quantile(kRare)}) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    for (const std::string& path : random.paths) {
+      try {
+        accepts({path, random.si_unit == "1" ? std::string(text) : text + (" " + random.si_unit)});
+      } catch (const InputError& error) {
+        throw InputError(entry.origin("distribution"), path, "a distribution that reaches " + error.found,
+                         error.expected + "; truncate = [low, high] cuts it", error.nearest);
+      }
+    }
+  }
+}
+
+RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechanism,
+                               const std::function<void(const Setting&)>& accepts) {
+  entry.only({"parameter", "distribution"});
+  RandomParameter random;
+  random.paths =
+      entry.is_list("parameter") ? entry.texts("parameter") : std::vector<std::string>{entry.text("parameter")};
+  entry.require(!random.paths.empty(), "parameter", "a parameter's path, or a list of them");
+  std::vector<JournalSize> journals;
+  bool radial = true;
+  for (const std::string& path : random.paths) {
+    random.places.emplace_back(mechanism, path, entry.origin("parameter"));
+    const ParameterPath& place = random.places.back();
+    if (random.si_unit.empty()) random.si_unit = place.unit();
+    if (place.unit() != random.si_unit)
+      entry.fail_found("parameter", "\"" + path + "\" in " + place.unit(),
+                       "parameters that take the same values, in " + random.si_unit);
+    const std::vector<JournalSize> sizes = journal_sizes(mechanism, path);
+    radial = radial && !sizes.empty();
+    journals.insert(journals.end(), sizes.begin(), sizes.end());
+  }
+  if (!radial) journals.clear();
+  Cursor distribution = entry.table("distribution");
+  random.distribution = read_distribution(distribution, unit_called(random.si_unit), journals);
+  check_ends(entry, random, accepts);
+  entry.finish();
+  return random;
+}
+
+// The paths that a path with * stands for; of another one, itself.
+std::vector<std::string> meant_by(const MechanismDescription& mechanism, const std::string& path) {
+  if (path.find(".*.") == std::string::npos) return {path};
+  Parameters marked = nominal_parameters(mechanism);
+  ParameterPath(mechanism, path).set(marked, std::numeric_limits<double>::quiet_NaN());
+  std::vector<std::string> meant;
+  for (const std::string& single : parameter_paths(mechanism))
+    if (std::isnan(ParameterPath(mechanism, single).get(marked))) meant.push_back(single);
+  return meant;
+}
+
+double normal_correlation(Cursor& entry) {
+  const double coefficient = entry.number("coefficient");
+  entry.require(coefficient > -1.0 && coefficient < 1.0, "coefficient", "more than -1 and less than 1");
+  const std::string measure = entry.choice("measure", {"normal", "spearman", "kendall"}, "normal");
+  if (measure == "spearman") return normal_from_spearman(coefficient);
+  return measure == "kendall" ? normal_from_kendall(coefficient) : coefficient;
+}
+
+void read_correlations(Cursor& root, RandomInputs& inputs) {
+  std::vector<Cursor> entries = root.tables("correlation");
+  if (entries.empty()) return;
+  std::map<std::string, Eigen::Index> index;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    for (const std::string& path : inputs.parameters[k].paths) {
+      index[path] = static_cast<Eigen::Index>(k);
+      names.push_back(path);
+    }
+  Eigen::MatrixXd correlation =
+      Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(inputs.size()), static_cast<Eigen::Index>(inputs.size()));
+  for (Cursor& entry : entries) {
+    entry.only({"parameters", "coefficient", "measure"});
+    const std::vector<std::string> pair = entry.texts("parameters");
+    entry.require(pair.size() == 2, "parameters", "two parameters");
+    for (const std::string& path : pair)
+      if (!index.contains(path))
+        entry.fail_found("parameters", "\"" + path + "\"", "a parameter of a [[random]] table",
+                         nearest_name(path, names));
+    const Eigen::Index i = index[pair[0]], j = index[pair[1]];
+    if (i == j) entry.fail("parameters", "two different parameters");
+    if (correlation(i, j) != 0.0) entry.fail("parameters", "each pair once");
+    correlation(i, j) = correlation(j, i) = normal_correlation(entry);
+    entry.finish();
+    char text[80];
+    std::snprintf(text, sizeof text, "correlation %ld %ld %.17g\n", static_cast<long>(i), static_cast<long>(j),
+                  correlation(i, j));
+    inputs.text += text;
+  }
+  try {
+    inputs.copula = GaussianCopula(correlation);
+  } catch (const std::domain_error& error) {
+    throw InputError(entries.back().origin(), "correlation", error.what(), "coefficients that can hold together");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> RandomInputs::names() const {
+  std::vector<std::string> names;
+  for (const RandomParameter& p : parameters) names.push_back(p.name());
+  return names;
+}
+
+void RandomInputs::values(std::span<double> coordinates) const {
+  copula.apply(coordinates);
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    coordinates[i] = parameters[i].distribution->quantile(coordinates[i]);
+}
+
+Parameters RandomInputs::parameters_with(const Mechanism& mechanism, std::span<const double> values) const {
+  Parameters out = mechanism.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    for (const ParameterPath& place : parameters[i].places) place.set(out, values[i]);
+  return out;
+}
+
+RandomInputs read_random_inputs(Cursor& root, const MechanismDescription& mechanism,
+                                const std::function<void(const Setting&)>& accepts) {
+  RandomInputs inputs;
+  std::set<std::string> taken;  // single paths
+  for (Cursor& entry : root.tables("random")) {
+    inputs.parameters.push_back(read_parameter(entry, mechanism, accepts));
+    const RandomParameter& random = inputs.parameters.back();
+    for (const std::string& path : random.paths) {
+      for (const std::string& single : meant_by(mechanism, path))
+        if (!taken.insert(single).second)
+          entry.fail_found("parameter", "\"" + single + "\" a second time", "each parameter once");
+      inputs.text += path + " ";
+    }
+    inputs.text += "~ " + random.distribution->text() + "\n";
+  }
+  if (inputs.parameters.empty()) root.fail("random", "at least one [[random]] table: what scatters, and how");
+  read_correlations(root, inputs);
+  return inputs;
+}
+
+}  // namespace boresight

@@ -1,0 +1,66 @@
+// What a study scatters, as its [[random]] and [[correlation]] tables say it:
+//
+//   [[random]]
+//   parameter = "clearance.F1.radial"          # one path, or a list of paths that take the same value
+//   distribution = { normal = { mean = "0.1 mm", sd = "0.01 mm" }, truncate = ["0.05 mm", "0.15 mm"] }
+//
+//   distribution = one of
+//     { normal = { mean = .., sd = .. } }            { uniform = { min = .., max = .. } }
+//     { lognormal = { median = .., factor = 1.3 } }  sd of ln x is ln(factor): 68 % within median / and * factor
+//     { triangular = { min = .., mode = .., max = .. } }
+//     { beta = { alpha = 2, beta = 3, min = .., max = .. } }
+//     { weibull = { shape = 1.5, scale = .., location = .. } }                      location: 0 if left out
+//     { discrete = { values = [..], probabilities = [..] } }                        equal ones if left out
+//     { empirical = { file = "gaps.csv", column = "gap", unit = "mm" } }            resampled
+//     { fit = "20 H7/g6", zone = "normal" }          of a radial clearance, of its journal's size (fit_size.hpp); zone =
+//                                                      "uniform": see fit_clearance.hpp
+//   and optionally truncate = [low, high]; the distribution between them, renormalised.
+//
+//   [[correlation]]
+//   parameters = ["clearance.F1.radial", "clearance.F1.friction.coefficient"]
+//   coefficient = 0.5
+//   measure = "normal"                         # of the normal scores behind them; or "spearman", "kendall"
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "boresight/io/cursor.hpp"
+#include "boresight/mechanism/mechanism.hpp"
+#include "boresight/mechanism/parameter_path.hpp"
+#include "boresight_analyses/random/copula.hpp"
+#include "boresight_analyses/random/distribution.hpp"
+
+namespace boresight {
+
+struct RandomParameter {
+  std::vector<std::string> paths;
+  std::string si_unit;
+  DistributionPtr distribution;
+  std::vector<ParameterPath> places;
+
+  const std::string& name() const { return paths.front(); }
+};
+
+struct RandomInputs {
+  std::vector<RandomParameter> parameters;
+  GaussianCopula copula;
+  std::string text;  // all that decides what coordinates become; equal texts are equal inputs
+
+  std::size_t size() const { return parameters.size(); }
+  std::vector<std::string> names() const;  // of the parameters
+  // Coordinates in the unit cube become values (SI), in place.
+  void values(std::span<double> coordinates) const;
+  // The mechanism's own parameters with these values.
+  Parameters parameters_with(const Mechanism& mechanism, std::span<const double> values) const;
+};
+
+// Reads [[random]] and [[correlation]]. Throws InputError: beside what is wrong with an entry itself, a distribution
+// that reaches values the mechanism would refuse. `accepts` is asked of one value out of 10^9 at either end, as a
+// setting of the mechanism, and throws what the mechanism's own reader throws.
+RandomInputs read_random_inputs(Cursor& root, const MechanismDescription& mechanism,
+                                const std::function<void(const Setting&)>& accepts);
+
+}  // namespace boresight

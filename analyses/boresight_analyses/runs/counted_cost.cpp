@@ -1,0 +1,43 @@
+#include "boresight_analyses/runs/counted_cost.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "boresight_analyses/runs/several_models.hpp"
+
+namespace boresight {
+
+double nominal_seconds_an_evaluation(const std::string& rung, bool on_lanes, std::size_t bodies,
+                                     std::size_t clearances) {
+  const auto b = static_cast<double>(bodies), c = std::max(1.0, static_cast<double>(clearances));
+  if (rung == "envelope") return 5e-6 * c;
+  if (rung == "quasistatic") return 1e-6 * c;
+  if (rung == "perturbation") return on_lanes ? 0.15e-6 * c : 0.12e-6 * b + 0.32e-6 * c;
+  if (rung == "multibody") return 0.3e-6 * b + 0.9e-6 * c;
+  throw std::invalid_argument("no speed is known of the rung " + rung);
+}
+
+double counted_cost(const SampleModel& model, const Mechanism& mechanism, const RandomInputs& inputs,
+                    const Design& design) {
+  constexpr std::size_t kCounted = 8;
+  std::vector<std::vector<double>> values(kCounted, std::vector<double>(inputs.size()));
+  std::vector<Sample> samples;
+  for (std::size_t k = 0; k < kCounted; ++k) {
+    design.point(k, values[k]);
+    inputs.values(values[k]);
+    samples.push_back({k, values[k]});
+  }
+  std::vector<Outcome> outcomes(kCounted);
+  const std::atomic<bool> stop{false};
+  model.evaluate(samples, outcomes, stop);
+  std::vector<double> evaluations;
+  for (const Outcome& outcome : outcomes)
+    if (outcome.evaluations > 0.0) evaluations.push_back(outcome.evaluations);
+  const double count = evaluations.empty() ? 1.0 : median(std::move(evaluations));
+  constexpr double kLeast = 1e-7;
+  return std::max(kLeast, count * nominal_seconds_an_evaluation(model.rung(), model.batch() > 1,
+                                                                mechanism.description().bodies.size(),
+                                                                mechanism.description().clearances.size()));
+}
+
+}  // namespace boresight

@@ -1,0 +1,10 @@
+# Ranks, where MPI is there.
+option(BORESIGHT_MPI "Spread montecarlo over ranks under mpirun, where MPI is found" ON)
+if(BORESIGHT_MPI)
+  set(MPI_CXX_SKIP_MPICXX ON)
+  find_package(MPI COMPONENTS CXX)
+endif()
+if(MPI_CXX_FOUND)
+  target_link_libraries(boresight_runs PRIVATE MPI::MPI_CXX)
+  target_compile_definitions(boresight_runs PRIVATE BORESIGHT_MPI)
+endif()

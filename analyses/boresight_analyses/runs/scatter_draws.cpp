@@ -1,0 +1,40 @@
+#include "boresight_analyses/runs/scatter_draws.hpp"
+
+#include <algorithm>
+
+#include "boresight_analyses/random/design.hpp"
+
+namespace boresight {
+
+bool scene_varies(const RandomInputs& inputs) {
+  return std::any_of(inputs.parameters.begin(), inputs.parameters.end(), [](const RandomParameter& p) {
+    return std::any_of(p.paths.begin(), p.paths.end(),
+                       [](const std::string& path) { return !path.starts_with("clearance."); });
+  });
+}
+
+std::vector<Parameters> pilot_samples(const RandomInputs& inputs, const Mechanism& mechanism) {
+  std::vector<Parameters> samples;
+  for (const double level : {0.5, 0.05, 0.95}) {
+    std::vector<double> values;
+    for (const RandomParameter& p : inputs.parameters) values.push_back(p.distribution->quantile(level));
+    samples.push_back(inputs.parameters_with(mechanism, values));
+  }
+  return samples;
+}
+
+std::vector<Parameters> draws_of_scatter(const RandomInputs& inputs, const Mechanism& mechanism, std::size_t count) {
+  if (inputs.size() == 0) return {mechanism.parameters()};  // nothing scatters: one motion says all
+  constexpr std::uint64_t kSeedOfPilot = 0x70696c6f74;
+  const Design design({.kind = DesignKind::random, .seed = kSeedOfPilot}, static_cast<int>(inputs.size()));
+  std::vector<Parameters> samples;
+  std::vector<double> values(inputs.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    design.point(k, values);
+    inputs.values(values);
+    samples.push_back(inputs.parameters_with(mechanism, values));
+  }
+  return samples;
+}
+
+}  // namespace boresight

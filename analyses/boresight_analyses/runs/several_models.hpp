@@ -1,0 +1,47 @@
+// The same samples on several models, and points that a method chooses as it goes: what multi-fidelity and tail estimates
+// ask of the models of a study.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "boresight_analyses/runs/sample_store.hpp"
+#include "boresight_analyses/runs/sampling.hpp"
+#include "boresight_analyses/statistics/batch_model.hpp"
+#include "boresight_analyses/study/failures.hpp"
+
+namespace boresight {
+
+// Thrown out of a method when the user has interrupted it.
+struct MethodInterrupted {};
+
+struct MethodOptions {
+  int jobs = 1;
+  std::function<void(double)> progress;  // CPU seconds spent since the last call
+  std::function<bool()> interrupted;
+  std::function<void(std::uint64_t, const Outcome&)> failed =
+      {};  // each point that did, one at a time, by its number in its batch
+};
+
+// The numbers of a range that the store lacks are computed and stored. Throws MethodInterrupted; what was computed is stored.
+void complete_samples(const SampleModel& model, const RandomInputs& inputs, const Design& design,
+                      const NumberRange& range, SampleStore& store, const MethodOptions& options);
+
+struct StoredValues {
+  std::vector<double> values;  // in the order of the numbers; NaN: failed
+  double typical_cost = 0.0;   // median CPU seconds of a sample: preparing what all share is not a sample's cost
+  double spent = 0.0;          // CPU seconds
+  double model = 0.0;          // mean of what the rung thinks it leaves out, relative
+  Failures failures;
+};
+StoredValues stored_values(const SampleStore& store, const NumberRange& range);
+
+// A model as a function on the standard normal space, u -> Phi(u) -> quantiles -> index; NaN where it fails. The costs of
+// all its samples are kept in `cost`. Throws MethodInterrupted.
+BatchModel on_normal_space(const SampleModel& model, const RandomInputs& inputs, const MethodOptions& options,
+                           std::shared_ptr<std::vector<double>> cost);
+
+double median(std::vector<double> values);
+
+}  // namespace boresight

@@ -1,0 +1,103 @@
+#include "boresight_analyses/study/lane_sample_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/rungs/cpu_clock.hpp"
+#include "boresight/stepping/measured_error.hpp"
+
+namespace boresight {
+
+bool LaneSampleModel::serve(const Mechanism& mechanism, const IndexChoice& index, const RunOptions& options) {
+  const bool statistic = index.statistic == "max" || index.statistic == "rms" || index.statistic == "mean";
+  return statistic && PerturbationLanes::serve(mechanism) && options.step == 0.0 && options.integrator.empty();
+}
+
+LaneSampleModel::LaneSampleModel(std::shared_ptr<const Mechanism> mechanism,
+                                 RungSampleModel::ParametersOf parameters_of, IndexChoice index, bool scene_varies,
+                                 double tolerance)
+    : mechanism_(std::move(mechanism)),
+      parameters_of_(std::move(parameters_of)),
+      index_(std::move(index)),
+      scene_varies_(scene_varies),
+      lanes_(mechanism_, index_.kind(), index_.start),
+      tolerance_(tolerance) {}
+
+// What the rung itself estimates (perturbation.cpp), from what the lanes keep: the deviation over the mechanism's size, times
+// how much the mechanism magnifies its offsets.
+double LaneSampleModel::nonlinearity(const Parameters& parameters, const LaneOutcome& found) const {
+  const double length = mechanism_->characteristic_length();
+  const double deviation = index_.quantity == "position_error" ? found.max / length : found.max;
+  double offset = 0.0;
+  for (const ClearanceParameters& c : parameters.clearance) offset = std::max({offset, c.radial, c.axial});
+  offset += found.max_penetration;
+  return offset > 0.0 ? deviation * std::max(1.0, deviation * length / offset) : 0.0;
+}
+
+std::string LaneSampleModel::leaves_out() const { return make_rung("perturbation", mechanism_)->leaves_out(); }
+
+void LaneSampleModel::take(const LaneOutcome& found, const Parameters& parameters, double seconds_per_attempt,
+                           Outcome& outcome) const {
+  outcome.evaluations = static_cast<double>(found.steps + found.rejected);
+  outcome.cpu_seconds = seconds_per_attempt * outcome.evaluations;
+  if (found.status != LaneStatus::done) {
+    outcome.status = Outcome::Status::failed;
+    outcome.message =
+        std::string(found.status == LaneStatus::step_too_small ? "the error estimate asked for a vanishing step"
+                                                               : "too many steps") +
+        " at t = " + std::to_string(found.t) + " s";
+    return;
+  }
+  outcome.value = index_.statistic == "max"   ? found.max
+                  : index_.statistic == "rms" ? std::sqrt(found.mean_square)
+                                              : found.mean;
+  outcome.model_error = nonlinearity(parameters, found);
+  outcome.discretisation_error = kNotMeasured;
+  outcome.status = Outcome::Status::done;
+}
+
+void LaneSampleModel::evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                               const std::atomic<bool>& stop) const {
+  evaluate_each(samples, outcomes, stop, [](std::size_t) {});
+}
+
+void LaneSampleModel::evaluate_each(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                                    const std::atomic<bool>& stop,
+                                    const std::function<void(std::size_t)>& reached) const {
+  if (stop) return;
+  const double start = thread_cpu_seconds();
+  std::vector<Parameters> parameters;
+  for (const Sample& sample : samples) parameters.push_back(parameters_of_(sample.values));
+  std::vector<LaneOutcome> found(samples.size());
+  const auto ended = [&](std::size_t k, double attempts) {
+    take(found[k], parameters[k], (thread_cpu_seconds() - start) / std::max(1.0, attempts), outcomes[k]);
+    reached(k);
+  };
+  try {
+    lanes_.run(parameters, found, tolerance_, {.stop = &stop, .ended = ended});
+  } catch (const ComputationError& failure) {
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      if (outcomes[k].status != Outcome::Status::not_reached) continue;
+      outcomes[k].status = Outcome::Status::failed;
+      outcomes[k].message = failure.what();
+      reached(k);
+    }
+  } catch (const Interrupted&) {  // heard while a scene was built
+  }
+}
+
+std::unique_ptr<SampleModel> sample_model(const std::string& rung, std::shared_ptr<const Mechanism> mechanism,
+                                          RungSampleModel::ParametersOf parameters_of, IndexChoice index,
+                                          RunOptions options, bool scene_varies) {
+  if (rung == "perturbation" && LaneSampleModel::serve(*mechanism, index, options))
+    return std::make_unique<LaneSampleModel>(std::move(mechanism), std::move(parameters_of), std::move(index),
+                                             scene_varies,
+                                             options.tolerance > 0.0 ? options.tolerance : kLaneTolerance);
+  return std::make_unique<RungSampleModel>(rung, std::move(mechanism), std::move(parameters_of), std::move(index),
+                                           std::move(options), scene_varies);
+}
+
+}  // namespace boresight

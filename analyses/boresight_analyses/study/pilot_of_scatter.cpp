@@ -1,0 +1,360 @@
+// The pilot of a study: ways compared pair by pair over the study's own scatter, pairs added until the answer is clear.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+#include "boresight_analyses/study/lane_sample_model.hpp"
+#include "boresight_analyses/study/pilot_choice.hpp"
+#include "boresight_analyses/study/way_samples.hpp"
+
+namespace boresight {
+namespace {
+
+// Pairs after which it is looked whether the answer is clear.
+constexpr std::size_t kPairs[] = {6, 12, 24, 48, 96, 192};
+// What may rank the samples takes no longer than this [s of CPU].
+constexpr double kRankingSeconds = 1.0;
+// Of what the study's runs would take on multibody, the pilot may take this share where that is long, and no more than the
+// other where it is short.
+constexpr double kShareOfStudy = 0.02, kShareOfShortStudy = 0.5;
+// What a step errs by over what half of it errs by, less one: a contact's force has a kink where it begins, which makes RK4 of
+// second order through it. So the reference is good to a third of what multibody's own step is found to be off from it.
+constexpr double kOwnOverReference = 3.0;
+// Of error control, for rungs without lanes.
+constexpr double kTolerances[] = {1e-2, 1e-3};
+
+class PilotOfScatter {
+ public:
+  PilotOfScatter(std::shared_ptr<const Mechanism> mechanism, const std::vector<Parameters>& samples,
+                 const PilotOptions& options)
+      : mechanism_(std::move(mechanism)), samples_(samples), options_(options) {}
+
+  PilotResult run() {
+    result_.accuracy = options_.accuracy;
+    result_.index = options_.index.title() + ", " + options_.statistic->title();
+    result_.unit = options_.index.si_unit();
+    choose_samples_by_rank();
+    make_reference();
+    const bool enough = try_tier(first_tier()) || try_tier(second_tier());
+    if (!enough) try_tier(multibody_tier());
+    report_reference();
+    conclude(result_);
+    state_errors();
+    for (const auto& way : ways_) result_.cpu_seconds += way->spent_seconds();
+    return result_;
+  }
+
+ private:
+  std::function<bool()> advance() {
+    return [this] { return !options_.progress || options_.progress(runs_++); };
+  }
+
+  WaySamples& add(const Way& way) {
+    ways_.push_back(std::make_unique<WaySamples>(mechanism_, samples_, way, options_.index, options_.scene_varies));
+    return *ways_.back();
+  }
+  void compute(WaySamples& way, const std::vector<std::size_t>& which) {
+    if (!way.compute(which, options_.jobs, advance())) throw PilotInterrupted{};
+  }
+  double spent() const {
+    double seconds = result_.cpu_seconds;
+    for (const auto& way : ways_) seconds += way->spent_seconds();
+    return seconds;
+  }
+
+  bool lanes_serve() const {
+    RunOptions run;
+    run.step = options_.step;
+    run.integrator = options_.integrator;
+    return options_.lanes && LaneSampleModel::serve(*mechanism_, options_.index, run);
+  }
+
+  // Ranks the samples by the cheapest way there is that takes them all in little time.
+  void choose_samples_by_rank() {
+    const std::size_t most = kPairs[std::size(kPairs) - 1];
+    std::vector<double> ranked_by;
+    Way way{.rung = lanes_serve() ? "perturbation" : "quasistatic", .lanes = lanes_serve()};
+    try {
+      WaySamples& ranking = add(way);
+      for (std::size_t k = 0; k < samples_.size() && ranking.spent_seconds() < kRankingSeconds;) {
+        std::vector<std::size_t> some;
+        for (; k < samples_.size() && some.size() < (way.lanes ? 64u : 8u); ++k) some.push_back(k);
+        compute(ranking, some);
+        for (std::size_t s : some) ranked_by.push_back(ranking.value(s));
+        if (ranking.failed() > 0 && ranking.failed() == ranked_by.size()) break;
+      }
+    } catch (const ComputationError&) {
+      ranked_by.clear();  // plain samples then
+    }
+    chosen_ = choose_samples(ranked_by, samples_.size(), most, *options_.statistic);
+  }
+
+  // Multibody's own step is the smallest that it chooses for the first samples.
+  void make_reference() {
+    std::vector<Parameters> first;
+    for (std::size_t k = 0; k < std::min<std::size_t>(3, chosen_.sample.size()); ++k)
+      first.push_back(samples_[chosen_.sample[k]]);
+    Way own{.rung = "multibody", .step = options_.step};
+    if (own.step == 0.0) own.step = common_step("multibody", mechanism_, first, own.options());
+    if (own.step == 0.0) own = {.rung = "multibody", .integrator = "rosenbrock", .tolerance = kMultibodyTolerance};
+    own_ = &add(own);
+    fine_ = &add(own.finer());
+    take_pairs(kPairs[0]);
+    if (pairs_.size() < 4)
+      throw ComputationError(!fine_->refusal().empty()  ? fine_->refusal()
+                             : !own_->refusal().empty() ? own_->refusal()
+                                                        : "too few samples for a pilot");
+  }
+
+  // The first n chosen samples on multibody, those that it can follow.
+  void take_pairs(std::size_t n) {
+    n = std::min(n, chosen_.sample.size());
+    const std::vector<std::size_t> which(chosen_.sample.begin(),
+                                         chosen_.sample.begin() + static_cast<std::ptrdiff_t>(n));
+    compute(*own_, which);
+    compute(*fine_, which);
+    asked_ = n;
+    pairs_.clear();
+    scores_.clear();
+    for (std::size_t k = 0; k < n; ++k) {
+      if (!std::isfinite(fine_->value(which[k])) || !std::isfinite(own_->value(which[k]))) continue;
+      pairs_.push_back(which[k]);
+      if (!chosen_.score.empty()) scores_.push_back(chosen_.score[k]);
+    }
+    reference_ = compared(*own_);
+    result_.reference_error = reference_.bound() / kOwnOverReference;
+    result_.reference = reference_.reference;
+    result_.pairs = pairs_.size();
+  }
+
+  ScatterDifference compared(const WaySamples& way) const {
+    const std::vector<double> values = way.values(pairs_), reference = fine_->values(pairs_);
+    return compare_scatter(values, reference, scores_, *options_.statistic);
+  }
+
+  bool more_pairs() {
+    const double study = static_cast<double>(options_.runs) * own_->cpu_seconds();
+    const double most =
+        options_.runs > 0 ? std::max(kShareOfStudy * study, std::min(options_.most_seconds, kShareOfShortStudy * study))
+                          : options_.most_seconds;
+    for (std::size_t n : kPairs) {
+      if (n <= asked_) continue;
+      if (asked_ >= chosen_.sample.size()) return false;
+      // As many pairs again cost about as much again.
+      const double foreseen = static_cast<double>(n - asked_) * (own_->cpu_seconds() + fine_->cpu_seconds());
+      if (spent() + foreseen > most) return false;
+      take_pairs(n);
+      return true;
+    }
+    return false;
+  }
+
+  std::vector<Way> first_tier() {
+    if (!options_.integrator.empty())
+      return {{.rung = "perturbation",
+               .integrator = options_.integrator,
+               .step = options_.step,
+               .tolerance = options_.tolerance}};
+    std::vector<Way> ways = {{.rung = "envelope"}, {.rung = "quasistatic"}};
+    if (lanes_serve())
+      ways.push_back({.rung = "perturbation", .tolerance = kLaneTolerance, .lanes = true});
+    else if (const double step = step_of_perturbation(); step > 0.0)
+      ways.push_back({.rung = "perturbation", .step = step});
+    if (options_.integrators && options_.step == 0.0 && !lanes_serve())
+      ways.push_back({.rung = "perturbation", .integrator = "rosenbrock", .tolerance = kTolerances[0]});
+    return ways;
+  }
+
+  std::vector<Way> second_tier() {
+    if (!options_.integrator.empty() || options_.step > 0.0) return {};
+    if (lanes_serve()) return {{.rung = "perturbation", .tolerance = 0.1 * kLaneTolerance, .lanes = true}};
+    std::vector<Way> ways;
+    if (step_of_perturbation() > 0.0) ways.push_back({.rung = "perturbation", .step = 0.5 * step_of_perturbation()});
+    if (options_.integrators)
+      for (const char* integrator : {"rosenbrock", "dopri5"})
+        ways.push_back({.rung = "perturbation", .integrator = integrator, .tolerance = kTolerances[1]});
+    return ways;
+  }
+
+  std::vector<Way> multibody_tier() {
+    if (!options_.integrator.empty())
+      return {{.rung = "multibody",
+               .integrator = options_.integrator,
+               .step = options_.step,
+               .tolerance = options_.tolerance}};
+    std::vector<Way> ways = {own_->way()};
+    // Multibody's implicit method may be cheaper where contacts rest.
+    if (options_.integrators && options_.step == 0.0)
+      ways.push_back({.rung = "multibody", .integrator = "rosenbrock", .tolerance = kMultibodyTolerance});
+    return ways;
+  }
+
+  // Perturbation's own, for all samples; 0 where it cannot follow them, which is then told.
+  double step_of_perturbation() {
+    if (options_.step > 0.0) return options_.step;
+    if (perturbation_step_ >= 0.0) return perturbation_step_;
+    std::vector<Parameters> first;
+    for (std::size_t k = 0; k < std::min<std::size_t>(3, pairs_.size()); ++k) first.push_back(samples_[pairs_[k]]);
+    try {
+      perturbation_step_ = common_step("perturbation", mechanism_, first, {});
+    } catch (const ComputationError& failure) {
+      perturbation_step_ = 0.0;
+      PilotTrial refused;
+      refused.rung = "perturbation";
+      refused.refusal = failure.what();
+      result_.trials.push_back(refused);
+    }
+    return perturbation_step_;
+  }
+
+  struct Candidate {
+    WaySamples* samples = nullptr;
+    bool rejected = false, accepted = false;
+    ScatterDifference found;
+  };
+
+  // Tries these ways side by side, on more pairs until one is accepted, all are rejected, or the time is spent.
+  // Returns true if one of them will do.
+  bool try_tier(const std::vector<Way>& ways) {
+    std::vector<Candidate> candidates;
+    for (const Way& way : ways) {
+      const bool own = way.rung == "multibody" && way.integrator.empty() && way.step == own_->way().step;
+      candidates.push_back({.samples = own ? own_ : known(way), .rejected = false, .accepted = false, .found = {}});
+    }
+    for (;;) {
+      bool accepted = false, open = false;
+      for (Candidate& c : candidates) {
+        if (c.rejected) continue;
+        judge(c);
+        accepted = accepted || c.accepted;
+        open = open || !c.rejected;
+      }
+      // Multibody is what the others are held against: where nothing cheaper is left more pairs would only confirm it.
+      if (accepted || !open || hopeless() || !more_pairs()) break;
+    }
+    bool will_do = false;
+    for (const Candidate& c : candidates) {
+      PilotTrial trial = trial_of(*c.samples, c.found);
+      trial.accepted = c.accepted && good_reference();
+      trial.reference = c.samples == own_;
+      will_do = will_do || trial.accepted || (!good_reference() && indistinguishable(trial, result_));
+      result_.trials.push_back(trial);
+    }
+    return will_do;
+  }
+
+  // Whether no number of pairs that the pilot may take would show the reference to be good enough.
+  bool hopeless() const {
+    const double most = static_cast<double>(kPairs[std::size(kPairs) - 1]);
+    const double at_best = reference_.half_width * std::sqrt(static_cast<double>(pairs_.size()) / most);
+    const double enough = kOwnOverReference * options_.accuracy;
+    return at_best > enough || std::abs(reference_.difference) - reference_.half_width > enough;
+  }
+  bool good_reference() const { return result_.reference_error <= options_.accuracy; }
+
+  // What ranked the samples has computed these already.
+  WaySamples* known(const Way& way) {
+    for (const auto& w : ways_)
+      if (w->way().family() == way.family() && w->way().lanes == way.lanes && w->way().step == way.step &&
+          (w->way().tolerance == way.tolerance ||
+           (way.lanes && w->way().tolerance == 0.0 && way.tolerance == kLaneTolerance)))
+        return w.get();
+    return &add(way);
+  }
+
+  void judge(Candidate& c) {
+    c.accepted = false;
+    try {
+      compute(*c.samples, pairs_);
+    } catch (const ComputationError& failure) {  // no scene
+      c.rejected = true;
+      c.found = {};
+      why_refused_[c.samples] = failure.what();
+      return;
+    }
+    for (std::size_t k : pairs_)
+      if (!std::isfinite(c.samples->value(k))) {
+        c.rejected = true;
+        why_refused_[c.samples] = c.samples->refusal();
+        return;
+      }
+    c.found = compared(*c.samples);
+    c.accepted = c.found.bound() <= options_.accuracy && good_reference();
+    c.rejected = std::abs(c.found.difference) - c.found.half_width > options_.accuracy + result_.reference_error;
+  }
+
+  PilotTrial trial_of(const WaySamples& samples, const ScatterDifference& found) const {
+    PilotTrial trial;
+    const Way& way = samples.way();
+    trial.rung = way.rung;
+    trial.step = way.step;
+    trial.integrator = way.integrator;
+    trial.tolerance = way.tolerance > 0.0 ? way.tolerance : way.lanes ? kLaneTolerance : 0.0;
+    trial.lanes = way.lanes;
+    if (const auto refused = why_refused_.find(&samples); refused != why_refused_.end()) {
+      trial.refusal = refused->second;
+      return trial;
+    }
+    trial.value = found.value;
+    trial.difference = found.difference;
+    trial.error = found.bound();
+    trial.estimate = samples.estimate();
+    trial.cpu_seconds = samples.cpu_seconds();
+    trial.pairs = found.pairs;
+    return trial;
+  }
+
+  void state_errors() {
+    const PilotTrial& chosen = result_.trials[result_.chosen];
+    for (const auto& way : ways_) {
+      const PilotTrial trial = trial_of(*way, {});
+      if (trial.rung != chosen.rung || trial.step != chosen.step || trial.integrator != chosen.integrator ||
+          trial.tolerance != chosen.tolerance || trial.lanes != chosen.lanes || way.get() == fine_)
+        continue;
+      for (const double p : {0.0, 0.5, 0.95, 0.99, 0.9973, options_.statistic->probability}) {
+        const std::vector<double> reference = fine_->values(pairs_);
+        const ScatterDifference d = compare_scatter(way->values(pairs_), reference, scores_, {p});
+        // The reference is off by something itself, as its own step shows.
+        const ScatterDifference own = compare_scatter(own_->values(pairs_), reference, scores_, {p});
+        result_.errors.push_back({p, d.bound() + own.bound() / kOwnOverReference});
+      }
+      return;
+    }
+  }
+
+  // Where no tier has shown it, multibody at its own step stands among the trials all the same.
+  void report_reference() {
+    for (const PilotTrial& t : result_.trials)
+      if (t.reference) return;
+    PilotTrial own = trial_of(*own_, reference_);
+    own.reference = true;
+    own.accepted = own.error <= options_.accuracy && good_reference() && options_.integrator.empty();
+    result_.trials.push_back(own);
+  }
+
+  std::shared_ptr<const Mechanism> mechanism_;
+  const std::vector<Parameters>& samples_;
+  const PilotOptions& options_;
+  ChosenSamples chosen_;
+  std::vector<std::unique_ptr<WaySamples>> ways_;
+  WaySamples *own_ = nullptr, *fine_ = nullptr;
+  std::size_t asked_ = 0;
+  std::vector<std::size_t> pairs_;
+  std::vector<double> scores_;
+  ScatterDifference reference_;
+  std::map<const WaySamples*, std::string> why_refused_;
+  double perturbation_step_ = -1.0;
+  int runs_ = 0;
+  PilotResult result_;
+};
+
+}  // namespace
+
+PilotResult pilot_of_scatter(std::shared_ptr<const Mechanism> mechanism, const std::vector<Parameters>& samples,
+                             const PilotOptions& options) {
+  return PilotOfScatter(std::move(mechanism), samples, options).run();
+}
+
+}  // namespace boresight

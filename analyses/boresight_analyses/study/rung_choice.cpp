@@ -1,0 +1,67 @@
+#include "boresight_analyses/study/rung_choice.hpp"
+
+#include <algorithm>
+
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+
+namespace boresight {
+namespace {
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+void check_rung_name(const std::string& asked) {
+  const std::vector<std::string> names = rung_names();
+  if (asked != "auto" && std::find(names.begin(), names.end(), asked) == names.end())
+    throw InputError({"command line", 0}, "--rung", "\"" + asked + "\"", "auto, " + listed(names),
+                     nearest_name(asked, names));
+}
+
+void apply(const RungChoice& choice, RunOptions& options) {
+  // The step is one of rk4's; an integrator that was asked for chooses its own.
+  if (choice.step > 0.0 && !controls_error(options)) options.step = choice.step;
+  // A tolerance without an integrator is that of lanes.
+  if (choice.tolerance > 0.0) options.tolerance = choice.tolerance;
+  if (!choice.integrator.empty()) options.integrator = choice.integrator;
+}
+
+RungChoice choose_rung(const RungQuestion& question, std::shared_ptr<const Mechanism> mechanism,
+                       const std::vector<Parameters>& samples) {
+  check_rung_name(question.asked);
+  if (question.asked != "auto") return {question.asked, "asked for by name"};
+  const std::string most_exact = rung_names().back();  // cheapest first, so the last one leaves out least
+  if (question.wants_multibody) return {most_exact, "the only rung that has the options given"};
+  if (mechanism->clearances() == 0) return {most_exact, "no joint has clearance: nothing to choose between"};
+  if (!question.accuracy)
+    return {most_exact, "the rung that leaves out least; give an accuracy to have the cheapest that meets it"};
+  PilotOptions options{.accuracy = *question.accuracy,
+                       .index = question.index,
+                       .statistic = question.statistic,
+                       .step = question.step,
+                       .integrator = question.integrator,
+                       .tolerance = question.tolerance,
+                       .integrators = question.integrators,
+                       .lanes = question.lanes,
+                       .scene_varies = question.scene_varies,
+                       .runs = question.runs,
+                       .jobs = question.jobs,
+                       .progress = question.progress};
+  RungChoice choice;
+  choice.pilot = run_pilot(std::move(mechanism), samples, options);
+  const PilotTrial& chosen = choice.pilot->trials[choice.pilot->chosen];
+  choice.name = chosen.rung;
+  choice.why = choice.pilot->why;
+  choice.step = chosen.step;
+  choice.integrator = chosen.integrator;
+  choice.tolerance = chosen.tolerance;
+  return choice;
+}
+
+}  // namespace boresight

@@ -1,0 +1,133 @@
+#include "boresight_analyses/sweep/sweep_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+std::vector<double> spaced(Cursor& axis, double from, double to) {
+  const long long count = axis.integer("count");
+  axis.require(count >= 2 && count <= static_cast<long long>(kMostSweepPoints), "count", "2 to 100000");
+  const bool log = axis.choice("scale", {"linear", "log"}, "linear") == "log";
+  if (log) {
+    axis.require(from > 0.0, "from", "more than 0, as the scale is \"log\"");
+    axis.require(to > 0.0, "to", "more than 0, as the scale is \"log\"");
+  }
+  std::vector<double> values;
+  for (long long i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+    values.push_back(log ? from * std::pow(to / from, share) : from + share * (to - from));
+  }
+  values.back() = to;
+  return values;
+}
+
+void check_values(Cursor& axis, const SweepAxis& result, const std::function<void(const Setting&)>& accepts) {
+  const auto [least, largest] = std::minmax_element(result.values.begin(), result.values.end());
+  for (const double value : {*least, *largest}) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    for (const std::string& path : result.parameters) {
+      try {
+        accepts({path, result.si_unit == "1" ? std::string(text) : text + (" " + result.si_unit)});
+      } catch (const InputError& error) {
+        throw InputError(axis.origin(axis.has("values") ? "values" : "from"), path, error.found, error.expected,
+                         error.nearest);
+      }
+    }
+  }
+}
+
+SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism,
+                    const std::function<void(const Setting&)>& accepts) {
+  axis.only({"parameter", "values", "from", "to", "count", "scale"});
+  SweepAxis result;
+  if (axis.is_list("parameter"))
+    result.parameters = axis.texts("parameter");
+  else
+    result.parameters = {axis.text("parameter")};
+  axis.require(!result.parameters.empty(), "parameter", "a parameter's path, or a list of them");
+
+  for (const std::string& path : result.parameters) {
+    const ParameterPath parameter(mechanism, path, axis.origin("parameter"));
+    if (result.si_unit.empty()) result.si_unit = parameter.unit();
+    if (parameter.unit() != result.si_unit)
+      axis.fail_found("parameter", "\"" + path + "\" in " + parameter.unit(),
+                      "parameters that take the same values, in " + result.si_unit);
+  }
+
+  const bool pure = result.si_unit == "1";
+  const SiUnit unit = unit_called(result.si_unit);
+  if (axis.has("values")) {
+    for (const char* key : {"from", "to", "count", "scale"})
+      if (axis.has(key)) axis.fail(key, "either values, or from, to and count");
+    result.values = pure ? axis.numbers("values") : axis.quantities("values", unit);
+    axis.require(!result.values.empty(), "values", "at least one value");
+  } else if (axis.has("from")) {
+    const double from = pure ? axis.number("from") : axis.quantity("from", unit);
+    const double to = pure ? axis.number("to") : axis.quantity("to", unit);
+    result.values = spaced(axis, from, to);
+  } else {
+    axis.fail("values", "values = [...], or from, to and count");
+  }
+  // The same value twice would be the same point twice.
+  if (std::set<double>(result.values.begin(), result.values.end()).size() != result.values.size())
+    axis.fail(axis.has("values") ? "values" : "to", "values that differ from one another");
+  check_values(axis, result, accepts);
+  axis.finish();
+  return result;
+}
+
+}  // namespace
+
+std::size_t SweepPlan::points() const {
+  std::size_t count = 1;
+  for (const SweepAxis& axis : axes) count *= axis.values.size();
+  return count;
+}
+
+std::vector<double> SweepPlan::values_at(std::size_t k) const {
+  std::vector<double> values(axes.size());
+  for (std::size_t i = axes.size(); i-- > 0; k /= axes[i].values.size())
+    values[i] = axes[i].values[k % axes[i].values.size()];
+  return values;
+}
+
+Parameters SweepPlan::parameters_at(const Mechanism& mechanism, std::size_t k) const {
+  Parameters parameters = mechanism.parameters();
+  const std::vector<double> values = values_at(k);
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    for (const std::string& path : axes[i].parameters)
+      ParameterPath(mechanism.description(), path).set(parameters, values[i]);
+  return parameters;
+}
+
+SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism,
+                          const std::function<void(const Setting&)>& accepts) {
+  Cursor sweep = root.table("sweep");
+  sweep.only({"axis", "findings"});
+  SweepPlan plan;
+  if (sweep.has("findings")) plan.findings = sweep.choice("findings", {"sun-3-rrcpr"});
+  std::set<std::string> swept;
+  std::size_t points = 1;
+  for (Cursor& axis : sweep.tables("axis")) {
+    plan.axes.push_back(read_axis(axis, mechanism, accepts));
+    for (const std::string& path : plan.axes.back().parameters)
+      if (!swept.insert(path).second)
+        axis.fail_found("parameter", "\"" + path + "\" a second time", "each parameter on one axis");
+    points *= plan.axes.back().values.size();
+    if (points > kMostSweepPoints)
+      axis.fail_found("values", std::to_string(points) + " points in all",
+                      "at most " + std::to_string(kMostSweepPoints));
+  }
+  if (plan.axes.empty()) sweep.fail("axis", "at least one [[sweep.axis]]");
+  sweep.finish();
+  return plan;
+}
+
+}  // namespace boresight

@@ -1,0 +1,222 @@
+#include "allocate/allocate_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report_parts/report_parts.hpp"
+#include "terminal/readable.hpp"
+
+namespace boresight::app {
+namespace {
+
+// "F1" of "clearance.F1.radial".
+std::string joint_label(const std::string& path) {
+  constexpr std::size_t kBefore = 10, kAfter = 7;
+  return path.size() > kBefore + kAfter ? path.substr(kBefore, path.size() - kBefore - kAfter) : path;
+}
+
+std::string index_text(const AllocateStudy& s, double value) {
+  return std::isfinite(value) ? readable(value, s.study.index.si_unit()) : "none";
+}
+
+std::vector<const Allocation*> all_of(const AllocateStudy& s) {
+  return {&s.result.chosen, &s.result.worst_case, &s.result.root_sum_square};
+}
+
+report::Table comparison_table(const AllocateStudy& s) {
+  report::Table table{
+      .title = "Beside what the classical rules would choose",
+      .caption = fmt::format("The same limit, {}. Share within it: by the {} samples of the search, scaled to "
+                             "the confirming rung; least limit: kept with the room that a confirmation "
+                             "needs.",
+                             index_text(s, s.plan.requirement.limit), s.plan.samples),
+      .columns = {{"judged by"}, {"price"}, {"share within the limit"}, {"least limit kept"}, {""}}};
+  for (const Allocation* a : all_of(s)) {
+    const bool none = !a->feasible && a != &s.result.chosen;
+    table.rows.push_back({a->judged_by, none ? nlohmann::json("no set") : nlohmann::json(a->price),
+                          none ? "" : readable_share(a->share_within), none ? "" : index_text(s, a->reached),
+                          standing_of(s, *a)});
+  }
+  return table;
+}
+
+report::Table option_table(const AllocateStudy& s) {
+  report::Table table{
+      .title = "The choice, joint by joint",
+      .caption =
+          "Share of the error: of the index' variance, to first order about the mean gaps. Saving: by the "
+          "next cheaper option of this joint alone.",
+      .columns = {{"joint"}, {"chosen"}, {"price"}, {"share of cost", "%"}, {"share of error", "%"}, {"saving"}}};
+  if (s.result.worst_case.feasible) table.columns.push_back({"worst case"});
+  if (s.result.root_sum_square.feasible) table.columns.push_back({"root-sum-square"});
+  for (std::size_t j = 0; j < s.result.shares.size(); ++j) {
+    const AllocationShare& share = s.result.shares[j];
+    std::vector<nlohmann::json> row = {joint_label(share.joint),
+                                       option_text(s, s.result.chosen, j),
+                                       share.price,
+                                       100.0 * share.cost_share,
+                                       100.0 * share.error_share,
+                                       share.next_saving > 0.0 ? nlohmann::json(share.next_saving) : nlohmann::json()};
+    for (const Allocation* a : {&s.result.worst_case, &s.result.root_sum_square})
+      if (a->feasible) row.emplace_back(option_text(s, *a, j));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+report::Chart share_chart(const AllocateStudy& s) {
+  report::Chart chart{
+      .title = "Where the error comes from and where the money goes", .x = {"joint", ""}, .y = {"share", "%"}};
+  report::Names joints;
+  report::Numbers error, cost;
+  for (const AllocationShare& share : s.result.shares) {
+    joints.push_back(joint_label(share.joint));
+    error.push_back(100.0 * share.error_share);
+    cost.push_back(100.0 * share.cost_share);
+  }
+  chart.series.push_back({.name = "error", .x = joints, .y = error, .style = report::Style::bars});
+  chart.series.push_back({.name = "cost", .x = joints, .y = cost, .style = report::Style::bars});
+  return chart;
+}
+
+report::Chart front_chart(const AllocateStudy& s) {
+  double most = s.plan.requirement.limit;
+  for (const CostPoint& p : s.result.front) most = std::max(most, p.limit);
+  const DisplayUnit unit = display_unit(s.study.index.si_unit(), most);
+  report::Chart chart{.title = "What accuracy costs",
+                      .caption = "The cheapest set for each limit, by the samples of the search.",
+                      .x = {"limit of the " + s.study.index.title(), unit.name},
+                      .y = {"price", ""}};
+  report::Numbers x, y;
+  for (const CostPoint& p : s.result.front)
+    if (p.feasible) {
+      x.push_back(p.limit * unit.per_si);
+      y.push_back(p.price);
+    }
+  chart.series.push_back({.name = "cheapest", .x = x, .y = y, .style = report::Style::line_markers});
+  for (const Allocation* a : all_of(s))
+    if (a->feasible)
+      chart.series.push_back({.name = a == &s.result.chosen ? "chosen" : a->judged_by,
+                              .x = report::Numbers{a->reached * unit.per_si},
+                              .y = report::Numbers{a->price},
+                              .style = report::Style::markers});
+  chart.lines.push_back({'x', s.plan.requirement.limit * unit.per_si, "required"});
+  return chart;
+}
+
+report::Table confirmation_table(const AllocateStudy& s) {
+  report::Table table{
+      .title = "Confirmation",
+      .caption =
+          "Factor: the index of the confirming rung over that of the linear deviation, as the search of this "
+          "round took it.",
+      .columns = {{"round"},
+                  {"rung"},
+                  {"factor"},
+                  {"price"},
+                  {"samples"},
+                  {"failed"},
+                  {"within the limit"},
+                  {"at least"},
+                  {"least limit shown"},
+                  {"outcome"}}};
+  for (std::size_t k = 0; k < s.result.confirmations.size(); ++k) {
+    const AllocationConfirmation& c = s.result.confirmations[k];
+    table.rows.push_back({k + 1, c.rung, c.factor, c.price, c.samples, c.failed, readable_share(c.share_within),
+                          readable_share(c.share_low), index_text(s, c.reached),
+                          !c.met     ? "not met"
+                          : c.agrees ? "met"
+                                     : "met with room"});
+  }
+  return table;
+}
+
+}  // namespace
+
+std::string requirement_text(const AllocateStudy& s) {
+  return fmt::format("{} at or below {} in {:g} % of all cases, with {:g} % confidence", s.study.index.title(),
+                     index_text(s, s.plan.requirement.limit), 100.0 * s.plan.requirement.probability,
+                     100.0 * s.plan.requirement.confidence);
+}
+
+std::string option_text(const AllocateStudy& s, const Allocation& a, std::size_t joint) {
+  if (!a.tolerance.empty()) return readable(a.tolerance[joint], "m");
+  return a.choice.empty() ? "" : s.plan.joints[joint].options[static_cast<std::size_t>(a.choice[joint])].name;
+}
+
+std::string standing_of(const AllocateStudy& s, const Allocation& a) {
+  if (&a == &s.result.chosen) return a.feasible ? "chosen" : "the tightest there is";
+  if (!a.feasible) return "finds nothing that keeps the limit";
+  if (!a.meets) return fmt::format("unsafe: only {} within the limit", readable_share(a.share_within));
+  if (s.result.chosen.feasible && a.price > s.result.chosen.price * (1.0 + 1e-6))
+    return fmt::format("wasteful: {:.3g} % dearer", 100.0 * (a.price / s.result.chosen.price - 1.0));
+  if (s.result.chosen.feasible && a.price < s.result.chosen.price * (1.0 - 1e-6))
+    return fmt::format(
+        "cheaper, and meets it by the samples of the search, but too closely for {} fresh samples to show it",
+        s.plan.confirm);
+  return "meets the requirement";
+}
+
+std::string allocate_sentence(const AllocateStudy& s) {
+  if (s.result.interrupted) return "Interrupted; the same command goes on and reuses what was computed.";
+  if (!s.result.feasible)
+    return fmt::format("Infeasible: no allocation {} to keep {}. The best that was reached is {}, for {:.4g}: {}.",
+                       s.result.converged ? "can be shown" : "was found", requirement_text(s),
+                       index_text(s, s.result.best_reachable), s.result.chosen.price,
+                       s.result.confirmations.back().sentence);
+  return fmt::format(
+      "{:.5g} buys {}. {}{}.", s.result.chosen.price, requirement_text(s),
+      s.result.chosen.proven     ? "Nothing cheaper keeps the limit with the room that this confirmation needs. "
+      : s.result.chosen.finished ? "Nothing cheaper was found near it; that nothing is elsewhere is not proven. "
+                                 : "",
+      s.result.confirmations.back().sentence);
+}
+
+report::Document allocate_report(const AllocateStudy& s) {
+  report::Document document{
+      .title = s.mechanism.name(), .subtitle = "Allocation: " + requirement_text(s), .verb = "allocate"};
+  document.verdict =
+      report::Verdict{s.result.feasible && !s.result.interrupted ? report::Standing::good : report::Standing::bad,
+                      allocate_sentence(s)};
+  document.warnings = s.warnings;
+  document.provenance = provenance_of(s.command, s.mechanism, s.rung);
+  document.provenance.back() = {"Data",
+                                "summary.json and allocation.csv beside this file; confirmation.db holds every sample"};
+  document.provenance.push_back({"Study hash", s.study.content_hash});
+  const Allocation& a = s.result.chosen;
+  document.facts = {
+      {.label = "Price", .value = a.price},
+      {.label = "Least limit kept", .value = index_text(s, a.reached), .note = "by the samples of the search"},
+      {.label = "Joints", .value = s.plan.joints.size()}};
+  if (s.result.feasible && std::isfinite(s.result.last_micrometre))
+    document.facts.push_back({.label = s.study.index.si_unit() == "m" ? "The last micrometre" : "The last microradian",
+                              .value = s.result.last_micrometre,
+                              .note = "what keeping the limit by that much tighter costs"});
+  if (!s.result.shares.empty())
+    document.sections.push_back({.id = "choice", .title = "What to order", .items = {option_table(s), share_chart(s)}});
+  if (!a.choice.empty() || !a.tolerance.empty())
+    document.sections.push_back(
+        {.id = "rules",
+         .title = "Against worst case and root-sum-square",
+         .intro = "The worst case adds all gaps at their largest and all errors in one direction; the "
+                  "root-sum-square takes the index at the mean gaps and the normal law about it.",
+         .items = {comparison_table(s)}});
+  if (s.result.front.size() > 1)
+    document.sections.push_back({.id = "front", .title = "Cost and accuracy", .items = {front_chart(s)}});
+  if (!s.result.confirmations.empty())
+    document.sections.push_back({.id = "confirmation", .title = "How sure it is", .items = {confirmation_table(s)}});
+  document.sections.push_back({.id = "model",
+                               .title = "What this model leaves out",
+                               .items = {report::Text{fmt::format(
+                                   "The search sums the error linearly over the joints, as journals at rest under the "
+                                   "ideal reactions displace the "
+                                   "platform; against its own rung that is off by {:.2g} %. Impacts come in by the "
+                                   "factor {:.4g}, measured on the {} rung "
+                                   "and taken as one for all samples; the confirmation does without either.\n\n{}",
+                                   100.0 * s.result.misfit, s.result.factor, s.rung.name, s.leaves_out)}}});
+  return document;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,339 @@
+// boresight allocate STUDY: fits or tolerances per joint at least cost that meet the pointing requirement.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "allocate/allocate_report.hpp"
+#include "boresight/io/content_hash.hpp"
+#include "boresight_analyses/runs/scatter_draws.hpp"
+#include "boresight_analyses/study/rung_sample_model.hpp"
+#include "command_line/study_input.hpp"
+#include "command_line/verb.hpp"
+#include "report/report.hpp"
+#include "report_parts/optimise_parts.hpp"
+#include "results/scatter_parts.hpp"
+#include "results/stored_study.hpp"
+#include "results/summary.hpp"
+#include "results/tables.hpp"
+#include "terminal/exit_status.hpp"
+#include "terminal/interruption.hpp"
+#include "terminal/progress.hpp"
+#include "terminal/readable.hpp"
+#include "terminal/terminal.hpp"
+
+namespace boresight::app {
+namespace {
+
+constexpr std::size_t kInstants = 125;  // of the motion, that the linear deviation keeps
+
+// All gaps at their least, their middle, their largest.
+std::vector<std::vector<double>> corner_gaps(const AllocationPlan& plan) {
+  std::vector<std::vector<double>> corners(3);
+  for (const AllocationJoint& joint : plan.joints) {
+    double least = joint.least + joint.curve.lower, largest = joint.least + joint.curve.upper;
+    if (!joint.options.empty()) {
+      least = joint.options.front().gap->mean();
+      largest = least;
+      for (const AllocationOption& o : joint.options) {
+        least = std::min(least, o.gap->mean());
+        largest = std::max(largest, o.gap->mean());
+      }
+    }
+    corners[0].push_back(0.5 * (least + largest));
+    corners[1].push_back(least);
+    corners[2].push_back(largest);
+  }
+  return corners;
+}
+
+// The confirming rung's outcomes, each sample stored as it lands and never computed twice.
+class Confirming {
+ public:
+  Confirming(const SampleModel& model, const AllocationPlan& plan, EvaluationStore& store, int jobs)
+      : model_(model), plan_(plan), store_(store), jobs_(jobs) {}
+
+  std::vector<Outcome> operator()(const std::vector<std::vector<double>>& gaps,
+                                  const std::vector<std::vector<double>>& others) {
+    std::vector<std::vector<double>> values = gaps, open;
+    std::vector<std::size_t> open_at;
+    std::vector<Outcome> outcomes(gaps.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (plan_.inputs) {
+        std::vector<double> point = others[k];
+        plan_.inputs->values(point);
+        values[k].insert(values[k].end(), point.begin(), point.end());
+      }
+      if (const auto* known = store_.find(values[k], 1)) {
+        outcomes[k] = known->front();
+        ++reused;
+        continue;
+      }
+      open.push_back(values[k]);
+      open_at.push_back(k);
+    }
+    const std::vector<Outcome> computed_now = evaluate_all(model_, open,
+                                                           {.jobs = jobs_,
+                                                            .interrupted = [] { return interrupted(); },
+                                                            .landed =
+                                                                [&](std::size_t k, const Outcome& outcome) {
+                                                                  ++computed;
+                                                                  store_.add(open[k], {outcome});
+                                                                }});
+    for (std::size_t k = 0; k < open.size(); ++k) outcomes[open_at[k]] = computed_now[k];
+    for (const Outcome& outcome : outcomes) failures.see(runs++, outcome);
+    return outcomes;
+  }
+
+  std::int64_t computed = 0, reused = 0;
+  Failures failures;  // of all outcomes handed over, in that order
+  std::uint64_t runs = 0;
+
+ private:
+  const SampleModel& model_;
+  const AllocationPlan& plan_;
+  EvaluationStore& store_;
+  int jobs_;
+};
+
+void write_allocation(std::ostream& out, const AllocateStudy& s) {
+  out << "joint,option,tolerance,price,cost_share,error_share,worst_case,root_sum_square\n";
+  for (std::size_t j = 0; j < s.result.shares.size(); ++j) {
+    const AllocationShare& share = s.result.shares[j];
+    out << csv_field(share.joint) << ',' << csv_field(share.option) << ','
+        << (s.result.chosen.tolerance.empty() ? "" : exact(s.result.chosen.tolerance[j])) << ',' << exact(share.price)
+        << ',' << exact(share.cost_share) << ',' << exact(share.error_share);
+    for (const Allocation* a : {&s.result.worst_case, &s.result.root_sum_square})
+      out << ',' << (a->feasible ? csv_field(option_text(s, *a, j)) : "");
+    out << '\n';
+  }
+}
+
+class AllocateVerb : public Verb {
+ public:
+  std::string name() const override { return "allocate"; }
+  std::string file_kind() const override { return "study"; }
+  std::string summary() const override {
+    return "fits or tolerances per joint at least cost that meet the requirement";
+  }
+  std::string example() const override { return "boresight allocate examples/3-rrcpr/allocate.toml"; }
+  void declare_options(CLI::App& app) override { motion_.declare_model(app); }
+
+  int execute(const Command& command) override {
+    const Stopwatch watch;
+    StudyInput input(command.file, command.settings);
+    const Study& study = input.study;
+    const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
+    const AllocationPlan plan = read_allocation_plan(input.root, study, mechanism->description(), input.trial);
+    check_rung_name(command.rung);
+    const RunOptions asked = motion_.run_options(*mechanism, command.rung);
+    ContentHash samples;
+    samples.add(plan.sample_text(study));
+    const OutputDirectory out = OutputDirectory::open(
+        command.out, command.verb, command.file,
+        identity_of(command, mechanism->description().content_hash, samples.hexadecimal(), motion_.identity()));
+
+    const RungChoice choice = rung_for(command);
+    const std::vector<std::vector<double>> gaps = corner_gaps(plan);
+    std::vector<std::vector<ParameterPath>> places;
+    for (const AllocationJoint& joint : plan.joints) places.push_back(joint.places);
+    double misfit = 0.0;
+    const LinearDeviation deviation = find_linear_deviation(mechanism, places, gaps[0], study.index, kInstants, misfit);
+
+    std::vector<Parameters> corners;
+    for (std::vector<double> values : gaps) {
+      if (plan.inputs)
+        for (const RandomParameter& p : plan.inputs->parameters) values.push_back(p.distribution->quantile(0.5));
+      corners.push_back(plan.parameters_with(*mechanism, values));
+    }
+    const RunOptions run = options_on(choice.name, mechanism, corners, asked);
+    const RungSampleModel model(
+        choice.name, mechanism,
+        [mechanism, &plan](std::span<const double> values) { return plan.parameters_with(*mechanism, values); },
+        study.index, run, plan.inputs && scene_varies(*plan.inputs));
+    std::vector<std::string> names;
+    for (const AllocationJoint& joint : plan.joints) names.push_back(joint.name());
+    if (plan.inputs)
+      for (const RandomParameter& p : plan.inputs->parameters) names.push_back(p.name());
+    const auto store = open_evaluations(out, name(), "confirmation.db", names, model.rung(), model.step());
+    Confirming confirming(model, plan, *store, command.jobs);
+
+    if (!command.quiet) {
+      tell("{}: {} joints, {}\n", mechanism->name(), plan.joints.size(),
+           plan.is_continuous() ? "cost curves" : "fits with prices");
+      std::fflush(stdout);
+    }
+    Progress progress(command.quiet, 1.0, "of the allocation");
+    AllocationResult result = with_options_checked([&] {
+      return run_allocation(
+          plan, deviation, misfit, std::ref(confirming), choice.name,
+          {.accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.05),
+           .interrupted = [] { return interrupted(); },
+           .progress = [&](const std::string& stage, double share) { progress.update(share, stage); }});
+    });
+    progress.clear();
+    result.evaluations = confirming.computed;
+    result.reused = confirming.reused;
+    AllocateStudy allocated{.command = command,
+                            .study = study,
+                            .mechanism = *mechanism,
+                            .rung = choice,
+                            .plan = plan,
+                            .result = result,
+                            .warnings = {},
+                            .leaves_out = model.leaves_out()};
+    allocated.warnings = warnings_of(allocated);
+    if (confirming.failures.count > 0)
+      allocated.warnings.push_back(
+          fmt::format("{} of {} confirming runs failed", confirming.failures.count, confirming.runs) +
+          first_failure_text(confirming.failures, "run"));
+    if (!store->damage().empty()) allocated.warnings.push_back(store->damage());
+    Json summary = summary_of(allocated, watch, out);
+    add_earlier_cost(summary, store->earlier());
+    add_first_failure(summary, confirming.failures, "run");
+    write_json(out, "summary.json", summary);
+    out.write("allocation.csv", [&](std::ostream& s) { write_allocation(s, allocated); });
+    out.write("report.html", [&](std::ostream& s) { report::write_html(s, allocate_report(allocated)); });
+    out.publish();
+    if (!command.quiet) print(allocated, out);
+    if (result.interrupted) return kInterrupted;
+    return result.feasible ? kDone : kAnswerIsNo;
+  }
+
+ private:
+  static RungChoice rung_for(const Command& command) {
+    if (command.rung == "perturbation" || command.rung == "multibody")
+      return {.name = command.rung, .why = "asked for by name; confirms what the linear deviation at rest finds"};
+    return {.name = "perturbation",
+            .why =
+                "the next rung above the quasistatic one, whose linear deviation the search uses; it "
+                "confirms the choice"};
+  }
+
+  static std::vector<std::string> warnings_of(const AllocateStudy& s) {
+    std::vector<std::string> warnings;
+    const AllocationResult& r = s.result;
+    if (r.feasible && !r.chosen.finished)
+      warnings.push_back("the search ended before it had shown that nothing cheaper meets the requirement");
+    for (std::size_t k = 0; k + 1 < r.confirmations.size(); ++k)
+      warnings.push_back("round " + std::to_string(k + 1) +
+                         " of the confirmation disagreed with the search: " + r.confirmations[k].sentence);
+    constexpr double kMuch = 0.02;
+    if (r.misfit > kMuch)
+      warnings.push_back(fmt::format(
+          "the error is not linear in the gaps: off by {:.2g} % against the quasistatic rung", 100.0 * r.misfit));
+    for (const Allocation* a : {&r.worst_case, &r.root_sum_square})
+      if (r.feasible && a->feasible && !a->meets)
+        warnings.push_back("the " + a->judged_by + " allocation is " + standing_of(s, *a));
+    return warnings;
+  }
+
+  static Json allocation_json(const AllocateStudy& s, const Allocation& a) {
+    Json json = {{"feasible", a.feasible},
+                 {"price", number_json(a.price)},
+                 {"share_within", number_json(a.share_within)},
+                 {"least_limit_shown", number_json(a.reached)},
+                 {"meets", a.meets},
+                 {"proven", a.proven},
+                 {"nodes", a.nodes},
+                 {"standing", standing_of(s, a)}};
+    json["choice"] = Json::object();
+    if (!a.choice.empty() || !a.tolerance.empty())
+      for (std::size_t j = 0; j < s.plan.joints.size(); ++j)
+        for (const std::string& path : s.plan.joints[j].paths)
+          json["choice"][path] = a.tolerance.empty() ? Json(option_text(s, a, j)) : Json(a.tolerance[j]);
+    return json;
+  }
+
+  // Of a fit, the mean gap that it gives; of a tolerance, itself.
+  static Json optimum_json(const AllocateStudy& s) {
+    Json json = Json::object();
+    const Allocation& a = s.result.chosen;
+    if (a.choice.empty() && a.tolerance.empty()) return json;
+    for (std::size_t j = 0; j < s.plan.joints.size(); ++j)
+      for (const std::string& path : s.plan.joints[j].paths)
+        json[path] = a.tolerance.empty() ? s.plan.joints[j].options[static_cast<std::size_t>(a.choice[j])].gap->mean()
+                                         : make_zone(s.plan.joints[j].least, a.tolerance[j], s.plan.zone)->mean();
+    return json;
+  }
+
+  static Json summary_of(const AllocateStudy& s, const Stopwatch& watch, const OutputDirectory& out) {
+    const AllocationResult& r = s.result;
+    Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, r.interrupted, out);
+    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    json["seed"] = s.plan.seed;
+    json["optimum"] = optimum_json(s);
+    json["optimum_of"] = "mean radial clearance per joint";
+    json["objective"] = number_json(r.chosen.price);
+    json["converged"] = r.converged && r.feasible;
+    json["feasible"] = r.feasible;
+    json["best_reachable"] = r.feasible ? Json() : number_json(r.best_reachable);
+    json["evaluations"] = r.evaluations;
+    json["evaluations_reused"] = r.reused;
+    json["samples_of_search"] = s.plan.samples;
+    json["search_seconds"] = r.search_seconds;
+    json["why"] = r.chosen.why;
+    json["requirement"] = {{"limit", s.plan.requirement.limit},
+                           {"probability", s.plan.requirement.probability},
+                           {"confidence", s.plan.requirement.confidence}};
+    json["linear_misfit"] = r.misfit;
+    json["factor"] = r.factor;
+    json["chosen"] = allocation_json(s, r.chosen);
+    json["worst_case"] = allocation_json(s, r.worst_case);
+    json["root_sum_square"] = allocation_json(s, r.root_sum_square);
+    json["shares"] = Json::array();
+    for (const AllocationShare& share : r.shares)
+      json["shares"].push_back({{"joint", share.joint},
+                                {"price", share.price},
+                                {"cost_share", share.cost_share},
+                                {"error_share", share.error_share},
+                                {"next_saving", share.next_saving}});
+    json["front"] = Json::array();
+    for (const CostPoint& p : r.front)
+      json["front"].push_back({{"limit", p.limit}, {"price", number_json(p.price)}, {"feasible", p.feasible}});
+    json["last_micrometre"] = number_json(r.last_micrometre);
+    json["confirmations"] = Json::array();
+    for (const AllocationConfirmation& c : r.confirmations)
+      json["confirmations"].push_back({{"rung", c.rung},
+                                       {"seed", c.seed},
+                                       {"samples", c.samples},
+                                       {"failed", c.failed},
+                                       {"confidence", c.confidence},
+                                       {"factor", c.factor},
+                                       {"price", c.price},
+                                       {"share_within", c.share_within},
+                                       {"share_low", c.share_low},
+                                       {"least_limit_shown", number_json(c.reached)},
+                                       {"met", c.met},
+                                       {"agrees", c.agrees},
+                                       {"sentence", c.sentence}});
+    json["files"] = {"summary.json", "allocation.csv", "confirmation.db", "report.html"};
+    return json;
+  }
+
+  static void print(const AllocateStudy& s, const OutputDirectory& out) {
+    tell("{}\n", allocate_sentence(s));
+    for (std::size_t j = 0; j < s.result.shares.size(); ++j) {
+      const AllocationShare& share = s.result.shares[j];
+      tell("  {:<24} {:<12} price {:<6.4g} {:>5.1f} % of the cost, {:>5.1f} % of the error\n", share.joint,
+           option_text(s, s.result.chosen, j), share.price, 100.0 * share.cost_share, 100.0 * share.error_share);
+    }
+    for (const Allocation* a : {&s.result.worst_case, &s.result.root_sum_square})
+      if (!a->judged_by.empty())
+        tell("  {}: {}{}\n", a->judged_by, a->feasible ? fmt::format("{:.5g}, ", a->price) : "", standing_of(s, *a));
+    if (s.result.feasible && std::isfinite(s.result.last_micrometre))
+      tell("  the last micro{}: {:.4g}\n", s.study.index.si_unit() == "m" ? "metre" : "radian",
+           s.result.last_micrometre);
+    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    tell("  report: {}\n", (out.path() / "report.html").string());
+  }
+
+  MotionOptions motion_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_allocate_verb() { return std::make_unique<AllocateVerb>(); }
+
+}  // namespace boresight::app

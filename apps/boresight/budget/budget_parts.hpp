@@ -1,0 +1,31 @@
+// The tables and charts of a pointing budget's report, and the words they share.
+#pragma once
+
+#include <string>
+
+#include "budget/budget_report.hpp"
+#include "terminal/readable.hpp"
+
+namespace boresight::app {
+
+std::string percent(double share);
+// Angles in arcsec, lengths in the unit that suits the largest.
+DisplayUnit budget_unit(const BudgetStudy& study, double largest);
+std::string interval_text(const BudgetStudy& study, const ReportedInterval& interval);
+std::string standing_text(RuleStanding standing, double by_rule, double simulated);
+const BudgetLevel& headline_level(const Budget& budget);
+
+report::Table requirement_table(const BudgetStudy& study, const Budget& budget);
+report::Table level_table(const BudgetStudy& study, const Budget& budget);
+report::Table contribution_table(const BudgetStudy& study, const Budget& budget);
+report::Table relief_table(const BudgetStudy& study, const Budget& budget);
+report::Table contributor_table(const BudgetStudy& study);
+report::Table classical_table(const BudgetStudy& study, const ClassicalTable& table);
+report::Table source_table(const BudgetStudy& study);
+
+report::Chart level_chart(const BudgetStudy& study, const Budget& budget);
+report::Chart waterfall_chart(const BudgetStudy& study, const Budget& budget);
+report::Chart distribution_chart(const BudgetStudy& study, const Budget& budget);
+report::Panels history_panels(const BudgetStudy& study, const Budget& budget);
+
+}  // namespace boresight::app

@@ -1,0 +1,204 @@
+#include "budget/budget_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "budget/budget_parts.hpp"
+#include "report_parts/report_parts.hpp"
+#include "results/pilot_parts.hpp"
+#include "terminal/readable.hpp"
+
+namespace boresight::app {
+namespace {
+
+std::string index_titles(const BudgetPlan& plan) {
+  std::string text;
+  for (const ErrorIndex index : plan.indices())
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", to_string(index), title_of(index));
+  text += ".";
+  const Windows& w = plan.windows;
+  if (w.window > 0.0) text += " Windows of " + readable(w.window, "s");
+  if (w.separation > 0.0) text += ", separated by " + readable(w.separation, "s");
+  if (w.observation > 0.0) text += ", within observations of " + readable(w.observation, "s");
+  return w.window > 0.0 ? text + "." : text;
+}
+
+std::string counted_unsafe(const Budget& b) {
+  const auto count = [&](RuleStanding standing) {
+    return std::count_if(b.levels.begin(), b.levels.end(),
+                         [&](const BudgetLevel& l) { return l.standing == standing; });
+  };
+  return fmt::format("Against {} simulated levels the classical rule is unsafe in {} and wasteful in {}.",
+                     b.levels.size(), count(RuleStanding::unsafe), count(RuleStanding::wasteful));
+}
+
+}  // namespace
+
+std::vector<BudgetSource> budget_sources(const BudgetStudy& s) {
+  const BudgetRuns& r = s.runs;
+  const std::string to = " to ";
+  const std::uint64_t slots = 1 + r.groups() + r.joints();
+  const std::string every = slots > 1 && r.rows() > 1 ? fmt::format(", one in {}", slots) : "";
+  std::vector<BudgetSource> sources = {
+      {kFromMembers,
+       fmt::format("the {} members: the mechanism as drawn, with each member's external errors", s.plan.members),
+       std::to_string(r.drawn(0)) + to + std::to_string(r.drawn(r.rows() - 1)) + every},
+      {kFromNominal, "the mechanism with every scattered parameter at its median; of several clearances each alone",
+       r.drawn(0) == 1 ? "0" : "0" + to + std::to_string(r.drawn(0) - 1)},
+      {kFromAttribution,
+       fmt::format("the first {} members in all variants: groups held, clearances halved", r.attribution()),
+       std::to_string(r.drawn(0)) + to + std::to_string(r.drawn(r.attribution()) - 1)},
+      {kFromClasses,
+       "formulas of ECSS-E-ST-60-10C from the study's contributors, and the clearances' and groups' moments", ""}};
+  if (!s.plan.posterior.empty())
+    sources.push_back({kFromCalibration, "what scatters: " + posterior_origin(s.plan), ""});
+  return sources;
+}
+
+std::string posterior_origin(const BudgetPlan& plan) {
+  const std::string file = plan.posterior + " (" + plan.posterior_hash.substr(0, 12) + ")";
+  std::ifstream stream(std::filesystem::path(plan.posterior).parent_path() / "summary.json");
+  const nlohmann::json made_by = nlohmann::json::parse(stream, nullptr, false);
+  if (!made_by.is_object() || made_by.value("verb", nlohmann::json()) != "calibrate" || !made_by.contains("data"))
+    return file + "; no calibrate's summary.json is beside it, so which data made it is not known";
+  const auto named = [&](const char* pointer) {
+    const nlohmann::json found = made_by.value(nlohmann::json::json_pointer(pointer), nlohmann::json("unknown"));
+    return found.is_string() ? found.get<std::string>() : found.dump();
+  };
+  std::string data;
+  for (const nlohmann::json& one : made_by["data"])
+    data += (data.empty() ? "" : ", ") + (one.is_string() ? one.get<std::string>() : one.dump());
+  return fmt::format("{}, fitted by {} ({}) to the data {} ({})", file, named("/study/file"),
+                     named("/study/hash").substr(0, 12), data, named("/identity/options/data").substr(0, 12));
+}
+
+std::string level_title(const BudgetAxes& axes, ErrorIndex index, std::size_t axis, Interpretation interpretation,
+                        double probability) {
+  return fmt::format("{}, {}, {}, {}", to_string(index), axes.name(axis), to_string(interpretation),
+                     percent(probability));
+}
+
+std::string budget_value(const BudgetStudy& s, double value) {
+  return s.study.index.si_unit() == "rad" ? readable_arcsec(value) : readable(value, s.study.index.si_unit());
+}
+
+std::string requirement_sentence(const BudgetStudy& s, const RequirementAnswer& r) {
+  std::string text =
+      fmt::format("{}: {}, limit {}: {}",
+                  level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability),
+                  budget_value(s, r.level.level.value), budget_value(s, r.asked.limit),
+                  r.compliance.met ? "met" : "not shown to be met");
+  if (r.compliance.met)
+    text += fmt::format(" with {} confidence, margin {}", percent(r.asked.confidence),
+                        readable_share(r.margin() / r.asked.limit));
+  else if (r.margin() < 0.0)
+    text += fmt::format(", {} above the limit", readable_share(-r.margin() / r.asked.limit));
+  else
+    text += fmt::format(": the members do not contradict it, and show {:.4g} % with {} confidence{}",
+                        100.0 * r.compliance.shown, percent(r.asked.confidence),
+                        r.judgement.by == Judgement::By::nothing ? "" : "; more of them may show it");
+  return r.judgement.why.empty() ? text : text + " (" + r.judgement.why + ")";
+}
+
+std::string budget_verdict(const BudgetStudy& s) {
+  const Budget& b = *s.budget;
+  if (b.requirements.empty()) {
+    const BudgetLevel& l = headline_level(b);
+    return fmt::format("{}: {} ({}). No requirement was asked for.",
+                       level_title(s.axes(), l.index, l.axis, l.interpretation, b.headline.probability),
+                       budget_value(s, l.level.value), interval_text(s, l.level));
+  }
+  const auto met =
+      std::count_if(b.requirements.begin(), b.requirements.end(), [](const auto& r) { return r.compliance.met; });
+  std::string text =
+      b.requirements.size() == 1 ? "" : fmt::format("{} of {} requirements met. ", met, b.requirements.size());
+  const auto unmet =
+      std::find_if(b.requirements.begin(), b.requirements.end(), [](const auto& r) { return !r.compliance.met; });
+  text += requirement_sentence(s, unmet == b.requirements.end() ? b.requirements.front() : *unmet) + ".";
+  if (!b.reliefs.empty() && b.reliefs.front().gain() > 0.0)
+    text += fmt::format(" Tighten first: {}; {} takes {} off the {} {}.", b.reliefs.front().name,
+                        b.reliefs.front().action, budget_value(s, b.reliefs.front().gain()),
+                        to_string(b.headline.index), s.axes().name(b.headline.axis));
+  return text;
+}
+
+report::Document budget_report(const BudgetStudy& s) {
+  report::Document document{
+      .title = s.mechanism.name(),
+      .subtitle = fmt::format("Pointing budget of the {}, {} members", s.study.index.quantity_title(), s.plan.members),
+      .verb = "budget"};
+  document.warnings = s.warnings;
+  document.provenance = provenance_of(s.command, s.mechanism, s.rung);
+  document.provenance.back() = {
+      "Data", "summary.json, levels.csv, classical.csv, contributions.csv; samples.db holds every run"};
+  document.provenance.push_back({"Study", s.study.file});
+  document.provenance.push_back({"Study hash", s.study.content_hash});
+  document.provenance.push_back({"Seed", std::to_string(s.plan.seed)});
+  if (!s.budget) {
+    document.verdict = report::Verdict{report::Standing::bad,
+                                       "Interrupted before all runs were there. The same command goes on from here."};
+    return document;
+  }
+  const Budget& b = *s.budget;
+  const BudgetLevel& headline = headline_level(b);
+  document.verdict = report::Verdict{b.requirements.empty() ? report::Standing::neutral
+                                     : b.met()              ? report::Standing::good
+                                                            : report::Standing::bad,
+                                     budget_verdict(s)};
+  document.facts.push_back({.label = fmt::format("{} {}", to_string(b.headline.index), s.axes().name(b.headline.axis)),
+                            .value = budget_value(s, headline.level.value),
+                            .note = fmt::format("{}, {}; {}", to_string(b.headline.interpretation),
+                                                percent(b.headline.probability), interval_text(s, headline.level))});
+  if (!b.requirements.empty()) {
+    document.facts.push_back({.label = "Limit", .value = budget_value(s, b.headline.limit)});
+    document.facts.push_back({.label = "Margin",
+                              .value = readable_share(b.requirements.front().margin() / b.headline.limit),
+                              .note = "of the limit"});
+  }
+  document.facts.push_back({.label = "Classical rule",
+                            .value = budget_value(s, headline.by_rule),
+                            .note = standing_text(headline.standing, headline.by_rule, headline.level.value)});
+  document.facts.push_back({.label = "Members", .value = b.members, .note = fmt::format("{} failed", b.failed)});
+
+  report::Section answers{.id = "answer", .title = "The budget", .intro = index_titles(s.plan), .items = {}};
+  if (!b.requirements.empty()) answers.items.emplace_back(requirement_table(s, b));
+  answers.items.emplace_back(level_chart(s, b));
+  document.sections.push_back(std::move(answers));
+  if (!b.contributions.empty())
+    document.sections.push_back({.id = "contributions",
+                                 .title = "Who contributes, and what to tighten first",
+                                 .intro = "Shares and gains are of the first requirement: " +
+                                          level_title(s.axes(), b.headline.index, b.headline.axis,
+                                                      b.headline.interpretation, b.headline.probability) +
+                                          ".",
+                                 .items = {waterfall_chart(s, b), contribution_table(s, b), relief_table(s, b)}});
+  report::Section classical{.id = "classical",
+                            .title = "Simulated, and the classical table",
+                            .intro = counted_unsafe(b),
+                            .items = {level_table(s, b), contributor_table(s)}};
+  for (const ClassicalTable& t : b.tables)
+    if (t.interpretation == b.headline.interpretation) classical.items.emplace_back(classical_table(s, t));
+  document.sections.push_back(std::move(classical));
+  document.sections.push_back({.id = "histories",
+                               .title = "The histories behind it",
+                               .items = {distribution_chart(s, b), history_panels(s, b)}});
+  document.sections.push_back(
+      {.id = "model",
+       .title = "What this model leaves out",
+       .items = {report::Text{
+           s.leaves_out +
+           fmt::format(
+               "\n\nBy its own estimate the rung is off by {} for what it leaves out, mean over the runs. By its "
+               "steps: {} ({}). The intervals above are of sampling alone.",
+               readable_share(s.model_error),
+               std::isfinite(s.steps.relative) ? readable_share(s.steps.relative) : "not measured", s.steps.why)}}});
+  document.sections.push_back({.id = "sources", .title = "Where each number comes from", .items = {source_table(s)}});
+  if (s.rung.pilot) document.sections.push_back(pilot_section(*s.rung.pilot));
+  return document;
+}
+
+}  // namespace boresight::app

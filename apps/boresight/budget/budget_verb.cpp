@@ -1,0 +1,380 @@
+// boresight budget STUDY: the pointing budget, from simulated histories and by the classical table.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "boresight/io/content_hash.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+#include "boresight_analyses/runs/scatter_draws.hpp"
+#include "boresight_analyses/runs/stored_runs.hpp"
+#include "budget/budget_report.hpp"
+#include "command_line/study_input.hpp"
+#include "command_line/verb.hpp"
+#include "report/report.hpp"
+#include "report_parts/optimise_parts.hpp"
+#include "results/scatter_parts.hpp"
+#include "results/stored_study.hpp"
+#include "results/summary.hpp"
+#include "results/tables.hpp"
+#include "terminal/exit_status.hpp"
+#include "terminal/interruption.hpp"
+#include "terminal/progress.hpp"
+#include "terminal/readable.hpp"
+#include "terminal/terminal.hpp"
+
+namespace boresight::app {
+namespace {
+
+// Errors of this size are rounding, in m or rad: a budget of them says nothing.
+constexpr double kNothing = 1e-9;
+
+struct RunsSeen {
+  Failures failures;
+  double largest = 0.0;  // of the quantity over every step of the members' runs
+  double missed = 0.0;   // the largest share of a run's maximum that its sampled history has not; 0 if it begins late
+  double model_error = 0.0;  // mean
+};
+
+RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs, const BudgetPlan& plan) {
+  RunsSeen seen;
+  double done = 0.0;
+  store.read(runs.drawn(runs.rows()), [&](const SampleRecord& r) {
+    seen.failures.see(r.number, r.outcome);
+    if (r.outcome.status == Outcome::Status::failed) return;
+    done += 1.0;
+    seen.model_error += r.outcome.model_error;
+    seen.largest = std::max(seen.largest, r.outcome.value);
+    if (plan.start > 0.0 || r.outcome.value < kNothing) return;
+    double sampled = 0.0;
+    for (const Vec3& e : stored_history(store, r.number, plan).error) sampled = std::max(sampled, e.norm());
+    seen.missed = std::max(seen.missed, 1.0 - sampled / r.outcome.value);
+  });
+  seen.model_error /= std::max(1.0, done);
+  return seen;
+}
+
+void write_levels(std::ostream& out, const BudgetStudy& s, const Budget& b) {
+  out << "index,axis,interpretation,probability,simulated,low,high,by_rule,integrated,standing\n";
+  for (const BudgetLevel& l : b.levels)
+    out << to_string(l.index) << ',' << csv_field(s.axes().name(l.axis)) << ',' << to_string(l.interpretation) << ','
+        << exact(b.headline.probability) << ',' << exact(l.level.value) << ',' << exact(l.level.low) << ','
+        << (std::isfinite(l.level.high) ? exact(l.level.high) : "") << ',' << exact(l.by_rule) << ','
+        << (l.integrated ? exact(*l.integrated) : "") << ',' << to_string(l.standing) << '\n';
+}
+
+void write_classical(std::ostream& out, const BudgetStudy& s, const Budget& b) {
+  out << "index,interpretation,contributor,class,group,axis,mean,sd\n";
+  for (const ClassicalTable& t : b.tables) {
+    const std::string begin = std::string(to_string(t.index)) + ',' + to_string(t.interpretation) + ',';
+    const auto row = [&](const std::string& name, const std::string& kind, const std::string& group,
+                         const std::vector<Moments>& axes) {
+      for (std::size_t a = 0; a < axes.size(); ++a)
+        out << begin << csv_field(name) << ',' << csv_field(kind) << ',' << csv_field(group) << ',' << s.axes().name(a)
+            << ',' << exact(axes[a].mean) << ',' << exact(axes[a].sd) << '\n';
+    };
+    for (const ClassicalLine& line : t.lines) row(line.name, line.kind, line.group, line.axes);
+    row("total", "total", "", t.total.axes);
+  }
+}
+
+void write_contributions(std::ostream& out, const Budget& b) {
+  const auto bound = [](double value) { return std::isfinite(value) ? exact(value) : std::string(); };
+  out << "contribution,kind,share,low,high\n";
+  for (const Contribution& c : b.contributions)
+    out << csv_field(c.name) << ',' << csv_field(c.kind) << ',' << exact(c.share) << ',' << bound(c.interval.low) << ','
+        << bound(c.interval.high) << '\n';
+}
+
+Json level_json(const BudgetStudy& s, const BudgetLevel& l, double probability) {
+  Json json = {{"index", to_string(l.index)},
+               {"axis", s.axes().name(l.axis)},
+               {"interpretation", to_string(l.interpretation)},
+               {"probability", probability}};
+  json.update(interval_json(l.level));
+  json["by_rule"] = number_json(l.by_rule);
+  if (l.integrated) json["integrated"] = number_json(*l.integrated);
+  json["rule_is"] = to_string(l.standing);
+  json["source"] = kFromMembers;
+  return json;
+}
+
+Json budget_json(const BudgetStudy& s, const Budget& b) {
+  Json json;
+  json["members"] = b.members;
+  json["failed"] = b.failed;
+  json["attribution"] = b.attribution;
+  for (const BudgetLevel& l : b.levels) json["levels"].push_back(level_json(s, l, b.headline.probability));
+  json["requirements"] = Json::array();
+  for (const RequirementAnswer& r : b.requirements) {
+    Json one = level_json(s, r.level, r.asked.probability);
+    one["limit"] = r.asked.limit;
+    one["asked_confidence"] = r.asked.confidence;
+    one["met"] = r.compliance.met;
+    one["margin"] = r.margin();
+    one["share"] = r.compliance.share;
+    one["shown"] = r.compliance.shown;
+    one["shown_confidence"] = r.judgement.confidence;
+    if (!r.judgement.why.empty()) one["judged"] = r.judgement.why;
+    one["fewest_members"] = r.compliance.fewest;
+    one["rule_says_met"] = r.rule_says_met();
+    json["requirements"].push_back(std::move(one));
+  }
+  json["contributions"] = Json::array();
+  for (const Contribution& c : b.contributions)
+    json["contributions"].push_back({{"name", c.name},
+                                     {"kind", c.kind},
+                                     {"share", number_json(c.share)},
+                                     {"low", number_json(c.interval.low)},
+                                     {"high", number_json(c.interval.high)}});
+  json["tighten_first"] = Json::array();
+  for (const Relief& r : b.reliefs)
+    json["tighten_first"].push_back({{"name", r.name},
+                                     {"if", r.action},
+                                     {"before", r.before},
+                                     {"after", r.after},
+                                     {"gain", r.gain()},
+                                     {"gain_low", number_json(r.interval.low)},
+                                     {"gain_high", number_json(r.interval.high)},
+                                     {"source", kFromAttribution}});
+  return json;
+}
+
+class BudgetVerb : public Verb {
+ public:
+  std::string name() const override { return "budget"; }
+  std::string file_kind() const override { return "study"; }
+  std::string summary() const override { return "pointing budget: APE, MPE, RPE, PDE, PRE; ensemble, temporal, mixed"; }
+  std::string example() const override {
+    return "boresight budget examples/3-rrcpr/budget.toml --set clearance.F1.axes=free --rung perturbation "
+           "--integrator rosenbrock";
+  }
+  void declare_options(CLI::App& app) override {
+    motion_.declare_model(app);
+    resumption_.declare(app);
+  }
+
+  int execute(const Command& command) override {
+    const Stopwatch watch;
+    StudyInput input(command.file, command.settings);
+    const Study& study = input.study;
+    const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
+    const BudgetPlan plan =
+        read_budget_plan(input.root, study, mechanism->description(), mechanism->duration(), input.trial);
+    check_rung_name(command.rung);
+    RunOptions run = motion_.run_options(*mechanism, command.rung);
+
+    const std::string text = plan.sample_text(study);
+    ContentHash hash;
+    hash.add(text);
+    nlohmann::json options = motion_.model_identity();
+    if (study.accuracy) options["study_accuracy"] = *study.accuracy;
+    const OutputDirectory out =
+        OutputDirectory::open(command.out, command.verb, command.file,
+                              identity_of(command, mechanism->description().content_hash, hash.hexadecimal(), options));
+    SampleStore store = open_runs(out, name(), plan.inputs, text, resumption_);
+    tell_of_damage(store.damage());
+    const BudgetRuns runs(plan, *mechanism);
+    // Levels of a budget are quantiles over the members.
+    const RungChoice choice = rung_of_study(
+        command, study, mechanism,
+        {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count(), .integrators = true}, run, store);
+    apply(choice, run);
+    const bool takes_steps = !integrator_names(choice.name).empty();
+    if (takes_steps && run.step == 0.0 && (run.integrator.empty() || run.integrator == "rk4"))
+      run.step = kept_common_step(choice.name, mechanism, plan.inputs, run, store);
+    run = options_on(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run);
+    const BudgetModel model(choice.name, mechanism, plan, runs, {study.index.quantity, "max", plan.start}, run,
+                            scene_varies(plan.inputs));
+    store.use_rung(model.rung(), model.step());
+    note_origin(store, study, *mechanism, plan);
+    const std::uint64_t begun_with = store.count();
+    const Stopwatch computing;
+    bool whole = with_options_checked([&] { return compute(command, study, *mechanism, plan, runs, model, store); });
+    const std::string stuck = no_run_done(!whole, begun_with, store.count(), computing.wall_seconds());
+    // Last, as it keeps nothing before it ends.
+    StudySteps steps{kNotMeasured, "not measured: the study was interrupted before"};
+    if (whole)
+      steps =
+          steps_of_study(command, study, mechanism, {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count()},
+                         run, choice.name, &store);
+    whole = whole && !steps.interrupted;
+
+    std::optional<Budget> budget;
+    if (whole) budget = budget_of(plan, runs, *mechanism, study.index.kind(), store, look_at_requirements(plan, store));
+    BudgetStudy result{.command = command,
+                       .study = study,
+                       .mechanism = *mechanism,
+                       .rung = choice,
+                       .plan = plan,
+                       .runs = runs,
+                       .budget = budget,
+                       .warnings = {},
+                       .leaves_out = model.leaves_out(),
+                       .step = model.step()};
+    const RunsSeen seen = runs_seen(store, runs, plan);
+    result.model_error = seen.model_error;
+    result.steps = steps;
+    if (budget) result.warnings = warnings_of(result, seen);
+    if (!stuck.empty()) result.warnings.push_back(stuck);
+    if (!store.damage().empty()) result.warnings.push_back(store.damage());
+    write(result, seen, out, watch, store.earlier());
+    if (!command.quiet) print(result, out);
+    if (!budget) return kInterrupted;
+    return budget->met() ? status_with_accuracy(choice, kDone) : kAnswerIsNo;
+  }
+
+ private:
+  static void note_origin(SampleStore& store, const Study& study, const Mechanism& mechanism, const BudgetPlan& plan) {
+    if (!store.fact("mechanism").empty()) return;
+    store.note("mechanism", mechanism.name());
+    store.note("mechanism_hash", mechanism.description().content_hash);
+    store.note("index", study.index.quantity + ".max");
+    store.note("unit", study.index.si_unit());
+    store.note("seed", std::to_string(plan.seed));
+    store.note("version", BORESIGHT_VERSION);
+  }
+
+  // Returns false if it was interrupted.
+  static bool compute(const Command& command, const Study& study, const Mechanism& mechanism, const BudgetPlan& plan,
+                      const BudgetRuns& runs, const BudgetModel& model, SampleStore& store) {
+    const std::vector<NumberRange> missing = runs.missing(store);
+    std::uint64_t begun_with = runs.count(), done = 0;
+    for (const NumberRange& range : missing) begun_with -= range.size();
+    done = begun_with;
+    if (!command.quiet) {
+      tell("{}: {} members on the {} rung, {} runs ({} members with {} groups held and {} clearances halved){}\n",
+           mechanism.name(), plan.members, model.rung(), runs.count(), runs.attribution(), runs.groups(), runs.joints(),
+           begun_with > 0 ? fmt::format(", {} of them stored already", begun_with) : "");
+      std::fflush(stdout);
+    }
+    Progress progress(command.quiet, static_cast<double>(runs.count()), "runs");
+    double largest = 0.0;
+    std::uint64_t failed = 0;
+    const auto landed = [&](std::span<const SampleRecord> records) {
+      for (const SampleRecord& r : records) {
+        ++done;
+        if (r.outcome.status == Outcome::Status::failed) ++failed;
+        if (r.outcome.value > largest) largest = r.outcome.value;
+      }
+      progress.update_from(static_cast<double>(begun_with), static_cast<double>(done),
+                           "largest " + study.index.quantity_title() + " so far " +
+                               readable(largest, study.index.si_unit()) +
+                               (failed > 0 ? fmt::format(", {} failed", failed) : ""));
+    };
+    const bool whole = store_runs(
+        model, plan.inputs.size(), [&](std::uint64_t number, std::span<double> values) { runs.values(number, values); },
+        missing, store, {.jobs = command.jobs, .landed = landed, .interrupted = [] { return interrupted(); }});
+    progress.clear();
+    return whole;
+  }
+
+  static std::vector<std::string> warnings_of(const BudgetStudy& s, const RunsSeen& seen) {
+    const Budget& b = *s.budget;
+    std::vector<std::string> warnings;
+    if (seen.failures.count > 0)
+      warnings.push_back(
+          fmt::format("{} of {} runs failed; a member whose own run failed counts as bad in every answer",
+                      seen.failures.count, s.runs.count()) +
+          first_failure_text(seen.failures, "run"));
+    if (seen.largest < kNothing && s.runs.joints() > 0)
+      warnings.push_back("the clearances make no " + s.study.index.quantity_title() +
+                         " beyond rounding: where journal and sleeve axes are kept parallel they turn nothing; axes = "
+                         "\"free\" lets them tilt");
+    constexpr double kMuchMissed = 0.01;
+    if (seen.missed > kMuchMissed)
+      warnings.push_back(
+          fmt::format("the sampled histories miss up to {} of a run's largest error; a finer `sampling` finds it",
+                      readable_share(seen.missed)));
+    for (const RequirementAnswer& r : b.requirements)
+      if (!r.compliance.met && b.members < r.compliance.fewest)
+        warnings.push_back(
+            fmt::format("{} cannot be shown with {} members, whatever they give: it takes {}",
+                        level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability),
+                        b.members, r.compliance.fewest));
+    for (const RequirementAnswer& r : b.requirements)
+      if (r.rule_says_met() && r.margin() < 0.0)
+        warnings.push_back(fmt::format(
+            "{}: the classical rule would have said met",
+            level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability)));
+    return warnings;
+  }
+
+  static Json sources_json(const BudgetStudy& s) {
+    Json json;
+    for (const BudgetSource& source : budget_sources(s)) {
+      json[source.letter] = {{"what", source.what},
+                             {"study", s.study.file},
+                             {"study_hash", s.study.content_hash},
+                             {"mechanism_hash", s.mechanism.description().content_hash},
+                             {"seed", s.plan.seed}};
+      if (source.runs.empty()) continue;
+      json[source.letter]["store"] = "samples.db";
+      json[source.letter]["runs"] = source.runs;
+      json[source.letter]["rung"] = s.rung.name;
+      json[source.letter]["step"] = s.step;
+    }
+    return json;
+  }
+
+  static void write(const BudgetStudy& s, const RunsSeen& seen, const OutputDirectory& out, const Stopwatch& watch,
+                    const SampleStore::Cost& earlier) {
+    Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, !s.budget, out);
+    add_earlier_cost(json, earlier);
+    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    json["seed"] = s.plan.seed;
+    json["index"] = {{"quantity", s.study.index.quantity}, {"unit", s.study.index.si_unit()}};
+    json["windows"] = {{"window", s.plan.windows.window},
+                       {"separation", s.plan.windows.separation},
+                       {"observation", s.plan.windows.observation},
+                       {"revisit", s.plan.windows.revisit},
+                       {"sampling", s.plan.sampling},
+                       {"start", s.plan.start}};
+    std::vector<std::string> files = {"summary.json", "samples.db", "report.html"};
+    add_first_failure(json, seen.failures, "run");
+    if (s.budget) {
+      json.update(budget_json(s, *s.budget));
+      json["error"] = {
+          {"rung", seen.model_error}, {"discretisation", number_json(s.steps.relative)}, {"sampling", seen.missed}};
+      json["error"]["discretisation_why"] = s.steps.why;
+      out.write("levels.csv", [&](std::ostream& stream) { write_levels(stream, s, *s.budget); });
+      out.write("classical.csv", [&](std::ostream& stream) { write_classical(stream, s, *s.budget); });
+      out.write("contributions.csv", [&](std::ostream& stream) { write_contributions(stream, *s.budget); });
+      for (const char* file : {"levels.csv", "classical.csv", "contributions.csv"}) files.emplace_back(file);
+    }
+    json["sources"] = sources_json(s);
+    json["files"] = files;
+    write_json(out, "summary.json", json);
+    out.write("report.html", [&](std::ostream& stream) { report::write_html(stream, budget_report(s)); });
+    out.publish();
+  }
+
+  static void print(const BudgetStudy& s, const OutputDirectory& out) {
+    if (!s.budget) {
+      tell("  interrupted; the same command goes on\n");
+    } else {
+      const Budget& b = *s.budget;
+      if (b.requirements.empty()) tell("  {}\n", budget_verdict(s));
+      for (const RequirementAnswer& r : b.requirements)
+        tell("  {}; by the classical rule {}, {}\n", requirement_sentence(s, r), budget_value(s, r.level.by_rule),
+             to_string(r.level.standing));
+      for (const Relief& r : b.reliefs)
+        tell("  {:<32} {:<20} takes off {}{}\n", r.name, r.action, budget_value(s, r.gain()),
+             std::isfinite(r.interval.low)
+                 ? fmt::format(" ({} to {})", budget_value(s, r.interval.low), budget_value(s, r.interval.high))
+                 : "");
+    }
+    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    tell("  report: {}\n", (out.path() / "report.html").string());
+  }
+
+  MotionOptions motion_;
+  Resumption resumption_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_budget_verb() { return std::make_unique<BudgetVerb>(); }
+
+}  // namespace boresight::app

@@ -1,0 +1,236 @@
+// boresight calibrate STUDY: contact parameters from measured pointing data.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+
+#include "boresight/io/content_hash.hpp"
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/io/referred_file.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight_analyses/calibration/calibration_plan.hpp"
+#include "boresight_analyses/calibration/posterior.hpp"
+#include "boresight_analyses/calibration/rig.hpp"
+#include "calibrate/calibrate_report.hpp"
+#include "command_line/declared_option.hpp"
+#include "command_line/verb.hpp"
+#include "report/report.hpp"
+#include "results/summary.hpp"
+#include "terminal/exit_status.hpp"
+#include "terminal/interruption.hpp"
+#include "terminal/progress.hpp"
+#include "terminal/readable.hpp"
+#include "terminal/terminal.hpp"
+
+namespace boresight::app {
+namespace {
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+class CalibrateVerb : public Verb {
+ public:
+  std::string name() const override { return "calibrate"; }
+  std::string file_kind() const override { return "study"; }
+  std::string summary() const override { return "contact parameters from measured pointing data"; }
+  std::string example() const override { return "boresight calibrate examples/calibration/calibrate.toml"; }
+  std::vector<std::string> unused_options() const override { return {"--rung", "--accuracy"}; }
+  void declare_options(CLI::App& app) override {
+    declare_option(app, "--make-data", noise_,
+                   "write the study's data files anew from the multibody rung, with this noise, such as \"1 %\"; files "
+                   "that it did not write are "
+                   "left as they are, with status 2",
+                   "TEXT");
+    declare_option(app, "--make-offset", offset_,
+                   "of --make-data: a hidden mounting offset on every displacement, such as \"5 um\"", "TEXT");
+    declare_option(app, "--make-seed", seed_, "of --make-data: of the noise", "UINT");
+  }
+
+  int execute(const Command& command) override {
+    const Stopwatch watch;
+    Document document = Document::from_file(command.file);
+    Cursor root(document);
+    const Study study = read_study(root, document.content_hash());
+    const auto mechanism_with = [&](const std::vector<Setting>& more) {
+      std::vector<Setting> settings = command.settings;
+      settings.insert(settings.end(), more.begin(), more.end());
+      return read_referred(root.origin("mechanism"), "mechanism", study.mechanism_file, [&] {
+        return std::make_shared<const Mechanism>(read_mechanism(study.mechanism_file, settings));
+      });
+    };
+    const auto mechanism = mechanism_with({});
+    const CalibrationPlan plan = read_calibration_plan(root, study, mechanism->description());
+    if (!noise_.empty()) return make_data(plan, mechanism_with);
+    CalibrationProblem problem = calibration_problem(plan, mechanism_with);
+    CalibrationOptions options;
+    options.jobs = command.jobs;
+    options.confidence = plan.confidence;
+    options.starts = plan.starts;
+    options.seed = plan.seed;
+    options.noise = plan.noise;
+    options.corrections = plan.corrections;
+    options.profile = plan.profile;
+    options.laws = plan.laws;
+    for (const PlannedRun& c : plan.candidates) options.candidates.push_back({c.name, mechanism_with(c.settings)});
+    ContentHash data;
+    for (const CalibrationRun& run : problem.runs) data.add(csv_of(run.data));
+    const OutputDirectory out = OutputDirectory::open(command.out, command.verb, command.file,
+                                                      identity_of(command, mechanism->description().content_hash,
+                                                                  study.content_hash, {{"data", data.hexadecimal()}}));
+    Progress progress(command.quiet, 1.0, "of the fit");
+    options.progress = [&](const std::string& stage, double share, const std::string& estimate) {
+      progress.update(share, stage + ": " + estimate);
+      return !interrupted();
+    };
+    const CalibrationResult result = calibrate(problem, options);
+    progress.clear();
+    RungChoice rung;
+    rung.name = "perturbation";
+    rung.why = plan.corrections > 0
+                   ? "the fit needs exact derivatives, which it has; what it leaves out is corrected by multibody"
+                   : "the fit needs exact derivatives, which it has";
+    const CalibrationStudy whole{command, study, *mechanism, rung, plan, problem, result};
+    if (result.interrupted && result.inference.parameters.empty()) throw Interrupted{};
+    write_json(out, "summary.json", summary_of(whole, watch, out));
+    if (!result.inference.parameters.empty()) {
+      out.write("posterior.toml", [&](std::ostream& s) {
+        if (result.interrupted)
+          s << "# The calibration was interrupted: these are the values and errors where it stood, not those of its "
+               "data.\n"
+               "interrupted = true\n\n";
+        s << posterior_toml(problem, result.inference);
+      });
+      out.write("report.html", [&](std::ostream& s) { report::write_html(s, calibrate_report(whole)); });
+    }
+    out.publish();
+    if (!command.quiet) print(whole, out);
+    if (result.interrupted) return kInterrupted;
+    const bool all = std::all_of(result.inference.parameters.begin(), result.inference.parameters.end(),
+                                 [](const ParameterEstimate& e) { return e.identifiable; });
+    return all && result.fit.converged ? kDone : kAnswerIsNo;
+  }
+
+ private:
+  // Measured data may have taken a year.
+  static void check_that_it_may_be_written(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::exists(std::filesystem::symlink_status(file, error))) return;
+    constexpr std::uintmax_t kMostSynthetic = 256u << 20;  // bytes
+    if (std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) <= kMostSynthetic &&
+        !error) {
+      std::ifstream stream(file, std::ios::binary);
+      if (stream && is_synthetic({std::istreambuf_iterator<char>(stream), {}})) return;
+    }
+    throw OutputDirectoryError(
+        file.string() +
+        ": is there already, and not as --make-data wrote it; name another file in the study, or remove it");
+  }
+
+  template <typename MechanismWith>
+  int make_data(const CalibrationPlan& plan, const MechanismWith& mechanism_with) const {
+    SyntheticRig rig;
+    rig.noise = positive_quantity("--make-data", noise_, kRatio);
+    rig.seed = seed_;
+    rig.bias = VecX::Zero(6);
+    if (!offset_.empty()) rig.bias.head(3).setConstant(positive_quantity("--make-offset", offset_, kLength));
+    for (const PlannedRun& planned : plan.runs) check_that_it_may_be_written(planned.data);
+    for (std::size_t r = 0; r < plan.runs.size(); ++r) {
+      const auto mechanism = mechanism_with(plan.runs[r].settings);
+      std::vector<double> times;
+      for (int i = 0; i * rig.spacing < mechanism->duration() * (1.0 + 1e-9); ++i)
+        times.push_back(std::min(i * rig.spacing, mechanism->duration()));
+      const MatX clean = multibody_readings(mechanism, mechanism->parameters(), times, rig.channels);
+      write_atomically(plan.runs[r].data, synthetic_csv_of(with_rig_errors(rig, times, clean, static_cast<int>(r))));
+      tell("wrote {}\n", plan.runs[r].data);
+    }
+    return kDone;
+  }
+
+  static Json summary_of(const CalibrationStudy& s, const Stopwatch& watch, const OutputDirectory& out) {
+    const CalibrationResult& r = s.result;
+    Json json = common_summary(s.command, s.mechanism, s.rung, watch, r.warnings, r.interrupted, out);
+    json["seed"] = s.plan.seed;
+    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    json["data"] = Json::array();
+    for (const CalibrationRun& run : s.problem.runs) json["data"].push_back(run.data.file);
+    json["objective"] = number(r.fit.cost);
+    json["converged"] = r.fit.converged;
+    json["reason"] = r.fit.reason;
+    json["evaluations"] = r.evaluations;
+    for (const char* key : {"optimum", "standard_error", "interval", "correlation", "identifiable"})
+      json[key] = Json::object();
+    const auto& parameters = r.inference.parameters;
+    for (std::size_t a = 0; a < parameters.size(); ++a) {
+      const ParameterEstimate& e = parameters[a];
+      json["optimum"][e.name] = e.identifiable ? number(e.value) : Json();
+      json["standard_error"][e.name] = e.identifiable ? number(e.standard_error) : Json();
+      json["interval"][e.name] =
+          e.identifiable ? Json{{"low", number(e.low)}, {"high", number(e.high)}, {"confidence", s.plan.confidence}}
+                         : Json();
+      for (const Profile& p : r.profiles)
+        if (e.identifiable && p.parameter == static_cast<int>(a))
+          json["interval"][e.name]["profile"] = {{"low", number(p.low)}, {"high", number(p.high)}};
+      for (std::size_t b = 0; b < parameters.size(); ++b)
+        json["correlation"][e.name][parameters[b].name] =
+            number(r.inference.correlation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
+      json["identifiable"][e.name] = {{"value", e.identifiable}, {"reason", e.reason}};
+    }
+    json["verdict"] = r.verdict;
+    json["residuals"] = {{"values", r.inference.values},
+                         {"unknowns", r.inference.unknowns},
+                         {"variance_factor", number(r.inference.variance_factor)},
+                         {"autocorrelation", number(r.inference.autocorrelation)},
+                         {"lags", r.inference.lags}};
+    Json sigma = Json::object();
+    for (std::size_t c = 0; c < s.problem.channels.size(); ++c)
+      sigma[channel_names()[s.problem.channels[c]].name] = s.problem.sigma[static_cast<Eigen::Index>(c)];
+    json["noise"] = sigma;
+    json["multibody"] = {{"residual_rms", r.confirmation >= 0.0 ? number(r.confirmation) : Json()}};
+    json["hold_out"] = r.hold_out ? Json{{"values", r.hold_out->values}, {"rms", number(r.hold_out->rms)}} : Json();
+    json["laws"] = Json::array();
+    for (const LawScore& l : r.laws)
+      json["laws"].push_back({{"law", l.law},
+                              {"cost", number(l.cost)},
+                              {"parameters", l.parameters},
+                              {"effective_values", number(l.effective_values)},
+                              {"aic", number(l.aic)},
+                              {"difference", number(l.difference)}});
+    json["next_tests"] = Json::array();
+    for (const NextTest& t : r.next_tests)
+      json["next_tests"].push_back(
+          {{"name", t.name}, {"d_gain", number(t.d_gain)}, {"a_ratio", number(t.a_ratio)}, {"refusal", t.refusal}});
+    json["files"] = parameters.empty() ? Json{"summary.json"} : Json{"summary.json", "posterior.toml", "report.html"};
+    return json;
+  }
+
+  static void print(const CalibrationStudy& s, const OutputDirectory& out) {
+    tell("{}: {} runs, {} values; {}\n", s.mechanism.name(), s.problem.runs.size(), s.result.inference.values,
+         s.result.fit.reason);
+    for (const ParameterEstimate& e : s.result.inference.parameters)
+      if (e.identifiable)
+        tell("  {}: {} +- {} ({:.5g} to {:.5g}{}{})\n", e.name, readable(e.value, e.si_unit),
+             readable(e.standard_error, e.si_unit), e.low, e.high, e.si_unit == "1" ? "" : " ",
+             e.si_unit == "1" ? "" : e.si_unit);
+      else
+        tell("  {}: not identifiable: {}\n", e.name, e.reason);
+    for (const std::string& sentence : s.result.verdict) tell("  {}\n", sentence);
+    if (!s.result.next_tests.empty()) tell("  next test: {}\n", s.result.next_tests.front().name);
+    for (const std::string& warning : s.result.warnings) tell("  warning: {}\n", warning);
+    if (s.result.interrupted) tell("  interrupted: the posterior is that of a fit that had not ended\n");
+    if (s.result.inference.parameters.empty()) return;
+    tell("  posterior: {}\n  report: {}\n", (out.path() / "posterior.toml").string(),
+         (out.path() / "report.html").string());
+  }
+
+  std::string noise_, offset_;
+  std::uint64_t seed_ = 1;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_calibrate_verb() { return std::make_unique<CalibrateVerb>(); }
+
+}  // namespace boresight::app

@@ -1,0 +1,20 @@
+// The HTML report of `chart`.
+#pragma once
+
+#include <optional>
+
+#include "boresight/mechanism/mechanism.hpp"
+#include "boresight_analyses/chart/chart.hpp"
+#include "command_line/command.hpp"
+#include "report/document.hpp"
+
+namespace boresight::app {
+
+// accuracy: asked for by the study or the command line.
+report::Document chart_report(const Command& command, const Mechanism& mechanism, const ChartResult& result,
+                              std::optional<double> accuracy);
+
+// "AMD EPYC 7B13, 2 cores, GCC 12.2.0, optimised, load 1.2"
+std::string machine_line(const Machine& machine);
+
+}  // namespace boresight::app

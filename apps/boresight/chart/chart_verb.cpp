@@ -1,0 +1,211 @@
+// boresight chart FILE: accuracy against speed of every rung, formulation, integrator and step, measured now,
+// on this machine.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/io/referred_file.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/chart/chart.hpp"
+#include "boresight_analyses/study/study.hpp"
+#include "chart/chart_report.hpp"
+#include "command_line/declared_option.hpp"
+#include "command_line/option_range.hpp"
+#include "command_line/verb.hpp"
+#include "report/report.hpp"
+#include "results/summary.hpp"
+#include "results/tables.hpp"
+#include "terminal/exit_status.hpp"
+#include "terminal/interruption.hpp"
+#include "terminal/progress.hpp"
+#include "terminal/readable.hpp"
+#include "terminal/terminal.hpp"
+
+namespace boresight::app {
+namespace {
+
+void write_points(std::ostream& out, const ChartResult& result) {
+  out << "family,rung,formulation,stabilisation,integrator,step,tolerance,index,error,half_spread,own_"
+         "estimate,cpu_seconds,papers,"
+         "pareto,refusal\n";
+  for (std::size_t k = 0; k < result.points.size(); ++k) {
+    const ChartPoint& p = result.points[k];
+    const bool done = p.measured.refusal.empty();
+    const bool front = std::find(result.front.begin(), result.front.end(), k) != result.front.end();
+    const auto number = [&](double value) { return done ? exact(value) : std::string(); };
+    out << csv_field(p.family) << ',' << p.way.rung << ',' << p.way.formulation << ',' << p.way.stabilisation << ','
+        << p.way.integrator << ',' << (p.way.step > 0.0 ? exact(p.way.step) : "") << ','
+        << (p.way.tolerance > 0.0 ? exact(p.way.tolerance) : "") << ',' << number(p.measured.value) << ','
+        << number(p.error) << ',' << number(p.measured.half_spread) << ',' << number(p.measured.estimate) << ','
+        << number(p.measured.cpu_seconds) << ',' << p.papers << ',' << front << ',' << csv_field(p.measured.refusal)
+        << '\n';
+  }
+}
+
+void write_flight(std::ostream& out, const Flight& flight) {
+  out << "family,rung,formulation,stabilisation,integrator,step,tolerance,error_over_clearance,cpu_seconds,"
+         "refusal\n";
+  for (const FlightPoint& p : flight.points) {
+    const bool done = p.refusal.empty();
+    out << csv_field(p.family) << ',' << p.way.rung << ',' << p.way.formulation << ',' << p.way.stabilisation << ','
+        << p.way.integrator << ',' << (p.way.step > 0.0 ? exact(p.way.step) : "") << ','
+        << (p.way.tolerance > 0.0 ? exact(p.way.tolerance) : "") << ',' << (done ? exact(p.error) : "") << ','
+        << (done ? exact(p.cpu_seconds) : "") << ',' << csv_field(p.refusal) << '\n';
+  }
+}
+
+Json point_json(const ChartPoint& p) {
+  Json json = {{"way", p.family}, {"fineness", fineness(p.way)}};
+  if (p.measured.refusal.empty()) {
+    json["index"] = p.measured.value;
+    json["error"] = p.error;
+    json["own_estimate"] = p.measured.estimate;
+    json["cpu_seconds"] = p.measured.cpu_seconds;
+  } else {
+    json["refused"] = p.measured.refusal;
+  }
+  return json;
+}
+
+Json summary_of(const Command& command, const Mechanism& mechanism, const ChartResult& result,
+                std::optional<double> accuracy, const Stopwatch& watch, const OutputDirectory& out) {
+  std::vector<std::string> warnings;
+  for (const std::string& name : result.left_out) warnings.push_back("no time was left for " + name);
+  for (const std::string& name : result.flight.left_out)
+    warnings.push_back("no time was left for the flight before the first impact of " + name);
+  Json json = common_summary(command, mechanism, {.name = "all", .why = "the chart compares them"}, watch, warnings,
+                             result.interrupted, out);
+  json["index"] = result.index;
+  json["reference"] = {
+      {"value", result.reference.value}, {"uncertainty", result.reference.uncertainty}, {"refinements", Json::array()}};
+  for (const Refinement& r : result.reference.refinements)
+    json["reference"]["refinements"].push_back({{"step", r.step}, {"value", r.value}, {"half_spread", r.half_spread}});
+  json["machine"] = {{"processor", result.machine.processor},
+                     {"cores", result.machine.cores},
+                     {"compiler", result.machine.compiler},
+                     {"build", result.machine.build},
+                     {"load", result.machine.load}};
+  if (accuracy) {
+    json["accuracy"] = *accuracy;
+    const ChartPoint* best = result.cheapest_within(*accuracy);
+    json["cheapest_within_accuracy"] = best ? point_json(*best) : Json();
+  }
+  json["papers"] = result.papers() ? point_json(*result.papers()) : Json();
+  json["pareto"] = Json::array();
+  for (std::size_t k : result.front) json["pareto"].push_back(point_json(result.points[k]));
+  json["points"] = Json::array();
+  for (const ChartPoint& p : result.points) json["points"].push_back(point_json(p));
+  json["flight"] = {{"first_contact", result.flight.first_contact},
+                    {"end", result.flight.end},
+                    {"points", result.flight.points.size()}};
+  json["files"] = {"summary.json", "chart.csv", "flight.csv", "report.html"};
+  return json;
+}
+
+void print(const Mechanism& mechanism, const ChartResult& result, std::optional<double> accuracy,
+           const OutputDirectory& out) {
+  tell("{}: accuracy against speed, {}{}\n", mechanism.name(), result.index,
+       result.interrupted ? " (interrupted)" : "");
+  tell("  reference {}, known to {}\n", readable(result.reference.value, result.unit),
+       readable_share(result.reference.uncertainty));
+  tell("  Pareto front:\n");
+  for (std::size_t k : result.front) {
+    const ChartPoint& p = result.points[k];
+    tell("    {:>10}  off by {:<10} {}, {}\n", readable(p.measured.cpu_seconds, "s"), readable_share(p.error), p.family,
+         fineness(p.way));
+  }
+  if (const ChartPoint* papers = result.papers())
+    tell("  the paper's own setting: {}, off by {}\n", readable(papers->measured.cpu_seconds, "s"),
+         readable_share(papers->error));
+  if (accuracy) {
+    const ChartPoint* best = result.cheapest_within(*accuracy);
+    tell("  cheapest within {}: {}\n", readable_share(*accuracy),
+         best ? best->family + ", " + fineness(best->way) : "none");
+  }
+  std::size_t failed = 0;
+  for (const ChartPoint& p : result.points) failed += !p.measured.refusal.empty();
+  tell("  {} ways, {} failed; {}\n", result.points.size(), failed, machine_line(result.machine));
+  for (const std::string& name : result.left_out) tell("  warning: no time was left for {}\n", name);
+  tell("  report: {}\n", (out.path() / "report.html").string());
+}
+
+class ChartVerb : public Verb {
+ public:
+  std::string name() const override { return "chart"; }
+  std::string file_kind() const override { return "mechanism or study"; }
+  std::string summary() const override {
+    return "accuracy against speed: every rung, formulation and integrator, measured now, on this machine";
+  }
+  std::string example() const override { return "boresight chart examples/3-rrcpr/3-rrcpr.toml --accuracy \"1 %\""; }
+  std::vector<std::string> unused_options() const override { return {"--rung"}; }
+  void declare_options(CLI::App& app) override {
+    declare_option_with_default(app, "--index", index_,
+                                "of a mechanism, whose file names none: position_error.max, boresight_error.rms, ...",
+                                "QUANTITY.STATISTIC");
+    declare_option(app, "--start", start_, "the index leaves out what the motion does before; a study says so itself",
+                   "TIME");
+    declare_option_with_default(app, "--time", time_, "of CPU in all; ways for which none is left are named", "TIME");
+  }
+
+  int execute(const Command& command) override {
+    const Stopwatch watch;
+    ChartOptions options;
+    options.index = index_named("--index", index_);
+    options.total_seconds = quantity_between("--time", time_, {kDuration, "0.1 s", "1e7 s"});
+    options.reference_seconds = 0.15 * options.total_seconds;
+    std::optional<double> accuracy = command.accuracy;
+    std::string mechanism_file = command.file, study_hash;
+    Document document = Document::from_file(command.file);
+    Cursor root(document);
+    std::optional<Study> study;
+    if (root.has("mechanism")) {
+      study = read_study(root, document.content_hash());
+      mechanism_file = study->mechanism_file;
+      study_hash = study->content_hash;
+      options.index = study->index;
+      if (!accuracy) accuracy = study->accuracy;
+    }
+    const auto read = [&] {
+      return std::make_shared<const Mechanism>(read_mechanism(mechanism_file, command.settings));
+    };
+    const auto mechanism = study ? read_referred(root.origin("mechanism"), "mechanism", mechanism_file, read) : read();
+    if (!start_.empty()) options.index.start = positive_quantity("--start", start_, kDuration);
+    if (study)
+      check_index(*study, *mechanism);
+    else
+      check_line_of_sight(options.index, *mechanism, {"command line", 0}, "--index");
+    check_start(options.index.start, *mechanism, {"command line", 0}, "--start");
+    const OutputDirectory out = OutputDirectory::open(
+        command.out, command.verb, command.file,
+        identity_of(command, mechanism->description().content_hash, study_hash,
+                    {{"index", index_ + (start_.empty() ? "" : " from " + start_)}, {"time", time_}}));
+    Progress progress(command.quiet, 100.0, "%");
+    options.progress = [&](double share, const std::string& what) {
+      progress.update(100.0 * share, what);
+      return !interrupted();
+    };
+    const ChartResult result = make_chart(mechanism, mechanism->parameters(), options);
+
+    write_json(out, "summary.json", summary_of(command, *mechanism, result, accuracy, watch, out));
+    out.write("chart.csv", [&](std::ostream& s) { write_points(s, result); });
+    out.write("flight.csv", [&](std::ostream& s) { write_flight(s, result.flight); });
+    out.write("report.html",
+              [&](std::ostream& s) { report::write_html(s, chart_report(command, *mechanism, result, accuracy)); });
+    out.publish();
+    progress.clear();
+    if (!command.quiet) print(*mechanism, result, accuracy, out);
+    if (result.interrupted) return kInterrupted;
+    return accuracy && !result.cheapest_within(*accuracy) ? kAnswerIsNo : kDone;
+  }
+
+ private:
+  std::string index_ = "position_error.max", time_ = "60 s", start_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_chart_verb() { return std::make_unique<ChartVerb>(); }
+
+}  // namespace boresight::app

@@ -1,0 +1,293 @@
+#include "check/check_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "boresight/contact/law_range.hpp"
+#include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/generic_instant.hpp"
+#include "boresight/mechanism/play_mobility.hpp"
+#include "report_parts/report_parts.hpp"
+#include "results/summary.hpp"
+#include "terminal/interruption.hpp"
+
+namespace boresight::app {
+namespace {
+
+report::Table mobility_table(const KinematicReport& k) {
+  report::Table table{.title = "Mobility",
+                      .caption =
+                          "Mobility is six per body less the rank of the constraints; a redundant row says "
+                          "what others already say.",
+                      .columns = {{"What"}, {"Number"}}};
+  table.rows = {{"Bodies", k.bodies},
+                {"Joints", k.joints},
+                {"Constraint rows", k.constraint_rows},
+                {"Rank", k.rank},
+                {"Redundant rows", k.redundant_rows},
+                {"Mobility", k.mobility},
+                {"Drives", k.drives},
+                {"Freedoms left free", k.free_freedoms}};
+  return table;
+}
+
+report::Panels conditioning_panels(const KinematicReport& k) {
+  std::vector<double> t, orientation, position, singular;
+  for (const ConditioningSample& s : k.along) {
+    t.push_back(s.t);
+    orientation.push_back(s.orientation);
+    position.push_back(s.position);
+    singular.push_back(s.smallest_singular_value);
+  }
+  report::Chart inverse{.title = "Inverse condition number",
+                        .caption = "1: as good as can be; 0: a singular pose, where the drives lose a motion.",
+                        .x = {"Time", "s"},
+                        .y = {"inverse condition number", "", false, std::array{0.0, 1.05}}};
+  inverse.series = {{.name = "orientation", .x = t, .y = orientation}, {.name = "position", .x = t, .y = position}};
+  report::Chart smallest{
+      .title = "Smallest singular value",
+      .caption = "Of the Jacobian of all ideal rows, lengths scaled; it goes to zero at a singular pose.",
+      .x = {"Time", "s"},
+      .y = {"smallest singular value", ""}};
+  smallest.series = {{.name = "smallest singular value", .x = t, .y = singular}};
+  for (const LostMotion& lost : k.lost) smallest.lines.push_back({'x', lost.t, "singular"});
+  return {.title = "Distance from singular poses along the motion",
+          .caption = {},
+          .columns = 2,
+          .panels = {std::move(inverse), std::move(smallest)}};
+}
+
+report::Table contact_frequencies(const std::vector<ContactFrequency>& contacts) {
+  report::Table table{
+      .title = "Contact frequencies",
+      .caption =
+          "K: stiffness of the bore (Hertz) and of the end faces. Mass: the smallest that the offset moves. "
+          "Reaction: RMS along the "
+          "ideal motion, and the depth at which the journal rests under it. An explicit integrator must "
+          "resolve the contact's frequency ω: RK4 blows up "
+          "above a step of 2.785 / ω. Valid to: the impact speed up to which Flores' law holds.",
+      .columns = {{"Joint"},
+                  {"K, Hertz", "N/m^1.5"},
+                  {"K, axial", "N/m"},
+                  {"Mass", "kg"},
+                  {"Reaction", "N"},
+                  {"Rest depth", "µm"},
+                  {"Frequency", "Hz"},
+                  {"Stable step", "µs"},
+                  {"Valid to", "mm/s"}}};
+  for (const ContactFrequency& c : contacts)
+    table.rows.push_back({c.joint, c.hertz_stiffness, c.axial_stiffness, c.effective_mass, c.typical_load,
+                          1e6 * c.typical_penetration, c.angular_frequency / (2.0 * 3.14159265358979323846),
+                          1e6 * c.largest_stable_step, 1e3 * c.validity_speed});
+  return table;
+}
+
+// Laws used outside of their range under the largest ideal load, and parallel journals whose contact is a line, not a point.
+void add_law_notes(const Mechanism& mechanism, CheckResult& result) {
+  for (std::size_t c = 0; c < result.contacts.size(); ++c) {
+    const ClearanceDescription& d = mechanism.description().clearances[c];
+    const ClearanceParameters& p = mechanism.parameters().clearance[c];
+    const ContactFrequency& contact = result.contacts[c];
+    if (const auto warning = range_warning(contact.joint, d.contact_law, p, contact.largest_load)) {
+      result.notes.push_back(*warning);
+      continue;
+    }
+    const bool point = normal_law(d.contact_law).geometry == ContactGeometry::point;
+    const std::string line = fitting_law(p, contact.largest_load);
+    if (!point || d.axes == JournalAxes::free || line.empty() || !(contact.typical_load > 0.0)) continue;
+    const double depth = make_normal_law(line, "", p).depth_under(contact.typical_load);
+    if (std::abs(depth / contact.typical_penetration - 1.0) < 0.25) continue;
+    result.notes.push_back(fmt::format(
+        "{}: {} is a law for a point, and this journal lies along {} of its sleeve: under {}, {} (a line) is {} "
+        "deep where it is {}",
+        contact.joint, d.contact_law, readable(p.sleeve_length, "m"), readable(contact.typical_load, "N"), line,
+        readable(depth, "m"), readable(contact.typical_penetration, "m")));
+  }
+}
+
+// Plays that cannot move, or only together; and an ideal motion that is not known as well as it should be.
+void add_play_findings(const Mechanism& mechanism, const IdealMotion& ideal, CheckResult& result) {
+  IdealState state;
+  ideal.state(generic_instant(0.0, ideal.duration()), state);
+  const PlayMobility play = analyse_play(mechanism, state.bodies);
+  for (const std::string& sentence : held_plays(mechanism, play)) result.findings.push_back(sentence);
+  for (const std::string& sentence : bound_plays(mechanism, play)) result.notes.push_back(sentence);
+  if (ideal.error() > IdealMotion::kAccuracy)
+    result.notes.push_back(
+        fmt::format("the ideal motion is known to {:.1e} of the mechanism's size, not to {:.0e} as it was sought",
+                    ideal.error(), IdealMotion::kAccuracy));
+}
+
+// Where the journals start: centred as the file says, or how far off the middle of their sleeves.
+void add_start_note(const Mechanism& mechanism, const IdealMotion& ideal, CheckResult& result) {
+  if (mechanism.description().journals == JournalStart::centred) {
+    result.notes.emplace_back("journals start in the middle of their sleeves, as the file says");
+    return;
+  }
+  result.start = starting_journals(mechanism, mechanism.parameters(), ideal);
+  if (!result.start.warning.empty()) {
+    result.notes.push_back(result.start.warning);
+    return;
+  }
+  std::string text;
+  for (const StartingJournals::Journal& j : result.start.journals)
+    text += (text.empty() ? "" : ", ") + j.joint + " " + readable(j.offset.norm(), "m");
+  result.notes.push_back("journals start at rest under the loads of t = 0, off the middle of their sleeves: " + text);
+}
+
+// What no joint can bear, or nothing can be computed of: numbers without bounds, journals pressed through their sleeves.
+void add_contact_findings(const Mechanism& mechanism, CheckResult& result) {
+  for (std::size_t c = 0; c < result.contacts.size(); ++c) {
+    const ContactFrequency& contact = result.contacts[c];
+    const ClearanceDescription& d = mechanism.description().clearances[c];
+    const ClearanceParameters& p = mechanism.parameters().clearance[c];
+    const std::pair<const char*, double> numbers[] = {
+        {"contact stiffness", contact.hertz_stiffness}, {"end-face stiffness", contact.axial_stiffness},
+        {"moved mass", contact.effective_mass},         {"reaction", contact.largest_load},
+        {"rest depth", contact.typical_penetration},    {"contact frequency", contact.angular_frequency}};
+    std::string unknown;
+    for (const auto& [what, value] : numbers)
+      if (!std::isfinite(value)) unknown += (unknown.empty() ? "" : ", ") + std::string(what);
+    if (!unknown.empty()) {
+      result.findings.push_back(fmt::format(
+          "{}: its {} cannot be computed: masses, speeds, stiffness or gravity are out of all proportion to each other",
+          contact.joint, unknown));
+      continue;
+    }
+    // A line or point contact as deep as the journal is thick is no contact: the journal would be through its sleeve.
+    const double depth = make_normal_law(d.contact_law, d.dissipation_law, p).depth_under(contact.largest_load);
+    if (!(depth < p.journal_radius))
+      result.findings.push_back(fmt::format(
+          "{}: its largest load, {}, would press the journal {} into its sleeve, which is more than the journal's "
+          "radius of {}; check young, masses and gravity, and the speed of the motion",
+          contact.joint, readable(contact.largest_load, "N"), readable(depth, "m"), readable(p.journal_radius, "m")));
+  }
+}
+
+// A motion that the cheapest rung with dynamics would follow for long: how long, as it goes on this machine.
+void add_cost_note(const std::shared_ptr<const Mechanism>& mechanism, CheckResult& result) {
+  constexpr double kManySteps = 1e8, kTrialSeconds = 0.3;
+  double stable = std::numeric_limits<double>::infinity();
+  std::string joint;
+  for (const ContactFrequency& c : result.contacts)
+    if (c.largest_stable_step > 0.0 && c.largest_stable_step < stable) stable = c.largest_stable_step, joint = c.joint;
+  const double steps = mechanism->duration() / stable;
+  if (!(steps > kManySteps)) return;
+  RunOptions options;
+  options.sample_spacing = 0.0;
+  options.events = false;
+  // From the first look on: what is prepared before it is prepared once.
+  std::optional<Stopwatch> watch;
+  double first = 0.0, reached = 0.0;
+  options.progress = [&](const RunProgress& p) {
+    if (!watch) watch.emplace(), first = p.t;
+    reached = p.t;
+    return watch->wall_seconds() < kTrialSeconds && !interrupted();
+  };
+  std::string time;
+  try {
+    make_rung("perturbation", mechanism)->run(mechanism->parameters(), options);
+    if (reached > first)
+      time = ", about " + readable(watch->wall_seconds() * mechanism->duration() / (reached - first), "s") +
+             " for one motion";
+  } catch (const ComputationError&) {
+    // Why it cannot be followed is for `run` to say.
+  }
+  result.notes.push_back(
+      fmt::format("the contact of {} vibrates so fast that the motion takes {:.2g} steps{}; shorten motion.duration "
+                  "to what has to be seen",
+                  joint, steps, time));
+}
+
+}  // namespace
+
+CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
+  const Mechanism& mechanism = *shared;
+  CheckResult result;
+  result.kinematics = analyse_kinematics(mechanism);
+  const KinematicReport& k = result.kinematics;
+  const bool sound = k.feasible && k.lost.empty();
+  (sound ? result.notes : result.findings) = k.findings;
+  if (!sound && k.findings.empty()) {
+    for (const LostMotion& lost : k.lost)
+      result.findings.push_back(fmt::format("at t = {:.4g} s: {}", lost.t, lost.description));
+    if (!k.feasible) result.findings.emplace_back("the ideal motion cannot be followed to its end");
+  }
+  if (sound && mechanism.clearances() > 0) {
+    try {
+      const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
+      add_play_findings(mechanism, ideal, result);
+      result.contacts = analyse_contacts(mechanism, mechanism.parameters(), ideal);
+      add_contact_findings(mechanism, result);
+      if (result.findings.empty()) {
+        add_law_notes(mechanism, result);
+        add_start_note(mechanism, ideal, result);
+        add_cost_note(shared, result);
+      }
+    } catch (const ComputationError& error) {
+      result.findings.emplace_back(error.what());
+    }
+  }
+  return result;
+}
+
+report::Document check_report(const Command& command, const Mechanism& mechanism, const CheckResult& result) {
+  const KinematicReport& k = result.kinematics;
+  report::Document document{
+      .title = mechanism.name(), .subtitle = "Checked before anything is integrated", .verb = "check"};
+  document.verdict = result.findings.empty()
+                         ? report::Verdict{report::Standing::good, "Nothing stands in the way of this motion."}
+                         : report::Verdict{report::Standing::bad, result.findings.front()};
+  document.facts = {{.label = "Mobility",
+                     .value = k.mobility,
+                     .note = fmt::format("{} drives, {} freedoms left free", k.drives, k.free_freedoms)},
+                    {.label = "Redundant rows", .value = k.redundant_rows}};
+  if (!k.along.empty()) {
+    const auto worst = [&](double ConditioningSample::*value) {
+      return (*std::min_element(k.along.begin(), k.along.end(),
+                                [&](const auto& a, const auto& b) { return a.*value < b.*value; })).*
+             value;
+    };
+    document.facts.push_back({.label = "Worst conditioning, orientation",
+                              .value = worst(&ConditioningSample::orientation),
+                              .note = "1 best, 0 singular"});
+    document.facts.push_back({.label = "Worst conditioning, position",
+                              .value = worst(&ConditioningSample::position),
+                              .note = "1 best, 0 singular"});
+  }
+  // A play that cannot move has no step.
+  const auto step = [](const ContactFrequency& c) {
+    return c.largest_stable_step > 0.0 ? c.largest_stable_step : 1e300;
+  };
+  const auto stiffest_at = std::min_element(result.contacts.begin(), result.contacts.end(),
+                                            [&](const auto& a, const auto& b) { return step(a) < step(b); });
+  if (stiffest_at != result.contacts.end() && stiffest_at->largest_stable_step > 0.0) {
+    const ContactFrequency& stiffest = *stiffest_at;
+    document.facts.push_back({.label = "Largest stable step of RK4",
+                              .value = readable(stiffest.largest_stable_step, "s"),
+                              .note = "set by " + stiffest.joint});
+  }
+
+  report::Section findings{.id = "findings", .title = "Findings"};
+  std::string text;
+  for (const auto& list : {result.findings, result.notes})
+    for (const std::string& sentence : list) text += (text.empty() ? "" : "\n\n") + sentence;
+  findings.items.push_back(
+      report::Text{text.empty() ? "No singular pose, no redundancy worth a word, nothing infeasible." : text});
+  document.sections.push_back(std::move(findings));
+  document.sections.push_back({.id = "mobility", .title = "Mobility and redundancy", .items = {mobility_table(k)}});
+  if (!k.along.empty())
+    document.sections.push_back({.id = "conditioning", .title = "Conditioning", .items = {conditioning_panels(k)}});
+  if (!result.contacts.empty())
+    document.sections.push_back(
+        {.id = "contacts", .title = "Contacts", .items = {contact_frequencies(result.contacts)}});
+  document.provenance = provenance_of(command, mechanism, {"none", "nothing is integrated"});
+  return document;
+}
+
+}  // namespace boresight::app

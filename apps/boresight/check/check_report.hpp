@@ -1,0 +1,30 @@
+// The report of `check`: what would go wrong before it does.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "boresight/contact_events/contact_report.hpp"
+#include "boresight/mechanism/kinematic_report.hpp"
+#include "boresight/scene/starting_journals.hpp"
+#include "command_line/command.hpp"
+#include "report/document.hpp"
+
+namespace boresight::app {
+
+// Everything `check` found out.
+struct CheckResult {
+  KinematicReport kinematics;
+  std::vector<ContactFrequency> contacts;  // empty where the ideal motion cannot be followed
+  StartingJournals start;
+  std::vector<std::string> findings;  // what stands in the way, most serious first; empty: nothing
+  std::vector<std::string> notes;     // worth knowing, but no obstacle
+};
+
+CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& mechanism);
+
+report::Document check_report(const Command& command, const Mechanism& mechanism, const CheckResult& result);
+
+}  // namespace boresight::app

@@ -1,0 +1,37 @@
+// What every verb of the command line is: a name, an example, its own options, and what it does.
+//
+// A verb is one folder, with a file VERB_verb.cpp that defines `std::unique_ptr<Verb> make_VERB_verb()`, and one line in
+// verbs.cpp.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "command_line/command.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace boresight::app {
+
+class Verb {
+ public:
+  virtual ~Verb() = default;
+  virtual std::string name() const = 0;
+  virtual std::string file_kind() const = 0;  // what FILE is: "mechanism", "study"
+  virtual bool needs_file() const { return true; }
+  virtual std::string summary() const = 0;    // one line for --help
+  virtual std::string example() const = 0;    // a command that works as it stands
+  virtual void declare_options(CLI::App&) {}  // beyond those that verbs share
+  // Of the options that verbs share, those that it has no use for, and refuses: "--rung", ...
+  virtual std::vector<std::string> unused_options() const { return {}; }
+  // Returns the exit status. Throws InputError, ComputationError, OutputDirectoryError, WriteError.
+  virtual int execute(const Command& command) = 0;
+};
+
+// Every verb, in the order of --help.
+std::vector<std::unique_ptr<Verb>> all_verbs();
+
+}  // namespace boresight::app

@@ -1,0 +1,157 @@
+// boresight export DIR: the samples of a Monte Carlo study as CSV.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/runs/sample_store.hpp"
+#include "command_line/verb.hpp"
+#include "results/output_directory.hpp"
+#include "results/tables.hpp"
+#include "terminal/exit_status.hpp"
+#include "terminal/terminal.hpp"
+
+namespace boresight::app {
+namespace {
+
+// Written row by row under another name, synced and renamed: a table of any size, whole or not there. It replaces a table that was
+// there only where all of whose lines are also in the new one, in their order: an earlier export of fewer samples. The other name is
+// always the same and locked while it is written, so that the next export goes over what a killed one left.
+class TableFile {
+ public:
+  explicit TableFile(std::filesystem::path file) : file_(std::move(file)) {
+    const int descriptor = locked(file_.parent_path() / ("." + file_.filename().string() + ".part"));
+    stream_ = ::ftruncate(descriptor, 0) == 0 ? ::fdopen(descriptor, "w") : nullptr;
+    if (stream_ == nullptr) fail();
+    std::error_code error;
+    there_ = std::filesystem::exists(std::filesystem::symlink_status(file_, error));
+    if (there_ && !std::filesystem::is_regular_file(file_, error)) refuse();
+    old_.open(file_);
+    next_old_line();
+  }
+  ~TableFile() {
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());  // while it is still locked
+    if (stream_ != nullptr) std::fclose(stream_);
+  }
+  TableFile(const TableFile&) = delete;
+  TableFile& operator=(const TableFile&) = delete;
+
+  void line(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size() || std::fputc('\n', stream_) == EOF) fail();
+    if (old_line_ && *old_line_ == text) next_old_line();
+  }
+  void finish() {
+    if (there_ && old_line_) refuse();
+    if (std::fflush(stream_) != 0 || ::fsync(::fileno(stream_)) != 0) fail();
+    if (std::rename(temporary_.c_str(), file_.c_str()) != 0) fail();
+    temporary_.clear();
+    std::fclose(stream_);
+    stream_ = nullptr;
+  }
+
+ private:
+  // A descriptor of this file, made where it is not there, that no other process has.
+  int locked(const std::filesystem::path& part) {
+    for (;;) {
+      const int descriptor = ::open(part.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC | O_NOFOLLOW, 0666);
+      if (descriptor < 0) fail();
+      if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+        ::close(descriptor);
+        throw OutputDirectoryError(file_.string() +
+                                   ": another export is writing it; wait for it to end, or give another --out");
+      }
+      // Whoever had it may have renamed or removed it meanwhile.
+      struct stat own = {}, there = {};
+      if (::fstat(descriptor, &own) == 0 && ::stat(part.c_str(), &there) == 0 && own.st_ino == there.st_ino &&
+          own.st_dev == there.st_dev) {
+        temporary_ = part.string();
+        return descriptor;
+      }
+      ::close(descriptor);
+    }
+  }
+  void next_old_line() {
+    std::string text;
+    if (std::getline(old_, text))
+      old_line_ = text;
+    else
+      old_line_.reset();
+  }
+  [[noreturn]] void fail() const { throw WriteError("cannot write " + file_.string() + ": " + std::strerror(errno)); }
+  [[noreturn]] void refuse() const {
+    throw OutputDirectoryError(
+        file_.string() +
+        ": is there already and holds other lines than these samples; give another --out, or remove it");
+  }
+
+  std::filesystem::path file_;
+  std::string temporary_;
+  std::FILE* stream_ = nullptr;
+  std::ifstream old_;
+  std::optional<std::string> old_line_;
+  bool there_ = false;
+};
+
+class ExportVerb : public Verb {
+ public:
+  std::string name() const override { return "export"; }
+  std::string file_kind() const override { return "results folder, not a"; }
+  std::string summary() const override { return "the samples of a study as CSV: samples.csv"; }
+  std::string example() const override { return "boresight export results/montecarlo"; }
+  std::vector<std::string> unused_options() const override { return {"--set", "--rung", "--accuracy"}; }
+
+  int execute(const Command& command) override {
+    const std::filesystem::path folder = command.file,
+                                to = command.out.empty() ? folder : std::filesystem::path(command.out);
+    if (!std::filesystem::is_directory(folder))
+      throw InputError({"command line", 0}, "DIR", "\"" + command.file + "\"", "a folder of results");
+    const SampleStore store(folder / "samples.db");
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      if (name != "samples.db" && name.starts_with("samples.") && name.ends_with(".db"))
+        fmt::print(
+            stderr,
+            "boresight: {} holds samples of a lost rank that are left out: the next montecarlo there merges them\n",
+            printable(entry.path().string()));
+    }
+    std::error_code error;
+    std::filesystem::create_directories(to, error);
+    if (error) throw OutputDirectoryError("--out " + to.string() + ": cannot create the directory: " + error.message());
+    if (::access(to.c_str(), W_OK | X_OK) != 0)
+      throw OutputDirectoryError("--out " + to.string() + ": cannot write there: " + std::strerror(errno) +
+                                 "; give another --out");
+
+    TableFile table(to / "samples.csv");
+    std::string header = "sample";
+    for (const std::string& path : store.parameters()) header += "," + csv_field(path);
+    table.line(header + ",value,status");
+    std::uint64_t rows = 0;
+    store.read(~std::uint64_t{0} >> 1, [&](const SampleRecord& record) {
+      std::string row = std::to_string(record.number);
+      for (const double input : record.inputs) row += "," + exact(input);
+      row += "," + exact(record.outcome.value) + "," + to_string(record.outcome.status);
+      table.line(row);
+      ++rows;
+    });
+    table.finish();
+    if (!command.quiet) tell("{} samples: {}\n", rows, (to / "samples.csv").string());
+    if (store.damage().empty()) return kDone;
+    fmt::print(stderr, "boresight: {}\n", printable(store.damage()));
+    return kFailed;  // nobody should take these for all of them
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_export_verb() { return std::make_unique<ExportVerb>(); }
+
+}  // namespace boresight::app

@@ -1,0 +1,34 @@
+// The report of a matching study.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "boresight/mechanism/mechanism.hpp"
+#include "boresight_analyses/matching/matching.hpp"
+#include "boresight_analyses/study/rung_choice.hpp"
+#include "boresight_analyses/study/study.hpp"
+#include "command_line/command.hpp"
+#include "report/document.hpp"
+
+namespace boresight::app {
+
+struct MatchStudy {
+  const Command& command;
+  const Study& study;
+  const Mechanism& mechanism;
+  const RungChoice& rung;
+  const MatchingPlan& plan;
+  const MatchingResult& result;
+  std::vector<std::string> warnings;
+  std::string leaves_out;
+};
+
+// "payload.mass = 5.1 kg, clearance.F1.radial = 0.1 mm".
+std::string design_text(const MatchingPlan& plan, const std::vector<double>& design);
+// The answer in a sentence.
+std::string match_sentence(const MatchStudy& study);
+
+report::Document match_report(const MatchStudy& study);
+
+}  // namespace boresight::app

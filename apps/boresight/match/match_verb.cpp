@@ -1,0 +1,295 @@
+// boresight match STUDY: the values of some parameters at which the pointing error, or another measure, is
+// least.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+#include "boresight/io/content_hash.hpp"
+#include "boresight_analyses/matching/design_slopes.hpp"
+#include "boresight_analyses/runs/scatter_draws.hpp"
+#include "boresight_analyses/study/rung_sample_model.hpp"
+#include "command_line/study_input.hpp"
+#include "command_line/verb.hpp"
+#include "match/match_report.hpp"
+#include "report/report.hpp"
+#include "report_parts/optimise_parts.hpp"
+#include "results/scatter_parts.hpp"
+#include "results/stored_study.hpp"
+#include "results/summary.hpp"
+#include "results/tables.hpp"
+#include "terminal/exit_status.hpp"
+#include "terminal/interruption.hpp"
+#include "terminal/progress.hpp"
+#include "terminal/readable.hpp"
+#include "terminal/terminal.hpp"
+
+namespace boresight::app {
+namespace {
+
+Json design_json(const MatchingPlan& plan, const std::vector<double>& design) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < design.size(); ++i)
+    for (const std::string& path : plan.variables[i].paths) json[path] = design[i];
+  return json;
+}
+
+bool is_contact_only(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths)
+    if (!path.starts_with("clearance.")) return false;
+  return true;
+}
+
+bool any_scene_varies(const MatchingPlan& plan) {
+  for (const DesignVariable& v : plan.variables)
+    if (!is_contact_only(v.paths)) return true;
+  return plan.inputs && scene_varies(*plan.inputs);
+}
+
+// The middle of the box and its two far corners, everything that scatters at its median.
+std::vector<Parameters> corners_of(const MatchingPlan& plan, const Mechanism& mechanism) {
+  std::vector<Parameters> corners;
+  for (const double share : {0.5, 0.0, 1.0}) {
+    std::vector<double> values;
+    for (const DesignVariable& v : plan.variables)
+      values.push_back(v.from_search(v.to_search(v.from) + share * (v.to_search(v.to) - v.to_search(v.from))));
+    if (plan.inputs)
+      for (const RandomParameter& p : plan.inputs->parameters) values.push_back(p.distribution->quantile(0.5));
+    corners.push_back(plan.parameters_with(mechanism, values));
+  }
+  return corners;
+}
+
+void write_evaluations(std::ostream& out, const MatchingPlan& plan, const MatchingResult& result) {
+  out << "evaluation,stage";
+  for (const DesignVariable& v : plan.variables) out << ',' << csv_field(v.name());
+  out << ",objective,violation\n";
+  for (std::size_t k = 0; k < result.visits.size(); ++k) {
+    const MatchingVisit& v = result.visits[k];
+    out << k + 1 << ',' << csv_field(v.stage);
+    for (const double x : v.design) out << ',' << exact(x);
+    out << ',' << exact(v.objective) << ',' << exact(v.violation) << '\n';
+  }
+}
+
+class MatchVerb : public Verb {
+ public:
+  std::string name() const override { return "match"; }
+  std::string file_kind() const override { return "study"; }
+  std::string summary() const override { return "clearance, load, ... at which the pointing error is least"; }
+  std::string example() const override { return "boresight match examples/3-rrcpr/match.toml"; }
+  void declare_options(CLI::App& app) override { motion_.declare_model(app); }
+
+  int execute(const Command& command) override {
+    const Stopwatch watch;
+    StudyInput input(command.file, command.settings);
+    const Study& study = input.study;
+    const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
+    const MatchingPlan plan = read_matching_plan(input.root, study, mechanism->description(), input.trial);
+    check_rung_name(command.rung);
+    const RunOptions asked = motion_.run_options(*mechanism, command.rung);
+
+    ContentHash samples;
+    samples.add(plan.sample_text(study));
+    nlohmann::json options = motion_.identity();
+    if (study.accuracy) options["study_accuracy"] = *study.accuracy;
+    const OutputDirectory out = OutputDirectory::open(
+        command.out, command.verb, command.file,
+        identity_of(command, mechanism->description().content_hash, samples.hexadecimal(), options));
+
+    const std::vector<Parameters> corners = corners_of(plan, *mechanism);
+    const RungChoice choice = choose_rung_of_corners(command, study, asked, mechanism, corners);
+    const std::string upper = next_rung_up(choice.name);
+    const auto parameters_of = [mechanism, &plan](std::span<const double> values) {
+      return plan.parameters_with(*mechanism, values);
+    };
+    RunOptions run = asked;
+    apply(choice, run);
+    run = options_on(choice.name, mechanism, corners, run);
+    const RungSampleModel model(choice.name, mechanism, parameters_of, study.index, run, any_scene_varies(plan));
+    std::vector<std::string> names;
+    for (const DesignVariable& v : plan.variables) names.push_back(v.name());
+    const auto store = open_evaluations(out, name(), "evaluations.db", names, model.rung(), model.step());
+    const RandomInputs* inputs = plan.inputs ? &*plan.inputs : nullptr;
+    DesignEvaluator evaluator(model, inputs, store.get(),
+                              {.samples = plan.samples, .seed = plan.seed, .jobs = command.jobs, .interrupted = [] {
+                                 return interrupted();
+                               }});
+
+    // On the same rung only other random numbers confirm; where nothing scatters there is nothing to confirm
+    // with.
+    std::unique_ptr<RungSampleModel> upper_model;
+    std::unique_ptr<EvaluationStore> upper_store;
+    std::unique_ptr<DesignEvaluator> upper_evaluator;
+    if (upper != choice.name || plan.inputs) {
+      const RunOptions upper_run = options_on(upper, mechanism, corners, asked);
+      upper_model = std::make_unique<RungSampleModel>(upper, mechanism, parameters_of, study.index, upper_run,
+                                                      any_scene_varies(plan));
+      upper_store = open_evaluations(out, name(), "confirmation.db", names, upper, upper_model->step());
+      upper_evaluator =
+          std::make_unique<DesignEvaluator>(*upper_model, inputs, upper_store.get(),
+                                            DesignEvaluator::Options{.samples = plan.confirm,
+                                                                     .seed = plan.seed + kFreshSeed,
+                                                                     .jobs = command.jobs,
+                                                                     .interrupted = [] { return interrupted(); },
+                                                                     .landed = {}});
+    }
+
+    if (!command.quiet) {
+      tell("{}: {} variables, {} on the {} rung, {} per design{}\n", mechanism->name(), plan.variables.size(),
+           plan.objective.title(study.index), choice.name,
+           plan.samples == 1 ? "one run" : fmt::format("{} runs", plan.samples),
+           store->size() > 0 ? fmt::format("; {} designs known already", store->size()) : "");
+      std::fflush(stdout);
+    }
+    // About as many designs as it asks for; descents end sooner.
+    const double designs = plan.evaluations * (1.0 + 0.5 * static_cast<double>(plan.starts().size() + 1)) +
+                           std::pow(plan.map, std::min<double>(2.0, static_cast<double>(plan.variables.size()))) +
+                           12.0 * plan.front;
+    Progress progress(command.quiet, designs, "designs");
+    MatchingOptions how;
+    how.accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.01);
+    how.interrupted = [] { return interrupted(); };
+    how.progress = [&](const MatchingResult& r) {
+      std::string estimate = r.visits.back().stage;
+      if (!r.design.empty())
+        estimate += "; best so far " + readable(r.objective, plan.objective.si_unit(study.index)) + " at " +
+                    design_text(plan, r.design);
+      progress.update(std::min(designs, static_cast<double>(r.visits.size())), estimate);
+    };
+    how.no_slopes = choice.name == "perturbation" ? why_no_slopes(plan) : "slopes are those of the perturbation rung";
+    if (how.no_slopes.empty())
+      how.slopes = [slopes = DesignSlopes(mechanism, plan, study.index, run)](
+                       const std::vector<double>& design, std::string& why) { return slopes.at(design, why); };
+    const MatchingResult result =
+        with_options_checked([&] { return run_matching(plan, evaluator, upper_evaluator.get(), upper, how); });
+    progress.clear();
+    MatchStudy matched{.command = command,
+                       .study = study,
+                       .mechanism = *mechanism,
+                       .rung = choice,
+                       .plan = plan,
+                       .result = result,
+                       .warnings = warnings_of(plan, result),
+                       .leaves_out = model.leaves_out()};
+    const auto add_failed = [&](const DesignEvaluator& runs, const std::string& rung) {
+      if (runs.failures().count > 0)
+        matched.warnings.push_back(
+            fmt::format("{} of {} runs on the {} rung failed", runs.failures().count, runs.runs(), rung) +
+            first_failure_text(runs.failures(), "run"));
+    };
+    add_failed(evaluator, choice.name);
+    if (upper_evaluator) add_failed(*upper_evaluator, upper);
+    if (!store->damage().empty()) matched.warnings.push_back(store->damage());
+    Json summary = summary_of(matched, watch, out);
+    add_earlier_cost(summary, store->earlier());
+    add_first_failure(summary, evaluator.failures(), "run");
+    write_json(out, "summary.json", summary);
+    out.write("evaluations.csv", [&](std::ostream& s) { write_evaluations(s, plan, result); });
+    out.write("report.html", [&](std::ostream& s) { report::write_html(s, match_report(matched)); });
+    out.publish();
+    if (!command.quiet) print(matched, out);
+    if (result.interrupted) return kInterrupted;
+    if (result.design.empty() || evaluator.failures().count == evaluator.runs())
+      return failed(command, "no design could be evaluated" + first_failure_text(evaluator.failures(), "run"));
+    return result.feasible && result.converged ? kDone : kAnswerIsNo;
+  }
+
+ private:
+  static constexpr std::uint64_t kFreshSeed = 1'000'003;
+
+  static std::vector<std::string> warnings_of(const MatchingPlan& plan, const MatchingResult& result) {
+    std::vector<std::string> warnings;
+    if (!result.feasible && !result.design.empty())
+      warnings.push_back("no design was found that keeps all constraints; the one given breaks them least");
+    if (!result.converged && !result.interrupted)
+      warnings.push_back("the descent ended before it came to rest; more evaluations may find better");
+    for (const MatchingDescent& d : result.descents)
+      if (!d.agrees)
+        warnings.push_back(fmt::format("the descent from {} ended at {}, a worse place than the optimum", d.from,
+                                       design_text(plan, d.end)));
+    for (std::size_t i = 0; i < result.at_bound.size(); ++i)
+      if (result.at_bound[i])
+        warnings.push_back(plan.variables[i].name() + " lies at its bound: better values may lie beyond");
+    for (const MatchingConfirmation& c : result.confirmation)
+      if (!c.agrees) warnings.push_back("the confirmation disagrees: " + c.sentence);
+    return warnings;
+  }
+
+  static Json summary_of(const MatchStudy& s, const Stopwatch& watch, const OutputDirectory& out) {
+    const MatchingResult& r = s.result;
+    Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, r.interrupted, out);
+    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    json["seed"] = s.plan.seed;
+    json["optimum"] = design_json(s.plan, r.design);
+    json["objective"] = r.design.empty() ? Json() : number_json(r.objective);
+    json["objective_of"] = {{"measure", s.plan.objective.key()},
+                            {"title", s.plan.objective.title(s.study.index)},
+                            {"unit", s.plan.objective.si_unit(s.study.index)},
+                            {"low", number_json(r.interval.low)},
+                            {"high", number_json(r.interval.high)},
+                            {"confidence", r.interval.confidence}};
+    json["converged"] = r.converged;
+    json["feasible"] = r.feasible;
+    json["violation"] = number_json(r.violation);
+    json["evaluations"] = r.evaluations;
+    json["evaluations_reused"] = r.reused;
+    json["samples_per_design"] = s.plan.samples;
+    json["algorithm"] = {{"global", r.global}, {"local", r.local}, {"why", r.why}};
+    if (!r.as_good_from.empty())
+      json["as_good"] = {{"from", design_json(s.plan, r.as_good_from)}, {"to", design_json(s.plan, r.as_good_to)}};
+    json["constraints"] = Json::array();
+    for (std::size_t k = 0; k < r.constraint_values.size(); ++k)
+      json["constraints"].push_back({{"measure", s.plan.constraints[k].measure.key()},
+                                     {"value", number_json(r.constraint_values[k])},
+                                     {"at_most", s.plan.constraints[k].at_most},
+                                     {"active", static_cast<bool>(r.active[k])}});
+    json["descents"] = Json::array();
+    for (const MatchingDescent& d : r.descents)
+      json["descents"].push_back({{"from", d.from},
+                                  {"start", design_json(s.plan, d.start)},
+                                  {"end", design_json(s.plan, d.end)},
+                                  {"objective", number_json(d.objective)},
+                                  {"evaluations", d.evaluations},
+                                  {"converged", d.converged},
+                                  {"same_answer", d.agrees}});
+    json["front"] = Json::array();
+    for (const FrontPoint& p : r.front)
+      json["front"].push_back(
+          {{"design", design_json(s.plan, p.design)}, {"index", p.index}, {"free_flight_share", p.free_flight_share}});
+    if (!r.confirmation.empty()) {
+      const MatchingConfirmation& c = r.confirmation.front();
+      json["confirmation"] = {{"rung", c.rung},
+                              {"seed", c.seed},
+                              {"samples", c.samples},
+                              {"value", number_json(c.value)},
+                              {"low", number_json(c.interval.low)},
+                              {"high", number_json(c.interval.high)},
+                              {"agrees", c.agrees},
+                              {"went_on", c.went_on},
+                              {"sentence", c.sentence}};
+    }
+    json["files"] = {"summary.json", "evaluations.csv", "evaluations.db", "report.html"};
+    return json;
+  }
+
+  static void print(const MatchStudy& s, const OutputDirectory& out) {
+    tell("{}\n", match_sentence(s));
+    tell("  search: {}, descent: {}; {} designs computed, {} reused; {}\n", s.result.global, s.result.local,
+         s.result.evaluations, s.result.reused, s.result.why);
+    for (const MatchingDescent& d : s.result.descents)
+      tell("  from {}: {} -> {}, {:.5g}{}\n", d.from, design_text(s.plan, d.start), design_text(s.plan, d.end),
+           d.objective, d.agrees ? ", the same answer" : "");
+    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    tell("  report: {}\n", (out.path() / "report.html").string());
+  }
+
+  MotionOptions motion_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_match_verb() { return std::make_unique<MatchVerb>(); }
+
+}  // namespace boresight::app

@@ -1,0 +1,380 @@
+// boresight montecarlo STUDY: the distribution of the index over parameters that scatter.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <ostream>
+
+#include "boresight/io/content_hash.hpp"
+#include "boresight_analyses/montecarlo/montecarlo.hpp"
+#include "boresight_analyses/runs/scatter_draws.hpp"
+#include "boresight_analyses/study/lane_sample_model.hpp"
+#include "command_line/montecarlo_study.hpp"
+#include "command_line/study_input.hpp"
+#include "command_line/verb.hpp"
+#include "montecarlo/montecarlo_report.hpp"
+#include "montecarlo/montecarlo_terminal.hpp"
+#include "montecarlo/several_rungs.hpp"
+#include "report/report.hpp"
+#include "results/scatter_parts.hpp"
+#include "results/stored_study.hpp"
+#include "results/summary.hpp"
+#include "terminal/exit_status.hpp"
+#include "terminal/interruption.hpp"
+#include "terminal/progress.hpp"
+#include "terminal/readable.hpp"
+#include "terminal/terminal.hpp"
+
+namespace boresight::app {
+namespace {
+
+Json part_json(const ErrorPart& part) {
+  return {{"value", number_json(part.value)}, {"relative", number_json(part.relative)}, {"why", part.why}};
+}
+
+Json error_json(const ErrorStatement& e) {
+  return {{"of", e.of},
+          {"sampling", part_json(e.sampling)},
+          {"discretisation", part_json(e.discretisation)},
+          {"rung", part_json(e.rung)},
+          {"dominant", e.dominant}};
+}
+
+class MonteCarloVerb : public Verb {
+ public:
+  std::string name() const override { return "montecarlo"; }
+  std::string file_kind() const override { return "study"; }
+  std::string summary() const override { return "the index's distribution, with confidence intervals"; }
+  std::string example() const override { return "boresight montecarlo examples/3-rrcpr/montecarlo.toml"; }
+  void declare_options(CLI::App& app) override {
+    motion_.declare_model(app);
+    resumption_.declare(app);
+  }
+
+  int execute(const Command& command) override {
+    const std::unique_ptr<Ranks> ranks = Ranks::join();
+    const bool first = ranks->rank() == 0;
+    const Stopwatch watch;
+    MonteCarloQuestion question;
+    RunOptions run;
+    try {
+      question = read_montecarlo_question(command.file, command.settings);
+      check_rung_name(command.rung);
+      run = motion_.run_options(*question.mechanism, command.rung);
+    } catch (const InputError&) {
+      if (first) throw;
+      throw SilentExit{kBadInput};  // rank 0 says it
+    }
+    const nlohmann::json identity = identity_for(command, question);
+    if (question.plan.fidelities || question.plan.tail) {
+      if (!first) return kDone;  // one rank does it all
+      const OutputDirectory out = OutputDirectory::open(command.out, command.verb, command.file, identity);
+      if (!resumption_.from.empty())
+        throw InputError({"command line", 0}, "--from", in_quotes(resumption_.from),
+                         "none: a study on several rungs goes on in its own folder");
+      const SeveralRungs several{command, question, run, out, watch};
+      return question.plan.fidelities ? run_fidelities(several) : run_tail(several);
+    }
+
+    // Rank 0 owns the folder, finds the rung, and tells the others both.
+    std::string told;
+    std::unique_ptr<OutputDirectory> out;
+    std::unique_ptr<SampleStore> store;
+    RungChoice choice;
+    if (first) {
+      out = std::make_unique<OutputDirectory>(OutputDirectory::open(command.out, command.verb, command.file, identity));
+      store = open_store(*out, question);
+      choice = rung_for(command, question, run, *store);
+      told = nlohmann::json{{"folder", out->path().string()},
+                            {"rung", choice.name},
+                            {"step", choice.step},
+                            {"integrator", choice.integrator},
+                            {"tolerance", choice.tolerance}}
+                 .dump();
+    }
+    ranks->broadcast(told);
+    const nlohmann::json heard = nlohmann::json::parse(told);
+
+    RunOptions model_options = run;
+    apply({.name = heard["rung"],
+           .why = "",
+           .step = heard["step"],
+           .integrator = heard["integrator"],
+           .tolerance = heard["tolerance"]},
+          model_options);
+    const std::unique_ptr<SampleModel> sampled =
+        sample_model(heard["rung"], question.mechanism, question.parameters_of(), question.study.index, model_options,
+                     scene_varies(question.plan.inputs));
+    const SampleModel& model = *sampled;
+    MonteCarloOptions options{.folder = heard["folder"].get<std::string>(),
+                              .facts = {{"study", hash_of(identity)}},
+                              .jobs = command.jobs,
+                              .progress = {},
+                              .interrupted = [] { return interrupted(); }};
+    if (!first) {
+      run_montecarlo(model, question.plan, nullptr, *ranks, options);
+      return kDone;
+    }
+    store->use_rung(model.rung(), model.step());
+    if (!command.quiet) announce(question, choice, store->count(), ranks->size());
+    Progress progress(command.quiet, static_cast<double>(question.plan.samples), "samples");
+    options.progress = [&](const MonteCarloProgress& p) { show(progress, p, question); };
+    const std::uint64_t begun_with = store->count();
+    const Stopwatch sampling;
+    MonteCarloResult result =
+        with_options_checked([&] { return run_montecarlo(model, question.plan, store.get(), *ranks, options); });
+    progress.clear();
+    const std::string stuck = no_run_done(result.ended == Ended::interrupted || result.ended == Ended::time, begun_with,
+                                          store->count(), sampling.wall_seconds());
+    // Last, as it keeps nothing before it ends: the samples get on in however short a time a process has.
+    StudySteps steps{kNotMeasured, "not measured: the study was interrupted before"};
+    if (result.ended != Ended::interrupted)
+      steps = steps_of_study(command, question.study, question.mechanism,
+                             {.inputs = question.plan.inputs,
+                              .statistic = asked_of_scatter(question.plan),
+                              .runs = question.plan.samples,
+                              .lanes = true},
+                             model_options, model.rung(), store.get());
+    if (steps.interrupted) result.ended = Ended::interrupted;
+    return write_results(command, question, choice, model, *store, steps, result, watch, *out, stuck);
+  }
+
+ private:
+  nlohmann::json identity_for(const Command& command, const MonteCarloQuestion& question) const {
+    ContentHash samples;
+    samples.add(question.plan.sample_text(question.study));
+    nlohmann::json options = motion_.model_identity();
+    if (question.study.accuracy) options["study_accuracy"] = *question.study.accuracy;
+    return identity_of(command, question.mechanism->description().content_hash, samples.hexadecimal(), options);
+  }
+  static std::string hash_of(const nlohmann::json& identity) {
+    ContentHash hash;
+    hash.add(identity.dump());
+    return hash.hexadecimal();
+  }
+
+  std::unique_ptr<SampleStore> open_store(const OutputDirectory& out, const MonteCarloQuestion& question) const {
+    bring_runs(out, hash_of(out.identity()), resumption_);
+    const std::filesystem::path file = out.path() / "samples.db";
+    const bool there = std::filesystem::exists(file);
+    announce_begun(out, name(), "begun and not yet ended: samples.db holds what there is; the same command goes on");
+    auto store = std::make_unique<SampleStore>(
+        file, std::map<std::string, std::string>{{"study", hash_of(out.identity())}}, question.plan.inputs.names());
+    tell_of_damage(store->damage());
+    merge_shards(*store, out.path());
+    if (!there || store->fact("mechanism").empty()) {
+      store->note("mechanism", question.mechanism->name());
+      store->note("mechanism_hash", question.mechanism->description().content_hash);
+      store->note("index", question.study.index.quantity + "." + question.study.index.statistic);
+      store->note("unit", question.study.index.si_unit());
+      store->note("seed", std::to_string(question.plan.design.seed));
+      store->note("inputs", question.plan.inputs.text);
+      store->note("design", question.plan.design.text());
+      store->note("version", BORESIGHT_VERSION);
+    }
+    return store;
+  }
+
+  // A study keeps its rung: the one it was begun with is the one it goes on with.
+  static RungChoice rung_for(const Command& command, const MonteCarloQuestion& question, const RunOptions& run,
+                             SampleStore& store) {
+    if (!store.rungs().empty()) return stored_choice(store);
+    RungChoice choice = choose_rung_of_scatter(command, question.study, run, question.mechanism,
+                                               {.inputs = question.plan.inputs,
+                                                .statistic = asked_of_scatter(question.plan),
+                                                .runs = question.plan.samples,
+                                                .lanes = true,
+                                                .integrators = true});
+    // A pilot has chosen the step too. Lanes choose each sample's steps by its error; what else runs with rk4 takes one
+    // step for all samples.
+    const bool lanes =
+        choice.name == "perturbation" && LaneSampleModel::serve(*question.mechanism, question.study.index, run);
+    if (!choice.pilot && !lanes && run.step == 0.0)
+      choice.step = kept_common_step(choice.name, question.mechanism, question.plan.inputs, run, store);
+    note_choice(store, choice);
+    if (choice.pilot) {
+      store.note("pilot_reference_error", fmt::format("{:.17g}", choice.pilot->reference_error));
+      store.note("pilot_pairs", std::to_string(choice.pilot->pairs));
+      for (const PilotResult::ErrorOfStatistic& e : choice.pilot->errors)
+        store.note(fmt::format("pilot_error_{:g}", e.probability), fmt::format("{:.17g}", e.error));
+    }
+    return choice;
+  }
+
+  // The quantile that a requirement is about, or else the one that a reader looks at first.
+  static ScatterStatistic asked_of_scatter(const MonteCarloPlan& plan) {
+    if (plan.requirement) return {plan.requirement->probability};
+    for (const Headline& h : headlines())
+      if (headline_of(plan) == h.name) return {h.probability};
+    return {};
+  }
+
+  int write_results(const Command& command, const MonteCarloQuestion& question, const RungChoice& choice,
+                    const SampleModel& model, SampleStore& store, const StudySteps& steps,
+                    const MonteCarloResult& result, const Stopwatch& watch, const OutputDirectory& out,
+                    const std::string& stuck) const {
+    ModelError error;
+    const ShownSamples shown = shown_samples(store, result, error);
+    error.discretisation = steps.relative;
+    error.discretisation_why = steps.why;
+    for (const Headline& h : headlines())
+      if (const std::string found = store.fact(fmt::format("pilot_error_{:g}", h.probability)); !found.empty())
+        // The mean's error says nothing of the standard deviation's.
+        error.rung_of[h.name] = std::string(h.name) == "sd" ? kNotMeasured : std::stod(found);
+    if (!error.rung_of.empty())
+      error.rung_why = fmt::format(
+          "measured by the pilot: this way against multibody at half its step over {} paired samples, with 95 % "
+          "confidence, what "
+          "the steps do and what that reference is off by itself included",
+          store.fact("pilot_pairs"));
+    const Estimates estimates = estimate(result.values, question.plan, error, judged(question.plan, result, store));
+    MonteCarloStudy study{.command = command,
+                          .study = question.study,
+                          .mechanism = *question.mechanism,
+                          .rung = choice,
+                          .plan = question.plan,
+                          .result = result,
+                          .estimates = estimates,
+                          .shown = shown,
+                          .warnings = warnings_of(question, result, estimates, shown.failures),
+                          .leaves_out = model.leaves_out(),
+                          .replay = replay_command(command, choice, model)};
+    if (!stuck.empty()) study.warnings.push_back(stuck);
+    if (!store.damage().empty()) study.warnings.push_back(store.damage());
+    write_json(out, "summary.json", summary_of(study, watch, out, store));
+    out.write("report.html", [&](std::ostream& s) { report::write_html(s, montecarlo_report(study)); });
+    out.publish();
+    if (!command.quiet) print(study, out);
+    if (result.ended == Ended::interrupted) return kInterrupted;
+    if (estimates.failed == estimates.samples && estimates.samples > 0)
+      return failed(command, "all samples failed" + first_failure_text(shown.failures, "sample"));
+    return estimates.requirement && !estimates.requirement->met ? kAnswerIsNo : status_with_accuracy(choice, kDone);
+  }
+
+  // How the requirement is judged; and that it was, for those who look again.
+  static std::optional<Judgement> judged(const MonteCarloPlan& plan, const MonteCarloResult& result,
+                                         SampleStore& store) {
+    if (!plan.requirement) return std::nullopt;
+    if (result.ended == Ended::interrupted)
+      return Judgement{Judgement::By::nothing, plan.requirement->confidence, "not judged: interrupted"};
+    return look(store, question_of(*plan.requirement), asked_share_of(plan), looked_at_of(plan), result.values.size());
+  }
+
+  // Failed ones first, the others spread evenly; and what the rung thinks of its own error, on average.
+  static ShownSamples shown_samples(const SampleStore& store, const MonteCarloResult& result, ModelError& error) {
+    ShownSamples shown;
+    const std::uint64_t n = result.values.size();
+    const std::uint64_t every = n / kMostShown + 1;
+    double done = 0.0;
+    store.read(n, [&](const SampleRecord& record) {
+      shown.failures.see(record.number, record.outcome);
+      if (record.outcome.status == Outcome::Status::failed) {
+        if (shown.failed.size() < kMostFailedShown) shown.failed.push_back(record);
+        return;
+      }
+      done += 1.0;
+      error.rung += record.outcome.model_error;
+      if (record.number % every == 0) shown.done.push_back(record);
+    });
+    if (done > 0.0) error.rung /= done;
+    error.rung_why = "the rung's own estimate of what it leaves out, mean over the samples";
+    return shown;
+  }
+
+  static std::vector<std::string> warnings_of(const MonteCarloQuestion& question, const MonteCarloResult& result,
+                                              const Estimates& estimates, const Failures& failures) {
+    std::vector<std::string> warnings;
+    const MonteCarloPlan& plan = question.plan;
+    const Design design(plan.design, static_cast<int>(plan.inputs.size()));
+    if (const std::string warning = design.warning(result.values.size()); !warning.empty() && !result.values.empty())
+      warnings.push_back(warning);
+    if (result.ended == Ended::time)
+      warnings.push_back(fmt::format("stopped after {} with {} of {} samples; the same command goes on",
+                                     readable(plan.stop.seconds, "s"), result.values.size(), plan.samples));
+    if (result.ended == Ended::width)
+      warnings.push_back(fmt::format(
+          "stopped at {} samples as the interval of {} was narrow enough: it allows for being looked at several "
+          "times, those of the other estimates do not",
+          result.values.size(), plan.stop.of));
+    if (estimates.failed > 0)
+      warnings.push_back(
+          fmt::format("{} of {} samples failed; they count as bad in every bound, and mean and standard deviation "
+                      "leave them out",
+                      estimates.failed, estimates.samples) +
+          first_failure_text(failures, "sample"));
+    if (plan.requirement && plan.design.kind == DesignKind::random &&
+        static_cast<std::int64_t>(result.values.size()) < estimates.requirement->fewest_samples)
+      warnings.push_back(fmt::format("the requirement cannot be shown with {} samples, whatever they give: it takes {}",
+                                     result.values.size(), estimates.requirement->fewest_samples));
+    return warnings;
+  }
+
+  std::string replay_command(const Command& command, const RungChoice& choice, const SampleModel& model) const {
+    std::string text = "boresight run " + shell_word(command.file);
+    for (const Setting& setting : command.settings) text += " --set " + shell_word(setting.path + "=" + setting.value);
+    text += " --rung " + model.rung();
+    if (model.step() > 0.0) text += fmt::format(" --step \"{:.17g} s\"", model.step());
+    if (model.batch() > 1) text += " --integrator rosenbrock";  // the lanes' method; its steps are not the same
+    if (!choice.integrator.empty() && motion_.integrator.empty())
+      text += fmt::format(" --integrator {} --tolerance {:g}", choice.integrator, choice.tolerance);
+    text += motion_.model_text();
+    return text + " --sample-number";
+  }
+
+  static Json summary_of(const MonteCarloStudy& s, const Stopwatch& watch, const OutputDirectory& out,
+                         const SampleStore& store) {
+    Json json =
+        common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, s.result.ended == Ended::interrupted, out);
+    add_earlier_cost(json, store.earlier());
+    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    json["seed"] = s.plan.design.seed;
+    json["design"] = s.plan.design.text();
+    json["step"] = store.rungs().front().step;
+    json["samples"] = s.estimates.samples;
+    json["samples_asked"] = s.plan.samples;
+    json["samples_stored"] = s.result.stored;
+    json["ended"] = to_string(s.result.ended);
+    json["failed"] = s.estimates.failed;
+    add_first_failure(json, s.shown.failures, "sample");
+    Json& index = json["index"] = {{"quantity", s.study.index.quantity},
+                                   {"statistic", s.study.index.statistic},
+                                   {"unit", s.study.index.si_unit()}};
+    for (const NamedEstimate& e : s.estimates.index) index[e.name] = interval_json(e.interval);
+    if (s.estimates.requirement) {
+      const Requirement& asked = *s.plan.requirement;
+      json["requirement"] = {{"limit", asked.limit},
+                             {"asked_probability", asked.probability},
+                             {"confidence", asked.confidence},
+                             {"met", s.estimates.requirement->met},
+                             {"probability", interval_json(s.estimates.requirement->probability)},
+                             {"fewest_samples", s.estimates.requirement->fewest_samples}};
+      const Judgement& judgement = s.estimates.requirement->judgement;
+      json["requirement"]["probability"]["confidence"] = judgement.confidence;
+      if (!judgement.why.empty()) json["requirement"]["judged"] = judgement.why;
+      json["requirement"]["probability"]["bounds"] = "one-sided, each at this confidence";
+    }
+    for (const ErrorStatement& e : s.estimates.errors) {
+      if (e.of == s.estimates.headline) json["error"] = error_json(e);
+      json["errors"][e.of] = error_json(e);
+    }
+    json["random"] = Json::array();
+    for (const RandomParameter& p : s.plan.inputs.parameters)
+      json["random"].push_back({{"parameters", p.paths},
+                                {"unit", p.si_unit},
+                                {"distribution", p.distribution->text().substr(0, 400)},
+                                {"mean", number_json(p.distribution->mean())},
+                                {"sd", number_json(p.distribution->sd())}});
+    json["replay"] = s.replay + " NUMBER";
+    json["files"] = {"summary.json", "samples.db", "report.html"};
+    return json;
+  }
+
+  MotionOptions motion_;
+  Resumption resumption_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_montecarlo_verb() { return std::make_unique<MonteCarloVerb>(); }
+
+}  // namespace boresight::app

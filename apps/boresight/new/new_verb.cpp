@@ -1,0 +1,82 @@
+// boresight new FOLDER: a commented mechanism and a study to start from, and what to do with them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+
+#include "boresight/mechanism/error.hpp"
+#include "command_line/verb.hpp"
+#include "results/folder_claim.hpp"
+#include "results/output_directory.hpp"
+#include "results/whole_results.hpp"
+#include "terminal/exit_status.hpp"
+#include "terminal/terminal.hpp"
+
+extern "C" {
+extern const char boresight_template_mechanism[];
+extern const char boresight_template_montecarlo[];
+}
+
+namespace boresight::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class NewVerb : public Verb {
+ public:
+  std::string name() const override { return "new"; }
+  std::string file_kind() const override { return "folder to make, not a"; }
+  std::string summary() const override { return "a commented mechanism and study to start from"; }
+  std::string example() const override { return "boresight new antenna"; }
+  std::vector<std::string> unused_options() const override { return {"--set", "--out", "--rung", "--accuracy"}; }
+
+  int execute(const Command& command) override {
+    const fs::path folder = command.file;
+    const struct {
+      const char* name;
+      const char* text;
+    } files[] = {{"mechanism.toml", boresight_template_mechanism}, {"montecarlo.toml", boresight_template_montecarlo}};
+    // Some of them word for word as they would be written, and not all: a start that was killed, which this one completes.
+    const auto is_there = [&](const auto& file) { return fs::exists(folder / file.name); };
+    const bool all = std::all_of(std::begin(files), std::end(files), is_there);
+    for (const auto& file : files)
+      if (is_there(file) && (all || text_of(folder / file.name) != file.text))
+        throw OutputDirectoryError((folder / file.name).string() +
+                                   ": is there already; give another folder, or remove it");
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed || !fs::is_directory(folder))
+      throw OutputDirectoryError(folder.string() + ": cannot make this folder" +
+                                 (failed ? ": " + failed.message() : ""));
+    const std::optional<FolderClaim> claim = FolderClaim::take(folder);
+    if (!claim)
+      throw OutputDirectoryError(folder.string() +
+                                 ": another run is writing there; wait for it to end, or give another folder");
+    discard_staged(folder);
+    for (const auto& file : files) stage(folder, file.name, file.text);
+    place_staged(folder);
+    if (!command.quiet)
+      tell(
+          "{0}: an antenna whose elevation bearing has play, to be changed into yours\n"
+          "  boresight check {0}/mechanism.toml        what would go wrong, before it does\n"
+          "  boresight run {0}/mechanism.toml          one motion: how far off it points\n"
+          "  boresight montecarlo {0}/montecarlo.toml  with what probability\n",
+          folder.string());
+    return kDone;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_new_verb() { return std::make_unique<NewVerb>(); }
+
+}  // namespace boresight::app

@@ -1,0 +1,43 @@
+#include "report_parts/step_error_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "terminal/readable.hpp"
+
+namespace boresight::app {
+
+double relative_step_error(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of) {
+  const double value = std::abs(of.of(index)), stated = of.of(measured.stated);
+  return value > 0.0 ? stated / value : 0.0;
+}
+
+std::string step_error_sentence(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of) {
+  if (!measured.measured) return "what the steps do to the indices was not measured: " + measured.why_not;
+  if (measured.runs == 0) return measured.basis;
+  const double relative = relative_step_error(measured, index, of);
+  bool scatters = false;
+  for (const QuantityName& quantity : quantity_names())
+    for (const StatisticName& statistic : statistic_names())
+      if (of.quantity == quantity.name && of.statistic == statistic.name)
+        scatters = relative > 1e-3 && measured.scatters(quantity.statistics, statistic.value);
+  return fmt::format("{}: within {} of what smaller steps give{}; {}, {} of CPU", of.title(), readable_share(relative),
+                     scatters ? ", as far as neighbouring steps lie from each other: one motion of many" : "",
+                     measured.basis, readable(measured.cpu_seconds, "s"));
+}
+
+Json step_error_json(const MeasuredError& measured) {
+  if (!measured.measured) return {{"measured", false}, {"why", measured.why_not}};
+  Json json = {{"measured", true},
+               {"basis", measured.basis},
+               {"runs", measured.runs},
+               {"cpu_seconds", measured.cpu_seconds},
+               {"stated", index_json(measured.stated)}};
+  for (const QuantityName& quantity : quantity_names())
+    for (const StatisticName& statistic : statistic_names())
+      json["scatters"][quantity.name][statistic.name] = measured.scatters(quantity.statistics, statistic.value);
+  return json;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,21 @@
+// What a run says of its steps: the sentence of terminal and report, and summary.json's part.
+#pragma once
+
+#include <string>
+
+#include "boresight/stepping/measured_error.hpp"
+#include "boresight_analyses/study/index_choice.hpp"
+#include "results/summary.hpp"
+
+namespace boresight::app {
+
+// Of one index, relative to it; 0 where there is neither index nor error.
+double relative_step_error(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of);
+
+// "the steps put the position error, maximum, off by up to 1.2 % (measured by further runs ...)", or why nobody knows.
+std::string step_error_sentence(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of);
+
+// Per quantity and statistic what is stated, in its own unit; whether neighbours scatter; what it cost.
+Json step_error_json(const MeasuredError& measured);
+
+}  // namespace boresight::app

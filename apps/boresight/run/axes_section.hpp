@@ -1,0 +1,21 @@
+// What the assumption about journal axes hides: the same scene at rest with axes parallel and free.
+#pragma once
+
+#include <optional>
+
+#include "boresight/mechanism/mechanism.hpp"
+#include "report/document.hpp"
+
+namespace boresight::app {
+
+struct AxesComparison {
+  bool free = false;                                      // of the scene itself: at least one journal tilts
+  double parallel_boresight = 0.0, free_boresight = 0.0;  // largest boresight error at rest [rad]
+  double parallel_position = 0.0, free_position = 0.0;    // largest position error at rest [m]
+  std::string sentence;
+};
+
+// By the quasistatic rung. Nothing where it cannot be applied, or where a joint's sleeve has no length.
+std::optional<AxesComparison> compare_axes(const Mechanism& mechanism);
+
+}  // namespace boresight::app

@@ -1,0 +1,278 @@
+#include "run/run_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report_parts/mechanism_view.hpp"
+#include "report_parts/report_parts.hpp"
+#include "results/pilot_parts.hpp"
+#include "results/tables.hpp"
+
+namespace boresight::app {
+namespace {
+
+std::vector<report::Fact> headline(const RunResult& result) {
+  const PointingIndices& index = result.index;
+  std::vector<report::Fact> facts = {
+      {.label = "Position error, maximum",
+       .value = readable(index.position_error.max, "m"),
+       .note = fmt::format("at {:.3f} s", index.position_error.time_of_max)},
+      {.label = "Position error, RMS", .value = readable(index.position_error.rms, "m")},
+      {.label = "Boresight error, maximum",
+       .value = readable(index.boresight_error.max, "rad"),
+       .note = readable_arcsec(index.boresight_error.max)},
+  };
+  if (index.has_line_of_sight)
+    facts.push_back({.label = "Line-of-sight error, maximum",
+                     .value = readable(index.line_of_sight_error.max, "rad"),
+                     .note = readable_arcsec(index.line_of_sight_error.max)});
+  for (const ContactSummary& c : result.contact)
+    facts.push_back({.label = c.joint + ", in contact",
+                     .value = readable_share(c.contact_fraction),
+                     .note = fmt::format("{} impacts, {} at most", c.impacts, readable(c.max_force, "N"))});
+  facts.push_back({.label = "Peak acceleration",
+                   .value = readable(result.platform_acceleration_max.maxCoeff(), "m/s^2"),
+                   .note = "largest of the three axes"});
+  return facts;
+}
+
+// One quantity of a clearance joint over time.
+report::Chart joint_chart(const std::string& title, const std::string& label, const std::string& si_unit,
+                          const RunResult& result, std::size_t clearance, double (*value)(const ClearanceSample&)) {
+  std::vector<double> values;
+  for (const ClearanceSample& s : result.clearances[clearance]) values.push_back(value(s));
+  double most = 0.0;
+  for (const double v : values) most = std::max(most, std::abs(v));
+  const DisplayUnit unit = display_unit(si_unit, most);
+  report::Chart chart{.title = title, .caption = {}, .x = {"Time", "s"}, .y = {label, unit.name}};
+  chart.series.push_back(curve(label, result.time, values, unit.per_si));
+  return chart;
+}
+
+report::Section joint_section(const Mechanism& mechanism, const RunResult& result, std::size_t c) {
+  const std::string joint = joint_of_clearance(mechanism, static_cast<int>(c));
+  const ClearanceParameters& p = mechanism.parameters().clearance[c];
+  report::Section section{.id = fmt::format("joint-{}", c + 1),
+                          .title = "Joint " + joint,
+                          .intro = fmt::format("Radial clearance {}, axial clearance {} per side.",
+                                               readable(p.radial, "m"), readable(p.axial, "m"))};
+  section.items.push_back(orbit_chart(joint, p.radial, result, c));
+
+  report::Panels panels{.title = joint + " over time",
+                        .caption = "Penetration and force are drawn with their peaks kept.",
+                        .columns = 2,
+                        .shared_legend = false};
+  report::Chart axial = joint_chart("Axial offset", "along the axis", "m", result, c,
+                                    [](const ClearanceSample& s) { return s.offset.y(); });
+  const DisplayUnit axial_unit{axial.y.unit, axial.y.unit == "mm"   ? 1e3
+                                             : axial.y.unit == "µm" ? 1e6
+                                             : axial.y.unit == "nm" ? 1e9
+                                                                    : 1.0};
+  axial.lines = {{'y', p.axial * axial_unit.per_si, "end face"}, {'y', -p.axial * axial_unit.per_si, "end face"}};
+  panels.panels = {joint_chart("Penetration", "penetration", "m", result, c,
+                               [](const ClearanceSample& s) { return std::max(0.0, s.penetration); }),
+                   joint_chart("Contact force", "normal force", "N", result, c,
+                               [](const ClearanceSample& s) { return s.normal_force; }),
+                   joint_chart("Radial offset", "distance of the centres", "m", result, c,
+                               [](const ClearanceSample& s) { return std::hypot(s.offset.x(), s.offset.z()); }),
+                   std::move(axial)};
+  section.items.push_back(std::move(panels));
+  return section;
+}
+
+report::Panels event_histograms(const RunResult& result) {
+  std::vector<double> speed, duration, force;
+  for (const ContactEvent& e : result.events) {
+    speed.push_back(1e3 * e.start_speed);
+    duration.push_back(1e3 * e.duration);
+    force.push_back(1e-3 * e.max_force);
+  }
+  report::Panels panels{.title = "How the contacts are spread",
+                        .caption = "Every contact of the motion, whichever joint.",
+                        .columns = 3,
+                        .shared_legend = false};
+  const auto histogram = [&](const char* title, const char* label, const char* unit,
+                             const std::vector<double>& values) {
+    report::Chart chart{.title = title, .caption = {}, .x = {label, unit}, .y = {"contacts", ""}};
+    chart.series.push_back({.name = label, .x = values, .style = report::Style::histogram});
+    return chart;
+  };
+  panels.panels = {histogram("Approach speed", "speed", "mm/s", speed),
+                   histogram("Duration", "duration", "ms", duration), histogram("Largest force", "force", "kN", force)};
+  const double valid = result.contact.empty() ? 0.0 : 1e3 * result.contact.front().validity_speed;
+  if (valid > 0.0 && !speed.empty() && valid < 1.5 * *std::max_element(speed.begin(), speed.end()))
+    panels.panels[0].lines.push_back({'x', valid, "Flores' law valid up to here"});
+  return panels;
+}
+
+report::Table hardest_contacts(const Mechanism& mechanism, const RunResult& result) {
+  constexpr std::size_t kShown = 12;
+  std::vector<const ContactEvent*> events;
+  for (const ContactEvent& e : result.events) events.push_back(&e);
+  const std::size_t shown = std::min(kShown, events.size());
+  std::partial_sort(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(shown), events.end(),
+                    [](const ContactEvent* a, const ContactEvent* b) { return a->max_force > b->max_force; });
+  report::Table table{.title = fmt::format("The {} hardest contacts", shown),
+                      .caption = fmt::format("Of {}; all of them are in events.csv.", events.size()),
+                      .columns = {{"Joint"},
+                                  {"Where"},
+                                  {"Start", "s"},
+                                  {"Duration", "ms"},
+                                  {"Approach", "mm/s"},
+                                  {"Parting", "mm/s"},
+                                  {"Penetration", "µm"},
+                                  {"Force", "kN"}}};
+  for (std::size_t i = 0; i < shown; ++i) {
+    const ContactEvent& e = *events[i];
+    table.rows.push_back({joint_of_clearance(mechanism, e.clearance), to_string(e.place), e.start, 1e3 * e.duration,
+                          1e3 * e.start_speed, 1e3 * e.end_speed, 1e6 * e.max_penetration, 1e-3 * e.max_force});
+  }
+  return table;
+}
+
+report::Section cost_section(const RunResult& result, const std::optional<Predictability>& predictability) {
+  const RunCost& cost = result.cost;
+  report::Table table{.title = "What it cost", .caption = {}, .columns = {{"What"}, {"Value"}}};
+  table.rows = {{"Integrator", result.integrator},
+                {"Steps", cost.steps},
+                {"Rejected steps", cost.rejected_steps},
+                {"Right-hand sides", cost.evaluations},
+                {"CPU", readable(cost.cpu_seconds, "s")},
+                {"CPU per right-hand side",
+                 cost.evaluations > 0 ? readable(cost.cpu_seconds / static_cast<double>(cost.evaluations), "s") : "-"},
+                {"Largest constraint drift", fmt::format("{:.3g} m or rad", result.constraint_drift)}};
+  if (result.energy_error != 0.0)
+    table.rows.push_back(
+        {"Energy balance, largest error", fmt::format("{:.3g} of the largest energy", result.energy_error)});
+  report::Section section{.id = "cost", .title = "Cost and numerical quality", .items = {std::move(table)}};
+  if (predictability)
+    section.items.push_back(report::Text{predictability->measured
+                                             ? "Predictability: " + predictability_sentence(*predictability) + "."
+                                             : "Predictability was not measured: " + predictability->refusal});
+  return section;
+}
+
+// What the rung leaves out, by how much it thinks that matters, and what the other rungs say where they were asked.
+report::Section model_section(const std::string& leaves_out, const RunResult& result,
+                              const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
+                              const std::string& steps) {
+  report::Section section{.id = "model", .title = "What this model leaves out", .items = {report::Text{leaves_out}}};
+  const ErrorEstimate& error = result.error;
+  if (!error.basis.empty()) {
+    section.items.push_back(report::Text{"By its own estimate what is left out puts the indices off by about " +
+                                         readable_share(error.model) + ". Taken from: " + error.basis + "."});
+  }
+  if (!result.interrupted) section.items.push_back(report::Text{"Steps: " + steps + "."});
+  if (axes) section.items.push_back(report::Text{axes->sentence});
+  if (others.empty()) {
+    section.items.push_back(report::Text{"Run with --compare to see the other rungs over this one."});
+    return section;
+  }
+  report::Table table{.title = "The other rungs on this scene",
+                      .caption = fmt::format("Differences against the {} rung above.", result.rung),
+                      .columns = {{"Rung"},
+                                  {"Position max", "%"},
+                                  {"Position RMS", "%"},
+                                  {"Boresight max", "%"},
+                                  {"Boresight RMS", "%"},
+                                  {"CPU", "ms"},
+                                  {"Own estimate of its error", "%"},
+                                  {"Remark"}}};
+  const auto change = [](double other, double own) -> nlohmann::json {
+    if (own <= kRounding && other <= kRounding) return nullptr;  // nothing on both
+    return 100.0 * (other / own - 1.0);
+  };
+  for (const Compared& other : others) {
+    if (!other.refusal.empty()) {
+      table.rows.push_back({other.rung, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, other.refusal});
+      continue;
+    }
+    const PointingIndices &a = other.result.index, &b = result.index;
+    table.rows.push_back({other.rung, change(a.position_error.max, b.position_error.max),
+                          change(a.position_error.rms, b.position_error.rms),
+                          change(a.boresight_error.max, b.boresight_error.max),
+                          change(a.boresight_error.rms, b.boresight_error.rms), 1e3 * other.result.cost.cpu_seconds,
+                          100.0 * other.result.error.model, ""});
+  }
+  section.items.push_back(std::move(table));
+  return section;
+}
+
+}  // namespace
+
+std::string predictability_sentence(const Predictability& found) {
+  const std::string twin = fmt::format("a start {} off", readable(kStartOffset, "m"));
+  if (!found.parted)
+    return fmt::format("{} stays within {} of the clearance over the whole motion", twin, readable_share(kPartedShare));
+  return fmt::format(
+      "the trajectory is predictable up to {}, where {} parts by {} of the clearance; past it judge the indices, which "
+      "differ by {} (max) and {} (RMS) between the two",
+      readable(found.horizon, "s"), twin, readable_share(kPartedShare), readable_share(found.max_difference),
+      readable_share(found.rms_difference));
+}
+
+nlohmann::ordered_json predictability_json(const Predictability& found) {
+  if (!found.measured) return {{"refused", found.refusal}};
+  return {{"horizon", found.horizon},
+          {"parted", found.parted},
+          {"growth_rate", found.growth},
+          {"start_offset", kStartOffset},
+          {"parted_share_of_clearance", kPartedShare},
+          {"position_error_max_difference", found.max_difference},
+          {"position_error_rms_difference", found.rms_difference}};
+}
+
+report::Document run_report(const Command& command, const Mechanism& mechanism, const RungChoice& rung,
+                            const std::string& leaves_out, const RunResult& result, const std::vector<Compared>& others,
+                            const std::optional<AxesComparison>& axes,
+                            const std::optional<Predictability>& predictability, const std::string& steps) {
+  report::Document document{
+      .title = mechanism.name(),
+      .subtitle = fmt::format("One motion of {} on the {} rung{}", readable(result.end_time, "s"), result.rung,
+                              result.formulation.empty() ? "" : ", " + result.formulation + " formulation"),
+      .verb = "run"};
+  if (result.interrupted)
+    document.verdict = report::Verdict{
+        report::Standing::bad, fmt::format("Interrupted at {} of {}: what follows is the part that was reached.",
+                                           readable(result.end_time, "s"), readable(mechanism.duration(), "s"))};
+  document.facts = headline(result);
+  document.warnings = result.warnings;
+  document.provenance = provenance_of(command, mechanism, rung);
+
+  std::vector<Overlay> overlay = {{others.empty() ? "with clearance" : result.rung, &result}};
+  for (const Compared& other : others)
+    if (other.refusal.empty()) overlay.push_back({other.rung, &other.result});
+  report::Section errors{.id = "errors", .title = "Pointing error", .items = {index_table(overlay)}};
+  if (!result.time.empty()) {
+    errors.items.push_back(error_panels(overlay));
+    errors.items.push_back(difference_panels(overlay));
+  }
+  document.sections.push_back(std::move(errors));
+  if (!result.time.empty()) {
+    report::Section motion{.id = "motion", .title = "Motion"};
+    if (!result.frames.empty()) motion.items.push_back(mechanism_view(mechanism, result));
+    motion.items.push_back(motion_panels(mechanism, overlay,
+                                         "Displacement of the centre of mass, Z-Y-X Euler angles from home, and "
+                                         "accelerations in world axes: the panels of Sun et al., Fig. 6."));
+    document.sections.push_back(std::move(motion));
+  }
+  if (mechanism.clearances() > 0) {
+    report::Section contact{.id = "contact", .title = "Contact", .items = {contact_table(overlay)}};
+    if (!result.time.empty()) contact.items.push_back(contact_strip(mechanism, result));
+    if (!result.events.empty()) {
+      contact.items.push_back(event_histograms(result));
+      contact.items.push_back(hardest_contacts(mechanism, result));
+    }
+    document.sections.push_back(std::move(contact));
+    if (!result.time.empty())
+      for (std::size_t c = 0; c < result.clearances.size(); ++c)
+        document.sections.push_back(joint_section(mechanism, result, c));
+  }
+  document.sections.push_back(model_section(leaves_out, result, others, axes, steps));
+  if (rung.pilot) document.sections.push_back(pilot_section(*rung.pilot));
+  document.sections.push_back(cost_section(result, predictability));
+  return document;
+}
+
+}  // namespace boresight::app

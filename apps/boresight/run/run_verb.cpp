@@ -1,0 +1,323 @@
+// boresight run MECHANISM: one motion, its pointing error, its contacts.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+#include "boresight/contact/law_range.hpp"
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/perturbation/predictability.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/stepping/measured_error.hpp"
+#include "command_line/declared_option.hpp"
+#include "command_line/montecarlo_study.hpp"
+#include "command_line/study_input.hpp"
+#include "command_line/verb.hpp"
+#include "report/report.hpp"
+#include "report_parts/mechanism_view.hpp"
+#include "report_parts/step_error_parts.hpp"
+#include "results/assumed.hpp"
+#include "results/scatter_parts.hpp"
+#include "results/summary.hpp"
+#include "results/tables.hpp"
+#include "run/nonlinear_section.hpp"
+#include "run/run_report.hpp"
+#include "terminal/exit_status.hpp"
+#include "terminal/interruption.hpp"
+#include "terminal/progress.hpp"
+#include "terminal/readable.hpp"
+#include "terminal/terminal.hpp"
+
+namespace boresight::app {
+namespace {
+
+void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
+           const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
+           const std::optional<Predictability>& predictability, const MeasuredError& measured,
+           const IndexChoice& wanted, const std::vector<AssumedValue>& assumed, const OutputDirectory& out) {
+  tell("{}: {} of motion, {} rung, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.rung,
+       result.integrator, result.interrupted ? " (interrupted)" : "");
+  if (choice.pilot) tell("  rung: {}\n", choice.why);
+  const PointingIndices& index = result.index;
+  tell("  position error       max {:>10}   RMS {:>10}\n", readable(index.position_error.max, "m"),
+       readable(index.position_error.rms, "m"));
+  tell("  boresight error      max {:>10}   RMS {:>10}   ({} max)\n", readable(index.boresight_error.max, "rad"),
+       readable(index.boresight_error.rms, "rad"), readable_arcsec(index.boresight_error.max));
+  if (index.has_line_of_sight)
+    tell("  line-of-sight error  max {:>10}   RMS {:>10}   ({} max)\n", readable(index.line_of_sight_error.max, "rad"),
+         readable(index.line_of_sight_error.rms, "rad"), readable_arcsec(index.line_of_sight_error.max));
+  if (result.start > 0.0) tell("  from {} on\n", readable(result.start, "s"));
+  for (const ContactSummary& c : result.contact)
+    tell("  {}: in contact {} of the time, {} impacts, penetration up to {}, force up to {}\n", c.joint,
+         readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"), readable(c.max_force, "N"));
+  if (!result.interrupted) tell("  {}\n", step_error_sentence(measured, result.index, wanted));
+  if (predictability && predictability->parted) tell("  {}\n", predictability_sentence(*predictability));
+  for (const Compared& other : others) {
+    if (!other.refusal.empty())
+      tell("  {:<12} {}\n", other.rung, other.refusal);
+    else
+      tell("  {:<12} position error max {:>10} RMS {:>10}, boresight max {:>10}, {} of CPU\n", other.rung,
+           readable(other.result.index.position_error.max, "m"), readable(other.result.index.position_error.rms, "m"),
+           readable(other.result.index.boresight_error.max, "rad"), readable(other.result.cost.cpu_seconds, "s"));
+  }
+  if (axes && !axes->free && axes->free_boresight > 1e-6) tell("  note: {}\n", axes->sentence);
+  for (const std::string& warning : result.warnings) tell("  warning: {}\n", warning);
+  for (const std::string& warning : material_warnings(assumed)) tell("  warning: {}\n", warning);
+  tell("  report: {}\n", (out.path() / "report.html").string());
+}
+
+Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const RunResult& result,
+                const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
+                const std::optional<Predictability>& predictability, const MeasuredError& measured,
+                const IndexChoice& wanted, const Stopwatch& watch, const OutputDirectory& out) {
+  Json json = common_summary(command, mechanism, rung, watch, result.warnings, result.interrupted, out);
+  json["formulation"] = result.formulation;
+  json["integrator"] = result.integrator;
+  json["start"] = result.start;
+  json["settled_from"] = result.settled_from;
+  json["end_time"] = result.end_time;
+  json["index"] = index_json(result.index);
+  json["contact"] = contact_json(result.contact);
+  json["platform_acceleration_max"] = vector_json(result.platform_acceleration_max);
+  json["constraint_drift"] = result.constraint_drift;
+  if (result.rung == "multibody") json["energy_error"] = result.energy_error;  // no other rung keeps track
+  json["error_estimate"] = {{"model", result.error.model},
+                            {"discretisation", number_json(result.error.discretisation)},
+                            {"of", wanted.quantity + "." + wanted.statistic},
+                            {"basis", result.error.basis},
+                            {"steps", step_error_json(measured)}};
+  if (axes)
+    json["axes"] = {
+        {"tilt_computed", axes->free},
+        {"boresight_error_at_rest", {{"parallel", axes->parallel_boresight}, {"free", axes->free_boresight}}},
+        {"position_error_at_rest", {{"parallel", axes->parallel_position}, {"free", axes->free_position}}}};
+  for (const Compared& other : others) {
+    Json& entry = json["compared"][other.rung];
+    if (other.refusal.empty())
+      entry = {{"index", index_json(other.result.index)}, {"cpu_seconds", other.result.cost.cpu_seconds}};
+    else
+      entry = {{"refused", other.refusal}};
+  }
+  if (predictability) json["predictability"] = predictability_json(*predictability);
+  json["steps"] = result.cost.steps;
+  json["rejected_steps"] = result.cost.rejected_steps;
+  json["evaluations"] = result.cost.evaluations;
+  json["files"] = {"summary.json", "timeseries.csv", "events.csv", "report.html"};
+  return json;
+}
+
+// Numbers that left what a double holds are no results.
+void refuse_infinite(const RunResult& result) {
+  const auto check = [](double value, const std::string& what) {
+    if (!std::isfinite(value))
+      throw ComputationError(
+          what + " grew beyond every number: forces, masses or speeds are out of all proportion to each other");
+  };
+  for (const QuantityName& quantity : quantity_names())
+    for (const StatisticName& statistic : statistic_names())
+      check((result.index.*quantity.statistics).*statistic.value, "the " + std::string(quantity.name));
+  for (const ContactSummary& c : result.contact) check(c.max_force, "the contact force of " + c.joint);
+}
+
+class RunVerb : public Verb {
+ public:
+  std::string name() const override { return "run"; }
+  std::string file_kind() const override { return "mechanism"; }
+  std::string summary() const override { return "one motion: pose, pointing error, contact states, forces"; }
+  std::string example() const override {
+    return "boresight run examples/3-rrcpr/3-rrcpr.toml --set clearance.F1.radial=0.2mm --out results/wide";
+  }
+  void declare_options(CLI::App& app) override {
+    motion_.declare(app, true);
+    declare_flag(app, "--compare", compare_, "run the other rungs too and lay them over this one");
+    declare_option(app, "--sample-number", sample_number_,
+                   "FILE is a Monte Carlo study: run this one of its samples (from 0) and report on it", "K");
+    declare_option(app, "--nonlinear", nonlinear_,
+                   "the drive's period: adds Poincaré sections, phase portraits and the largest Lyapunov exponent",
+                   "PERIOD");
+    declare_option(app, "--start", start_, "indices, contact counts and peaks leave out what the motion does before",
+                   "TIME");
+    declare_option_with_default(
+        app, "--step-error", step_error_,
+        "what the steps do to the indices, by further runs: auto where these take less than 10 s of CPU, on, off",
+        "WHEN");
+    declare_option_with_default(app, "--index", index_,
+                                "what --accuracy is about: position_error.max, boresight_error.rms, ...",
+                                "QUANTITY.STATISTIC");
+  }
+
+  int execute(const Command& asked) override {
+    const Stopwatch watch;
+    const Command command = sample_number_.empty() ? asked : replay_of(asked);
+    const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(command.file, command.settings));
+    check_rung_name(command.rung);
+    RunOptions options = motion_.run_options(*mechanism, command.rung);
+    check_step_error();
+    IndexChoice index = index_named("--index", index_);
+    index.start = options.start = start_.empty() ? replayed_start_ : positive_quantity("--start", start_, kDuration);
+    check_line_of_sight(index, *mechanism, {"command line", 0}, "--index");
+    check_start(index.start, *mechanism, {"command line", 0}, "--start");
+    Json identity = motion_.identity();
+    if (index.start > 0.0) identity["start"] = index.start;
+    double period = 0.0;
+    if (!nonlinear_.empty()) {
+      period = positive_quantity("--nonlinear", nonlinear_, kDuration);
+      check_period(*mechanism, period);
+      options.sample_spacing = spacing_on_period(options.sample_spacing, period);
+      identity["nonlinear"] = nonlinear_;
+    }
+    const OutputDirectory out =
+        OutputDirectory::open(command.out, command.verb, command.file,
+                              identity_of(command, mechanism->description().content_hash, "", identity));
+
+    const std::size_t finer = history_refinement(mechanism->duration(), options.sample_spacing);
+    options.sample_spacing /= static_cast<double>(finer);
+    options.frame_spacing = view_frame_spacing(*mechanism);
+    Progress progress(command.quiet, mechanism->duration(), "s of motion");
+    options.progress = [&](const RunProgress& p) {
+      progress.update(p.t, "position error so far " + readable(p.position_error_max_so_far, "m"));
+      return !interrupted();
+    };
+    const RungChoice choice = choose_rung_in_sight(command,
+                                                   {.accuracy = command.accuracy,
+                                                    .wants_multibody = motion_.asks_for_multibody(),
+                                                    .index = index,
+                                                    .step = options.step,
+                                                    .integrator = options.integrator,
+                                                    .tolerance = options.tolerance,
+                                                    .integrators = true},
+                                                   kPilotTrials, mechanism, {mechanism->parameters()});
+    apply(choice, options);
+
+    const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
+    RunResult result = with_options_checked([&] { return rung->run(mechanism->parameters(), options); });
+    refuse_infinite(result);
+    add_range_warnings(*mechanism, result);
+    std::vector<Compared> others;
+    std::optional<AxesComparison> axes;
+    std::optional<Predictability> predictability;
+    MeasuredError measured;
+    bool cut_short = result.interrupted;
+    try {
+      if (compare_ && !cut_short)
+        for (const std::string& name : rung_names())
+          if (name != choice.name)
+            others.push_back(run_other(name, mechanism, options, motion_.run_options(*mechanism, "auto").step));
+      if (!cut_short) axes = compare_axes(*mechanism);
+      // Rungs without steps have no trajectory to lose.
+      if (!integrator_names(choice.name).empty() && mechanism->clearances() > 0 && !cut_short)
+        predictability = measure_predictability(mechanism, mechanism->parameters());
+      if (!cut_short) measured = step_error(*rung, mechanism->parameters(), options, result, progress);
+      if (measured.measured) result.error.discretisation = relative_step_error(measured, result.index, index);
+    } catch (const Interrupted&) {  // the motion itself is there, and is kept
+      cut_short = interrupted();
+    }
+
+    Json summary =
+        summary_of(command, *mechanism, choice, result, others, axes, predictability, measured, index, watch, out);
+    report::Document document = run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes,
+                                           predictability, step_error_sentence(measured, result.index, index));
+    for (const std::string& warning : material_warnings(assumed_by(command, *mechanism)))
+      document.warnings.push_back(warning);
+    if (period > 0.0) {
+      const NonlinearAnalysis nonlinear = analyse_nonlinear(*mechanism, result, period);
+      summary["nonlinear"] = nonlinear_json(nonlinear);
+      summary["files"].push_back("poincare.csv");
+      out.write("poincare.csv", [&](std::ostream& s) { write_section(s, nonlinear); });
+      document.sections.insert(document.sections.begin() + 1, nonlinear_section(nonlinear, *mechanism));
+    }
+    write_json(out, "summary.json", summary);
+    out.write("timeseries.csv", [&](std::ostream& s) { write_timeseries(s, *mechanism, result, finer); });
+    out.write("events.csv", [&](std::ostream& s) { write_events(s, *mechanism, result); });
+    out.write("report.html", [&](std::ostream& s) { report::write_html(s, document); });
+    out.publish();
+    progress.clear();
+    if (!command.quiet)
+      print(*mechanism, choice, result, others, axes, predictability, measured, index, assumed_by(command, *mechanism),
+            out);
+    return cut_short ? kInterrupted : status_with_accuracy(choice, kDone);
+  }
+
+ private:
+  // One sample of a Monte Carlo study is its mechanism with the sample's values set.
+  Command replay_of(const Command& asked) {
+    double number = 0.0;
+    if (!parse_number(sample_number_, number) || number < 0.0 || number != std::floor(number) || number > 1e15)
+      throw InputError({"command line", 0}, "--sample-number", in_quotes(sample_number_), "a sample's number, from 0");
+    const MonteCarloQuestion question = read_montecarlo_question(asked.file, asked.settings);
+    Command command = asked;
+    command.file = question.study.mechanism_file;
+    if (command.out.empty())
+      command.out = "results/" + std::filesystem::path(asked.file).stem().string() + "-sample-" + sample_number_;
+    for (const Setting& setting : question.settings_of_sample(static_cast<std::uint64_t>(number)))
+      command.settings.push_back(setting);
+    if (!command.accuracy && asked.rung == "auto") command.accuracy = question.study.accuracy;
+    index_ = question.study.index.quantity + "." + question.study.index.statistic;
+    replayed_start_ = question.study.index.start;
+    return command;
+  }
+
+  static void add_range_warnings(const Mechanism& mechanism, RunResult& result) {
+    for (std::size_t c = 0; c < result.contact.size(); ++c)
+      if (const auto warning = range_warning(result.contact[c].joint, mechanism.description().clearances[c].contact_law,
+                                             mechanism.parameters().clearance[c], result.contact[c].max_force))
+        result.warnings.push_back(*warning);
+  }
+
+  // A rung that cannot follow the motion says why, and the others go on.
+  static Compared run_other(const std::string& name, const std::shared_ptr<const Mechanism>& mechanism,
+                            RunOptions options, double step) {
+    Compared other{.rung = name, .result = {}, .refusal = ""};
+    options.step = step;
+    if (name != "multibody") options.formulation = options.stabilisation = "";
+    options.integrator = "";
+    options.tolerance = 0.0;
+    options.pose_bodies.clear();
+    options.frame_spacing = 0.0;
+    try {
+      other.result = make_rung(name, mechanism)->run(mechanism->parameters(), options);
+    } catch (const ComputationError& failure) {
+      other.refusal = failure.what();
+    }
+    return other;
+  }
+
+  void check_step_error() const {
+    for (const char* known : {"auto", "on", "off"})
+      if (step_error_ == known) return;
+    throw InputError({"command line", 0}, "--step-error", in_quotes(step_error_), "auto, on or off");
+  }
+
+  MeasuredError step_error(const Rung& rung, const Parameters& parameters, const RunOptions& options,
+                           const RunResult& result, Progress& progress) const {
+    if (step_error_ == "off") {
+      MeasuredError off;
+      off.why_not = "--step-error off";
+      return off;
+    }
+    MeasureErrorOptions how;
+    if (step_error_ == "on") how.most_seconds = 0.0;
+    how.advance = [&] {
+      progress.update(result.end_time, "measuring what the steps do");
+      return !interrupted();
+    };
+    return measure_discretisation(rung, parameters, options, result, how);
+  }
+
+  MotionOptions motion_;
+  std::string step_error_ = "auto";
+  bool compare_ = false;
+  std::string index_ = "position_error.max", nonlinear_, start_;
+  double replayed_start_ = 0.0;  // of a study's index [s]
+  std::string sample_number_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_run_verb() { return std::make_unique<RunVerb>(); }
+
+}  // namespace boresight::app

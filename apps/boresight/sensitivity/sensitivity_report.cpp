@@ -1,0 +1,234 @@
+#include "sensitivity/sensitivity_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "report_parts/report_parts.hpp"
+#include "results/pilot_parts.hpp"
+#include "terminal/readable.hpp"
+
+namespace boresight::app {
+namespace {
+
+// Groups by what they make, largest first.
+std::vector<std::size_t> by_total(const GlobalSensitivity& global) {
+  std::vector<std::size_t> order(global.groups.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return global.groups[a].total.value > global.groups[b].total.value;
+  });
+  return order;
+}
+
+report::Chart index_chart(const GlobalSensitivity& global, double confidence) {
+  report::Chart chart{
+      .title = "Share of the variance that each makes",
+      .caption = fmt::format("First order: what it makes alone; total: alone and together with all others. Whiskers: "
+                             "{:g} % intervals. A first-order index may come out a little below zero where it is zero.",
+                             100.0 * confidence),
+      .x = {"parameter or group", ""},
+      .y = {"share of the variance", ""},
+      .height = 420};
+  report::Names names;
+  report::Series first{.name = "first order", .style = report::Style::bars},
+      total{.name = "total", .style = report::Style::bars};
+  report::Numbers y1, yt;
+  for (const std::size_t g : by_total(global)) {
+    const GroupSensitivity& s = global.groups[g];
+    names.push_back(s.name);
+    y1.push_back(s.first.value);
+    yt.push_back(s.total.value);
+    first.error_low.push_back(s.first.value - s.first.low);
+    first.error_high.push_back(s.first.high - s.first.value);
+    total.error_low.push_back(s.total.value - s.total.low);
+    total.error_high.push_back(s.total.high - s.total.value);
+  }
+  first.x = total.x = names;
+  first.y = y1;
+  total.y = yt;
+  chart.series = {first, total};
+  return chart;
+}
+
+report::Table index_table_of(const GlobalSensitivity& global) {
+  report::Table table{
+      .title = "Sobol' indices",
+      .caption = global.groups.front().first.basis +
+                 "; estimators of Saltelli et al. 2010 (first) and Jansen "
+                 "1999 (total).",
+      .columns = {{"parameter or group"}, {"first"}, {"from"}, {"to"}, {"total"}, {"from"}, {"to"}, {"settled"}}};
+  for (const std::size_t g : by_total(global)) {
+    const GroupSensitivity& s = global.groups[g];
+    table.rows.push_back({s.name, s.first.value, s.first.low, s.first.high, s.total.value, s.total.low, s.total.high,
+                          s.undersampled ? "no: more samples" : "yes"});
+  }
+  const ReportedInterval& i = global.interactions;
+  table.rows.push_back({"only together (1 - sum of first)", i.value, i.low, i.high, nullptr, nullptr, nullptr, ""});
+  return table;
+}
+
+report::Section global_section(const SensitivityStudy& s) {
+  report::Section section{
+      .id = "indices",
+      .title = "Whose scatter matters",
+      .intro = fmt::format("The index is the {}. Over the whole scatter it has the mean {} and the standard "
+                           "deviation {}; its variance is divided among the parameters here.",
+                           s.study.index.title(), readable(s.global->mean, s.study.index.si_unit()),
+                           readable(s.global->sd, s.study.index.si_unit()))};
+  section.items.push_back(index_chart(*s.global, s.plan.confidence));
+  section.items.push_back(index_table_of(*s.global));
+  return section;
+}
+
+report::Chart tornado(const SensitivityStudy& s, const DisplayUnit& unit) {
+  std::vector<std::size_t> order(s.local.parameters.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto swing = [&](std::size_t i) {
+    const LocalSensitivity& p = s.local.parameters[i];
+    const double width = std::max(std::abs(p.at_low - s.local.at_medians), std::abs(p.at_high - s.local.at_medians));
+    return std::isfinite(width) ? width : 0.0;
+  };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return swing(a) > swing(b); });
+  report::Chart chart{
+      .title = "Tornado",
+      .caption =
+          "One parameter at its 5 % and at its 95 % quantile, all others at their medians: how far the index "
+          "moves. Each bar is one motion.",
+      .x = {"change of the index", unit.name},
+      .y = {"parameter", ""},
+      .height = static_cast<int>(140 + 80 * order.size())};
+  report::Names names;
+  report::Numbers low, high;
+  for (const std::size_t i : order) {
+    const LocalSensitivity& p = s.local.parameters[i];
+    names.push_back(p.name);
+    low.push_back((p.at_low - s.local.at_medians) * unit.per_si);
+    high.push_back((p.at_high - s.local.at_medians) * unit.per_si);
+  }
+  chart.series = {{.name = "at the 5 % quantile", .x = low, .y = names, .style = report::Style::bars},
+                  {.name = "at the 95 % quantile", .x = high, .y = names, .style = report::Style::bars}};
+  chart.lines = {{'x', 0.0, "all at their medians"}};
+  return chart;
+}
+
+// "m per kg", "m": a derivative's unit.
+std::string per(const std::string& index_unit, const std::string& unit) {
+  return unit == "1" || unit.empty() ? index_unit : index_unit + " per " + unit;
+}
+
+report::Section local_section(const SensitivityStudy& s) {
+  const std::string& unit = s.study.index.si_unit();
+  double most = 0.0;
+  for (const LocalSensitivity& p : s.local.parameters)
+    for (const double v : {p.at_low, p.at_high})
+      if (std::isfinite(v)) most = std::max(most, std::abs(v - s.local.at_medians));
+  report::Section section{
+      .id = "local",
+      .title = "Around the middle",
+      .intro = fmt::format("With every parameter at its median the index is {}.", readable(s.local.at_medians, unit))};
+  section.items.push_back(tornado(s, display_unit(unit, most)));
+  report::Table table{.title = "Slopes at the medians",
+                      .caption = fmt::format(
+                          "Central differences with steps of 1/2, 1/4 and 1/8 of the standard deviation. Impacts make "
+                          "the maximum of a motion rough: where the three differ by more than {:g} % of the largest no "
+                          "slope is given, as there is none.",
+                          100.0 * kSettledSlope),
+                      .columns = {{"parameter"},
+                                  {"median"},
+                                  {"index at 5 %"},
+                                  {"index at 95 %"},
+                                  {"slope"},
+                                  {"times sd"},
+                                  {"means something"},
+                                  {"exact slope of this motion"}}};
+  for (const LocalSensitivity& p : s.local.parameters) {
+    const double slope = p.derivative.back();
+    table.rows.push_back(
+        {p.name, readable(p.median, p.si_unit), readable(p.at_low, unit), readable(p.at_high, unit),
+         p.meaningful ? nlohmann::json(fmt::format("{:.4g} {}", slope, per(unit, p.si_unit))) : nlohmann::json("none"),
+         p.meaningful ? nlohmann::json(readable(slope * p.sd, unit)) : nlohmann::json(""),
+         p.meaningful ? "yes" : "no: " + p.why_not,
+         std::isfinite(p.exact)
+             ? fmt::format("{:.4g} {}{}", p.exact, per(unit, p.si_unit), p.exact_agrees ? "" : " (does not agree)")
+         : p.exact_note.empty() ? "perturbation rung only"
+                                : p.exact_note});
+  }
+  section.items.push_back(std::move(table));
+  return section;
+}
+
+report::Section scatter_section(const SensitivityStudy& s) {
+  double most = 0.0;
+  for (const SampleRecord& r : s.shown) most = std::max(most, std::abs(r.outcome.value));
+  const DisplayUnit unit = display_unit(s.study.index.si_unit(), most);
+  report::Panels panels{.title = "The index against each parameter",
+                        .caption = fmt::format("{} of the samples, all parameters scattering.", s.shown.size()),
+                        .columns = 3,
+                        .shared_legend = false};
+  for (std::size_t i = 0; i < s.plan.inputs.size(); ++i) {
+    const RandomParameter& p = s.plan.inputs.parameters[i];
+    double largest = 0.0;
+    for (const SampleRecord& r : s.shown) largest = std::max(largest, std::abs(r.inputs[i]));
+    const DisplayUnit x_unit = display_unit(p.si_unit, largest);
+    report::Numbers x, y;
+    for (const SampleRecord& r : s.shown) {
+      x.push_back(r.inputs[i] * x_unit.per_si);
+      y.push_back(r.outcome.value * unit.per_si);
+    }
+    report::Chart chart{.title = p.name(), .x = {p.name(), x_unit.name}, .y = {"index", unit.name}};
+    chart.series.push_back({.name = "samples", .x = x, .y = y, .style = report::Style::markers});
+    panels.panels.push_back(std::move(chart));
+  }
+  return {.id = "scatter", .title = "What the numbers are made of", .items = {std::move(panels)}};
+}
+
+}  // namespace
+
+std::string sensitivity_sentence(const SensitivityStudy& s) {
+  if (!s.global) return "";
+  if (s.global->sd <= 1e-9 * std::abs(s.global->mean)) return "The index does not depend on what scatters.";
+  const GroupSensitivity& first = s.global->groups[by_total(*s.global).front()];
+  // Estimates of what lies between 0 and 1 may lie beyond; a sentence need not say so, the table does.
+  const auto share = [](double value) { return readable_share(std::clamp(value, 0.0, 1.0)); };
+  return fmt::format(
+      "{} matters most: {} of the variance alone ({} to {}), {} with all it does together with others ({} to {})",
+      first.name, share(first.first.value), share(first.first.low), share(first.first.high), share(first.total.value),
+      share(first.total.low), share(first.total.high));
+}
+
+report::Document sensitivity_report(const SensitivityStudy& s) {
+  report::Document document{.title = s.mechanism.name(),
+                            .subtitle = "Which parameter's scatter matters for the " + s.study.index.title(),
+                            .verb = "sensitivity"};
+  if (s.interrupted)
+    document.verdict = report::Verdict{report::Standing::bad, "Interrupted: the same command goes on."};
+  else if (s.global)
+    document.verdict = report::Verdict{report::Standing::neutral, sensitivity_sentence(s)};
+  else
+    document.verdict = report::Verdict{report::Standing::bad, "Too many runs failed: no indices."};
+  if (s.global) {
+    document.facts = {{"mean of the index", readable(s.global->mean, s.study.index.si_unit()), "", ""},
+                      {"standard deviation", readable(s.global->sd, s.study.index.si_unit()), "", ""},
+                      {"only together", readable_share(std::max(0.0, s.global->interactions.value)), "",
+                       "of the variance, by no parameter alone"},
+                      {"runs", static_cast<double>(s.plan.runs()), "",
+                       fmt::format("{} rows of {}", s.plan.rows, s.plan.runs_per_row())}};
+    document.sections.push_back(global_section(s));
+  }
+  if (!s.local.interrupted && std::isfinite(s.local.at_medians)) document.sections.push_back(local_section(s));
+  if (!s.shown.empty()) document.sections.push_back(scatter_section(s));
+  document.warnings = s.warnings;
+  document.sections.push_back(
+      {.id = "model", .title = "What this model leaves out", .items = {report::Text{s.leaves_out}}});
+  if (s.rung.pilot) document.sections.push_back(pilot_section(*s.rung.pilot));
+  document.provenance = provenance_of(s.command, s.mechanism, s.rung);
+  document.provenance.push_back({"Study hash", s.study.content_hash});
+  document.provenance.push_back({"Seed", static_cast<double>(s.plan.design.seed)});
+  document.provenance.push_back({"Design", s.plan.design.text()});
+  return document;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,277 @@
+// boresight sensitivity STUDY: which parameter's scatter makes the index scatter.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ostream>
+
+#include "boresight/io/content_hash.hpp"
+#include "boresight_analyses/runs/scatter_draws.hpp"
+#include "boresight_analyses/sensitivity/exact_slopes.hpp"
+#include "boresight_analyses/study/lane_sample_model.hpp"
+#include "command_line/study_input.hpp"
+#include "command_line/verb.hpp"
+#include "report/report.hpp"
+#include "results/scatter_parts.hpp"
+#include "results/stored_study.hpp"
+#include "results/summary.hpp"
+#include "results/tables.hpp"
+#include "sensitivity/sensitivity_report.hpp"
+#include "terminal/exit_status.hpp"
+#include "terminal/interruption.hpp"
+#include "terminal/progress.hpp"
+#include "terminal/readable.hpp"
+#include "terminal/terminal.hpp"
+
+namespace boresight::app {
+namespace {
+
+constexpr std::size_t kMostShown = 2000;  // points of a scatter plot
+
+void write_indices(std::ostream& out, const GlobalSensitivity& global) {
+  out << "group,first,first_low,first_high,total,total_low,total_high,undersampled\n";
+  for (const GroupSensitivity& g : global.groups) {
+    out << csv_field(g.name);
+    for (const ReportedInterval& i : {g.first, g.total})
+      out << ',' << exact(i.value) << ',' << exact(i.low) << ',' << exact(i.high);
+    out << ',' << (g.undersampled ? "true" : "false") << '\n';
+  }
+}
+
+void write_local(std::ostream& out, const LocalResult& local) {
+  out << "parameter,unit,median,sd,low,high,index_at_low,index_at_high";
+  for (const char* name : {"half", "quarter", "eighth"}) out << ",step_" << name << ",derivative_" << name;
+  out << ",meaningful,exact,exact_agrees\n";
+  for (const LocalSensitivity& p : local.parameters) {
+    out << csv_field(p.name) << ',' << csv_field(p.si_unit);
+    for (const double v : {p.median, p.sd, p.low, p.high, p.at_low, p.at_high}) out << ',' << exact(v);
+    for (std::size_t k = 0; k < p.step.size(); ++k) out << ',' << exact(p.step[k]) << ',' << exact(p.derivative[k]);
+    out << ',' << (p.meaningful ? "true" : "false") << ',' << exact(p.exact) << ','
+        << (p.exact_agrees ? "true" : "false") << '\n';
+  }
+}
+
+class SensitivityVerb : public Verb {
+ public:
+  std::string name() const override { return "sensitivity"; }
+  std::string file_kind() const override { return "study"; }
+  std::string summary() const override { return "which parameter's scatter matters: Sobol' indices, slopes, tornado"; }
+  std::string example() const override { return "boresight sensitivity examples/3-rrcpr/sensitivity.toml"; }
+  void declare_options(CLI::App& app) override {
+    motion_.declare_model(app);
+    resumption_.declare(app);
+  }
+
+  int execute(const Command& command) override {
+    const Stopwatch watch;
+    StudyInput input(command.file, command.settings);
+    const Study& study = input.study;
+    const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
+    const SensitivityPlan plan = read_sensitivity_plan(input.root, study, mechanism->description(), input.trial);
+    check_rung_name(command.rung);
+    RunOptions run = motion_.run_options(*mechanism, command.rung);
+
+    ContentHash runs;
+    runs.add(plan.text(study));
+    nlohmann::json options = motion_.model_identity();
+    if (study.accuracy) options["study_accuracy"] = *study.accuracy;
+    const OutputDirectory out =
+        OutputDirectory::open(command.out, command.verb, command.file,
+                              identity_of(command, mechanism->description().content_hash, runs.hexadecimal(), options));
+    SampleStore store = open_runs(out, name(), plan.inputs, plan.text(study), resumption_);
+    tell_of_damage(store.damage());
+    const RungChoice choice = rung_for(command, study, mechanism, plan, run, store);
+    apply(choice, run);
+    const std::unique_ptr<SampleModel> sampled = sample_model(
+        choice.name, mechanism,
+        [mechanism, &plan](std::span<const double> values) { return plan.inputs.parameters_with(*mechanism, values); },
+        study.index, run, scene_varies(plan.inputs));
+    const SampleModel& model = *sampled;
+    store.use_rung(model.rung(), model.step());
+
+    if (!command.quiet) {
+      tell("{}: {} runs ({} rows of {}; {})\n", mechanism->name(), plan.runs(), plan.rows, plan.runs_per_row(),
+           plan.design.text());
+      std::fflush(stdout);
+    }
+    Progress progress(command.quiet, static_cast<double>(plan.runs()), "runs");
+    SensitivityOptions options_of_runs{
+        .jobs = command.jobs, .progress = {}, .interrupted = [] { return interrupted(); }};
+    options_of_runs.progress = [&](const SensitivityProgress& p) {
+      progress.update_from(static_cast<double>(p.begun_with), static_cast<double>(p.done),
+                           "mean of the index " + readable(p.mean_so_far, study.index.si_unit()) +
+                               (p.failed > 0 ? fmt::format(", {} failed", p.failed) : ""));
+    };
+    const std::uint64_t begun_with = store.count();
+    const Stopwatch computing;
+    const bool whole =
+        with_options_checked([&] { return compute_sensitivity_runs(model, plan, store, options_of_runs); });
+    const std::string stuck = no_run_done(!whole, begun_with, store.count(), computing.wall_seconds());
+    std::optional<GlobalSensitivity> global;
+    LocalResult local;
+    local.interrupted = true;
+    if (whole) {
+      global = global_sensitivity(plan, store);
+      local = local_sensitivity(model, plan.inputs, command.jobs, [] { return interrupted(); });
+      if (!local.interrupted && choice.name == "perturbation")
+        add_exact_slopes(mechanism, plan.inputs, study.index, run, local);
+    }
+    progress.clear();
+
+    SensitivityStudy result{.command = command,
+                            .study = study,
+                            .mechanism = *mechanism,
+                            .rung = choice,
+                            .plan = plan,
+                            .global = global,
+                            .local = local,
+                            .shown = {},
+                            .interrupted = !whole || local.interrupted,
+                            .warnings = {},
+                            .leaves_out = model.leaves_out(),
+                            .failures = {}};
+    const std::uint64_t every = plan.runs_per_row() * (plan.rows / kMostShown + 1);
+    store.read(plan.runs(), [&](const SampleRecord& r) {
+      result.failures.see(r.number, r.outcome);
+      if (r.number % every == 0 && r.outcome.status == Outcome::Status::done) result.shown.push_back(r);
+    });
+    result.warnings = warnings_of(result);
+    if (!stuck.empty()) result.warnings.push_back(stuck);
+    if (!store.damage().empty()) result.warnings.push_back(store.damage());
+    write(result, out, watch, store.earlier());
+    if (!command.quiet) print(result, out);
+    if (result.interrupted) return kInterrupted;
+    if (!global)
+      return failed(command, "too many runs failed for indices" + first_failure_text(result.failures, "run"));
+    return status_with_accuracy(choice, kDone);
+  }
+
+ private:
+  // With the step that all runs share.
+  static RungChoice rung_for(const Command& command, const Study& study,
+                             const std::shared_ptr<const Mechanism>& mechanism, const SensitivityPlan& plan,
+                             const RunOptions& run, SampleStore& store) {
+    const bool begun = !store.rungs().empty();
+    RungChoice choice =
+        rung_of_study(command, study, mechanism,
+                      {.inputs = plan.inputs, .runs = plan.runs(), .lanes = true, .integrators = true}, run, store);
+    if (begun || choice.pilot) return choice;
+    const bool lanes = choice.name == "perturbation" && LaneSampleModel::serve(*mechanism, study.index, run);
+    if (!lanes && choice.step == 0.0 && run.step == 0.0)
+      choice.step = kept_common_step(choice.name, mechanism, plan.inputs, run, store);
+    return choice;
+  }
+
+  static std::vector<std::string> warnings_of(const SensitivityStudy& s) {
+    std::vector<std::string> warnings;
+    if (s.global) {
+      std::string unsettled;
+      for (const GroupSensitivity& g : s.global->groups)
+        if (g.undersampled) unsettled += (unsettled.empty() ? "" : ", ") + g.name;
+      if (!unsettled.empty())
+        warnings.push_back("under-sampled (a negative index, or an interval wider than 0.2): " + unsettled +
+                           "; more samples settle it");
+      if (s.global->failed_runs > 0)
+        warnings.push_back(
+            fmt::format("{} of {} runs failed; the {} rows that they belong to are left out, so the indices speak of "
+                        "the parameters' range without them",
+                        s.global->failed_runs, s.plan.runs(), s.global->failed_rows) +
+            first_failure_text(s.failures, "run"));
+    }
+    if (!s.global && s.failures.count > 0)
+      warnings.push_back(fmt::format("{} of {} runs failed: too many for indices", s.failures.count, s.plan.runs()) +
+                         first_failure_text(s.failures, "run"));
+    for (const LocalSensitivity& p : s.local.parameters) {
+      if (!p.meaningful) warnings.push_back("no slope for " + p.name + ": " + p.why_not);
+      if (std::isfinite(p.exact) && !p.exact_agrees) warnings.push_back(p.name + ": " + p.exact_note);
+    }
+    return warnings;
+  }
+
+  static void write(const SensitivityStudy& s, const OutputDirectory& out, const Stopwatch& watch,
+                    const SampleStore::Cost& earlier) {
+    Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, s.interrupted, out);
+    add_earlier_cost(json, earlier);
+    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    json["seed"] = s.plan.design.seed;
+    json["design"] = s.plan.design.text();
+    json["samples"] = s.plan.rows;
+    json["runs"] = s.plan.runs();
+    json["index"] = {{"quantity", s.study.index.quantity},
+                     {"statistic", s.study.index.statistic},
+                     {"unit", s.study.index.si_unit()}};
+    add_first_failure(json, s.failures, "run");
+    std::vector<std::string> files = {"summary.json", "samples.db", "report.html"};
+    if (s.global) {
+      json["index"]["mean"] = s.global->mean;
+      json["index"]["sd"] = s.global->sd;
+      json["failed"] = s.global->failed_runs;
+      json["failed_rows"] = s.global->failed_rows;
+      for (std::size_t g = 0; g < s.plan.groups.size(); ++g) {
+        const GroupSensitivity& group = s.global->groups[g];
+        Json parameters = Json::array();
+        for (const int i : s.plan.groups[g])
+          parameters.push_back(s.plan.inputs.parameters[static_cast<std::size_t>(i)].name());
+        json["sobol"][group.name] = {{"parameters", parameters},
+                                     {"first", interval_json(group.first)},
+                                     {"total", interval_json(group.total)},
+                                     {"undersampled", group.undersampled}};
+      }
+      json["interactions"] = interval_json(s.global->interactions);
+      json["basis"] = s.global->interactions.basis;
+      out.write("sobol.csv", [&](std::ostream& stream) { write_indices(stream, *s.global); });
+      files.emplace_back("sobol.csv");
+    }
+    if (!s.local.interrupted) {
+      json["local"]["at_medians"] = number_json(s.local.at_medians);
+      for (const LocalSensitivity& p : s.local.parameters) {
+        Json steps = Json::array();
+        for (std::size_t k = 0; k < p.step.size(); ++k)
+          steps.push_back({{"step", number_json(p.step[k])}, {"derivative", number_json(p.derivative[k])}});
+        json["local"][p.name] = {{"unit", p.si_unit},
+                                 {"median", p.median},
+                                 {"low", p.low},
+                                 {"high", p.high},
+                                 {"at_low", number_json(p.at_low)},
+                                 {"at_high", number_json(p.at_high)},
+                                 {"meaningful", p.meaningful},
+                                 {"derivative", p.meaningful ? number_json(p.derivative.back()) : Json()},
+                                 {"differences", steps}};
+        if (!p.meaningful) json["local"][p.name]["why_not"] = p.why_not;
+        if (std::isfinite(p.exact)) {
+          json["local"][p.name]["exact_derivative"] = p.exact;
+          json["local"][p.name]["exact_agrees"] = p.exact_agrees;
+        }
+        if (!p.exact_note.empty()) json["local"][p.name]["exact_note"] = p.exact_note;
+      }
+      out.write("local.csv", [&](std::ostream& stream) { write_local(stream, s.local); });
+      files.emplace_back("local.csv");
+    }
+    json["files"] = files;
+    write_json(out, "summary.json", json);
+    out.write("report.html", [&](std::ostream& stream) { report::write_html(stream, sensitivity_report(s)); });
+    out.publish();
+  }
+
+  static void print(const SensitivityStudy& s, const OutputDirectory& out) {
+    if (s.interrupted) tell("  interrupted; the same command goes on\n");
+    if (s.global) {
+      tell("  index: {}; mean {}, standard deviation {}; {} rung\n", s.study.index.title(),
+           readable(s.global->mean, s.study.index.si_unit()), readable(s.global->sd, s.study.index.si_unit()),
+           s.rung.name);
+      for (const GroupSensitivity& g : s.global->groups)
+        tell("  {:<40} first {:>6.3f} ({:.3f} to {:.3f})   total {:>6.3f} ({:.3f} to {:.3f})\n", g.name, g.first.value,
+             g.first.low, g.first.high, g.total.value, g.total.low, g.total.high);
+    }
+    for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
+    tell("  report: {}\n", (out.path() / "report.html").string());
+  }
+
+  MotionOptions motion_;
+  Resumption resumption_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_sensitivity_verb() { return std::make_unique<SensitivityVerb>(); }
+
+}  // namespace boresight::app

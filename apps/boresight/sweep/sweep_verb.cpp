@@ -1,0 +1,200 @@
+// boresight sweep STUDY: the same motion over a grid of parameters.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ostream>
+
+#include "boresight/ladder/ladder.hpp"
+#include "boresight_analyses/study/study.hpp"
+#include "boresight_analyses/sweep/sweep.hpp"
+#include "command_line/study_input.hpp"
+#include "command_line/verb.hpp"
+#include "report/report.hpp"
+#include "results/summary.hpp"
+#include "results/tables.hpp"
+#include "sweep/sweep_report.hpp"
+#include "terminal/exit_status.hpp"
+#include "terminal/interruption.hpp"
+#include "terminal/progress.hpp"
+#include "terminal/readable.hpp"
+#include "terminal/terminal.hpp"
+
+namespace boresight::app {
+namespace {
+
+// Histories are for the overlaid charts; beyond this many points nobody could read them, and they would fill
+// the memory.
+constexpr std::size_t kMostPointsWithHistories = 8;
+
+Json point_json(const SweepPlan& plan, const SweepPoint& p) {
+  Json parameters = Json::object();
+  for (std::size_t i = 0; i < plan.axes.size(); ++i)
+    for (const std::string& path : plan.axes[i].parameters) parameters[path] = p.values[i];
+  Json json = {{"parameters", parameters}, {"status", to_string(p.status)}};
+  if (p.status == SweepPoint::Status::failed) json["failure"] = p.failure;
+  if (p.status == SweepPoint::Status::done) {
+    json["index"] = index_json(p.result.index);
+    json["contact"] = contact_json(p.result.contact);
+    json["platform_acceleration_max"] = vector_json(p.result.platform_acceleration_max);
+    json["constraint_drift"] = p.result.constraint_drift;
+    json["warnings"] = p.result.warnings;
+    json["cpu_seconds"] = p.result.cost.cpu_seconds;
+  }
+  return json;
+}
+
+void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mechanism, const SweepResult& result) {
+  std::string header = "point";
+  for (const SweepAxis& axis : plan.axes)
+    for (const std::string& path : axis.parameters) header += "," + csv_field(path);
+  for (const QuantityName& quantity : quantity_names())
+    for (const StatisticName& statistic : statistic_names())
+      header += fmt::format(",{}.{}", quantity.name, statistic.name);
+  header += ",acceleration_max_x,acceleration_max_y,acceleration_max_z,constraint_drift";
+  for (int c = 0; c < mechanism.clearances(); ++c)
+    for (const char* name : {"contact_fraction", "impacts", "max_penetration", "max_force", "max_impact_speed",
+                             "impact_speed_above_validity"})
+      header += "," + csv_field(joint_of_clearance(mechanism, c) + "." + name);
+  out << header << ",status\n";
+
+  for (std::size_t k = 0; k < result.points.size(); ++k) {
+    const SweepPoint& p = result.points[k];
+    std::string row = std::to_string(k + 1);
+    const bool done = p.status == SweepPoint::Status::done;
+    // A point that was not done has no numbers, rather than zeros.
+    const auto add = [&](double value) { row += "," + (done ? exact(value) : std::string()); };
+    for (std::size_t i = 0; i < plan.axes.size(); ++i)
+      for (std::size_t n = 0; n < plan.axes[i].parameters.size(); ++n) row += "," + exact(p.values[i]);
+    for (const QuantityName& quantity : quantity_names())
+      for (const StatisticName& statistic : statistic_names())
+        add(p.result.index.*quantity.statistics.*statistic.value);
+    for (int a = 0; a < 3; ++a) add(p.result.platform_acceleration_max[a]);
+    add(p.result.constraint_drift);
+    for (int c = 0; c < mechanism.clearances(); ++c) {
+      const ContactSummary s = done ? p.result.contact[static_cast<std::size_t>(c)] : ContactSummary{};
+      add(s.contact_fraction);
+      add(static_cast<double>(s.impacts));
+      add(s.max_penetration);
+      add(s.max_force);
+      add(s.max_impact_speed);
+      add(static_cast<double>(s.impact_speed_above_validity));
+    }
+    out << row << ',' << csv_field(to_string(p.status)) << '\n';
+  }
+}
+
+void print(const Study& study, const SweepPlan& plan, const Mechanism& mechanism, const SweepResult& result,
+           const OutputDirectory& out) {
+  tell("{}: {} points{}; index: {}\n", mechanism.name(), result.points.size(),
+       result.interrupted ? " (interrupted)" : "", study.index.title());
+  constexpr std::size_t kShown = 20;
+  for (std::size_t k = 0; k < std::min(kShown, result.points.size()); ++k) {
+    const SweepPoint& p = result.points[k];
+    if (p.status == SweepPoint::Status::done)
+      tell("  {}: index {}, position error max {}, RMS {}\n", point_name(plan, p, true),
+           readable(study.index.of(p.result.index), study.index.si_unit()),
+           readable(p.result.index.position_error.max, "m"), readable(p.result.index.position_error.rms, "m"));
+    else
+      tell("  {}: {}{}\n", point_name(plan, p, true), to_string(p.status), p.failure.empty() ? "" : ": " + p.failure);
+  }
+  if (result.points.size() > kShown) tell("  and {} more in sweep.csv\n", result.points.size() - kShown);
+  tell("  report: {}\n", (out.path() / "report.html").string());
+}
+
+class SweepVerb : public Verb {
+ public:
+  std::string name() const override { return "sweep"; }
+  std::string file_kind() const override { return "study"; }
+  std::string summary() const override { return "the index over a grid of parameters"; }
+  std::string example() const override { return "boresight sweep examples/3-rrcpr/clearance-sweep.toml --jobs 2"; }
+  void declare_options(CLI::App& app) override { motion_.declare(app, false); }
+
+  int execute(const Command& command) override {
+    const Stopwatch watch;
+    StudyInput input(command.file, command.settings);
+    const Study& study = input.study;
+    const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
+    const SweepPlan plan = read_sweep_plan(input.root, mechanism->description(), input.trial);
+    check_rung_name(command.rung);
+    SweepOptions options;
+    options.run = motion_.run_options(*mechanism, command.rung);
+    options.run.start = study.index.start;
+    options.jobs = command.jobs;
+    const OutputDirectory out = OutputDirectory::open(
+        command.out, command.verb, command.file,
+        identity_of(command, mechanism->description().content_hash, study.content_hash, motion_.identity()));
+    const bool histories = plan.points() <= kMostPointsWithHistories;
+    options.run.sample_spacing =
+        histories ? options.run.sample_spacing /
+                        static_cast<double>(history_refinement(mechanism->duration(), options.run.sample_spacing))
+                  : 0.0;
+    options.run.events = histories;
+
+    // The grid's first and last corner: what is true of both is taken to be true between them.
+    const RungChoice choice =
+        choose_rung_in_sight(command,
+                             {.accuracy = command.accuracy ? command.accuracy : study.accuracy,
+                              .wants_multibody = motion_.asks_for_multibody(),
+                              .index = study.index,
+                              .step = options.run.step,
+                              .integrator = options.run.integrator,
+                              .tolerance = options.run.tolerance,
+                              .integrators = true},
+                             kPilotTrials, mechanism,
+                             {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
+    apply(choice, options.run);
+
+    Progress progress(command.quiet, static_cast<double>(plan.points()), "points");
+    options.progress = [&](const SweepProgress& p) {
+      progress.update(p.done, "largest position error so far " + readable(p.position_error_max_so_far, "m"));
+      return !interrupted();
+    };
+    const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
+    const SweepResult result = with_options_checked([&] { return run_sweep(*rung, *mechanism, plan, options); });
+
+    write_json(out, "summary.json", summary_of(command, study, *mechanism, choice, plan, result, watch, out));
+    out.write("sweep.csv", [&](std::ostream& s) { write_sweep(s, plan, *mechanism, result); });
+    out.write("report.html", [&](std::ostream& s) {
+      report::write_html(s, sweep_report(command, study, *mechanism, choice, rung->leaves_out(), plan, result));
+    });
+    out.publish();
+    progress.clear();
+    if (!command.quiet) print(study, plan, *mechanism, result, out);
+    if (result.interrupted) return kInterrupted;
+    if (result.failed == 0) return kDone;
+    const auto first = std::find_if(result.points.begin(), result.points.end(),
+                                    [](const SweepPoint& p) { return p.status == SweepPoint::Status::failed; });
+    return failed(command,
+                  fmt::format("{} of {} points failed, the first: {}", result.failed, plan.points(), first->failure));
+  }
+
+ private:
+  static Json summary_of(const Command& command, const Study& study, const Mechanism& mechanism,
+                         const RungChoice& choice, const SweepPlan& plan, const SweepResult& result,
+                         const Stopwatch& watch, const OutputDirectory& out) {
+    std::vector<std::string> warnings;
+    for (const SweepPoint& p : result.points)
+      if (p.status == SweepPoint::Status::failed) warnings.push_back(point_name(plan, p, true) + ": " + p.failure);
+    Json json = common_summary(command, mechanism, choice, watch, warnings, result.interrupted, out);
+    json["study"] = {{"file", study.file}, {"hash", study.content_hash}};
+    json["index"] = {
+        {"quantity", study.index.quantity}, {"statistic", study.index.statistic}, {"values", Json::array()}};
+    json["points"] = Json::array();
+    for (const SweepPoint& p : result.points) {
+      json["points"].push_back(point_json(plan, p));
+      json["index"]["values"].push_back(p.status == SweepPoint::Status::done ? Json(study.index.of(p.result.index))
+                                                                             : Json());
+    }
+    json["failed"] = result.failed;
+    json["files"] = {"summary.json", "sweep.csv", "report.html"};
+    return json;
+  }
+
+  MotionOptions motion_;
+};
+
+}  // namespace
+
+std::unique_ptr<Verb> make_sweep_verb() { return std::make_unique<SweepVerb>(); }
+
+}  // namespace boresight::app

@@ -1,0 +1,76 @@
+#include "terminal/readable.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace boresight::app {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+const char* const kNotKnown = "not known";  // no infinity is a length
+
+// A unit, its size in SI, and the value from which on it is used (a tenth of a millimetre is still said in
+// mm).
+struct Scale {
+  const char* name;
+  double size;
+  double from;
+};
+
+// Largest first. The second one is what a zero is said in.
+const std::map<std::string, std::vector<Scale>> kScales = {
+    {"m", {{"m", 1.0, 1.0}, {"mm", 1e-3, 0.9e-4}, {"µm", 1e-6, 1e-7}, {"nm", 1e-9, 0.0}}},
+    {"rad", {{"rad", 1.0, 0.1}, {"mrad", 1e-3, 1e-4}, {"µrad", 1e-6, 1e-7}, {"nrad", 1e-9, 0.0}}},
+    {"N", {{"kN", 1e3, 1e3}, {"N", 1.0, 1.0}, {"mN", 1e-3, 0.0}}},
+    {"m/s", {{"m/s", 1.0, 0.5}, {"mm/s", 1e-3, 1e-4}, {"µm/s", 1e-6, 0.0}}},
+    {"s", {{"h", 3600.0, 5400.0}, {"min", 60.0, 90.0}, {"s", 1.0, 0.5}, {"ms", 1e-3, 1e-4}, {"µs", 1e-6, 0.0}}},
+    {"Pa", {{"GPa", 1e9, 1e8}, {"MPa", 1e6, 1e5}, {"Pa", 1.0, 0.0}}},
+};
+
+// Three significant digits, without an exponent where that stays short.
+std::string digits(double value) {
+  if (value == 0.0) return "0";
+  const double size = std::abs(value);
+  if (size >= 1e6 || size < 1e-3) return fmt::format("{:.3g}", value);
+  const int decimals = std::max(0, 2 - static_cast<int>(std::floor(std::log10(size) + 1e-9)));
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text;
+}
+
+}  // namespace
+
+DisplayUnit display_unit(const std::string& si_unit, double largest) {
+  const auto found = kScales.find(si_unit);
+  if (found == kScales.end()) return {si_unit == "1" ? "" : si_unit == "m/s^2" ? "m/s²" : si_unit, 1.0};
+  const auto& scales = found->second;
+  if (largest == 0.0) return {scales[1].name, 1.0 / scales[1].size};
+  for (const Scale& scale : scales)
+    if (std::abs(largest) >= scale.from * (1.0 - 1e-9)) return {scale.name, 1.0 / scale.size};
+  return {si_unit, 1.0};
+}
+
+std::string readable(double value, const std::string& si_unit) {
+  if (!std::isfinite(value)) return kNotKnown;
+  const DisplayUnit unit = display_unit(si_unit, value);
+  // A length or angle this small is the rounding of the computation.
+  if ((si_unit == "m" || si_unit == "rad") && value != 0.0 && std::abs(value) < 1e-10) return "below 0.1 " + unit.name;
+  return digits(value * unit.per_si) + (unit.name.empty() ? "" : " " + unit.name);
+}
+
+std::string readable_arcsec(double radians) {
+  if (!std::isfinite(radians)) return kNotKnown;
+  if (radians != 0.0 && std::abs(radians) < 1e-10) return "below 0.0001 arcsec";
+  return digits(radians * 180.0 / kPi * 3600.0) + " arcsec";
+}
+std::string readable_share(double share) { return std::isfinite(share) ? digits(100.0 * share) + " %" : kNotKnown; }
+std::string readable_number(double value) { return std::isfinite(value) ? digits(value) : kNotKnown; }
+
+}  // namespace boresight::app

@@ -1,0 +1,187 @@
+#include "boresight/contact_events/contact_report.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/contact/hertz.hpp"
+#include "boresight/formulations/formulation.hpp"
+#include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/integrate/explicit_runge_kutta.hpp"
+#include "boresight/mechanism/ideal_motion.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/mechanism/offset_layout.hpp"
+
+namespace boresight {
+namespace {
+
+// Share of what an offset would give way by if its two bodies were free, below which it cannot move: other joints hold it, and
+// rounding leaves 1e-12.
+constexpr double kHeld = 1e-9;
+
+// The offset compliances and the ideal joints' reactions along the motion. The reaction on each journal is what the ideal
+// joint supplies: the offset's acceleration without it, divided by the compliance. Where joints share a load, the least that
+// they can share; where an offset cannot move, none: what holds it carries the load.
+struct AlongMotion {
+  std::vector<MatX> compliance;                    // instant by instant
+  std::vector<double> reaction_rms, reaction_max;  // per clearance [N]
+};
+
+// The larger of the loads that a joint's contacts carry: the force, and on a tilting journal what its couple asks of the ends.
+double radial_load(const VecX& reaction, const OffsetLayout::Joint& at, const JournalInSleeve& joint) {
+  const double force = reaction.segment<3>(at.first).norm();
+  if (!at.tilts) return force;
+  return force + reaction.segment<2>(at.first + 3).norm() / joint.half_length;
+}
+
+// Of each body as if it were free: what a unit wrench about its own centre of mass accelerates.
+std::vector<Mat6> free_mobility(const Mechanism& mechanism, const Parameters& parameters,
+                                const std::vector<BodyMotion>& bodies) {
+  std::vector<Mat6> result;
+  const std::vector<MassProperties> mass = mechanism.mass_properties(parameters);
+  for (std::size_t b = 0; b < mass.size(); ++b) {
+    Mat6 W = Mat6::Zero();
+    W.topLeftCorner<3, 3>() = Mat3::Identity() / mass[b].mass;
+    W.bottomRightCorner<3, 3>() = bodies[b].R * mass[b].inertia.inverse() * bodies[b].R.transpose();
+    result.push_back(W);
+  }
+  return result;
+}
+
+AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal, int samples) {
+  const auto formulation = make_tree_formulation(mechanism, parameters, &ideal, {});
+  const ForceElements& forces = formulation->forces();
+  const OffsetLayout layout(mechanism);
+  const int n = forces.clearances();
+  std::vector<JournalInSleeve> joints;
+  for (int c = 0; c < n; ++c) joints.push_back(forces.joint(c));
+  std::vector<ContactMemory> memory(n);
+  AlongMotion along;
+  along.reaction_rms.assign(n, 0.0);
+  along.reaction_max.assign(n, 0.0);
+  VecX y, dy;
+  for (int i = 0; i < samples; ++i) {
+    work_reached("weighing contacts along the motion", static_cast<double>(i) / samples);
+    IdealState state;
+    ideal.state(mechanism.duration() * i / (samples - 1), state);
+    formulation->start(state, y);
+    dy.resize(y.size());
+    formulation->derivative(state.t, y, memory, dy);
+    const MatX A = formulation->offset_compliance();
+    // Offset accelerations of the opened mechanism, seen from the sleeves; slopes' likewise.
+    VecX offset = VecX::Zero(layout.size()), free = VecX::Ones(layout.size());
+    const std::vector<BodyAcceleration>& a = formulation->acceleration();
+    const std::vector<Mat6> W = free_mobility(mechanism, parameters, state.bodies);
+    for (int c = 0; c < n; ++c) {
+      const ClearanceDescription& d = mechanism.description().clearances[c];
+      const JointConstraint released(mechanism, d.joint, ClearanceRows::released, false);
+      JointRows rows;
+      released.evaluate(state.bodies, {}, rows);
+      Vec6 acceleration = -rows.gamma, mobility = Vec6::Zero();
+      if (const int b = released.reference_body(); b != kGround) {
+        acceleration += rows.reference * a[b];
+        mobility += (rows.reference * W[b] * rows.reference.transpose()).diagonal();
+      }
+      if (const int b = released.other_body(); b != kGround) {
+        acceleration += rows.other * a[b];
+        mobility += (rows.other * W[b] * rows.other.transpose()).diagonal();
+      }
+      const OffsetLayout::Joint& at = layout.joint(c);
+      for (int k = 0; k < at.count(); ++k)
+        if (at.released(k)) {
+          offset[at.first + k] = acceleration[at.released_row(k)];
+          free[at.first + k] = mobility[at.released_row(k)];
+        }
+    }
+    const VecX scale = free.cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<MatX> eigen(scale.asDiagonal() * (0.5 * (A + A.transpose())) *
+                                                    scale.asDiagonal());
+    const VecX weight = eigen.eigenvalues().unaryExpr([](double x) { return x > kHeld ? 1.0 / x : 0.0; });
+    const VecX kept = eigen.eigenvalues().unaryExpr([](double x) { return x > kHeld ? x : 0.0; });
+    const MatX& V = eigen.eigenvectors();
+    const VecX reaction =
+        scale.asDiagonal() * (V * (weight.asDiagonal() * (V.transpose() * VecX(scale.asDiagonal() * offset))));
+    const VecX back = scale.cwiseInverse();
+    along.compliance.push_back(back.asDiagonal() * (V * kept.asDiagonal() * V.transpose()) * back.asDiagonal());
+    for (int c = 0; c < n; ++c) {
+      const double size = radial_load(reaction, layout.joint(c), joints[c]);
+      along.reaction_rms[c] += size * size / samples;
+      along.reaction_max[c] = std::max(along.reaction_max[c], size);
+    }
+  }
+  for (double& r : along.reaction_rms) r = std::sqrt(r);
+  return along;
+}
+
+}  // namespace
+
+std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const Parameters& parameters) {
+  if (mechanism.clearances() == 0) return {};
+  return analyse_contacts(mechanism, parameters, ideal_motion(mechanism, parameters));
+}
+
+std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const Parameters& parameters,
+                                               const IdealMotion& ideal) {
+  std::vector<ContactFrequency> result;
+  if (mechanism.clearances() == 0) return result;
+  // A long motion has more to see.
+  constexpr int kInstants = 41, kMostInstants = 401, kKnotsOfInstant = 100;
+  const AlongMotion along =
+      follow(mechanism, parameters, ideal, std::clamp(ideal.knots() / kKnotsOfInstant, kInstants, kMostInstants));
+  const MechanismDescription& m = mechanism.description();
+  const int n = mechanism.clearances();
+
+  // Tangent stiffness of each joint at the deepest penetration foreseen: twice the largest ideal reaction, what a load
+  // suddenly applied to an elastic contact reaches. All joints together bound the frequency of each.
+  const OffsetLayout layout(mechanism);
+  VecX root_stiffness = VecX::Zero(layout.size());
+  const std::vector<JournalInSleeve> laws = clearance_joints(m, parameters);
+  for (int c = 0; c < n; ++c) {
+    const OffsetLayout::Joint& at = layout.joint(c);
+    const JournalInSleeve& law = laws[c];
+    ContactFrequency f;
+    f.joint = m.joints[m.clearances[c].joint].name;
+    f.hertz_stiffness = law.radial_law.curve == ElasticCurve::point ? law.radial_law.stiffness : 0.0;
+    f.axial_stiffness = law.face_stiffness;
+    f.typical_load = along.reaction_rms[c];
+    f.typical_penetration = law.radial_law.depth_under(f.typical_load);
+    f.validity_speed = law.validity_speed;
+    double largest = 0.0;
+    for (const MatX& A : along.compliance)
+      largest = std::max(largest,
+                         Eigen::SelfAdjointEigenSolver<Mat3>(Mat3(A.block<3, 3>(at.first, at.first))).eigenvalues()[2]);
+    f.effective_mass = largest > 0.0 ? 1.0 / largest : 0.0;
+    f.largest_load = along.reaction_max[c];
+    const double deepest = law.radial_law.depth_under(2.0 * along.reaction_max[c]);
+    const double radial = deepest > 0.0 ? law.radial_law.elastic_slope(deepest) : 0.0;
+    root_stiffness.segment<3>(at.first) << std::sqrt(radial), std::sqrt(law.face_stiffness), std::sqrt(radial);
+    // Both ends of a tilting journal at half the stiffness each, half a sleeve's length from its centre; and a face in full contact, whose
+    // ring resists tilts by K_c R^2 / 2 (ring_contact.hpp).
+    if (at.tilts) {
+      const double ends = radial * law.half_length * law.half_length;
+      const double ring =
+          law.has_faces ? 0.5 * law.face_stiffness * law.tilted.ring_radius * law.tilted.ring_radius : 0.0;
+      root_stiffness.segment<2>(at.first + 3).setConstant(std::sqrt(ends + ring));
+    }
+    result.push_back(f);
+  }
+  for (const MatX& A : along.compliance) {
+    const MatX B = root_stiffness.asDiagonal() * A * root_stiffness.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<MatX> eigen(0.5 * (B + B.transpose()));
+    for (int c = 0; c < n; ++c) {
+      const OffsetLayout::Joint& at = layout.joint(c);
+      // The fastest vibration in which this joint has a part worth naming (a tenth of the largest).
+      for (Eigen::Index k = layout.size() - 1; k >= 0 && eigen.eigenvalues()[k] > 0.0; --k) {
+        const VecX mode = eigen.eigenvectors().col(k).cwiseAbs();
+        if (mode.segment(at.first, at.count()).maxCoeff() < 0.1 * mode.maxCoeff()) continue;
+        result[c].angular_frequency = std::max(result[c].angular_frequency, std::sqrt(eigen.eigenvalues()[k]));
+        break;
+      }
+    }
+  }
+  for (ContactFrequency& f : result)
+    if (f.angular_frequency > 0.0) f.largest_stable_step = classical_rk4().real_limit / f.angular_frequency;
+  return result;
+}
+
+}  // namespace boresight

@@ -1,0 +1,101 @@
+#include "boresight/contact_events/damped_contact.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cstdio>
+
+#include "boresight/contact_events/contact_jacobian.hpp"
+
+namespace boresight {
+namespace {
+
+// Of the looks that met a contact: more than this share of them beyond the limit is a rule.
+constexpr double kAsARule = 0.1;
+
+// -d (force on the offsets) / d (their rates), of one joint. A tilting journal's slopes change with its spin, s' = w x y, and the contact's
+// moment works on that.
+Eigen::Matrix<double, 5, 5> damping(const JournalInSleeve& joint, const JournalMotion<double>& motion,
+                                    const ContactMemory& memory) {
+  ContactJacobian J;
+  contact_jacobian(joint, motion, memory.impact_speed, MomentAbout::journal, J);
+  Eigen::Matrix<double, 6, 5> by_rate;
+  by_rate << J.col(3), J.col(4), J.col(5), J.col(11) - J.col(8), J.col(12) + J.col(6);
+  Eigen::Matrix<double, 5, 5> D;
+  D << by_rate.topRows<3>(), -by_rate.row(5), by_rate.row(3);
+  return -D;
+}
+
+}  // namespace
+
+DampedContact most_damped_contact(const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
+                                  const std::vector<JournalMotion<double>>& motion,
+                                  const std::vector<ContactTracker>& trackers,
+                                  const Eigen::Ref<const MatX>& compliance) {
+  MatX D = MatX::Zero(layout.size(), layout.size());
+  bool touching = false;
+  for (int c = 0; c < layout.clearances(); ++c) {
+    if (!trackers[c].touching()) continue;
+    touching = true;
+    const OffsetLayout::Joint& at = layout.joint(c);
+    D.block(at.first, at.first, at.count(), at.count()) =
+        damping(joints[c], motion[c], trackers[c].memory()).topLeftCorner(at.count(), at.count());
+  }
+  if (!touching) return {};
+  const Eigen::EigenSolver<MatX> eigen(compliance * D);
+  Eigen::Index fastest;
+  DampedContact result;
+  result.rate = eigen.eigenvalues().real().maxCoeff(&fastest);
+  const VecX mode = D * eigen.eigenvectors().col(fastest).real();
+  double largest = -1.0;
+  for (int c = 0; c < layout.clearances(); ++c) {
+    // A slope's moment over a length that makes it a force.
+    const OffsetLayout::Joint& at = layout.joint(c);
+    double share = mode.segment(at.first, 3).norm();
+    if (at.tilts) share += mode.segment(at.first + 3, 2).norm() / joints[c].half_length;
+    if (share > largest) {
+      largest = share;
+      result.clearance = c;
+    }
+  }
+  return result;
+}
+
+DampingWatch::DampingWatch(const Mechanism& mechanism, double step, double limit)
+    : mechanism_(mechanism), step_(step), limit_(limit) {}
+
+void DampingWatch::look(double t, const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
+                        const std::vector<JournalMotion<double>>& motion, const std::vector<ContactTracker>& trackers,
+                        const Eigen::Ref<const MatX>& compliance) {
+  // A journal that rests may part or press on by what rounding leaves: either way damping is what it is where nothing moves.
+  std::vector<JournalMotion<double>> at_rest;
+  if (t == 0.0) {
+    at_rest = motion;
+    for (JournalMotion<double>& m : at_rest) {
+      m.e_dot.setZero();
+      m.slope_rate.setZero();
+    }
+  }
+  const DampedContact now = most_damped_contact(layout, joints, t == 0.0 ? at_rest : motion, trackers, compliance);
+  if (now.clearance < 0) return;
+  ++looks_;
+  if (!(now.rate * step_ > limit_)) return;
+  ++beyond_;
+  from_the_start_ = from_the_start_ || t == 0.0;
+  if (now.rate > fastest_.rate) fastest_ = now;
+}
+
+bool DampingWatch::beyond() const { return from_the_start_ || beyond_ > kAsARule * looks_; }
+
+std::string DampingWatch::warning() const {
+  if (!beyond()) return "";
+  const MechanismDescription& m = mechanism_.description();
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "%s: damping or friction of its contact sets in faster than steps of %.3g s follow (%.2g/s; RK4 "
+                "follows %.2g/s), so that it "
+                "chatters from step to step: contact forces and impacts are not to be relied on; --integrator "
+                "rosenbrock follows it",
+                m.joints[m.clearances[fastest_.clearance].joint].name.c_str(), step_, fastest_.rate, limit_ / step_);
+  return text;
+}
+
+}  // namespace boresight

@@ -1,0 +1,314 @@
+#include "boresight/formulations/ideal_simulation.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "boresight/formulations/formulation.hpp"
+#include "boresight/formulations/own_modes.hpp"
+#include "boresight/integrate/explicit_runge_kutta.hpp"
+#include "boresight/integrate/integrator.hpp"
+#include "boresight/integrate/rosenbrock_method.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/mechanism/rank_analysis.hpp"
+
+namespace boresight {
+namespace {
+
+IdealState home_state(const Mechanism& mechanism) {
+  IdealState state;
+  const MechanismDescription& m = mechanism.description();
+  state.bodies.resize(m.bodies.size());
+  state.acceleration.assign(m.bodies.size(), Vec6::Zero());
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    state.bodies[b].p = m.bodies[b].center_of_mass;
+    state.bodies[b].R = m.bodies[b].axes;
+  }
+  return state;
+}
+
+// The row of a joint's freedom in the stacked velocities of all bodies, at home where both joint frames coincide.
+Eigen::RowVectorXd freedom_row(const Mechanism& mechanism, const InitialRateDescription& rate) {
+  const JointDescription& joint = mechanism.description().joints[rate.joint];
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(6 * mechanism.bodies());
+  for (const auto& [body, sign] : {std::pair{joint.first, -1.0}, std::pair{joint.second, 1.0}}) {
+    if (body == kGround) continue;
+    const Vec3 r = joint.point - mechanism.description().bodies[body].center_of_mass;
+    if (rate.freedom == InitialRateDescription::Freedom::angle)
+      row.segment<3>(6 * body + 3) = sign * joint.axis.transpose();
+    else
+      row.segment<6>(6 * body) << sign * joint.axis.transpose(), sign * r.cross(joint.axis).transpose();
+  }
+  return row;
+}
+
+// Velocities at home: constraints and starting rates satisfied, everything else as slow as they allow.
+void set_starting_rates(const Mechanism& mechanism, const std::vector<TimeValue>& laws, IdealState& state) {
+  ConstraintSystem system(mechanism, {.clearance = ClearanceRows::closed});
+  system.evaluate(state.bodies, laws);
+  if (system.violation(mechanism.characteristic_length()) > 1e-6)
+    throw ComputationError("the joints do not close at home, where a mechanism with free freedoms starts");
+  const MatX J = system.dense_jacobian();
+  const std::vector<InitialRateDescription>& rates = mechanism.description().initial_rates;
+  MatX A(J.rows() + static_cast<Eigen::Index>(rates.size()), J.cols());
+  VecX b = VecX::Zero(A.rows());
+  A.topRows(J.rows()) = J;
+  int row = 0;
+  for (int k = 0; k < system.blocks(); ++k)
+    for (int i = 0; i < system.joints()[k].count(); ++i) b[row++] = -system.rows(k).rate[i];
+  for (const InitialRateDescription& rate : rates) {
+    A.row(row) = freedom_row(mechanism, rate);
+    b[row++] = rate.rate;
+  }
+  // Lengths in units of the mechanism's own, so that its size is of no account.
+  const double length = mechanism.characteristic_length();
+  for (Eigen::Index k = 0; k < A.rows(); ++k)
+    for (int body = 0; body < mechanism.bodies(); ++body)
+      if (A.block(k, 6 * body, 1, 3).cwiseAbs().maxCoeff() > 0.0) {
+        b[k] /= length;
+        break;
+      }
+  A = scaled_rows(std::move(A), length);
+  VecX u = A.completeOrthogonalDecomposition().solve(b);
+  if ((A * u - b).norm() > 1e-8 * b.norm())
+    throw InputError(rates.empty() ? mechanism.description().motion.origin : rates.front().origin,
+                     rates.empty() ? "motion" : "initial.rates", "rates that contradict each other or the joints",
+                     "rates that the joints allow together");
+  for (int k = 0; k < mechanism.bodies(); ++k) u.segment<3>(6 * k) *= length;
+  for (int k = 0; k < mechanism.bodies(); ++k) {
+    state.bodies[k].v = u.segment<3>(6 * k);
+    state.bodies[k].w = u.segment<3>(6 * k + 3);
+  }
+}
+
+// Of a mode's phase or decay, covered by one step of RK4 that is stable: its limit is 2.785.
+constexpr double kStableAngle = 2.5;
+
+// What is to be simulated.
+struct Task {
+  const Mechanism& mechanism;
+  const Parameters& parameters;
+  const IdealMotion& drives;
+  const IdealState& start;
+};
+
+// Why a simulation failed, and when.
+struct Failure {
+  double t = 0.0;
+  std::string reason;  // empty: the motion grew without bound
+};
+
+// The mechanism without clearance as an initial value problem, in joint coordinates: planar loops, redundant when drawn in
+// space, are none in them, and singular positions are passed with four digits more than in absolute coordinates.
+class ClosedMechanism {
+ public:
+  explicit ClosedMechanism(const Task& task)
+      : formulation_(make_tree_formulation(task.mechanism, task.parameters, &task.drives, {.with_clearance = false})) {
+    formulation_->start(task.start, start_);
+  }
+
+  const VecX& start() const { return start_; }
+  // Not a number where the state cannot be followed: a trial step is then rejected.
+  void derivative(double t, const VecX& y, VecX& dy) const {
+    try {
+      formulation_->derivative(t, y, none_, dy);
+    } catch (const ComputationError& failure) {
+      failure_ = {t, failure.what()};
+      dy.setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  void settle(double t, VecX& y) { formulation_->settle(t, y); }
+  // All bodies at a state; dy: room for its rate.
+  IdealState bodies(double t, const VecX& y, VecX& dy) const {
+    derivative(t, y, dy);
+    return {t, formulation_->bodies(t, y), formulation_->acceleration()};
+  }
+  Formulation& formulation() { return *formulation_; }
+  const Failure& failure() const { return failure_; }
+
+ private:
+  std::unique_ptr<Formulation> formulation_;
+  VecX start_;
+  std::vector<ContactMemory> none_;
+  mutable Failure failure_;
+};
+
+using Knots = std::vector<IdealState>;
+
+// RK4 in equal steps.
+std::optional<Knots> follow_explicit(const Task& task, int steps, Failure& failure) {
+  ClosedMechanism closed(task);
+  VecX y = closed.start();
+  ExplicitRungeKutta method(classical_rk4(), y.size());
+  const double h = task.mechanism.duration() / steps;
+  Knots knots;
+  knots.reserve(steps + 1);
+  const auto derivative = [&](double t, const VecX& state, VecX& dy) { closed.derivative(t, state, dy); };
+  for (int i = 0; i <= steps; ++i) {
+    const double t = i * h;
+    work_reached("simulating the ideal motion", static_cast<double>(i) / steps);
+    knots.push_back(closed.bodies(t, y, method.first_slope()));
+    if (!method.first_slope().allFinite()) break;
+    if (i == steps) return knots;
+    method.step(t, h, y, derivative);
+    if (!y.allFinite()) break;
+    try {
+      closed.settle(t + h, y);
+    } catch (const ComputationError& unsettled) {
+      failure = {t + h, unsettled.what()};
+      return std::nullopt;
+    }
+  }
+  failure = {knots.back().t, closed.failure().reason};
+  return std::nullopt;
+}
+
+// RODAS4 under error control, which steps over what springs and dampers have damped out; knots where its steps end.
+std::optional<Knots> follow_implicit(const Task& task, double tolerance, Failure& failure) {
+  constexpr long kMostSteps = 200'000;  // held in memory
+  const double duration = task.mechanism.duration();
+  ClosedMechanism closed(task);
+  VecX y = closed.start(), dy = y;
+  IntegrationOptions options;
+  options.relative_tolerance = tolerance;
+  options.absolute_tolerances =
+      VecX::Constant(y.size(), tolerance * std::min(1.0, task.mechanism.characteristic_length()));
+  for (int k = 0; k < y.size(); ++k)
+    if (closed.formulation().is_speed(k)) options.absolute_tolerances[k] *= std::max(1.0, 100.0 / duration);
+  options.largest_step = duration / 200.0;
+  options.most_steps = kMostSteps;
+  Knots knots{closed.bodies(0.0, y, dy)};
+  Integrator<RosenbrockMethod> integrator(RosenbrockMethod(rodas4(), y.size()));
+  try {
+    const IntegrationSummary summary = integrator.run(closed, 0.0, duration, y, options, [&](const auto& step) {
+      work_reached("simulating the ideal motion", step.end() / duration);
+      knots.push_back(closed.bodies(step.end(), step.state(), dy));
+    });
+    if (summary.completed()) return knots;
+    failure = {summary.t, closed.failure().reason};
+  } catch (const ComputationError& unsettled) {
+    failure = {knots.back().t, unsettled.what()};
+  }
+  return std::nullopt;
+}
+
+// Largest difference of two motions at the knots of the coarser one and between them.
+double difference(const IdealMotion& coarse, const Knots& knots, const IdealMotion& fine, double length) {
+  double worst = 0.0;
+  for (std::size_t k = 0; k < knots.size(); ++k)
+    for (const double t : {knots[k].t, 0.5 * (knots[k].t + knots[std::min(k + 1, knots.size() - 1)].t)})
+      for (std::size_t b = 0; b < knots[k].bodies.size(); ++b) {
+        const BodyMotion x = coarse.body(t, static_cast<int>(b)), y = fine.body(t, static_cast<int>(b));
+        worst = std::max({worst, (x.p - y.p).norm() / length, (x.R - y.R).norm()});
+      }
+  return worst;
+}
+
+double difference(const Knots& coarse, const Knots& fine, double length) {
+  double worst = 0.0;
+  for (std::size_t k = 0; k < coarse.size(); ++k)
+    for (std::size_t b = 0; b < coarse[k].bodies.size(); ++b) {
+      const BodyMotion &x = coarse[k].bodies[b], &y = fine[2 * k].bodies[b];
+      worst = std::max({worst, (x.p - y.p).norm() / length, (x.R - y.R).norm()});
+    }
+  return worst;
+}
+
+// Steps halved until two motions agree. Those that blow up are too long; but a motion that fails at the same time whatever the
+// step has no step that holds.
+std::optional<IdealMotion> explicit_motion(const Task& task, int fewest, int most, Failure& failure) {
+  constexpr int kAlike = 3;
+  constexpr double kSameTime = 0.01;
+  std::optional<Knots> coarse;
+  Failure before;
+  int alike = 0;
+  for (int steps = fewest; steps <= most; steps *= 2) {
+    std::optional<Knots> fine = follow_explicit(task, steps, failure);
+    if (coarse && fine) {
+      // Fourth order: the finer run's error is a fifteenth of the difference.
+      const double error = difference(*coarse, *fine, task.mechanism.characteristic_length()) / 15.0;
+      if (error < IdealMotion::kAccuracy || 2 * steps > most) return IdealMotion(task.mechanism, *fine, error);
+    }
+    if (!fine) {
+      alike = before.t > 0.0 && std::abs(failure.t - before.t) < kSameTime * failure.t ? alike + 1 : 0;
+      if (alike == kAlike) return std::nullopt;
+      before = failure;
+    }
+    coarse = std::move(fine);
+  }
+  return std::nullopt;
+}
+
+// Tolerances tightened until two motions agree.
+std::optional<IdealMotion> implicit_motion(const Task& task, Failure& failure) {
+  constexpr double kFirst = 1e-9, kLast = 1e-13, kTightening = 0.1;
+  const double length = task.mechanism.characteristic_length();
+  std::optional<Knots> knots;
+  std::optional<IdealMotion> coarse;
+  double best = std::numeric_limits<double>::infinity();
+  for (double tolerance = kFirst; tolerance >= kLast && best >= IdealMotion::kAccuracy; tolerance *= kTightening) {
+    std::optional<Knots> finer = follow_implicit(task, tolerance, failure);
+    if (!finer) return coarse;
+    const IdealMotion fine(task.mechanism, *finer);
+    // The coarser one's error, which bounds the finer one's; where it grows again, rounding has been reached.
+    const double error = coarse ? difference(*coarse, *knots, fine, length) : best;
+    if (error > best) return coarse;
+    best = error;
+    coarse.emplace(task.mechanism, *finer, error);
+    knots = std::move(finer);
+  }
+  return coarse;
+}
+
+}  // namespace
+
+int undriven_freedoms(const Mechanism& mechanism) {
+  if (mechanism.description().motion.pose) return 0;
+  std::vector<TimeValue> laws(mechanism.joints());
+  ConstraintSystem system(mechanism, {.clearance = ClearanceRows::closed});
+  system.evaluate(home_state(mechanism).bodies, laws);
+  const RankAnalysis rank = analyse_rank(mechanism, system, false);
+  return static_cast<int>(rank.columns - rank.rank);
+}
+
+bool is_kinematic(const Mechanism& mechanism) {
+  if (mechanism.description().motion.pose) return true;
+  return mechanism.description().initial_rates.empty() && undriven_freedoms(mechanism) == 0;
+}
+
+IdealMotion ideal_motion(const Mechanism& mechanism, const Parameters& parameters) {
+  if (is_kinematic(mechanism)) return IdealMotion::kinematic(mechanism);
+  // Explicit steps beyond which an implicit method takes less time; and the most that are held in memory.
+  constexpr int kFewestSteps = 1000, kManySteps = 16000, kMostSteps = 1 << 19;
+  IdealState start = home_state(mechanism);
+  // A motion that carries nothing but the drives' laws, which the simulation needs before there is a motion.
+  const IdealMotion laws_only(mechanism, {start, [&] {
+                                            IdealState end = start;
+                                            end.t = mechanism.duration();
+                                            return end;
+                                          }()});
+  std::vector<TimeValue> laws(mechanism.joints());
+  laws_only.drive_laws(0.0, laws);
+  set_starting_rates(mechanism, laws, start);
+  const Task task{mechanism, parameters, laws_only, start};
+  ClosedMechanism closed(task);
+  // How many steps an explicit method needs to be stable, to begin with.
+  const double rate = fastest_own_rate(closed.formulation(), 0.0, closed.start());
+  int steps = kFewestSteps;
+  while (steps < kMostSteps && steps * kStableAngle < rate * mechanism.duration()) steps *= 2;
+  const bool few = steps <= kManySteps;
+  std::optional<IdealMotion> motion;
+  Failure failure, of_implicit;
+  if (few) motion = explicit_motion(task, steps, kMostSteps, failure);
+  if (!motion) motion = implicit_motion(task, of_implicit);
+  if (!motion && !few) motion = explicit_motion(task, std::min(steps, kMostSteps / 2), kMostSteps, failure);
+  if (motion) return *std::move(motion);
+  if (!failure.reason.empty())
+    throw ComputationError("the ideal motion, simulated without clearance: " + failure.reason);
+  throw ComputationError("the ideal motion, simulated without clearance, grows without bound before t = " +
+                         std::to_string(failure.t) + " s, whatever the step");
+}
+
+}  // namespace boresight

@@ -1,0 +1,20 @@
+// The ideal joints' reactions on the journals, which contact replaces on the average. They do the work of r on the coordinates:
+//
+//     B^T f = -r        f: forces and couples on all offsets, B: offsets per coordinate
+//
+// Where redundant joints tie offsets together, many f do. The least is taken, couples over half a sleeve: it does not hang on which of
+// the offsets are coordinates, which is the drawing's choice.
+#pragma once
+
+#include <vector>
+
+#include "boresight/mechanism/offset_layout.hpp"
+
+namespace boresight {
+
+// B: layout.size() x n, r: n [N, N m]. Returns for each clearance the loads on its offsets, in the order of OffsetLayout (five numbers,
+// the last two zero where the journal does not tilt), sleeve axes.
+std::vector<Eigen::Matrix<double, 5, 1>> shared_reactions(const OffsetLayout& layout, const Parameters& parameters,
+                                                          const MatX& B, const VecX& r);
+
+}  // namespace boresight

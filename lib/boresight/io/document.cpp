@@ -1,0 +1,157 @@
+#include "boresight/io/document.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include "boresight/io/content_hash.hpp"
+#include "boresight/io/toml_tree.hpp"
+#include "boresight/io/units.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 16u << 20;  // bytes
+
+std::vector<std::string_view> segments(std::string_view path) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0;;) {
+    const std::size_t dot = path.find('.', begin);
+    parts.push_back(path.substr(begin, dot - begin));
+    if (dot == std::string_view::npos) return parts;
+    begin = dot + 1;
+  }
+}
+
+// Does `pattern` name `path` (whole), or something at or below it (not whole)?
+bool names(std::string_view pattern, std::string_view path, bool whole) {
+  if (pattern == path) return true;
+  const auto wanted = segments(pattern), present = segments(path);
+  if (whole ? wanted.size() != present.size() : wanted.size() < present.size()) return false;
+  for (std::size_t i = 0; i < present.size(); ++i) {
+    if (wanted[i] != present[i] && wanted[i] != "*") return false;
+  }
+  return true;
+}
+
+std::string read_file(const std::string& path) {
+  std::error_code error;
+  const Origin origin{path, 0};
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw InputError(origin, "", "no such file", "a file that exists");
+  if (std::filesystem::is_directory(status)) throw InputError(origin, "", "a folder", "a file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(origin, "", "a file that cannot be opened", "a file that may be read");
+  std::string bytes;
+  std::string block(1u << 16, '\0');
+  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
+    bytes.append(block, 0, static_cast<std::size_t>(in.gcount()));
+    if (bytes.size() > kLargestFile) throw InputError(origin, "", "a file of more than 16 MiB", "a smaller file");
+  }
+  return bytes;
+}
+
+}  // namespace
+
+Setting parse_setting(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError({"--set " + text, 0}, "", in_quotes(text), "PATH=VALUE such as \"clearance.F1.radial=0.2mm\"");
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+Origin origin_of(const Setting& setting) { return {"--set " + setting.path + "=" + setting.value, 0}; }
+
+Node::Node() = default;
+
+const Node* Node::member(const std::string& key) const {
+  for (const auto& [name, node] : members) {
+    if (name == key) return &node;
+  }
+  return nullptr;
+}
+
+std::string shown(const Node& node) {
+  constexpr std::size_t kLongestList = 80;
+  if (node.kind == Node::Kind::array && !node.items.empty()) {
+    std::string list;
+    for (const Node& item : node.items) {
+      if (item.kind == Node::Kind::table || list.size() > kLongestList)
+        return "a list of " + std::to_string(node.items.size());
+      const bool is_number = item.kind == Node::Kind::integer || item.kind == Node::Kind::number;
+      list += (list.empty() ? "[" : ", ") + (is_number ? item.text : shown(item));
+    }
+    return list + "]";
+  }
+  switch (node.kind) {
+    case Node::Kind::table:
+      return "a table";
+    case Node::Kind::array:
+      return "an empty list";
+    case Node::Kind::string:
+      return in_quotes(node.text);
+    case Node::Kind::integer:
+    case Node::Kind::number:
+      return "the number " + node.text;
+    case Node::Kind::boolean:
+    case Node::Kind::date:
+      return node.text;
+  }
+  return node.text;
+}
+
+Document Document::from_file(const std::string& path, std::vector<Setting> settings) {
+  return from_text(read_file(path), path, std::move(settings));
+}
+
+Document Document::from_text(std::string_view text, const std::string& filename, std::vector<Setting> settings) {
+  if (text.size() > kLargestFile) {
+    throw InputError({filename, 0}, "", "a file of more than 16 MiB", "a smaller file");
+  }
+  ContentHash hash;
+  hash.add(text);
+  for (const Setting& setting : settings) {
+    hash.add(setting.path);
+    hash.add(setting.value);
+  }
+  Document document;
+  document.filename_ = filename;
+  document.content_hash_ = hash.hexadecimal();
+  document.root_ = parse_toml(text, filename);
+  document.root_.line = 1;
+  document.used_.assign(settings.size(), false);
+  document.settings_ = std::move(settings);
+  return document;
+}
+
+const Setting* Document::setting_for(const std::string& path) {
+  if (settings_.empty()) return nullptr;
+  asked_.insert(path);
+  const Setting* last = nullptr;
+  for (std::size_t i = 0; i < settings_.size(); ++i) {
+    if (names(settings_[i].path, path, true)) {
+      used_[i] = true;
+      last = &settings_[i];
+    }
+  }
+  return last;
+}
+
+const Setting* Document::setting_under(const std::string& path) const {
+  const Setting* last = nullptr;
+  for (const Setting& setting : settings_) {
+    if (names(setting.path, path, false)) last = &setting;
+  }
+  return last;
+}
+
+void Document::refuse_unused_settings() const {
+  for (std::size_t i = 0; i < settings_.size(); ++i) {
+    if (used_[i]) continue;
+    throw InputError(origin_of(settings_[i]), settings_[i].path, "a path that names nothing", "the path of a value",
+                     nearest_name(settings_[i].path, asked_));
+  }
+}
+
+}  // namespace boresight

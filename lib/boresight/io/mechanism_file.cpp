@@ -1,0 +1,81 @@
+#include "boresight/io/mechanism_file.hpp"
+
+#include <algorithm>
+
+#include "boresight/io/mechanism_sections.hpp"
+#include "boresight/io/physical_ranges.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+MechanismDescription read(Document& document, std::vector<AssumedValue>* assumed = nullptr) {
+  Cursor root(document);
+  root.only({"format", "name", "gravity", "body", "payload", "pattern", "joint", "motion", "clearance", "initial",
+             "spring", "load", "pointing"});
+  MechanismDescription mechanism;
+  mechanism.origin = {document.filename(), 0};
+  mechanism.content_hash = document.content_hash();
+  root.require(root.integer("format") == 1, "format", "1");
+  mechanism.name = root.text("name", document.filename());
+  root.require(!mechanism.name.empty(), "name", "a name, or no key at all");
+  mechanism.gravity = vector_in(root, "gravity", kGravityRange);
+
+  Sections sections = gather_sections(root);
+  for (Cursor& body : sections.bodies) mechanism.bodies.push_back(read_body(body, mechanism));
+  if (mechanism.bodies.empty()) root.fail_found("body", "no body", "at least one [[body]]");
+  if (std::none_of(mechanism.bodies.begin(), mechanism.bodies.end(),
+                   [](const auto& b) { return b.boresight.has_value(); })) {
+    root.fail_found("body", "no body with a boresight", "boresight = [0, 0, 1] or another direction on one body");
+  }
+  if (root.has("payload")) {
+    Cursor payload = root.table("payload");
+    mechanism.payload = read_payload(payload, mechanism);
+  }
+  for (Cursor& joint : sections.joints) mechanism.joints.push_back(read_joint(joint, mechanism));
+  for (Cursor& clearance : sections.clearances)
+    mechanism.clearances.push_back(read_clearance(clearance, mechanism, assumed));
+  Cursor motion = root.table("motion");
+  mechanism.motion = read_motion(motion, mechanism);
+  for (Cursor& spring : sections.springs) mechanism.springs.push_back(read_spring(spring, mechanism));
+  for (Cursor& load : sections.loads) mechanism.loads.push_back(read_load(load, mechanism));
+  Cursor initial = root.table_or_empty("initial");
+  read_initial(initial, mechanism);
+  if (root.has("pointing")) {
+    Cursor pointing = root.table("pointing");
+    mechanism.line_of_sight = read_pointing(pointing, mechanism);
+  }
+  root.finish();
+  document.refuse_unused_settings();
+  return mechanism;
+}
+
+}  // namespace
+
+MechanismDescription read_mechanism(const std::string& path, const std::vector<Setting>& settings) {
+  Document document = Document::from_file(path, settings);
+  return read(document);
+}
+
+MechanismDescription read_mechanism_text(std::string_view text, const std::string& filename,
+                                         const std::vector<Setting>& settings) {
+  Document document = Document::from_text(text, filename, settings);
+  return read(document);
+}
+
+std::vector<AssumedValue> assumed_values(const std::string& path, const std::vector<Setting>& settings) {
+  Document document = Document::from_file(path, settings);
+  std::vector<AssumedValue> assumed;
+  read(document, &assumed);
+  return assumed;
+}
+
+std::vector<AssumedValue> assumed_values_of_text(std::string_view text, const std::string& filename,
+                                                 const std::vector<Setting>& settings) {
+  Document document = Document::from_text(text, filename, settings);
+  std::vector<AssumedValue> assumed;
+  read(document, &assumed);
+  return assumed;
+}
+
+}  // namespace boresight

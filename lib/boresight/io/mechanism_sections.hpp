@@ -1,0 +1,51 @@
+// How `mechanism_file.cpp` divides its work: one function per kind of table. Internal to this room.
+//
+// Each takes the table's cursor, checks everything that this table alone and the tables before it can tell, and finishes it.
+#pragma once
+
+#include <vector>
+
+#include "boresight/io/assumed_values.hpp"
+#include "boresight/io/cursor.hpp"
+#include "boresight/io/expression.hpp"
+#include "boresight/mechanism/description.hpp"
+
+namespace boresight {
+
+// The tables of a file with all patterns copied out, in file order.
+struct Sections {
+  std::vector<Cursor> bodies, joints, clearances, springs, loads;
+};
+Sections gather_sections(Cursor& root);
+
+BodyDescription read_body(Cursor& cursor, const MechanismDescription& so_far);
+PayloadDescription read_payload(Cursor& cursor, const MechanismDescription& so_far);
+JointDescription read_joint(Cursor& cursor, const MechanismDescription& so_far);
+// assumed: what the table leaves out and results hang on is added; may be null.
+ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& so_far,
+                                    std::vector<AssumedValue>* assumed);
+SpringDescription read_spring(Cursor& cursor, const MechanismDescription& so_far);
+LoadDescription read_load(Cursor& cursor, const MechanismDescription& so_far);
+MotionDescription read_motion(Cursor& cursor, const MechanismDescription& so_far);
+// Into `mechanism`: starting rates, and where journals start.
+void read_initial(Cursor& cursor, MechanismDescription& mechanism);
+LineOfSightDescription read_pointing(Cursor& cursor, const MechanismDescription& so_far);
+
+// The name under `key`, checked to be usable in paths: not empty, none of . * = , { } or quotes, no control characters.
+std::string read_name(Cursor& cursor, const std::string& key);
+
+// The index of the body or joint of this name; otherwise a fault at `key` with the nearest name.
+int body_index(const MechanismDescription& mechanism, const Cursor& cursor, const std::string& key,
+               const std::string& name, bool ground_allowed);
+int joint_index(const MechanismDescription& mechanism, const Cursor& cursor, const std::string& key,
+                const std::string& name);
+// connects = [FIRST, SECOND]: two different bodies, one of which may be the ground.
+std::pair<int, int> read_connects(Cursor& cursor, const MechanismDescription& mechanism);
+
+// An expression of t, finite with its derivatives over [0, duration].
+TimeFunctionPtr read_expression(Cursor& cursor, const std::string& key, double duration,
+                                const NamedExpressions& named = {}, double scale = 1.0);
+TimeFunctionPtr compile_expression(const Cursor& cursor, const std::string& key, const std::string& text,
+                                   double duration, const NamedExpressions& named = {}, double scale = 1.0);
+
+}  // namespace boresight

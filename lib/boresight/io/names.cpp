@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "boresight/io/mechanism_sections.hpp"
+#include "boresight/io/names_of.hpp"
+#include "boresight/io/physical_ranges.hpp"
+#include "boresight/io/value_fault.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+// The first of 401 even times at which the function or a derivative is larger than anything real; -1 if there is none.
+double first_time_too_large(const TimeFunction& function, double duration) {
+  constexpr int kSamples = 400;
+  for (int k = 0; k <= kSamples; ++k) {
+    const double t = duration * k / kSamples;
+    const TimeValue v = function.at(t);
+    if (std::abs(v.value) > kLargestLaw || std::max(std::abs(v.rate), std::abs(v.acceleration)) > kLargestLawDerivative)
+      return t;
+  }
+  return -1.0;
+}
+
+int place(const std::vector<std::string>& names, const std::string& name) {
+  const auto it = std::find(names.begin(), names.end(), name);
+  return it == names.end() ? -1 : static_cast<int>(it - names.begin());
+}
+
+}  // namespace
+
+std::string read_name(Cursor& cursor, const std::string& key) {
+  const std::string name = cursor.text(key);
+  bool good = !name.empty() && name.size() <= 100 && name.front() != ' ' && name.back() != ' ';
+  for (const char c : name) {
+    good = good && static_cast<unsigned char>(c) >= 0x20 && c != 0x7f &&
+           std::string_view(".*=,{}\"'[]").find(c) == std::string_view::npos;
+  }
+  if (!good)
+    cursor.fail_found(key, in_quotes(name),
+                      "a name of up to 100 characters without . * = , { } [ ] and quotation marks");
+  return name;
+}
+
+int body_index(const MechanismDescription& mechanism, const Cursor& cursor, const std::string& key,
+               const std::string& name, bool ground_allowed) {
+  if (ground_allowed && name == "ground") return kGround;
+  std::vector<std::string> names = names_of(mechanism.bodies);
+  const int index = place(names, name);
+  if (index >= 0) return index;
+  if (ground_allowed) names.push_back("ground");
+  cursor.fail_found(key, in_quotes(name), ground_allowed ? "the name of a body, or \"ground\"" : "the name of a body",
+                    nearest_name(name, names));
+}
+
+int joint_index(const MechanismDescription& mechanism, const Cursor& cursor, const std::string& key,
+                const std::string& name) {
+  const std::vector<std::string> names = names_of(mechanism.joints);
+  const int index = place(names, name);
+  if (index >= 0) return index;
+  cursor.fail_found(key, in_quotes(name), "the name of a joint", nearest_name(name, names));
+}
+
+std::pair<int, int> read_connects(Cursor& cursor, const MechanismDescription& mechanism) {
+  const std::vector<std::string> names = cursor.texts("connects", {"first", "second"});
+  cursor.require(names.size() == 2, "connects", "two names of bodies");
+  const int first = body_index(mechanism, cursor, "connects", names[0], true);
+  const int second = body_index(mechanism, cursor, "connects", names[1], true);
+  if (first == second) cursor.fail_found("connects", in_quotes(names[0]) + " twice", "two different bodies");
+  return {first, second};
+}
+
+TimeFunctionPtr compile_expression(const Cursor& cursor, const std::string& key, const std::string& text,
+                                   double duration, const NamedExpressions& named, double scale) {
+  TimeFunctionPtr function;
+  try {
+    function = parse_expression(text, named, scale);
+  } catch (const ValueFault& fault) {
+    cursor.fail_found(key, fault.found, fault.expected, fault.nearest);
+  }
+  const auto fail = [&](double t, const char* found, const char* expected) {
+    char at[60];
+    std::snprintf(at, sizeof at, t == 0.0 || (t >= 1e-3 && t < 1e6) ? " at t = %f s" : " at t = %.6g s", t);
+    cursor.fail_found(key, in_quotes(text) + found + at, expected);
+  };
+  if (const double t = first_time_not_finite(*function, duration); t >= 0.0)
+    fail(t, ", which is not finite or not smooth",
+         "an expression that is finite with its first two derivatives during the motion");
+  if (const double t = first_time_too_large(*function, duration); t >= 0.0)
+    fail(t, ", which is beyond anything real",
+         "an expression of at most 1e15, its first two derivatives of at most 1e18 (SI)");
+  return function;
+}
+
+TimeFunctionPtr read_expression(Cursor& cursor, const std::string& key, double duration, const NamedExpressions& named,
+                                double scale) {
+  return compile_expression(cursor, key, cursor.text(key), duration, named, scale);
+}
+
+}  // namespace boresight

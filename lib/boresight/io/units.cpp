@@ -1,0 +1,206 @@
+#include "boresight/io/units.hpp"
+
+#include <udunits2.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "boresight/io/value_fault.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+// A unit taken apart: its size in SI units and its powers of the base units (by UDUNITS' symbols, "rad" included).
+struct Unit {
+  double scale = 1.0;
+  std::map<std::string, int> powers;
+  bool plain = true;  // false: with an offset, logarithmic, or a date
+};
+
+struct UnitDeleter {
+  void operator()(ut_unit* unit) const { ut_free(unit); }
+};
+using UnitPtr = std::unique_ptr<ut_unit, UnitDeleter>;
+
+std::string symbol_of(const ut_unit* unit) {
+  if (const char* symbol = ut_get_symbol(unit, UT_ASCII)) return symbol;
+  if (const char* name = ut_get_name(unit, UT_ASCII)) return name;
+  return "?";
+}
+
+ut_status visit_basic(const ut_unit* unit, void* result) {
+  ++static_cast<Unit*>(result)->powers[symbol_of(unit)];
+  return UT_SUCCESS;
+}
+
+ut_status visit_product(const ut_unit*, int count, const ut_unit* const* basic, const int* powers, void* result) {
+  for (int i = 0; i < count; ++i) static_cast<Unit*>(result)->powers[symbol_of(basic[i])] += powers[i];
+  return UT_SUCCESS;
+}
+
+ut_status visit_galilean(const ut_unit*, double scale, const ut_unit* underlying, double offset, void* result);
+
+ut_status visit_timestamp(const ut_unit*, const ut_unit*, double, void* result) {
+  static_cast<Unit*>(result)->plain = false;
+  return UT_SUCCESS;
+}
+
+ut_status visit_logarithmic(const ut_unit*, double, const ut_unit*, void* result) {
+  static_cast<Unit*>(result)->plain = false;
+  return UT_SUCCESS;
+}
+
+const ut_visitor kVisitor = {visit_basic, visit_product, visit_galilean, visit_timestamp, visit_logarithmic};
+
+ut_status visit_galilean(const ut_unit*, double scale, const ut_unit* underlying, double offset, void* result) {
+  auto* unit = static_cast<Unit*>(result);
+  unit->scale *= scale;
+  if (offset != 0.0) unit->plain = false;
+  return ut_accept_visitor(underlying, &kVisitor, result);
+}
+
+// UDUNITS' parser and its status are global to the process; everything that touches it holds this lock.
+std::mutex& udunits_lock() {
+  static std::mutex lock;
+  return lock;
+}
+
+// Call with the lock held. Never freed: it lives as long as the process.
+ut_system* unit_system() {
+  static ut_system* const system = [] {
+    ut_set_error_message_handler(ut_ignore);
+    ut_system* read = ut_read_xml(nullptr);
+    if (read == nullptr) {
+      throw ComputationError(
+          "UDUNITS-2 cannot read its table of units (udunits2.xml); install libudunits2-data or "
+          "set UDUNITS2_XML_PATH");
+    }
+    // UDUNITS knows "degree" but not "deg".
+    const UnitPtr degree(ut_get_unit_by_name(read, "degree"));
+    if (degree != nullptr) ut_map_name_to_unit("deg", UT_ASCII, degree.get());
+    return read;
+  }();
+  return system;
+}
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (static_cast<unsigned char>(c) & 0x80) != 0;
+}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+// UDUNITS' grammar also takes further factors ("2 mm"), offsets and dates. Only names, powers, products and quotients are
+// let through: a digit must belong to a power, or be the lone "1" of "1" and "1/s".
+bool is_written_as_unit(std::string_view text) {
+  if (text.empty() || text.size() > 64) return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i], before = i == 0 ? ' ' : text[i - 1];
+    if (is_digit(c)) {
+      const bool in_power = is_letter(before) || is_digit(before) || before == '^' || before == '-' || before == ')';
+      const bool lone_one = c == '1' && i == 0 && (text.size() == 1 || text[1] == '/');
+      if (!in_power && !lone_one) return false;
+      if (is_digit(before) && i >= 2 && is_digit(text[i - 2])) return false;  // no power has three digits
+    } else if (c == '-') {
+      if (before != '^' && !is_letter(before)) return false;
+    } else if (!is_letter(c) && !is_blank(c) && std::string_view("*/^.%()").find(c) == std::string_view::npos) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// The unit taken apart, or nullptr if it is not one.
+const Unit* known_unit(std::string_view text) {
+  if (!is_written_as_unit(text)) return nullptr;
+  const std::lock_guard<std::mutex> guard(udunits_lock());
+  static std::map<std::string, std::unique_ptr<const Unit>, std::less<>> seen;  // good ones only, entries never move
+  if (const auto it = seen.find(text); it != seen.end()) return it->second.get();
+  const std::string copy(text);
+  const UnitPtr parsed(ut_parse(unit_system(), copy.c_str(), UT_UTF8));
+  if (parsed == nullptr) return nullptr;
+  auto unit = std::make_unique<Unit>();
+  if (ut_accept_visitor(parsed.get(), &kVisitor, unit.get()) != UT_SUCCESS) return nullptr;
+  if (!unit->plain || !std::isfinite(unit->scale) || unit->scale <= 0.0) return nullptr;
+  std::erase_if(unit->powers, [](const auto& entry) { return entry.second == 0; });
+  return (seen[copy] = std::move(unit)).get();
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// Reads a finite decimal number at the beginning of `text` and removes it.
+bool take_number(std::string_view& text, double& value) {
+  std::string_view rest = text;
+  if (!rest.empty() && rest.front() == '+') rest.remove_prefix(1);
+  const std::size_t first = !rest.empty() && rest.front() == '-' && rest.size() == text.size() ? 1 : 0;
+  if (rest.size() <= first || !(is_digit(rest[first]) || rest[first] == '.')) return false;  // no "nan", no "inf"
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+  if (error != std::errc() || !std::isfinite(value)) return false;
+  text = rest.substr(static_cast<std::size_t>(end - rest.data()));
+  return true;
+}
+
+constexpr std::array<const char*, 28> kCommonUnits = {
+    "mm", "um", "m",  "km", "deg", "arcmin", "arcsec", "rad", "mrad", "urad",   "rpm",    "rad/s", "deg/s", "Hz",
+    "s",  "ms", "kg", "g",  "N",   "kN",     "N m",    "N/m", "GPa",  "kg/m^3", "kg m^2", "m/s",   "mm/s",  "m/s^2"};
+
+double convert(std::string_view unit_text, const SiUnit& expected, const std::string& shown) {
+  const Unit* unit = known_unit(unit_text);
+  if (unit == nullptr) {
+    throw ValueFault(shown + " with the unknown unit " + in_quotes(unit_text), expectation(expected),
+                     nearest_name(std::string(unit_text), kCommonUnits));
+  }
+  const Unit* si = known_unit(expected.unit);
+  if (si == nullptr) throw ComputationError(std::string("UDUNITS-2 does not know the unit ") + expected.unit);
+  if (unit->powers != si->powers) throw ValueFault(shown, expectation(expected));
+  return unit->scale / si->scale;
+}
+
+}  // namespace
+
+std::string in_quotes(std::string_view text) {
+  std::string shown(text.size() > 80 ? text.substr(0, 60) : text);
+  if (text.size() > 80) shown += "...";
+  return "\"" + shown + "\"";
+}
+
+std::string expectation(const SiUnit& unit) { return std::string(unit.what) + " such as \"" + unit.example + "\""; }
+
+bool parse_number(std::string_view text, double& value) {
+  text = trimmed(text);
+  return take_number(text, value) && text.empty();
+}
+
+double scale_of_unit(std::string_view unit, const SiUnit& expected) {
+  return convert(trimmed(unit), expected, in_quotes(unit));
+}
+
+double parse_quantity(std::string_view text, const SiUnit& expected) {
+  std::string_view rest = trimmed(text);
+  double number = 0.0;
+  if (!take_number(rest, number)) throw ValueFault(in_quotes(text), expectation(expected));
+  rest = trimmed(rest);
+  if (rest.empty()) throw ValueFault(in_quotes(text) + " without a unit", expectation(expected));
+  const double value = number * convert(rest, expected, in_quotes(text));
+  if (!std::isfinite(value)) throw ValueFault(in_quotes(text) + ", which is too large", expectation(expected));
+  return value;
+}
+
+SiUnit unit_called(const std::string& si_unit) {
+  static const SiUnit known[] = {kLength,  kMass,      kAcceleration, kSpeed, kElasticModulus,
+                                 kDensity, kStiffness, kDamping,      kRatio};
+  for (const SiUnit& unit : known)
+    if (si_unit == unit.unit) return unit;
+  return {"a value", si_unit.c_str(), si_unit.c_str()};
+}
+
+}  // namespace boresight

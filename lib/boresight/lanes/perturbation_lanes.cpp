@@ -1,0 +1,235 @@
+#include "boresight/lanes/perturbation_lanes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <list>
+#include <mutex>
+#include <stdexcept>
+
+#include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/lanes/lane_numbers.hpp"
+#include "boresight/scene/resting_start.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr int kPad = 16;  // lanes of the widest register
+// A contact begins this close to where the journal meets the sleeve, as a share of the clearance: a tenth of what the default
+// tolerance lets a step err by.
+constexpr double kGapShare = 1e-4;
+constexpr std::size_t kScenesKept = 64;  // of different masses
+
+// G at t, 3 x n: the index to first order is |G z|.
+MatX index_gain(const Mechanism& mechanism, const PreparedScene& prepared, PointingQuantity quantity, double t) {
+  const TimeTable& table = prepared.pose_gain(mechanism.boresight_body());
+  std::vector<double> row(table.width());
+  table.at(t, row.data());
+  const Eigen::Index n = table.width() / 6;
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> E(row.data(), 6, n);
+  if (quantity == PointingQuantity::position_error) return E.topRows(3);
+  if (quantity == PointingQuantity::orientation_error) return E.bottomRows(3);
+  const auto across = [](const Vec3& d, const MatX& rows) {
+    MatX crossed(3, rows.cols());
+    for (Eigen::Index j = 0; j < rows.cols(); ++j) crossed.col(j) = d.cross(Vec3(rows.col(j)));
+    return crossed;
+  };
+  const BodyMotion ideal = prepared.ideal().body(t, mechanism.boresight_body());
+  if (quantity == PointingQuantity::boresight_error) return across(ideal.R * mechanism.boresight_B(), E.bottomRows(3));
+  if (!mechanism.pointing().line_of_sight) throw std::logic_error("no line of sight: the mechanism names no target");
+  return mechanism.pointing().line_of_sight->gain({ideal.p, Quat(ideal.R)}) * E;
+}
+
+}  // namespace
+
+struct PerturbationLanes::Prepared {
+  Parameters parameters;
+  std::shared_ptr<const PreparedScene> scene;
+  std::shared_ptr<const SceneTables> tables;
+  std::vector<double> in_double;
+  std::vector<float> in_single;
+  std::vector<LanePlaces> places;
+  VecX acceleration;  // root mean square of the ideal reactions' accelerations of each coordinate
+  LaneScene lane;
+};
+
+struct PerturbationLanes::Cache {
+  std::mutex mutex;
+  std::shared_ptr<const PreparedScene> scene;
+  std::shared_ptr<const TimeTable> gain;  // G over time, which no mass changes
+  Parameters scene_parameters;
+  std::list<std::shared_ptr<const Prepared>> prepared;  // the latest first
+};
+
+bool PerturbationLanes::serve(const Mechanism& mechanism) {
+  const MechanismDescription& m = mechanism.description();
+  if (mechanism.clearances() > kMostLaneJoints) return false;
+  // Every coordinate is an offset or a freedom that nothing drives.
+  if (OffsetLayout(mechanism).size() + undriven_freedoms(mechanism) > kMostLaneCoordinates) return false;
+  for (const JournalInSleeve& law : clearance_joints(m, mechanism.parameters())) {
+    if (law.radial_law.curve != ElasticCurve::point || law.sticks) return false;
+    if (law.friction.kind != FrictionKind::modified_coulomb && law.friction.kind != FrictionKind::none) return false;
+  }
+  return mechanism.clearances() > 0;
+}
+
+PerturbationLanes::PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity,
+                                     double start)
+    : mechanism_(std::move(mechanism)), quantity_(quantity), start_(start), cache_(std::make_unique<Cache>()) {
+  prepared_for(mechanism_->parameters());
+}
+PerturbationLanes::~PerturbationLanes() = default;
+
+std::shared_ptr<const TimeTable> PerturbationLanes::gain_over_time(const PreparedScene& scene,
+                                                                   const Parameters& parameters) const {
+  const TimeTable& dynamics = scene.tables(parameters)->dynamics;
+  std::vector<double> gains;
+  int width = 0;
+  for (int k = 0; k <= dynamics.cells(); ++k) {
+    const MatX G = index_gain(*mechanism_, scene, quantity_, std::min(k * dynamics.spacing(), mechanism_->duration()));
+    for (int i = 0; i < 3; ++i)
+      for (Eigen::Index j = 0; j < G.cols(); ++j) gains.push_back(G(i, j));
+    width = static_cast<int>(G.size());
+  }
+  return std::make_shared<const TimeTable>(dynamics.spacing(), width, gains);
+}
+
+// Looks the scene up, or computes it with nobody waiting: threads with other masses do so side by side.
+std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_for(const Parameters& parameters) const {
+  auto p = std::make_shared<Prepared>();
+  p->parameters = parameters;
+  std::shared_ptr<const TimeTable> gain_table;
+  {
+    const std::lock_guard lock(cache_->mutex);
+    for (auto it = cache_->prepared.begin(); it != cache_->prepared.end(); ++it)
+      if (same_scene((*it)->parameters, parameters)) {
+        cache_->prepared.splice(cache_->prepared.begin(), cache_->prepared, it);
+        return cache_->prepared.front();
+      }
+    if (!cache_->scene || (!is_kinematic(*mechanism_) && !same_scene(cache_->scene_parameters, parameters))) {
+      cache_->scene =
+          std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
+      cache_->scene_parameters = parameters;
+      if (cache_->scene->scene().layout().n > 0) cache_->gain = gain_over_time(*cache_->scene, parameters);
+    }
+    p->scene = cache_->scene;
+    gain_table = cache_->gain;
+  }
+  p->tables = std::make_shared<const SceneTables>(p->scene->scene().tables(parameters));
+  const TimeTable &dynamics = p->tables->dynamics, &gain = *gain_table;
+  const int n = p->tables->layout.n;
+  if (n > kMostLaneCoordinates) throw std::logic_error("lanes do not serve this mechanism: ask serve() first");
+  if (n == 0) return p;  // no play can move: nothing to follow
+
+  LaneScene& lane = p->lane;
+  lane.gain = dynamics.width();
+  lane.width = (dynamics.width() + 3 * n + kPad - 1) / kPad * kPad;
+  lane.cells = dynamics.cells();
+  lane.per_spacing = 1.0 / dynamics.spacing();
+  lane.duration = mechanism_->duration();
+  lane.layout = &p->tables->layout;
+  p->in_double.assign(static_cast<std::size_t>(lane.cells) * 4 * lane.width, 0.0);
+  for (int cell = 0; cell < lane.cells; ++cell)
+    for (int power = 0; power < 4; ++power) {
+      double* to = &p->in_double[(static_cast<std::size_t>(cell) * 4 + power) * lane.width];
+      std::copy_n(dynamics.cell(cell) + power * dynamics.width(), dynamics.width(), to);
+      std::copy_n(gain.cell(cell) + power * gain.width(), gain.width(), to + lane.gain);
+    }
+  p->in_single.assign(p->in_double.begin(), p->in_double.end());
+  lane.in_double = p->in_double.data();
+  lane.in_single = p->in_single.data();
+
+  for (const JournalInSleeve& law : clearance_joints(mechanism_->description(), parameters)) {
+    LanePlaces places;
+    for (ContactPlace place : law.places()) places.place[places.count++] = place;
+    p->places.push_back(places);
+  }
+  lane.places = p->places.data();
+
+  p->acceleration = VecX::Zero(n);
+  for (int cell = 0; cell < lane.cells; ++cell)
+    for (int k = 0; k < n; ++k) {
+      const double a = dynamics.cell(cell)[p->tables->layout.Ar + k];
+      p->acceleration[k] += a * a / lane.cells;
+    }
+  p->acceleration = p->acceleration.cwiseSqrt();
+  const std::lock_guard lock(cache_->mutex);
+  cache_->prepared.push_front(p);
+  if (cache_->prepared.size() > kScenesKept) cache_->prepared.pop_back();
+  return p;
+}
+
+void PerturbationLanes::run(std::span<const Parameters> samples, std::span<LaneOutcome> outcomes, double tolerance,
+                            const LaneWatch& watch) const {
+  run(lane_targets(lane_precision(tolerance)).front(), samples, outcomes, tolerance, watch);
+}
+
+void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters> samples,
+                            std::span<LaneOutcome> outcomes, double tolerance, const LaneWatch& watch) const {
+  std::vector<std::shared_ptr<const Prepared>> prepared;
+  std::vector<std::vector<JournalInSleeve>> joints;
+  std::vector<std::vector<double>> tolerances;
+  std::vector<VecX> starts;
+  std::vector<LaneJob> jobs;
+  for (const Parameters& sample : samples) {
+    if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {
+      for (LaneOutcome& outcome : outcomes) outcome.status = LaneStatus::not_reached;
+      return;
+    }
+    prepared.push_back(prepared_for(sample));
+    const Prepared& p = *prepared.back();
+    if (p.tables->layout.n == 0) {  // of one sample as of all: no play can move
+      std::fill(outcomes.begin(), outcomes.end(), LaneOutcome{.t = mechanism_->duration()});
+      for (std::size_t k = 0; watch.ended && k < samples.size(); ++k) watch.ended(k, 0.0);
+      return;
+    }
+    const SceneLayout& at = p.tables->layout;
+    const std::vector<JournalInSleeve>& own = joints.emplace_back(clearance_joints(mechanism_->description(), sample));
+    // Scale of each coordinate: of an offset its clearance, of a slope the slope that crosses it.
+    VecX scale = VecX::Zero(at.n);
+    std::vector<double> gap;
+    for (int c = 0; c < mechanism_->clearances(); ++c) {
+      const JournalInSleeve& law = own[c];
+      const double clearance =
+          law.has_faces ? std::min(law.radial_clearance, law.axial_clearance) : law.radial_clearance;
+      gap.push_back(kGapShare * clearance);
+      for (int k = 0; k < at.joints[c].offsets; ++k) {
+        const int source = at.joints[c].source[k];
+        if (source < 0) continue;
+        const double own_scale = k < 3 ? clearance : clearance / law.half_length;
+        scale[source] = scale[source] == 0.0 ? own_scale : std::min(scale[source], own_scale);
+      }
+    }
+    for (int k = 0; k < at.n; ++k)
+      if (scale[k] == 0.0) scale[k] = scale.maxCoeff() > 0.0 ? scale.maxCoeff() : 1e-4;
+    auto& errors = tolerances.emplace_back();
+    for (int k = 0; k < at.n; ++k) errors.push_back(tolerance * scale[k]);
+    for (int k = 0; k < at.n; ++k)
+      errors.push_back(tolerance * std::sqrt(scale[k] * std::max(p.acceleration[k], 1e-3 * p.acceleration.maxCoeff())));
+    errors.insert(errors.end(), gap.begin(), gap.end());
+    std::string warning;  // the rung itself says it
+    starts.push_back(start_coordinates(*mechanism_, at, p.tables->start, own, warning));
+    jobs.push_back(
+        {.scene = &p.lane, .joints = nullptr, .tolerance = nullptr, .start = nullptr, .gap_tolerance = nullptr});
+  }
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    jobs[i].joints = joints[i].data();
+    jobs[i].tolerance = tolerances[i].data();
+    jobs[i].start = starts[i].data();
+    jobs[i].gap_tolerance = tolerances[i].data() + 2 * jobs[i].scene->layout->n;
+  }
+  LaneSettings settings;
+  settings.method = &rodas4();
+  settings.start = start_;
+  // Across a step the scene's numbers are straight lines: a hundredth of the time in which they turn.
+  settings.longest_step = std::min(settings.longest_step, mechanism_->duration() / 100.0);
+  settings.stop = watch.stop;
+  if (watch.ended) {
+    settings.listener = const_cast<LaneWatch*>(&watch);
+    settings.ended = [](void* listener, long job, double attempts) {
+      static_cast<const LaneWatch*>(listener)->ended(static_cast<std::size_t>(job), attempts);
+    };
+  }
+  target.kernel(jobs.data(), static_cast<long>(jobs.size()), settings, outcomes.data());
+}
+
+}  // namespace boresight

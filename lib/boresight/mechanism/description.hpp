@@ -1,0 +1,148 @@
+// What a mechanism file says, as plain data: the input of `Mechanism`.
+//
+// Everything is given once, in the home (assembly) pose, in world axes, in SI. `Mechanism` checks it and derives the rest.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "boresight/math/time_function.hpp"
+#include "boresight/math/types.hpp"
+#include "boresight/mechanism/parameters.hpp"
+
+namespace boresight {
+
+// The index that stands for the ground wherever a body's index is expected.
+inline constexpr int kGround = -1;
+
+// Where a thing was described, so that a fault found later still names file and line. line 0: not from a file.
+struct Origin {
+  std::string file;
+  int line = 0;
+};
+
+struct BodyDescription {
+  std::string name;
+  double mass = 0.0;                   // [kg]
+  Vec3 center_of_mass = Vec3::Zero();  // p_WB at home [m]
+  Mat3 axes = Mat3::Identity();        // R_WB at home
+  Mat3 inertia = Mat3::Identity();     // about the centre of mass, body axes [kg m^2]
+  std::optional<Vec3> boresight;       // pointing axis at home, world axes, unit length
+  Origin origin;
+};
+
+struct PayloadDescription {
+  int body = 0;
+  double mass = 0.0;
+  Vec3 center_of_mass = Vec3::Zero();  // at home, world [m]
+  Vec3 gyration = Vec3::Zero();        // radii of gyration about the axes of the body it moves with [m]
+  Origin origin;
+};
+
+enum class JointType { revolute, prismatic, cylindrical, universal, spherical, planar, fixed };
+
+// "revolute", ...: the word of the mechanism file.
+const char* to_string(JointType type);
+
+struct JointDescription {
+  std::string name;
+  JointType type = JointType::revolute;
+  int first = kGround;  // the joint's coordinate is that of `second` seen from `first`
+  int second = 0;
+  Vec3 point = Vec3::Zero();  // at home, world [m]
+  Vec3 axis = Vec3::UnitZ();  // unit; revolute and cylindrical: turning axis, prismatic: sliding axis, planar: normal
+  Vec3 second_axis = Vec3::UnitX();  // universal only: the axis fixed in `second`, unit
+  bool driven = false;               // revolute: its angle, prismatic: its displacement
+  Origin origin;
+};
+
+enum class JournalAxes { parallel, free };
+
+struct ClearanceDescription {
+  int joint = 0;
+  int journal = 0;  // the body that carries the journal; the joint's other body carries the sleeve
+  JournalAxes axes = JournalAxes::parallel;
+  std::string contact_law = "flores";
+  std::string dissipation_law;  // whose damping factor a law for cylinders takes; "": its own
+  std::string friction_law = "modified-coulomb";
+  ClearanceParameters parameters;
+  Origin origin;
+};
+
+struct SpringDescription {
+  int first = kGround;
+  int second = kGround;
+  Vec3 first_point = Vec3::Zero();  // at home, world [m]
+  Vec3 second_point = Vec3::Zero();
+  SpringParameters parameters;
+  Origin origin;
+};
+
+// Exactly one of: torque about a revolute's axis, force along a prismatic's axis (both act on the joint's second body and
+// back on its first), force at a point of a body along world axes.
+struct LoadDescription {
+  std::optional<int> joint;
+  TimeFunctionPtr along_joint;  // [N m] or [N]
+  int body = kGround;
+  Vec3 point = Vec3::Zero();             // at home, world [m]
+  std::array<TimeFunctionPtr, 3> force;  // world axes [N]
+  Origin origin;
+};
+
+// R = R_a(psi) R_b(theta) R_c(phi) turns the body from its home orientation, a b c the letters of the convention.
+struct PoseMotionDescription {
+  int body = 0;
+  std::array<int, 3> sequence = {2, 1, 2};  // axis of each elementary turn: 0 x, 1 y, 2 z
+  std::array<TimeFunctionPtr, 3> angle;     // psi, theta, phi [rad]
+  std::array<TimeFunctionPtr, 3> position;  // centre of mass, world [m]
+  Origin origin;
+};
+
+struct MotionDescription {
+  double duration = 1.0;  // [s]
+  std::optional<PoseMotionDescription> pose;
+  std::map<int, TimeFunctionPtr> drives;  // joint -> its law, relative to home [rad or m]
+  Origin origin;
+};
+
+// Starting rate of one joint freedom: revolute angle, prismatic displacement, one of the two of a cylindrical joint.
+struct InitialRateDescription {
+  enum class Freedom { angle, displacement };
+  int joint = 0;
+  Freedom freedom = Freedom::angle;
+  double rate = 0.0;  // [rad/s] or [m/s]
+  Origin origin;
+};
+
+// Where the journals start, at the rates of the ideal motion: in balance under the loads of t = 0, or in the middle of their
+// sleeves.
+enum class JournalStart { rest, centred };
+
+// The line of sight goes from a reference point, which moves with the boresight body, to a target, which stands still.
+struct LineOfSightDescription {
+  Vec3 from = Vec3::Zero();    // at home, world [m]
+  Vec3 target = Vec3::Zero();  // world [m]
+  Origin origin;
+};
+
+struct MechanismDescription {
+  std::string name;
+  Vec3 gravity = Vec3::Zero();  // [m/s^2]
+  std::vector<BodyDescription> bodies;
+  std::optional<PayloadDescription> payload;
+  std::vector<JointDescription> joints;
+  std::vector<ClearanceDescription> clearances;
+  std::vector<SpringDescription> springs;
+  std::vector<LoadDescription> loads;
+  std::vector<InitialRateDescription> initial_rates;
+  JournalStart journals = JournalStart::rest;
+  std::optional<LineOfSightDescription> line_of_sight;
+  MotionDescription motion;
+  Origin origin;             // the file
+  std::string content_hash;  // of the file's bytes and the settings applied to it, hexadecimal; "" if not from a file
+};
+
+}  // namespace boresight

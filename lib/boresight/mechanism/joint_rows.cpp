@@ -1,0 +1,178 @@
+#include "boresight/mechanism/joint_rows.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace boresight {
+namespace {
+
+const BodyMotion kGroundMotion;
+
+const BodyMotion& motion_of(const std::vector<BodyMotion>& bodies, int body) {
+  return body == kGround ? kGroundMotion : bodies[body];
+}
+
+// Turn of R about its y axis, from the rotation that takes components in B's joint frame to A's.
+double twist_about_y(const Mat3& R) { return std::atan2(R(0, 2) - R(2, 0), R(0, 0) + R(2, 2)); }
+
+double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+
+bool has_points(JointType t) {
+  return t == JointType::revolute || t == JointType::universal || t == JointType::spherical || t == JointType::fixed;
+}
+bool slides_along_axis(JointType t) { return t == JointType::prismatic || t == JointType::cylindrical; }
+bool keeps_axis(JointType t) { return t != JointType::universal && t != JointType::spherical; }
+
+}  // namespace
+
+JointConstraint::JointConstraint(const Mechanism& mechanism, int joint, ClearanceRows clearance_rows, bool with_drive)
+    : joint_(joint) {
+  const JointDescription& description = mechanism.description().joints[joint];
+  const JointGeometry& geometry = mechanism.geometry(joint);
+  const int clearance = mechanism.clearance_of(joint);
+  const bool sleeve_is_second =
+      clearance >= 0 && mechanism.description().clearances[clearance].journal == description.first;
+  reference_ = sleeve_is_second ? geometry.second : geometry.first;
+  other_ = sleeve_is_second ? geometry.first : geometry.second;
+  second_axis_ = geometry.second_axis;
+  drive_sign_ = sleeve_is_second ? -1.0 : 1.0;
+
+  const bool loose = clearance >= 0 && clearance_rows != ClearanceRows::closed;
+  const bool tilts = loose && mechanism.description().clearances[clearance].axes == JournalAxes::free;
+  const bool want_released = clearance_rows == ClearanceRows::released;
+  const auto add = [&](bool released, Row row) {
+    if (released == want_released) rows_.push_back(row);
+  };
+
+  const JointType type = description.type;
+  if (clearance_rows == ClearanceRows::free) {
+    add_free_rows(type);
+    return;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool along = axis == 1;
+    const bool held = has_points(type) || (slides_along_axis(type) && !along) || (type == JointType::planar && along);
+    if (held) add(loose, {Kind::distance, axis});
+  }
+  if (keeps_axis(type)) {
+    add(tilts, {Kind::angle, 0, 1});
+    add(tilts, {Kind::angle, 2, 1});
+  }
+  if (type == JointType::universal) add(false, {Kind::angle, 1, 3, description.axis.dot(description.second_axis)});
+  if (type == JointType::prismatic || type == JointType::fixed) add(false, {Kind::angle, 2, 0});
+  if (with_drive && description.driven && !want_released) {
+    drive_row_ = static_cast<int>(rows_.size());
+    rows_.push_back(type == JointType::revolute ? Row{Kind::twist} : Row{Kind::distance, 1});
+  }
+}
+
+void JointConstraint::add_free_rows(JointType type) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool along = axis == 1;
+    if ((slides_along_axis(type) && along) || (type == JointType::planar && !along))
+      rows_.push_back({Kind::distance, axis});
+  }
+  if (type == JointType::spherical || type == JointType::universal) {
+    rows_.push_back({Kind::angle, 0, 1});
+    rows_.push_back({Kind::angle, 2, 1});
+  }
+  if (type != JointType::prismatic && type != JointType::fixed) rows_.push_back({Kind::twist});
+}
+
+void JointConstraint::evaluate(const std::vector<BodyMotion>& bodies, const TimeValue& law, JointRows& rows) const {
+  const BodyMotion& A = motion_of(bodies, reference_.body);
+  const BodyMotion& B = motion_of(bodies, other_.body);
+  const Vec3 rA = A.R * reference_.p, rB = B.R * other_.p;
+  const Mat3 XA = A.R * reference_.R, XB = B.R * other_.R;
+  const Vec3 d = B.p + rB - A.p - rA;
+  const Vec3 A_turn = A.w.cross(rA), B_turn = B.w.cross(rB);
+  const Vec3 d_dot = B.v + B_turn - A.v - A_turn;
+  // Bias of the points' relative acceleration: the centripetal parts.
+  const Vec3 d_bias = B.w.cross(B_turn) - A.w.cross(A_turn);
+  const Vec3 w_rel = B.w - A.w;
+
+  for (int i = 0; i < count(); ++i) {
+    const Row& row = rows_[i];
+    double bias = 0.0;
+    switch (row.kind) {
+      case Kind::distance: {
+        const Vec3 a = XA.col(row.a);
+        const Vec3 a_dot = A.w.cross(a);
+        rows.reference.row(i) << -a.transpose(), a.cross(rA + d).transpose();
+        rows.other.row(i) << a.transpose(), rB.cross(a).transpose();
+        rows.value[i] = a.dot(d);
+        rows.rate[i] = a.dot(d_dot) + a_dot.dot(d);
+        bias = a.dot(d_bias) + 2.0 * a_dot.dot(d_dot) + A.w.cross(a_dot).dot(d);
+        break;
+      }
+      case Kind::angle: {
+        const Vec3 a = XA.col(row.a);
+        const Vec3 b = row.b == 3 ? Vec3(B.R * second_axis_) : Vec3(XB.col(row.b));
+        const Vec3 c = a.cross(b);
+        rows.reference.row(i) << Vec3::Zero().transpose(), c.transpose();
+        rows.other.row(i) << Vec3::Zero().transpose(), -c.transpose();
+        rows.value[i] = a.dot(b) - row.home;
+        rows.rate[i] = -w_rel.dot(c);
+        bias = -w_rel.dot(A.w.cross(a).cross(b) + a.cross(B.w.cross(b)));
+        break;
+      }
+      case Kind::twist: {
+        const Vec3 yA = XA.col(1), yB = XB.col(1);
+        const double s = 1.0 + yA.dot(yB);
+        const Vec3 m = (yA + yB) / s;
+        const Vec3 yA_dot = A.w.cross(yA), yB_dot = B.w.cross(yB);
+        const Vec3 m_dot = (yA_dot + yB_dot - m * (yA_dot.dot(yB) + yA.dot(yB_dot))) / s;
+        rows.reference.row(i) << Vec3::Zero().transpose(), -m.transpose();
+        rows.other.row(i) << Vec3::Zero().transpose(), m.transpose();
+        rows.value[i] = twist_about_y(XA.transpose() * XB);
+        rows.rate[i] = w_rel.dot(m);
+        bias = w_rel.dot(m_dot);
+        break;
+      }
+    }
+    rows.gamma[i] = -bias;
+    if (i == drive_row_) {
+      rows.value[i] -= drive_sign_ * law.value;
+      if (row.kind == Kind::twist) rows.value[i] = wrapped(rows.value[i]);
+      rows.rate[i] -= drive_sign_ * law.rate;
+      rows.gamma[i] += drive_sign_ * law.acceleration;
+    }
+  }
+}
+
+TimeValue joint_coordinate(const Mechanism& mechanism, int joint, const std::vector<BodyMotion>& bodies,
+                           const std::vector<BodyAcceleration>* acceleration) {
+  const JointGeometry& g = mechanism.geometry(joint);
+  const BodyMotion& A = motion_of(bodies, g.first.body);
+  const BodyMotion& B = motion_of(bodies, g.second.body);
+  const Mat3 XA = A.R * g.first.R, XB = B.R * g.second.R;
+  const auto acceleration_of = [&](int body) -> Vec6 {
+    return acceleration && body != kGround ? (*acceleration)[body] : Vec6(Vec6::Zero());
+  };
+  const Vec6 aA = acceleration_of(g.first.body), aB = acceleration_of(g.second.body);
+  TimeValue result;
+  if (mechanism.description().joints[joint].type == JointType::prismatic) {
+    const Vec3 rA = A.R * g.first.p, rB = B.R * g.second.p, a = XA.col(1);
+    const Vec3 d = B.p + rB - A.p - rA;
+    const Vec3 d_dot = B.v + B.w.cross(rB) - A.v - A.w.cross(rA);
+    const Vec3 d_ddot = aB.head<3>() + aB.tail<3>().cross(rB) + B.w.cross(B.w.cross(rB)) - aA.head<3>() -
+                        aA.tail<3>().cross(rA) - A.w.cross(A.w.cross(rA));
+    const Vec3 a_dot = A.w.cross(a), a_ddot = aA.tail<3>().cross(a) + A.w.cross(a_dot);
+    result.value = a.dot(d);
+    result.rate = a.dot(d_dot) + a_dot.dot(d);
+    result.acceleration = a.dot(d_ddot) + 2.0 * a_dot.dot(d_dot) + a_ddot.dot(d);
+  } else {
+    const Vec3 yA = XA.col(1), yB = XB.col(1);
+    const Vec3 w_rel = B.w - A.w;
+    const double s = 1.0 + yA.dot(yB);
+    const Vec3 m = (yA + yB) / s;
+    const Vec3 yA_dot = A.w.cross(yA), yB_dot = B.w.cross(yB);
+    const Vec3 m_dot = (yA_dot + yB_dot - m * (yA_dot.dot(yB) + yA.dot(yB_dot))) / s;
+    result.value = twist_about_y(XA.transpose() * XB);
+    result.rate = w_rel.dot(m);
+    result.acceleration = (aB - aA).tail<3>().dot(m) + w_rel.dot(m_dot);
+  }
+  return result;
+}
+
+}  // namespace boresight

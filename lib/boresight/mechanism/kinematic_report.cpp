@@ -1,0 +1,219 @@
+#include "boresight/mechanism/kinematic_report.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "boresight/math/singular_values.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/ideal_motion.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/mechanism/motion_density.hpp"
+#include "boresight/mechanism/rank_analysis.hpp"
+
+namespace boresight {
+namespace {
+
+// Below this share of the largest singular value a pose is called singular: locks that weak are moved by play and
+// elasticity by more than they hold.
+constexpr double kSingular = 1e-6;
+// Poses are looked at once in so many states of the ideal motion's table, where its fastest vibration turns by about half a radian;
+// and so many at most.
+constexpr int kKnotsBetweenPoses = 8, kMostPoses = 2001;
+
+double inverse_condition(const MatX& A) {
+  if (A.size() == 0) return 0.0;
+  const VecX s = Eigen::JacobiSVD<MatX>(A).singularValues();
+  return s[0] > 0.0 ? s[s.size() - 1] / s[0] : 0.0;
+}
+
+// How the boresight body's velocity and angular velocity show in the drives: the rows of D in drive rates = D (v, w).
+// Angle drives answer for orientation and displacement drives for position where a mechanism has enough of both.
+void conditioning(const Mechanism& mechanism, ConstraintSystem& driven, const std::vector<Mat6>& weight,
+                  ConditioningSample& sample) {
+  std::vector<int> drive_blocks;
+  MatX twist(6, 0);
+  std::vector<bool> is_angle;
+  for (int k = 0; k < driven.blocks(); ++k) {
+    if (!driven.joints()[k].has_drive()) continue;
+    std::vector<Vec6> b = driven.block_vector();
+    b[k][driven.joints()[k].count() - 1] = 1.0;  // the drive's row comes last
+    std::vector<Vec6> u = driven.body_vector();
+    driven.least_motion(b, u);
+    twist.conservativeResize(6, twist.cols() + 1);
+    twist.col(twist.cols() - 1) = u[mechanism.boresight_body()];
+    is_angle.push_back(mechanism.description().joints[driven.joints()[k].joint()].type == JointType::revolute);
+  }
+  (void)weight;
+  if (twist.cols() != 6) return;  // fewer drives than freedoms of the body: the two numbers have no meaning
+  const Eigen::FullPivLU<MatX> lu(twist);
+  if (!lu.isInvertible()) return;
+  const MatX D = lu.inverse();
+  MatX angles(0, 3), lengths(0, 3);
+  for (int i = 0; i < 6; ++i) {
+    MatX& into = is_angle[i] ? angles : lengths;
+    into.conservativeResize(into.rows() + 1, 3);
+    into.row(into.rows() - 1) = is_angle[i] ? D.row(i).tail<3>() : D.row(i).head<3>();
+  }
+  if (angles.rows() < 3) angles = D.rightCols<3>();
+  if (lengths.rows() < 3) lengths = D.leftCols<3>();
+  sample.orientation = inverse_condition(angles);
+  sample.position = inverse_condition(lengths);
+}
+
+std::string number(double x) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.4g", x);
+  return text;
+}
+
+// Bearings of one shaft, guides of one slide, that are meant to share an axis and do not, as when a drawing's coordinates were
+// rounded: no motion is left then, however small the difference is.
+std::vector<std::string> misaligned_joints(const Mechanism& mechanism) {
+  constexpr double kExact = 1e-9, kMeant = 1e-2;
+  const std::vector<JointDescription>& joints = mechanism.description().joints;
+  const auto turns = [](JointType t) { return t == JointType::revolute || t == JointType::cylindrical; };
+  std::vector<std::string> sentences;
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    for (std::size_t k = i + 1; k < joints.size(); ++k) {
+      const JointDescription &a = joints[i], &b = joints[k];
+      const bool same_parts =
+          (a.first == b.first && a.second == b.second) || (a.first == b.second && a.second == b.first);
+      const bool slide = a.type == JointType::prismatic && b.type == JointType::prismatic;
+      if (!same_parts || !(slide || (turns(a.type) && turns(b.type)))) continue;
+      const double angle = a.axis.cross(b.axis).norm();
+      const double apart = slide ? 0.0 : (b.point - a.point).cross(a.axis).norm();
+      const double off = std::max(angle, apart / mechanism.characteristic_length());
+      if (off < kExact || off > kMeant) continue;
+      sentences.push_back('"' + a.name + "\" and \"" + b.name +
+                          "\" connect the same parts but do not share one axis: they are " + number(apart) + " m and " +
+                          number(angle) +
+                          " rad apart, which leaves no motion; give their points and axes to more digits");
+    }
+  return sentences;
+}
+
+}  // namespace
+
+KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
+  const MechanismDescription& m = mechanism.description();
+  KinematicReport report;
+  report.bodies = mechanism.bodies();
+  report.joints = mechanism.joints();
+
+  // Joint rows alone, at home.
+  std::vector<BodyMotion> home(m.bodies.size());
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    home[b].p = m.bodies[b].center_of_mass;
+    home[b].R = m.bodies[b].axes;
+  }
+  std::vector<TimeValue> laws(mechanism.joints());
+  ConstraintSystem joints(mechanism, {.clearance = ClearanceRows::closed, .drives = false});
+  joints.evaluate(home, laws);
+  if (joints.violation(mechanism.characteristic_length()) > 1e-6) {
+    report.feasible = false;
+    report.findings.push_back("the joints do not close at home: the drawing's points and axes disagree by " +
+                              number(joints.violation()) + " m or rad");
+  }
+  RankAnalysis rank = analyse_rank(mechanism, joints, false);
+  report.constraint_rows = rank.rows;
+  report.rank = rank.rank;
+  for (const JointDescription& j : m.joints) report.drives += j.driven;
+  report.redundant_rows = rank.rows - rank.rank;
+  report.mobility = rank.columns - rank.rank;
+  report.free_freedoms = m.motion.pose ? 0 : std::max(0, report.mobility - report.drives);
+
+  if (report.drives > report.mobility && !m.motion.pose)
+    for (std::string& sentence : misaligned_joints(mechanism)) {
+      report.feasible = false;
+      report.findings.push_back(std::move(sentence));
+    }
+
+  // The ideal motion, sampled; with every drive's row in force, whatever prescribes the motion.
+  const bool kinematic = m.motion.pose || report.free_freedoms == 0;
+  if (!kinematic) {
+    report.findings.push_back(std::to_string(report.free_freedoms) +
+                              " freedom(s) are not driven: the ideal motion is the simulated one without clearance");
+    return report;
+  }
+  ConstraintSystem driven(mechanism, {.clearance = ClearanceRows::closed, .drives = true});
+  const std::vector<Mat6> weight = kinematic_weight(mechanism);
+  IdealSolver solver(mechanism);
+  IdealState state;
+  // What moves fast is looked at more often. A motion that ends before its time is followed pose by pose to where it does.
+  std::optional<IdealMotion> ideal;
+  try {
+    solver.start(state);
+    try {
+      ideal = IdealMotion::kinematic(mechanism);
+    } catch (const MotionTooDense&) {
+      throw;
+    } catch (const ComputationError&) {
+    }
+  } catch (const ComputationError& e) {
+    report.feasible = false;
+    report.findings.push_back(e.what());
+    return report;
+  }
+  if (ideal) samples = std::clamp(ideal->knots() / kKnotsBetweenPoses, samples, std::max(samples, kMostPoses));
+  bool inside_singular = false;
+  for (int k = 0; k < samples; ++k) {
+    const double t = mechanism.duration() * k / (samples - 1);
+    work_reached("checking poses along the motion", t / mechanism.duration());
+    if (ideal) {
+      ideal->state(t, state);
+    } else if (k > 0) {
+      // Substeps where Newton needs them.
+      double step = t - state.t;
+      while (state.t < t) {
+        const double next = t - state.t <= step * 1.0000001 ? t : state.t + step;
+        if (solver.solve(next, state)) continue;
+        if ((step *= 0.5) < std::min(1e-6 * mechanism.duration(), 1e-6)) break;
+      }
+      if (state.t < t) {
+        report.feasible = false;
+        report.findings.push_back("the ideal motion cannot be followed beyond t = " + number(state.t) +
+                                  " s: it leaves what the mechanism can reach, or passes a singular pose");
+        break;
+      }
+    }
+    for (int j = 0; j < mechanism.joints(); ++j)
+      if (m.joints[j].driven) laws[j] = joint_coordinate(mechanism, j, state.bodies, &state.acceleration);
+    driven.evaluate(state.bodies, laws);
+    joints.evaluate(state.bodies, laws);
+    if (k == samples / 3) {
+      // A pose away from home tells redundancy of the mechanism from a special home pose.
+      rank = analyse_rank(mechanism, joints, false);
+      report.rank = std::max(report.rank, rank.rank);
+      report.redundant_rows = rank.rows - report.rank;
+      report.mobility = rank.columns - report.rank;
+    }
+    const RankAnalysis r = analyse_rank(mechanism, driven);
+    ConditioningSample sample{t, r.weakest, 0.0, 0.0};
+    const bool singular = r.weakest < kSingular * r.largest;
+    if (singular) {
+      if (!inside_singular)
+        report.lost.push_back({t,
+                               '"' + m.bodies[mechanism.boresight_body()].name + "\" " +
+                                   describe_motion(mechanism, r.least_resisted, mechanism.boresight_body()) +
+                                   " while every drive stands still",
+                               r.weakest / r.largest});
+    } else {
+      driven.set_redundant(r.rank < r.rows);
+      if (driven.factor(weight)) conditioning(mechanism, driven, weight, sample);
+    }
+    inside_singular = singular;
+    report.along.push_back(sample);
+  }
+  for (const LostMotion& lost : report.lost)
+    report.findings.push_back("singular at t = " + number(lost.t) + " s: " + lost.description);
+  if (report.redundant_rows > 0)
+    report.findings.push_back(std::to_string(report.redundant_rows) +
+                              " constraint row(s) are redundant: motion and clearance forces are unique, the ideal "
+                              "reactions inside the redundant loops are not");
+  return report;
+}
+
+}  // namespace boresight

@@ -1,0 +1,39 @@
+// What `check` says of a mechanism's ideal motion: mobility, redundancy, and how near it comes to a singular pose.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "boresight/mechanism/mechanism.hpp"
+
+namespace boresight {
+
+struct LostMotion {
+  double t = 0.0;           // [s]
+  std::string description;  // "platform turns about (0, 0, 1) while every drive stands still"
+  double measure = 0.0;     // smallest singular value over the largest, lengths scaled; 0 at the singularity
+};
+
+struct ConditioningSample {
+  double t = 0.0;
+  double smallest_singular_value = 0.0;  // of the scaled square Jacobian of all ideal rows
+  double orientation = 0.0;  // inverse condition number of the map from the body's angular velocity to the drives
+  double position = 0.0;     // the same from its velocity
+};
+
+struct KinematicReport {
+  int bodies = 0, joints = 0, constraint_rows = 0;
+  int rank = 0;            // of the joint rows at home and along the motion
+  int redundant_rows = 0;  // rows minus rank
+  int mobility = 0;        // 6 bodies - rank
+  int drives = 0;
+  int free_freedoms = 0;  // mobility not taken by drives or a prescribed pose
+  std::vector<ConditioningSample> along;
+  std::vector<LostMotion> lost;       // empty: no singular pose met
+  std::vector<std::string> findings;  // sentences, most serious first
+  bool feasible = true;               // the ideal motion exists from start to end
+};
+
+KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples = 201);
+
+}  // namespace boresight

@@ -1,0 +1,135 @@
+#include "boresight/mechanism/parameter_path.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+// One kind of number within a table, e.g. clearance.JOINT.contact.young: unit and where it lies (two places for pairs).
+template <typename Owner>
+struct Field {
+  const char* name;
+  const char* unit;
+  double* (*place)(Owner&);
+  double* (*second_place)(Owner&) = nullptr;
+};
+
+using C = ClearanceParameters;
+const Field<C> kClearanceFields[] = {
+    {"radial", "m", [](C& c) { return &c.radial; }},
+    {"axial", "m", [](C& c) { return &c.axial; }},
+    {"journal_radius", "m", [](C& c) { return &c.journal_radius; }},
+    {"cap_radius", "m", [](C& c) { return &c.cap_radius; }},
+    {"sleeve_length", "m", [](C& c) { return &c.sleeve_length; }},
+    {"contact.restitution", "1", [](C& c) { return &c.contact.restitution; }},
+    {"contact.young", "Pa", [](C& c) { return &c.contact.young[0]; }, [](C& c) { return &c.contact.young[1]; }},
+    {"contact.poisson", "1", [](C& c) { return &c.contact.poisson[0]; }, [](C& c) { return &c.contact.poisson[1]; }},
+    {"contact.density", "kg/m^3", [](C& c) { return &c.contact.density; }},
+    {"contact.minimum_impact_speed", "m/s", [](C& c) { return &c.contact.minimum_impact_speed; }},
+    {"contact.stiffness_scale", "1", [](C& c) { return &c.contact.stiffness_scale; }},
+    {"contact.stiffness", "N/m", [](C& c) { return &c.contact.linear_stiffness; }},
+    {"contact.damping", "N s/m", [](C& c) { return &c.contact.linear_damping; }},
+    {"friction.coefficient", "1", [](C& c) { return &c.friction.coefficient; }},
+    {"friction.static_speed", "m/s", [](C& c) { return &c.friction.static_speed; }},
+    {"friction.dynamic_speed", "m/s", [](C& c) { return &c.friction.dynamic_speed; }},
+    {"friction.static_coefficient", "1", [](C& c) { return &c.friction.static_coefficient; }},
+    {"friction.stribeck_speed", "m/s", [](C& c) { return &c.friction.stribeck_speed; }},
+    {"friction.bristle_stiffness", "1/m", [](C& c) { return &c.friction.bristle_stiffness; }},
+    {"friction.bristle_damping", "s/m", [](C& c) { return &c.friction.bristle_damping; }},
+    {"friction.viscosity", "s/m", [](C& c) { return &c.friction.viscosity; }},
+};
+
+using S = SpringParameters;
+const Field<S> kSpringFields[] = {
+    {"stiffness", "N/m", [](S& s) { return &s.stiffness; }},
+    {"damping", "N s/m", [](S& s) { return &s.damping; }},
+    {"free_length", "m", [](S& s) { return &s.free_length; }},
+};
+
+// A path that exists: its unit and the numbers it names.
+struct Entry {
+  std::string path, unit;
+  std::vector<std::function<double*(Parameters&)>> numbers;
+};
+
+std::vector<Entry> all_entries(const MechanismDescription& m) {
+  std::vector<Entry> entries;
+  const char* axis[] = {"x", "y", "z"};
+  for (int k = 0; k < 3; ++k)
+    entries.push_back({std::string("gravity.") + axis[k], "m/s^2", {[k](Parameters& p) { return &p.gravity[k]; }}});
+  if (m.payload) entries.push_back({"payload.mass", "kg", {[](Parameters& p) { return &p.payload_mass; }}});
+  for (std::size_t b = 0; b < m.bodies.size(); ++b)
+    entries.push_back({"body." + m.bodies[b].name + ".mass", "kg", {[b](Parameters& p) { return &p.body_mass[b]; }}});
+  for (std::size_t c = 0; c < m.clearances.size(); ++c) {
+    for (const Field<C>& f : kClearanceFields) {
+      Entry e{"clearance." + m.joints[m.clearances[c].joint].name + "." + f.name, f.unit, {}};
+      for (auto place : {f.place, f.second_place})
+        if (place) e.numbers.push_back([c, place](Parameters& p) { return place(p.clearance[c]); });
+      entries.push_back(std::move(e));
+    }
+  }
+  for (std::size_t s = 0; s < m.springs.size(); ++s)
+    for (const Field<S>& f : kSpringFields)
+      entries.push_back({"spring." + std::to_string(s + 1) + "." + f.name,
+                         f.unit,
+                         {[s, place = f.place](Parameters& p) { return place(p.spring[s]); }}});
+  return entries;
+}
+
+// "clearance.*.radial" against "clearance.F1.radial": the middle part may be *. Names may themselves contain dots.
+bool matches(const std::string& pattern, const std::string& path) {
+  const std::size_t star = pattern.find(".*.");
+  if (star == std::string::npos) return pattern == path;
+  const std::string head = pattern.substr(0, star + 1), tail = pattern.substr(star + 2);
+  return path.size() > head.size() + tail.size() && path.starts_with(head) && path.ends_with(tail) &&
+         (head != "clearance." || std::count(tail.begin(), tail.end(), '.') > 1 ||
+          (!path.ends_with(".contact" + tail) && !path.ends_with(".friction" + tail)));
+}
+
+}  // namespace
+
+ParameterPath::ParameterPath(const MechanismDescription& mechanism, const std::string& path, const Origin& origin)
+    : path_(path) {
+  const std::vector<Entry> entries = all_entries(mechanism);
+  for (const Entry& e : entries) {
+    if (!matches(path, e.path)) continue;
+    unit_ = e.unit;
+    numbers_.insert(numbers_.end(), e.numbers.begin(), e.numbers.end());
+  }
+  if (!numbers_.empty()) return;
+  std::vector<std::string> names;
+  for (const Entry& e : entries) names.push_back(e.path);
+  throw InputError(origin, path, "no such parameter", "a parameter path of " + mechanism.name,
+                   nearest_name(path, names));
+}
+
+double ParameterPath::get(const Parameters& parameters) const {
+  // The accessors give a place to write to; reading through a copy keeps this function const in its meaning.
+  Parameters copy = parameters;
+  return *numbers_.front()(copy);
+}
+
+void ParameterPath::set(Parameters& parameters, double value) const {
+  for (const auto& number : numbers_) *number(parameters) = value;
+}
+
+std::vector<std::string> parameter_paths(const MechanismDescription& mechanism) {
+  std::vector<std::string> paths;
+  for (const Entry& e : all_entries(mechanism)) paths.push_back(e.path);
+  return paths;
+}
+
+Parameters nominal_parameters(const MechanismDescription& mechanism) {
+  Parameters p;
+  p.gravity = mechanism.gravity;
+  p.payload_mass = mechanism.payload ? mechanism.payload->mass : 0.0;
+  for (const BodyDescription& b : mechanism.bodies) p.body_mass.push_back(b.mass);
+  for (const ClearanceDescription& c : mechanism.clearances) p.clearance.push_back(c.parameters);
+  for (const SpringDescription& s : mechanism.springs) p.spring.push_back(s.parameters);
+  return p;
+}
+
+}  // namespace boresight

@@ -1,0 +1,184 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "boresight/contact_events/bristle_state.hpp"
+#include "boresight/contact_events/damped_contact.hpp"
+#include "boresight/contact_events/stiffest_contact.hpp"
+#include "boresight/formulations/energy_balance.hpp"
+#include "boresight/integrate/explicit_runge_kutta.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/offset_layout.hpp"
+#include "boresight/multibody/multibody_motion.hpp"
+#include "boresight/multibody/multibody_start.hpp"
+#include "boresight/stepping/measured_error.hpp"
+#include "boresight/stepping/unstable_step.hpp"
+
+namespace boresight {
+namespace {
+
+// Into how many a failed step is divided, to see whether it was too long.
+constexpr int kShorter = 64;
+
+// Whether a contact is deeper than solids are pressed into each other: a tenth of the bore's radius.
+bool sunk(const std::vector<JournalInSleeve>& joints, const std::vector<JournalMotion<double>>& motion) {
+  std::array<ContactState<double>, kContactPlaces> contact;
+  for (std::size_t c = 0; c < joints.size(); ++c) {
+    joints[c].gaps(motion[c], contact);
+    for (const ContactState<double>& place : contact)
+      if (place.penetration > 0.1 * joints[c].bore_radius) return true;
+  }
+  return false;
+}
+
+void accept_contacts(const std::vector<BodyMotion>& bodies, double t, const ForceElements& forces,
+                     std::vector<ContactTracker>& trackers, std::vector<ContactMemory>& memory,
+                     std::vector<JournalMotion<double>>& motion) {
+  std::array<ContactState<double>, kContactPlaces> contact;
+  for (std::size_t c = 0; c < trackers.size(); ++c) {
+    motion[c] = forces.journal_motion(static_cast<int>(c), bodies);
+    forces.joint(static_cast<int>(c)).gaps(motion[c], contact);
+    trackers[c].accept(t, contact);
+    memory[c] = trackers[c].memory();
+  }
+}
+
+void record(const MultibodyMotion& run, Formulation& formulation, const VecX& y, double t,
+            std::vector<ContactTracker>& trackers, MotionRecorder& recorder) {
+  run.record(formulation, y, t, recorder);
+  for (std::size_t c = 0; c < trackers.size(); ++c)
+    trackers[c].observe_forces(formulation.forces().contact(static_cast<int>(c)).contact);
+}
+
+}  // namespace
+
+RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) {
+  const Mechanism& mechanism = run.mechanism;
+  const Parameters& parameters = run.parameters;
+  const RunOptions& options = run.options;
+  const IdealMotion& ideal = run.ideal;
+  const double duration = mechanism.duration();
+  const long steps = std::max(1L, static_cast<long>(std::ceil(duration / wanted_step - 1e-9)));
+  const double h = duration / static_cast<double>(steps);
+  const auto formulation = run.make_formulation();
+  const ForceElements& forces = formulation->forces();
+
+  const OffsetLayout layout(mechanism);
+  std::vector<JournalInSleeve> joints;
+  for (int c = 0; c < forces.clearances(); ++c) joints.push_back(forces.joint(c));
+  std::vector<ContactTracker> trackers = run.make_trackers(forces);
+  std::vector<ContactMemory> memory(trackers.size());
+  std::vector<JournalMotion<double>> motion(trackers.size());
+  MotionRecorder recorder(mechanism, ideal, options, static_cast<double>(steps));
+
+  std::string start_warning;
+  VecX y = multibody_start(mechanism, parameters, ideal, *formulation, start_warning);
+  const BristleState bristles(joints);
+  // Where friction has a state it follows the bodies', which then are a copy of the head of the whole.
+  const Eigen::Index n = y.size();
+  VecX head, head_dot(n);
+  if (!bristles.empty()) y.conservativeResizeLike(VecX::Zero(n + bristles.size()));
+  const auto bodies_of = [&](const VecX& state) -> const VecX& {
+    if (bristles.empty()) return state;
+    head = state.head(n);
+    return head;
+  };
+  ExplicitRungeKutta method(classical_rk4(), y.size());
+  // The energy's balance, by the weights of the method: a step's work is that of its stages.
+  EnergyBalance energy(mechanism, parameters, formulation->bodies(0.0, bodies_of(y)));
+  std::size_t stage = 0;
+  double work = 0.0;
+  const auto add_power = [&](double t, const VecX& state) {
+    // Steps tried again for a diagnosis have no weight.
+    if (stage < classical_rk4().b.size())
+      work += h * classical_rk4().b[stage++] * energy.power(*formulation, formulation->bodies(t, bodies_of(state)));
+  };
+  const auto derivative = [&](double t, const VecX& state, VecX& dy) {
+    if (bristles.empty()) {
+      formulation->derivative(t, state, memory, dy);
+      return add_power(t, state);
+    }
+    bristles.hand_over(state.tail(bristles.size()), h, memory);
+    formulation->derivative(t, bodies_of(state), memory, head_dot);
+    dy.head(n) = head_dot;
+    bristles.rates([&](std::size_t c) -> const Bristles<double>& { return forces.bristle_rate(static_cast<int>(c)); },
+                   dy.tail(bristles.size()));
+    add_power(t, state);
+  };
+
+  const auto advance = [&](double t, double step, VecX& state) {
+    method.step(t, step, state, derivative);
+    if (bristles.empty()) return formulation->settle(t + step, state);
+    head = state.head(n);
+    formulation->settle(t + step, head);
+    state.head(n) = head;
+  };
+
+  double drift = 0.0;
+  VecX before;
+  MatX compliance;
+  DampingWatch damping(mechanism, h, classical_rk4().real_limit);
+  long compliance_age = 0;
+  // The compliance changes with the pose only: fifty times along the motion is often enough.
+  const long compliance_every = std::max(1L, steps / 50);
+  bool interrupted = false;
+  for (long i = 0;; ++i) {
+    const double t = static_cast<double>(i) * h;
+    if (!y.allFinite()) throw UnstableStep("the state is not finite", t, h);
+    accept_contacts(formulation->bodies(t, bodies_of(y)), t, forces, trackers, memory, motion);
+    bristles.release(memory, y.tail(bristles.size()));
+    energy.add_work(work);
+    work = 0.0;
+    stage = 0;
+    derivative(t, y, method.first_slope());
+    energy.look(formulation->bodies(t, bodies_of(y)));
+    drift = std::max(drift, formulation->violation());
+    record(run, *formulation, bodies_of(y), t, trackers, recorder);
+    if (std::any_of(trackers.begin(), trackers.end(), [](const ContactTracker& c) { return c.touching(); })) {
+      if (compliance.size() == 0 || i - compliance_age >= compliance_every) {
+        compliance = formulation->offset_compliance();
+        compliance_age = i;
+        damping.look(t, layout, joints, motion, trackers, compliance);
+      }
+      const StiffestContact stiffest = stiffest_contact(layout, joints, motion, compliance);
+      if (h * stiffest.angular_frequency > classical_rk4().real_limit) throw UnstableStep(mechanism, stiffest, t, h);
+    }
+    if (i == steps) break;
+    if (options.progress && i % 256 == 0 && !options.progress({t, duration, recorder.position_error_max()})) {
+      interrupted = true;
+      break;
+    }
+    before = y;
+    try {
+      advance(t, h, y);
+    } catch (const ComputationError&) {
+      // A pose that short steps from the same state pass as well, or one that is met with journals deep in their sleeves,
+      // comes of the step.
+      if (sunk(joints, motion)) throw UnstableStep("a journal deep in its sleeve", t, h);
+      for (int k = 0; k < kShorter; ++k) {
+        const double within = t + k * h / kShorter;
+        derivative(within, before, method.first_slope());
+        advance(within, h / kShorter, before);
+      }
+      throw UnstableStep("shorter steps go on from there", t, h);
+    }
+  }
+
+  RunResult result = recorder.finish();
+  if (!start_warning.empty()) result.warnings.push_back(start_warning);
+  if (const std::string warning = damping.warning(); !warning.empty()) result.warnings.push_back(warning);
+  result.damped_beyond_steps = damping.beyond();
+  run.complete(result, trackers);
+  char text[60];
+  std::snprintf(text, sizeof text, "RK4, h = %.6g s", h);
+  result.integrator = text;
+  result.constraint_drift = drift;
+  result.energy_error = energy.error();
+  result.error = {0.0, kNotMeasured, ""};
+  result.interrupted = interrupted;
+  result.cost.steps = steps;
+  result.cost.evaluations = 4 * steps + 1;
+  return result;
+}
+
+}  // namespace boresight

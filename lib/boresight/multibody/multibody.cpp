@@ -1,0 +1,101 @@
+#include "boresight/multibody/multibody.hpp"
+
+#include <chrono>
+#include <mutex>
+#include <utility>
+
+#include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/multibody/multibody_motion.hpp"
+#include "boresight/rungs/cpu_clock.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/rungs/option_check.hpp"
+#include "boresight/scene/held_play.hpp"
+#include "boresight/scene/scene_rung.hpp"
+#include "boresight/stepping/default_integrator.hpp"
+#include "boresight/stepping/own_step.hpp"
+
+namespace boresight {
+namespace {
+
+class Multibody final : public Rung {
+ public:
+  explicit Multibody(std::shared_ptr<const Mechanism> mechanism) : mechanism_(std::move(mechanism)) {}
+
+  std::string name() const override { return kMultibody; }
+  std::string leaves_out() const override {
+    return "Bodies are rigid and joints without clearance are perfect; contacts are points with a dissipative Hertz "
+           "law.";
+  }
+
+  RunResult run(const Parameters& parameters, const RunOptions& options) const override {
+    check_options(options, name(), *mechanism_, parameters);
+    const auto wall = std::chrono::steady_clock::now();
+    const double cpu = thread_cpu_seconds();
+    const std::shared_ptr<const IdealMotion> held_ideal = ideal_for(parameters);
+    const IdealMotion& ideal = *held_ideal;
+
+    const std::string integrator = integrator_of(options);
+    RunResult result;
+    if (MultibodyMotion{*mechanism_, parameters, options, ideal}.make_formulation()->state_size() == 0) {
+      result = motion_without_play(*mechanism_, ideal, parameters, options);
+      result.rung = name();
+      result.formulation = "tree";
+    } else if (integrator != "rk4") {
+      result = follow_locating_contacts({*mechanism_, parameters, options, ideal}, integrator);
+    } else {
+      const double own = options.step > 0.0 ? options.step : own_step(*mechanism_, parameters, ideal);
+      result = follow_by_default(
+          options, own,
+          [&](const RunOptions& by_steps, double step) {
+            return follow_in_fixed_steps({*mechanism_, parameters, by_steps, ideal}, step);
+          },
+          [&](const RunOptions& located) {
+            check_options(located, name(), *mechanism_, parameters);
+            return follow_locating_contacts({*mechanism_, parameters, located, ideal}, located.integrator);
+          });
+    }
+    const std::vector<std::string>& held = held_by_others(ideal);
+    result.warnings.insert(result.warnings.begin(), held.begin(), held.end());
+    result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
+    result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+    return result;
+  }
+
+ private:
+  // The last one is kept: a simulated one costs as much as a run, and further runs of the same parameters ask for it again.
+  std::shared_ptr<const IdealMotion> ideal_for(const Parameters& parameters) const {
+    std::call_once(once_, [this] { kinematic_ = is_kinematic(*mechanism_); });
+    {
+      const std::lock_guard lock(ideal_mutex_);
+      if (ideal_ && (kinematic_ || same_scene(ideal_parameters_, parameters))) return ideal_;
+      if (kinematic_) return ideal_ = std::make_shared<const IdealMotion>(ideal_motion(*mechanism_, parameters));
+    }
+    auto simulated = std::make_shared<const IdealMotion>(ideal_motion(*mechanism_, parameters));
+    const std::lock_guard lock(ideal_mutex_);
+    ideal_ = simulated;
+    ideal_parameters_ = parameters;
+    return simulated;
+  }
+
+  // Sentences on plays that cannot move: of the mechanism, whatever the parameters.
+  const std::vector<std::string>& held_by_others(const IdealMotion& ideal) const {
+    std::call_once(held_once_, [&] { held_ = held_plays(*mechanism_, ideal); });
+    return held_;
+  }
+
+  std::shared_ptr<const Mechanism> mechanism_;
+  mutable std::once_flag once_, held_once_;
+  mutable std::vector<std::string> held_;
+  mutable bool kinematic_ = false;
+  mutable std::mutex ideal_mutex_;
+  mutable std::shared_ptr<const IdealMotion> ideal_;
+  mutable Parameters ideal_parameters_;
+};
+
+}  // namespace
+
+std::unique_ptr<Rung> make_multibody(std::shared_ptr<const Mechanism> mechanism) {
+  return std::make_unique<Multibody>(std::move(mechanism));
+}
+
+}  // namespace boresight

@@ -1,0 +1,254 @@
+#include "boresight/multibody/multibody_start.hpp"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/scene/clearance_scene.hpp"
+#include "boresight/scene/rest_search.hpp"
+#include "boresight/scene/resting_start.hpp"
+
+namespace boresight {
+namespace {
+
+// Steps of the journals, over their clearances: shorter ones are rounding.
+constexpr double kRounding = 1e-12;
+constexpr int kMostSteps = 40;
+// A step this many times the shortest leads away.
+constexpr double kAstray = 100.0;
+
+std::vector<BodyMotion> displaced_bodies(const ClearanceScene::Start& scene, const VecX& z, const VecX& z_rate) {
+  std::vector<BodyMotion> bodies = scene.ideal.bodies;
+  const VecX by = scene.T * z, rate = scene.T_rate * z + scene.T * z_rate;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto at = static_cast<Eigen::Index>(6 * b);
+    const Vec3 w = bodies[b].w;
+    displace(bodies[b], by.segment<6>(at));
+    bodies[b].v += rate.segment<3>(at);
+    // Of R = exp(theta) R_ideal, to first order in theta.
+    bodies[b].w += rate.segment<3>(at + 3) + by.segment<3>(at + 3).cross(w);
+  }
+  return bodies;
+}
+
+// T^T M (vdot - vdot_ideal), the masses with what they carry.
+VecX unbalanced(const ClearanceScene::Start& scene, const std::vector<MassProperties>& mass,
+                const std::vector<BodyAcceleration>& acceleration) {
+  VecX load = VecX::Zero(scene.T.cols());
+  for (std::size_t b = 0; b < mass.size(); ++b) {
+    const Mat3& R = scene.ideal.bodies[b].R;
+    const Vec6 difference = acceleration[b] - scene.ideal.acceleration[b];
+    const Vec3 alpha = difference.tail<3>(), c = R * mass[b].c;
+    Vec6 wrench;
+    wrench.head<3>() = mass[b].mass * (difference.head<3>() + alpha.cross(c));
+    wrench.tail<3>() = R * (mass[b].inertia * (R.transpose() * alpha)) + c.cross(Vec3(wrench.head<3>()));
+    load += scene.T.middleRows<6>(static_cast<Eigen::Index>(6 * b)).transpose() * wrench;
+  }
+  return load;
+}
+
+// The contacts elastic and without friction, until the end of its life.
+class ElasticOnly {
+ public:
+  ElasticOnly(ForceElements& forces, const std::vector<JournalInSleeve>& laws) : forces_(forces) {
+    for (int c = 0; c < forces_.clearances(); ++c) {
+      own_.push_back(forces_.joint(c));
+      forces_.act(c, laws[static_cast<std::size_t>(c)]);
+    }
+  }
+  ~ElasticOnly() {
+    for (int c = 0; c < forces_.clearances(); ++c) forces_.act(c, own_[static_cast<std::size_t>(c)]);
+  }
+  ElasticOnly(const ElasticOnly&) = delete;
+  ElasticOnly& operator=(const ElasticOnly&) = delete;
+
+ private:
+  ForceElements& forces_;
+  std::vector<JournalInSleeve> own_;
+};
+
+// The journals' balance on the mechanism's own geometry, as a function of where they are sent.
+class ExactBalance {
+ public:
+  ExactBalance(const Mechanism& mechanism, const Parameters& parameters, const ClearanceScene::Start& scene,
+               const RestingBalance& balance, Formulation& formulation)
+      : scene_(scene),
+        balance_(balance),
+        formulation_(formulation),
+        mass_(mechanism.mass_properties(parameters)),
+        memory_(static_cast<std::size_t>(mechanism.clearances())),
+        journals_(memory_.size()),
+        rate_(formulation.state_size()) {}
+
+  // What is left unbalanced with the journals sent to z, the bodies moving as they start: with coordinates that stand still, they would
+  // move otherwise in another drawing.
+  VecX left(const VecX& z) {
+    place(z, state_);
+    formulation_.derivative(0.0, state_, memory_, rate_);
+    for (std::size_t c = 0; c < journals_.size(); ++c) journals_[c] = formulation_.forces().motion(static_cast<int>(c));
+    return balance_.balanceable(unbalanced(scene_, mass_, formulation_.acceleration()));
+  }
+  // Of the last left(): its change with the offsets, were these where they are sent to.
+  MatX stiffness() const { return balance_.stiffness_at(journals_); }
+  double length(const VecX& dz) const { return balance_.length(dz); }
+  const MatX& unit() const { return balance_.unit(); }
+  VecX step(const MatX& by_z, const VecX& left) const { return balance_.correction(by_z, left); }
+
+  void place(const VecX& offsets, VecX& y) {
+    const VecX z = balance_.completed(offsets);
+    formulation_.place_bodies(displaced_bodies(scene_, z, scene_.numbers.rates * z), y);
+    formulation_.close_joints(0.0, y);
+  }
+
+ private:
+  const ClearanceScene::Start& scene_;
+  const RestingBalance& balance_;
+  Formulation& formulation_;
+  std::vector<MassProperties> mass_;
+  std::vector<ContactMemory> memory_;
+  std::vector<JournalMotion<double>> journals_;
+  VecX state_, rate_;
+};
+
+// Newton's method with the offsets' own stiffness: a few steps, where the pose is all but linear in the offsets. Returns the length of
+// the last step.
+double rest_nearly_linear(ExactBalance& exact, VecX& z) {
+  VecX at = z;
+  // What no place of the journals balances is left to the motion: steps are judged by their length.
+  double least = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kMostSteps; ++step) {
+    const VecX left = exact.left(at), dz = exact.step(exact.stiffness(), left);
+    const double length = exact.length(dz);
+    if (length < least) {
+      least = length;
+      z = at;
+    }
+    if (length <= kRounding || !(length < kAstray * least)) break;
+    at += dz;
+  }
+  return least;
+}
+
+// Follows the rest as all clearances grow together from next to nothing, where the pose is linear in them: from there each rest is near the
+// one before, and no search among contacts is asked for. Returns the length of the last step at full clearances; infinity where the way ends
+// before (the rest snaps over).
+double rest_as_clearances_grow(const Mechanism& mechanism, const Parameters& parameters,
+                               const ClearanceScene::Start& scene, Formulation& formulation, VecX& z) {
+  constexpr double kFirst = 1.0 / 256.0, kFastest = 2.0, kSlowest = 1.02;
+  const auto rest_at = [&](double share, VecX* from) {
+    Parameters narrowed = parameters;
+    for (ClearanceParameters& c : narrowed.clearance) {
+      c.radial *= share;
+      c.axial *= share;
+    }
+    const RestingBalance balance(scene.layout, scene.numbers.row.data(),
+                                 clearance_joints(mechanism.description(), narrowed));
+    if (!from) {
+      const RestingStart linear = balance.solve();
+      if (!linear.refusal.empty()) return std::numeric_limits<double>::infinity();
+      z = linear.z;
+    } else {
+      z = *from;
+    }
+    const ElasticOnly elastic(formulation.forces(), balance.joints());
+    ExactBalance exact(mechanism, parameters, scene, balance, formulation);
+    return rest_nearly_linear(exact, z);
+  };
+  double share = kFirst, growth = kFastest, length = rest_at(share, nullptr);
+  if (!(length <= kAcceptableRest)) return std::numeric_limits<double>::infinity();
+  while (share < 1.0) {
+    const double next = std::min(1.0, growth * share);
+    const VecX before = z;
+    VecX from = before * (next / share);
+    try {
+      length = rest_at(next, &from);
+    } catch (const ComputationError&) {
+      length = std::numeric_limits<double>::infinity();
+    }
+    if (length <= kAcceptableRest) {
+      share = next;
+      growth = std::min(kFastest, growth * growth);
+      continue;
+    }
+    z = before;
+    growth = std::sqrt(growth);
+    if (growth < kSlowest) return std::numeric_limits<double>::infinity();
+  }
+  return length;
+}
+
+}  // namespace
+
+RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
+  const ClearanceScene::Start scene = ClearanceScene::at_start(mechanism, ideal, parameters);
+  RestingBodies resting;
+  if (scene.layout.n == 0) return resting;
+  // Whatever formulation follows the motion, it starts from the same place. This one closes joints by the bodies' least motion, whatever
+  // order they are listed in; a tree of them closes its loops where it happens to be cut.
+  const std::unique_ptr<Formulation> formulation = make_paper_formulation(mechanism, parameters, &ideal, {});
+  VecX y;
+  formulation->start(scene.ideal, y);
+  std::vector<JournalInSleeve> joints;
+  for (int c = 0; c < formulation->forces().clearances(); ++c) joints.push_back(formulation->forces().joint(c));
+  const RestingBalance balance(scene.layout, scene.numbers.row.data(), joints);
+  const RestingStart rest = balance.solve();
+  if (!rest.refusal.empty()) {
+    resting.refusal = rest.refusal;
+    return resting;
+  }
+  resting.linear = scene.T * rest.z;
+  const ElasticOnly elastic(formulation->forces(), balance.joints());
+  ExactBalance exact(mechanism, parameters, scene, balance, *formulation);
+  VecX z = rest.z;
+  double length = rest_nearly_linear(exact, z);
+  if (!(length <= kSettledRest)) {
+    VecX other;
+    if (const double grown = rest_as_clearances_grow(mechanism, parameters, scene, *formulation, other);
+        grown < length) {
+      z = other;
+      length = grown;
+    }
+  }
+  // From where the linear balance is, or where that lies beyond what the pose bends by, from nearer to the middle of the sleeves.
+  for (double share : {1.0, 0.5, 0.25, 0.0}) {
+    if (length <= kSettledRest) break;
+    VecX other = share * rest.z;
+    const double other_length = search_rest([&](const VecX& at) { return exact.left(at); }, exact.unit(), other);
+    if (other_length < length) {
+      z = other;
+      length = other_length;
+    }
+  }
+  if (!(length <= kAcceptableRest)) {
+    resting.refusal =
+        "no position was found in which the journals' contacts carry the loads of t = 0 on the mechanism's own "
+        "geometry, which bends within the clearances";
+    return resting;
+  }
+  exact.place(z, y);
+  resting.exact = formulation->bodies(0.0, y);
+  return resting;
+}
+
+VecX multibody_start(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal,
+                     Formulation& formulation, std::string& warning) {
+  IdealState start;
+  ideal.state(0.0, start);
+  VecX y;
+  formulation.start(start, y);
+  if (formulation.forces().clearances() == 0 || mechanism.description().journals == JournalStart::centred) return y;
+  try {
+    const RestingBodies resting = resting_bodies(mechanism, parameters, ideal);
+    if (!resting.refusal.empty()) warning = centred_for_want_of(resting.refusal);
+    if (resting.exact.empty()) return y;
+    formulation.place_bodies(resting.exact, y);
+    formulation.close_joints(0.0, y);
+  } catch (const ComputationError& failure) {
+    warning = centred_for_want_of(failure.what());
+    formulation.start(start, y);
+  }
+  return y;
+}
+
+}  // namespace boresight

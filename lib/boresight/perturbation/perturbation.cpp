@@ -1,0 +1,266 @@
+#include "boresight/perturbation/perturbation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "boresight/contact_events/damped_contact.hpp"
+#include "boresight/integrate/explicit_runge_kutta.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/perturbation/perturbation_system.hpp"
+#include "boresight/perturbation/second_order.hpp"
+#include "boresight/rungs/motion_recorder.hpp"
+#include "boresight/rungs/option_check.hpp"
+#include "boresight/rungs/start_up.hpp"
+#include "boresight/scene/scene_rung.hpp"
+#include "boresight/stepping/default_integrator.hpp"
+#include "boresight/stepping/located_motion.hpp"
+#include "boresight/stepping/measured_error.hpp"
+#include "boresight/stepping/motion_scales.hpp"
+#include "boresight/stepping/own_step.hpp"
+#include "boresight/stepping/unstable_step.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr const char* kBasis =
+    "the largest deviations made exactly, by closing the joints around them: how their pose, and what pushes the "
+    "journals there, "
+    "differ from the linear ones";
+
+class Perturbation final : public SceneRung {
+ public:
+  explicit Perturbation(std::shared_ptr<const Mechanism> mechanism) : SceneRung(std::move(mechanism)) {}
+
+  std::string name() const override { return "perturbation"; }
+  std::string leaves_out() const override {
+    return "The deviation from the ideal motion is linear in the joint offsets: how the pose, the masses and the "
+           "reactions "
+           "change with the offset itself is left out, which grows with clearance over link length and near singular "
+           "poses.";
+  }
+
+ private:
+  RunResult follow(const PreparedScene& prepared, const Parameters& parameters,
+                   const RunOptions& options) const override {
+    const std::string integrator = integrator_of(options);
+    if (integrator != "rk4") return integrate_located(prepared, parameters, options, integrator);
+    const double own = options.step > 0.0 ? options.step : own_step(mechanism(), parameters, prepared.ideal());
+    return follow_by_default(
+        options, own,
+        [&](const RunOptions& by_steps, double step) { return integrate(prepared, parameters, by_steps, step); },
+        [&](const RunOptions& located) {
+          check_options(located, name(), mechanism(), parameters);
+          return integrate_located(prepared, parameters, located, located.integrator);
+        });
+  }
+
+  RunResult integrate(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options,
+                      double wanted) const {
+    const Mechanism& mechanism = this->mechanism();
+    PerturbationSystem system(mechanism, parameters, prepared.tables(parameters), options.events, options.start);
+    const OffsetLayout& offsets = prepared.scene().offsets();
+    const SceneLayout& at = system.layout();
+    const double duration = mechanism.duration();
+    const auto derivative = [&](double t, const VecX& state, VecX& dy) { system.derivative(t, state, dy); };
+
+    const long steps = std::max(1L, static_cast<long>(std::ceil(duration / wanted - 1e-9)));
+    const double h = duration / static_cast<double>(steps);
+    MotionRecorder recorder(mechanism, prepared.ideal(), options, static_cast<double>(steps));
+    std::string start_warning;
+    VecX y = system.start_state(mechanism, options.start_offset, start_warning);
+    ExplicitRungeKutta method(classical_rk4(), system.size());
+    system.set_step(h);
+    const double limit = classical_rk4().real_limit;
+    bool interrupted = false;
+    MatX compliance;
+    DampingWatch damping(mechanism, h, limit);
+    const long damping_every = std::max(1L, steps / 50);
+    LargestDeviations largest(duration);
+    for (long i = 0;; ++i) {
+      const double t = static_cast<double>(i) * h;
+      if (!y.allFinite()) throw UnstableStep("the deviation is not finite", t, h);
+      system.accept(t, y);
+      derivative(t, y, method.first_slope());
+      for (std::size_t c = 0; c < system.trackers().size(); ++c)
+        system.trackers()[c].observe_forces(system.wrench()[c].contact);
+      if (system.touching()) {
+        offset_compliance(at, offsets, system.row(), compliance);
+        const double bound = stiffest_contact_bound(offsets, system.joints(), system.motion(), compliance);
+        if (h * h * bound > limit * limit) {
+          const StiffestContact stiffest = stiffest_contact(offsets, system.joints(), system.motion(), compliance);
+          if (h * stiffest.angular_frequency > limit) throw UnstableStep(mechanism, stiffest, t, h);
+        }
+        if (i % damping_every == 0)
+          damping.look(t, offsets, system.joints(), system.motion(), system.trackers(), compliance);
+      }
+      record(prepared, t, y, method.first_slope(), system, recorder, largest);
+      if (i == steps) break;
+      if (options.progress && i % 4096 == 0 && !options.progress({t, duration, recorder.position_error_max()})) {
+        interrupted = true;
+        break;
+      }
+      method.step(t, h, y, derivative);
+    }
+
+    RunResult result = recorder.finish();
+    char text[60];
+    std::snprintf(text, sizeof text, "RK4, h = %.6g s", h);
+    result.integrator = text;
+    if (!start_warning.empty()) result.warnings.push_back(start_warning);
+    if (const std::string warning = damping.warning(); !warning.empty()) result.warnings.push_back(warning);
+    result.damped_beyond_steps = damping.beyond();
+    finish_contacts(system, result);
+    result.interrupted = interrupted;
+    result.error = {second_order_share(this->mechanism(), prepared, parameters, largest), kNotMeasured, kBasis};
+    result.cost.steps = steps;
+    result.cost.evaluations = 4 * steps + 1;
+    return result;
+  }
+
+  RunResult integrate_located(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options,
+                              const std::string& integrator) const {
+    const double duration = mechanism().duration();
+    PerturbationSystem system(mechanism(), parameters, prepared.tables(parameters), options.events, options.start);
+    MotionRecorder recorder(mechanism(), prepared.ideal(), options, 2.0 * duration / kPaperStep);
+    std::string start_warning;
+    VecX y = system.start_state(mechanism(), options.start_offset, start_warning), slope = y;
+    LargestDeviations largest(duration);
+    bool interrupted = false;
+    long points = 0;
+    system.start_located(0.0, y);
+    const IntegrationSummary summary = follow_located(
+        integrator, system, duration, options.sample_spacing, y,
+        integration_options(prepared, system, parameters, options),
+        [&](double t, const VecX& state, bool) {
+          system.derivative(t, state, slope);
+          system.observe(t);
+          record(prepared, t, state, slope, system, recorder, largest);
+          interrupted = ++points % 4096 == 0 && options.progress &&
+                        !options.progress({t, duration, recorder.position_error_max()});
+          return !interrupted;
+        },
+        [](const auto&) {});
+    RunResult result = recorder.finish();
+    report_integration(options, name(), integrator, summary, result);
+    if (!start_warning.empty()) result.warnings.push_back(start_warning);
+    finish_contacts(system, result);
+    result.interrupted = interrupted;
+    result.error = {second_order_share(this->mechanism(), prepared, parameters, largest), kNotMeasured, kBasis};
+    return result;
+  }
+
+  static void finish_contacts(PerturbationSystem& system, RunResult& result) {
+    for (ContactTracker& tracker : system.trackers())
+      result.contact.push_back(tracker.finish(result.end_time, result.events));
+    std::stable_sort(result.events.begin(), result.events.end(),
+                     [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
+    note_start_up(result);
+  }
+
+  // Coordinates are offsets, or slopes of journals: these are held to the tolerance at the sleeve's ends.
+  IntegrationOptions integration_options(const PreparedScene& prepared, const PerturbationSystem& system,
+                                         const Parameters& parameters, const RunOptions& options) const {
+    const SceneLayout& at = system.layout();
+    const double asked = tolerance_of(options, name());
+    const double clearance = smallest_clearance(parameters);
+    const double length = clearance > 0.0 ? clearance : 1e-6 * mechanism().characteristic_length();
+    VecX tolerance = VecX::Constant(at.n, asked * length);
+    for (std::size_t c = 0; c < at.joints.size(); ++c)
+      for (int k = 3; k < at.joints[c].offsets; ++k)
+        if (at.joints[c].source[k] >= 0)
+          tolerance[at.joints[c].source[k]] = asked * length / system.joints()[c].half_length;
+    double slowest_impact = std::numeric_limits<double>::infinity();
+    for (const JournalInSleeve& joint : system.joints())
+      slowest_impact = std::min(slowest_impact, joint.minimum_impact_speed);
+    const MotionScales scales = scales_of(prepared, system, parameters);
+    IntegrationOptions integration;
+    integration.step = options.step;
+    if (clearance > 0.0) integration.most_error = most_error(asked);
+    integration.relative_tolerance = 0.0;
+    integration.absolute_tolerances.resize(2 * at.n);
+    integration.absolute_tolerances << tolerance, tolerance / scales.flight_time;
+    scales.apply(mechanism().duration(), slowest_impact, integration);
+    integration.largest_step *= options.share_of_longest_step;
+    return integration;
+  }
+
+  MotionScales scales_of(const PreparedScene& prepared, const PerturbationSystem& system,
+                         const Parameters& parameters) const {
+    constexpr int kInstants = 41;
+    const SceneLayout& at = system.layout();
+    const std::size_t n = at.joints.size();
+    std::vector<double> square(n, 0.0), largest(n, 0.0), row(prepared.tables(parameters)->dynamics.width());
+    for (int i = 0; i < kInstants; ++i) {
+      prepared.tables(parameters)->dynamics.at(mechanism().duration() * i / (kInstants - 1), row.data());
+      for (std::size_t c = 0; c < n; ++c) {
+        double sum = 0.0;
+        for (int k = 0; k < std::min(3, at.joints[c].offsets); ++k)
+          if (const int source = at.joints[c].source[k]; source >= 0) sum += row[at.Ar + source] * row[at.Ar + source];
+        square[c] += sum / kInstants;
+        largest[c] = std::max(largest[c], std::sqrt(sum));
+      }
+    }
+    MotionScales scales;
+    for (std::size_t c = 0; c < n; ++c)
+      scales.add_joint(parameters.clearance[c].radial, parameters.clearance[c].axial, std::sqrt(square[c]), largest[c]);
+    scales.own_time = prepared.own_time();
+    scales.close(mechanism().duration());
+    return scales;
+  }
+
+  // How forces on the offsets accelerate the offsets: B A B^T, with B picking coordinates where offsets are such.
+  static void offset_compliance(const SceneLayout& at, const OffsetLayout& offsets, const double* row,
+                                MatX& compliance) {
+    compliance.setZero(offsets.size(), offsets.size());
+    bool dependent = false;
+    for (int c = 0; c < offsets.clearances(); ++c) dependent = dependent || at.joints[c].has_dependent;
+    if (!dependent) {
+      for (int c = 0; c < offsets.clearances(); ++c)
+        for (int i = 0; i < at.joints[c].offsets; ++i)
+          for (int d = 0; d < offsets.clearances(); ++d)
+            for (int j = 0; j < at.joints[d].offsets; ++j)
+              if (at.joints[c].source[i] >= 0 && at.joints[d].source[j] >= 0)
+                compliance(offsets.joint(c).first + i, offsets.joint(d).first + j) =
+                    row[at.inverse_mass(at.joints[c].source[i], at.joints[d].source[j])];
+      return;
+    }
+    MatX B = MatX::Zero(offsets.size(), at.n);
+    for (int c = 0; c < offsets.clearances(); ++c)
+      for (int i = 0; i < at.joints[c].offsets; ++i) {
+        const int source = at.joints[c].source[i], to = offsets.joint(c).first + i;
+        if (source >= 0) B(to, source) = 1.0;
+        if (source == DeviationCoordinates::kDependent)
+          B.row(to) = Eigen::Map<const Eigen::RowVectorXd>(row + at.joints[c].dependent + i * at.n, at.n);
+      }
+    MatX A;
+    at.inverse_mass(row, A);
+    compliance = B * A * B.transpose();
+  }
+
+  void record(const PreparedScene& prepared, double t, const VecX& y, const VecX& slope,
+              const PerturbationSystem& system, MotionRecorder& recorder, LargestDeviations& largest) const {
+    const Eigen::Index n = system.layout().n;
+    const DisplacedBodies displaced(prepared, t, y.head(n));
+    BodyAcceleration a;
+    BodyMotion body = displaced.moving(mechanism().boresight_body(), y.segment(n, n), slope.segment(n, n), a);
+    const PoseError& error = recorder.accept(t, body, a);
+    largest.add(t, std::max(error.position / mechanism().characteristic_length(), error.orientation), y.head(n));
+    if (!recorder.sampling()) return;
+    for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {
+      body = displaced.moving(recorder.bodies_wanted()[k], y.segment(n, n), slope.segment(n, n), a);
+      recorder.sample_body(static_cast<int>(k), body, a);
+    }
+    for (std::size_t c = 0; c < system.motion().size(); ++c)
+      recorder.sample_clearance(static_cast<int>(c), system.motion()[c], system.wrench()[c].contact);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Rung> make_perturbation(std::shared_ptr<const Mechanism> mechanism) {
+  return std::make_unique<Perturbation>(std::move(mechanism));
+}
+
+}  // namespace boresight

@@ -1,0 +1,195 @@
+#include "boresight/perturbation/perturbation_system.hpp"
+
+#include <algorithm>
+
+#include "boresight/contact_events/contact_jacobian.hpp"
+#include "boresight/scene/offset_dynamics.hpp"
+#include "boresight/scene/resting_start.hpp"
+
+namespace boresight {
+namespace {
+
+std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::vector<JournalInSleeve>& joints,
+                                        bool keep_events, double start) {
+  std::vector<ContactTracker> trackers;
+  const MechanismDescription& m = mechanism.description();
+  for (int c = 0; c < mechanism.clearances(); ++c)
+    trackers.emplace_back(c, m.joints[m.clearances[c].joint].name, joints[c], keep_events, start);
+  return trackers;
+}
+
+// How the numbers of a joint's motion follow the state: kMotionNumbers x 2n; what journal_motion() computes, without
+// its constants.
+void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const double* scene, MatX& gain) {
+  const int n = at.n;
+  gain.setZero();
+  for (int k = 0; k < joint.offsets; ++k) {
+    const int value = k < 3 ? k : 6 + k, rate = k < 3 ? 3 + k : 8 + k;
+    const int source = joint.source[k];
+    if (source >= 0) {
+      gain(value, source) = gain(rate, n + source) = 1.0;
+    } else if (source == DeviationCoordinates::kDependent) {
+      const double *B = scene + joint.dependent + k * n, *B_rate = B + joint.offsets * n;
+      for (int j = 0; j < n; ++j) {
+        gain(value, j) = gain(rate, n + j) = B[j];
+        gain(rate, j) = B_rate[j];
+      }
+    } else {
+      for (int j = 0; j < n; ++j) gain(rate, n + j) = scene[joint.slide_gain + j];
+      for (int j = 0; joint.gains_move && j < n; ++j) gain(rate, j) = scene[joint.slide_drift + j];
+    }
+  }
+  for (int i = 0; i < joint.spins; ++i)
+    for (int j = 0; j < n; ++j) {
+      const int spin = 6 + (joint.tilts ? i : 1);
+      gain(spin, n + j) = scene[joint.spin_gain + i * n + j];
+      if (joint.gains_move) gain(spin, j) = scene[joint.spin_drift + i * n + j];
+    }
+}
+
+}  // namespace
+
+PerturbationSystem::PerturbationSystem(const Mechanism& mechanism, const Parameters& parameters,
+                                       std::shared_ptr<const SceneTables> tables, bool keep_events, double start)
+    : tables_(std::move(tables)),
+      joints_(clearance_joints(mechanism.description(), parameters)),
+      trackers_(trackers_of(mechanism, joints_, keep_events, start)),
+      bristles_(joints_),
+      contacts_(joints_, trackers_),
+      motion_(joints_.size()),
+      wrench_(joints_.size()),
+      memory_(joints_.size()),
+      bristle_rate_(joints_.size()),
+      row_(tables_->dynamics.width()),
+      force_(VecX::Zero(tables_->layout.n)),
+      gain_(kMotionNumbers, size()),
+      virtual_gain_(6, tables_->layout.n),
+      force_gradient_(tables_->layout.n, size()) {}
+
+VecX PerturbationSystem::start_state(const Mechanism& mechanism, double offset, std::string& warning) const {
+  VecX y = VecX::Zero(size());
+  y.head(2 * tables_->layout.n) = start_coordinates(mechanism, tables_->layout, tables_->start, joints_, warning);
+  y.head(tables_->layout.n).array() += offset;
+  return y;
+}
+
+bool PerturbationSystem::touching() const {
+  return std::any_of(trackers_.begin(), trackers_.end(), [](const ContactTracker& c) { return c.touching(); });
+}
+
+// Two stages of a step share their time, and so do a step's end and the next one's start.
+void PerturbationSystem::scene_at(double t) const {
+  if (t == row_time_) return;
+  tables_->dynamics.at(t, row_.data());
+  row_time_ = t;
+}
+
+void PerturbationSystem::derivative(double t, const VecX& y, VecX& dy) const {
+  scene_at(t);
+  const SceneLayout& at = tables_->layout;
+  const double *z = y.data(), *rate = z + at.n;
+  bristles_.hand_over(y.tail(bristles_.size()), step_, memory_);
+  force_.setZero();
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    motion_[c] = journal_motion(at, at.joints[c], row_.data(), z, rate);
+    const bool free = located_ && !contacts_.touches(static_cast<int>(c));
+    if (free) {
+      joints_[c].gaps(motion_[c], wrench_[c].contact);
+      continue;
+    }
+    const JournalInSleeve& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
+    if (law.sticks)
+      law.wrench(motion_[c], trackers_[c].memory().impact_speed, memory_[c].bristle, wrench_[c], bristle_rate_[c],
+                 memory_[c].largest_bristle_rate);
+    else
+      law.wrench(motion_[c], trackers_[c].memory().impact_speed, wrench_[c]);
+    add_generalised_force(at, at.joints[c], row_.data(), motion_[c], wrench_[c], force_.data());
+  }
+  std::copy(rate, rate + at.n, dy.data());
+  coordinate_acceleration(at, row_.data(), z, rate, force_.data(), dy.data() + at.n);
+  bristles_.rates([&](std::size_t c) -> const Bristles<double>& { return bristle_rate_[c]; },
+                  dy.tail(bristles_.size()));
+}
+
+void PerturbationSystem::jacobian(double t, const VecX& y, MatX& J) const {
+  scene_at(t);
+  const SceneLayout& at = tables_->layout;
+  const int n = at.n;
+  const double* scene = row_.data();
+  force_gradient_.setZero();
+  ContactJacobian of_motion;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    if (located_ && !contacts_.touches(static_cast<int>(c))) continue;
+    const SceneLayout::Joint& joint = at.joints[c];
+    const JournalMotion<double> motion = journal_motion(at, joint, scene, y.data(), y.data() + n);
+    const JournalInSleeve& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
+    contact_jacobian(law, motion, trackers_[c].memory().impact_speed, MomentAbout::journal, of_motion);
+    motion_gain(at, joint, scene, gain_);
+    // A wrench works on e_dot and w: it acts on the coordinates as these follow their rates.
+    virtual_gain_.topRows<3>() = gain_.block(3, n, 3, n);
+    virtual_gain_.bottomRows<3>() = gain_.block(6, n, 3, n);
+    force_gradient_.noalias() += virtual_gain_.transpose() * (of_motion * gain_);
+  }
+  using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  J.setZero();
+  J.topRightCorner(n, n).setIdentity();
+  at.inverse_mass(scene, inverse_mass_);
+  J.bottomRows(n).noalias() = inverse_mass_ * force_gradient_;
+  J.bottomRightCorner(n, n) -= Rows(scene + at.AC, n, n);
+  if (at.stiff) J.bottomLeftCorner(n, n) -= Rows(scene + at.AK, n, n);
+}
+
+void PerturbationSystem::accept(double t, VecX& y) {
+  scene_at(t);
+  const SceneLayout& at = tables_->layout;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    motion_[c] = journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n);
+    joints_[c].gaps(motion_[c], contact_);
+    trackers_[c].accept(t, contact_);
+    if (!bristles_.empty()) memory_[c].touching = trackers_[c].memory().touching;
+  }
+  bristles_.release(memory_, y.tail(bristles_.size()));
+}
+
+void PerturbationSystem::start_located(double t, const VecX& y) {
+  located_ = true;
+  scene_at(t);
+  const SceneLayout& at = tables_->layout;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
+    contacts_.start(static_cast<int>(c), t, contact_);
+  }
+}
+
+void PerturbationSystem::gaps(double t, const VecX& y, VecX& g) const {
+  scene_at(t);
+  const SceneLayout& at = tables_->layout;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
+    contacts_.read(static_cast<int>(c), contact_, g);
+  }
+}
+
+AfterEvent PerturbationSystem::on_event(const GapEvent& event, VecX& y) {
+  scene_at(event.t);
+  const SceneLayout& at = tables_->layout;
+  const int c = contacts_.joint_of(event);
+  joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
+  contacts_.change(event, contact_);
+  return AfterEvent::crossed;
+}
+
+void PerturbationSystem::observe(double t) {
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    joints_[c].gaps(motion_[c], contact_);
+    trackers_[c].observe(t, contact_);
+    // The law that acts may not see the contacts that are open.
+    for (int k = 0; k < kContactPlaces; ++k) {
+      wrench_[c].contact[k].penetration = contact_[k].penetration;
+      wrench_[c].contact[k].rate = contact_[k].rate;
+    }
+    trackers_[c].observe_forces(wrench_[c].contact);
+  }
+}
+
+}  // namespace boresight

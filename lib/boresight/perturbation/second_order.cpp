@@ -1,0 +1,280 @@
+#include "boresight/perturbation/second_order.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "boresight/formulations/formulation.hpp"
+#include "boresight/formulations/shared_reactions.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/multibody/multibody_start.hpp"
+
+namespace boresight {
+namespace {
+
+using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
+// What makes lengths of all coordinates [m]: slopes count at the sleeve's ends, turns of joints on the
+// mechanism's size.
+VecX lengths(const Mechanism& mechanism, const Parameters& parameters, const SceneLayout& at) {
+  VecX unit = VecX::Constant(at.n, mechanism.characteristic_length());
+  for (std::size_t c = 0; c < at.joints.size(); ++c)
+    for (int k = 0; k < at.joints[c].offsets; ++k)
+      if (const int source = at.joints[c].source[k]; source >= 0)
+        unit[source] = k < 3 ? 1.0 : 0.5 * parameters.clearance[c].sleeve_length;
+  return unit;
+}
+
+// Coordinates whose forces decide together where a journal rests: across its axis, tilts included; along it;
+// and every coordinate that is no offset.
+std::vector<std::vector<int>> pushed_together(const SceneLayout& at) {
+  std::vector<std::vector<int>> groups;
+  std::vector<bool> taken(at.n, false);
+  for (const SceneLayout::Joint& joint : at.joints) {
+    std::vector<int> across, along;
+    for (int k = 0; k < joint.offsets; ++k) {
+      if (joint.source[k] < 0) continue;
+      (k == 1 ? along : across).push_back(joint.source[k]);
+      taken[joint.source[k]] = true;
+    }
+    groups.push_back(across);
+    groups.push_back(along);
+  }
+  for (int i = 0; i < at.n; ++i)
+    if (!taken[i]) groups.push_back({i});
+  return groups;
+}
+
+// Offsets that others decide: B, as many rows, and what their exact values are beyond B z, all in lengths.
+struct DependentOffsets {
+  MatX B;
+  VecX beyond;
+};
+DependentOffsets dependent_offsets(const SceneLayout& at, const double* row, const Parameters& parameters,
+                                   const ForceElements& exact, const VecX& z) {
+  DependentOffsets all{MatX(0, at.n), VecX(0)};
+  for (std::size_t c = 0; c < at.joints.size(); ++c) {
+    const SceneLayout::Joint& joint = at.joints[c];
+    if (!joint.has_dependent) continue;
+    const JournalMotion<double>& motion = exact.motion(static_cast<int>(c));
+    for (int k = 0; k < joint.offsets; ++k) {
+      if (joint.source[k] != DeviationCoordinates::kDependent) continue;
+      const double length = k < 3 ? 1.0 : 0.5 * parameters.clearance[c].sleeve_length;
+      const Eigen::Map<const Eigen::RowVectorXd> B(row + joint.dependent + k * at.n, at.n);
+      const Eigen::Index i = all.B.rows();
+      all.B.conservativeResize(i + 1, Eigen::NoChange);
+      all.beyond.conservativeResize(i + 1);
+      all.B.row(i) = length * B;
+      all.beyond[i] = length * ((k < 3 ? motion.e[k] : motion.slope[k - 3]) - B * z);
+    }
+  }
+  return all;
+}
+
+// The shortest step of the coordinates that takes the dependent offsets back.
+VecX taken_along(const DependentOffsets& offsets, const VecX& unit) {
+  if (offsets.beyond.size() == 0) return VecX::Zero(unit.size());
+  return -(unit.asDiagonal() * (offsets.B * unit.asDiagonal()).completeOrthogonalDecomposition().solve(offsets.beyond));
+}
+
+// Of one kind of displacement over the instants: the largest and the mean square of what the rung has, and of what it misses or of
+// what a group of coordinates contributes.
+class Share {
+ public:
+  void add(double size, double part) {
+    size_ = std::max(size_, size);
+    part_ = std::max(part_, part);
+    square_ += size * size;
+    part_square_ += part * part;
+    ++instants_;
+  }
+  double size() const { return size_; }
+  // The larger of both ratios; what is smaller than `least` is held against that.
+  double value(double least) const {
+    const double size = std::max(size_, least), square = std::max(square_, instants_ * least * least);
+    return size > 0.0 ? std::max(part_ / size, std::sqrt(part_square_ / square)) : 0.0;
+  }
+
+ private:
+  double size_ = 0.0, part_ = 0.0, square_ = 0.0, part_square_ = 0.0;
+  int instants_ = 0;
+};
+
+// Displacement, turn, turn of the boresight, of the line of sight.
+enum { moved, turned, aimed, sighted, kKinds };
+
+// How much of each kind a displacement is of the body that carries the boresight.
+class Sizes {
+ public:
+  Sizes(const Mechanism& mechanism, const BodyMotion& body) : axis_(body.R * mechanism.pointing().boresight_B) {
+    if (const auto& line_of_sight = mechanism.pointing().line_of_sight)
+      sight_ = line_of_sight->gain({body.p, Quat(body.R)});
+  }
+  std::array<double, kKinds> operator()(const Vec6& x) const {
+    return {x.head<3>().norm(), x.tail<3>().norm(), axis_.cross(x.tail<3>()).norm(), (sight_ * x).norm()};
+  }
+
+ private:
+  Vec3 axis_;
+  Eigen::Matrix<double, 3, 6> sight_ = Eigen::Matrix<double, 3, 6>::Zero();
+};
+
+Vec6 displacement(const BodyMotion& from, const BodyMotion& to) {
+  const Eigen::AngleAxisd turn(to.R * from.R.transpose());
+  Vec6 x;
+  x << to.p - from.p, turn.angle() * turn.axis();
+  return x;
+}
+
+// What the linear balance of resting journals misses of the one on the mechanism's own geometry, which knows how the loads change as
+// journals move: with them, where a journal goes that next to nothing pushes.
+std::array<double, kKinds> missed_at_rest(const Mechanism& mechanism, const PreparedScene& prepared,
+                                          const Parameters& parameters) {
+  if (mechanism.description().journals == JournalStart::centred) return {};
+  const RestingBodies resting = resting_bodies(mechanism, parameters, prepared.ideal());
+  if (resting.linear.size() == 0) return {};  // then this rung starts centred, and says so
+  if (resting.exact.empty()) throw ComputationError(resting.refusal);
+  IdealState state;
+  prepared.ideal().state(0.0, state);
+  const int body = mechanism.boresight_body();
+  return Sizes(mechanism, state.bodies[body])(displacement(state.bodies[body], resting.exact[body]) -
+                                              Vec6(resting.linear.segment<6>(6 * body)));
+}
+
+// What is found out, one deviation after the other.
+class LeftOut {
+ public:
+  LeftOut(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters)
+      : mechanism_(mechanism),
+        prepared_(prepared),
+        parameters_(parameters),
+        tables_(prepared.tables(parameters)),
+        at_(tables_->layout),
+        coordinates_(prepared.scene().coordinates()),
+        formulation_(make_tree_formulation(mechanism, parameters, &prepared.ideal(), {})),
+        unit_(lengths(mechanism, parameters, at_)),
+        groups_(pushed_together(at_)),
+        memory_(at_.joints.size()),
+        row_(tables_->dynamics.width()),
+        part_(groups_.size()),
+        pushed_off_(groups_.size(), 0.0) {}
+
+  // Throws ComputationError where it cannot be made exactly.
+  void look(const LargestDeviations::Deviation& deviation) {
+    tables_->dynamics.at(deviation.t, row_.data());
+    MatX T, A;
+    coordinates_.gain(deviation.t, T);
+    at_.inverse_mass(row_.data(), A);
+    const Eigen::LLT<MatX> inverse_mass(A);
+    const VecX reaction = inverse_mass.solve(Eigen::Map<const VecX>(row_.data() + at_.Ar, at_.n));
+    formulation_->forces().replace_contact(
+        shared_reactions(prepared_.scene().offsets(), parameters_, coordinates_.offsets_per_coordinate(T), reaction));
+
+    IdealState state;
+    prepared_.ideal().state(deviation.t, state);
+    const std::vector<BodyMotion> bodies = made_exactly(state, T * deviation.z);
+    VecX z, z_dot, z_ddot;
+    coordinates_.coordinate_rates(bodies, z_dot, z);
+    coordinates_.coordinate_accelerations(bodies, formulation_->acceleration(), z_ddot);
+
+    const int body = mechanism_.boresight_body();
+    const auto E = T.middleRows<6>(6 * body);
+    const Vec6 linear = E * z, off = displacement(state.bodies[body], bodies[body]) - linear;
+    // What the contacts of dependent offsets make of their own misses comes on top, whichever way it points.
+    const Vec6 along =
+        E * taken_along(dependent_offsets(at_, row_.data(), parameters_, formulation_->forces(), z), unit_);
+    const Sizes sizes(mechanism_, state.bodies[body]);
+    const auto whole = sizes(linear), bent = sizes(off), taken = sizes(along);
+    for (int k = 0; k < kKinds; ++k) miss_[k].add(whole[k], bent[k] + taken[k]);
+
+    VecX left = z_ddot + Rows(row_.data() + at_.AC, at_.n, at_.n) * z_dot;
+    if (at_.stiff) left += Rows(row_.data() + at_.AK, at_.n, at_.n) * z;
+    const VecX push = reaction.cwiseQuotient(unit_), push_off = inverse_mass.solve(left).cwiseQuotient(unit_);
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      double size = 0.0, size_off = 0.0;
+      // A journal whose forces turn may go any way: offsets and slopes that cancel in the pose need not cancel then.
+      double reach = 0.0;
+      std::array<double, kKinds> gain = {0.0, 0.0, 0.0, 0.0};
+      for (int i : groups_[g]) {
+        size += push[i] * push[i];
+        size_off += push_off[i] * push_off[i];
+        reach += unit_[i] * unit_[i] * z[i] * z[i];
+        const auto of_one = sizes(E.col(i) / unit_[i]);
+        for (int k = 0; k < kKinds; ++k) gain[k] += of_one[k] * of_one[k];
+      }
+      for (int k = 0; k < kKinds; ++k) part_[g][k].add(whole[k], std::sqrt(gain[k] * reach));
+      if (size_off > 0.0)
+        pushed_off_[g] = std::max(pushed_off_[g], std::min(1.0, std::sqrt(size_off / std::max(size, 1e-300))));
+    }
+  }
+
+  // at_rest: what the balance at the start misses, of each kind.
+  double share(const std::array<double, kKinds>& at_rest) const {
+    // What turns miss that are next to nothing against the displacement, on the mechanism's size, counts against a little of that; and the
+    // other way round. The line of sight counts against itself: how small an angle a displacement is depends on the target's distance.
+    constexpr double kNextToNothing = 1e-4;
+    const double length = mechanism_.characteristic_length();
+    const double next_to_nothing =
+        kNextToNothing * std::max({miss_[moved].size(), length * miss_[turned].size(), length * miss_[aimed].size()});
+    double share = 0.0;
+    for (int k = 0; k < kKinds; ++k) {
+      const double least = k == moved ? next_to_nothing : k == sighted ? 0.0 : next_to_nothing / length;
+      const double size = std::max(miss_[k].size(), least);
+      double of_kind = miss_[k].value(least);
+      for (std::size_t g = 0; g < groups_.size(); ++g) of_kind += part_[g][k].value(least) * pushed_off_[g];
+      share = std::max({share, of_kind, size > 0.0 ? at_rest[k] / size : 0.0});
+    }
+    return std::isfinite(share) ? std::min(share, 1.0) : 1.0;
+  }
+
+ private:
+  // The bodies displaced by `by` and all joints closed around them.
+  std::vector<BodyMotion> made_exactly(const IdealState& ideal, const VecX& by) {
+    std::vector<BodyMotion> displaced = ideal.bodies;
+    for (std::size_t b = 0; b < displaced.size(); ++b)
+      displace(displaced[b], by.segment<6>(static_cast<Eigen::Index>(6 * b)));
+    VecX y;
+    if (!begun_) formulation_->start(ideal, y);  // which rows are redundant is the same in every pose
+    begun_ = true;
+    formulation_->place_bodies(displaced, y);
+    formulation_->settle(ideal.t, y);
+    VecX dy(y.size());
+    formulation_->derivative(ideal.t, y, memory_, dy);
+    return formulation_->bodies(ideal.t, y);
+  }
+
+  const Mechanism& mechanism_;
+  const PreparedScene& prepared_;
+  const Parameters& parameters_;
+  std::shared_ptr<const SceneTables> tables_;
+  const SceneLayout& at_;
+  DeviationCoordinates coordinates_;
+  std::unique_ptr<Formulation> formulation_;
+  VecX unit_;
+  std::vector<std::vector<int>> groups_;
+  std::vector<ContactMemory> memory_;
+  std::vector<double> row_;
+  bool begun_ = false;
+  std::array<Share, kKinds> miss_;
+  // Of each group, over the instants: its part of each kind, and how much of its forces is off. A force that is off early shows in
+  // where the journal gets to later.
+  std::vector<std::array<Share, kKinds>> part_;
+  std::vector<double> pushed_off_;
+};
+
+}  // namespace
+
+double second_order_share(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,
+                          const LargestDeviations& largest) {
+  try {
+    LeftOut left_out(mechanism, prepared, parameters);
+    for (const LargestDeviations::Deviation& deviation : largest.parts())
+      if (deviation.size > 0.0) left_out.look(deviation);
+    return left_out.share(missed_at_rest(mechanism, prepared, parameters));
+  } catch (const ComputationError&) {
+    return 1.0;
+  }
+}
+
+}  // namespace boresight

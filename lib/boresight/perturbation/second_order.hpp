@@ -1,0 +1,61 @@
+// What the perturbation rung leaves out, looked at where its deviation is largest: the same deviation made
+// exactly, by closing the joints of the multibody formulation around it. Relative to what the rung itself has
+// there, it comes to three shares:
+//   pose       |x_exact(z) - E z| / |E z|        the pose is not linear in the offsets
+//   contacts   |E dz| / |E z|                    nor are the offsets that others decide (redundant joints): where such a journal is
+//                                                farther in or out than B z says, its contact takes the others along by dz, B dz =
+//                                                -(xi_exact - B z)
+//   forces     |dr| / |r|                        what pushes the journals changes with the offsets
+//   themselves: dr is what
+//                                                remains of the forces at z when M_r, C, K and r have had
+//                                                their part
+// The first two shift every index by as much, maximum or mean square; the last turns, deepens and delays where journals go. It is
+// taken for each journal across and along its axis apart, weighted by its part of the displacement: along
+// its axis a journal may be pushed by a force so small that little changes it much. Where a motion starts with its journals at rest,
+// no less is stated than
+//   rest       |x_rest,exact - E z_rest| / |E z|  the balance on the mechanism's own geometry lies elsewhere
+//
+//   LargestDeviations largest(duration);
+//   largest.add(t, size, z);                    // along the motion
+//   second_order_share(mechanism, prepared, parameters, largest);
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "boresight/scene/scene_rung.hpp"
+
+namespace boresight {
+
+// The largest deviation of each part of a motion: what is next to nothing where the loads are large may not be where they are small.
+class LargestDeviations {
+ public:
+  explicit LargestDeviations(double duration) : duration_(duration) {}
+
+  struct Deviation {
+    double t = 0.0, size = 0.0;
+    VecX z;
+  };
+  // size: of the deviation, against the mechanism's.
+  void add(double t, double size, const Eigen::Ref<const VecX>& z) {
+    const int part = std::clamp(static_cast<int>(kParts * t / duration_), 0, kParts - 1);
+    Deviation& largest = parts_[part];
+    if (!(size > largest.size)) return;
+    largest.t = t;
+    largest.size = size;
+    largest.z = z;
+  }
+  const auto& parts() const { return parts_; }
+
+ private:
+  static constexpr int kParts = 48;
+  double duration_;
+  std::array<Deviation, kParts> parts_;
+};
+
+// Relative to the rung's own indices; 1 where the deviation cannot be made exactly (a singular pose within
+// its reach).
+double second_order_share(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,
+                          const LargestDeviations& largest);
+
+}  // namespace boresight

@@ -1,0 +1,168 @@
+#include "boresight/pointing/indices.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace boresight {
+namespace {
+
+// Angle between two vectors, exact to rounding at small and at straight angles alike (Kahan's form loses nothing at 0).
+double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+Vec3 rotation_vector(Quat q) {
+  if (q.w() < 0.0) q.coeffs() *= -1.0;
+  const double sine = q.vec().norm();
+  if (sine < 1e-12) return 2.0 * q.vec();
+  return (2.0 * std::atan2(sine, q.w()) / sine) * q.vec();
+}
+
+// The turn that takes z to `direction`, about an axis across z.
+Vec3 turn_of_z(const Vec3& direction) {
+  const double sine = std::hypot(direction.x(), direction.y());
+  if (sine == 0.0) return Vec3::Zero();
+  const double angle = std::atan2(sine, direction.z());
+  return angle / sine * Vec3(-direction.y(), direction.x(), 0.0);
+}
+
+Vec3 turn_between(const Vec3& truth, const Vec3& ideal) {
+  return turn_of_z(Quat::FromTwoVectors(ideal, Vec3::UnitZ()) * truth.normalized());
+}
+
+// Between the line to the target and the same line with its start displaced by d. The lines themselves may be as long as an
+// orbit is high: their difference would have lost the digits that d has.
+double turn_of_line(const Vec3& line, const Vec3& d) {
+  return std::atan2(d.cross(line).norm(), line.squaredNorm() - line.dot(d));
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 3, 6> LineOfSight::gain(const Pose& ideal) const {
+  // d = dp + turn x r, turn of the line = d x s / |s|^2.
+  const auto cross = [](const Vec3& v) {
+    Mat3 m;
+    m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+    return m;
+  };
+  const Vec3 s = line(ideal);
+  Eigen::Matrix<double, 3, 6> gain = Eigen::Matrix<double, 3, 6>::Zero();
+  if (!(s.squaredNorm() > 0.0)) return gain;
+  gain.leftCols<3>() = -cross(s) / s.squaredNorm();
+  gain.rightCols<3>() = cross(s) * cross(ideal.q * from_B) / s.squaredNorm();
+  return gain;
+}
+
+PoseError pose_error(const Pose& truth, const Pose& ideal, const Pointing& pointing) {
+  PoseError e;
+  e.displacement = truth.p - ideal.p;
+  e.rotation = rotation_vector(truth.q * ideal.q.conjugate());
+  e.position = e.displacement.norm();
+  e.orientation = e.rotation.norm();
+  e.boresight = angle_between(truth.q * pointing.boresight_B, ideal.q * pointing.boresight_B);
+  if (const auto& sight = pointing.line_of_sight)
+    e.line_of_sight = turn_of_line(sight->line(ideal), sight->displacement(truth, ideal));
+  return e;
+}
+
+Vec3 error_vector(PointingQuantity quantity, const Pose& truth, const Pose& ideal, const Pointing& pointing) {
+  switch (quantity) {
+    case PointingQuantity::position_error:
+      return truth.p - ideal.p;
+    case PointingQuantity::orientation_error:
+      return ideal.q.conjugate() * rotation_vector(truth.q * ideal.q.conjugate());
+    case PointingQuantity::boresight_error:
+      return turn_between(ideal.q.conjugate() * (truth.q * pointing.boresight_B), pointing.boresight_B);
+    case PointingQuantity::line_of_sight_error: {
+      if (!pointing.line_of_sight) return Vec3::Zero();
+      const LineOfSight& sight = *pointing.line_of_sight;
+      const Vec3 line = sight.line(ideal), d = sight.displacement(truth, ideal), axis = d.cross(line);
+      if (!(axis.norm() > 0.0)) return Vec3::Zero();
+      Vec3 turn = Quat::FromTwoVectors(sight.reversed ? Vec3(-line) : line, Vec3::UnitZ()) *
+                  Vec3(turn_of_line(line, d) / axis.norm() * axis);
+      turn.z() = 0.0;  // across the line but for rounding
+      return turn;
+    }
+  }
+  return Vec3::Zero();
+}
+
+void StatisticsOverTime::reserve(std::size_t steps) {
+  time_.reserve(steps);
+  value_.reserve(steps);
+}
+
+void StatisticsOverTime::add(double t, double value) {
+  if (t < start_) {
+    last_time_ = t;
+    last_value_ = value;
+    before_ = true;
+    return;
+  }
+  if (before_ && t > start_) {
+    time_.push_back(start_);
+    value_.push_back(last_value_ + (start_ - last_time_) / (t - last_time_) * (value - last_value_));
+  }
+  before_ = false;
+  time_.push_back(t);
+  value_.push_back(value);
+}
+
+Statistics StatisticsOverTime::result() const {
+  Statistics s;
+  const std::size_t n = value_.size();
+  if (n == 0) return s;
+  std::vector<double> weight(n, 0.0);
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double half = 0.5 * (time_[i + 1] - time_[i]);
+    weight[i] += half;
+    weight[i + 1] += half;
+  }
+  const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
+  if (total <= 0.0) std::fill(weight.begin(), weight.end(), 1.0 / static_cast<double>(n));
+  const double scale = total > 0.0 ? total : 1.0;
+  double sum = 0.0, sum_of_squares = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    sum += weight[i] * value_[i];
+    sum_of_squares += weight[i] * value_[i] * value_[i];
+    if (value_[i] > s.max) {
+      s.max = value_[i];
+      s.time_of_max = time_[i];
+    }
+  }
+  s.mean = sum / scale;
+  s.rms = std::sqrt(sum_of_squares / scale);
+
+  // Only the highest values matter for the quantile: walk down from the top until 0.27 % of the time lies above.
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return value_[a] > value_[b]; });
+  const double above_allowed = (1.0 - 0.9973) * scale;
+  double above = 0.0;
+  s.p9973 = value_[order.back()];
+  for (std::size_t i : order) {
+    above += weight[i];
+    if (above > above_allowed) {
+      s.p9973 = value_[i];
+      break;
+    }
+  }
+  return s;
+}
+
+void IndicesOverTime::reserve(std::size_t steps) {
+  for (StatisticsOverTime* s : {&position_, &orientation_, &boresight_}) s->reserve(steps);
+  if (has_line_of_sight_) line_of_sight_.reserve(steps);
+}
+
+void IndicesOverTime::add(double t, const PoseError& error) {
+  position_.add(t, error.position);
+  orientation_.add(t, error.orientation);
+  boresight_.add(t, error.boresight);
+  if (has_line_of_sight_) line_of_sight_.add(t, error.line_of_sight);
+}
+
+PointingIndices IndicesOverTime::result() const {
+  return {position_.result(), orientation_.result(), boresight_.result(), line_of_sight_.result(), has_line_of_sight_};
+}
+
+}  // namespace boresight

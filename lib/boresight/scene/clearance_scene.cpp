@@ -1,0 +1,279 @@
+#include "boresight/scene/clearance_scene.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "boresight/formulations/force_elements.hpp"
+#include "boresight/math/cross_matrix.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/mechanism/motion_density.hpp"
+#include "boresight/scene/deviation_stiffness.hpp"
+#include "boresight/scene/start_rates.hpp"
+#include "boresight/scene/table_row.hpp"
+
+namespace boresight {
+namespace {
+
+// First grid, and the finest that accuracy is sought with [s]. A motion longer than kManyCells of the coarsest spacing starts with as
+// many cells as its own table needs; one that is over, or turns, within the finest spacing is looked at more finely.
+constexpr int kFewestCells = 8, kManyCells = 4096, kCellsOfKnot = 4;
+constexpr double kCoarsestSpacing = 16e-3, kFinestSpacing = 1e-5;
+// The finest spacing is bounded by a share of that of the ideal motion's table, which is about a sixteenth of a radian of the fastest
+// motion.
+constexpr double kFinestOfKnot = 1e-3;
+
+double spacing_of_knots(const IdealMotion& ideal) { return ideal.duration() / std::max(1, ideal.knots() - 1); }
+
+// Of the tables, relative to their largest values: what is left at the finest spacing must not be more.
+constexpr double kLargestMiss = 0.01;
+
+constexpr const char* kBuilding = "opening the mechanism at its clearances";
+
+const BodyMotion kGroundMotion;
+
+}  // namespace
+
+ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal)
+    : mechanism_(mechanism),
+      offsets_(mechanism),
+      coordinates_(mechanism, ideal),
+      layout_(offsets_, coordinates_,
+              coordinates_.leftover() > 0 || moving() || !mechanism.description().springs.empty()) {
+  const MechanismDescription& m = mechanism.description();
+  std::vector<Element> fixed;
+  for (int b = 0; b < mechanism.bodies(); ++b) fixed.push_back({.body = b, .inertia = m.bodies[b].inertia});
+  groups_.push_back(std::move(fixed));
+  for (int b = 0; b < mechanism.bodies(); ++b) groups_.push_back({{.body = b, .mass = 1.0}});
+  if (m.payload) {
+    const BodyDescription& carrier = m.bodies[m.payload->body];
+    groups_.push_back({{.body = m.payload->body,
+                        .c = carrier.axes.transpose() * (m.payload->center_of_mass - carrier.center_of_mass),
+                        .mass = 1.0,
+                        .inertia = m.payload->gyration.array().square().matrix().asDiagonal()}});
+  }
+}
+
+SceneStart ClearanceScene::start_of(const Parameters& parameters, const Knot& first) const {
+  SceneStart start{{}, start_rates(mechanism_, parameters, first.state, first.T, first.T_rate)};
+  append_row(parameters, first, start.row, true);
+  return start;
+}
+
+ClearanceScene::Start ClearanceScene::at_start(const Mechanism& mechanism, const IdealMotion& ideal,
+                                               const Parameters& parameters) {
+  ClearanceScene scene(mechanism, ideal);
+  const Knot knot = scene.knot_at(0.0, ideal, parameters);
+  return {scene.layout_, scene.start_of(parameters, knot), knot.state, knot.T, knot.T_rate};
+}
+
+ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
+                               double accuracy)
+    : ClearanceScene(mechanism, ideal) {
+  // Halve the spacing until the coarse grid's cubics meet the new knots: the finer grid's own error is a sixteenth of that.
+  const double knot_spacing = spacing_of_knots(ideal);
+  const double finest = std::max(kFinestOfKnot * knot_spacing, std::min(kFinestSpacing, knot_spacing));
+  double first_cells = std::max<double>(kFewestCells, std::ceil(mechanism.duration() / kCoarsestSpacing));
+  if (first_cells > kManyCells)
+    first_cells = std::max<double>(kManyCells, std::min(first_cells, 1.0 * kCellsOfKnot * ideal.knots()));
+  // A knot's matrices, and its row in the tables.
+  const double numbers = (6.0 * mechanism.bodies() + offsets_.size()) * layout_.n +
+                         static_cast<double>(groups_.size()) * element_size() + 3.0 * layout_.width;
+  const double bytes_of_knot =
+      sizeof(Knot) + 8.0 * numbers + mechanism.bodies() * (sizeof(BodyMotion) + sizeof(BodyAcceleration));
+  const auto refuse_unless_held = [&](double knots) {
+    const double bytes = knots * bytes_of_knot;
+    if (bytes <= kMostTableBytes) return;
+    char text[300];
+    std::snprintf(
+        text, sizeof text,
+        "the opened mechanism's dynamics over %.6g s would take %.2g GB of memory as a table (%.2g instants); shorten "
+        "motion.duration to what has to be seen, or use the multibody rung, which needs no table",
+        mechanism.duration(), 1e-9 * bytes, knots);
+    throw MotionTooDense(text);
+  };
+  refuse_unless_held(2.0 * first_cells);
+  int cells = static_cast<int>(first_cells);
+  spacing_ = mechanism.duration() / cells;
+  std::vector<double> rows;
+  for (int k = 0; k <= cells; ++k) {
+    work_reached(kBuilding, 0.5 * k / cells);
+    knots_.push_back(knot_at(k * spacing_, ideal, parameters));
+  }
+  for (;;) {
+    refuse_unless_held(2.0 * cells);
+    std::vector<Knot> finer;
+    finer.reserve(2 * cells + 1);
+    for (int k = 0; k < cells; ++k) {
+      work_reached(kBuilding, 0.5 + 0.5 * k / cells);
+      finer.push_back(std::move(knots_[k]));
+      finer.push_back(knot_at((k + 0.5) * spacing_, ideal, parameters));
+    }
+    finer.push_back(std::move(knots_[cells]));
+    knots_ = std::move(finer);
+    cells *= 2;
+    spacing_ *= 0.5;
+    rows.clear();
+    for (const Knot& knot : knots_) append_row(parameters, knot, rows);
+    const double error = interpolation_error(rows, parameters);
+    if (error <= 16.0 * accuracy) break;
+    if (0.5 * spacing_ >= finest) continue;
+    if (error <= kLargestMiss) break;
+    char text[300];
+    std::snprintf(text, sizeof text,
+                  "the opened mechanism's dynamics change by %.2g of their size within %.2g s: a singular pose is "
+                  "near, or something "
+                  "vibrates far faster than the motion; the multibody rung needs no table of them",
+                  error, 2.0 * spacing_);
+    throw ComputationError(text);
+  }
+}
+
+// The rate below which stiffness between the contacts does next to nothing to the deviation [1/s]: that of the motion, or that at which
+// the loads cross the gaps where nothing but offsets deviates. What is small against it may be rounding, which no finer grid makes smooth.
+double ClearanceScene::slowest_rate(const std::vector<double>& rows, const Parameters& parameters) const {
+  const double of_motion = 1.0 / mechanism_.duration();
+  if (coordinates_.leftover() > 0) return of_motion;
+  double load = 0.0, gap = 0.0;
+  for (std::size_t c = 0; c < layout_.joints.size(); ++c) {
+    gap = std::max({gap, parameters.clearance[c].radial, parameters.clearance[c].axial});
+    for (int k = 0; k < 3; ++k)
+      if (const int source = layout_.joints[c].source[k]; source >= 0)
+        for (std::size_t row = 0; row < rows.size(); row += layout_.width)
+          load = std::max(load, std::abs(rows[row + layout_.Ar + source]));
+  }
+  return gap > 0.0 ? std::max(of_motion, std::sqrt(load / gap)) : of_motion;
+}
+
+// Largest miss of the cubics through every other knot at the knots between, relative to the largest value of each group of
+// functions.
+double ClearanceScene::interpolation_error(const std::vector<double>& rows, const Parameters& parameters) const {
+  const int width = layout_.width;
+  if (width == 0) return 0.0;
+  std::vector<double> coarse, between(width);
+  for (std::size_t k = 0; k < knots_.size(); k += 2)
+    coarse.insert(coarse.end(), rows.begin() + k * width, rows.begin() + (k + 1) * width);
+  const TimeTable table(2.0 * spacing_, width, coarse);
+  std::vector<int> ends = {layout_.Ar, layout_.AC, layout_.AK, layout_.joints_at};
+  for (const SceneLayout::Joint& j : layout_.joints)
+    for (int end : {j.spin_gain, j.spin_drift, j.slide, j.slide_gain, j.slide_drift, j.dependent}) ends.push_back(end);
+  ends.push_back(width);
+  std::vector<double> miss(ends.size(), 0.0), size(ends.size(), 0.0);
+  for (std::size_t k = 0; k < knots_.size(); ++k) {
+    const double* row = &rows[k * width];
+    const bool odd = k % 2 == 1;
+    if (odd) table.at(k * spacing_, between.data());
+    int i = 0;
+    for (std::size_t g = 0; g < ends.size(); ++g)
+      for (; i < ends[g]; ++i) {
+        size[g] = std::max(size[g], std::abs(row[i]));
+        if (odd) miss[g] = std::max(miss[g], std::abs(row[i] - between[i]));
+      }
+  }
+  const double rate = slowest_rate(rows, parameters);
+  // An acceleration that displaces by a thousandth of the play in the whole motion does nothing: of freedoms that no play moves it is
+  // what rounding leaves, which no finer grid makes smooth.
+  double play = 0.0;
+  for (const ClearanceParameters& c : parameters.clearance) play = std::max({play, c.radial, c.axial});
+  size[0] = std::max(size[0], 1e-3 * play / (mechanism_.duration() * mechanism_.duration()));
+  size[2] = std::max(size[2], 1e-3 / mechanism_.duration());  // a thousandth of a speed is lost over the whole motion
+  size[3] = std::max(size[3], rate * rate);
+  for (std::size_t c = 0; c < layout_.joints.size();
+       ++c)  // a drift against its gain: what the coordinates do within the motion
+    for (const std::size_t gain : {5 + 6 * c, 8 + 6 * c})
+      size[gain + 1] = std::max(size[gain + 1], size[gain] / mechanism_.duration());
+  double worst = 0.0;
+  for (std::size_t g = 0; g < ends.size(); ++g)
+    if (size[g] > 1e-9) worst = std::max(worst, miss[g] / size[g]);
+  return worst;
+}
+
+ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal, const Parameters& parameters) {
+  Knot knot;
+  coordinates_.gain(t, knot.T);
+  knot.B = coordinates_.offsets_per_coordinate(knot.T);
+  MatX B_rate;
+  coordinates_.rates(knot.T, knot.T_rate, knot.T_second, B_rate);
+  ideal.state(t, knot.state);
+  add_joints(B_rate, knot);
+  if (layout_.n == 0) return knot;  // no play can move
+  knot.elements.assign(groups_.size() * element_size(), 0.0);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (const Element& element : groups_[g]) add_element(element, knot, &knot.elements[g * element_size()]);
+  for (const SpringDescription& spring : mechanism_.description().springs)
+    knot.springs.push_back(spring_gain(mechanism_.description(), spring, knot.state, knot.T, knot.T_rate));
+  if (coordinates_.leftover() > 0) {
+    MatX M, C;
+    VecX r;
+    assemble(parameters, knot, M, C, r);
+    knot.stiffness =
+        deviation_stiffness(mechanism_, ideal, parameters, coordinates_, knot.state, knot.T, M.llt().solve(C), r);
+  }
+  return knot;
+}
+
+// Relative spins and slides of the journals, ideal and per coordinate rate; where gains move, what the coordinates themselves add.
+void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
+  const MechanismDescription& m = mechanism_.description();
+  const int n = layout_.n;
+  for (int c = 0; c < mechanism_.clearances(); ++c) {
+    const SceneLayout::Joint& at = layout_.joints[c];
+    const ClearanceDescription& d = m.clearances[c];
+    const JointGeometry& g = mechanism_.geometry(d.joint);
+    const bool journal_first = d.journal == m.joints[d.joint].first;
+    const JointFrame &sleeve = journal_first ? g.second : g.first, &journal = journal_first ? g.first : g.second;
+    const auto motion = [&](int body) -> const BodyMotion& {
+      return body == kGround ? kGroundMotion : knot.state.bodies[body];
+    };
+    const auto gain = [&](const MatX& of, int body) -> MatX {
+      return body == kGround ? MatX(MatX::Zero(6, n)) : MatX(of.middleRows<6>(6 * body));
+    };
+    const BodyMotion &S = motion(sleeve.body), &J = motion(journal.body);
+    const MatX TS = gain(knot.T, sleeve.body), TJ = gain(knot.T, journal.body);
+    const MatX TdS = gain(knot.T_rate, sleeve.body), TdJ = gain(knot.T_rate, journal.body);
+    const Mat3 R_WS = S.R * sleeve.R;
+    const Vec3 spin = R_WS.transpose() * (J.w - S.w);
+    const MatX spin_gain = R_WS.transpose() * (TJ.bottomRows<3>() - TS.bottomRows<3>());
+    if (at.tilts) {
+      append(knot.joints, spin);
+      append(knot.joints, spin_gain);
+    } else {
+      knot.joints.push_back(spin.y());
+      append(knot.joints, spin_gain.row(1));
+    }
+    if (at.gains_move) {
+      // w of a body turned by theta = T_w z is w_ideal + thetadot + theta x w_ideal, and the sleeve's axes turn with it.
+      const MatX drift = R_WS.transpose() * (TdJ.bottomRows<3>() - TdS.bottomRows<3>() -
+                                             cross_matrix(J.w) * (TJ.bottomRows<3>() - TS.bottomRows<3>()));
+      if (at.tilts)
+        append(knot.joints, drift);
+      else
+        append(knot.joints, drift.row(1));
+    }
+    if (at.slides) {
+      using Gain = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+      const Vec3 rS = S.R * sleeve.p, rJ = J.R * journal.p, distance = J.p + rJ - S.p - rS, y = R_WS.col(1);
+      const Gain across = TJ.topRows<3>() - cross_matrix(rJ) * TJ.bottomRows<3>() - TS.topRows<3>() +
+                          cross_matrix(rS + distance) * TS.bottomRows<3>();
+      knot.joints.push_back(y.dot(distance));
+      knot.joints.push_back(y.dot(J.v + J.w.cross(rJ) - S.v - S.w.cross(rS + distance)));
+      append(knot.joints, Eigen::RowVectorXd(y.transpose() * across));
+      if (at.gains_move) {
+        const Vec3 rJ_rate = J.w.cross(rJ), on_sleeve_rate = J.v + rJ_rate - S.v;  // of rS + distance
+        const Gain across_rate = TdJ.topRows<3>() - cross_matrix(rJ_rate) * TJ.bottomRows<3>() -
+                                 cross_matrix(rJ) * TdJ.bottomRows<3>() - TdS.topRows<3>() +
+                                 cross_matrix(on_sleeve_rate) * TS.bottomRows<3>() +
+                                 cross_matrix(rS + distance) * TdS.bottomRows<3>();
+        append(knot.joints, Eigen::RowVectorXd(S.w.cross(y).transpose() * across + y.transpose() * across_rate));
+      }
+    }
+    if (at.has_dependent) {
+      append(knot.joints, knot.B.middleRows(offsets_.joint(c).first, at.offsets));
+      append(knot.joints, B_rate.middleRows(offsets_.joint(c).first, at.offsets));
+    }
+  }
+}
+
+}  // namespace boresight

@@ -1,0 +1,134 @@
+// The mechanism opened at its clearance joints, as smooth functions of time: what the cheap rungs compute with.
+//
+// Clearances are 1e-3 to 1e-4 of the link lengths, so the motion is the ideal one plus a deviation that is linear in a few
+// coordinates z, the joints' offsets as far as these are free (DeviationCoordinates). With T the velocities of all bodies
+// per unit rate of z,
+//
+//     M_r(t) zddot + C(t) zdot + K(t) z = r(t) + f_contact,    pose error of a body = E(t) z
+//
+//   M_r = T^T M T      C = T^T [M (2 Tdot - w x T) + gyroscopic]      r = T^T (Q - M vdot_ideal)      E = T's rows
+//
+// 2 Tdot is the Coriolis part (the offsets ride on moving bodies); - w x T stands in the turning rows only: with
+// R = exp(theta) R_ideal the angular acceleration is alpha_ideal + thetaddot + thetadot x w_ideal to first order in theta.
+// K, forces that change with the deviation itself. Springs and dampers bring theirs (spring_gains.hpp): k and what their pull does
+// as it turns, and D in C. What gravity, inertia and loads add (their geometric stiffness) matters where the ideal mechanism has
+// freedoms of its own (a pendulum): there alone it is kept, by differences of the multibody formulation. Between offsets held
+// by contact it is to the contact forces as the offsets to the mechanism's size, and part of the model error (perturbation.cpp).
+// Where redundant joints tie offsets together, which of them are coordinates is the drawing's choice, and must not matter: T^T [M T'' +
+// (gyroscopic - w x) T'] is then kept, which says that it is the bodies' motion T z that has no force of its own, and not z.
+// The generalised contact force of a joint is its whole wrench on the journal: the force along the offset, the moment
+// through what z does to the relative spin, w_rel = w_ideal + S zdot, and on a cylindrical joint the axial friction through
+// what it does to the slide's rate, slide_ideal' + Y zdot; where T'' is kept so are S' z and Y' z. No number of a contact changes any of this. Masses and gravity enter
+// M_r, C and r affinely, so a payload, body-mass or gravity sweep needs no new scene (unless the ideal motion itself hangs on
+// them).
+// Derived for this program; held against the multibody rung in a test.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "boresight/math/time_table.hpp"
+#include "boresight/scene/scene_layout.hpp"
+#include "boresight/scene/spring_gains.hpp"
+
+namespace boresight {
+
+// The scene as motions start: its numbers at t = 0 (a row of SceneTables::dynamics), and zdot per z there (start_rates.hpp).
+struct SceneStart {
+  std::vector<double> row;
+  MatX rates;
+};
+
+// The scene for one set of masses and one gravity, ready to integrate.
+struct SceneTables {
+  SceneLayout layout;
+  // Per time, row by row: A = M_r^-1 (its upper triangle), A r, A C, (A K), then the joints' parts: see SceneLayout.
+  TimeTable dynamics;
+  SceneStart start;
+};
+
+class ClearanceScene {
+ public:
+  // accuracy: of the functions of time between the knots, relative to each group's largest value; the grid is refined until
+  // it holds. Throws ComputationError, naming the time, where T does not exist: near a singular pose.
+  // Where the ideal motion is simulated (freedoms that nothing drives) the scene holds for `parameters`' masses, gravity,
+  // springs and loads only.
+  ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
+                 double accuracy = kAccuracy);
+  static constexpr double kAccuracy = 2e-6;
+
+  // The scene as motions start alone.
+  struct Start {
+    SceneLayout layout;
+    SceneStart numbers;
+    IdealState ideal;
+    MatX T, T_rate;  // 6 bodies x n
+  };
+  static Start at_start(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters);
+
+  const DeviationCoordinates& coordinates() const { return coordinates_; }
+  const OffsetLayout& offsets() const { return offsets_; }
+  const SceneLayout& layout() const { return layout_; }
+  int knots() const { return static_cast<int>(knots_.size()); }
+  double spacing() const { return spacing_; }
+
+  SceneTables tables(const Parameters& parameters) const;
+  // E of one body: 6 x n, row by row, over time.
+  TimeTable pose_gain(int body) const;
+  // Its rate of change, likewise.
+  TimeTable pose_gain_rate(int body) const;
+  // What springs and dampers oppose to z at a knot: T^T K T, with the part of dampers whose stretch rate z changes.
+  MatX spring_stiffness(const Parameters& parameters, int knot) const;
+  // M_r, C and r of these parameters at a knot.
+  void assemble(const Parameters& parameters, int knot, MatX& M, MatX& C, VecX& r) const;
+  // E of the boresight body at a knot, 6 x n; offsets per coordinate there, B.
+  MatX pose_gain_at(int knot) const { return knots_[knot].T.middleRows<6>(6 * mechanism_.boresight_body()); }
+  const MatX& offsets_per_coordinate(int knot) const { return knots_[knot].B; }
+
+ private:
+  ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal);  // without knots
+
+  // A mass that rides on a body: what one unit of it adds.
+  struct Element {
+    int body = 0;
+    Vec3 c = Vec3::Zero();        // from the body's own centre of mass, body axes [m]
+    double mass = 0.0;            // [kg] per unit
+    Mat3 inertia = Mat3::Zero();  // about its own centre, body axes [kg m^2] per unit
+  };
+  struct Knot {
+    IdealState state;
+    MatX T, T_rate, T_second, B;
+    std::vector<double> joints;  // the joints' part of a row
+    std::vector<double>
+        elements;  // per element group: M (n n), C (n n), r (n), r per unit of gravity (n 3), (K of T'', n n)
+    std::vector<SpringGain> springs;
+    MatX stiffness;  // A K, where by differences
+  };
+  Knot knot_at(double t, const IdealMotion& ideal, const Parameters& parameters);
+  void add_joints(const MatX& B_rate, Knot& knot) const;
+  void add_element(const Element& element, const Knot& knot, double* out) const;
+  double units_of(std::size_t group, const Parameters& parameters) const;
+  void assemble(const Parameters& parameters, const Knot& knot, MatX& M, MatX& C, VecX& r) const;
+  MatX spring_stiffness(const Parameters& parameters, const Knot& knot) const;
+  // What T'' takes, where offsets depend on others: a load on z of -K z.
+  MatX moving_stiffness(const Parameters& parameters, const Knot& knot) const;
+  // at_rest: for a balance of forces, which does not ask how the coordinates change.
+  void append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row, bool at_rest = false) const;
+  double slowest_rate(const std::vector<double>& rows, const Parameters& parameters) const;
+  double interpolation_error(const std::vector<double>& rows, const Parameters& parameters) const;
+  // Whether T'' has a part.
+  bool moving() const { return coordinates_.has_dependent(); }
+  int element_size() const { return (moving() ? 3 : 2) * layout_.n * layout_.n + 4 * layout_.n; }
+
+  const Mechanism& mechanism_;
+  OffsetLayout offsets_;
+  DeviationCoordinates coordinates_;
+  SceneLayout layout_;
+  std::vector<std::vector<Element>> groups_;  // what no parameter scales; one per body's mass; the payload
+  SceneStart start_of(const Parameters& parameters, const Knot& first) const;
+
+  double spacing_ = 0.0;
+  std::vector<Knot> knots_;
+};
+
+}  // namespace boresight

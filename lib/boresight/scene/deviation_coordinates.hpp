@@ -1,0 +1,85 @@
+// Coordinates for the small deviation of a mechanism, opened at its clearance joints, from its ideal motion.
+//
+// With K the rows that stay in force (drives included) and S as many rows as there are freedoms left, [K; S] is square and
+//     T = [K; S]^-1 restricted to S
+// holds the velocities of all bodies per unit rate of the coordinates z, the deviation of the bodies being T z. The rows of
+// S are, in this order of preference:
+//   the released rows of the clearance joints: z are then the joints' offsets themselves (OffsetLayout);
+//   coordinates of other joints (turns, slides), where the ideal mechanism has freedoms that nothing drives.
+// Where redundant joints hold an offset that its clearance would release (a planar loop in space, the other bearing of a
+// shaft), the offset is no coordinate: it is zero or follows the others, xi = B z with B = R T, R the released rows. Of joints
+// that hang together the first gives its offsets, as many as are independent: that choice is good in every pose. There may be
+// no coordinate at all, where no play can move.
+// Default scene: one revolute joint, three coordinates, its offsets.
+#pragma once
+
+#include <Eigen/QR>
+#include <string>
+#include <vector>
+
+#include "boresight/mechanism/ideal_motion.hpp"
+#include "boresight/mechanism/offset_layout.hpp"
+
+namespace boresight {
+
+class DeviationCoordinates {
+ public:
+  // Throws ComputationError where no joint's coordinates describe what the mechanism can do.
+  DeviationCoordinates(const Mechanism& mechanism, const IdealMotion& ideal);
+
+  int count() const { return count_; }
+  // Coordinates that are no offsets come last: so many.
+  int leftover() const { return leftover_; }
+
+  // Where an offset of OffsetLayout comes from: its coordinate, or one of these.
+  static constexpr int kSlides = -1;     // it is no offset
+  static constexpr int kDependent = -2;  // B z
+  const std::vector<int>& source() const { return source_; }
+  bool has_dependent() const { return has_dependent_; }
+
+  // T at t: 6 bodies x count. Throws ComputationError, naming the time, near a singular pose.
+  void gain(double t, MatX& T);
+  // B at the pose of the last gain(): offsets x count. Exactly 0 and 1 where an offset is a coordinate.
+  MatX offsets_per_coordinate(const MatX& T) const;
+  // How fast T and B change there along the ideal motion; where offsets depend on others also how T_rate changes, else 0 x 0.
+  void rates(const MatX& T, MatX& T_rate, MatX& T_second, MatX& B_rate);
+  // The chosen rows at the pose of the last gain(), in the order of the coordinates: acceleration of z = rows . v' - gamma.
+  void coordinate_accelerations(const std::vector<BodyMotion>& bodies,
+                                const std::vector<BodyAcceleration>& acceleration, VecX& z_ddot) const;
+  // Rates of the chosen rows, and their values, of given body motions.
+  void coordinate_rates(const std::vector<BodyMotion>& bodies, VecX& z_dot, VecX& z) const;
+
+ private:
+  struct Chosen {
+    int constraint;  // among rows_
+    int row;
+  };
+  void choose(const std::vector<MatX>& rows, const MatX& null_space);
+  void sparse_gain(MatX& T);
+  void dense_gain(double t, MatX& T);
+  void solve_closed(Eigen::Ref<VecX> motion);
+  MatX dense_rows(const std::vector<BodyMotion>& bodies);
+  [[noreturn]] void throw_singular(double t) const;
+
+  const Mechanism& mechanism_;
+  const IdealMotion& ideal_;
+  OffsetLayout layout_;
+  ConstraintSystem closed_, open_, moved_;
+  bool sparse_ = false;  // all rows, released ones included, are as many as the bodies' freedoms, and independent
+  std::vector<Mat6> weight_;
+  double length_;
+  VecX scale_;  // kinematic weight of the stacked velocities
+  VecX unit_;   // of each coordinate: the characteristic length of a distance, 1 of a turn or a slope
+  std::vector<JointConstraint> rows_;  // released rows per clearance, then free rows per joint
+  std::vector<Chosen> chosen_;
+  std::vector<int> source_;
+  bool has_dependent_ = false;
+  int count_ = 0, leftover_ = 0;
+  IdealState state_;
+  std::vector<TimeValue> laws_;
+  std::vector<Vec6> b_, goal_, u_, residual_, du_;
+  MatX all_;  // rows of the last dense gain, and how they were solved
+  Eigen::ColPivHouseholderQR<MatX> qr_;
+};
+
+}  // namespace boresight

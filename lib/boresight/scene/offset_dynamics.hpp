@@ -1,0 +1,98 @@
+// The right-hand side of the perturbation rung: zddot = A (r + f_contact) - A C zdot - A K z, one template for every scalar.
+//
+// T is the scalar of the coordinates and of the numbers that a sample varies; S that of the scene's functions of time: plain
+// doubles where all samples share them, lanes where each sample is at its own time. State: z (n), then zdot (n).
+#pragma once
+
+#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/scene/scene_layout.hpp"
+
+namespace boresight {
+
+// How a journal moves, from the coordinates and the scene (one row of its table) at that time.
+template <typename Layout, typename Joint, typename T, typename S>
+JournalMotion<T> journal_motion(const Layout& at, const Joint& joint, const S* scene, const T* z, const T* rate) {
+  std::array<T, 5> offset, offset_rate;
+  for (int k = 0; k < joint.offsets; ++k) {
+    const int source = joint.source[k];
+    if (source >= 0) {
+      offset[k] = z[source];
+      offset_rate[k] = rate[source];
+    } else if (source == DeviationCoordinates::kDependent) {
+      const S *B = scene + joint.dependent + k * at.n, *B_rate = B + joint.offsets * at.n;
+      offset[k] = offset_rate[k] = T(0.0);
+      for (int j = 0; j < at.n; ++j) {
+        offset[k] += T(B[j]) * z[j];
+        offset_rate[k] += T(B[j]) * rate[j] + T(B_rate[j]) * z[j];
+      }
+    } else {
+      offset[k] = T(scene[joint.slide]);
+      offset_rate[k] = T(scene[joint.slide + 1]);
+      for (int j = 0; j < at.n; ++j) offset_rate[k] += T(scene[joint.slide_gain + j]) * rate[j];
+      if (joint.gains_move)
+        for (int j = 0; j < at.n; ++j) offset_rate[k] += T(scene[joint.slide_drift + j]) * z[j];
+    }
+  }
+  JournalMotion<T> m;
+  for (int i = 0; i < 3; ++i) {
+    m.e[i] = offset[i];
+    m.e_dot[i] = offset_rate[i];
+  }
+  if (joint.tilts)
+    for (int i = 0; i < 2; ++i) {
+      m.slope[i] = offset[3 + i];
+      m.slope_rate[i] = offset_rate[3 + i];
+    }
+  m.w[0] = m.w[2] = T(0.0);
+  for (int i = 0; i < joint.spins; ++i) {
+    T spin(scene[joint.spin + i]);
+    const S* gain = scene + joint.spin_gain + i * at.n;
+    for (int j = 0; j < at.n; ++j) spin = fused(T(gain[j]), rate[j], spin);
+    if (joint.gains_move)
+      for (int j = 0; j < at.n; ++j) spin = fused(T(scene[joint.spin_drift + i * at.n + j]), z[j], spin);
+    m.w[joint.tilts ? i : 1] = spin;
+  }
+  return m;
+}
+
+// Adds a joint's wrench to the generalised force (n numbers).
+template <typename Layout, typename Joint, typename T, typename S>
+void add_generalised_force(const Layout& at, const Joint& joint, const S* scene, const JournalMotion<T>& motion,
+                           const JournalLoad<T>& wrench, T* force) {
+  for (int k = 0; k < 3; ++k) {
+    const int source = joint.source[k];
+    if (source >= 0) {
+      force[source] += wrench.force[k];
+    } else {
+      const S* gain =
+          scene + (source == DeviationCoordinates::kDependent ? joint.dependent + k * at.n : joint.slide_gain);
+      for (int j = 0; j < at.n; ++j) force[j] += T(gain[j]) * wrench.force[k];
+    }
+  }
+  // The moment about the journal's centre works on the relative spin.
+  const Vec3T<T> moment = wrench.moment - motion.e.cross(wrench.force);
+  for (int i = 0; i < joint.spins; ++i) {
+    const S* gain = scene + joint.spin_gain + i * at.n;
+    const T& m = moment[joint.tilts ? i : 1];
+    for (int j = 0; j < at.n; ++j) force[j] = fused(T(gain[j]), m, force[j]);
+  }
+}
+
+// zddot from the generalised contact force.
+template <typename Layout, typename T, typename S>
+void coordinate_acceleration(const Layout& at, const S* scene, const T* z, const T* rate, const T* force,
+                             T* acceleration) {
+  for (int i = 0; i < at.n; ++i) {
+    T sum(scene[at.Ar + i]);
+    const S* AC = scene + at.AC + i * at.n;
+    for (int j = 0; j < at.n; ++j)
+      sum = fused(T(scene[at.inverse_mass(i, j)]), force[j], fused(T(-AC[j]), rate[j], sum));
+    if (at.stiff) {
+      const S* AK = scene + at.AK + i * at.n;
+      for (int j = 0; j < at.n; ++j) sum = fused(T(-AK[j]), z[j], sum);
+    }
+    acceleration[i] = sum;
+  }
+}
+
+}  // namespace boresight

@@ -1,0 +1,262 @@
+#include "boresight/scene/resting_start.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/contact_events/contact_jacobian.hpp"
+#include "boresight/scene/quasistatic_offset.hpp"
+#include "boresight/scene/rest_search.hpp"
+
+namespace boresight {
+namespace {
+
+// A load below this share of the largest is what rounding leaves of none.
+constexpr double kNoLoad = 1e-9;
+// What may be left unbalanced, as a share of the load: less than kNoLoad of it is balanced, lest a journal crosses its clearance for it.
+constexpr double kBalanced = kNoLoad, kAcceptable = 1e-8;
+// What may be left that no place of the journals balances, likewise: it sets off the motion.
+constexpr double kLeftToMotion = 1e-4;
+constexpr int kMostSteps = 400;
+// Of the load over a clearance: with less, the step is the undamped one.
+constexpr double kLeastDamping = 1e-8;
+// Stiffness below this share of the largest holds nothing.
+constexpr double kSoft = 1e-11;
+
+// A rest is a matter of elastic forces: what contacts dissipate and rub hangs on how fast the bodies carry them along.
+JournalInSleeve elastic_only(JournalInSleeve joint) {
+  for (NormalLaw* law : {&joint.radial_law, &joint.tilted.end_law}) law->damping_factor = law->dashpot = 0.0;
+  joint.friction.kind = joint.tilted.friction.kind = FrictionKind::none;
+  joint.friction.stiction = joint.tilted.friction.stiction = 0.0;
+  joint.sticks = false;
+  return joint;
+}
+
+// z per offset: M_r of the other coordinates pulls them to where the bodies move least, T z in the metric of their masses.
+MatX carried_along(const MatX& mass, const std::vector<bool>& held) {
+  const auto n = static_cast<Eigen::Index>(held.size());
+  std::vector<Eigen::Index> offsets, others;
+  for (Eigen::Index k = 0; k < n; ++k) (held[static_cast<std::size_t>(k)] ? offsets : others).push_back(k);
+  MatX along = MatX::Zero(n, n);
+  for (Eigen::Index k : offsets) along(k, k) = 1.0;
+  if (!offsets.empty() && !others.empty())
+    along(others, offsets) = -mass(others, others).llt().solve(MatX(mass(others, offsets)));
+  return along;
+}
+
+constexpr std::array<double, kContactPlaces> kSlow = {1e-3, 1e-3, 1e-3, 1e-3,
+                                                      1e-3};  // of no account where nothing dissipates
+
+}  // namespace
+
+RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std::vector<JournalInSleeve> joints)
+    : at_(layout), held_(static_cast<std::size_t>(layout.n), false) {
+  const int n = at_.n;
+  for (JournalInSleeve& joint : joints) joints_.push_back(elastic_only(std::move(joint)));
+  MatX inverse;
+  at_.inverse_mass(row, inverse);
+  mass_ = inverse.ldlt().solve(MatX::Identity(n, n));
+  using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  reaction_ = mass_ * Eigen::Map<const VecX>(row + at_.Ar, n);
+  stiffness_ = at_.stiff ? MatX(mass_ * Rows(row + at_.AK, n, n)) : MatX(MatX::Zero(n, n));
+  double widest = 0.0;
+  for (const JournalInSleeve& law : joints_) widest = std::max({widest, law.radial_clearance, law.axial_clearance});
+  if (!(widest > 0.0)) widest = 1e-6;
+  VecX scale = VecX::Constant(n, widest);
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    const SceneLayout::Joint& joint = at_.joints[c];
+    const JournalInSleeve& law = joints_[c];
+    MatX& G = offsets_of_.emplace_back(MatX::Zero(5, n));
+    MatX& V = works_on_.emplace_back(MatX::Zero(6, n));
+    slide_.push_back(joint.slides ? row[joint.slide] : 0.0);
+    const double radial = law.radial_clearance > 0.0 ? law.radial_clearance : widest,
+                 axial = law.axial_clearance > 0.0 ? law.axial_clearance : widest;
+    const double slope = joint.tilts ? radial / law.half_length : 1.0;
+    Offsets& width = widths_.emplace_back();
+    width << radial, axial, radial, slope, slope;
+    for (int k = 0; k < joint.offsets; ++k) {
+      const int source = joint.source[k];
+      if (source >= 0) {
+        G(k, source) = 1.0;
+        held_[source] = true;
+        scale[source] = width[k];
+      } else if (source == DeviationCoordinates::kDependent) {
+        G.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.dependent + k * n, n);
+      } else if (k < 3) {
+        V.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.slide_gain, n);
+      }
+      if (k < 3 && source != DeviationCoordinates::kSlides) V.row(k) = G.row(k);
+    }
+    for (int i = 0; i < joint.spins; ++i)
+      V.row(3 + (joint.tilts ? i : 1)) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.spin_gain + i * n, n);
+  }
+  with_offsets_ = carried_along(mass_, held_);
+  reaction_ = balanceable(reaction_);
+  const VecX parts = reaction_.cwiseProduct(scale).cwiseAbs();
+  for (int k = 0; k < n; ++k)
+    if (parts[k] <= kNoLoad * parts.maxCoeff()) reaction_[k] = 0.0;
+
+  MatX spread = MatX::Zero(n, n);
+  for (int k = 0; k < n; ++k)
+    if (!held_[k]) spread(k, k) = 1.0 / (widest * widest);
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    MatX& G = over_widths_.emplace_back(widths_[c].cwiseInverse().asDiagonal() * offsets_of_[c]);
+    for (int k = 0; k < n; ++k)
+      if (!held_[k]) G.col(k).setZero();
+    spread += G.transpose() * G;
+  }
+  unit_ = spread.llt().matrixU().solve(MatX::Identity(n, n));
+  load_ = size(reaction_);
+}
+
+JournalMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z) const {
+  const Eigen::Matrix<double, 5, 1> offset = offsets_of_[joint] * z;
+  JournalMotion<double> m{offset.head<3>(), Vec3::Zero(), Vec3::Zero()};
+  m.slope = offset.tail<2>();
+  m.slope_rate.setZero();
+  if (at_.joints[joint].slides) m.e.y() = slide_[joint];
+  return m;
+}
+
+void RestingBalance::evaluate(const VecX& offsets, VecX& F, MatX& by_z) const {
+  const VecX z = completed(offsets);
+  F = -stiffness_ * z;
+  std::vector<JournalMotion<double>> journals;
+  JournalWrench<double> wrench;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    const JournalMotion<double>& motion = journals.emplace_back(motion_of(c, z));
+    joints_[c].wrench(motion, kSlow, wrench);
+    Vec6 load;
+    load << wrench.force, wrench.moment - motion.e.cross(wrench.force);
+    F.noalias() += works_on_[c].transpose() * load;
+  }
+  F = reaction_ + balanceable(F);
+  by_z = stiffness_at(journals);
+}
+
+MatX RestingBalance::stiffness_at(const std::vector<JournalMotion<double>>& journals) const {
+  MatX by_z = -stiffness_;
+  ContactJacobian of_motion;
+  Eigen::Matrix<double, 6, 5> of_offsets;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    JournalMotion<double> still = journals[c];
+    still.e_dot.setZero();
+    still.w.setZero();
+    still.slope_rate.setZero();
+    contact_jacobian(joints_[c], still, kSlow, MomentAbout::journal, of_motion);
+    of_offsets << of_motion.leftCols<3>(), of_motion.middleCols<2>(9);
+    by_z.noalias() += works_on_[c].transpose() * (of_offsets * offsets_of_[c]);
+  }
+  return with_offsets_.transpose() * by_z * with_offsets_;
+}
+
+double RestingBalance::energy(const VecX& offsets) const {
+  const VecX z = completed(offsets);
+  double sum = 0.5 * z.dot(stiffness_ * z) - reaction_.dot(z);
+  for (std::size_t c = 0; c < joints_.size(); ++c) sum += joints_[c].elastic_energy(motion_of(c, z));
+  return sum;
+}
+
+VecX RestingBalance::correction(const MatX& by_z, const VecX& F) const {
+  const MatX H = -(unit_.transpose() * by_z * unit_);
+  Eigen::CompleteOrthogonalDecomposition<MatX> solver;
+  solver.setThreshold(kSoft);
+  solver.compute(H);
+  return unit_ * solver.solve(unit_.transpose() * F);
+}
+
+// Each journal where its own offsets' loads alone would have it; where redundant joints tie offsets together, the loads that are least,
+// and as near to there as the ties let the journals, in offsets over clearances.
+VecX RestingBalance::guess() const {
+  const VecX shared = unit_ * (unit_.transpose() * reaction_);
+  VecX there = VecX::Zero(at_.n);
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    Offsets load = over_widths_[c] * shared;
+    load = (load.array().abs() > kNoLoad * load_).select(load.cwiseQuotient(widths_[c]), 0.0);
+    const JournalMotion<double> rest = rest_under(joints_[c], load, slide_[c], {}).motion;
+    Offsets offset;
+    offset << rest.e, rest.slope;
+    for (int k = 0; k < at_.joints[c].offsets; ++k)
+      if (std::isfinite(offset[k])) there += offset[k] / widths_[c][k] * over_widths_[c].row(k).transpose();
+  }
+  return unit_ * (unit_.transpose() * there);
+}
+
+RestingStart RestingBalance::solve() const {
+  const int n = at_.n;
+  RestingStart rest{VecX::Zero(n), ""};
+  if (n == 0 || !(load_ > 0.0)) return rest;  // nothing presses anywhere
+  VecX z = guess(), F(n), trial(n), F_trial(n);
+  if (!(energy(z) < energy(VecX::Zero(n)))) z.setZero();
+  MatX J(n, n), J_trial(n, n);
+  evaluate(z, F, J);
+  double E = energy(z), damping = 0.0;
+  for (int step = 0; step < kMostSteps && size(F) > kBalanced * load_; ++step) {
+    VecX dz;
+    if (damping == 0.0) {
+      dz = correction(J, F);
+    } else {
+      const MatX H = damping * MatX::Identity(n, n) - MatX(unit_.transpose() * J * unit_);
+      dz = unit_ * H.partialPivLu().solve(unit_.transpose() * F);
+    }
+    // No farther at once than the clearances are wide: beyond, the contacts are others.
+    const double reach = length(dz);
+    if (!std::isfinite(reach)) break;
+    if (reach > 1.0) dz /= reach;
+    trial = z + dz;
+    evaluate(trial, F_trial, J_trial);
+    const double E_trial = energy(trial);
+    if (E_trial < E || size(F_trial) < size(F)) {
+      z = trial;
+      E = E_trial;
+      F.swap(F_trial);
+      J.swap(J_trial);
+      damping = damping > kLeastDamping * load_ ? 0.1 * damping : 0.0;
+    } else {
+      if (size(F) <= kAcceptable * load_) break;  // rounding decides which is lower
+      damping = std::max(10.0 * damping, kLeastDamping * load_);
+    }
+  }
+  if (size(F) > kAcceptable * load_ || !z.allFinite()) {
+    const auto left = [&](const VecX& at) {
+      VecX balance(n);
+      MatX unused(n, n);
+      evaluate(at, balance, unused);
+      return balance;
+    };
+    rest.z = guess();
+    const double length = search_rest(left, unit_, rest.z);
+    if (rest.z.allFinite()) {
+      const double remains = size(left(rest.z));
+      if (remains <= kAcceptable * load_ || (length <= kSettledRest && remains <= kLeftToMotion * load_)) {
+        rest.z = completed(rest.z);
+        return rest;
+      }
+    }
+    rest.z.setZero();
+    rest.refusal = "no position was found in which the journals' contacts carry the loads of t = 0";
+    return rest;
+  }
+  rest.z = completed(z);
+  return rest;
+}
+
+std::string centred_for_want_of(const std::string& refusal) {
+  return "journals start in the middle of their sleeves: " + refusal;
+}
+
+VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const SceneStart& start,
+                       const std::vector<JournalInSleeve>& joints, std::string& warning) {
+  VecX state = VecX::Zero(2 * layout.n);
+  if (mechanism.description().journals == JournalStart::centred) return state;
+  const RestingStart rest = RestingBalance(layout, start.row.data(), joints).solve();
+  if (!rest.refusal.empty()) {
+    warning = centred_for_want_of(rest.refusal);
+    return state;
+  }
+  state << rest.z, start.rates * rest.z;
+  return state;
+}
+
+}  // namespace boresight

@@ -1,0 +1,81 @@
+// Where the journals rest as a motion starts: the deviation z in which the contacts carry what the ideal joints carried,
+//
+//     r(0) + f_elastic(z) - K z = 0
+//
+// all joints together. Nothing moves against the ideal motion yet, so contacts neither dissipate nor rub. In directions in which
+// no load acts offsets stay where the ideal motion has them. Coordinates that are no offsets go where the bodies move least, weighed by
+// their masses: which joints' coordinates these are hangs on the order of lists.
+//
+// The bodies start with the velocities of the ideal motion: start_rates.hpp.
+//
+// The balance is the minimum of the elastic energy less the work of the loads, which is convex but for the tilt of faces:
+// Newton's method in offsets over clearances, damped (Levenberg 1944, Quarterly of Applied Mathematics 2, 164-168) where a
+// step does not pay, from where each journal would rest alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/mechanism/mechanism.hpp"
+#include "boresight/scene/clearance_scene.hpp"
+
+namespace boresight {
+
+struct RestingStart {
+  VecX z;               // the coordinates: zero where there is no balance
+  std::string refusal;  // why there is none; empty where there is one
+};
+
+// The balance at one instant: `row` holds the scene's numbers there (SceneTables::dynamics).
+class RestingBalance {
+ public:
+  RestingBalance(const SceneLayout& layout, const double* row, std::vector<JournalInSleeve> joints);
+
+  RestingStart solve() const;
+
+  // Of what is left unbalanced with the offsets of z, F = r + f - K z, and of its change with z: n, n x n [N, N m; per m, per slope].
+  void evaluate(const VecX& offsets, VecX& F, MatX& by_z) const;
+  // The latter where the journals stand as given, which a mechanism's own geometry may put a little off z.
+  MatX stiffness_at(const std::vector<JournalMotion<double>>& journals) const;
+  // The step of z that balances F: the shortest, in offsets over clearances, where contact holds no direction.
+  VecX correction(const MatX& by_z, const VecX& F) const;
+  // A load on z without the part that no journal's place can balance.
+  VecX balanceable(const VecX& load) const { return with_offsets_.transpose() * load; }
+  // z with the coordinates that are no offsets where the bodies move least.
+  VecX completed(const VecX& z) const { return with_offsets_ * z; }
+  // Of a step of z: the offsets that it makes, each over its clearance, as one length. It does not hang on which offsets are coordinates.
+  double length(const VecX& dz) const { return unit_.triangularView<Eigen::Upper>().solve(dz).norm(); }
+  // Of a load on z, likewise [N m].
+  double size(const VecX& load) const { return (unit_.transpose() * load).norm(); }
+  const MatX& unit() const { return unit_; }  // z = unit y: y of length 1 makes offsets of that length
+  const std::vector<JournalInSleeve>& joints() const { return joints_; }  // elastic, without friction
+
+ private:
+  JournalMotion<double> motion_of(std::size_t joint, const VecX& z) const;
+  double energy(const VecX& offsets) const;
+  VecX guess() const;
+
+  const SceneLayout& at_;
+  std::vector<JournalInSleeve> joints_;
+  MatX mass_, stiffness_;
+  using Offsets = Eigen::Matrix<double, 5, 1>;
+  VecX reaction_;
+  MatX unit_;                      // upper triangle
+  std::vector<bool> held_;         // coordinates that the balance may move: offsets
+  MatX with_offsets_;              // n x n: z per offset, the others' columns zero
+  std::vector<Offsets> widths_;    // per joint: what each offset crosses its clearance with
+  std::vector<MatX> offsets_of_;   // per joint: 5 x n, offsets per coordinate
+  std::vector<MatX> over_widths_;  // the same over the widths, of coordinates that the balance may move
+  std::vector<MatX> works_on_;     // per joint: 6 x n, the rates that force and moment work on
+  std::vector<double> slide_;
+  double load_ = 0.0;  // size() of the reactions [N m]
+};
+
+// The coordinates, and then their rates, that motions of this mechanism start with: zero where the file has the journals centred,
+// else their balance. warning: a sentence where that was wanted and not found; else left alone.
+VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const SceneStart& start,
+                       const std::vector<JournalInSleeve>& joints, std::string& warning);
+std::string centred_for_want_of(const std::string& refusal);
+
+}  // namespace boresight

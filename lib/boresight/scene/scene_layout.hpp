@@ -1,0 +1,87 @@
+// Where the numbers of a clearance scene lie in one row of its table (one row per time).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "boresight/scene/deviation_coordinates.hpp"
+
+namespace boresight {
+
+// Where entry (i, j) of a symmetric matrix lies, of which the upper triangle is kept row by row.
+constexpr int upper_triangle(int n, int i, int j) {
+  return i <= j ? i * n - i * (i - 1) / 2 + j - i : upper_triangle(n, j, i);
+}
+
+struct SceneLayout {
+  struct Joint {
+    bool tilts = false, slides = false;
+    // Per offset (three, or five where the journal tilts): its coordinate, or DeviationCoordinates::kSlides, kDependent.
+    int offsets = 3;
+    std::array<int, 5> source = {};
+    int spins = 1;        // components of the relative spin kept: y, or x y z where the journal tilts
+    int spin = 0;         // ideal spin
+    int spin_gain = 0;    // spins x n: what coordinate rates add to it
+    int spin_drift = 0;   // spins x n: what coordinates add to it (where gains move)
+    int slide = 0;        // ideal displacement along the axis and its rate (where it slides)
+    int slide_gain = 0;   // 1 x n
+    int slide_drift = 0;  // 1 x n, as spin_drift
+    int dependent = 0;    // B and then Bdot, offsets x n each (where an offset is dependent)
+    bool has_dependent = false;
+    // Where redundant joints tie offsets together, which of them are coordinates is the drawing's choice. It does not matter only if what the
+    // coordinates' gains change by as the mechanism moves is kept.
+    bool gains_move = false;
+  };
+
+  SceneLayout() = default;
+  SceneLayout(const OffsetLayout& offsets, const DeviationCoordinates& coordinates, bool with_stiffness)
+      : n(coordinates.count()), stiff(with_stiffness) {
+    A = 0;
+    Ar = A + n * (n + 1) / 2;
+    AC = Ar + n;
+    AK = AC + n * n;
+    width = AK + (stiff ? n * n : 0);
+    joints_at = width;
+    for (int c = 0; c < offsets.clearances(); ++c) {
+      Joint j;
+      j.tilts = offsets.joint(c).tilts;
+      j.slides = offsets.joint(c).slides;
+      j.offsets = offsets.joint(c).count();
+      for (int k = 0; k < j.offsets; ++k) {
+        j.source[k] = coordinates.source()[offsets.joint(c).first + k];
+        j.has_dependent = j.has_dependent || j.source[k] == DeviationCoordinates::kDependent;
+      }
+      j.spins = j.tilts ? 3 : 1;
+      j.gains_move = coordinates.has_dependent();
+      const auto take = [this](int numbers) {
+        const int at = width;
+        width += numbers;
+        return at;
+      };
+      j.spin = take(j.spins);
+      j.spin_gain = take(j.spins * n);
+      j.spin_drift = take(j.gains_move ? j.spins * n : 0);
+      j.slide = take(j.slides ? 2 : 0);
+      j.slide_gain = take(j.slides ? n : 0);
+      j.slide_drift = take(j.gains_move && j.slides ? n : 0);
+      j.dependent = take(j.has_dependent ? 2 * j.offsets * n : 0);
+      joints.push_back(j);
+    }
+  }
+
+  // Column of A(i, j).
+  int inverse_mass(int i, int j) const { return A + upper_triangle(n, i, j); }
+  // A as a matrix, from one row.
+  void inverse_mass(const double* row, MatX& matrix) const {
+    matrix.resize(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) matrix(i, j) = row[inverse_mass(i, j)];
+  }
+
+  int n = 0;           // coordinates
+  bool stiff = false;  // whether forces that grow with the coordinates themselves are kept
+  int A = 0, Ar = 0, AC = 0, AK = 0, joints_at = 0, width = 0;
+  std::vector<Joint> joints;
+};
+
+}  // namespace boresight

@@ -1,0 +1,91 @@
+// What the cheap rungs share: the ideal motion and the scene of a mechanism, computed on first use and kept for all samples.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "boresight/rungs/rung.hpp"
+#include "boresight/scene/clearance_scene.hpp"
+
+namespace boresight {
+
+// Whether two sets of parameters share what the scene's tables hang on, and the ideal motion where it is simulated: masses,
+// gravity, springs.
+bool same_scene(const Parameters& a, const Parameters& b);
+
+// A mechanism's ideal motion and scene, and what is read off them again and again. Safe to share between threads.
+class PreparedScene {
+ public:
+  PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motion, const Parameters& parameters);
+
+  const IdealMotion& ideal() const { return ideal_; }
+  const ClearanceScene& scene() const { return scene_; }
+  // Sentences on plays that cannot move.
+  const std::vector<std::string>& held() const { return held_; }
+  // In which the fastest body of the ideal motion turns by a radian or moves by the mechanism's size [s]: motion_scales.hpp.
+  double own_time() const { return own_time_; }
+  // Tables of these masses, gravity, springs; the last ones asked for are kept.
+  std::shared_ptr<const SceneTables> tables(const Parameters& parameters) const;
+  // E of a body over time: 6 x n, row by row.
+  const TimeTable& pose_gain(int body) const;
+  // Its rate of change, likewise.
+  const TimeTable& pose_gain_rate(int body) const;
+
+ private:
+  IdealMotion ideal_;
+  ClearanceScene scene_;
+  std::vector<std::string> held_;
+  double own_time_;
+  mutable std::mutex mutex_;
+  mutable Parameters tabled_;
+  mutable std::shared_ptr<const SceneTables> tables_;
+  mutable std::map<int, TimeTable> pose_gain_, pose_gain_rate_;
+};
+
+// Bodies of the ideal motion displaced by the deviation E z, at one instant: x = E z moves the body, its turning part theta
+// makes R = exp(theta) R_ideal. To first order in theta
+//   v = v_ideal + x'       w = w_ideal + theta' + theta x w_ideal
+//   a = a_ideal + x''  alpha = alpha_ideal + theta'' + theta' x w_ideal + theta x alpha_ideal
+// with x' = E z' + E' z and x'' = E z'' + 2 E' z' + E'' z.
+class DisplacedBodies {
+ public:
+  DisplacedBodies(const PreparedScene& prepared, double t, const Eigen::Ref<const VecX>& z)
+      : prepared_(prepared), t_(t), z_(z) {}
+
+  // With the velocities and the acceleration of the ideal motion.
+  BodyMotion at_rest(int body, BodyAcceleration& acceleration) const;
+  // With those of the deviation added.
+  BodyMotion moving(int body, const Eigen::Ref<const VecX>& z_dot, const Eigen::Ref<const VecX>& z_ddot,
+                    BodyAcceleration& acceleration) const;
+
+ private:
+  using PoseGain = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
+  PoseGain gain(const TimeTable& table) const;
+
+  const PreparedScene& prepared_;
+  double t_;
+  Eigen::Ref<const VecX> z_;
+};
+
+class SceneRung : public Rung {
+ public:
+  // Times the computation, then hands over to follow().
+  RunResult run(const Parameters& parameters, const RunOptions& options) const final;
+
+ protected:
+  explicit SceneRung(std::shared_ptr<const Mechanism> mechanism) : mechanism_(std::move(mechanism)) {}
+  virtual RunResult follow(const PreparedScene& prepared, const Parameters& parameters,
+                           const RunOptions& options) const = 0;
+  const Mechanism& mechanism() const { return *mechanism_; }
+
+ private:
+  std::shared_ptr<const PreparedScene> prepared_for(const Parameters& parameters) const;
+
+  std::shared_ptr<const Mechanism> mechanism_;
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<const PreparedScene> prepared_;
+  mutable Parameters prepared_parameters_;
+};
+
+}  // namespace boresight

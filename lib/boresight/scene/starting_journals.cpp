@@ -1,0 +1,32 @@
+#include "boresight/scene/starting_journals.hpp"
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/scene/clearance_scene.hpp"
+#include "boresight/scene/offset_dynamics.hpp"
+#include "boresight/scene/resting_start.hpp"
+
+namespace boresight {
+
+StartingJournals starting_journals(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
+  const MechanismDescription& m = mechanism.description();
+  StartingJournals start;
+  for (const ClearanceDescription& c : m.clearances)
+    start.journals.push_back({m.joints[c.joint].name, Vec3::Zero(), Vec3::Zero()});
+  if (m.journals == JournalStart::centred || m.clearances.empty()) return start;
+  try {
+    const ClearanceScene::Start scene = ClearanceScene::at_start(mechanism, ideal, parameters);
+    const VecX state =
+        start_coordinates(mechanism, scene.layout, scene.numbers, clearance_joints(m, parameters), start.warning);
+    for (std::size_t c = 0; c < start.journals.size(); ++c) {
+      const JournalMotion<double> motion = journal_motion(
+          scene.layout, scene.layout.joints[c], scene.numbers.row.data(), state.data(), state.data() + scene.layout.n);
+      start.journals[c].offset = motion.e;
+      if (m.clearances[c].axes == JournalAxes::free) start.journals[c].slope = {motion.slope[0], 0.0, motion.slope[1]};
+    }
+  } catch (const ComputationError& failure) {
+    start.warning = centred_for_want_of(failure.what());
+  }
+  return start;
+}
+
+}  // namespace boresight

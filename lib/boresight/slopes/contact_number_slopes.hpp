@@ -1,0 +1,32 @@
+// The numbers of all contacts (JournalInSleeve) as functions of the fitted parameters, with their
+// derivatives.
+//
+// A contact's numbers are closed-form functions of a mechanism's parameters (hertz.hpp, the laws' damping
+// factors). Their derivatives, a constant of a whole motion, are taken here by central differences of eighth
+// order in the logarithm of the parameter: step 1 %, truncation 1e-16, rounding some 1e-13, relative
+// (Fornberg 1988, Mathematics of Computation 51, 699-706, table 1). So every law and every parameter path
+// serves without a second copy of its equation. What follows from them, the motion, is differentiated by
+// jets.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "boresight/contact/contact_numbers.hpp"
+#include "boresight/mechanism/mechanism.hpp"
+
+namespace boresight {
+
+struct ContactNumbers {
+  std::vector<JournalInSleeve> joints;                               // per clearance
+  std::vector<std::vector<std::array<double, kContactNumbers>>> by;  // [parameter][clearance]: d number / d parameter
+  std::vector<double> values;                                        // of the parameters
+};
+
+// parameters_at: the mechanism's parameters at some values of those fitted. values: > 0.
+ContactNumbers contact_numbers(const Mechanism& mechanism,
+                               const std::function<Parameters(const std::vector<double>&)>& parameters_at,
+                               const std::vector<double>& values);
+
+}  // namespace boresight

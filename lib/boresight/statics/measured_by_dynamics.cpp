@@ -1,0 +1,257 @@
+#include "boresight/statics/measured_by_dynamics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/perturbation/perturbation.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+
+namespace boresight {
+namespace {
+
+// Of the rung's own step: the second one is as good as the first, the third is finer.
+constexpr std::array kShares = {1.0, 0.97, 0.5};
+// Steps after which a motion counts as too long to be followed for an estimate, in the looks that a rung
+// grants (every 4096).
+constexpr int kMostLooks = 1000;
+constexpr double kRounding = 1e-12;  // of a motion in metres [m or rad]
+// What is smaller than this share of the largest, on the mechanism's size, is next to nothing: what it is off by counts against the largest.
+constexpr double kNextToNothing = 1e-4;
+// Where numbers scatter that begin at zero, every sample may stand for itself alone.
+constexpr std::size_t kMostKept = 4096;
+
+// The mean over many such motions lies within this many ranges of three of them, with a confidence of 95
+// percent: Student's t of two degrees of freedom, 4.303 / sqrt(3), over the mean range of three normal
+// draws, 1.693 standard deviations.
+constexpr double kOfRange = 1.467;
+
+// A bound that the pose's curvature may exceed by less is one for all that is built.
+constexpr double kBent = 0.05;
+
+bool within_twice(double a, double b) { return a == b || (a > 0.0 && b > 0.0 && a <= 2.0 * b && b <= 2.0 * a); }
+
+// What stands for b: a itself within a factor of two of it, else a by the power of two that comes nearest to b.
+double standing_for(double b, double a) {
+  if (within_twice(a, b)) return a;
+  return a > 0.0 && b > 0.0 ? a * std::exp2(std::round(std::log2(b / a))) : b;
+}
+
+ClearanceParameters standing_for(const ClearanceParameters& b, const ClearanceParameters& a) {
+  ClearanceParameters p = a;
+  for (const auto number :
+       {&ClearanceParameters::radial, &ClearanceParameters::axial, &ClearanceParameters::sleeve_length})
+    p.*number = standing_for(b.*number, a.*number);
+  const double lost = standing_for(1.0 - b.contact.restitution, 1.0 - a.contact.restitution);
+  p.contact.restitution = lost < 1.0 ? 1.0 - lost : b.contact.restitution;
+  p.contact.stiffness_scale = standing_for(b.contact.stiffness_scale, a.contact.stiffness_scale);
+  for (int side = 0; side < 2; ++side)
+    p.contact.young[side] = standing_for(b.contact.young[side], a.contact.young[side]);
+  p.friction.coefficient = standing_for(b.friction.coefficient, a.friction.coefficient);
+  return p;
+}
+
+// The parameters at which the error of a sample b is measured: the mechanism's own, departed from by factors of two.
+Parameters standing_for(const Parameters& b, const Parameters& a) {
+  Parameters p = a;
+  if ((b.gravity - a.gravity).norm() > 0.5 * a.gravity.norm()) p.gravity = b.gravity;
+  p.payload_mass = standing_for(b.payload_mass, a.payload_mass);
+  for (std::size_t k = 0; k < a.body_mass.size(); ++k) p.body_mass[k] = standing_for(b.body_mass[k], a.body_mass[k]);
+  for (std::size_t k = 0; k < a.clearance.size(); ++k) p.clearance[k] = standing_for(b.clearance[k], a.clearance[k]);
+  for (std::size_t k = 0; k < a.spring.size(); ++k) {
+    p.spring[k].stiffness = standing_for(b.spring[k].stiffness, a.spring[k].stiffness);
+    p.spring[k].damping = standing_for(b.spring[k].damping, a.spring[k].damping);
+  }
+  return p;
+}
+
+// The numbers that tell such parameters apart.
+std::vector<double> numbers_of(const Parameters& p) {
+  std::vector<double> numbers = {p.gravity.x(), p.gravity.y(), p.gravity.z(), p.payload_mass};
+  numbers.insert(numbers.end(), p.body_mass.begin(), p.body_mass.end());
+  for (const ClearanceParameters& c : p.clearance)
+    numbers.insert(numbers.end(), {c.radial, c.axial, c.sleeve_length, c.contact.restitution, c.contact.stiffness_scale,
+                                   c.contact.young[0], c.contact.young[1], c.friction.coefficient});
+  for (const SpringParameters& s : p.spring) numbers.insert(numbers.end(), {s.stiffness, s.damping});
+  return numbers;
+}
+
+struct Measured {
+  ErrorEstimate error;
+  double exceeded =
+      0.0;  // by how much the largest position error of the dynamic rung exceeds the static one's, relative
+  double of_linearity =
+      0.0;            // what the dynamic rung states for its own model, relative: both are linear in the offsets
+  bool keeps = true;  // false: its caller wanted it to stop
+};
+
+class MeasuredByDynamics final : public Rung {
+ public:
+  MeasuredByDynamics(std::unique_ptr<Rung> rung, std::shared_ptr<const Mechanism> mechanism, bool bounds)
+      : rung_(std::move(rung)),
+        dynamics_(make_perturbation(mechanism)),
+        mechanism_(std::move(mechanism)),
+        bounds_(bounds) {}
+
+  std::string name() const override { return rung_->name(); }
+  std::string leaves_out() const override { return rung_->leaves_out(); }
+
+  RunResult run(const Parameters& parameters, const RunOptions& options) const override {
+    RunResult result = rung_->run(parameters, options);
+    if (result.interrupted) return result;
+    RunCost cost;
+    const Measured measured = measure(parameters, options, cost);
+    result.error = measured.error;
+    result.cost.cpu_seconds += cost.cpu_seconds;
+    result.cost.wall_seconds += cost.wall_seconds;
+    if (bounds_ && measured.exceeded > 0.0) {
+      char text[160];
+      std::snprintf(text, sizeof text,
+                    "impacts exceed the bound, which is one of continuous contact: the perturbation rung's "
+                    "largest position error "
+                    "is %.2g %% above it",
+                    100.0 * measured.exceeded);
+      result.warnings.push_back(text);
+    }
+    if (bounds_ && measured.of_linearity > kBent) {
+      char text[160];
+      std::snprintf(
+          text, sizeof text,
+          "the bound is linear in the journals' offsets, and the pose is not: errors may exceed it by %.2g %%",
+          100.0 * measured.of_linearity);
+      result.warnings.push_back(text);
+    }
+    return result;
+  }
+
+ private:
+  Measured measure(const Parameters& parameters, const RunOptions& options, RunCost& cost) const {
+    const Parameters at = standing_for(parameters, mechanism_->parameters());
+    std::vector<double> key = numbers_of(at);
+    key.push_back(options.start);
+    const std::lock_guard lock(mutex_);
+    if (const auto known = measured_.find(key); known != measured_.end()) return known->second;
+    RunOptions plain;
+    plain.start = options.start;
+    plain.sample_spacing = 0.0;
+    plain.events = false;
+    const Measured measured = against_dynamics(at, options, rung_->run(at, plain).index, cost);
+    if (measured.keeps && measured_.size() < kMostKept) measured_.emplace(std::move(key), measured);
+    return measured;
+  }
+
+  Measured against_dynamics(const Parameters& parameters, const RunOptions& asked, const PointingIndices& index,
+                            RunCost& cost) const {
+    RunOptions options;
+    options.start = asked.start;
+    options.sample_spacing = 0.0;
+    options.events = false;
+    std::vector<RunResult> motions;
+    int looks = 0;
+    bool stopped = false, asked_to = false;
+    options.progress = [&](const RunProgress&) {
+      asked_to = asked_to || (++looks % 16 == 0 && asked.progress &&
+                              !asked.progress({mechanism_->duration(), mechanism_->duration(), 0.0}));
+      stopped = asked_to || looks > kMostLooks;
+      return !stopped;
+    };
+    std::string why_not;
+    try {
+      for (double share : kShares) {
+        motions.push_back(dynamics_->run(parameters, options));
+        cost.cpu_seconds += motions.back().cost.cpu_seconds;
+        cost.wall_seconds += motions.back().cost.wall_seconds;
+        if (stopped) break;
+        const double next = kShares[std::min(motions.size(), kShares.size() - 1)];
+        if (const std::string& taken = motions[0].integrator_taken; !taken.empty()) {
+          options.integrator = taken;
+          options.tolerance = next * kPerturbationTolerance;
+          continue;
+        }
+        if (options.step == 0.0) options.step = motions[0].end_time / static_cast<double>(motions[0].cost.steps);
+        options.step *= next / share;
+      }
+    } catch (const ComputationError& failure) {
+      why_not = failure.what();
+    }
+    if (stopped) why_not = "following the motion takes too long";
+    if (!why_not.empty() || motions.size() < kShares.size())
+      return {{1.0, 0.0, "not measured, so anything up to the whole: on the perturbation rung " + why_not},
+              0.0,
+              0.0,
+              !asked_to};
+    return compared(index, motions);
+  }
+
+  Measured compared(const PointingIndices& index, const std::vector<RunResult>& motions) const {
+    Measured measured;
+    measured.error.discretisation = 0.0;  // instants are many
+    measured.error.basis =
+        "measured against the perturbation rung, which knows impacts, vibration, friction and the start: "
+        "largest over maximum, "
+        "RMS and mean";
+    const double length = mechanism_->characteristic_length();
+    std::vector<Statistics PointingIndices::*> quantities = {
+        &PointingIndices::position_error, &PointingIndices::orientation_error, &PointingIndices::boresight_error};
+    const bool sighted = mechanism_->pointing().line_of_sight.has_value();
+    if (sighted) quantities.push_back(&PointingIndices::line_of_sight_error);
+    // All on the mechanism's size, so that they weigh against each other [m]. The line of sight weighs against itself alone: how
+    // small an angle a displacement is depends on the target's distance.
+    const auto unit = [&](Statistics PointingIndices::*quantity) {
+      return quantity == &PointingIndices::position_error ? 1.0 : length;
+    };
+    const auto largest_of = [&](Statistics PointingIndices::*quantity) {
+      double largest = 0.0;
+      for (const RunResult& motion : motions)
+        largest = std::max(largest, unit(quantity) * (motion.index.*quantity).max);
+      return largest;
+    };
+    double largest_pose = 0.0;
+    for (int k = 0; k < 3; ++k) largest_pose = std::max(largest_pose, largest_of(quantities[k]));
+    for (const auto quantity : quantities) {
+      const double largest = quantity == &PointingIndices::line_of_sight_error ? largest_of(quantity) : largest_pose;
+      for (const auto statistic : {&Statistics::max, &Statistics::rms, &Statistics::mean}) {
+        double low = 1e300, high = 0.0, sum = 0.0;
+        for (const RunResult& motion : motions) {
+          const double value = motion.index.*quantity.*statistic;
+          low = std::min(low, value);
+          high = std::max(high, value);
+          sum += value;
+        }
+        const double mean = sum / static_cast<double>(motions.size());
+        const double off = std::abs(index.*quantity.*statistic - mean) + kOfRange * (high - low);
+        const double against = unit(quantity) * mean > kNextToNothing * largest ? mean : largest / unit(quantity);
+        if (against > 0.0)
+          measured.error.model = std::max(measured.error.model, off / against);
+        else if (off > kRounding)  // where nothing moves at all, all of it is wrong
+          measured.error.model = std::max(measured.error.model, 1.0);
+        if (statistic == &Statistics::max && quantity == quantities[0])
+          measured.exceeded = high / (index.*quantity).max - 1.0;
+      }
+    }
+    for (const RunResult& motion : motions) measured.of_linearity = std::max(measured.of_linearity, motion.error.model);
+    measured.error.model += measured.of_linearity;
+    return measured;
+  }
+
+  std::unique_ptr<Rung> rung_, dynamics_;
+  std::shared_ptr<const Mechanism> mechanism_;
+  bool bounds_;
+  mutable std::mutex mutex_;
+  mutable std::map<std::vector<double>, Measured> measured_;  // by numbers_of the parameters, and the index's start
+};
+
+}  // namespace
+
+std::unique_ptr<Rung> with_error_measured_by_dynamics(std::unique_ptr<Rung> rung,
+                                                      std::shared_ptr<const Mechanism> mechanism, bool bounds) {
+  return std::make_unique<MeasuredByDynamics>(std::move(rung), std::move(mechanism), bounds);
+}
+
+}  // namespace boresight

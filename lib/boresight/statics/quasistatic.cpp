@@ -1,0 +1,113 @@
+#include "boresight/statics/quasistatic.hpp"
+
+#include <algorithm>
+
+#include "boresight/rungs/motion_recorder.hpp"
+#include "boresight/scene/scene_rung.hpp"
+#include "boresight/statics/measured_by_dynamics.hpp"
+#include "boresight/statics/reaction_table.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
+// From one instant to the next the body moves by no more than this share of its largest error; else there are instants between, as close as
+// this share of their spacing.
+constexpr double kTurns = 0.005, kMostBetween = 1024.0;
+
+class Quasistatic final : public SceneRung {
+ public:
+  explicit Quasistatic(std::shared_ptr<const Mechanism> mechanism) : SceneRung(std::move(mechanism)) {}
+
+  std::string name() const override { return "quasistatic"; }
+  std::string leaves_out() const override {
+    return "Impacts and vibration: the journal rests where the ideal joint's reaction pushes it, so maxima that "
+           "impacts set "
+           "come out low. Velocities and accelerations shown are those of the ideal motion.";
+  }
+
+ private:
+  RunResult follow(const PreparedScene& prepared, const Parameters& parameters,
+                   const RunOptions& options) const override {
+    const ReactionTable reactions(mechanism(), prepared.scene(), parameters);
+    MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
+    std::vector<ContactSummary> summary = reactions.summaries();
+    bool interrupted = false;
+    double largest = 0.0;  // position error [m]
+    long instants = 1;
+    Balance before = balance_at(reactions, 0.0, nullptr);
+    record(prepared, before, summary, recorder, reactions);
+    for (int i = 1; i < reactions.instants() && !interrupted; ++i) {
+      interrupted = i % kInstantsBetweenLooks == 0 && options.progress &&
+                    !options.progress({before.now.t, mechanism().duration(), recorder.position_error_max()});
+      // Where loads turn a journal goes round its sleeve within an instant, through places that are farther out.
+      std::vector<double> ahead = {i * reactions.spacing()};
+      while (!ahead.empty()) {
+        const double shortest = reactions.spacing() / kMostBetween, t = ahead.back();
+        Balance balance = balance_at(reactions, t, &before);
+        if (t - before.now.t > shortest && (balance.moved - before.moved).norm() > kTurns * largest) {
+          ahead.push_back(0.5 * (before.now.t + t));
+          continue;
+        }
+        ahead.pop_back();
+        before = std::move(balance);
+        record(prepared, before, summary, recorder, reactions);
+        largest = std::max(largest, before.moved.norm());
+        ++instants;
+      }
+    }
+    RunResult result = recorder.finish();
+    result.interrupted = interrupted;
+    result.integrator = "none: one static balance an instant";
+    result.contact = std::move(summary);
+    result.cost.steps = result.cost.evaluations = instants;
+    return result;
+  }
+
+  // Where the journals rest at one instant, and by how much that displaces the body of the boresight.
+  struct Balance {
+    ReactionTable::Instant now;
+    std::vector<Rest> rest;
+    VecX z;
+    Vec3 moved;
+  };
+  static Balance balance_at(const ReactionTable& reactions, double t, const Balance* before) {
+    Balance balance{reactions.at_time(t), std::vector<Rest>(reactions.joints().size()), {}, {}};
+    for (std::size_t c = 0; c < balance.rest.size(); ++c) {
+      const ReactionTable::Load& load = balance.now.load[c];
+      // Where next to nothing pushes it, a journal stays where it was.
+      if (before && !reactions.decides(balance.now, static_cast<int>(c)))
+        balance.rest[c] = before->rest[c];
+      else
+        balance.rest[c] = rest_under(reactions.joints()[c], load.force, load.slide, before ? before->rest[c] : Rest{});
+    }
+    balance.z = reactions.coordinates(balance.rest);
+    balance.moved = (balance.now.pose_gain * balance.z).head<3>();
+    return balance;
+  }
+
+  void record(const PreparedScene& prepared, const Balance& balance, std::vector<ContactSummary>& summary,
+              MotionRecorder& recorder, const ReactionTable& reactions) const {
+    for (std::size_t c = 0; c < summary.size(); ++c) reactions.note(balance.rest[c], summary[c]);
+    const DisplacedBodies displaced(prepared, balance.now.t, balance.z);
+    BodyAcceleration acceleration;
+    BodyMotion body = displaced.at_rest(mechanism().boresight_body(), acceleration);
+    recorder.accept(balance.now.t, body, acceleration);
+    if (!recorder.sampling()) return;
+    for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {
+      body = displaced.at_rest(recorder.bodies_wanted()[k], acceleration);
+      recorder.sample_body(static_cast<int>(k), body, acceleration);
+    }
+    for (std::size_t c = 0; c < summary.size(); ++c)
+      recorder.sample_clearance(static_cast<int>(c), balance.rest[c].motion, balance.rest[c].contact);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Rung> make_quasistatic(std::shared_ptr<const Mechanism> mechanism) {
+  auto rung = std::make_unique<Quasistatic>(mechanism);
+  return with_error_measured_by_dynamics(std::move(rung), std::move(mechanism), false);
+}
+
+}  // namespace boresight

@@ -1,0 +1,148 @@
+#include "boresight/statics/reaction_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
+
+namespace boresight {
+namespace {
+
+// Instants at most so far apart [s], and at least so many along the motion: the reaction's direction may turn fast.
+constexpr double kSpacing = 5e-4;
+constexpr int kFewestInstants = 400;
+// More than so many only as far as the scene is tabled that finely.
+constexpr int kManyInstants = 200000, kInstantsPerKnot = 4;
+constexpr char kTied[] =
+    "redundant joints tie the offsets of clearance joints together: none rests on its own; use perturbation";
+// Share of the offsets that counts as none.
+constexpr double kNothing = 1e-6;
+// Of the largest load of all joints: below it a table's error decides.
+constexpr double kRounding = 10.0 * ClearanceScene::kAccuracy;
+// Of the largest load: its direction is then known to two thousandths of a radian.
+constexpr double kDecides = 500.0 * ClearanceScene::kAccuracy;
+
+// Of a load: its force, and its couple as forces at the sleeve's ends [N].
+double size(const Eigen::Matrix<double, 5, 1>& load, const JournalInSleeve& joint) {
+  return load.head<3>().norm() + (joint.tilts ? load.tail<2>().norm() / joint.half_length : 0.0);
+}
+
+}  // namespace
+
+ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& scene, const Parameters& parameters)
+    : mechanism_(mechanism), layout_(scene.layout()) {
+  if (scene.coordinates().leftover() > 0)
+    throw ComputationError(
+        "journals come to rest only where every freedom of the ideal mechanism is driven; use perturbation");
+  // A motion of hours moves more slowly: its own table says how fast.
+  const double wanted = std::max<double>(
+      kFewestInstants,
+      std::min(mechanism.duration() / kSpacing, std::max<double>(kManyInstants, kInstantsPerKnot * scene.knots())));
+  const int per_knot = std::max(1, static_cast<int>(std::ceil(wanted / (scene.knots() - 1))));
+  instants_ = (scene.knots() - 1) * per_knot + 1;
+  spacing_ = scene.spacing() / per_knot;
+  const SceneTables tables = scene.tables(parameters);
+  const int n = layout_.n, width = 7 * n + mechanism.clearances();
+  // Across its axis, or in tilt, a journal that is free in one direction alone is tied in most others: which of them are offsets is a matter
+  // of how the mechanism lies in space.
+  for (const SceneLayout::Joint& joint : layout_.joints)
+    for (const auto& [one, other] : {std::pair{0, 2}, std::pair{3, 4}})
+      if (other < joint.offsets && (joint.source[one] == DeviationCoordinates::kDependent) !=
+                                       (joint.source[other] == DeviationCoordinates::kDependent))
+        throw ComputationError(kTied);
+  std::vector<double> values, row(layout_.width);
+  MatX M, C;
+  VecX r;
+  for (int k = 0; k < scene.knots(); ++k) {
+    work_reached("tabling the ideal joints' reactions", static_cast<double>(k) / scene.knots());
+    const MatX& B = scene.offsets_per_coordinate(k);
+    for (int c = 0; c < mechanism.clearances(); ++c)
+      for (int i = 0; i < layout_.joints[c].offsets; ++i)
+        if (layout_.joints[c].source[i] == DeviationCoordinates::kDependent &&
+            B.row(scene.offsets().joint(c).first + i).cwiseAbs().maxCoeff() > kNothing)
+          throw ComputationError(kTied);
+    scene.assemble(parameters, k, M, C, r);
+    values.insert(values.end(), r.data(), r.data() + n);
+    const MatX E = scene.pose_gain_at(k);
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < n; ++j) values.push_back(E(i, j));
+    tables.dynamics.at(k * scene.spacing(), row.data());
+    for (const SceneLayout::Joint& j : layout_.joints) values.push_back(j.slides ? row[j.slide] : 0.0);
+  }
+  table_ = TimeTable(scene.spacing(), width, values);
+  for (int c = 0; c < mechanism.clearances(); ++c) {
+    const ClearanceDescription& d = mechanism.description().clearances[c];
+    joints_.emplace_back(d, mechanism.description().joints[d.joint].type, parameters.clearance[c]);
+  }
+  largest_load_.assign(joints_.size(), 0.0);
+  for (int i = 0; i < instants_; ++i) {
+    const Instant now = at(i);
+    for (std::size_t c = 0; c < joints_.size(); ++c)
+      largest_load_[c] = std::max(largest_load_[c], size(now.load[c].force, joints_[c]));
+  }
+  for (double load : largest_load_) largest_of_all_ = std::max(largest_of_all_, load);
+}
+
+bool ReactionTable::decides(const Instant& instant, int clearance) const {
+  return size(instant.load[clearance].force, joints_[clearance]) > kDecides * largest_load_[clearance];
+}
+
+ReactionTable::Instant ReactionTable::at_time(double t) const {
+  const int n = layout_.n;
+  std::vector<double> row(7 * n + joints_.size());
+  Instant now;
+  now.t = t;
+  table_.at(now.t, row.data());
+  now.reaction = Eigen::Map<const VecX>(row.data(), n);
+  now.pose_gain = Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>>(row.data() + n, 6, n);
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    Load load{Eigen::Matrix<double, 5, 1>::Zero(), row[7 * n + c]};
+    for (int k = 0; k < layout_.joints[c].offsets; ++k)
+      if (const int source = layout_.joints[c].source[k]; source >= 0) load.force[k] = now.reaction[source];
+    // Along the axis and in tilt next to nothing would push a journal all the way that its play leaves.
+    const double least = kRounding * largest_of_all_;
+    if (std::abs(load.force[1]) < least) load.force[1] = 0.0;
+    if (joints_[c].tilts && load.force.tail<2>().norm() < least * joints_[c].half_length)
+      load.force.tail<2>().setZero();
+    now.load.push_back(load);
+  }
+  return now;
+}
+
+Eigen::Matrix<double, 6, 5> ReactionTable::joint_gain(const Instant& instant, int clearance) const {
+  Eigen::Matrix<double, 6, 5> gain = Eigen::Matrix<double, 6, 5>::Zero();
+  const SceneLayout::Joint& joint = layout_.joints[clearance];
+  for (int k = 0; k < joint.offsets; ++k)
+    if (joint.source[k] >= 0) gain.col(k) = instant.pose_gain.col(joint.source[k]);
+  return gain;
+}
+
+VecX ReactionTable::coordinates(const std::vector<Rest>& rest) const {
+  VecX z = VecX::Zero(layout_.n);
+  for (std::size_t c = 0; c < rest.size(); ++c) {
+    const JournalMotion<double>& m = rest[c].motion;
+    const std::array<double, 5> offset = {m.e.x(), m.e.y(), m.e.z(), m.slope[0], m.slope[1]};
+    for (int k = 0; k < layout_.joints[c].offsets; ++k)
+      if (const int source = layout_.joints[c].source[k]; source >= 0) z[source] = offset[k];
+  }
+  return z;
+}
+
+std::vector<ContactSummary> ReactionTable::summaries() const {
+  std::vector<ContactSummary> result(joints_.size());
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    result[c].joint = mechanism_.description().joints[mechanism_.description().clearances[c].joint].name;
+    result[c].contact_fraction = 1.0;
+    result[c].validity_speed = joints_[c].validity_speed;
+  }
+  return result;
+}
+
+void ReactionTable::note(const Rest& rest, ContactSummary& summary) {
+  for (const ContactState<double>& c : rest.contact) summary.max_force = std::max(summary.max_force, c.normal_force);
+  summary.max_penetration = std::max(summary.max_penetration, rest.penetration());
+}
+
+}  // namespace boresight

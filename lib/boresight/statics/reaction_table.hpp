@@ -1,0 +1,57 @@
+// The ideal joints' reactions r(t) and the pose gain E(t) of one set of parameters, instant by instant: what the rungs
+// without dynamics walk along.
+#pragma once
+
+#include <vector>
+
+#include "boresight/rungs/run_result.hpp"
+#include "boresight/scene/clearance_scene.hpp"
+#include "boresight/scene/quasistatic_offset.hpp"
+
+namespace boresight {
+
+class ReactionTable {
+ public:
+  // Throws ComputationError where offsets hang on each other (redundant joints), so that no joint rests on its own, or where
+  // the mechanism has freedoms that nothing drives, which do not rest at all.
+  ReactionTable(const Mechanism& mechanism, const ClearanceScene& scene, const Parameters& parameters);
+
+  struct Load {
+    Eigen::Matrix<double, 5, 1> force;  // on the journal's offsets; zero where an offset is none [N, N m]
+    double slide = 0.0;                 // displacement of a cylindrical joint [m]
+  };
+  struct Instant {
+    double t;
+    VecX reaction;                                       // on the coordinates
+    Eigen::Matrix<double, 6, Eigen::Dynamic> pose_gain;  // E of the boresight body, per coordinate
+    std::vector<Load> load;                              // per clearance
+  };
+  int instants() const { return instants_; }
+  double spacing() const { return spacing_; }  // of instants [s]
+  Instant at(int instant) const { return at_time(instant * spacing_); }
+  Instant at_time(double t) const;
+  const std::vector<JournalInSleeve>& joints() const { return joints_; }
+  // Whether a load is known well enough for its direction: the tables are accurate to a hundred-thousandth of the largest.
+  bool decides(const Instant& instant, int clearance) const;
+  // E of one joint's offsets: 6 x 5, zero columns where an offset is none.
+  Eigen::Matrix<double, 6, 5> joint_gain(const Instant& instant, int clearance) const;
+  // Coordinates of journals at rest.
+  VecX coordinates(const std::vector<Rest>& rest) const;
+
+  // One per joint, named, in lasting contact.
+  std::vector<ContactSummary> summaries() const;
+  // Adds a rest's forces and deflections to a summary.
+  static void note(const Rest& rest, ContactSummary& summary);
+
+ private:
+  const Mechanism& mechanism_;
+  SceneLayout layout_;
+  int instants_;
+  double spacing_;
+  TimeTable table_;  // r (n), E (6 x n), slides (one per clearance)
+  std::vector<JournalInSleeve> joints_;
+  std::vector<double> largest_load_;  // per clearance [N]
+  double largest_of_all_ = 0.0;       // the largest of these [N]
+};
+
+}  // namespace boresight

@@ -1,0 +1,218 @@
+#include "boresight/stepping/measured_error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <vector>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/stepping/unstable_step.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr std::array kQuantities = {&PointingIndices::position_error, &PointingIndices::orientation_error,
+                                    &PointingIndices::boresight_error, &PointingIndices::line_of_sight_error};
+constexpr std::array kStatistics = {&Statistics::max, &Statistics::rms, &Statistics::mean, &Statistics::p9973};
+
+// The second and third neighbour, and further ones for those that cannot be followed: near the largest stable step it is chance which can.
+constexpr double kNeighbours[] = {0.985, 0.97, 0.955, 0.94, 0.91, 0.88};
+constexpr double kFinerStep = 0.5, kFinerTolerance = 0.1;
+// Rounding of a motion integrated in metres [m or rad].
+constexpr double kRounding = 1e-12;
+// Where the first three runs agree to this share of an index, further ones are not worth their time.
+constexpr double kAgreed = 1e-3;
+// What three runs that agree say of the rest: twice their range, for an error of first order in the step is twice what
+// half the step shows.
+constexpr double kOfRange = 2.0;
+// Implicit methods step over a contact's vibration that is smaller than the tolerance, and finer tolerances that still do show nothing of
+// it. It is a share of the clearances, as the indices are, and may stand to either side.
+constexpr double kOfTolerance = 2.0;
+// Three runs that do not agree, and no time for more: of three draws of one distribution the next one lies beyond three
+// ranges in less than one case out of twenty.
+constexpr double kOfScatteredRange = 3.0;
+// Student's t at 97.5 percent, four degrees of freedom: two groups of three.
+constexpr double kStudent4 = 2.776;
+
+class FurtherRuns {
+ public:
+  FurtherRuns(const Rung& rung, const Parameters& parameters, const RunOptions& options, const RunResult& result,
+              const MeasureErrorOptions& measure)
+      : rung_(rung), parameters_(parameters), options_(options), measure_(measure) {
+    options_.sample_spacing = 0.0;
+    options_.frame_spacing = 0.0;
+    options_.events = false;
+    options_.pose_bodies.clear();
+    options_.progress = [this](const RunProgress&) {
+      return !(stopped_ = stopped_ || (measure_.advance && !measure_.advance()));
+    };
+    if (options.integrator.empty()) options_.integrator = result.integrator_taken;
+    by_tolerance_ = controls_error(options_);
+    tolerance_ = by_tolerance_ ? tolerance_of(options_, rung.name()) : 0.0;
+    // Steps that locate contacts are shortened by these: what was asked for counts, not their mean.
+    step_ = by_tolerance_        ? 0.0
+            : options.step > 0.0 ? options.step
+                                 : result.end_time / static_cast<double>(result.cost.steps);
+  }
+
+  // share: of the run's own step or tolerance, or of the finer one. The longest step that a tolerance may choose goes with it: where that
+  // bounds the steps, another tolerance alone changes nothing, whatever they leave out.
+  PointingIndices at(double share, bool finer = false) {
+    options_.step = share * (finer ? kFinerStep : 1.0) * step_;
+    options_.tolerance = share * (finer ? kFinerTolerance : 1.0) * tolerance_;
+    options_.share_of_longest_step = share * (finer ? kFinerStep : 1.0);
+    const RunResult result = rung_.run(parameters_, options_);
+    cpu_seconds += result.cost.cpu_seconds;
+    ++runs;
+    if (result.interrupted || stopped_) throw ComputationError("it was stopped");
+    return result.index;
+  }
+
+  // The next neighbour that can be followed.
+  PointingIndices neighbour() {
+    for (;;) {
+      try {
+        return at(kNeighbours[next_++]);
+      } catch (const UnstableStep&) {
+        if (next_ == std::size(kNeighbours)) throw;
+      } catch (const SingularPose&) {  // what a motion that blows up may meet on its way
+        if (next_ == std::size(kNeighbours)) throw;
+      }
+    }
+  }
+
+  int runs = 0;
+  double cpu_seconds = 0.0;
+  // What a step may leave out unseen, over the smallest clearance; 0 where steps are given.
+  double tolerance() const { return tolerance_; }
+
+ private:
+  const Rung& rung_;
+  const Parameters& parameters_;
+  RunOptions options_;
+  const MeasureErrorOptions& measure_;
+  bool by_tolerance_ = false, stopped_ = false;
+  double step_ = 0.0, tolerance_ = 0.0;
+  std::size_t next_ = 0;
+};
+
+double range(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (double v : values) sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+double squares(const std::vector<double>& values) {
+  const double m = mean(values);
+  double sum = 0.0;
+  for (double v : values) sum += (v - m) * (v - m);
+  return sum;
+}
+
+// Calls each(quantity, statistic) for every index.
+template <typename Each>
+void for_each_index(const Each& each) {
+  for (const auto quantity : kQuantities)
+    for (const auto statistic : kStatistics) each(quantity, statistic);
+}
+
+std::vector<double> of(const std::vector<PointingIndices>& runs, Statistics PointingIndices::*quantity,
+                       double Statistics::*statistic) {
+  std::vector<double> values;
+  for (const PointingIndices& r : runs) values.push_back(r.*quantity.*statistic);
+  return values;
+}
+
+bool all_agree(const std::vector<PointingIndices>& runs) {
+  bool agree = true;
+  for_each_index([&](auto quantity, auto statistic) {
+    const std::vector<double> values = of(runs, quantity, statistic);
+    agree = agree && range(values) <= std::max(kRounding, kAgreed * std::abs(values.front()));
+  });
+  return agree;
+}
+
+}  // namespace
+
+MeasuredError measure_discretisation(const Rung& rung, const Parameters& parameters, const RunOptions& options,
+                                     const RunResult& result, const MeasureErrorOptions& measure) {
+  MeasuredError error;
+  if (integrator_names(rung.name()).empty()) {
+    error.measured = true;
+    error.basis = "this rung takes no steps";
+    error.stated.has_line_of_sight = error.spread.has_line_of_sight = error.shift.has_line_of_sight =
+        result.index.has_line_of_sight;
+    return error;
+  }
+  if (result.interrupted || result.cost.steps == 0) {
+    error.why_not = "the motion was not followed to its end";
+    return error;
+  }
+  FurtherRuns further(rung, parameters, options, result, measure);
+  // A finer run costs twice the first; the first four runs of both stages cost 3 times as much as it, all of them 8.
+  const double first_stage = 3.0 * result.cost.cpu_seconds, all = 8.0 * result.cost.cpu_seconds;
+  char text[200];
+  if (measure.most_seconds > 0.0 && first_stage > measure.most_seconds) {
+    std::snprintf(text, sizeof text, "further runs would take %.3g s of CPU, more than the %.3g s that they may",
+                  first_stage, measure.most_seconds);
+    error.why_not = text;
+    return error;
+  }
+  std::vector<PointingIndices> own = {result.index}, finer;
+  bool settled = false, whole = false;
+  try {
+    own.push_back(further.neighbour());
+    finer.push_back(further.at(1.0, true));
+    settled = all_agree({own[0], own[1], finer[0]});
+    whole = !settled && !(measure.most_seconds > 0.0 && all > measure.most_seconds);
+    if (whole) {
+      own.push_back(further.neighbour());
+      for (const double share : {kNeighbours[0], kNeighbours[1]}) finer.push_back(further.at(share, true));
+    }
+  } catch (const ComputationError& failure) {
+    error.why_not = std::string("a neighbouring run failed: ") + failure.what();
+  }
+  error.runs = further.runs;
+  error.cpu_seconds = further.cpu_seconds;
+  if (!error.why_not.empty()) return error;
+
+  error.measured = true;
+  for (PointingIndices* indices : {&error.stated, &error.spread, &error.shift})
+    indices->has_line_of_sight = result.index.has_line_of_sight;
+  for_each_index([&](auto quantity, auto statistic) {
+    const std::vector<double> x = of(own, quantity, statistic), y = of(finer, quantity, statistic);
+    const double shift = std::abs(mean(x) - mean(y));
+    double stated = 0.0, spread = 0.0;
+    if (whole) {
+      const double n = static_cast<double>(x.size());
+      spread = std::sqrt((squares(x) + squares(y)) / (2.0 * n - 2.0));
+      const bool stands_out = shift > kStudent4 * spread * std::sqrt(2.0 / n);
+      stated =
+          std::abs(x[0] - mean(x)) + (stands_out ? 2.0 : 1.0) * shift + kStudent4 * spread * std::sqrt(1.0 + 1.0 / n);
+    } else {
+      const std::vector<double> values = {x[0], x[1], y[0]};
+      spread = settled ? 0.0 : std::abs(x[0] - x[1]) / std::sqrt(2.0);  // what agrees does not scatter
+      stated = (settled ? kOfRange : kOfScatteredRange) * range(values);
+    }
+    error.stated.*quantity.*statistic = std::max(stated, kOfTolerance * further.tolerance() * std::abs(x[0]));
+    error.spread.*quantity.*statistic = spread;
+    error.shift.*quantity.*statistic = shift;
+  });
+  const bool by_tolerance = further.tolerance() > 0.0;
+  const char* fineness = by_tolerance ? "a tenth of the tolerance and half the longest step" : "half the step";
+  std::snprintf(text, sizeof text, "%s: %zu of them at neighbouring %s, %zu at %s",
+                settled ? "measured by further runs that agree" : "measured by further runs", own.size() - 1,
+                by_tolerance ? "tolerances" : "steps", finer.size(), fineness);
+  error.basis = text;
+  return error;
+}
+
+}  // namespace boresight

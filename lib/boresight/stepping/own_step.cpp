@@ -1,0 +1,22 @@
+#include "boresight/stepping/own_step.hpp"
+
+#include <algorithm>
+
+#include "boresight/formulations/own_modes.hpp"
+#include "boresight/integrate/explicit_runge_kutta.hpp"
+#include "boresight/stepping/unstable_step.hpp"
+
+namespace boresight {
+
+double own_step(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
+  double step = std::min(kPaperStep, mechanism.duration() / 100.0);
+  // The joints' contacts taken together, at twice the largest ideal reaction: what a load suddenly applied to an elastic
+  // contact reaches.
+  for (const ContactFrequency& c : analyse_contacts(mechanism, parameters, ideal))
+    if (c.largest_stable_step > 0.0) step = std::min(step, kShareOfStableStep * c.largest_stable_step);
+  if (const double rate = fastest_own_rate(mechanism, parameters, ideal); rate > 0.0)
+    step = std::min(step, kShareOfStableStep * classical_rk4().real_limit / rate);
+  return step;
+}
+
+}  // namespace boresight

@@ -1,0 +1,43 @@
+#include "boresight/stepping/unstable_step.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "boresight/integrate/explicit_runge_kutta.hpp"
+
+namespace boresight {
+namespace {
+
+std::string message(const Mechanism& mechanism, const StiffestContact& contact, double t, double h) {
+  const std::string joint =
+      mechanism.description().joints[mechanism.description().clearances[contact.clearance].joint].name;
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "step too large: at t = %.6g s the %s contact of %s vibrates at %.4g rad/s, and RK4 with h = %.4g s is "
+                "unstable there; the largest stable step is %.3g s",
+                t, to_string(contact.place), joint.c_str(), contact.angular_frequency, h,
+                classical_rk4().real_limit / contact.angular_frequency);
+  return text;
+}
+
+std::string message(const std::string& sign, double t, double h) {
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "step too large: with h = %.4g s the motion blows up before t = %.6g s (%s); take a smaller step", h, t,
+                sign.c_str());
+  return text;
+}
+
+}  // namespace
+
+UnstableStep::UnstableStep(const Mechanism& mechanism, const StiffestContact& contact, double when, double h)
+    : ComputationError(message(mechanism, contact, when, h)),
+      t(when),
+      largest_step(classical_rk4().real_limit / contact.angular_frequency) {}
+
+UnstableStep::UnstableStep(const std::string& sign, double when, double h)
+    : ComputationError(message(sign, when, h)), t(when) {}
+
+double step_on_grid(double step, double spacing) { return spacing > step ? spacing / std::ceil(spacing / step) : step; }
+
+}  // namespace boresight

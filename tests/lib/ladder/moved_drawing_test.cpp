@@ -1,0 +1,92 @@
+// Where a drawing puts its origin and its axes is nobody's error.
+#include <gtest/gtest.h>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/ladder/ladder.hpp"
+#include "scenes.hpp"
+#include "tree_formulation_scenes.hpp"
+
+namespace boresight {
+namespace {
+
+MechanismDescription drawing() {
+  MechanismDescription d = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml",
+                                          {{"motion.duration", "0.03 s"}, {"initial.journals", "rest"}});
+  d.line_of_sight = {.from = {0.15, 0.1, 0.2}, .target = {0.5, -0.3, 2.0}, .origin = {}};
+  return d;
+}
+
+// Everything turned about the origin, then moved.
+MechanismDescription placed(MechanismDescription d, const Mat3& turn, const Vec3& by) {
+  const auto move = [&](Vec3& point) { point = turn * point + by; };
+  for (BodyDescription& b : d.bodies) {
+    move(b.center_of_mass);
+    b.axes = turn * b.axes;
+    if (b.boresight) *b.boresight = turn * *b.boresight;
+  }
+  for (JointDescription& j : d.joints) {
+    move(j.point);
+    j.axis = turn * j.axis;
+    j.second_axis = turn * j.second_axis;
+  }
+  if (d.payload) move(d.payload->center_of_mass);
+  d.gravity = turn * d.gravity;
+  move(d.line_of_sight->from);
+  move(d.line_of_sight->target);
+  return d;
+}
+
+PointingIndices indices(const MechanismDescription& d, const char* rung) {
+  const auto m = std::make_shared<const Mechanism>(d);
+  RunOptions options;
+  options.step = 2e-5;
+  options.sample_spacing = 0.0;
+  return make_rung(rung, m)->run(m->parameters(), options).index;
+}
+
+void expect_equal(const PointingIndices& a, const PointingIndices& b, double relative, const std::string& what) {
+  for (const auto quantity : {&PointingIndices::position_error, &PointingIndices::boresight_error,
+                              &PointingIndices::orientation_error, &PointingIndices::line_of_sight_error})
+    for (const auto statistic : {&Statistics::max, &Statistics::rms, &Statistics::mean})
+      EXPECT_NEAR(a.*quantity.*statistic, b.*quantity.*statistic, relative * (a.*quantity.*statistic) + 1e-13) << what;
+  EXPECT_GT(a.line_of_sight_error.max, 1e-6) << what;
+}
+
+TEST(MovedDrawing, ChangesNoIndex) {
+  const MechanismDescription here = drawing();
+  for (const char* rung : {"envelope", "quasistatic", "perturbation"}) {
+    const PointingIndices own = indices(here, rung);
+    expect_equal(own, indices(placed(here, Mat3::Identity(), {0.3, -0.8, 0.5}), rung), 1e-7,
+                 std::string(rung) + ", a metre");
+    expect_equal(own, indices(placed(here, Mat3::Identity(), {300, -800, 500}), rung), 1e-4,
+                 std::string(rung) + ", a kilometre");
+    const Mat3 turn = Eigen::AngleAxisd(0.8, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+    expect_equal(own, indices(placed(here, turn, {0.1, 0.2, 0.3}), rung), 1e-6, std::string(rung) + ", turned");
+  }
+}
+
+// In a planar mechanism nothing pushes a journal along its axis but what rounding makes of a drawing that lies askew; without friction at its
+// faces that decided, instant by instant, at which of them it lay.
+TEST(MovedDrawing, PushesNoJournalAlongItsAxis) {
+  MechanismDescription d = scenes::planar_four_bar();
+  d.bodies[0].boresight.reset();
+  d.bodies[1].boresight = Vec3::UnitZ();
+  d.joints[0].driven = true;
+  d.joints[2].type = JointType::cylindrical;
+  d.motion.drives[0] = scenes::sine(0.3, 6.0);
+  d.motion.duration = 0.4;
+  scenes::add_clearance(d, 1, false);
+  d.clearances[0].parameters.friction.coefficient = 0.0;
+  d.line_of_sight = {.from = {0.3, 0.0, 0.3}, .target = {0.5, -0.3, 2.0}, .origin = {}};
+  const Mat3 turn = Eigen::AngleAxisd(0.8, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+  for (const MechanismDescription& drawn : {d, placed(d, turn, {0.1, 0.2, 0.3})}) {
+    const auto m = std::make_shared<const Mechanism>(drawn);
+    const RunResult r = make_rung("quasistatic", m)->run(m->parameters(), {});
+    ASSERT_GT(r.clearances[0].size(), 100u);
+    for (const ClearanceSample& s : r.clearances[0]) EXPECT_EQ(s.offset.y(), 0.0);
+    EXPECT_GT(r.index.position_error.rms, 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace boresight

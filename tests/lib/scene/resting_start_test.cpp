@@ -1,0 +1,209 @@
+// Journals that start at rest: under constant loads nothing moves, on any rung, formulation or integrator.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/scene/starting_journals.hpp"
+
+namespace boresight {
+namespace {
+
+using Settings = std::vector<Setting>;
+
+std::shared_ptr<const Mechanism> mechanism(const std::string& example, Settings more) {
+  more.push_back({"initial.journals", "rest"});
+  more.push_back({"motion.duration", "30 ms"});
+  return std::make_shared<const Mechanism>(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/" + example, more));
+}
+
+// Drives that stand still, away from home and from any symmetry.
+std::shared_ptr<const Mechanism> standing_four_bar(Settings more = {}) {
+  more.push_back({"motion.drives.A", "0.3"});
+  return mechanism("four-bar/four-bar.toml", std::move(more));
+}
+std::shared_ptr<const Mechanism> standing_platform(const std::string& file, Settings more = {}) {
+  for (const Setting& s : Settings{{"motion.angles.psi", "0.4"},
+                                   {"motion.angles.theta", "0.2"},
+                                   {"motion.angles.phi", "-0.4"},
+                                   {"motion.position.z", "500*cos(theta)"}})
+    more.push_back(s);
+  return mechanism("3-rrcpr/" + file, std::move(more));
+}
+
+struct Way {
+  const char *rung, *integrator, *formulation, *stabilisation;
+};
+const Way kWays[] = {{"perturbation", "rk4", "", ""},
+                     {"perturbation", "dopri5", "", ""},
+                     {"perturbation", "rosenbrock", "", ""},
+                     {"multibody", "rk4", "tree", "projection"},
+                     {"multibody", "rk4", "tree", "baumgarte"},
+                     {"multibody", "dopri5", "tree", ""},
+                     {"multibody", "rosenbrock", "tree", ""},
+                     {"multibody", "rk4", "paper", "baumgarte"},
+                     {"multibody", "rk4", "paper", "projection"},
+                     {"multibody", "rosenbrock", "paper", ""}};
+
+RunResult run(const std::shared_ptr<const Mechanism>& m, const Way& way) {
+  RunOptions options;
+  options.integrator = way.integrator;
+  if (options.integrator != "rk4") options.tolerance = 1e-7;
+  options.formulation = way.formulation;
+  options.stabilisation = way.stabilisation;
+  return make_rung(way.rung, m)->run(m->parameters(), options);
+}
+
+// The error is what it was at the start, to a millionth of it, and no journal has struck or parted.
+void expect_standing(const RunResult& r, const std::string& what) {
+  ASSERT_GT(r.boresight.samples.size(), 10u) << what;
+  const Vec3 first = r.boresight.samples.front().error.displacement;
+  ASSERT_GT(first.norm(), 1e-5) << what;
+  for (const PoseSample& s : r.boresight.samples)
+    ASSERT_LT((s.error.displacement - first).norm(), 1e-6 * first.norm()) << what;
+  EXPECT_NEAR(r.index.position_error.max, r.index.position_error.mean, 1e-6 * r.index.position_error.max) << what;
+  for (const ContactSummary& c : r.contact) {
+    EXPECT_EQ(c.impacts, 0) << what << ", " << c.joint;
+    EXPECT_GT(c.contact_fraction, 0.999999) << what << ", " << c.joint;
+    EXPECT_EQ(c.settled_from, 0.0) << what << ", " << c.joint;
+  }
+  for (const ContactEvent& e : r.events) {
+    EXPECT_EQ(e.start, 0.0) << what;
+    EXPECT_LT(e.start_speed, 1e-9) << what;
+  }
+}
+
+TEST(RestingStart, NothingMovesWhereDrivesStandStill) {
+  const auto m = standing_four_bar();
+  for (const Way& way : kWays)
+    expect_standing(run(m, way),
+                    std::string(way.rung) + ", " + way.integrator + ", " + way.formulation + " " + way.stabilisation);
+}
+
+// Its coordinates hold no ball joint, which generalized-alpha asks for.
+TEST(RestingStart, NothingMovesUnderGeneralizedAlpha) {
+  const auto m = standing_platform("3-rrcpr.toml");
+  expect_standing(run(m, {"multibody", "generalized-alpha", "tree", ""}), "generalized-alpha");
+}
+
+TEST(RestingStart, NothingMovesWhereAJournalMayTilt) {
+  const auto m =
+      standing_platform("3-rrcpr.toml", {{"clearance.F1.axes", "free"}, {"clearance.F1.sleeve_length", "120 mm"}});
+  for (const Way& way : {kWays[0], kWays[2], kWays[3]})
+    expect_standing(run(m, way), std::string("tilting, ") + way.rung + ", " + way.integrator);
+}
+
+// Sleeves carry journals by normal forces alone as a motion starts: on an incline too, bristles that begin unbent have nothing to take up.
+TEST(RestingStart, NothingMovesOnAnInclineUnderFrictionThatSticks) {
+  const auto m = standing_platform("3-rrcpr.toml", {{"clearance.F1.friction.law", "lugre"},
+                                                    {"clearance.F1.friction.coefficient", "0.3"},
+                                                    {"gravity.x", "5 m/s^2"},
+                                                    {"gravity.y", "6 m/s^2"}});
+  for (const Way& way : {kWays[0], kWays[3], kWays[7]})  // those that carry bristles
+    expect_standing(run(m, way), std::string("LuGre, ") + way.rung + ", " + way.integrator);
+}
+
+TEST(RestingStart, TwelveJointsRestTogether) {
+  const auto m = standing_platform("twelve-joints.toml");
+  const StartingJournals start = starting_journals(*m, m->parameters(), ideal_motion(*m, m->parameters()));
+  EXPECT_EQ(start.warning, "");
+  const RunResult r = run(m, kWays[0]);
+  const Vec3 first = r.boresight.samples.front().error.displacement;
+  for (const PoseSample& s : r.boresight.samples) ASSERT_LT((s.error.displacement - first).norm(), 1e-6 * first.norm());
+}
+
+// Each number of them is set: none is what the memory held before.
+TEST(StartingJournals, ThatDoNotTiltHaveNoSlopeAndCentredOnesNoOffset) {
+  for (const char* journals : {"rest", "centred"}) {
+    const std::vector<Setting> start = {{"initial.journals", journals}};
+    const auto m =
+        std::make_shared<const Mechanism>(read_mechanism(BORESIGHT_EXAMPLES "/crank-slider/crank-slider.toml", start));
+    const StartingJournals found = starting_journals(*m, m->parameters(), ideal_motion(*m, m->parameters()));
+    ASSERT_EQ(found.journals.size(), 1u);
+    EXPECT_EQ(found.journals[0].slope, Vec3(Vec3::Zero())) << journals;
+    EXPECT_EQ(found.journals[0].offset == Vec3(Vec3::Zero()), std::string(journals) == "centred") << journals;
+  }
+}
+
+TEST(RestingStart, IsWhereTheQuasistaticRungHasTheJournals) {
+  const auto m = standing_platform("3-rrcpr.toml", {{"clearance.F1.friction.coefficient", "0"}});
+  const RunResult resting = make_rung("quasistatic", m)->run(m->parameters(), {});
+  const Vec3 rest = resting.clearances[0].front().offset;
+  const auto started = [&](const char* rung) {
+    return make_rung(rung, m)->run(m->parameters(), {}).clearances[0].front().offset;
+  };
+  EXPECT_LT((started("perturbation") - rest).norm(), 1e-9 * rest.norm());
+  EXPECT_LT((started("multibody") - rest).norm(), 1e-3 * rest.norm());  // the square of the deviation
+}
+
+TEST(RestingStart, AMovingMechanismStartsInBalanceOnBothRungs) {
+  const auto m = mechanism("four-bar/four-bar.toml", {});
+  const RunResult linear = make_rung("perturbation", m)->run(m->parameters(), {});
+  for (const char* formulation : {"tree", "paper"}) {
+    RunOptions options;
+    options.formulation = formulation;
+    const RunResult exact = make_rung("multibody", m)->run(m->parameters(), options);
+    const ClearanceSample &a = linear.clearances[0].front(), &b = exact.clearances[0].front();
+    EXPECT_GT(a.offset.norm(), 4e-5);
+    EXPECT_LT((a.offset - b.offset).norm(), 1e-3 * a.offset.norm()) << formulation;  // the square of the deviation
+    // No more than the parts turn by (the rocker at 2 rad/s), far less than the speed of a journal that falls across its clearance.
+    EXPECT_LT(b.offset_rate.norm(), 5e-3 * std::sqrt(2.0 * 9.81 * 5e-5)) << formulation;
+    EXPECT_LT((a.offset_rate - b.offset_rate).norm(), 1e-2 * a.offset_rate.norm()) << formulation;
+    // The load that the ideal joint carried, to the share of the clearance in the mechanism.
+    EXPECT_NEAR(b.normal_force / a.normal_force, 1.0, 1e-2) << formulation;
+  }
+}
+
+// Which of two parts is called the sleeve, and so in whose axes the offset counts, is the drawing's choice.
+TEST(RestingStart, MovesOnTheSameWhicheverPartIsTheSleeve) {
+  const auto drawn = mechanism("four-bar/four-bar.toml", {});
+  MechanismDescription other = drawn->description();
+  ClearanceDescription& play = other.clearances[0];
+  const JointDescription& joint = other.joints[play.joint];
+  play.journal = play.journal == joint.first ? joint.second : joint.first;
+  const auto swapped = std::make_shared<const Mechanism>(std::move(other));
+  for (const char* rung : {"perturbation", "multibody"}) {
+    const RunResult a = make_rung(rung, drawn)->run(drawn->parameters(), {}),
+                    b = make_rung(rung, swapped)->run(swapped->parameters(), {});
+    const PoseSample &p = a.boresight.samples.front(), &q = b.boresight.samples.front();
+    const Vec3 rate = a.clearances[0].front().offset_rate;
+    ASSERT_GT(rate.norm(), 1e-6) << rung;
+    EXPECT_LT((p.error.displacement - q.error.displacement).norm(), 1e-6 * p.error.displacement.norm()) << rung;
+    EXPECT_LT((p.v - q.v).norm(), 3e-3 * rate.norm()) << rung;  // the clearance over the mechanism's size
+  }
+}
+
+TEST(RestingStart, WithoutALoadJournalsStayInTheMiddle) {
+  const auto m = standing_four_bar({{"gravity.x", "0 m/s^2"}, {"gravity.y", "0 m/s^2"}, {"gravity.z", "0 m/s^2"}});
+  for (const char* rung : {"perturbation", "multibody"}) {
+    const RunResult r = make_rung(rung, m)->run(m->parameters(), {});
+    EXPECT_LT(r.clearances[0].front().offset.norm(), 1e-12) << rung;
+    EXPECT_LT(r.index.position_error.max, 1e-12) << rung;
+  }
+}
+
+TEST(RestingStart, JournalsThatStartFreeAreSaidToHaveToSettle) {
+  Settings centred = {{"motion.drives.A", "0.3"}, {"initial.journals", "centred"}, {"motion.duration", "200 ms"}};
+  const auto m = std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml", centred));
+  for (const char* integrator : {"rk4", "rosenbrock"}) {
+    RunOptions options;
+    options.integrator = integrator;
+    const RunResult whole = make_rung("perturbation", m)->run(m->parameters(), options);
+    EXPECT_GT(whole.settled_from, whole.index.position_error.time_of_max) << integrator;
+    ASSERT_FALSE(whole.warnings.empty()) << integrator;
+    EXPECT_NE(whole.warnings.back().find("falls into the start"), std::string::npos) << whole.warnings.back();
+    options.start = whole.settled_from;
+    const RunResult later = make_rung("perturbation", m)->run(m->parameters(), options);
+    EXPECT_LT(later.index.position_error.max, whole.index.position_error.max) << integrator;
+    EXPECT_LT(later.contact[0].impacts, whole.contact[0].impacts) << integrator;
+    EXPECT_LT(later.contact[0].max_force, whole.contact[0].max_force) << integrator;
+    for (const std::string& warning : later.warnings)
+      EXPECT_EQ(warning.find("falls into the start"), std::string::npos) << warning;
+  }
+}
+
+}  // namespace
+}  // namespace boresight

@@ -1,0 +1,71 @@
+// The opened mechanism's tables are as fine as the motion asks for: for a crank at a hundred thousand radians per second as over a day.
+#include <gtest/gtest.h>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/scene/clearance_scene.hpp"
+
+namespace boresight {
+namespace {
+
+std::shared_ptr<const Mechanism> crank_slider(const std::string& law, const std::string& duration) {
+  return std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml",
+                     {{"motion.drives.O", law}, {"motion.duration", duration}}));
+}
+
+// The boresight body's pose gain in the table against the same computed at that instant, relative to its largest value.
+double table_error(const Mechanism& mechanism) {
+  const IdealMotion ideal = IdealMotion::kinematic(mechanism);
+  const ClearanceScene scene(mechanism, ideal, mechanism.parameters());
+  const TimeTable table = scene.pose_gain(mechanism.boresight_body());
+  DeviationCoordinates coordinates(mechanism, ideal);
+  Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> row(6, coordinates.count());
+  double worst = 0.0, size = 0.0;
+  for (int k = 0; k <= 100; ++k) {
+    const double t = mechanism.duration() * (k + 0.37) / 101.0;
+    MatX T;
+    coordinates.gain(t, T);
+    const MatX exact = T.middleRows<6>(6 * mechanism.boresight_body());
+    table.at(t, row.data());
+    worst = std::max(worst, (exact - row).cwiseAbs().maxCoeff());
+    size = std::max(size, exact.cwiseAbs().maxCoeff());
+  }
+  return worst / size;
+}
+
+TEST(SceneGrid, FollowsACrankAtAHundredThousandRadiansPerSecond) {
+  EXPECT_LT(table_error(*crank_slider("1e5*t", "120 us")), 1e-4);
+}
+
+TEST(SceneGrid, OfADayIsNoFinerThanItsMotion) {
+  const auto mechanism = crank_slider("2*pi*t/86400", "86400 s");
+  const IdealMotion ideal = IdealMotion::kinematic(*mechanism);
+  const ClearanceScene scene(*mechanism, ideal, mechanism->parameters());
+  EXPECT_LT(scene.knots(), 20000);
+  EXPECT_LT(table_error(*mechanism), 1e-4);
+}
+
+TEST(SceneGrid, IsGivenUpWhenItsWatchWantsIt) {
+  const auto mechanism = crank_slider("2*pi*5*t", "0.4 s");
+  const IdealMotion ideal = IdealMotion::kinematic(*mechanism);
+  watch_work([](const char*, double) { return false; });
+  EXPECT_THROW(ClearanceScene(*mechanism, ideal, mechanism->parameters()), Interrupted);
+  watch_work(nullptr);
+}
+
+TEST(RestingRungs, StopWhereTheirCallerWantsThemTo) {
+  const auto mechanism = crank_slider("2*pi*5*t", "0.4 s");
+  for (const char* name : {"envelope", "quasistatic"}) {
+    RunOptions options;
+    options.progress = [](const RunProgress& p) { return p.t < 0.1; };
+    const RunResult result = make_rung(name, mechanism)->run(mechanism->parameters(), options);
+    EXPECT_TRUE(result.interrupted) << name;
+    EXPECT_GT(result.end_time, 0.0) << name;
+    EXPECT_LT(result.end_time, 0.4) << name;
+  }
+}
+
+}  // namespace
+}  // namespace boresight

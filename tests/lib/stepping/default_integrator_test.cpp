@@ -1,0 +1,98 @@
+// Where no integrator is asked for: rk4 with its own step, and rosenbrock where that step is none for the motion.
+#include <gtest/gtest.h>
+
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/stepping/measured_error.hpp"
+#include "scenes.hpp"
+
+namespace boresight {
+namespace {
+
+using Settings = std::vector<Setting>;
+
+// A journal that rests under its load without having struck: its damping is F chi over the least impact speed.
+std::shared_ptr<const Mechanism> resting(const char* least_speed, Settings more = {}) {
+  Settings settings = {{"motion.duration", "20 ms"},
+                       {"initial.journals", "rest"},
+                       {"clearance.F1.contact.minimum_impact_speed", least_speed}};
+  settings.insert(settings.end(), more.begin(), more.end());
+  return scenes::build(scenes::rrcpr(settings));
+}
+
+RunResult run(const char* rung, const std::shared_ptr<const Mechanism>& mechanism, const std::string& integrator = "",
+              double step = 0.0) {
+  RunOptions options;
+  options.integrator = integrator;
+  options.step = step;
+  return make_rung(rung, mechanism)->run(mechanism->parameters(), options);
+}
+
+TEST(DefaultIntegrator, IsRosenbrockWhereStepsDoNotFollowAContactsDamping) {
+  for (const auto& [speed, rung] : {std::pair{"1e-6 m/s", "perturbation"},
+                                    {"1e-6 m/s", "multibody"},
+                                    {"1e-8 m/s", "perturbation"},
+                                    {"1e-8 m/s", "multibody"}}) {
+    const auto mechanism = resting(speed);
+    const RunResult taken = run(rung, mechanism), asked = run(rung, mechanism, "rosenbrock"),
+                    steps = run(rung, mechanism, "rk4"), fine = run(rung, mechanism, "rk4", 1e-6);
+    EXPECT_EQ(taken.integrator_taken, "rosenbrock") << rung;
+    ASSERT_FALSE(taken.warnings.empty()) << rung;
+    EXPECT_EQ(taken.warnings.front(),
+              "rosenbrock took over from rk4: a contact is damped faster than its own step follows");
+    EXPECT_EQ(taken.contact[0].max_force, asked.contact[0].max_force) << rung;
+    const double converged = fine.index.position_error.max;
+    EXPECT_NEAR(taken.index.position_error.max, converged, (speed == std::string("1e-6 m/s") ? 2e-3 : 1e-2) * converged)
+        << rung;
+    const double converged_rms = fine.index.position_error.rms;
+    EXPECT_NEAR(taken.index.position_error.rms, converged_rms, 1e-2 * converged_rms) << rung;
+    EXPECT_TRUE(steps.damped_beyond_steps) << rung;
+  }
+}
+
+TEST(DefaultIntegrator, IsWhatWasAskedForAndRk4WhereItsStepFollows) {
+  const auto damped = resting("1e-6 m/s"), followed = resting("1e-2 m/s");
+  for (const char* rung : {"perturbation", "multibody"}) {
+    EXPECT_EQ(run(rung, followed).integrator_taken, "") << rung;
+    EXPECT_EQ(run(rung, followed).integrator.substr(0, 3), "RK4") << rung;
+    EXPECT_EQ(run(rung, damped, "rk4").integrator.substr(0, 3), "RK4") << rung << ": asked for by name";
+    EXPECT_EQ(run(rung, damped, "", 5e-5).integrator.substr(0, 3), "RK4") << rung << ": a step of rk4 was asked for";
+  }
+}
+
+// Bristles follow rk4 alone: its steps are halved until that changes nothing.
+TEST(DefaultIntegrator, IsRk4WithStepsThatAgreeWhereFrictionHasAState) {
+  const auto mechanism = resting("1e-6 m/s", {{"clearance.F1.friction.law", "lugre"}});
+  for (const char* rung : {"perturbation", "multibody"}) {
+    const RunResult r = run(rung, mechanism), own = run(rung, mechanism, "rk4"),
+                    fine = run(rung, mechanism, "rk4", 1e-6);
+    ASSERT_TRUE(own.damped_beyond_steps) << rung << ": nothing is asked for";
+    EXPECT_EQ(r.integrator_taken, "") << rung;
+    EXPECT_FALSE(r.damped_beyond_steps) << rung;
+    EXPECT_LT(r.end_time / r.cost.steps, own.end_time / own.cost.steps) << rung;
+    ASSERT_FALSE(r.warnings.empty()) << rung;
+    EXPECT_EQ(r.warnings.front().rfind("steps were halved", 0), 0u) << r.warnings.front();
+    const double converged = fine.index.position_error.max;
+    EXPECT_NEAR(r.index.position_error.max, converged, 1e-2 * converged) << rung;
+  }
+}
+
+// Where they never do, that is said.
+TEST(DefaultIntegrator, SaysWhereNoStepFollows) {
+  const RunResult r = run("perturbation", resting("1e-9 m/s", {{"clearance.F1.friction.law", "lugre"}}));
+  EXPECT_TRUE(r.damped_beyond_steps);
+  bool said = false;
+  for (const std::string& warning : r.warnings) said = said || warning.find("F1: damping or friction") == 0;
+  EXPECT_TRUE(said);
+}
+
+TEST(DefaultIntegrator, HasTheErrorMeasuredOfTheOneThatTookOver) {
+  const auto mechanism = resting("1e-6 m/s");
+  const auto rung = make_rung("perturbation", mechanism);
+  const RunResult taken = rung->run(mechanism->parameters(), {});
+  const MeasuredError error = measure_discretisation(*rung, mechanism->parameters(), {}, taken);
+  ASSERT_TRUE(error.measured) << error.why_not;
+  EXPECT_NE(error.basis.find("neighbouring tolerances"), std::string::npos) << error.basis;
+}
+
+}  // namespace
+}  // namespace boresight

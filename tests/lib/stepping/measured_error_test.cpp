@@ -1,0 +1,197 @@
+// What a run says of its steps, against steps of a half and a quarter.
+#include "boresight/stepping/measured_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/stepping/unstable_step.hpp"
+#include "finer_run.hpp"
+#include "scenes.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr std::array kStatistics = {&Statistics::max, &Statistics::rms, &Statistics::mean, &Statistics::p9973};
+constexpr std::array kStatisticNames = {"max", "rms", "mean", "p99.73"};
+
+std::shared_ptr<const Mechanism> example(const std::string& path, const std::vector<Setting>& settings = {}) {
+  return std::make_shared<const Mechanism>(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/" + path, settings));
+}
+
+RunOptions bare() {
+  RunOptions options;
+  options.sample_spacing = 0.0;
+  options.events = false;
+  return options;
+}
+
+struct Coverage {
+  int asked = 0, beyond = 0;
+  double worst = 0.0;  // actual over stated
+};
+
+// One scene on one rung: the error stated of a run at the rung's own step, against runs at a half and a quarter of it. A line
+// per scene: what is stated of maximum and RMS of the position error, and by how much they are off.
+void hold(const std::string& name, const std::string& rung_name, const std::shared_ptr<const Mechanism>& mechanism,
+          Coverage& coverage) {
+  const auto rung = make_rung(rung_name, mechanism);
+  const RunOptions options = bare();
+  const RunResult run = rung->run(mechanism->parameters(), options);
+  const MeasuredError error =
+      measure_discretisation(*rung, mechanism->parameters(), options, run, {.most_seconds = 0.0});
+  ASSERT_TRUE(error.measured) << name << ": " << error.why_not;
+  std::array<double, kStatistics.size()> off{};
+  for (const double share : {0.5, 0.25}) {
+    const RunResult fine = rung->run(mechanism->parameters(), finer_run(options, run, share));
+    for (std::size_t k = 0; k < kStatistics.size(); ++k)
+      off[k] = std::max(off[k],
+                        std::abs(fine.index.position_error.*kStatistics[k] - run.index.position_error.*kStatistics[k]));
+  }
+  std::printf("%-44s %-12s", name.c_str(), rung_name.c_str());
+  for (std::size_t k = 0; k < kStatistics.size(); ++k) {
+    const double value = run.index.position_error.*kStatistics[k], stated = error.stated.position_error.*kStatistics[k];
+    if (value < 1e-9) continue;
+    const double ratio = off[k] / std::max(stated, 1e-300);
+    ++coverage.asked;
+    if (ratio > 1.0) ++coverage.beyond;
+    coverage.worst = std::max(coverage.worst, ratio);
+    if (k < 2)
+      std::printf("  %s %7.3f %% off, %7.3f %% stated%s", kStatisticNames[k], 100.0 * off[k] / value,
+                  100.0 * stated / value,
+                  error.scatters(&PointingIndices::position_error, kStatistics[k]) ? " (scatters)" : "");
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+TEST(MeasuredError, CoversHalfAndQuarterStepsOfAMotionWithImpacts) {
+  Coverage coverage;
+  for (const char* rung : {"perturbation", "multibody"})
+    hold("3-rrcpr, 0.2 s", rung, example("3-rrcpr/3-rrcpr.toml", {{"motion.duration", "0.2 s"}}), coverage);
+  hold("3-rrcpr, 0.2 s, restitution 1", "perturbation",
+       example("3-rrcpr/3-rrcpr.toml", {{"motion.duration", "0.2 s"}, {"clearance.F1.contact.restitution", "1"}}),
+       coverage);
+  EXPECT_EQ(coverage.beyond, 0) << coverage.worst;
+}
+
+TEST(MeasuredError, IsThatOfTheMethodWhereNothingScatters) {
+  // A pendulum has no clearance: its error falls with the fourth power of the step, and neighbours agree.
+  const auto mechanism = example("pendulum/pendulum.toml", {{"motion.duration", "1 s"}});
+  const auto rung = make_rung("multibody", mechanism);
+  RunOptions options = bare();
+  options.step = 0.02;
+  const RunResult coarse = rung->run(mechanism->parameters(), options);
+  const MeasuredError error = measure_discretisation(*rung, mechanism->parameters(), options, coarse);
+  ASSERT_TRUE(error.measured) << error.why_not;
+  options.step = 0.001;
+  const RunResult fine = rung->run(mechanism->parameters(), options);
+  const double off = std::abs(coarse.index.position_error.max - fine.index.position_error.max);
+  EXPECT_GE(error.stated.position_error.max, off);
+  EXPECT_LE(error.stated.position_error.max, 6.0 * off + 1e-11);
+  EXPECT_FALSE(error.scatters(&PointingIndices::position_error, &Statistics::max));
+}
+
+TEST(MeasuredError, SaysSoWhereItsTimeWouldNotDo) {
+  const auto mechanism = example("3-rrcpr/3-rrcpr.toml", {{"motion.duration", "10 ms"}});
+  const auto rung = make_rung("perturbation", mechanism);
+  const RunResult run = rung->run(mechanism->parameters(), bare());
+  EXPECT_TRUE(std::isnan(run.error.discretisation));
+  const MeasuredError error =
+      measure_discretisation(*rung, mechanism->parameters(), bare(), run, {.most_seconds = 1e-9});
+  EXPECT_FALSE(error.measured);
+  EXPECT_NE(error.why_not.find("s of CPU"), std::string::npos);
+  EXPECT_EQ(error.runs, 0);
+}
+
+// A rung near its largest stable step: some of the steps beside the first cannot be followed.
+class OnTheEdge final : public Rung {
+ public:
+  explicit OnTheEdge(double followed_below) : followed_below_(followed_below) {}
+  std::string name() const override { return "perturbation"; }
+  std::string leaves_out() const override { return ""; }
+  RunResult run(const Parameters&, const RunOptions& options) const override {
+    const double step = options.step > 0.0 ? options.step : 1e-4;
+    if (step < 1e-4 && step > followed_below_) throw UnstableStep("the deviation is not finite", 0.0, step);
+    RunResult result;
+    result.end_time = 1.0;
+    result.cost.steps = static_cast<std::int64_t>(1.0 / step);
+    result.index.position_error.max = result.index.position_error.rms = 1e-3 + step;
+    return result;
+  }
+
+ private:
+  double followed_below_;
+};
+
+TEST(MeasuredError, TakesTheNeighboursThatCanBeFollowed) {
+  const RunResult run = OnTheEdge(1.0).run({}, {});
+  const MeasuredError edge = measure_discretisation(OnTheEdge(0.96e-4), {}, {}, run);
+  ASSERT_TRUE(edge.measured) << edge.why_not;
+  EXPECT_GT(edge.stated.position_error.max, 0.5e-4) << "half the step moves it by as much";
+  const MeasuredError beyond = measure_discretisation(OnTheEdge(0.8e-4), {}, {}, run);
+  EXPECT_FALSE(beyond.measured);
+  EXPECT_NE(beyond.why_not.find("step too large"), std::string::npos) << beyond.why_not;
+}
+
+TEST(MeasuredError, IsNothingOfARungWithoutSteps) {
+  const auto mechanism = example("3-rrcpr/3-rrcpr.toml", {{"motion.duration", "10 ms"}});
+  const auto rung = make_rung("quasistatic", mechanism);
+  const MeasuredError error =
+      measure_discretisation(*rung, mechanism->parameters(), bare(), rung->run(mechanism->parameters(), bare()));
+  EXPECT_TRUE(error.measured);
+  EXPECT_EQ(error.stated.position_error.max, 0.0);
+  EXPECT_EQ(error.runs, 0);
+}
+
+TEST(MeasuredError, IsMeasuredByTolerancesUnderErrorControl) {
+  const auto mechanism = example("3-rrcpr/3-rrcpr.toml", {{"motion.duration", "50 ms"}});
+  const auto rung = make_rung("perturbation", mechanism);
+  RunOptions options = bare();
+  options.integrator = "rosenbrock";
+  const RunResult run = rung->run(mechanism->parameters(), options);
+  const MeasuredError error = measure_discretisation(*rung, mechanism->parameters(), options, run);
+  ASSERT_TRUE(error.measured) << error.why_not;
+  options.tolerance = 1e-5;
+  const RunResult fine = rung->run(mechanism->parameters(), options);
+  EXPECT_LE(std::abs(run.index.position_error.rms - fine.index.position_error.rms), error.stated.position_error.rms);
+  EXPECT_NE(error.basis.find("tolerance"), std::string::npos);
+}
+
+// The examples and four ways to make the default scene harder. What is stated holds with 95 percent confidence, so that one
+// index in twenty may lie beyond it, give or take two standard errors of that count, and not by much.
+// Prints a line per scene: rungs_tests --gtest_filter=MeasuredErrorLong.*
+TEST(MeasuredErrorLong, CoversHalfAndQuarterStepsOfTheExamples) {
+  Coverage coverage;
+  const auto rrcpr = [](std::vector<Setting> settings) { return example("3-rrcpr/3-rrcpr.toml", settings); };
+  for (const char* rung : {"perturbation", "multibody"}) {
+    hold("3-rrcpr", rung, rrcpr({}), coverage);
+    hold("3-rrcpr, restitution 1", rung, rrcpr({{"clearance.F1.contact.restitution", "1"}}), coverage);
+    hold("3-rrcpr, friction 0.5", rung, rrcpr({{"clearance.F1.friction.coefficient", "0.5"}}), coverage);
+    hold("3-rrcpr, payload 10 t, 0.3 s", rung, rrcpr({{"payload.mass", "10000 kg"}, {"motion.duration", "0.3 s"}}),
+         coverage);
+    hold("3-rrcpr, free axes, 120 mm, 0.1 s", rung,
+         rrcpr({{"clearance.F1.axes", "free"}, {"clearance.F1.sleeve_length", "120 mm"}, {"motion.duration", "0.1 s"}}),
+         coverage);
+    hold("crank-slider", rung, example("crank-slider/crank-slider.toml"), coverage);
+    hold("four-bar", rung, example("four-bar/four-bar.toml"), coverage);
+    hold("2-us-pointing", rung, example("2-us-pointing/2-us-pointing.toml"), coverage);
+    hold("spatial-double-crank", rung, example("spatial-double-crank/spatial-double-crank.toml"), coverage);
+    hold("spatial-slider-crank", rung, example("spatial-slider-crank/spatial-slider-crank.toml"), coverage);
+  }
+  hold("flores-slider-crank", "perturbation", example("flores-slider-crank/flores-slider-crank.toml"), coverage);
+  hold("3-rrr", "perturbation", example("3-rrr/3-rrr.toml"), coverage);
+  std::printf("%d of %d indices beyond what was stated; actual over stated at most %.2f\n", coverage.beyond,
+              coverage.asked, coverage.worst);
+  EXPECT_GE(coverage.asked, 60);
+  const double nominal = 0.05 * coverage.asked;
+  EXPECT_LE(coverage.beyond, nominal + 2.0 * std::sqrt(0.95 * nominal));
+  EXPECT_LE(coverage.worst, 2.0);
+}
+
+}  // namespace
+}  // namespace boresight

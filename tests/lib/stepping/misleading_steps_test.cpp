@@ -1,0 +1,114 @@
+// A step that is far beyond its accuracy is refused in words; a contact that is open keeps no speed of the one before.
+#include <gtest/gtest.h>
+
+#include "boresight/contact_events/contact_tracker.hpp"
+#include "boresight/contact_events/damped_contact.hpp"
+#include "boresight/formulations/force_elements.hpp"
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "scenes.hpp"
+
+namespace boresight {
+namespace {
+
+std::string refusal(const char* rung, const std::string& integrator, double step) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "0.1 s"}}));
+  RunOptions options;
+  options.integrator = integrator;
+  options.step = step;
+  try {
+    make_rung(rung, mechanism)->run(mechanism->parameters(), options);
+  } catch (const ComputationError& failure) {
+    return failure.what();
+  }
+  return "none";
+}
+
+TEST(FixedSteps, AreRefusedWhereOneOfThemErrsByAShareOfTheClearance) {
+  for (const char* integrator : {"dopri5", "rosenbrock"})
+    for (const char* rung : {"perturbation", "multibody"}) {
+      const std::string text = refusal(rung, integrator, 1e-3);
+      EXPECT_NE(text.find("times the smallest clearance"), std::string::npos)
+          << rung << ' ' << integrator << ": " << text;
+      EXPECT_NE(text.find("take a smaller step, or none"), std::string::npos) << text;
+    }
+  EXPECT_EQ(refusal("perturbation", "rosenbrock", 2e-5), "none");
+  EXPECT_EQ(refusal("perturbation", "dopri5", 2e-5), "none");
+}
+
+// A journal that rests under its load without having struck: D = chi F / v grows without bound as the least impact speed falls.
+TEST(FixedSteps, SayWhereAContactIsDampedFasterThanTheyFollow) {
+  const auto warned = [](const char* rung, const std::string& integrator, const char* least_speed) {
+    const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "20 ms"},
+                                                        {"initial.journals", "rest"},
+                                                        {"clearance.F1.contact.minimum_impact_speed", least_speed}}));
+    RunOptions options;
+    options.integrator = integrator;
+    for (const std::string& warning : make_rung(rung, mechanism)->run(mechanism->parameters(), options).warnings)
+      if (warning.find("F1: damping or friction") == 0) return true;
+    return false;
+  };
+  for (const char* rung : {"perturbation", "multibody"}) {
+    EXPECT_TRUE(warned(rung, "rk4", "1e-6 m/s")) << rung;
+    EXPECT_FALSE(warned(rung, "rk4", "1e-2 m/s")) << rung;
+    EXPECT_FALSE(warned(rung, "rosenbrock", "1e-6 m/s")) << rung;
+  }
+}
+
+// The rate that a tilting journal's damping has in the contacts' own forces, by differences.
+TEST(MostDampedContact, IsTheSlopeOfTheForcesOverTheMass) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"clearance.F1.axes", "free"}}));
+  const OffsetLayout layout(*mechanism);
+  const std::vector<JournalInSleeve> joints = clearance_joints(mechanism->description(), mechanism->parameters());
+  JournalMotion<double> motion{Vec3(joints[0].radial_clearance + 2e-6, 0.0, 0.0), Vec3::Zero(), Vec3::Zero()};
+  motion.slope = Eigen::Vector2d(1e-6, 0.0);
+  motion.slope_rate.setZero();
+  ContactTracker tracker(0, "F1", joints[0], false);
+  std::array<ContactState<double>, kContactPlaces> contact{};
+  joints[0].gaps(motion, contact);
+  tracker.accept(0.0, contact);
+  // Only the offset across, of 3 kg: its own damping is the rate.
+  MatX compliance = MatX::Zero(5, 5);
+  compliance(0, 0) = 1.0 / 3.0;
+  const auto force = [&](double rate) {
+    JournalMotion<double> moving = motion;
+    moving.e_dot.x() = rate;
+    JournalWrench<double> wrench;
+    joints[0].wrench(moving, tracker.memory().impact_speed, wrench);
+    return wrench.force.x();
+  };
+  constexpr double kRate = 1e-7;
+  const double damping = -(force(kRate) - force(-kRate)) / (2.0 * kRate);
+  ASSERT_GT(damping, 1.0);
+  const DampedContact found = most_damped_contact(layout, joints, {motion}, {tracker}, compliance);
+  EXPECT_NEAR(found.rate, damping / 3.0, 1e-6 * damping);
+  EXPECT_EQ(found.clearance, 0);
+}
+
+TEST(OpenContact, TakesTheSpeedAtWhichItWouldBeginNowUnderLocatedEvents) {
+  JournalInSleeve law;
+  law.tilts = true;
+  law.minimum_impact_speed = 1e-3;
+  ContactTracker tracker(0, "F1", law, false);
+  constexpr int minus = static_cast<int>(ContactPlace::radial_minus),
+                plus = static_cast<int>(ContactPlace::radial_plus);
+  // The minus end hits at 0.5 m/s, rests, and leaves; the plus end lies on throughout.
+  tracker.begin(ContactPlace::radial_plus, 0.0, 0.02);
+  tracker.begin(ContactPlace::radial_minus, 0.0, 0.5);
+  EXPECT_EQ(tracker.memory().impact_speed[minus], 0.5);
+  tracker.end(ContactPlace::radial_minus, 0.01, 0.3);
+  std::array<ContactState<double>, kContactPlaces> contact{};
+  contact[minus].penetration = -1e-5;
+  contact[minus].rate = 0.004;
+  contact[plus].penetration = 1e-6;
+  contact[plus].rate = 0.0;
+  tracker.observe(0.011, contact);
+  EXPECT_EQ(tracker.memory().impact_speed[minus], 0.004);
+  EXPECT_EQ(tracker.memory().impact_speed[plus], 0.02) << "a contact that is closed keeps its own";
+  contact[minus].rate = -0.1;
+  tracker.observe(0.012, contact);
+  EXPECT_EQ(tracker.memory().impact_speed[minus], 1e-3) << "never below the least";
+}
+
+}  // namespace
+}  // namespace boresight
