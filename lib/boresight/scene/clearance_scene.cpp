@@ -173,11 +173,6 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows, cons
       }
   }
   const double rate = slowest_rate(rows, parameters);
-  // An acceleration that displaces by a thousandth of the play in the whole motion does nothing: of freedoms that no play moves it is
-  // what rounding leaves, which no finer grid makes smooth.
-  double play = 0.0;
-  for (const ClearanceParameters& c : parameters.clearance) play = std::max({play, c.radial, c.axial});
-  size[0] = std::max(size[0], 1e-3 * play / (mechanism_.duration() * mechanism_.duration()));
   size[2] = std::max(size[2], 1e-3 / mechanism_.duration());  // a thousandth of a speed is lost over the whole motion
   size[3] = std::max(size[3], rate * rate);
   for (std::size_t c = 0; c < layout_.joints.size();
