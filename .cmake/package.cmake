@@ -1,6 +1,6 @@
 # What is installed: the rooms of lib and of analyses, each a component that find_package(boresight COMPONENTS lib analyses) asks for, and the
-# program. `cpack --config build/release/CPackConfig.cmake` makes a Debian package of them; for other machines than this one, configure it with
-# -DBORESIGHT_LANES=all.
+# program. `cpack --config build/release/CPackConfig.cmake` makes a Debian package of them, for which Debian's `file` and `dpkg-dev` find
+# what it depends on; for other machines than this one, configure it with -DBORESIGHT_LANES=all.
 include(CMakePackageConfigHelpers)
 set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/boresight)
 set(installed_parts lib)
