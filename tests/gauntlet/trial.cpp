@@ -311,7 +311,7 @@ class Trial {
     for (std::size_t k = 0; k < kFigures.size(); ++k) {
       const double size = std::max(base.figure[k], other.figure[k]), apart = std::abs(base.figure[k] - other.figure[k]);
       const double alike = asked.rung == "perturbation" ? kTabled * size : 1e-6 * size;
-      if (size < floor_of(k) || apart <= alike + kUnseen * base.model * size) continue;
+      if (size < floor_of(k) || apart <= alike) continue;
       if (asked.rung != "quasistatic" && (apart <= alike + 3.0 * neighbours_spread(asked, k, 5) ||
                                           apart <= alike + 3.0 * neighbours_spread(asked, k, 17)))
         continue;
@@ -385,10 +385,9 @@ class Trial {
     }
   }
 
-  static constexpr double kUnseen = 0.01;      // of what a rung states of its model: nobody can tell such figures apart
-  static constexpr double kTabled = 1e-5;      // what tables of time may do to a motion's figure
-  static constexpr double kMostOfLimit = 0.8;  // of the CPU limit, after which a run is asked to end
-  static constexpr double kDearRun = 1.5;      // [s]: variants of dearer runs are left out
+  static constexpr double kTabled = 1e-5;             // what tables of time may do to a motion's figure
+  static constexpr double kMostOfLimit = 0.8;         // of the CPU limit, after which a run is asked to end
+  static constexpr double kDearRun = 1.5;             // [s]: variants of dearer runs are left out
   static constexpr double kMomentumTolerance = 1e-5;  // of the sum of the parts, at the rung's own step
   static constexpr double kEnergyTolerance = 1e-6;    // of the kinetic energy, at a two-thousandth of the motion
 
