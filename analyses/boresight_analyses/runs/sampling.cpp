@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <mutex>
 
 #include "boresight_analyses/threads/on_threads.hpp"
@@ -75,8 +74,7 @@ bool compute_samples(const SampleModel& model, std::size_t parameters, const Val
                      const std::vector<NumberRange>& ranges, const SamplingOptions& options) {
   Numbers numbers(ranges);
   std::mutex landing;
-  std::atomic<bool> no_more{false}, all_reached{true};
-  std::exception_ptr fault;
+  std::atomic<bool> no_more{false}, failed{false}, all_reached{true};
   const std::atomic<bool> never{false};
   const std::atomic<bool>& stop = options.stop != nullptr ? *options.stop : never;
 
@@ -93,7 +91,7 @@ bool compute_samples(const SampleModel& model, std::size_t parameters, const Val
       landed = Clock::now();
       if (done.empty()) return;
       const std::scoped_lock lock(landing);
-      if (!fault && !options.landed(done)) no_more = true;
+      if (!failed && !options.landed(done)) no_more = true;
       done.clear();
     };
     while (!no_more && !stop) {
@@ -111,29 +109,21 @@ bool compute_samples(const SampleModel& model, std::size_t parameters, const Val
       }
       const Clock::time_point begun = Clock::now();
       std::size_t reached = 0;
-      try {
-        model.evaluate_each(samples, outcomes, stop, [&](std::size_t k) {
-          ++reached;
-          SampleRecord& record = done.emplace_back();
-          record.number = records[k].number;
-          record.inputs = records[k].inputs;
-          record.outcome = std::move(outcomes[k]);
-          if (Clock::now() - landed > kLandEvery) land();
-        });
-        land();
-      } catch (...) {
-        const std::scoped_lock lock(landing);
-        if (!fault) fault = std::current_exception();
-        no_more = true;
-        done.clear();
-      }
+      model.evaluate_each(samples, outcomes, stop, [&](std::size_t k) {
+        ++reached;
+        SampleRecord& record = done.emplace_back();
+        record.number = records[k].number;
+        record.inputs = records[k].inputs;
+        record.outcome = std::move(outcomes[k]);
+        if (Clock::now() - landed > kLandEvery) land();
+      });
+      land();
       if (reached < n) all_reached = false;
       size.took(n, std::chrono::duration<double>(Clock::now() - begun).count());
     }
   };
 
-  on_threads(jobs, work);
-  if (fault) std::rethrow_exception(fault);
+  on_threads(jobs, work, [&] { failed = no_more = true; });
   return all_reached && numbers.next(1, 1, 1).size() == 0;
 }
 
