@@ -39,7 +39,8 @@ class SumModel final : public SampleModel {
   std::size_t batch_;
 };
 
-inline MonteCarloPlan sum_plan(std::uint64_t samples, DesignKind kind = DesignKind::random, std::uint64_t seed = 1) {
+inline MonteCarloPlan sum_plan(std::uint64_t samples, SamplingKind kind = SamplingKind::random,
+                               std::uint64_t seed = 1) {
   MonteCarloPlan plan;
   plan.samples = samples;
   plan.design.kind = kind;

@@ -66,7 +66,7 @@ BENCHMARK(compute_and_store)->Arg(500000)->Unit(benchmark::kMillisecond);
 
 void estimate_all(benchmark::State& state) {
   const MonteCarloPlan plan = plan_of(static_cast<std::uint64_t>(state.range(0)));
-  const Design design(plan.design, 3);
+  const SamplingDesign design(plan.design, 3);
   std::vector<double> values, x(3);
   for (std::uint64_t k = 0; k < plan.samples; ++k) {
     design.point(k, x);

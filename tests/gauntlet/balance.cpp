@@ -86,7 +86,7 @@ Json energy_change(const std::shared_ptr<const Mechanism>& mechanism) {
       kinetic = std::max(kinetic, kinetic_of(i * h));
       derivative(i * h, y, method.first_slope());
       method.step(i * h, h, y, derivative);
-      f->settle((i + 1) * h, y);
+      f->stabilise((i + 1) * h, y);
       const double energy = f->energy((i + 1) * h, y);
       rise = std::max(rise, energy - lowest);
       lowest = std::min(lowest, energy);

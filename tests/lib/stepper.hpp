@@ -22,7 +22,8 @@ struct Stepper {
     std::array<ContactState<double>, kContactPlaces> contact;
     for (std::size_t c = 0; c < trackers.size(); ++c) {
       const int k = static_cast<int>(c);
-      formulation.forces().joint(k).gaps(formulation.forces().journal_motion(k, formulation.bodies(t, y)), contact);
+      formulation.forces().joint(k).penetrations(formulation.forces().journal_motion(k, formulation.bodies(t, y)),
+                                                 contact);
       contacts += trackers[c].accept(t, contact);
       memory[c] = trackers[c].memory();
     }
@@ -34,7 +35,7 @@ struct Stepper {
     derivative(t, y, method.first_slope());
     method.step(t, h, y, derivative);
     t += h;
-    formulation.settle(t, y);
+    formulation.stabilise(t, y);
     accept();
   }
   Formulation& formulation;

@@ -27,7 +27,7 @@ class Allocating {
   std::vector<std::vector<double>> gaps_of(const Allocation& a, const UnitSamples& unit, std::size_t count) const;
 
   // By the samples of the search, on the confirming rung's scale.
-  void judge(Allocation& a) const;
+  void evaluate(Allocation& a) const;
 
   // The other random parameters of the same samples: [sample][parameter], coordinates.
   std::vector<std::vector<double>> others_of(const UnitSamples& unit, std::size_t count) const;

@@ -104,7 +104,7 @@ Allocation Allocating::cheapest(double limit, const std::vector<int>& start) {
     a.nodes = d.nodes;
     a.why = "branch and bound over all sets of options";
   }
-  judge(a);
+  evaluate(a);
   result_.search_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return a;
 }
@@ -120,7 +120,7 @@ std::vector<std::vector<double>> Allocating::gaps_of(const Allocation& a, const 
   return gaps;
 }
 
-void Allocating::judge(Allocation& a) const {
+void Allocating::evaluate(Allocation& a) const {
   std::vector<double> values;
   for (const auto& gaps : gaps_of(a, unit_, plan_.samples)) values.push_back(result_.factor * deviation_.index(gaps));
   std::sort(values.begin(), values.end(), std::greater<>());
@@ -221,7 +221,7 @@ void Allocating::search_rounds(const ConfirmingModel& confirm, const std::string
     try_what_points_best(a, confirm, rung);
     return;
   }
-  judge(result_.chosen);
+  evaluate(result_.chosen);
   result_.converged = result_.chosen.finished;
 }
 

@@ -19,7 +19,7 @@ void Allocating::try_what_points_best(const Allocation& a, const ConfirmingModel
     const std::string which = i == 0 ? "the tightest gaps" : "the gaps that point best";
     progress("trying " + which + " on the rung " + rung, 0.8);
     Allocation tried = tries[i];
-    judge(tried);
+    evaluate(tried);
     double factor = 1.0;
     AllocationConfirmation c = confirmed(tried, confirm, rung, factor);
     c.sentence += ", with " + which;
@@ -28,7 +28,7 @@ void Allocating::try_what_points_best(const Allocation& a, const ConfirmingModel
       c.agrees = true;
       c.sentence += "; the linear deviation is off by too much here to show anything cheaper";
       result_.factor = std::isfinite(factor) ? factor : result_.factor;
-      judge(tried);
+      evaluate(tried);
       tried.feasible = result_.feasible = true;
       result_.chosen = tried;
       result_.confirmations.push_back(c);
@@ -108,7 +108,7 @@ void Allocating::compare() {
       a.choice = tightest_;
       if (!plan_.is_continuous()) a.price = price_of(price_, a.choice);
     }
-    judge(a);
+    evaluate(a);
   };
   if (plan_.is_continuous()) {
     const auto take = [&](Allocation& a, const ToleranceRequirement& requirement, const std::string& name) {
@@ -191,8 +191,8 @@ void Allocating::price_front() {
     }
     wide.choice[j] = static_cast<int>(std::min_element(price_[j].begin(), price_[j].end()) - price_[j].begin());
   }
-  judge(tight);
-  judge(wide);
+  evaluate(tight);
+  evaluate(wide);
   result_.front.push_back({limit, here.price, here.feasible});
   for (int k = 0; k < plan_.front; ++k) {
     progress("front of cost against accuracy", 0.9 + 0.1 * k / plan_.front);

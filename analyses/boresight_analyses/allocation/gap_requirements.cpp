@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "boresight_analyses/random/design.hpp"
+#include "boresight_analyses/random/sampling_design.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
 
 namespace boresight {
@@ -18,7 +18,7 @@ std::int64_t allowed_failures(std::int64_t samples, double probability, double c
 }
 
 UnitSamples unit_samples(std::size_t joints, std::size_t samples, std::uint64_t seed) {
-  const Design design({.kind = DesignKind::random, .seed = seed}, static_cast<int>(joints));
+  const SamplingDesign design({.kind = SamplingKind::random, .seed = seed}, static_cast<int>(joints));
   UnitSamples unit(joints, std::vector<double>(samples));
   std::vector<double> point(joints);
   for (std::size_t k = 0; k < samples; ++k) {

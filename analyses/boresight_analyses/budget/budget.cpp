@@ -289,7 +289,7 @@ class Maker {
       const auto value = [&](const EnsembleInTime& e) {
         return e.level(h.interpretation, h.probability, plan_.confidence, plan_.leave_out).value;
       };
-      Relief relief{name, action, value(now), value(then)};
+      ErrorReduction reduction{name, action, value(now), value(then)};
       // The same members now and then: what they have in common falls out.
       const MemberBootstrap members(before.size(), plan_.seed, 3);
       std::vector<double> gains;
@@ -298,8 +298,8 @@ class Maker {
         gains.push_back(now.resampled_level(h.interpretation, h.probability, plan_.leave_out, times) -
                         then.resampled_level(h.interpretation, h.probability, plan_.leave_out, times));
       }
-      relief.interval = expanded_percentiles(std::move(gains), relief.gain(), before.size(), plan_.confidence);
-      b.reliefs.push_back(std::move(relief));
+      reduction.interval = expanded_percentiles(std::move(gains), reduction.gain(), before.size(), plan_.confidence);
+      b.reductions.push_back(std::move(reduction));
     };
     for (std::size_t j = 0; j < joints_.size(); ++j)
       add(joints_[j], "half the clearance", {.halved = static_cast<int>(j)});
@@ -307,8 +307,8 @@ class Maker {
       add(plan_.groups.names[g], "no scatter", {.held = static_cast<int>(g)});
     for (std::size_t i = 0; i < plan_.contributors.size(); ++i)
       add(plan_.contributors[i].name, "half of it", {.external = static_cast<int>(i)});
-    std::stable_sort(b.reliefs.begin(), b.reliefs.end(),
-                     [](const Relief& x, const Relief& y) { return x.gain() > y.gain(); });
+    std::stable_sort(b.reductions.begin(), b.reductions.end(),
+                     [](const ErrorReduction& x, const ErrorReduction& y) { return x.gain() > y.gain(); });
   }
 
   const BudgetPlan& plan_;

@@ -55,7 +55,7 @@ struct Contribution {
 };
 
 // The headline's level on the attribution's members if one thing were better.
-struct Relief {
+struct ErrorReduction {
   std::string name, action;
   double before = 0.0, after = 0.0;
   MemberInterval interval = {};  // of the gain, at the plan's confidence
@@ -71,7 +71,7 @@ struct Budget {
   std::vector<RequirementAnswer> requirements;
   double mean_square = 0.0;                         // of the headline's index
   std::vector<Contribution> contributions;          // external, joints, groups, together
-  std::vector<Relief> reliefs;                      // largest gain first
+  std::vector<ErrorReduction> reductions;           // largest gain first
   std::vector<PointingHistory> shown;               // of the first members, everything together
   PointingHistory nominal;                          // of the mechanism at its medians, alone
   std::vector<std::vector<double>> headline_sizes;  // per member over time

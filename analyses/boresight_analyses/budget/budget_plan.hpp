@@ -42,9 +42,9 @@
 #include <vector>
 
 #include "boresight_analyses/budget/contributor.hpp"
-#include "boresight_analyses/random/design.hpp"
 #include "boresight_analyses/random/parameter_groups.hpp"
 #include "boresight_analyses/random/random_inputs.hpp"
+#include "boresight_analyses/random/sampling_design.hpp"
 #include "boresight_analyses/study/study.hpp"
 
 namespace boresight {
@@ -90,7 +90,7 @@ struct BudgetPlan {
   BudgetRequirement headline(const BudgetAxes& axes) const;
   // The indices that windows and motion allow, in the order of kErrorIndices.
   std::vector<ErrorIndex> indices() const;
-  DesignOptions design() const { return {.kind = DesignKind::random, .seed = seed}; }
+  SamplingOptions design() const { return {.kind = SamplingKind::random, .seed = seed}; }
   // What decides a member's pointing history but for mechanism and rung; windows, contributors and requirements do not.
   std::string sample_text(const Study& study) const;
 };

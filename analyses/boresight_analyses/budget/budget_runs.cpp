@@ -14,7 +14,7 @@ BudgetRuns::BudgetRuns(const BudgetPlan& plan, const Mechanism& mechanism)
       rows_(plan.inputs.size() > 0 ? plan.members : 1),
       attribution_(std::min(rows_, plan.attribution)) {
   if (plan.inputs.size() > 0)
-    design_ = std::make_unique<const Design>(plan.design(), static_cast<int>(plan.inputs.size()));
+    design_ = std::make_unique<const SamplingDesign>(plan.design(), static_cast<int>(plan.inputs.size()));
 }
 
 std::uint64_t BudgetRuns::count() const { return first() + attribution_ * slots() + (rows_ - attribution_); }

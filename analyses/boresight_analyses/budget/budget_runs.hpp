@@ -52,7 +52,7 @@ class BudgetRuns {
   const BudgetPlan& plan_;
   std::size_t groups_, joints_;
   std::uint64_t rows_, attribution_;
-  std::unique_ptr<const Design> design_;  // none where nothing scatters
+  std::unique_ptr<const SamplingDesign> design_;  // none where nothing scatters
 };
 
 // The model of these runs: Outcome::history holds the error vector at the plan's sampling from its start on, component

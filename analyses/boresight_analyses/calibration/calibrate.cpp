@@ -200,7 +200,7 @@ void Calibrator::correct() {
     }
     refit("corrected by multibody");
     // The landscape is another one now.
-    if (step == 0) settle("corrected by multibody");
+    if (step == 0) stabilise("corrected by multibody");
     settled = step > 0;
     for (int p = 0; p < problem_.parameter_count(); ++p)
       if (!result_.fixed[p] && std::abs(result_.fit.globals.u[p] - at.u[p]) > kSettledShift * error[p]) settled = false;

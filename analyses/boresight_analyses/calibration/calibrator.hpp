@@ -57,7 +57,7 @@ class Calibrator {
   bool grow(Globals at, bool give_up);
 
   // Goes on from other valleys until none leads lower.
-  void settle(const std::string& stage);
+  void stabilise(const std::string& stage);
 
   // Intervals by the loss itself. Where a profile comes by a lower place than the optimum, that is the
   // optimum.

@@ -53,7 +53,7 @@ std::string number(const char* format, double value) {
 
 }  // namespace
 
-void judge(const FittedParameter& parameter, ParameterEstimate& e) {
+void assess_identifiability(const FittedParameter& parameter, ParameterEstimate& e) {
   const double share = e.standard_error / e.value;
   e.identifiable = false;
   if (parameter.at_bound(parameter.coordinate(e.value))) {
@@ -194,7 +194,7 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
         e.identifiable = false;
         e.reason = "held at its start";
       } else {
-        judge(p, e);
+        assess_identifiability(p, e);
       }
     } else {
       const bool offset = problem.fit_time_offset && g == P;

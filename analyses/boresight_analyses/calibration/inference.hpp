@@ -56,7 +56,7 @@ struct Inference {
 
 // Whether the data know a parameter, by its errors; says it in e.reason. Leaves what was held, or is at a
 // bound, as it is.
-void judge(const FittedParameter& parameter, ParameterEstimate& e);
+void assess_identifiability(const FittedParameter& parameter, ParameterEstimate& e);
 
 // Contribution of one window (loss and start state as in the problem) to the information, and its scores
 // sample by sample.

@@ -138,7 +138,7 @@ void take_intervals(const std::vector<Profile>& profiles, double confidence, con
     e.coordinate_error = error;
     e.low = profile.low;
     e.high = profile.high;
-    judge(parameter, e);
+    assess_identifiability(parameter, e);
   }
 }
 

@@ -130,11 +130,11 @@ bool Calibrator::grow(Globals at, bool give_up) {
     at = found.globals;
   }
   note(fit(problem_, at, {}, fit_options("whole data", 30, options_.jobs)));
-  settle("whole data");
+  stabilise("whole data");
   return true;
 }
 
-void Calibrator::settle(const std::string& stage) {
+void Calibrator::stabilise(const std::string& stage) {
   if (!follows_from_rest(problem_)) return;
   for (int round = 0; round < kMostSettlings; ++round) {
     const double before = result_.fit.cost;

@@ -24,14 +24,14 @@ class Chart {
           .target = options_.reference_target, .most_seconds = options_.reference_seconds, .measure = measuring(0.0)};
       const auto multibody = make_rung("multibody", mechanism_);
       result_.reference = find_reference(*multibody, parameters_, reference);
-      const std::vector<WayFamily> families = chart_ways(result_.reference.own_step);
+      const std::vector<SetupFamily> families = chart_ways(result_.reference.own_step);
       runs_left_ = 0;
-      for (const WayFamily& f : families) runs_left_ += 3 * f.ways.size();
+      for (const SetupFamily& f : families) runs_left_ += 3 * f.setups.size();
       runs_left_ += 3;
       done_before_ = 0.15;
       runs_ = 0;
       add(papers_way(), "multibody, paper, baumgarte, rk4", *multibody, true);
-      for (const WayFamily& family : families) measure_family(family);
+      for (const SetupFamily& family : families) measure_family(family);
       if (options_.flight) {
         now_ = "the flight before the first impact";
         done_before_ = 0.85;
@@ -59,27 +59,27 @@ class Chart {
   }
 
   // From coarse to fine, until finer ways only cost more: below the floor of the reference, or too long.
-  void measure_family(const WayFamily& family) {
+  void measure_family(const SetupFamily& family) {
     now_ = family.name;
     if (spent_ > options_.total_seconds) {
       result_.left_out.push_back(family.name);
       return;
     }
     // Each family with a rung of its own: what it precomputes is not charged to it, and not shared.
-    const auto rung = make_rung(family.ways.front().rung, mechanism_);
+    const auto rung = make_rung(family.setups.front().rung, mechanism_);
     int below = 0;
-    for (const Way& way : family.ways) {
-      const ChartPoint& point = add(way, family.name, *rung, false);
+    for (const RungSetup& setup : family.setups) {
+      const ChartPoint& point = add(setup, family.name, *rung, false);
       const bool too_long = !point.measured.refusal.empty() && point.measured.spent_seconds > options_.most_seconds;
       below = point.measured.refusal.empty() && point.error <= result_.reference.uncertainty ? below + 1 : 0;
       if (too_long || below == 2 || spent_ > options_.total_seconds) break;
     }
   }
 
-  const ChartPoint& add(const Way& way, const std::string& family, const Rung& rung, bool papers) {
-    ChartPoint point{.way = way,
+  const ChartPoint& add(const RungSetup& setup, const std::string& family, const Rung& rung, bool papers) {
+    ChartPoint point{.setup = setup,
                      .family = family,
-                     .measured = measure(rung, parameters_, way, measuring(options_.most_seconds)),
+                     .measured = measure(rung, parameters_, setup, measuring(options_.most_seconds)),
                      .papers = papers};
     spent_ += point.measured.spent_seconds;
     if (point.measured.refusal.empty()) point.error = relative_error(point.measured, result_.reference.value);

@@ -5,10 +5,10 @@
 //   result.points[result.front.back()]  // the most accurate of the Pareto front
 #pragma once
 
-#include "boresight_analyses/chart/flight.hpp"
+#include "boresight_analyses/chart/free_flight.hpp"
 #include "boresight_analyses/chart/machine.hpp"
 #include "boresight_analyses/chart/reference.hpp"
-#include "boresight_analyses/chart/ways.hpp"
+#include "boresight_analyses/chart/setups.hpp"
 
 namespace boresight {
 
@@ -24,7 +24,7 @@ struct ChartOptions {
 };
 
 struct ChartPoint {
-  Way way;
+  RungSetup setup;
   std::string family;
   Measurement measured;
   double error = 0.0;  // relative, of the index; see relative_error
@@ -36,7 +36,7 @@ struct ChartResult {
   Reference reference;
   std::vector<ChartPoint> points;  // family by family, coarse to fine; refused ones too
   std::vector<std::size_t> front;  // Pareto: fastest first, each more accurate than all faster ones
-  Flight flight;
+  FreeFlight flight;
   Machine machine;
   std::vector<std::string> left_out;  // families for which there was no time
   bool interrupted = false;

@@ -9,11 +9,11 @@ namespace boresight {
 
 Reference find_reference(const Rung& multibody, const Parameters& parameters, const ReferenceOptions& options) {
   constexpr int kMostRefinements = 8;
-  Way way{.rung = "multibody", .formulation = "tree", .stabilisation = "projection", .integrator = "rk4"};
+  RungSetup setup{.rung = "multibody", .formulation = "tree", .stabilisation = "projection", .integrator = "rk4"};
   Reference reference;
   reference.uncertainty = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMostRefinements; ++k) {
-    const Measurement m = measure(multibody, parameters, way, options.measure);
+    const Measurement m = measure(multibody, parameters, setup, options.measure);
     reference.cpu_seconds += m.spent_seconds;
     if (!m.refusal.empty()) {
       if (reference.refinements.size() < 2) throw ComputationError(m.refusal);
@@ -26,7 +26,7 @@ Reference find_reference(const Rung& multibody, const Parameters& parameters, co
     reference.value = m.value;
     if (std::isfinite(change))
       reference.uncertainty = m.value != 0.0 ? (change + 0.5 * m.half_spread) / std::abs(m.value) : 0.0;
-    way.step = 0.5 * m.step;
+    setup.step = 0.5 * m.step;
     // The next one costs twice as much again.
     if (k > 0 && (reference.uncertainty < options.target ||
                   reference.cpu_seconds + 2.0 * m.spent_seconds > options.most_seconds))

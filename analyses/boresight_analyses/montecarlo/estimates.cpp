@@ -58,10 +58,10 @@ ReportedInterval probability_interval(const IndependentSamples& samples, double 
 template <typename Ask>
 ReportedInterval with_samples(const std::vector<double>& values, std::uint64_t count, const MonteCarloPlan& plan,
                               double confidence, const Ask& ask) {
-  const Design design(plan.design, static_cast<int>(plan.inputs.size()));
+  const SamplingDesign design(plan.design, static_cast<int>(plan.inputs.size()));
   const std::uint64_t n = design.whole_points(count);
   try {
-    if (plan.design.kind == DesignKind::random) {
+    if (plan.design.kind == SamplingKind::random) {
       std::vector<double> done;
       done.reserve(n);
       for (std::uint64_t k = 0; k < n; ++k)
@@ -114,7 +114,7 @@ ErrorStatement error_of(const NamedEstimate& e, const ModelError& model) {
 
 // About ten numbers per decade, each of whole replicates.
 std::vector<std::uint64_t> convergence_counts(std::uint64_t n, const MonteCarloPlan& plan) {
-  const Design design(plan.design, static_cast<int>(plan.inputs.size()));
+  const SamplingDesign design(plan.design, static_cast<int>(plan.inputs.size()));
   std::vector<std::uint64_t> counts;
   for (double at = 20.0; at < static_cast<double>(n); at *= std::pow(10.0, 0.1)) {
     const std::uint64_t whole = design.whole_points(static_cast<std::uint64_t>(at));

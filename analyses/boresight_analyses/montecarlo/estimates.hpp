@@ -63,7 +63,7 @@ struct Estimates {
   const NamedEstimate& of(const std::string& name) const;
 };
 
-// values[k]: of sample k, NaN if it failed; as many as make whole replicates (Design::whole_points). `judgement`: of the
+// values[k]: of sample k, NaN if it failed; as many as make whole replicates (SamplingDesign::whole_points). `judgement`: of the
 // requirement; as a first look where none is given.
 Estimates estimate(const std::vector<double>& values, const MonteCarloPlan& plan, const ModelError& model,
                    const std::optional<Judgement>& judgement = std::nullopt);

@@ -25,7 +25,7 @@ AskedShare asked_share_of(const MonteCarloPlan& plan) {
 
 LookedAt looked_at_of(const MonteCarloPlan& plan) {
   const bool by_width = plan.stop.width > 0.0;
-  return {.independent = plan.design.kind == DesignKind::random,
+  return {.independent = plan.design.kind == SamplingKind::random,
           .by_width = by_width,
           .ends = by_width ? stopping_points(plan).size() : 1};
 }

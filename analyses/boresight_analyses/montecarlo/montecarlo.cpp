@@ -47,9 +47,9 @@ class Tally {
 };
 
 std::uint64_t unit_of(const MonteCarloPlan& plan) {
-  return plan.design.kind == DesignKind::lhs     ? plan.design.strata
-         : plan.design.kind == DesignKind::sobol ? plan.design.replicates
-                                                 : 1;
+  return plan.design.kind == SamplingKind::lhs     ? plan.design.strata
+         : plan.design.kind == SamplingKind::sobol ? plan.design.replicates
+                                                   : 1;
 }
 
 std::vector<double> leading_values(const SampleStore& store, std::uint64_t end) {
@@ -94,7 +94,7 @@ std::vector<std::uint64_t> stopping_points(const MonteCarloPlan& plan) {
   std::vector<std::uint64_t> points;
   if (plan.stop.width > 0.0) {
     const std::uint64_t unit = unit_of(plan);
-    const bool net = plan.design.kind == DesignKind::sobol;  // these keep their balance at powers of two
+    const bool net = plan.design.kind == SamplingKind::sobol;  // these keep their balance at powers of two
     std::uint64_t units = std::max<std::uint64_t>(2, net ? 16 : (200 + unit - 1) / unit);
     for (; units * unit < plan.samples; units = net ? 2 * units : units + (units + 1) / 2)
       points.push_back(units * unit);
@@ -121,7 +121,7 @@ MonteCarloResult run_montecarlo(const SampleModel& model, const MonteCarloPlan& 
                                 const MonteCarloOptions& options) {
   const Clock::time_point start = Clock::now();
   const bool first = ranks.rank() == 0;
-  const Design design(plan.design, static_cast<int>(plan.inputs.size()));
+  const SamplingDesign design(plan.design, static_cast<int>(plan.inputs.size()));
   Watcher watcher(options.interrupted);
   Tally tally(options, plan.samples);
   const auto time_is_up = [&] {

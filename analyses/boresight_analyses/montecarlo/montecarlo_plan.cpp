@@ -133,21 +133,21 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
   plan.design.seed = seed_of(table);
 
   const std::string design = table.choice("design", {"random", "lhs", "sobol"}, "random");
-  for (const DesignKind kind : {DesignKind::random, DesignKind::lhs, DesignKind::sobol})
+  for (const SamplingKind kind : {SamplingKind::random, SamplingKind::lhs, SamplingKind::sobol})
     if (design == to_string(kind)) plan.design.kind = kind;
-  if (table.has("strata") && plan.design.kind != DesignKind::lhs)
+  if (table.has("strata") && plan.design.kind != SamplingKind::lhs)
     table.fail("strata", "strata with design = \"lhs\" only");
-  if (table.has("replicates") && plan.design.kind != DesignKind::sobol)
+  if (table.has("replicates") && plan.design.kind != SamplingKind::sobol)
     table.fail("replicates", "replicates with design = \"sobol\" only");
   plan.design.strata = count_of(table, "strata", 2, kMostPerReplicate, static_cast<long long>(plan.design.strata));
   plan.design.replicates =
       count_of(table, "replicates", 2, kMostPerReplicate, static_cast<long long>(plan.design.replicates));
-  const std::uint64_t unit = plan.design.kind == DesignKind::lhs     ? plan.design.strata
-                             : plan.design.kind == DesignKind::sobol ? plan.design.replicates
-                                                                     : 1;
+  const std::uint64_t unit = plan.design.kind == SamplingKind::lhs     ? plan.design.strata
+                             : plan.design.kind == SamplingKind::sobol ? plan.design.replicates
+                                                                       : 1;
   if (plan.samples % unit != 0 || (unit > 1 && plan.samples < 2 * unit))
     table.fail("samples", std::string("a multiple of ") +
-                              (plan.design.kind == DesignKind::lhs ? "strata" : "replicates") + " (" +
+                              (plan.design.kind == SamplingKind::lhs ? "strata" : "replicates") + " (" +
                               std::to_string(unit) + "), at least twice: " +
                               std::to_string(std::max<std::uint64_t>(2, (plan.samples + unit - 1) / unit) * unit));
 
@@ -158,7 +158,7 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
   if (table.has("tail")) plan.tail = read_tail(table.table("tail"));
   if (by_budget) {
     if (plan.fidelities && plan.tail) table.fail("tail", "fidelities, or tail, not both");
-    if (plan.design.kind != DesignKind::random)
+    if (plan.design.kind != SamplingKind::random)
       table.fail("design", "\"random\" with fidelities or tail: their intervals are for independent samples");
     if (table.has("stop")) table.fail("stop", "no stop with fidelities or tail: their budget ends them");
     if (plan.tail && !plan.requirement)
@@ -166,7 +166,8 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
   }
   table.finish();
   plan.inputs = read_random_inputs(root, mechanism, accepts);
-  if (plan.design.kind == DesignKind::sobol && plan.inputs.size() > static_cast<std::size_t>(SobolNet::kMostDimensions))
+  if (plan.design.kind == SamplingKind::sobol &&
+      plan.inputs.size() > static_cast<std::size_t>(SobolNet::kMostDimensions))
     table.fail("design", "at most " + std::to_string(SobolNet::kMostDimensions) + " random parameters with \"sobol\"");
   return plan;
 }

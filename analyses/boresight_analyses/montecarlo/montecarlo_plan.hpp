@@ -4,7 +4,7 @@
 //   samples = 10000
 //   seed = 1
 //   design = "random"            # lhs, sobol
-//   strata = 100                 # lhs: points per hypercube; replicates = 16 # sobol: nets (see random/design.hpp)
+//   strata = 100                 # lhs: points per hypercube; replicates = 16 # sobol: nets (see random/sampling_design.hpp)
 //   confidence = 0.95            # of all intervals
 //   requirement = { limit = "0.25 mm", probability = 0.9973, confidence = 0.95 }
 //   fidelities = { models = ["multibody", "perturbation", "quasistatic"], budget = "2 min", pilot = 50 }
@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
-#include "boresight_analyses/random/design.hpp"
 #include "boresight_analyses/random/random_inputs.hpp"
+#include "boresight_analyses/random/sampling_design.hpp"
 #include "boresight_analyses/study/study.hpp"
 
 namespace boresight {
@@ -54,7 +54,7 @@ struct TailQuestion {
 
 struct MonteCarloPlan {
   std::uint64_t samples = 0;
-  DesignOptions design;
+  SamplingOptions design;
   double confidence = 0.95;
   std::optional<Requirement> requirement;
   StopRule stop;

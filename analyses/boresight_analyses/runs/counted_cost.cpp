@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "boresight_analyses/runs/several_models.hpp"
+#include "boresight_analyses/runs/model_samples.hpp"
 
 namespace boresight {
 
@@ -18,7 +18,7 @@ double nominal_seconds_an_evaluation(const std::string& rung, bool on_lanes, std
 }
 
 double counted_cost(const SampleModel& model, const Mechanism& mechanism, const RandomInputs& inputs,
-                    const Design& design) {
+                    const SamplingDesign& design) {
   constexpr std::size_t kCounted = 8;
   std::vector<std::vector<double>> values(kCounted, std::vector<double>(inputs.size()));
   std::vector<Sample> samples;

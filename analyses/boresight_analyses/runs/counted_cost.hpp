@@ -9,8 +9,8 @@
 #pragma once
 
 #include "boresight/mechanism/mechanism.hpp"
-#include "boresight_analyses/random/design.hpp"
 #include "boresight_analyses/random/random_inputs.hpp"
+#include "boresight_analyses/random/sampling_design.hpp"
 #include "boresight_analyses/study/sample_model.hpp"
 
 namespace boresight {
@@ -21,6 +21,6 @@ double nominal_seconds_an_evaluation(const std::string& rung, bool on_lanes, std
 
 // Of a sample, from the median evaluations of the first eight of the design, which are computed for it [s].
 double counted_cost(const SampleModel& model, const Mechanism& mechanism, const RandomInputs& inputs,
-                    const Design& design);
+                    const SamplingDesign& design);
 
 }  // namespace boresight

@@ -61,7 +61,7 @@ class BatchSize {
 
 }  // namespace
 
-bool compute_samples(const SampleModel& model, const RandomInputs& inputs, const Design& design,
+bool compute_samples(const SampleModel& model, const RandomInputs& inputs, const SamplingDesign& design,
                      const std::vector<NumberRange>& ranges, const SamplingOptions& options) {
   const ValuesOf values_of = [&](std::uint64_t number, std::span<double> values) {
     design.point(number, values);

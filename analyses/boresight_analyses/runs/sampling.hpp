@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "boresight_analyses/random/design.hpp"
 #include "boresight_analyses/random/random_inputs.hpp"
+#include "boresight_analyses/random/sampling_design.hpp"
 #include "boresight_analyses/runs/sample_store.hpp"
 
 namespace boresight {
@@ -29,7 +29,7 @@ struct SamplingOptions {
 using ValuesOf = std::function<void(std::uint64_t, std::span<double>)>;
 
 // Returns true if every sample was reached. What `landed` throws ends the sampling and is thrown on.
-bool compute_samples(const SampleModel& model, const RandomInputs& inputs, const Design& design,
+bool compute_samples(const SampleModel& model, const RandomInputs& inputs, const SamplingDesign& design,
                      const std::vector<NumberRange>& ranges, const SamplingOptions& options);
 bool compute_samples(const SampleModel& model, std::size_t parameters, const ValuesOf& values_of,
                      const std::vector<NumberRange>& ranges, const SamplingOptions& options);

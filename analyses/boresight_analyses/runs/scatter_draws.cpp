@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "boresight_analyses/random/design.hpp"
+#include "boresight_analyses/random/sampling_design.hpp"
 
 namespace boresight {
 
@@ -26,7 +26,7 @@ std::vector<Parameters> pilot_samples(const RandomInputs& inputs, const Mechanis
 std::vector<Parameters> draws_of_scatter(const RandomInputs& inputs, const Mechanism& mechanism, std::size_t count) {
   if (inputs.size() == 0) return {mechanism.parameters()};  // nothing scatters: one motion says all
   constexpr std::uint64_t kSeedOfPilot = 0x70696c6f74;
-  const Design design({.kind = DesignKind::random, .seed = kSeedOfPilot}, static_cast<int>(inputs.size()));
+  const SamplingDesign design({.kind = SamplingKind::random, .seed = kSeedOfPilot}, static_cast<int>(inputs.size()));
   std::vector<Parameters> samples;
   std::vector<double> values(inputs.size());
   for (std::size_t k = 0; k < count; ++k) {

@@ -30,7 +30,7 @@ LocalSensitivity described(const RandomParameter& parameter) {
   return s;
 }
 
-void judge(LocalSensitivity& s, bool discrete) {
+void assess_linearity(LocalSensitivity& s, bool discrete) {
   const auto [least, largest] = std::minmax_element(s.derivative.begin(), s.derivative.end());
   const double size = std::max(std::abs(*least), std::abs(*largest));
   if (discrete) {
@@ -97,7 +97,7 @@ LocalResult local_sensitivity(const SampleModel& model, const RandomInputs& inpu
     s.at_high = values[at++];
     for (std::size_t k = 0; k < s.step.size(); ++k, at += 2)
       s.derivative[k] = (values[at + 1] - values[at]) / (2.0 * s.step[k]);
-    judge(s, inputs.parameters[i].distribution->is_discrete());
+    assess_linearity(s, inputs.parameters[i].distribution->is_discrete());
   }
   return result;
 }

@@ -63,7 +63,7 @@ std::optional<GlobalSensitivity> global_sensitivity(const SensitivityPlan& plan,
   });
   std::optional<GlobalSensitivity> result;
   try {
-    if (plan.design.kind == DesignKind::random) {
+    if (plan.design.kind == SamplingKind::random) {
       result =
           reported_sensitivity(sobol_indices(rows, {.confidence = plan.confidence, .seed = plan.design.seed}), plan);
     } else {

@@ -45,7 +45,7 @@ SensitivityPlan read_sensitivity_plan(Cursor& root, const Study&, const Mechanis
   plan.rows = static_cast<std::uint64_t>(rows);
   plan.design.seed = seed_of(table);
   const bool net = table.choice("design", {"sobol", "random"}, "sobol") == "sobol";
-  plan.design.kind = net ? DesignKind::sobol : DesignKind::random;
+  plan.design.kind = net ? SamplingKind::sobol : SamplingKind::random;
   if (table.has("replicates") && !net) table.fail("replicates", "replicates with design = \"sobol\" only");
   const long long replicates = table.integer("replicates", 16);
   table.require(replicates >= 2 && replicates <= 1024, "replicates", "2 to 1024");
@@ -64,7 +64,7 @@ SensitivityPlan read_sensitivity_plan(Cursor& root, const Study&, const Mechanis
   plan.groups = std::move(groups.members);
   plan.names = std::move(groups.names);
   table.finish();
-  plan.points = std::make_shared<const Design>(plan.design, static_cast<int>(2 * plan.inputs.size()));
+  plan.points = std::make_shared<const SamplingDesign>(plan.design, static_cast<int>(2 * plan.inputs.size()));
   return plan;
 }
 

@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "boresight_analyses/random/design.hpp"
 #include "boresight_analyses/random/random_inputs.hpp"
+#include "boresight_analyses/random/sampling_design.hpp"
 #include "boresight_analyses/sensitivity/sobol_rows.hpp"
 #include "boresight_analyses/study/study.hpp"
 
@@ -27,7 +27,7 @@ namespace boresight {
 
 struct SensitivityPlan {
   std::uint64_t rows = 0;
-  DesignOptions design;  // of 2 d coordinates: the points a and b of a row
+  SamplingOptions design;  // of 2 d coordinates: the points a and b of a row
   double confidence = 0.95;
   RandomInputs inputs;
   ParameterGroups groups;          // indices into inputs.parameters
@@ -40,7 +40,7 @@ struct SensitivityPlan {
   // What decides the value of a run but for mechanism and rung: equal texts are equal runs.
   std::string text(const Study& study) const;
 
-  std::shared_ptr<const Design> points;
+  std::shared_ptr<const SamplingDesign> points;
 };
 
 // Throws InputError. `accepts`: see read_random_inputs.

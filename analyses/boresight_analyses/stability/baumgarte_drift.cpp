@@ -80,7 +80,7 @@ std::vector<double> BaumgarteDrift::follow(const VecX& start, double alpha, doub
     if (n == steps || (large && n >= 3)) break;
     derivative(n * h, y, method.first_slope());
     method.step(n * h, h, y, derivative);
-    formulation->settle((n + 1) * h, y);
+    formulation->stabilise((n + 1) * h, y);
     if (!y.allFinite()) break;
   }
   return violation;

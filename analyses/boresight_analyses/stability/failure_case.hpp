@@ -8,7 +8,7 @@
 
 #include "boresight/io/document.hpp"
 #include "boresight_analyses/stability/baumgarte_drift.hpp"
-#include "boresight_analyses/stability/followed.hpp"
+#include "boresight_analyses/stability/followed_motion.hpp"
 #include "boresight_analyses/stability/predictability.hpp"
 #include "boresight_analyses/stability/settling_contact.hpp"
 
@@ -34,7 +34,7 @@ struct Scene {
   const IdealMotion* ideal = nullptr;  // null: it cannot be followed
   std::string infeasible;              // why, then
   std::vector<ContactFrequency> contacts;
-  const Followed* followed = nullptr;  // null: no rung can follow the motion
+  const FollowedMotion* followed = nullptr;  // null: no rung can follow the motion
   // Reads the mechanism's file again with one more setting and throws what its reader throws; may be empty.
   std::function<void(const Setting&)> reread;
 

@@ -10,7 +10,7 @@ double relative(double a, double b) { return b != 0.0 ? std::abs(a / b - 1.0) : 
 
 }  // namespace
 
-std::vector<Separation> separations(const Mechanism& mechanism, const Followed& followed,
+std::vector<Separation> separations(const Mechanism& mechanism, const FollowedMotion& followed,
                                     const std::vector<double>& starts) {
   const Parameters parameters = mechanism.parameters();
   RunOptions options = followed.options(followed.step);

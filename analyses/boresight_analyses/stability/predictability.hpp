@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "boresight/perturbation/predictability.hpp"
-#include "boresight_analyses/stability/followed.hpp"
+#include "boresight_analyses/stability/followed_motion.hpp"
 
 namespace boresight {
 
@@ -22,7 +22,7 @@ inline constexpr double kApart =
     kPartedShare;  // of the clearance: the trajectories have nothing to do with each other any more
 
 // For each relative difference given.
-std::vector<Separation> separations(const Mechanism& mechanism, const Followed& followed,
+std::vector<Separation> separations(const Mechanism& mechanism, const FollowedMotion& followed,
                                     const std::vector<double>& starts);
 
 }  // namespace boresight

@@ -78,7 +78,7 @@ AfterEvent SettlingContact::on_event(const GapEvent& event, VecX& y) {
   return AfterEvent::crossed;
 }
 
-Settling settle(SettlingContact contact, double height, double duration, double tolerance, bool explicit_pair) {
+Settling stabilise(SettlingContact contact, double height, double duration, double tolerance, bool explicit_pair) {
   if (explicit_pair) return follow(ExplicitMethod(dormand_prince54(), 2), contact, height, duration, tolerance);
   return follow(RosenbrockMethod(rodas4(), 2), contact, height, duration, tolerance);
 }

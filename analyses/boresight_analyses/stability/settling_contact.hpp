@@ -56,6 +56,6 @@ struct Settling {
 
 // From `height` above the bore at rest, over `duration`, with error control at a relative tolerance.
 // Explicit: Dormand and Prince's pair; else the L-stable Rosenbrock method.
-Settling settle(SettlingContact contact, double height, double duration, double tolerance, bool explicit_pair);
+Settling stabilise(SettlingContact contact, double height, double duration, double tolerance, bool explicit_pair);
 
 }  // namespace boresight

@@ -132,8 +132,8 @@ class Computation {
       contact.law.stiffness *= factor * factor * factor;  // omega goes with its cube root
       SettledStep step{.frequency = contact.angular_frequency(), .pair = {}, .l_stable = {}};
       const double height = kDropHeight * contact.rest_depth();
-      step.pair = settle(contact, height, duration, kSettledTolerance, true);
-      step.l_stable = settle(contact, height, duration, kSettledTolerance, false);
+      step.pair = stabilise(contact, height, duration, kSettledTolerance, true);
+      step.l_stable = stabilise(contact, height, duration, kSettledTolerance, false);
       result_.settled.push_back(std::move(step));
     }
   }
@@ -187,7 +187,7 @@ class Computation {
   const StabilityOptions& options_;
   Scene scene_;
   std::optional<IdealMotion> ideal_;
-  std::optional<Followed> followed_;
+  std::optional<FollowedMotion> followed_;
   StabilityResult result_;
 };
 

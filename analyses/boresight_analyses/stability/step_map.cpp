@@ -23,8 +23,8 @@ double stiffest(const Mechanism& mechanism, const Parameters& parameters) {
 
 }  // namespace
 
-StepMap map_steps(const std::shared_ptr<const Mechanism>& mechanism, const Followed& followed, const IndexChoice& index,
-                  const std::function<bool()>& advance) {
+StepMap map_steps(const std::shared_ptr<const Mechanism>& mechanism, const FollowedMotion& followed,
+                  const IndexChoice& index, const std::function<bool()>& advance) {
   StepMap map;
   map.rung = followed.rung->name();
   map.index = index.title();

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "boresight_analyses/stability/followed.hpp"
+#include "boresight_analyses/stability/followed_motion.hpp"
 #include "boresight_analyses/study/index_choice.hpp"
 
 namespace boresight {
@@ -26,8 +26,8 @@ struct StepMap {
   std::string first_stop;             // what the rung said the first time
 };
 
-StepMap map_steps(const std::shared_ptr<const Mechanism>& mechanism, const Followed& followed, const IndexChoice& index,
-                  const std::function<bool()>& advance);
+StepMap map_steps(const std::shared_ptr<const Mechanism>& mechanism, const FollowedMotion& followed,
+                  const IndexChoice& index, const std::function<bool()>& advance);
 inline constexpr int kStepMapColumns = 9;
 
 }  // namespace boresight

@@ -19,7 +19,7 @@ constexpr double kBetweenNeighbours = 0.015;
 
 }  // namespace
 
-RunOptions Way::options() const {
+RunOptions RungSetup::options() const {
   RunOptions options;
   options.sample_spacing = 0.0;
   options.events = false;
@@ -32,18 +32,18 @@ RunOptions Way::options() const {
   return options;
 }
 
-Way Way::finer() const {
-  Way way = *this;
+RungSetup RungSetup::finer() const {
+  RungSetup setup = *this;
   if (lanes)
-    way.tolerance = 0.1 * (tolerance > 0.0 ? tolerance : kLaneTolerance);
+    setup.tolerance = 0.1 * (tolerance > 0.0 ? tolerance : kLaneTolerance);
   else if (!integrator.empty() && integrator != "rk4" && step == 0.0)
-    way.tolerance = 0.1 * tolerance_of(options(), rung);
+    setup.tolerance = 0.1 * tolerance_of(options(), rung);
   else
-    way.step = 0.5 * step;
-  return way;
+    setup.step = 0.5 * step;
+  return setup;
 }
 
-std::string Way::family() const {
+std::string RungSetup::family() const {
   std::string text = rung;
   for (const std::string& part : {formulation, stabilisation, integrator})
     if (!part.empty() && !stepless()) text += ", " + part;
@@ -55,20 +55,21 @@ double relative_error(const Measurement& measured, double reference) {
   return (std::abs(measured.value - reference) + measured.half_spread) / std::max(std::abs(reference), 1e-300);
 }
 
-Measurement measure(const Rung& rung, const Parameters& parameters, const Way& way, const MeasureOptions& options) {
+Measurement measure(const Rung& rung, const Parameters& parameters, const RungSetup& setup,
+                    const MeasureOptions& options) {
   Measurement out;
   std::vector<double> values;
   try {
     for (int neighbour = 0; neighbour < options.neighbours; ++neighbour) {
       const double share = 1.0 - kBetweenNeighbours * neighbour;
       if (options.advance && !options.advance()) throw MeasurementInterrupted{};
-      RunOptions run = way.options();
+      RunOptions run = setup.options();
       run.start = options.index.start;
-      const bool fixed = way.integrator.empty() || way.integrator == "rk4";
+      const bool fixed = setup.integrator.empty() || setup.integrator == "rk4";
       // Once the rung has chosen its own step, the neighbours are neighbours of that.
       if (fixed && run.step == 0.0) run.step = out.step;
-      if (!fixed && !way.stepless() && run.step == 0.0 && run.tolerance == 0.0)
-        run.tolerance = tolerance_of(run, way.rung);
+      if (!fixed && !setup.stepless() && run.step == 0.0 && run.tolerance == 0.0)
+        run.tolerance = tolerance_of(run, setup.rung);
       run.step *= share;
       run.tolerance *= share;
       const double start = thread_cpu_seconds();
@@ -95,9 +96,9 @@ Measurement measure(const Rung& rung, const Parameters& parameters, const Way& w
       out.estimate = std::max(out.estimate, result.error.model);
       const double cpu = result.cost.cpu_seconds;
       out.cpu_seconds = values.size() == 1 ? cpu : std::min(out.cpu_seconds, cpu);
-      if (out.step == 0.0 && result.cost.steps > 0 && !way.stepless())
+      if (out.step == 0.0 && result.cost.steps > 0 && !setup.stepless())
         out.step = result.end_time / static_cast<double>(result.cost.steps);
-      if (way.stepless() && values.size() == 2) break;  // the first one may have built the scene
+      if (setup.stepless() && values.size() == 2) break;  // the first one may have built the scene
     }
   } catch (const ComputationError& failure) {
     out.refusal = failure.what();

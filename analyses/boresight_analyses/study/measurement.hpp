@@ -16,7 +16,7 @@
 namespace boresight {
 
 // One way of computing a motion: a rung, how its equations are written and integrated, and how finely.
-struct Way {
+struct RungSetup {
   std::string rung;
   std::string formulation = {}, stabilisation = {};  // multibody's; "" is the rung's own
   std::string integrator = {};                       // "" is the rung's own
@@ -27,7 +27,7 @@ struct Way {
   // The rungs that take no steps: everything else of a way means nothing to them.
   bool stepless() const { return rung == "envelope" || rung == "quasistatic"; }
   // The same, finer: half the step, or a tenth of the tolerance.
-  Way finer() const;
+  RungSetup finer() const;
   // Without histories and events.
   RunOptions options() const;
   // "multibody, paper, baumgarte, rk4": all but how finely.
@@ -63,6 +63,7 @@ struct MeasurementInterrupted {};
 
 // rung: of the way's name, kept between calls for what it has precomputed. A way that fails (a singular pose,
 // an unstable step, an option the rung does not have) is no error here: the refusal says why.
-Measurement measure(const Rung& rung, const Parameters& parameters, const Way& way, const MeasureOptions& options);
+Measurement measure(const Rung& rung, const Parameters& parameters, const RungSetup& setup,
+                    const MeasureOptions& options);
 
 }  // namespace boresight

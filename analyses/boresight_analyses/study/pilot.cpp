@@ -16,7 +16,7 @@ PilotResult run_pilot(std::shared_ptr<const Mechanism> mechanism, const std::vec
 }
 
 bool indistinguishable(const PilotTrial& trial, const PilotResult& result) {
-  if (!trial.refusal.empty() || Way{.rung = trial.rung}.stepless()) return false;
+  if (!trial.refusal.empty() || RungSetup{.rung = trial.rung}.stepless()) return false;
   // What is uncertain of the difference is no more than twice what the reference is good to: less would tell nothing.
   const double uncertain = trial.error - std::abs(trial.difference);
   return std::abs(trial.difference) <= std::max(uncertain, result.accuracy) &&

@@ -65,13 +65,13 @@ class PilotOfMotions {
     double estimate = 0.0, cpu_seconds = 0.0;
   };
 
-  Measurement measured(const Rung& rung, const Parameters& parameters, const Way& way, int neighbours) {
+  Measurement measured(const Rung& rung, const Parameters& parameters, const RungSetup& setup, int neighbours) {
     MeasureOptions options;
     options.index = options_.index;
     options.neighbours = neighbours;
     options.advance = [this] { return !options_.progress || options_.progress(runs_++); };
     try {
-      const Measurement m = measure(rung, parameters, way, options);
+      const Measurement m = measure(rung, parameters, setup, options);
       result_.cpu_seconds += m.spent_seconds;
       return m;
     } catch (const MeasurementInterrupted&) {
@@ -137,7 +137,7 @@ class PilotOfMotions {
   // Returns true if one of its steps meets the accuracy, or cannot be told from a reference that is worse than that.
   bool try_rung(const std::string& name) {
     const auto rung = make_rung(name, mechanism_);
-    if (Way{.rung = name}.stepless()) {
+    if (RungSetup{.rung = name}.stepless()) {
       if (!options_.integrator.empty()) return false;
       return attempt(*rung, {.rung = name});
     }
@@ -187,19 +187,19 @@ class PilotOfMotions {
     return met;
   }
 
-  bool attempt(const Rung& rung, const Way& way) {
+  bool attempt(const Rung& rung, const RungSetup& setup) {
     PilotTrial trial;
-    trial.rung = way.rung;
-    trial.step = way.step;
-    trial.integrator = way.integrator;
-    trial.tolerance = way.tolerance;
+    trial.rung = setup.rung;
+    trial.step = setup.step;
+    trial.integrator = setup.integrator;
+    trial.tolerance = setup.tolerance;
     for (std::size_t s = 0; s < motions_.size() && trial.refusal.empty(); ++s) {
-      const Measurement m = measured(rung, motions_[s], way, neighbours_);
+      const Measurement m = measured(rung, motions_[s], setup, neighbours_);
       trial.refusal = m.refusal;
       if (!m.refusal.empty()) break;
       if (s == 0) trial.value = mean(m.values), trial.cpu_seconds = m.cpu_seconds;
       trial.estimate = std::max(trial.estimate, m.estimate);
-      weigh(m.values, s, way.stepless(), trial);
+      weigh(m.values, s, setup.stepless(), trial);
     }
     trial.accepted = good_reference_ && trial.refusal.empty() && trial.error <= options_.accuracy;
     result_.trials.push_back(trial);

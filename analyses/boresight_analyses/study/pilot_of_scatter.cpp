@@ -7,7 +7,7 @@
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "boresight_analyses/study/pilot_choice.hpp"
-#include "boresight_analyses/study/way_samples.hpp"
+#include "boresight_analyses/study/setup_samples.hpp"
 
 namespace boresight {
 namespace {
@@ -42,7 +42,7 @@ class PilotOfScatter {
     report_reference();
     conclude(result_);
     state_errors();
-    for (const auto& way : ways_) result_.cpu_seconds += way->spent_seconds();
+    for (const auto& setup : setups_) result_.cpu_seconds += setup->spent_seconds();
     return result_;
   }
 
@@ -51,16 +51,17 @@ class PilotOfScatter {
     return [this] { return !options_.progress || options_.progress(runs_++); };
   }
 
-  WaySamples& add(const Way& way) {
-    ways_.push_back(std::make_unique<WaySamples>(mechanism_, samples_, way, options_.index, options_.scene_varies));
-    return *ways_.back();
+  SetupSamples& add(const RungSetup& setup) {
+    setups_.push_back(
+        std::make_unique<SetupSamples>(mechanism_, samples_, setup, options_.index, options_.scene_varies));
+    return *setups_.back();
   }
-  void compute(WaySamples& way, const std::vector<std::size_t>& which) {
-    if (!way.compute(which, options_.jobs, advance())) throw PilotInterrupted{};
+  void compute(SetupSamples& setup, const std::vector<std::size_t>& which) {
+    if (!setup.compute(which, options_.jobs, advance())) throw PilotInterrupted{};
   }
   double spent() const {
     double seconds = result_.cpu_seconds;
-    for (const auto& way : ways_) seconds += way->spent_seconds();
+    for (const auto& setup : setups_) seconds += setup->spent_seconds();
     return seconds;
   }
 
@@ -75,12 +76,12 @@ class PilotOfScatter {
   void choose_samples_by_rank() {
     const std::size_t most = kPairs[std::size(kPairs) - 1];
     std::vector<double> ranked_by;
-    Way way{.rung = lanes_serve() ? "perturbation" : "quasistatic", .lanes = lanes_serve()};
+    RungSetup setup{.rung = lanes_serve() ? "perturbation" : "quasistatic", .lanes = lanes_serve()};
     try {
-      WaySamples& ranking = add(way);
+      SetupSamples& ranking = add(setup);
       for (std::size_t k = 0; k < samples_.size() && ranking.spent_seconds() < kRankingSeconds;) {
         std::vector<std::size_t> some;
-        for (; k < samples_.size() && some.size() < (way.lanes ? 64u : 8u); ++k) some.push_back(k);
+        for (; k < samples_.size() && some.size() < (setup.lanes ? 64u : 8u); ++k) some.push_back(k);
         compute(ranking, some);
         for (std::size_t s : some) ranked_by.push_back(ranking.value(s));
         if (ranking.failed() > 0 && ranking.failed() == ranked_by.size()) break;
@@ -96,7 +97,7 @@ class PilotOfScatter {
     std::vector<Parameters> first;
     for (std::size_t k = 0; k < std::min<std::size_t>(3, chosen_.sample.size()); ++k)
       first.push_back(samples_[chosen_.sample[k]]);
-    Way own{.rung = "multibody", .step = options_.step};
+    RungSetup own{.rung = "multibody", .step = options_.step};
     if (own.step == 0.0) own.step = common_step("multibody", mechanism_, first, own.options());
     if (own.step == 0.0) own = {.rung = "multibody", .integrator = "rosenbrock", .tolerance = kMultibodyTolerance};
     own_ = &add(own);
@@ -129,8 +130,8 @@ class PilotOfScatter {
     result_.pairs = pairs_.size();
   }
 
-  ScatterDifference compared(const WaySamples& way) const {
-    const std::vector<double> values = way.values(pairs_), reference = fine_->values(pairs_);
+  ScatterDifference compared(const SetupSamples& setup) const {
+    const std::vector<double> values = setup.values(pairs_), reference = fine_->values(pairs_);
     return compare_scatter(values, reference, scores_, *options_.statistic);
   }
 
@@ -151,44 +152,44 @@ class PilotOfScatter {
     return false;
   }
 
-  std::vector<Way> first_tier() {
+  std::vector<RungSetup> first_tier() {
     if (!options_.integrator.empty())
       return {{.rung = "perturbation",
                .integrator = options_.integrator,
                .step = options_.step,
                .tolerance = options_.tolerance}};
-    std::vector<Way> ways = {{.rung = "envelope"}, {.rung = "quasistatic"}};
+    std::vector<RungSetup> setups = {{.rung = "envelope"}, {.rung = "quasistatic"}};
     if (lanes_serve())
-      ways.push_back({.rung = "perturbation", .tolerance = kLaneTolerance, .lanes = true});
+      setups.push_back({.rung = "perturbation", .tolerance = kLaneTolerance, .lanes = true});
     else if (const double step = step_of_perturbation(); step > 0.0)
-      ways.push_back({.rung = "perturbation", .step = step});
+      setups.push_back({.rung = "perturbation", .step = step});
     if (options_.integrators && options_.step == 0.0 && !lanes_serve())
-      ways.push_back({.rung = "perturbation", .integrator = "rosenbrock", .tolerance = kTolerances[0]});
-    return ways;
+      setups.push_back({.rung = "perturbation", .integrator = "rosenbrock", .tolerance = kTolerances[0]});
+    return setups;
   }
 
-  std::vector<Way> second_tier() {
+  std::vector<RungSetup> second_tier() {
     if (!options_.integrator.empty() || options_.step > 0.0) return {};
     if (lanes_serve()) return {{.rung = "perturbation", .tolerance = 0.1 * kLaneTolerance, .lanes = true}};
-    std::vector<Way> ways;
-    if (step_of_perturbation() > 0.0) ways.push_back({.rung = "perturbation", .step = 0.5 * step_of_perturbation()});
+    std::vector<RungSetup> setups;
+    if (step_of_perturbation() > 0.0) setups.push_back({.rung = "perturbation", .step = 0.5 * step_of_perturbation()});
     if (options_.integrators)
       for (const char* integrator : {"rosenbrock", "dopri5"})
-        ways.push_back({.rung = "perturbation", .integrator = integrator, .tolerance = kTolerances[1]});
-    return ways;
+        setups.push_back({.rung = "perturbation", .integrator = integrator, .tolerance = kTolerances[1]});
+    return setups;
   }
 
-  std::vector<Way> multibody_tier() {
+  std::vector<RungSetup> multibody_tier() {
     if (!options_.integrator.empty())
       return {{.rung = "multibody",
                .integrator = options_.integrator,
                .step = options_.step,
                .tolerance = options_.tolerance}};
-    std::vector<Way> ways = {own_->way()};
+    std::vector<RungSetup> setups = {own_->setup()};
     // Multibody's implicit method may be cheaper where contacts rest.
     if (options_.integrators && options_.step == 0.0)
-      ways.push_back({.rung = "multibody", .integrator = "rosenbrock", .tolerance = kMultibodyTolerance});
-    return ways;
+      setups.push_back({.rung = "multibody", .integrator = "rosenbrock", .tolerance = kMultibodyTolerance});
+    return setups;
   }
 
   // Perturbation's own, for all samples; 0 where it cannot follow them, which is then told.
@@ -210,18 +211,18 @@ class PilotOfScatter {
   }
 
   struct Candidate {
-    WaySamples* samples = nullptr;
+    SetupSamples* samples = nullptr;
     bool rejected = false, accepted = false;
     ScatterDifference found;
   };
 
   // Tries these ways side by side, on more pairs until one is accepted, all are rejected, or the time is spent.
   // Returns true if one of them will do.
-  bool try_tier(const std::vector<Way>& ways) {
+  bool try_tier(const std::vector<RungSetup>& setups) {
     std::vector<Candidate> candidates;
-    for (const Way& way : ways) {
-      const bool own = way.rung == "multibody" && way.integrator.empty() && way.step == own_->way().step;
-      candidates.push_back({.samples = own ? own_ : known(way), .rejected = false, .accepted = false, .found = {}});
+    for (const RungSetup& setup : setups) {
+      const bool own = setup.rung == "multibody" && setup.integrator.empty() && setup.step == own_->setup().step;
+      candidates.push_back({.samples = own ? own_ : known(setup), .rejected = false, .accepted = false, .found = {}});
     }
     for (;;) {
       bool accepted = false, open = false;
@@ -255,13 +256,13 @@ class PilotOfScatter {
   bool good_reference() const { return result_.reference_error <= options_.accuracy; }
 
   // What ranked the samples has computed these already.
-  WaySamples* known(const Way& way) {
-    for (const auto& w : ways_)
-      if (w->way().family() == way.family() && w->way().lanes == way.lanes && w->way().step == way.step &&
-          (w->way().tolerance == way.tolerance ||
-           (way.lanes && w->way().tolerance == 0.0 && way.tolerance == kLaneTolerance)))
+  SetupSamples* known(const RungSetup& setup) {
+    for (const auto& w : setups_)
+      if (w->setup().family() == setup.family() && w->setup().lanes == setup.lanes && w->setup().step == setup.step &&
+          (w->setup().tolerance == setup.tolerance ||
+           (setup.lanes && w->setup().tolerance == 0.0 && setup.tolerance == kLaneTolerance)))
         return w.get();
-    return &add(way);
+    return &add(setup);
   }
 
   void judge(Candidate& c) {
@@ -285,14 +286,14 @@ class PilotOfScatter {
     c.rejected = std::abs(c.found.difference) - c.found.half_width > options_.accuracy + result_.reference_error;
   }
 
-  PilotTrial trial_of(const WaySamples& samples, const ScatterDifference& found) const {
+  PilotTrial trial_of(const SetupSamples& samples, const ScatterDifference& found) const {
     PilotTrial trial;
-    const Way& way = samples.way();
-    trial.rung = way.rung;
-    trial.step = way.step;
-    trial.integrator = way.integrator;
-    trial.tolerance = way.tolerance > 0.0 ? way.tolerance : way.lanes ? kLaneTolerance : 0.0;
-    trial.lanes = way.lanes;
+    const RungSetup& setup = samples.setup();
+    trial.rung = setup.rung;
+    trial.step = setup.step;
+    trial.integrator = setup.integrator;
+    trial.tolerance = setup.tolerance > 0.0 ? setup.tolerance : setup.lanes ? kLaneTolerance : 0.0;
+    trial.lanes = setup.lanes;
     if (const auto refused = why_refused_.find(&samples); refused != why_refused_.end()) {
       trial.refusal = refused->second;
       return trial;
@@ -308,14 +309,14 @@ class PilotOfScatter {
 
   void state_errors() {
     const PilotTrial& chosen = result_.trials[result_.chosen];
-    for (const auto& way : ways_) {
-      const PilotTrial trial = trial_of(*way, {});
+    for (const auto& setup : setups_) {
+      const PilotTrial trial = trial_of(*setup, {});
       if (trial.rung != chosen.rung || trial.step != chosen.step || trial.integrator != chosen.integrator ||
-          trial.tolerance != chosen.tolerance || trial.lanes != chosen.lanes || way.get() == fine_)
+          trial.tolerance != chosen.tolerance || trial.lanes != chosen.lanes || setup.get() == fine_)
         continue;
       for (const double p : {0.0, 0.5, 0.95, 0.99, 0.9973, options_.statistic->probability}) {
         const std::vector<double> reference = fine_->values(pairs_);
-        const ScatterDifference d = compare_scatter(way->values(pairs_), reference, scores_, {p});
+        const ScatterDifference d = compare_scatter(setup->values(pairs_), reference, scores_, {p});
         // The reference is off by something itself, as its own step shows.
         const ScatterDifference own = compare_scatter(own_->values(pairs_), reference, scores_, {p});
         result_.errors.push_back({p, d.bound() + own.bound() / kOwnOverReference});
@@ -338,13 +339,13 @@ class PilotOfScatter {
   const std::vector<Parameters>& samples_;
   const PilotOptions& options_;
   ChosenSamples chosen_;
-  std::vector<std::unique_ptr<WaySamples>> ways_;
-  WaySamples *own_ = nullptr, *fine_ = nullptr;
+  std::vector<std::unique_ptr<SetupSamples>> setups_;
+  SetupSamples *own_ = nullptr, *fine_ = nullptr;
   std::size_t asked_ = 0;
   std::vector<std::size_t> pairs_;
   std::vector<double> scores_;
   ScatterDifference reference_;
-  std::map<const WaySamples*, std::string> why_refused_;
+  std::map<const SetupSamples*, std::string> why_refused_;
   double perturbation_step_ = -1.0;
   int runs_ = 0;
   PilotResult result_;

@@ -15,18 +15,18 @@ constexpr double kShareOfStudy = 0.1;
 }  // namespace
 
 StudyDiscretisation measure_study_discretisation(std::shared_ptr<const Mechanism> mechanism,
-                                                 const std::vector<Parameters>& samples, const Way& way,
+                                                 const std::vector<Parameters>& samples, const RungSetup& setup,
                                                  const StudyErrorOptions& options) {
   StudyDiscretisation found;
-  if (way.stepless()) {
+  if (setup.stepless()) {
     found.measured = true;
     found.why = "this rung takes no steps";
     return found;
   }
   char text[200];
   try {
-    WaySamples own(mechanism, samples, way, options.index, options.scene_varies);
-    WaySamples finer(mechanism, samples, way.finer(), options.index, options.scene_varies);
+    SetupSamples own(mechanism, samples, setup, options.index, options.scene_varies);
+    SetupSamples finer(mechanism, samples, setup.finer(), options.index, options.scene_varies);
     std::vector<std::size_t> pairs;
     double most = options.least_seconds;
     // As many again while that stays within the time.
@@ -67,7 +67,8 @@ StudyDiscretisation measure_study_discretisation(std::shared_ptr<const Mechanism
     found.measured = true;
     found.relative = d.bound();
     std::snprintf(text, sizeof text, "measured: the %s of %zu samples against %s", options.statistic.title().c_str(),
-                  x.size(), way.lanes || way.finer().tolerance > 0.0 ? "a tenth of the tolerance" : "half the step");
+                  x.size(),
+                  setup.lanes || setup.finer().tolerance > 0.0 ? "a tenth of the tolerance" : "half the step");
     found.why = text;
   } catch (const ComputationError& failure) {
     found.why = std::string("not measured: ") + failure.what();

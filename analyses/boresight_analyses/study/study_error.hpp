@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "boresight_analyses/study/scatter_comparison.hpp"
-#include "boresight_analyses/study/way_samples.hpp"
+#include "boresight_analyses/study/setup_samples.hpp"
 
 namespace boresight {
 
@@ -31,7 +31,7 @@ struct StudyErrorOptions {
 
 // samples: of the study, in its own order. Never throws for a motion that cannot be followed: it is then not measured.
 StudyDiscretisation measure_study_discretisation(std::shared_ptr<const Mechanism> mechanism,
-                                                 const std::vector<Parameters>& samples, const Way& way,
+                                                 const std::vector<Parameters>& samples, const RungSetup& setup,
                                                  const StudyErrorOptions& options);
 
 }  // namespace boresight

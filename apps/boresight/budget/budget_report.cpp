@@ -119,9 +119,9 @@ std::string budget_verdict(const BudgetStudy& s) {
   const auto unmet =
       std::find_if(b.requirements.begin(), b.requirements.end(), [](const auto& r) { return !r.compliance.met; });
   text += requirement_sentence(s, unmet == b.requirements.end() ? b.requirements.front() : *unmet) + ".";
-  if (!b.reliefs.empty() && b.reliefs.front().gain() > 0.0)
-    text += fmt::format(" Tighten first: {}; {} takes {} off the {} {}.", b.reliefs.front().name,
-                        b.reliefs.front().action, budget_value(s, b.reliefs.front().gain()),
+  if (!b.reductions.empty() && b.reductions.front().gain() > 0.0)
+    text += fmt::format(" Tighten first: {}; {} takes {} off the {} {}.", b.reductions.front().name,
+                        b.reductions.front().action, budget_value(s, b.reductions.front().gain()),
                         to_string(b.headline.index), s.axes().name(b.headline.axis));
   return text;
 }

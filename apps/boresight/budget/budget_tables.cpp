@@ -153,7 +153,7 @@ report::Table relief_table(const BudgetStudy& s, const Budget& b) {
                   {"Margin then"},
                   {"Source"}}};
   const bool asked = !b.requirements.empty();
-  for (const Relief& r : b.reliefs)
+  for (const ErrorReduction& r : b.reductions)
     table.rows.push_back(
         {r.name, r.action, budget_value(s, r.before), budget_value(s, r.after), budget_value(s, r.gain()),
          std::isfinite(r.interval.low) ? budget_value(s, r.interval.low) : "",

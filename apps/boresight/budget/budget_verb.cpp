@@ -129,7 +129,7 @@ Json budget_json(const BudgetStudy& s, const Budget& b) {
                                      {"low", number_json(c.interval.low)},
                                      {"high", number_json(c.interval.high)}});
   json["tighten_first"] = Json::array();
-  for (const Relief& r : b.reliefs)
+  for (const ErrorReduction& r : b.reductions)
     json["tighten_first"].push_back({{"name", r.name},
                                      {"if", r.action},
                                      {"before", r.before},
@@ -359,7 +359,7 @@ class BudgetVerb : public Verb {
       for (const RequirementAnswer& r : b.requirements)
         tell("  {}; by the classical rule {}, {}\n", requirement_sentence(s, r), budget_value(s, r.level.by_rule),
              to_string(r.level.standing));
-      for (const Relief& r : b.reliefs)
+      for (const ErrorReduction& r : b.reductions)
         tell("  {:<32} {:<20} takes off {}{}\n", r.name, r.action, budget_value(s, r.gain()),
              std::isfinite(r.interval.low)
                  ? fmt::format(" ({} to {})", budget_value(s, r.interval.low), budget_value(s, r.interval.high))

@@ -42,7 +42,7 @@ report::Chart index_chart(const ChartResult& result, std::optional<double> accur
       x.push_back(1e3 * p.measured.cpu_seconds);
       y.push_back(100.0 * drawn(p.error));
       worst = std::max(worst, p.error);
-      series.text.push_back(fineness(p.way));
+      series.text.push_back(fineness(p.setup));
     }
     if (x.empty()) continue;
     series.x = std::move(x);
@@ -64,7 +64,7 @@ report::Chart index_chart(const ChartResult& result, std::optional<double> accur
                             .x = report::Numbers{1e3 * papers->measured.cpu_seconds},
                             .y = report::Numbers{100.0 * drawn(papers->error)},
                             .style = report::Style::markers,
-                            .text = {papers->family + ", " + fineness(papers->way)},
+                            .text = {papers->family + ", " + fineness(papers->setup)},
                             .color = kPapersColor});
   }
   report::Series failed{.name = "failed", .style = report::Style::markers, .color = kFailedColor};
@@ -73,7 +73,7 @@ report::Chart index_chart(const ChartResult& result, std::optional<double> accur
     if (p.measured.refusal.empty()) continue;
     bx.push_back(1e3 * std::max(p.measured.spent_seconds, 1e-4));
     by.push_back(100.0 * 3.0 * worst);  // above all that did not fail
-    failed.text.push_back(p.family + ", " + fineness(p.way) + ": " + p.measured.refusal);
+    failed.text.push_back(p.family + ", " + fineness(p.setup) + ": " + p.measured.refusal);
   }
   failed.x = bx;
   failed.y = by;
@@ -91,7 +91,7 @@ report::Table front_table(const ChartResult& result) {
   for (std::size_t k : result.front) {
     const ChartPoint& p = result.points[k];
     table.rows.push_back(
-        {p.family, fineness(p.way), 100.0 * p.error, 1e3 * p.measured.cpu_seconds,
+        {p.family, fineness(p.setup), 100.0 * p.error, 1e3 * p.measured.cpu_seconds,
          papers ? nlohmann::json(fmt::format("{:.3g} times", papers->measured.cpu_seconds / p.measured.cpu_seconds))
                 : nlohmann::json()});
   }
@@ -113,11 +113,11 @@ report::Table all_table(const ChartResult& result) {
     const std::string name = p.papers ? "the paper's: " + p.family : p.family;
     if (!p.measured.refusal.empty()) {
       table.rows.push_back(
-          {name, fineness(p.way), nullptr, nullptr, nullptr, nullptr, nullptr, "failed: " + p.measured.refusal});
+          {name, fineness(p.setup), nullptr, nullptr, nullptr, nullptr, nullptr, "failed: " + p.measured.refusal});
       continue;
     }
     const double scale = std::abs(p.measured.value) > 0.0 ? 100.0 / std::abs(p.measured.value) : 0.0;
-    table.rows.push_back({name, fineness(p.way), p.measured.value, 100.0 * p.error, scale * p.measured.half_spread,
+    table.rows.push_back({name, fineness(p.setup), p.measured.value, 100.0 * p.error, scale * p.measured.half_spread,
                           100.0 * p.measured.estimate, 1e3 * p.measured.cpu_seconds, "done"});
   }
   return table;
@@ -138,7 +138,7 @@ report::Section reference_section(const Reference& reference, const std::string&
   return section;
 }
 
-report::Section flight_section(const Flight& flight) {
+report::Section flight_section(const FreeFlight& flight) {
   report::Section section{
       .id = "flight",
       .title = "Trajectory error before the first impact",
@@ -169,12 +169,12 @@ report::Section flight_section(const Flight& flight) {
     for (const FlightPoint& p : flight.points) {
       if (p.family != name) continue;
       if (!p.refusal.empty()) {
-        refused.rows.push_back({p.family, fineness(p.way), p.refusal});
+        refused.rows.push_back({p.family, fineness(p.setup), p.refusal});
         continue;
       }
       x.push_back(1e3 * p.cpu_seconds);
       y.push_back(std::max(p.error, 1e-17));
-      series.text.push_back(fineness(p.way));
+      series.text.push_back(fineness(p.setup));
     }
     if (x.empty()) continue;
     series.x = std::move(x);
@@ -207,7 +207,7 @@ report::Document chart_report(const Command& command, const Mechanism& mechanism
     document.verdict =
         report::Verdict{report::Standing::good,
                         fmt::format("Cheapest within {}: {}, {}: {} of CPU{}.", readable_share(wanted), best->family,
-                                    fineness(best->way), readable(best->measured.cpu_seconds, "s"),
+                                    fineness(best->setup), readable(best->measured.cpu_seconds, "s"),
                                     papers ? fmt::format(", {:.3g} times faster than the paper's own setting",
                                                          papers->measured.cpu_seconds / best->measured.cpu_seconds)
                                            : std::string())};

@@ -35,29 +35,29 @@ void write_points(std::ostream& out, const ChartResult& result) {
     const bool done = p.measured.refusal.empty();
     const bool front = std::find(result.front.begin(), result.front.end(), k) != result.front.end();
     const auto number = [&](double value) { return done ? exact(value) : std::string(); };
-    out << csv_field(p.family) << ',' << p.way.rung << ',' << p.way.formulation << ',' << p.way.stabilisation << ','
-        << p.way.integrator << ',' << (p.way.step > 0.0 ? exact(p.way.step) : "") << ','
-        << (p.way.tolerance > 0.0 ? exact(p.way.tolerance) : "") << ',' << number(p.measured.value) << ','
+    out << csv_field(p.family) << ',' << p.setup.rung << ',' << p.setup.formulation << ',' << p.setup.stabilisation
+        << ',' << p.setup.integrator << ',' << (p.setup.step > 0.0 ? exact(p.setup.step) : "") << ','
+        << (p.setup.tolerance > 0.0 ? exact(p.setup.tolerance) : "") << ',' << number(p.measured.value) << ','
         << number(p.error) << ',' << number(p.measured.half_spread) << ',' << number(p.measured.estimate) << ','
         << number(p.measured.cpu_seconds) << ',' << p.papers << ',' << front << ',' << csv_field(p.measured.refusal)
         << '\n';
   }
 }
 
-void write_flight(std::ostream& out, const Flight& flight) {
+void write_flight(std::ostream& out, const FreeFlight& flight) {
   out << "family,rung,formulation,stabilisation,integrator,step,tolerance,error_over_clearance,cpu_seconds,"
          "refusal\n";
   for (const FlightPoint& p : flight.points) {
     const bool done = p.refusal.empty();
-    out << csv_field(p.family) << ',' << p.way.rung << ',' << p.way.formulation << ',' << p.way.stabilisation << ','
-        << p.way.integrator << ',' << (p.way.step > 0.0 ? exact(p.way.step) : "") << ','
-        << (p.way.tolerance > 0.0 ? exact(p.way.tolerance) : "") << ',' << (done ? exact(p.error) : "") << ','
+    out << csv_field(p.family) << ',' << p.setup.rung << ',' << p.setup.formulation << ',' << p.setup.stabilisation
+        << ',' << p.setup.integrator << ',' << (p.setup.step > 0.0 ? exact(p.setup.step) : "") << ','
+        << (p.setup.tolerance > 0.0 ? exact(p.setup.tolerance) : "") << ',' << (done ? exact(p.error) : "") << ','
         << (done ? exact(p.cpu_seconds) : "") << ',' << csv_field(p.refusal) << '\n';
   }
 }
 
 Json point_json(const ChartPoint& p) {
-  Json json = {{"way", p.family}, {"fineness", fineness(p.way)}};
+  Json json = {{"way", p.family}, {"fineness", fineness(p.setup)}};
   if (p.measured.refusal.empty()) {
     json["index"] = p.measured.value;
     json["error"] = p.error;
@@ -114,7 +114,7 @@ void print(const Mechanism& mechanism, const ChartResult& result, std::optional<
   for (std::size_t k : result.front) {
     const ChartPoint& p = result.points[k];
     tell("    {:>10}  off by {:<10} {}, {}\n", readable(p.measured.cpu_seconds, "s"), readable_share(p.error), p.family,
-         fineness(p.way));
+         fineness(p.setup));
   }
   if (const ChartPoint* papers = result.papers())
     tell("  the paper's own setting: {}, off by {}\n", readable(papers->measured.cpu_seconds, "s"),
@@ -122,7 +122,7 @@ void print(const Mechanism& mechanism, const ChartResult& result, std::optional<
   if (accuracy) {
     const ChartPoint* best = result.cheapest_within(*accuracy);
     tell("  cheapest within {}: {}\n", readable_share(*accuracy),
-         best ? best->family + ", " + fineness(best->way) : "none");
+         best ? best->family + ", " + fineness(best->setup) : "none");
   }
   std::size_t failed = 0;
   for (const ChartPoint& p : result.points) failed += !p.measured.refusal.empty();

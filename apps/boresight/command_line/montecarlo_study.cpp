@@ -16,7 +16,7 @@ std::function<Parameters(std::span<const double>)> MonteCarloQuestion::parameter
 
 std::vector<double> MonteCarloQuestion::values_of_sample(std::uint64_t number) const {
   std::vector<double> values(plan.inputs.size());
-  Design(plan.design, static_cast<int>(values.size())).point(number, values);
+  SamplingDesign(plan.design, static_cast<int>(values.size())).point(number, values);
   plan.inputs.values(values);
   return values;
 }

@@ -60,7 +60,7 @@ std::vector<Level> open_levels(const SeveralRungs& s) {
 }
 
 // Of a sample on each rung, in seconds: counted when the study is begun, and kept.
-std::vector<double> counted_costs(const SeveralRungs& s, std::vector<Level>& levels, const Design& design) {
+std::vector<double> counted_costs(const SeveralRungs& s, std::vector<Level>& levels, const SamplingDesign& design) {
   std::vector<double> costs;
   for (Level& level : levels) {
     std::string kept = level.store->fact("counted_cost");
@@ -152,7 +152,7 @@ int run_fidelities(const SeveralRungs& s) {
   const std::string unit = s.question.study.index.si_unit();
   claim_folder(s);
   std::vector<Level> levels = open_levels(s);
-  const Design design(plan.design, static_cast<int>(plan.inputs.size()));
+  const SamplingDesign design(plan.design, static_cast<int>(plan.inputs.size()));
 
   Progress progress(s.command.quiet, asked.budget, "s of CPU");
   double spent = 0.0;

@@ -43,7 +43,7 @@ void show(Progress& progress, const MonteCarloProgress& p, const MonteCarloQuest
         const IndependentInterval i = p.running->quantile(h.probability, question.plan.confidence);
         estimate = name + " " + readable(i.value, unit);
         // Order statistics are for independent samples only.
-        if (question.plan.design.kind == DesignKind::random)
+        if (question.plan.design.kind == SamplingKind::random)
           estimate += " (" + readable_interval(reported(i), unit) + ")";
       } catch (const std::invalid_argument&) {
       }

@@ -285,7 +285,7 @@ class MonteCarloVerb : public Verb {
                                               const Estimates& estimates, const Failures& failures) {
     std::vector<std::string> warnings;
     const MonteCarloPlan& plan = question.plan;
-    const Design design(plan.design, static_cast<int>(plan.inputs.size()));
+    const SamplingDesign design(plan.design, static_cast<int>(plan.inputs.size()));
     if (const std::string warning = design.warning(result.values.size()); !warning.empty() && !result.values.empty())
       warnings.push_back(warning);
     if (result.ended == Ended::time)
@@ -302,7 +302,7 @@ class MonteCarloVerb : public Verb {
                       "leave them out",
                       estimates.failed, estimates.samples) +
           first_failure_text(failures, "sample"));
-    if (plan.requirement && plan.design.kind == DesignKind::random &&
+    if (plan.requirement && plan.design.kind == SamplingKind::random &&
         static_cast<std::int64_t>(result.values.size()) < estimates.requirement->fewest_samples)
       warnings.push_back(fmt::format("the requirement cannot be shown with {} samples, whatever they give: it takes {}",
                                      result.values.size(), estimates.requirement->fewest_samples));

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "boresight/rungs/rung.hpp"
-#include "boresight_analyses/runs/several_models.hpp"
+#include "boresight_analyses/runs/model_samples.hpp"
 #include "boresight_analyses/statistics/interval.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "command_line/command.hpp"

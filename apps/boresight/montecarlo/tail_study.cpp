@@ -79,7 +79,7 @@ int run_tail(const SeveralRungs& s) {
   double before = 0.0;
   TwoLevelCosts costs;
   try {
-    const Design design(plan.design, dimensions);
+    const SamplingDesign design(plan.design, dimensions);
     costs = {counted_cost(*cheap_model, *s.question.mechanism, plan.inputs, design),
              counted_cost(*exact_model, *s.question.mechanism, plan.inputs, design)};
     pilot = two_level_pilot(cheap, exact_rung, dimensions, requirement.limit, static_cast<std::int64_t>(asked.pilot),

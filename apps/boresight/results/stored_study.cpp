@@ -139,13 +139,14 @@ StudySteps steps_of_study(const Command& command, const Study& study, const std:
       const std::string relative = store->fact("discretisation");
       return {relative.empty() ? kNotMeasured : std::stod(relative), why};
     }
-  const Way way{.rung = rung,
-                .formulation = run.formulation,
-                .stabilisation = run.stabilisation,
-                .integrator = run.integrator,
-                .step = run.step,
-                .tolerance = run.tolerance,
-                .lanes = asked.lanes && rung == "perturbation" && LaneSampleModel::serve(*mechanism, study.index, run)};
+  const RungSetup setup{
+      .rung = rung,
+      .formulation = run.formulation,
+      .stabilisation = run.stabilisation,
+      .integrator = run.integrator,
+      .step = run.step,
+      .tolerance = run.tolerance,
+      .lanes = asked.lanes && rung == "perturbation" && LaneSampleModel::serve(*mechanism, study.index, run)};
   Progress progress(command.quiet, 512.0, "runs that measure what the steps do");
   double done = 0.0;
   const StudyErrorOptions options{.index = study.index,
@@ -160,7 +161,7 @@ StudySteps steps_of_study(const Command& command, const Study& study, const std:
   StudyDiscretisation found;
   try {
     found = with_options_checked([&] {
-      return measure_study_discretisation(mechanism, draws_of_scatter(asked.inputs, *mechanism, kDrawsForPilot), way,
+      return measure_study_discretisation(mechanism, draws_of_scatter(asked.inputs, *mechanism, kDrawsForPilot), setup,
                                           options);
     });
   } catch (const Interrupted&) {  // the study's own runs are there, and are kept

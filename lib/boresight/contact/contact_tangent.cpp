@@ -33,7 +33,7 @@ void add_ring(const TiltedJournal& joint, const JournalMotion<double>& m, int si
 ContactTangent contact_tangent(const JournalInSleeve& joint, const JournalMotion<double>& m) {
   ContactTangent tangent;
   std::array<ContactState<double>, kContactPlaces> contact;
-  joint.gaps(m, contact);
+  joint.penetrations(m, contact);
   const auto depth = [&](ContactPlace place) { return contact[static_cast<int>(place)].penetration; };
   if (!joint.tilts) {
     if (const double d = depth(ContactPlace::radial); d > 0.0) {

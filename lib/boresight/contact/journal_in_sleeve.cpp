@@ -43,7 +43,7 @@ std::vector<ContactPlace> JournalInSleeve::places() const {
 double JournalInSleeve::elastic_energy(const JournalMotion<double>& motion) const {
   if (tilts) return tilted.elastic_energy(motion);
   std::array<ContactState<double>, kContactPlaces> contact;
-  gaps(motion, contact);
+  penetrations(motion, contact);
   double energy = 0.0;
   const double radial = contact[static_cast<int>(ContactPlace::radial)].penetration;
   if (radial > 0.0) energy += radial_law.elastic_energy(radial);

@@ -59,14 +59,15 @@ struct JournalInSleeveT {
 
   // Penetration of every place only; used to see where contacts stand without their forces.
   template <typename M>
-  void gaps(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const {
+  void penetrations(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const {
     if (tilts)
-      tilted.gaps(motion, contact);
+      tilted.penetrations(motion, contact);
     else
-      parallel_gaps(motion, contact);
+      parallel_penetrations(motion, contact);
   }
   template <typename M>
-  void parallel_gaps(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const;
+  void parallel_penetrations(const JournalMotion<M>& motion,
+                             std::array<ContactState<M>, kContactPlaces>& contact) const;
 
   // The radial contact of a parallel journal: its normal, and how deep it is.
   template <typename M>
@@ -110,8 +111,8 @@ std::vector<JournalInSleeve> clearance_joints(const MechanismDescription& mechan
 
 template <typename T>
 template <typename M>
-void JournalInSleeveT<T>::parallel_gaps(const JournalMotion<M>& m,
-                                        std::array<ContactState<M>, kContactPlaces>& contact) const {
+void JournalInSleeveT<T>::parallel_penetrations(const JournalMotion<M>& m,
+                                                std::array<ContactState<M>, kContactPlaces>& contact) const {
   for (ContactState<M>& c : contact) c = {M(-1.0), M(0.0), M(0.0)};
   const Radial<M> at = radial_contact(m);
   contact[static_cast<int>(ContactPlace::radial)] = {at.penetration, at.rate, M(0.0)};

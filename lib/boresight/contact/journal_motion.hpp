@@ -20,7 +20,7 @@ struct JournalMotion {
   Vec2T<T> slope = Vec2T<T>::Constant(T(0.0)), slope_rate = Vec2T<T>::Constant(T(0.0));
 };
 
-// One possible contact. Not zero from the start: gaps() and wrench() write every place.
+// One possible contact. Not zero from the start: penetrations() and wrench() write every place.
 template <typename T>
 struct ContactState {
   T penetration, rate, normal_force;  // [m], [m/s], [N]; penetration < 0: a gap

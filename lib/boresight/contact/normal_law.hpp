@@ -33,7 +33,7 @@ struct NormalLawT {
     // The root is taken of a positive number in every lane: at d = 0 its derivative would be infinite.
     const M depth = select(penetration > T(0.0), penetration, M(1.0));
     if (curve != ElasticCurve::point) [[unlikely]]
-      return rare_force(penetration, depth, rate, impact_speed);
+      return force_of_other_laws(penetration, depth, rate, impact_speed);
     const M elastic = stiffness * depth * sqrt(depth);
     const M whole = elastic * (T(1.0) + damping_factor * rate / impact_speed);
     return select(penetration > T(0.0), positive_part(whole), M(0.0));
@@ -63,7 +63,8 @@ struct NormalLawT {
  private:
   // Out of the way of the family's few instructions.
   template <typename M>
-  [[gnu::noinline]] M rare_force(const M& penetration, const M& depth, const M& rate, const T& impact_speed) const {
+  [[gnu::noinline]] M force_of_other_laws(const M& penetration, const M& depth, const M& rate,
+                                          const T& impact_speed) const {
     if constexpr (HasPowers<T> && std::is_same_v<M, T>) {
       const T whole = elastic_force(depth) * (T(1.0) + damping_factor * rate / impact_speed) + dashpot * rate;
       return select(penetration > T(0.0), positive_part(whole), T(0.0));

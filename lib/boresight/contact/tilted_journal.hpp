@@ -37,7 +37,7 @@ struct TiltedJournalT {
 
   // M: the scalar of the motion, T itself or one that carries derivatives besides.
   template <typename M>
-  void gaps(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const {
+  void penetrations(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const {
     for (ContactState<M>& c : contact) c = {M(-1.0), M(0.0), M(0.0)};
     for (int side : {-1, 1}) {
       const End<M> at = end(motion, side);

@@ -42,11 +42,14 @@ Crossing flight_crossing(const FreeFlight& f, double h, double secant_share) {
   const double d2 = f.count > 2 ? (d1 - d1_before) / (f.t[0] - f.t[2]) : 0.0;
   const double back = f.count > 2 ? f.t[0] - f.t[1] : 0.0;
   const auto rate = [&](double s) { return f.rate[0] + s * (d1 + d2 * (s + back)); };
-  const auto gap = [&](double s) { return f.gap + s * (f.rate[0] + s * (0.5 * (d1 + d2 * back) + s * d2 / 3.0)); };
+  const auto penetration = [&](double s) {
+    return f.penetration + s * (f.rate[0] + s * (0.5 * (d1 + d2 * back) + s * d2 / 3.0));
+  };
   double low = 0.0, high = h, s = secant_share * h;
-  if (!(gap(h) > 0.0)) return {1.0, rate(h)};  // the contact force, not the flight, closed it: at the step's end
+  if (!(penetration(h) > 0.0))
+    return {1.0, rate(h)};  // the contact force, not the flight, closed it: at the step's end
   for (int k = 0; k < 60; ++k) {
-    const double value = gap(s);
+    const double value = penetration(s);
     (value > 0.0 ? high : low) = s;
     double next = s - value / rate(s);
     if (!(next > low && next < high)) next = 0.5 * (low + high);
@@ -107,7 +110,7 @@ bool ContactTracker::accept(double t, const std::array<ContactState<double>, kCo
       FreeFlight& f = flight_[k];
       f.t = {t, f.t[0], f.t[1]};
       f.rate = {now.rate, f.rate[0], f.rate[1]};
-      f.gap = now.penetration;
+      f.penetration = now.penetration;
       f.count = std::min(f.count + 1, 3);
     }
   }

@@ -21,7 +21,7 @@ class ContactTracker {
   ContactTracker(int clearance, std::string joint_name, const JournalInSleeve& law, bool keep_events,
                  double start = 0.0);
 
-  // The state of the contacts at an accepted time, from JournalInSleeve::gaps. Call at the start, then after every step.
+  // The state of the contacts at an accepted time, from JournalInSleeve::penetrations. Call at the start, then after every step.
   // Returns true if a contact began or ended.
   bool accept(double t, const std::array<ContactState<double>, kContactPlaces>& contact);
   // Forces at the state accepted last (normal_force of each place).
@@ -63,7 +63,7 @@ class ContactTracker {
   struct FreeFlight {  // the last free values of one gap, newest first
     int count = 0;
     std::array<double, 3> t{}, rate{};
-    double gap = 0.0;
+    double penetration = 0.0;
   };
   std::array<FreeFlight, kContactPlaces> flight_{};
   std::array<ContactState<double>, kContactPlaces> last_{};

@@ -16,7 +16,7 @@ class LocatedContacts {
   LocatedContacts(const std::vector<JournalInSleeve>& joints, std::vector<ContactTracker>& trackers);
 
   int gap_count() const { return static_cast<int>(gaps_.size()); }
-  // Of one joint, from JournalInSleeve::gaps: into the places that gap_count() counts. Open where positive [m].
+  // Of one joint, from JournalInSleeve::penetrations: into the places that gap_count() counts. Open where positive [m].
   void read(int clearance, const std::array<ContactState<double>, kContactPlaces>& contact, VecX& gaps) const;
 
   // Tells the trackers. contact: of the joint that joint_of() names, at the event.

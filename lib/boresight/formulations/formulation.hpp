@@ -34,7 +34,7 @@ class Formulation {
   // dy = f(t, y). Allocates nothing. Throws ComputationError at a singular pose.
   virtual void derivative(double t, const VecX& y, const std::vector<ContactMemory>& memory, VecX& dy) = 0;
   // After an accepted step: whatever keeps the state on its constraints (normalised quaternions, projection).
-  virtual void settle(double t, VecX& y) = 0;
+  virtual void stabilise(double t, VecX& y) = 0;
   // Poses and velocities of all bodies at a state. The reference holds until the next call of anything here.
   virtual const std::vector<BodyMotion>& bodies(double t, const VecX& y) = 0;
   // Of the last derivative(): accelerations of all bodies; largest violated position constraint [m or rad].

@@ -119,7 +119,7 @@ class ClosedMechanism {
       dy.setConstant(std::numeric_limits<double>::quiet_NaN());
     }
   }
-  void settle(double t, VecX& y) { formulation_->settle(t, y); }
+  void stabilise(double t, VecX& y) { formulation_->stabilise(t, y); }
   // All bodies at a state; dy: room for its rate.
   IdealState bodies(double t, const VecX& y, VecX& dy) const {
     derivative(t, y, dy);
@@ -155,7 +155,7 @@ std::optional<Knots> follow_explicit(const Task& task, int steps, Failure& failu
     method.step(t, h, y, derivative);
     if (!y.allFinite()) break;
     try {
-      closed.settle(t + h, y);
+      closed.stabilise(t + h, y);
     } catch (const ComputationError& unsettled) {
       failure = {t + h, unsettled.what()};
       return std::nullopt;

@@ -115,7 +115,7 @@ class PaperFormulation final : public Formulation {
     }
   }
 
-  void settle(double t, VecX& y) override {
+  void stabilise(double t, VecX& y) override {
     for (int b = 0; b < mechanism_.bodies(); ++b) y.segment<4>(kPerBody * b + 3).normalize();
     if (options_.stabilisation == Stabilisation::projection) project(t, y);
   }

@@ -127,7 +127,7 @@ class TreeFormulation final : public Formulation {
     kinematics_.accelerations(motion_, acceleration_);
   }
 
-  void settle(double t, VecX& y) override {
+  void stabilise(double t, VecX& y) override {
     kinematics_.normalise(y);
     if (!y.allFinite()) return;  // the motion has blown up, and the caller sees it
     if (options_.stabilisation == Stabilisation::projection && loops_.blocks() > 0) project(t, y);

@@ -67,13 +67,13 @@ LoopClosure::LoopClosure(const Mechanism& mechanism, const SpanningTree& tree, c
   std::vector<BlockCholesky::Pair> pairs;
   for (int row = 0; row < n; ++row)
     for (int column = 0; column < row; ++column) {
-      Meeting m{row, column, {}};
+      BlockCoupling m{row, column, {}};
       std::set_intersection(blocks_[row].support().begin(), blocks_[row].support().end(),
                             blocks_[column].support().begin(), blocks_[column].support().end(),
                             std::back_inserter(m.speeds), std::greater<int>());
       if (m.speeds.empty()) continue;
       pairs.push_back({row, column});
-      meetings_.push_back(std::move(m));
+      couplings_.push_back(std::move(m));
     }
   cholesky_ = BlockCholesky(pairs, n);
   Z_.assign(n, std::vector<Vec6>(tree.speeds(), Vec6::Zero()));
@@ -117,10 +117,10 @@ bool LoopClosure::factor(const TreeKinematics& kinematics, const BranchCholesky&
     for (int i = blocks_[k].count(); i < 6; ++i) diagonal(i, i) = 1.0;
   }
   Mat6 block;
-  for (std::size_t m = 0; m < meetings_.size(); ++m) {
+  for (std::size_t m = 0; m < couplings_.size(); ++m) {
     block.setZero();
-    for (int speed : meetings_[m].speeds)
-      block.noalias() += Z_[meetings_[m].row][speed] * Z_[meetings_[m].column][speed].transpose();
+    for (int speed : couplings_[m].speeds)
+      block.noalias() += Z_[couplings_[m].row][speed] * Z_[couplings_[m].column][speed].transpose();
     cholesky_.add_off_diagonal(static_cast<int>(m), block);
   }
   return cholesky_.factor(redundant_ ? 0.0 : 1e-13);

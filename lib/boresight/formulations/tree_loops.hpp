@@ -68,7 +68,7 @@ class LoopClosure {
   void constrain(std::vector<Vec6>& d, VecX& x);
 
  private:
-  struct Meeting {  // two blocks that share speeds
+  struct BlockCoupling {  // two blocks that share speeds
     int row, column;
     std::vector<int> speeds;
   };
@@ -79,7 +79,7 @@ class LoopClosure {
 
   std::vector<LoopRows> blocks_;
   std::vector<std::vector<Vec6>> Z_;  // per block, one column per speed
-  std::vector<Meeting> meetings_;
+  std::vector<BlockCoupling> couplings_;
   BlockCholesky cholesky_;
   bool redundant_ = false;
   std::vector<Vec6> mobility_;  // per body: 1 / mass and 1 / mean moment of inertia, each thrice

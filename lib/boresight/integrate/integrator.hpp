@@ -147,7 +147,7 @@ class Integrator {
       y = state_;
       t_ = end;
       if (!goes_on) return ended(StopReason::stopped_by_observer, "");
-      if constexpr (Settles<S>) system.settle(t_, y);
+      if constexpr (Stabilises<S>) system.stabilise(t_, y);
 
       // Let the problem change its memory, and start anew where it did.
       bool changed = false, stop = false;
@@ -165,7 +165,7 @@ class Integrator {
         method_.advance();
         // A settled state has moved away from where the end slope belongs: too far for a Jacobian by differences from
         // it.
-        if constexpr (Settles<S> && requires { method_.refresh(std::as_const(system), t_, y); })
+        if constexpr (Stabilises<S> && requires { method_.refresh(std::as_const(system), t_, y); })
           method_.refresh(std::as_const(system), t_, y);
         if constexpr (HasGaps<S>) watch_.advance();
         h *= factor;

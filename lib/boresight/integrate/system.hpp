@@ -70,8 +70,8 @@ concept GivesTimeDerivative = requires(const S& s, double t, const VecX& y, VecX
 
 // What keeps an accepted state on its constraints, by a change far below the tolerance of a step.
 template <typename S>
-concept Settles = requires(S& s, double t, VecX& y) {
-  s.settle(t, y);
+concept Stabilises = requires(S& s, double t, VecX& y) {
+  s.stabilise(t, y);
 };
 
 template <typename S>

@@ -87,9 +87,9 @@ class LaneDynamics {
     for (std::size_t c = 0; c < at.joints.size(); ++c) {
       const JournalMotion<T> motion = journal_motion(at, at.joints[c], row, z, v);
       if constexpr (Layout::kParallel)
-        laws[c].parallel_gaps(motion, out[c]);
+        laws[c].parallel_penetrations(motion, out[c]);
       else
-        laws[c].gaps(motion, out[c]);
+        laws[c].penetrations(motion, out[c]);
     }
   }
 

@@ -13,7 +13,7 @@
 namespace boresight {
 
 template <int W, typename Target, typename Real, int distance = W / 2>
-inline void turn_over(Lanes<W, Target, Real>* block) {
+inline void transpose_lanes(Lanes<W, Target, Real>* block) {
   if constexpr (W > 1 && distance > 0) {
     typename Register<W, Real>::Integers lower{}, upper{};
     for (int p = 0; p < W; ++p) {
@@ -26,7 +26,7 @@ inline void turn_over(Lanes<W, Target, Real>* block) {
       block[i].v = __builtin_shuffle(a, b, lower);
       block[i + distance].v = __builtin_shuffle(a, b, upper);
     }
-    turn_over<W, Target, Real, distance / 2>(block);
+    transpose_lanes<W, Target, Real, distance / 2>(block);
   }
 }
 
@@ -55,7 +55,7 @@ void scene_rows(const LaneScene* const* scenes, const double* t, int width, Lane
       const T s(share[l]);
       out[first + l] = fused(s, fused(s, fused(s, load(c3), load(c2)), load(c1)), load(c0));
     }
-    turn_over(out + first);
+    transpose_lanes(out + first);
   }
 }
 

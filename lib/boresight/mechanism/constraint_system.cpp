@@ -39,7 +39,7 @@ ConstraintSystem::ConstraintSystem(const Mechanism& mechanism, Rows rows)
           if (body == kGround || body != body_of(column, column_other)) continue;
           const auto [it, fresh] = pair_index.try_emplace({row, column}, static_cast<int>(pairs.size()));
           if (fresh) pairs.push_back({row, column});
-          meetings_.push_back({it->second, row, column, body, row_other, column_other});
+          couplings_.push_back({it->second, row, column, body, row_other, column_other});
         }
   cholesky_ = BlockCholesky(pairs, n);
   W_.resize(bodies_);
@@ -84,7 +84,7 @@ bool ConstraintSystem::factor(const std::vector<Mat6>& W) {
     for (int i = rows_in(k); i < 6; ++i) diagonal(i, i) = 1.0;
   }
   Mat6 block;
-  for (const Meeting& m : meetings_) {
+  for (const BlockCoupling& m : couplings_) {
     const Mat6& left = m.row_other ? JW_other_[m.row] : JW_reference_[m.row];
     const Mat6& right = m.column_other ? rows_[m.column].other : rows_[m.column].reference;
     block.noalias() = left * right.transpose();

@@ -69,7 +69,7 @@ class ConstraintSystem {
   std::vector<Vec6> body_vector() const { return std::vector<Vec6>(bodies_, Vec6::Zero()); }
 
  private:
-  struct Meeting {  // two blocks that share a body
+  struct BlockCoupling {  // two blocks that share a body
     int pair, row, column, body;
     bool row_other, column_other;  // the body is the "other" one of that block
   };
@@ -80,7 +80,7 @@ class ConstraintSystem {
   int prescribed_ = kGround;
   PrescribedPose pose_;
   std::vector<JointRows> rows_;
-  std::vector<Meeting> meetings_;
+  std::vector<BlockCoupling> couplings_;
   BlockCholesky cholesky_;
   bool redundant_ = false;
   std::vector<Mat6> W_, JW_reference_, JW_other_;

@@ -24,7 +24,7 @@ constexpr int kShorter = 64;
 bool sunk(const std::vector<JournalInSleeve>& joints, const std::vector<JournalMotion<double>>& motion) {
   std::array<ContactState<double>, kContactPlaces> contact;
   for (std::size_t c = 0; c < joints.size(); ++c) {
-    joints[c].gaps(motion[c], contact);
+    joints[c].penetrations(motion[c], contact);
     for (const ContactState<double>& place : contact)
       if (place.penetration > 0.1 * joints[c].bore_radius) return true;
   }
@@ -37,7 +37,7 @@ void accept_contacts(const std::vector<BodyMotion>& bodies, double t, const Forc
   std::array<ContactState<double>, kContactPlaces> contact;
   for (std::size_t c = 0; c < trackers.size(); ++c) {
     motion[c] = forces.journal_motion(static_cast<int>(c), bodies);
-    forces.joint(static_cast<int>(c)).gaps(motion[c], contact);
+    forces.joint(static_cast<int>(c)).penetrations(motion[c], contact);
     trackers[c].accept(t, contact);
     memory[c] = trackers[c].memory();
   }
@@ -108,9 +108,9 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
 
   const auto advance = [&](double t, double step, VecX& state) {
     method.step(t, step, state, derivative);
-    if (bristles.empty()) return formulation->settle(t + step, state);
+    if (bristles.empty()) return formulation->stabilise(t + step, state);
     head = state.head(n);
-    formulation->settle(t + step, head);
+    formulation->stabilise(t + step, head);
     state.head(n) = head;
   };
 

@@ -56,7 +56,7 @@ MultibodySystem::MultibodySystem(Formulation& formulation, std::vector<ContactTr
       of_motion_(trackers.size(), MatX::Zero(formulation.state_size(), kMotionNumbers)) {}
 
 void MultibodySystem::read(int clearance, double t, const VecX& y) const {
-  joints_[clearance].gaps(formulation_.forces().journal_motion(clearance, formulation_.bodies(t, y)), contact_);
+  joints_[clearance].penetrations(formulation_.forces().journal_motion(clearance, formulation_.bodies(t, y)), contact_);
 }
 
 void MultibodySystem::start(double t, const VecX& y) {

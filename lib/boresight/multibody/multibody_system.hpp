@@ -50,7 +50,7 @@ class MultibodySystem {
   void gaps(double t, const VecX& y, VecX& g) const;
   AfterEvent on_event(const GapEvent& event, VecX& y);
   long events() const { return events_; }  // so far
-  void settle(double t, VecX& y) { formulation_.settle(t, y); }
+  void stabilise(double t, VecX& y) { formulation_.stabilise(t, y); }
 
   // Makes sure that accelerations and forces are those of (t, y), for whoever reads them from the formulation.
   void evaluate(double t, const VecX& y);

@@ -94,7 +94,7 @@ void PerturbationSystem::derivative(double t, const VecX& y, VecX& dy) const {
     motion_[c] = journal_motion(at, at.joints[c], row_.data(), z, rate);
     const bool free = located_ && !contacts_.touches(static_cast<int>(c));
     if (free) {
-      joints_[c].gaps(motion_[c], wrench_[c].contact);
+      joints_[c].penetrations(motion_[c], wrench_[c].contact);
       continue;
     }
     const JournalInSleeve& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
@@ -144,7 +144,7 @@ void PerturbationSystem::accept(double t, VecX& y) {
   const SceneLayout& at = tables_->layout;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     motion_[c] = journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n);
-    joints_[c].gaps(motion_[c], contact_);
+    joints_[c].penetrations(motion_[c], contact_);
     trackers_[c].accept(t, contact_);
     if (!bristles_.empty()) memory_[c].touching = trackers_[c].memory().touching;
   }
@@ -156,7 +156,7 @@ void PerturbationSystem::start_located(double t, const VecX& y) {
   scene_at(t);
   const SceneLayout& at = tables_->layout;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
+    joints_[c].penetrations(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
     contacts_.start(static_cast<int>(c), t, contact_);
   }
 }
@@ -165,7 +165,7 @@ void PerturbationSystem::gaps(double t, const VecX& y, VecX& g) const {
   scene_at(t);
   const SceneLayout& at = tables_->layout;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
+    joints_[c].penetrations(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
     contacts_.read(static_cast<int>(c), contact_, g);
   }
 }
@@ -174,14 +174,14 @@ AfterEvent PerturbationSystem::on_event(const GapEvent& event, VecX& y) {
   scene_at(event.t);
   const SceneLayout& at = tables_->layout;
   const int c = contacts_.joint_of(event);
-  joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
+  joints_[c].penetrations(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
   contacts_.change(event, contact_);
   return AfterEvent::crossed;
 }
 
 void PerturbationSystem::observe(double t) {
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    joints_[c].gaps(motion_[c], contact_);
+    joints_[c].penetrations(motion_[c], contact_);
     trackers_[c].observe(t, contact_);
     // The law that acts may not see the contacts that are open.
     for (int k = 0; k < kContactPlaces; ++k) {

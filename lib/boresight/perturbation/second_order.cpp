@@ -238,7 +238,7 @@ class LeftOut {
     if (!begun_) formulation_->start(ideal, y);  // which rows are redundant is the same in every pose
     begun_ = true;
     formulation_->place_bodies(displaced, y);
-    formulation_->settle(ideal.t, y);
+    formulation_->stabilise(ideal.t, y);
     VecX dy(y.size());
     formulation_->derivative(ideal.t, y, memory_, dy);
     return formulation_->bodies(ideal.t, y);

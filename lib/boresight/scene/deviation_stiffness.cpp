@@ -34,7 +34,7 @@ MatX deviation_stiffness(const Mechanism& mechanism, const IdealMotion& ideal, c
       }
       VecX y;
       formulation->start(displaced, y);
-      formulation->settle(state.t, y);
+      formulation->stabilise(state.t, y);
       VecX dy(y.size());
       formulation->derivative(state.t, y, memory, dy);
       const std::vector<BodyMotion> bodies = formulation->bodies(state.t, y);

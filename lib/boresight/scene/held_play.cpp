@@ -36,7 +36,7 @@ RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ide
     }
     for (int c = 0; c < forces.clearances(); ++c) {
       const JournalMotion<double> motion = forces.journal_motion(c, state.bodies);
-      forces.joint(c).gaps(motion, contact);
+      forces.joint(c).penetrations(motion, contact);
       recorder.sample_clearance(c, motion, contact);
     }
   }

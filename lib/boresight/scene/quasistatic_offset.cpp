@@ -25,7 +25,7 @@ Vec2 rest_along(const Vec2& force, double clearance, const NormalLaw& law, doubl
   return size > 0.0 ? Vec2(reach / size * force) : Vec2(Vec2::Zero());
 }
 
-void rest_parallel(const JournalInSleeve& joint, const Vec3& load, const Rest& before, Rest& rest) {
+void rest_parallel(const JournalInSleeve& joint, const Vec3& load, const RestingJournal& before, RestingJournal& rest) {
   Vec3& e = rest.motion.e;
   const Vec2 radial(load.x(), load.z());
   const Vec2 at = rest_along(radial, joint.radial_clearance, joint.radial_law, rest.radial_reach[0]);
@@ -40,7 +40,7 @@ void rest_parallel(const JournalInSleeve& joint, const Vec3& load, const Rest& b
     e.y() = slips ? std::copysign(rest.axial_reach, load.y())
                   : std::clamp(before.motion.e.y(), -joint.axial_clearance, joint.axial_clearance);
   }
-  joint.gaps(rest.motion, rest.contact);
+  joint.penetrations(rest.motion, rest.contact);
   rest.contact[static_cast<int>(ContactPlace::radial)].normal_force = radial.norm();
   rest.contact[static_cast<int>(e.y() > 0.0 ? ContactPlace::axial_minus : ContactPlace::axial_plus)].normal_force =
       axial_force;
@@ -138,7 +138,8 @@ class PressedJournal {
   std::array<double, 2> end_force_ = {}, face_force_ = {};
 };
 
-void rest_tilted(const JournalInSleeve& joint, const Offsets& load, double slide, const Rest& before, Rest& rest) {
+void rest_tilted(const JournalInSleeve& joint, const Offsets& load, double slide, const RestingJournal& before,
+                 RestingJournal& rest) {
   const TiltedJournal& t = joint.tilted;
   Offsets start;
   start << before.motion.e, before.motion.slope;
@@ -164,7 +165,7 @@ void rest_tilted(const JournalInSleeve& joint, const Offsets& load, double slide
   JournalMotion<double>& m = rest.motion;
   m.e = at.head<3>();
   m.slope = at.tail<2>();
-  joint.gaps(m, rest.contact);
+  joint.penetrations(m, rest.contact);
   for (int end : {0, 1}) {
     ContactState<double>& contact = rest.contact[static_cast<int>(TiltedJournal::radial_place(end == 0 ? -1 : 1))];
     contact.normal_force = by->end_force(end);
@@ -179,22 +180,22 @@ void rest_tilted(const JournalInSleeve& joint, const Offsets& load, double slide
 
 }  // namespace
 
-double Rest::normal_force() const {
+double RestingJournal::normal_force() const {
   double sum = 0.0;
   for (const ContactState<double>& c : contact) sum += c.normal_force;
   return sum;
 }
 
-double Rest::penetration() const {
+double RestingJournal::penetration() const {
   double deepest = 0.0;
   for (const ContactState<double>& c : contact)
     if (c.normal_force > 0.0) deepest = std::max(deepest, c.penetration);
   return deepest;
 }
 
-Rest rest_under(const JournalInSleeve& joint, const Eigen::Matrix<double, 5, 1>& load, double slide,
-                const Rest& before) {
-  Rest rest;
+RestingJournal resting_journal_under(const JournalInSleeve& joint, const Eigen::Matrix<double, 5, 1>& load,
+                                     double slide, const RestingJournal& before) {
+  RestingJournal rest;
   if (joint.tilts)
     rest_tilted(joint, load, slide, before, rest);
   else

@@ -18,7 +18,7 @@
 
 namespace boresight {
 
-struct Rest {
+struct RestingJournal {
   JournalMotion<double> motion{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   std::array<double, 2> radial_reach = {0.0,
                                         0.0};  // c_r plus the radial deflection, of each end (equal where parallel) [m]
@@ -30,7 +30,7 @@ struct Rest {
 
 // load: on the five offsets, slopes' couples zero where parallel [N, N m]. slide: displacement along the axis of a
 // cylindrical joint [m]. before: its rest a moment ago, for the axial place it keeps.
-Rest rest_under(const JournalInSleeve& joint, const Eigen::Matrix<double, 5, 1>& load, double slide,
-                const Rest& before);
+RestingJournal resting_journal_under(const JournalInSleeve& joint, const Eigen::Matrix<double, 5, 1>& load,
+                                     double slide, const RestingJournal& before);
 
 }  // namespace boresight

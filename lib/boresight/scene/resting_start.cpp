@@ -174,7 +174,7 @@ VecX RestingBalance::guess() const {
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     Offsets load = over_widths_[c] * shared;
     load = (load.array().abs() > kNoLoad * load_).select(load.cwiseQuotient(widths_[c]), 0.0);
-    const JournalMotion<double> rest = rest_under(joints_[c], load, slide_[c], {}).motion;
+    const JournalMotion<double> rest = resting_journal_under(joints_[c], load, slide_[c], {}).motion;
     Offsets offset;
     offset << rest.e, rest.slope;
     for (int k = 0; k < at_.joints[c].offsets; ++k)

@@ -162,7 +162,8 @@ class SensitiveSystem {
     const SceneLayout& at = tables_->layout;
     const int c = gap.clearance, place = static_cast<int>(gap.place);
     std::array<ContactState<Jet>, kContactPlaces> contact;
-    joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n), contact);
+    joints_[c].penetrations(journal_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n),
+                            contact);
     const ContactState<Jet>& here = contact[place];
     Jet& speed = impact_speed_[c][place];
     speed = Jet(memory(c).impact_speed[place]);
@@ -180,7 +181,8 @@ class SensitiveSystem {
     const SceneLayout& at = tables_->layout;
     const int c = gap.clearance, place = static_cast<int>(gap.place);
     std::array<ContactState<Jet>, kContactPlaces> contact;
-    joints_[c].gaps(journal_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n), contact);
+    joints_[c].penetrations(journal_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n),
+                            contact);
     const double rate = contact[place].rate.a;
     if (std::abs(rate) < joints_[c].minimum_impact_speed) return;
     // Without a dashpot the difference is the rounding of the event's time.
@@ -201,7 +203,7 @@ class SensitiveSystem {
       const double dt = side == 0 ? kShort : -kShort;
       tables_->dynamics.at(t + dt, row.data());
       const VecX y = y_ + dt * slope_;
-      plain_.joints()[gap.clearance].gaps(
+      plain_.joints()[gap.clearance].penetrations(
           journal_motion(at, at.joints[gap.clearance], row.data(), y.data(), y.data() + at.n), contact);
       rate[side] = contact[static_cast<int>(gap.place)].rate;
     }

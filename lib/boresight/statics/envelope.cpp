@@ -48,7 +48,7 @@ struct GapParts {
   std::vector<Part> parts;
 };
 
-GapParts parts_of(const JournalInSleeve& joint, const Rest& rest, double slide,
+GapParts parts_of(const JournalInSleeve& joint, const RestingJournal& rest, double slide,
                   const Eigen::Matrix<double, 6, 5>& gain) {
   GapParts gap;
   const auto add = [&](const Eigen::Matrix<double, 5, 3>& offset, double radial, double axial) {
@@ -94,7 +94,7 @@ class Envelope final : public SceneRung {
     const std::vector<JournalInSleeve>& joints = reactions.joints();
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<ContactSummary> summary = reactions.summaries();
-    std::vector<Rest> worst_rest(joints.size()), at_rest(joints.size());
+    std::vector<RestingJournal> worst_rest(joints.size()), at_rest(joints.size());
     bool interrupted = false;
     for (int i = 0; i < reactions.instants() && !interrupted; ++i) {
       const ReactionTable::Instant now = reactions.at(i);
@@ -110,7 +110,7 @@ class Envelope final : public SceneRung {
 
       PoseError bound;
       for (std::size_t c = 0; c < joints.size(); ++c) {
-        const Rest rest = rest_under(joints[c], now.load[c].force, now.load[c].slide, at_rest[c]);
+        const RestingJournal rest = resting_journal_under(joints[c], now.load[c].force, now.load[c].slide, at_rest[c]);
         at_rest[c] = rest;
         reactions.note(rest, summary[c]);
         const GapParts gap =
@@ -133,7 +133,7 @@ class Envelope final : public SceneRung {
         JournalMotion<double>& m = worst_rest[c].motion;
         m.e = offset.head<3>();
         m.slope = offset.tail<2>();
-        joints[c].gaps(m, worst_rest[c].contact);
+        joints[c].penetrations(m, worst_rest[c].contact);
       }
       const VecX z = reactions.coordinates(worst_rest);
       const DisplacedBodies displaced(prepared, now.t, z);

@@ -67,19 +67,20 @@ class Quasistatic final : public SceneRung {
   // Where the journals rest at one instant, and by how much that displaces the body of the boresight.
   struct Balance {
     ReactionTable::Instant now;
-    std::vector<Rest> rest;
+    std::vector<RestingJournal> rest;
     VecX z;
     Vec3 moved;
   };
   static Balance balance_at(const ReactionTable& reactions, double t, const Balance* before) {
-    Balance balance{reactions.at_time(t), std::vector<Rest>(reactions.joints().size()), {}, {}};
+    Balance balance{reactions.at_time(t), std::vector<RestingJournal>(reactions.joints().size()), {}, {}};
     for (std::size_t c = 0; c < balance.rest.size(); ++c) {
       const ReactionTable::Load& load = balance.now.load[c];
       // Where next to nothing pushes it, a journal stays where it was.
       if (before && !reactions.decides(balance.now, static_cast<int>(c)))
         balance.rest[c] = before->rest[c];
       else
-        balance.rest[c] = rest_under(reactions.joints()[c], load.force, load.slide, before ? before->rest[c] : Rest{});
+        balance.rest[c] = resting_journal_under(reactions.joints()[c], load.force, load.slide,
+                                                before ? before->rest[c] : RestingJournal{});
     }
     balance.z = reactions.coordinates(balance.rest);
     balance.moved = (balance.now.pose_gain * balance.z).head<3>();

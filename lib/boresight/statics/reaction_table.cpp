@@ -119,7 +119,7 @@ Eigen::Matrix<double, 6, 5> ReactionTable::joint_gain(const Instant& instant, in
   return gain;
 }
 
-VecX ReactionTable::coordinates(const std::vector<Rest>& rest) const {
+VecX ReactionTable::coordinates(const std::vector<RestingJournal>& rest) const {
   VecX z = VecX::Zero(layout_.n);
   for (std::size_t c = 0; c < rest.size(); ++c) {
     const JournalMotion<double>& m = rest[c].motion;
@@ -140,7 +140,7 @@ std::vector<ContactSummary> ReactionTable::summaries() const {
   return result;
 }
 
-void ReactionTable::note(const Rest& rest, ContactSummary& summary) {
+void ReactionTable::note(const RestingJournal& rest, ContactSummary& summary) {
   for (const ContactState<double>& c : rest.contact) summary.max_force = std::max(summary.max_force, c.normal_force);
   summary.max_penetration = std::max(summary.max_penetration, rest.penetration());
 }

@@ -36,12 +36,12 @@ class ReactionTable {
   // E of one joint's offsets: 6 x 5, zero columns where an offset is none.
   Eigen::Matrix<double, 6, 5> joint_gain(const Instant& instant, int clearance) const;
   // Coordinates of journals at rest.
-  VecX coordinates(const std::vector<Rest>& rest) const;
+  VecX coordinates(const std::vector<RestingJournal>& rest) const;
 
   // One per joint, named, in lasting contact.
   std::vector<ContactSummary> summaries() const;
   // Adds a rest's forces and deflections to a summary.
-  static void note(const Rest& rest, ContactSummary& summary);
+  static void note(const RestingJournal& rest, ContactSummary& summary);
 
  private:
   const Mechanism& mechanism_;

@@ -123,11 +123,11 @@ value = "1 mrad"
 
 TEST_F(BudgetTest, HalvingTheClearanceIsWhatTakesOffMostAndTakesOffHalf) {
   const Budget b = budget("");
-  ASSERT_EQ(b.reliefs.size(), 2u);
-  EXPECT_EQ(b.reliefs[0].name, "F1");
-  EXPECT_NEAR(b.reliefs[0].after, 0.5 * b.reliefs[0].before, 1e-12);
-  EXPECT_EQ(b.reliefs[1].name, "clearance.F1.radial");
-  EXPECT_GT(b.reliefs[1].gain(), 0.0);
+  ASSERT_EQ(b.reductions.size(), 2u);
+  EXPECT_EQ(b.reductions[0].name, "F1");
+  EXPECT_NEAR(b.reductions[0].after, 0.5 * b.reductions[0].before, 1e-12);
+  EXPECT_EQ(b.reductions[1].name, "clearance.F1.radial");
+  EXPECT_GT(b.reductions[1].gain(), 0.0);
 }
 
 TEST_F(BudgetTest, IndicesOfAConstantAxisVanishWhereItsMeanIsTakenOff) {

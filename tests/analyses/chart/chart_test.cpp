@@ -34,15 +34,15 @@ TEST(ParetoFront, EndsWhereTheReferenceTellsNothingApart) {
 }
 
 TEST(ChartWays, CoverEveryRungFormulationAndIntegratorFromCoarseToFine) {
-  const std::vector<WayFamily> families = chart_ways(1e-4);
+  const std::vector<SetupFamily> families = chart_ways(1e-4);
   std::set<std::string> rungs, names, integrators;
-  for (const WayFamily& f : families) {
+  for (const SetupFamily& f : families) {
     EXPECT_TRUE(names.insert(f.name).second) << f.name;
-    rungs.insert(f.ways.front().rung);
-    integrators.insert(f.ways.front().integrator);
-    for (std::size_t k = 1; k < f.ways.size(); ++k) {
-      EXPECT_LE(f.ways[k].step, f.ways[k - 1].step);
-      EXPECT_LE(f.ways[k].tolerance, f.ways[k - 1].tolerance);
+    rungs.insert(f.setups.front().rung);
+    integrators.insert(f.setups.front().integrator);
+    for (std::size_t k = 1; k < f.setups.size(); ++k) {
+      EXPECT_LE(f.setups[k].step, f.setups[k - 1].step);
+      EXPECT_LE(f.setups[k].tolerance, f.setups[k - 1].tolerance);
     }
   }
   EXPECT_EQ(rungs.size(), rung_names().size());
@@ -61,25 +61,25 @@ class MeasureTest : public testing::Test {
 TEST_F(MeasureTest, AWayThatFailsSaysWhyAndIsNoError) {
   const auto rung = make_rung("multibody", mechanism_);
   const Parameters p = mechanism_->parameters();
-  Way way{.rung = "multibody", .formulation = "tree", .integrator = "rk4", .step = 2e-3};
-  EXPECT_NE(measure(*rung, p, way, {}).refusal.find("largest stable step"), std::string::npos);
-  way.integrator = "euler";
-  EXPECT_NE(measure(*rung, p, way, {}).refusal.find("integrator: found"), std::string::npos);
-  way.integrator = "rk4";
-  way.step = 1e-6;
+  RungSetup setup{.rung = "multibody", .formulation = "tree", .integrator = "rk4", .step = 2e-3};
+  EXPECT_NE(measure(*rung, p, setup, {}).refusal.find("largest stable step"), std::string::npos);
+  setup.integrator = "euler";
+  EXPECT_NE(measure(*rung, p, setup, {}).refusal.find("integrator: found"), std::string::npos);
+  setup.integrator = "rk4";
+  setup.step = 1e-6;
   MeasureOptions hasty;
   hasty.most_seconds = 1e-3;
-  EXPECT_NE(measure(*rung, p, way, hasty).refusal.find("given up"), std::string::npos);
+  EXPECT_NE(measure(*rung, p, setup, hasty).refusal.find("given up"), std::string::npos);
 }
 
 TEST_F(MeasureTest, CountsByTheMedianOfNeighboursWithTheirSpread) {
   const auto rung = make_rung("perturbation", mechanism_);
   const Parameters p = mechanism_->parameters();
-  const Way way{.rung = "perturbation", .step = 5e-5};
-  const Measurement m = measure(*rung, p, way, {.index = {"position_error", "rms"}});
+  const RungSetup setup{.rung = "perturbation", .step = 5e-5};
+  const Measurement m = measure(*rung, p, setup, {.index = {"position_error", "rms"}});
   std::vector<double> values;
   for (double share : {1.0, 0.985, 0.97}) {
-    RunOptions options = way.options();
+    RunOptions options = setup.options();
     options.step *= share;
     values.push_back(rung->run(p, options).index.position_error.rms);
   }
@@ -99,17 +99,17 @@ TEST_F(MeasureTest, TheReferenceKnowsItsOwnUncertainty) {
   ASSERT_GE(reference.refinements.size(), 2u);
   EXPECT_LT(reference.uncertainty, 1e-3);
   // A way of another formulation, fine, lands within a few of the uncertainties.
-  const Way paper{.rung = "multibody",
-                  .formulation = "paper",
-                  .stabilisation = "projection",
-                  .integrator = "rk4",
-                  .step = reference.refinements.back().step};
+  const RungSetup paper{.rung = "multibody",
+                        .formulation = "paper",
+                        .stabilisation = "projection",
+                        .integrator = "rk4",
+                        .step = reference.refinements.back().step};
   const Measurement m = measure(*rung, mechanism_->parameters(), paper, options.measure);
   EXPECT_LT(relative_error(m, reference.value), 5.0 * std::max(reference.uncertainty, 1e-4));
 }
 
 TEST_F(MeasureTest, BeforeTheFirstImpactEachMethodShowsItsOrder) {
-  const Flight flight = fly(*mechanism_, mechanism_->parameters(), 5e-5, 10.0, [] { return true; });
+  const FreeFlight flight = fly(*mechanism_, mechanism_->parameters(), 5e-5, 10.0, [] { return true; });
   ASSERT_EQ(flight.why_not, "");
   EXPECT_LT(flight.rounding, 1e-8);
   EXPECT_LT(flight.end, flight.first_contact);
@@ -142,8 +142,8 @@ TEST_F(MeasureTest, AChartMarksThePapersSettingAndItsFront) {
   options.flight = false;
   const ChartResult result = make_chart(mechanism_, mechanism_->parameters(), options);
   ASSERT_NE(result.papers(), nullptr);
-  EXPECT_EQ(result.papers()->way.formulation, "paper");
-  EXPECT_EQ(result.papers()->way.step, 1e-4);
+  EXPECT_EQ(result.papers()->setup.formulation, "paper");
+  EXPECT_EQ(result.papers()->setup.step, 1e-4);
   ASSERT_GE(result.front.size(), 2u);
   for (std::size_t k = 1; k < result.front.size(); ++k) {
     EXPECT_GT(result.points[result.front[k]].measured.cpu_seconds,

@@ -106,7 +106,7 @@ TEST(Looks, ARequirementMetWithRoomIsShownByALaterLook) {
 }
 
 TEST(Looks, NetsAndHypercubesHaveOne) {
-  MonteCarloPlan plan = sum_plan(1600, DesignKind::sobol);
+  MonteCarloPlan plan = sum_plan(1600, SamplingKind::sobol);
   plan.requirement = Requirement{20.0, kProbability, kConfidence};
   const FirstLook first = first_look_of(plan, 1600);
   EXPECT_EQ(first.spent, kRisk);

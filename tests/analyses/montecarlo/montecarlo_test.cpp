@@ -29,7 +29,7 @@ TEST(MonteCarlo, ThreadsAndBatchesChangeNoBit) {
 }
 
 TEST(MonteCarlo, GoingOnWithMoreSamplesGivesTheBitsOfOneLongRun) {
-  for (const DesignKind kind : {DesignKind::random, DesignKind::lhs, DesignKind::sobol}) {
+  for (const SamplingKind kind : {SamplingKind::random, SamplingKind::lhs, SamplingKind::sobol}) {
     const Folder folder("more"), once("once");
     auto store = open_sum_store(folder), whole = open_sum_store(once);
     const SumModel model;
@@ -136,11 +136,11 @@ TEST(MonteCarlo, StopsOnTimeWithoutHoles) {
 }
 
 TEST(Estimates, FindTheKnownDistributionWithEveryDesign) {
-  for (const DesignKind kind : {DesignKind::random, DesignKind::lhs, DesignKind::sobol}) {
+  for (const SamplingKind kind : {SamplingKind::random, SamplingKind::lhs, SamplingKind::sobol}) {
     const Folder folder("estimates");
     auto store = open_sum_store(folder);
     MonteCarloPlan plan = sum_plan(8192 / 16 * 16, kind);
-    if (kind == DesignKind::lhs) plan.samples = 8200;
+    if (kind == SamplingKind::lhs) plan.samples = 8200;
     plan.requirement = Requirement{10.0 + 2.0 * kSd, 0.97, 0.95};  // Phi(2) = 0.97725
     const MonteCarloResult result = run_sum(SumModel(), plan, *store, folder, 2);
     const Estimates e = estimate(result.values, plan, {});
@@ -164,7 +164,7 @@ TEST(Estimates, FindTheKnownDistributionWithEveryDesign) {
 TEST(Estimates, NetsNarrowTheMean) {
   const Folder a("net"), b("plain");
   auto net = open_sum_store(a), plain = open_sum_store(b);
-  const MonteCarloPlan net_plan = sum_plan(4096, DesignKind::sobol), plain_plan = sum_plan(4096);
+  const MonteCarloPlan net_plan = sum_plan(4096, SamplingKind::sobol), plain_plan = sum_plan(4096);
   const auto width = [](const MonteCarloPlan& plan, const MonteCarloResult& result) {
     const ReportedInterval i = estimate(result.values, plan, {}).of("mean").interval;
     return i.high - i.low;
@@ -211,7 +211,7 @@ TEST(Estimates, ARequirementThatIsNotMetIsRarelyShownToBe) {
   constexpr int kStudies = 400;
   for (int study = 0; study < kStudies; ++study) {
     plan.design.seed = static_cast<std::uint64_t>(study);
-    const Design design(plan.design, 2);
+    const SamplingDesign design(plan.design, 2);
     std::vector<double> values, x(2);
     for (std::uint64_t k = 0; k < plan.samples; ++k) {
       design.point(k, x);

@@ -1,5 +1,3 @@
-#include "boresight_analyses/random/design.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,11 +9,12 @@
 
 #include "boresight_analyses/random/counter_stream.hpp"
 #include "boresight_analyses/random/permutation.hpp"
+#include "boresight_analyses/random/sampling_design.hpp"
 
 namespace boresight {
 namespace {
 
-std::vector<double> point(const Design& design, std::uint64_t k) {
+std::vector<double> point(const SamplingDesign& design, std::uint64_t k) {
   std::vector<double> u(static_cast<std::size_t>(design.dimensions()));
   design.point(k, u);
   return u;
@@ -38,23 +37,23 @@ TEST(CounterStream, NeverReachesZeroOrOne) {
 }
 
 TEST(Design, PointsDependOnSeedAndNumberAlone) {
-  for (const DesignKind kind : {DesignKind::random, DesignKind::lhs, DesignKind::sobol}) {
-    const DesignOptions options{.kind = kind, .seed = 7};
+  for (const SamplingKind kind : {SamplingKind::random, SamplingKind::lhs, SamplingKind::sobol}) {
+    const SamplingOptions options{.kind = kind, .seed = 7};
     const Design one(options, 3), other(options, 3), wider(options, 5);
     for (const std::uint64_t k : {0ull, 1ull, 999ull, 123456789ull}) {
       EXPECT_EQ(point(one, k), point(other, k));
       std::vector<double> first = point(wider, k);
       first.resize(3);
       EXPECT_EQ(point(one, k), first) << "a further parameter changes none of the others";
-      DesignOptions reseeded = options;
+      SamplingOptions reseeded = options;
       reseeded.seed = 8;
-      EXPECT_NE(point(one, k), point(Design(reseeded, 3), k));
+      EXPECT_NE(point(one, k), point(SamplingDesign(reseeded, 3), k));
     }
   }
 }
 
 TEST(Design, EachHypercubeHasOnePointInEveryStratumOfEveryDimension) {
-  const Design design({.kind = DesignKind::lhs, .seed = 3, .strata = 37}, 4);
+  const SamplingDesign design({.kind = SamplingKind::lhs, .seed = 3, .strata = 37}, 4);
   for (std::uint64_t cube = 0; cube < 5; ++cube)
     for (std::size_t d = 0; d < 4; ++d) {
       std::set<int> strata;
@@ -127,10 +126,10 @@ TEST(SobolNet, EveryPointIsUniformOverScramblings) {
 
 TEST(Design, NetsIntegrateSmoothFunctionsFarBetterThanIndependentPoints) {
   // f = product of (1 + (u_d - 1/2)), integral 1.
-  const auto error = [](DesignKind kind) {
+  const auto error = [](SamplingKind kind) {
     double squares = 0.0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-      const Design design({.kind = kind, .seed = seed, .strata = 4096, .replicates = 2}, 4);
+      const SamplingDesign design({.kind = kind, .seed = seed, .strata = 4096, .replicates = 2}, 4);
       double sum = 0.0;
       constexpr int n = 4096;
       for (std::uint64_t k = 0; k < n; ++k) {
@@ -142,26 +141,28 @@ TEST(Design, NetsIntegrateSmoothFunctionsFarBetterThanIndependentPoints) {
     }
     return std::sqrt(squares / 20.0);
   };
-  const double random = error(DesignKind::random);
+  const double random = error(SamplingKind::random);
   EXPECT_NEAR(random, std::sqrt((std::pow(13.0 / 12.0, 4) - 1.0) / 4096.0), 0.4 * random);
-  EXPECT_LT(error(DesignKind::lhs), random / 2.5);
-  EXPECT_LT(error(DesignKind::sobol), random / 50.0);
+  EXPECT_LT(error(SamplingKind::lhs), random / 2.5);
+  EXPECT_LT(error(SamplingKind::sobol), random / 50.0);
 }
 
 TEST(Design, SaysWhenANetLosesItsBalance) {
-  const Design design({.kind = DesignKind::sobol, .replicates = 16}, 2);
+  const SamplingDesign design({.kind = SamplingKind::sobol, .replicates = 16}, 2);
   EXPECT_EQ(design.warning(16 * 512), "");
   EXPECT_NE(design.warning(10000).find("8192 or 16384"), std::string::npos) << design.warning(10000);
   EXPECT_EQ(design.whole_points(10007), 10000u);
-  EXPECT_EQ(Design({.kind = DesignKind::random}, 2).warning(10000), "");
+  EXPECT_EQ(SamplingDesign({.kind = SamplingKind::random}, 2).warning(10000), "");
   // Whole points are whole nets, or whole hypercubes, or any number.
-  EXPECT_EQ(Design({.kind = DesignKind::lhs, .strata = 100, .replicates = 16}, 2).whole_points(10007), 10000u);
-  EXPECT_EQ(Design({.kind = DesignKind::sobol, .strata = 100, .replicates = 16}, 2).whole_points(10090), 10080u);
-  EXPECT_EQ(Design({.kind = DesignKind::random}, 2).whole_points(10007), 10007u);
+  EXPECT_EQ(SamplingDesign({.kind = SamplingKind::lhs, .strata = 100, .replicates = 16}, 2).whole_points(10007),
+            10000u);
+  EXPECT_EQ(SamplingDesign({.kind = SamplingKind::sobol, .strata = 100, .replicates = 16}, 2).whole_points(10090),
+            10080u);
+  EXPECT_EQ(SamplingDesign({.kind = SamplingKind::random}, 2).whole_points(10007), 10007u);
 }
 
 TEST(Design, IndependentPointsAreUniformInEveryDimension) {
-  const Design design({.kind = DesignKind::random, .seed = 2}, 3);
+  const SamplingDesign design({.kind = SamplingKind::random, .seed = 2}, 3);
   for (std::size_t d = 0; d < 3; ++d) {
     std::vector<double> u;
     for (std::uint64_t k = 0; k < 10000; ++k) u.push_back(point(design, k)[d]);

@@ -9,7 +9,7 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
-#include "boresight_analyses/random/design.hpp"
+#include "boresight_analyses/random/sampling_design.hpp"
 
 namespace boresight {
 namespace {
@@ -143,7 +143,7 @@ TEST_F(RandomInputsTest, CorrelatedParametersKeepTheirMarginalsAndHaveTheCorrela
   const auto pair = std::string(
       "[[correlation]]\nparameters = [\"clearance.F1.contact.restitution\", \"clearance.F1.friction.coefficient\"]\n");
   const RandomInputs inputs = read(two + pair + "coefficient = -0.6\nmeasure = \"spearman\"\n");
-  const Design design({.seed = 4}, 2);
+  const SamplingDesign design({.seed = 4}, 2);
   constexpr int n = 20000;
   double rank = 0.0, below = 0.0;
   for (std::uint64_t k = 0; k < n; ++k) {

@@ -91,7 +91,7 @@ TEST_F(SensitivityTest, MeetsTheIndicesOfAnAdditiveModelInBothDesigns) {
   for (const char* table :
        {"[sensitivity]\nsamples = 4096\n", "[sensitivity]\nsamples = 6000\ndesign = \"random\"\n"}) {
     const SensitivityPlan p = plan(table);
-    const auto s = store(p, p.design.kind == DesignKind::random ? "r.db" : "s.db");
+    const auto s = store(p, p.design.kind == SamplingKind::random ? "r.db" : "s.db");
     ASSERT_TRUE(compute_sensitivity_runs(ClosedForm{}, p, *s, {.jobs = 2, .progress = {}, .interrupted = {}}));
     const auto result = global_sensitivity(p, *s);
     ASSERT_TRUE(result);

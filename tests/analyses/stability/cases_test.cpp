@@ -47,7 +47,7 @@ TEST(RedundantRows, ThatAgreeAreBorneAndCounted) {
       scenes::build(scenes::four_bar({{0, 0, 0}, {0, 0, 1}, {2, 0, 1.5}, {2.5, 0, 0}}, true, "0.4*sin(3*t)"));
   Scene scene;
   scene.mechanism = mechanism;
-  const Followed followed = follow(mechanism);
+  const FollowedMotion followed = follow(mechanism);
   scene.followed = &followed;
   const FailureCase c = case_of_redundant_rows(scene);
   EXPECT_EQ(c.standing, FailureCase::Standing::behaves);
@@ -77,7 +77,7 @@ TEST(NoStabilisation, LetsTheDriftGrowAsTheSquareOfTime) {
     for (int n = 0; n < steps; ++n) {
       derivative(n * h, y, method.first_slope());
       method.step(n * h, h, y, derivative);
-      formulation->settle((n + 1) * h, y);
+      formulation->stabilise((n + 1) * h, y);
     }
     derivative(steps * h, y, method.first_slope());
     return formulation->violation();
@@ -96,8 +96,8 @@ TEST(Chatter, EndsInLastingContactAndTheStepRecovers) {
   contact.load = 9.81;
   contact.law = {1e10, normal_law("flores").damping_factor(0.5)};
   const double omega = contact.angular_frequency(), height = 1e-4, duration = 0.2;
-  const Settling pair = settle(contact, height, duration, 1e-5, true),
-                 l_stable = settle(contact, height, duration, 1e-5, false);
+  const Settling pair = stabilise(contact, height, duration, 1e-5, true),
+                 l_stable = stabilise(contact, height, duration, 1e-5, false);
   for (const Settling& s : {pair, l_stable}) {
     EXPECT_TRUE(s.completed) << s.why_not;
     EXPECT_GE(s.contacts, 3) << s.method;
@@ -118,7 +118,7 @@ TEST(Impacts, PartNeighbouringTrajectoriesAndKeepTheirStatistics) {
   const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(
       std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml",
       {{"clearance.A.radial", "0.5 mm"}, {"clearance.A.contact.restitution", "1"}, {"initial.journals", "centred"}}));
-  const Followed followed = follow(mechanism);
+  const FollowedMotion followed = follow(mechanism);
   const std::vector<Separation> apart = separations(*mechanism, followed, {1e-12, 1e-9, 1e-6});
   for (const Separation& s : apart) {
     EXPECT_GT(s.horizon, 0.0) << s.start;

@@ -17,8 +17,8 @@ double value(const std::vector<double>& u) {
   return std::exp(0.4 * gsl_cdf_ugaussian_Pinv(u[0]) + 0.3 * gsl_cdf_ugaussian_Pinv(u[1]) +
                   0.2 * gsl_cdf_ugaussian_Pinv(u[2]));
 }
-template <typename Design>
-ReplicatedSamples replicates(std::mt19937_64& engine, Design&& design, int count, int size) {
+template <typename SamplingDesign>
+ReplicatedSamples replicates(std::mt19937_64& engine, SamplingDesign&& design, int count, int size) {
   std::vector<std::vector<double>> values(count);
   for (auto& r : values)
     for (const auto& u : design(engine, size, 3)) r.push_back(value(u));

@@ -9,31 +9,31 @@
 namespace boresight {
 namespace {
 
-TEST(Way, FinerIsHalfTheStepOrATenthOfTheTolerance) {
-  const Way steps{.rung = "multibody", .step = 1e-4};
+TEST(RungSetup, FinerIsHalfTheStepOrATenthOfTheTolerance) {
+  const RungSetup steps{.rung = "multibody", .step = 1e-4};
   EXPECT_DOUBLE_EQ(steps.finer().step, 5e-5);
   EXPECT_EQ(steps.finer().tolerance, 0.0);
-  const Way controlled{.rung = "multibody", .integrator = "dopri5", .tolerance = 1e-3};
+  const RungSetup controlled{.rung = "multibody", .integrator = "dopri5", .tolerance = 1e-3};
   EXPECT_DOUBLE_EQ(controlled.finer().tolerance, 1e-4);
   // Where none is given, of the one that is taken then.
-  const Way own{.rung = "multibody", .integrator = "dopri5"};
+  const RungSetup own{.rung = "multibody", .integrator = "dopri5"};
   EXPECT_DOUBLE_EQ(own.finer().tolerance, 0.1 * tolerance_of(own.options(), "multibody"));
   // An integrator with error control that was given a step takes that one.
-  const Way held{.rung = "multibody", .integrator = "dopri5", .step = 1e-4};
+  const RungSetup held{.rung = "multibody", .integrator = "dopri5", .step = 1e-4};
   EXPECT_DOUBLE_EQ(held.finer().step, 5e-5);
-  const Way lanes{.rung = "perturbation", .tolerance = 2e-3, .lanes = true},
+  const RungSetup lanes{.rung = "perturbation", .tolerance = 2e-3, .lanes = true},
       plain{.rung = "perturbation", .lanes = true};
   EXPECT_DOUBLE_EQ(lanes.finer().tolerance, 2e-4);
   EXPECT_DOUBLE_EQ(plain.finer().tolerance, 0.1 * kLaneTolerance);
   EXPECT_TRUE(lanes.finer().lanes);
 }
 
-TEST(Way, IsNamedByAllButHowFinely) {
-  const Way way{
+TEST(RungSetup, IsNamedByAllButHowFinely) {
+  const RungSetup setup{
       .rung = "multibody", .formulation = "paper", .stabilisation = "baumgarte", .integrator = "rk4", .step = 1e-4};
-  EXPECT_EQ(way.family(), "multibody, paper, baumgarte, rk4");
-  EXPECT_EQ(way.finer().family(), way.family());
-  EXPECT_EQ((Way{.rung = "quasistatic", .integrator = "rk4"}.family()), "quasistatic");
+  EXPECT_EQ(setup.family(), "multibody, paper, baumgarte, rk4");
+  EXPECT_EQ(setup.finer().family(), setup.family());
+  EXPECT_EQ((RungSetup{.rung = "quasistatic", .integrator = "rk4"}.family()), "quasistatic");
 }
 
 }  // namespace

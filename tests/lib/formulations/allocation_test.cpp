@@ -36,7 +36,7 @@ void expect_no_allocation(const Mechanism& mechanism, const IdealMotion& ideal, 
   const auto step = [&](int k) {
     derivative(h * k, y, method.first_slope());
     method.step(h * k, h, y, derivative);
-    formulation.settle(h * (k + 1), y);
+    formulation.stabilise(h * (k + 1), y);
   };
   step(0);
   const long before = allocations.load();

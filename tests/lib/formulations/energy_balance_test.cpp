@@ -13,19 +13,19 @@
 namespace boresight {
 namespace {
 
-struct Way {
+struct RungSetup {
   std::string formulation, integrator;
   double step = 0.0, tolerance = 0.0;
 };
 
-double energy_error(const std::shared_ptr<const Mechanism>& mechanism, const Way& way) {
+double energy_error(const std::shared_ptr<const Mechanism>& mechanism, const RungSetup& setup) {
   RunOptions options;
   options.sample_spacing = 0.0;
   options.events = false;
-  options.formulation = way.formulation;
-  options.integrator = way.integrator;
-  options.step = way.step;
-  options.tolerance = way.tolerance;
+  options.formulation = setup.formulation;
+  options.integrator = setup.integrator;
+  options.step = setup.step;
+  options.tolerance = setup.tolerance;
   const RunResult result = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
   return result.energy_error;
 }
@@ -67,10 +67,10 @@ TEST(EnergyBalance, DoesNotDependOnWhereTheDrawingLies) {
   const Vec3 moved(0.0, 0.0, 10.0);
   for (BodyDescription& b : far.bodies) b.center_of_mass += moved;
   for (JointDescription& j : far.joints) j.point += moved;
-  const Way way{"tree", "rk4", 1e-3};
-  const double here = energy_error(scenes::build(std::move(near)), way);
+  const RungSetup setup{"tree", "rk4", 1e-3};
+  const double here = energy_error(scenes::build(std::move(near)), setup);
   EXPECT_GT(here, 0.0);
-  EXPECT_NEAR(energy_error(scenes::build(std::move(far)), way) / here, 1.0, 0.01);
+  EXPECT_NEAR(energy_error(scenes::build(std::move(far)), setup) / here, 1.0, 0.01);
 }
 
 // No drives, no springs, no contacts: whatever speeds the bodies have, joints that open included, nothing is done to them but by gravity and,

@@ -30,7 +30,7 @@ IdealState resolved(const Mechanism& mechanism, const IdealState& start, long st
     formulation->derivative(t + 0.5 * h, y + 0.5 * h * k2, {}, k3);
     formulation->derivative(t + h, y + h * k3, {}, k4);
     y += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
-    formulation->settle(t + h, y);
+    formulation->stabilise(t + h, y);
   }
   return {mechanism.duration(), formulation->bodies(mechanism.duration(), y), {}};
 }

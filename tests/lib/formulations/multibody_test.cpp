@@ -166,7 +166,7 @@ TEST(PaperFormulation, KeepsUnitQuaternionsAndTheirSigns) {
       before.push_back(q);
       y[kPerBody * b] += 1e-6 * (b + 1);  // open the joints, so that there is something to close
     }
-    formulation->settle(0.3, y);
+    formulation->stabilise(0.3, y);
     VecX dy(y.size());
     formulation->derivative(0.3, y, std::vector<ContactMemory>(1), dy);
     EXPECT_LT(formulation->violation(), 1e-12);

@@ -75,7 +75,7 @@ struct Pair {
 VecX pushed(Formulation& formulation, double t, VecX y, double by, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-by, by);
   for (double& x : y) x += uniform(random);
-  formulation.settle(t, y);
+  formulation.stabilise(t, y);
   return y;
 }
 
@@ -138,7 +138,7 @@ TEST(TreeFormulation, AcceleratesAsThePapersWithEveryTypeOfJoint) {
       pair.tree->start(scenes::at_home(mechanism), y);
       for (int k = 0; k < 100; ++k) {
         const double t = 0.01 * k;
-        pair.tree->settle(t, y);  // follows the drives, 0.02 rad at a time
+        pair.tree->stabilise(t, y);  // follows the drives, 0.02 rad at a time
         // Far from rest where there is no contact; by some clearances, to and fro across contact, where there is.
         const bool contact = with_clearance && !c.opened.empty();
         pair.expect_equal(t, pushed(*pair.tree, t, y, contact ? 2e-4 : 0.05, random));
@@ -163,8 +163,8 @@ double trajectories_apart(const Mechanism& mechanism, const IdealMotion& ideal, 
     paper(i * h, z, paper_method.first_slope());
     tree_method.step(i * h, h, y, tree);
     paper_method.step(i * h, h, z, paper);
-    pair.tree->settle((i + 1) * h, y);
-    pair.paper->settle((i + 1) * h, z);
+    pair.tree->stabilise((i + 1) * h, y);
+    pair.paper->stabilise((i + 1) * h, z);
     const std::vector<BodyMotion>& A = pair.tree->bodies((i + 1) * h, y);
     const std::vector<BodyMotion>& B = pair.paper->bodies((i + 1) * h, z);
     for (std::size_t b = 0; b < A.size(); ++b)
@@ -222,7 +222,7 @@ TEST(TreeFormulation, BearsRedundantLoops) {
       fastest = std::max(fastest, y.tail(y.size() / 2).lpNorm<Eigen::Infinity>());
       if (i % 100 == 0) pair.expect_equal(i * h, y);
       method.step(i * h, h, y, derivative);
-      pair.tree->settle((i + 1) * h, y);
+      pair.tree->stabilise((i + 1) * h, y);
     }
     EXPECT_GT(fastest, 1.0) << mechanism.name() << " must move";
     EXPECT_NEAR(pair.tree->energy(1.0, y), energy, 1e-7) << mechanism.name();  // of about 20 J turned over; RK4 at 1 ms
@@ -263,11 +263,11 @@ TEST(TreeFormulation, ClosesLoopsThatAreWideOpen) {
   y.array() += 0.02;
   tree->derivative(0.3, y, memory, dy);
   EXPECT_GT(tree->violation(), 1e-3);
-  tree->settle(0.3, y);
+  tree->stabilise(0.3, y);
   tree->derivative(0.3, y, memory, dy);
   EXPECT_LT(tree->violation(), 1e-14);
   VecX again = y;
-  tree->settle(0.3, again);
+  tree->stabilise(0.3, again);
   EXPECT_LT((again - y).lpNorm<Eigen::Infinity>(), 1e-13) << "a closed loop stays as it is";
 }
 

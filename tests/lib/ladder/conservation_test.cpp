@@ -66,7 +66,7 @@ void expect_momenta_kept(bool paper, JournalAxes axes) {
   }
   start.bodies[mechanism.boresight_body()].v += Vec3(0.3, -0.1, 0.2);
   Stepper stepper(*formulation, start);
-  formulation->settle(0.0, stepper.y);
+  formulation->stabilise(0.0, stepper.y);
   const std::vector<MassProperties> mass = mechanism.mass_properties(mechanism.parameters());
   const auto momenta = [&] {
     Vec6 sum = Vec6::Zero();

@@ -33,27 +33,27 @@ std::shared_ptr<const Mechanism> standing_platform(const std::string& file, Sett
   return mechanism("3-rrcpr/" + file, std::move(more));
 }
 
-struct Way {
+struct RungSetup {
   const char *rung, *integrator, *formulation, *stabilisation;
 };
-const Way kWays[] = {{"perturbation", "rk4", "", ""},
-                     {"perturbation", "dopri5", "", ""},
-                     {"perturbation", "rosenbrock", "", ""},
-                     {"multibody", "rk4", "tree", "projection"},
-                     {"multibody", "rk4", "tree", "baumgarte"},
-                     {"multibody", "dopri5", "tree", ""},
-                     {"multibody", "rosenbrock", "tree", ""},
-                     {"multibody", "rk4", "paper", "baumgarte"},
-                     {"multibody", "rk4", "paper", "projection"},
-                     {"multibody", "rosenbrock", "paper", ""}};
+const RungSetup kWays[] = {{"perturbation", "rk4", "", ""},
+                           {"perturbation", "dopri5", "", ""},
+                           {"perturbation", "rosenbrock", "", ""},
+                           {"multibody", "rk4", "tree", "projection"},
+                           {"multibody", "rk4", "tree", "baumgarte"},
+                           {"multibody", "dopri5", "tree", ""},
+                           {"multibody", "rosenbrock", "tree", ""},
+                           {"multibody", "rk4", "paper", "baumgarte"},
+                           {"multibody", "rk4", "paper", "projection"},
+                           {"multibody", "rosenbrock", "paper", ""}};
 
-RunResult run(const std::shared_ptr<const Mechanism>& m, const Way& way) {
+RunResult run(const std::shared_ptr<const Mechanism>& m, const RungSetup& setup) {
   RunOptions options;
-  options.integrator = way.integrator;
+  options.integrator = setup.integrator;
   if (options.integrator != "rk4") options.tolerance = 1e-7;
-  options.formulation = way.formulation;
-  options.stabilisation = way.stabilisation;
-  return make_rung(way.rung, m)->run(m->parameters(), options);
+  options.formulation = setup.formulation;
+  options.stabilisation = setup.stabilisation;
+  return make_rung(setup.rung, m)->run(m->parameters(), options);
 }
 
 // The error is what it was at the start, to a millionth of it, and no journal has struck or parted.
@@ -77,9 +77,9 @@ void expect_standing(const RunResult& r, const std::string& what) {
 
 TEST(RestingStart, NothingMovesWhereDrivesStandStill) {
   const auto m = standing_four_bar();
-  for (const Way& way : kWays)
-    expect_standing(run(m, way),
-                    std::string(way.rung) + ", " + way.integrator + ", " + way.formulation + " " + way.stabilisation);
+  for (const RungSetup& setup : kWays)
+    expect_standing(run(m, setup), std::string(setup.rung) + ", " + setup.integrator + ", " + setup.formulation + " " +
+                                       setup.stabilisation);
 }
 
 // Its coordinates hold no ball joint, which generalized-alpha asks for.
@@ -91,8 +91,8 @@ TEST(RestingStart, NothingMovesUnderGeneralizedAlpha) {
 TEST(RestingStart, NothingMovesWhereAJournalMayTilt) {
   const auto m =
       standing_platform("3-rrcpr.toml", {{"clearance.F1.axes", "free"}, {"clearance.F1.sleeve_length", "120 mm"}});
-  for (const Way& way : {kWays[0], kWays[2], kWays[3]})
-    expect_standing(run(m, way), std::string("tilting, ") + way.rung + ", " + way.integrator);
+  for (const RungSetup& setup : {kWays[0], kWays[2], kWays[3]})
+    expect_standing(run(m, setup), std::string("tilting, ") + setup.rung + ", " + setup.integrator);
 }
 
 // Sleeves carry journals by normal forces alone as a motion starts: on an incline too, bristles that begin unbent have nothing to take up.
@@ -101,8 +101,8 @@ TEST(RestingStart, NothingMovesOnAnInclineUnderFrictionThatSticks) {
                                                     {"clearance.F1.friction.coefficient", "0.3"},
                                                     {"gravity.x", "5 m/s^2"},
                                                     {"gravity.y", "6 m/s^2"}});
-  for (const Way& way : {kWays[0], kWays[3], kWays[7]})  // those that carry bristles
-    expect_standing(run(m, way), std::string("LuGre, ") + way.rung + ", " + way.integrator);
+  for (const RungSetup& setup : {kWays[0], kWays[3], kWays[7]})  // those that carry bristles
+    expect_standing(run(m, setup), std::string("LuGre, ") + setup.rung + ", " + setup.integrator);
 }
 
 TEST(RestingStart, TwelveJointsRestTogether) {

@@ -65,7 +65,7 @@ TEST(MostDampedContact, IsTheSlopeOfTheForcesOverTheMass) {
   motion.slope_rate.setZero();
   ContactTracker tracker(0, "F1", joints[0], false);
   std::array<ContactState<double>, kContactPlaces> contact{};
-  joints[0].gaps(motion, contact);
+  joints[0].penetrations(motion, contact);
   tracker.accept(0.0, contact);
   // Only the offset across, of 3 kg: its own damping is the rate.
   MatX compliance = MatX::Zero(5, 5);

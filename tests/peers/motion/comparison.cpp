@@ -6,7 +6,7 @@
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/lanes/perturbation_lanes.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
-#include "boresight_analyses/chart/ways.hpp"
+#include "boresight_analyses/chart/setups.hpp"
 
 namespace boresight::peers {
 namespace {
@@ -92,7 +92,7 @@ class Comparing {
     const auto multibody = make_rung("multibody", mechanism_);
     out_.reference = find_reference(*multibody, parameters_, {.target = 1e-5, .most_seconds = 10.0});
     out_.machine = this_machine();
-    for (const WayFamily& family : chart_ways(out_.reference.own_step)) ours(family);
+    for (const SetupFamily& family : chart_ways(out_.reference.own_step)) ours(family);
     on_lanes();
     for (const auto& peer : peers()) {
       options_.progress("what " + peer->name() + " models");
@@ -105,18 +105,18 @@ class Comparing {
   }
 
  private:
-  void ours(const WayFamily& family) {
-    const Way& first = family.ways.front();
+  void ours(const SetupFamily& family) {
+    const RungSetup& first = family.setups.front();
     // Left to `boresight chart`, being far from the front here: second order, and the paper's coordinates but
     // for its own way.
     if (first.integrator == "generalized-alpha") return;
     if (first.formulation == "paper" && first.family() != papers_way().family()) return;
     const auto rung = make_rung(first.rung, mechanism_);
-    std::string way = family.name;
-    way.erase(0, std::min(way.size(), first.rung.size() + 2));
-    for (const Way& one : family.ways) {
+    std::string setup = family.name;
+    setup.erase(0, std::min(setup.size(), first.rung.size() + 2));
+    for (const RungSetup& one : family.setups) {
       add({.program = first.rung,
-           .way = way,
+           .setup = setup,
            .fineness = fineness(one),
            .ours = true,
            .measured = measure(*rung, parameters_, one, {.most_seconds = options_.most_seconds})});
@@ -129,11 +129,11 @@ class Comparing {
     const PerturbationLanes lanes(mechanism_, PointingQuantity::position_error);
     measure_lanes(lanes, parameters_, 1e-1);  // what is computed once for a mechanism is not timed
     for (double tolerance : kTolerances) {
-      const Way way{.rung = "perturbation", .tolerance = tolerance};
+      const RungSetup setup{.rung = "perturbation", .tolerance = tolerance};
       add({.program = "perturbation on lanes",
-           .way = std::string("a sample of ") + std::to_string(kBatch) + ", " +
-                  lane_targets(LanePrecision::single_precision).front().name,
-           .fineness = fineness(way),
+           .setup = std::string("a sample of ") + std::to_string(kBatch) + ", " +
+                    lane_targets(LanePrecision::single_precision).front().name,
+           .fineness = fineness(setup),
            .ours = true,
            .measured = measure_lanes(lanes, parameters_, tolerance)});
       if (done_with_line()) break;
@@ -145,7 +145,7 @@ class Comparing {
     for (const PeerSetting& setting : peer.settings()) {
       if (setting.method == finished) continue;
       add({.program = peer.name(),
-           .way = setting.method,
+           .setup = setting.method,
            .fineness = setting.fineness(),
            .stands_alone = peer.stands_alone(),
            .measured = measure_peer(peer, scene_, setting, out_.reference.value, options_.most_seconds)});

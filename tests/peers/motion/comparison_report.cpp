@@ -94,7 +94,7 @@ report::Table cheapest_table(const Comparison& all, double accuracy) {
       continue;
     }
     table.rows.push_back(
-        {name, p->way, p->fineness, 100.0 * p->error, 1e3 * p->measured.cpu_seconds,
+        {name, p->setup, p->fineness, 100.0 * p->error, 1e3 * p->measured.cpu_seconds,
          peer ? nlohmann::json(peer->measured.cpu_seconds / p->measured.cpu_seconds) : nlohmann::json()});
   }
   return table;

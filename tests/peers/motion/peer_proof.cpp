@@ -9,7 +9,7 @@ namespace boresight::peers {
 namespace {
 
 // Our flight, sampled so densely that Hermite's cubic between samples is exact to rounding.
-struct Flight {
+struct FreeFlight {
   std::vector<double> t;
   std::vector<Vec3> p, v;
   double first_contact = -1.0;
@@ -24,14 +24,14 @@ struct Flight {
   }
 };
 
-Flight our_flight(const PeerScene& scene) {
+FreeFlight our_flight(const PeerScene& scene) {
   const auto multibody = make_rung("multibody", std::make_shared<const Mechanism>(scene.description()));
   RunOptions options;
   options.step = options.sample_spacing = 1e-5;
   long looks = 0;
   options.progress = [&](const RunProgress&) { return ++looks < 4; };  // every 256 steps
   const RunResult run = multibody->run(scene.parameters(), options);
-  Flight flight;
+  FreeFlight flight;
   flight.t = run.time;
   for (const PoseSample& s : run.boresight.samples) {
     flight.p.push_back(s.pose.p);
@@ -56,7 +56,7 @@ PeerProof prove(const Peer& peer, const PeerScene& scene, const PeerSetting& set
   } catch (const NoIdealMotion&) {
     proof.has_ideal = false;
   }
-  const Flight ours = our_flight(scene);
+  const FreeFlight ours = our_flight(scene);
   proof.our_first_contact = ours.first_contact;
   const PeerMotion open =
       peer.follow(scene, {.setting = setting, .duration = 1.5 * ours.first_contact, .keep_path = true});

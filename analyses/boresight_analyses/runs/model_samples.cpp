@@ -1,4 +1,4 @@
-#include "boresight_analyses/runs/several_models.hpp"
+#include "boresight_analyses/runs/model_samples.hpp"
 
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
@@ -26,7 +26,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-void complete_samples(const SampleModel& model, const RandomInputs& inputs, const Design& design,
+void complete_samples(const SampleModel& model, const RandomInputs& inputs, const SamplingDesign& design,
                       const NumberRange& range, SampleStore& store, const MethodOptions& options) {
   std::vector<NumberRange> missing;
   for (NumberRange r : store.missing(range.end)) {

@@ -5,19 +5,19 @@
 // over the clearance.
 #pragma once
 
-#include "boresight_analyses/chart/ways.hpp"
+#include "boresight_analyses/chart/setups.hpp"
 
 namespace boresight {
 
 struct FlightPoint {
-  Way way;
+  RungSetup setup;
   std::string family;
   double error = 0.0;        // over the largest clearance
   double cpu_seconds = 0.0;  // of one run, the least
   std::string refusal;       // "" if it ran
 };
 
-struct Flight {
+struct FreeFlight {
   double first_contact = 0.0;  // [s]
   double end = 0.0;            // of the motion compared [s]
   double rounding = 0.0;       // how far the two finest references are apart, over the clearance
@@ -28,7 +28,7 @@ struct Flight {
 
 // most_seconds: of CPU, beyond which no further family is begun. advance: called before every run; return
 // false to stop (throws MeasurementInterrupted).
-Flight fly(const Mechanism& mechanism, const Parameters& parameters, double own_step, double most_seconds,
-           const std::function<bool()>& advance);
+FreeFlight fly(const Mechanism& mechanism, const Parameters& parameters, double own_step, double most_seconds,
+               const std::function<bool()>& advance);
 
 }  // namespace boresight

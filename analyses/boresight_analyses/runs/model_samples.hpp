@@ -25,7 +25,7 @@ struct MethodOptions {
 };
 
 // The numbers of a range that the store lacks are computed and stored. Throws MethodInterrupted; what was computed is stored.
-void complete_samples(const SampleModel& model, const RandomInputs& inputs, const Design& design,
+void complete_samples(const SampleModel& model, const RandomInputs& inputs, const SamplingDesign& design,
                       const NumberRange& range, SampleStore& store, const MethodOptions& options);
 
 struct StoredValues {

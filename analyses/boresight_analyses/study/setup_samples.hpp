@@ -12,13 +12,13 @@
 
 namespace boresight {
 
-class WaySamples {
+class SetupSamples {
  public:
   // samples must outlive it. scene_varies: whether more than contacts does.
-  WaySamples(std::shared_ptr<const Mechanism> mechanism, const std::vector<Parameters>& samples, Way way,
-             const IndexChoice& index, bool scene_varies);
+  SetupSamples(std::shared_ptr<const Mechanism> mechanism, const std::vector<Parameters>& samples, RungSetup setup,
+               const IndexChoice& index, bool scene_varies);
 
-  const Way& way() const { return way_; }
+  const RungSetup& setup() const { return setup_; }
   // Those of `which` that are not there yet. advance: called from this thread between runs; where it returns false the
   // rest is left out and the answer is false.
   bool compute(const std::vector<std::size_t>& which, int jobs, const std::function<bool()>& advance);
@@ -34,7 +34,7 @@ class WaySamples {
   double estimate() const;                         // what the rung thinks it leaves out, relative, the largest
 
  private:
-  Way way_;
+  RungSetup setup_;
   std::unique_ptr<SampleModel> model_;
   std::vector<Outcome> outcome_;
   std::vector<bool> asked_;

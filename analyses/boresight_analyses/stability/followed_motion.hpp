@@ -9,7 +9,7 @@
 
 namespace boresight {
 
-struct Followed {
+struct FollowedMotion {
   std::shared_ptr<const Rung> rung;  // perturbation; multibody where that refuses
   double step = 0.0;                 // its own [s]
   double until = 0.0;                // time up to which runs are followed [s]: a hundred thousand steps at most
@@ -20,6 +20,6 @@ struct Followed {
 };
 
 // Throws ComputationError where not even multibody can follow the motion.
-Followed follow(const std::shared_ptr<const Mechanism>& mechanism);
+FollowedMotion follow(const std::shared_ptr<const Mechanism>& mechanism);
 
 }  // namespace boresight

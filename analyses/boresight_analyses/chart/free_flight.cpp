@@ -1,4 +1,4 @@
-#include "boresight_analyses/chart/flight.hpp"
+#include "boresight_analyses/chart/free_flight.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,10 +32,10 @@ Vec3 displacement_at_end(const RunResult& result) { return result.boresight.samp
 
 }  // namespace
 
-Flight fly(const Mechanism& mechanism, const Parameters& parameters, double own_step, double most_seconds,
-           const std::function<bool()>& advance) {
+FreeFlight fly(const Mechanism& mechanism, const Parameters& parameters, double own_step, double most_seconds,
+               const std::function<bool()>& advance) {
   const double start = thread_cpu_seconds();
-  Flight flight;
+  FreeFlight flight;
   const auto ask = [&] {
     if (!advance()) throw MeasurementInterrupted{};
   };
@@ -52,38 +52,38 @@ Flight fly(const Mechanism& mechanism, const Parameters& parameters, double own_
   MechanismDescription description = mechanism.description();
   description.motion.duration = flight.end;
   const auto shortened = std::make_shared<const Mechanism>(std::move(description));
-  const auto run = [&](const Rung& rung, const Way& way) {
-    RunOptions options = way.options();
+  const auto run = [&](const Rung& rung, const RungSetup& setup) {
+    RunOptions options = setup.options();
     options.sample_spacing =
         flight.end / 16.0;  // samples may lie a thousandth of this early: less than the finest step
     return rung.run(parameters, options);
   };
 
   const auto multibody = make_rung("multibody", shortened);
-  Way finest{.rung = "multibody", .formulation = "tree", .stabilisation = "projection", .integrator = "rk4"};
+  RungSetup finest{.rung = "multibody", .formulation = "tree", .stabilisation = "projection", .integrator = "rk4"};
   finest.step = flight.end / (4.0 * kFinest);
   const Vec3 reference = displacement_at_end(run(*multibody, finest));
   finest.step *= 2.0;
   flight.rounding = (displacement_at_end(run(*multibody, finest)) - reference).norm() / clearance;
 
-  for (const WayFamily& family : chart_ways(own_step)) {
-    Way way = family.ways.front();
-    if (way.stepless()) continue;  // they know no trajectory
+  for (const SetupFamily& family : chart_ways(own_step)) {
+    RungSetup setup = family.setups.front();
+    if (setup.stepless()) continue;  // they know no trajectory
     if (thread_cpu_seconds() - start > most_seconds) {
       flight.left_out.push_back(family.name);
       continue;
     }
-    const auto rung = make_rung(way.rung, shortened);
-    std::vector<Way> ways;
-    if (way.integrator == "rk4")
+    const auto rung = make_rung(setup.rung, shortened);
+    std::vector<RungSetup> setups;
+    if (setup.integrator == "rk4")
       for (int steps = kCoarsest; steps <= kFinest; steps *= 2) {
-        way.step = flight.end / steps;
-        ways.push_back(way);
+        setup.step = flight.end / steps;
+        setups.push_back(setup);
       }
     else
-      ways = family.ways;
-    for (const Way& w : ways) {
-      FlightPoint point{.way = w,
+      setups = family.setups;
+    for (const RungSetup& w : setups) {
+      FlightPoint point{.setup = w,
                         .family = family.name,
                         .error = 0.0,
                         .cpu_seconds = std::numeric_limits<double>::infinity(),

@@ -1,4 +1,4 @@
-#include "boresight_analyses/chart/ways.hpp"
+#include "boresight_analyses/chart/setups.hpp"
 
 #include <array>
 #include <cstdio>
@@ -14,19 +14,19 @@ namespace {
 constexpr double kShares[] = {8.0, 4.0, 2.0, 1.0, 0.5, 0.25};
 constexpr double kTolerances[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5};
 
-WayFamily family_of(Way way, double own_step) {
-  WayFamily family{way.family(), {}};
-  if (way.stepless()) {
-    family.ways = {way};
-  } else if (way.integrator == "rk4") {
+SetupFamily family_of(RungSetup setup, double own_step) {
+  SetupFamily family{setup.family(), {}};
+  if (setup.stepless()) {
+    family.setups = {setup};
+  } else if (setup.integrator == "rk4") {
     for (double share : kShares) {
-      way.step = share * own_step;
-      family.ways.push_back(way);
+      setup.step = share * own_step;
+      family.setups.push_back(setup);
     }
   } else {
     for (double tolerance : kTolerances) {
-      way.tolerance = tolerance;
-      family.ways.push_back(way);
+      setup.tolerance = tolerance;
+      family.setups.push_back(setup);
     }
   }
   return family;
@@ -34,11 +34,11 @@ WayFamily family_of(Way way, double own_step) {
 
 }  // namespace
 
-std::vector<WayFamily> chart_ways(double own_step) {
-  std::vector<WayFamily> families;
-  const auto add = [&](const Way& way) { families.push_back(family_of(way, own_step)); };
+std::vector<SetupFamily> chart_ways(double own_step) {
+  std::vector<SetupFamily> families;
+  const auto add = [&](const RungSetup& setup) { families.push_back(family_of(setup, own_step)); };
   for (const std::string& rung : rung_names()) {
-    if (Way{.rung = rung}.stepless()) add({.rung = rung});
+    if (RungSetup{.rung = rung}.stepless()) add({.rung = rung});
     if (rung != "multibody") {
       for (const std::string& integrator : integrator_names(rung)) add({.rung = rung, .integrator = integrator});
       continue;
@@ -55,7 +55,7 @@ std::vector<WayFamily> chart_ways(double own_step) {
   return families;
 }
 
-Way papers_way() {
+RungSetup papers_way() {
   return {.rung = "multibody",
           .formulation = "paper",
           .stabilisation = "baumgarte",
@@ -63,13 +63,13 @@ Way papers_way() {
           .step = kPaperStep};
 }
 
-std::string fineness(const Way& way) {
+std::string fineness(const RungSetup& setup) {
   char text[60];
-  if (way.stepless()) return "no steps";
-  if (way.tolerance > 0.0)
-    std::snprintf(text, sizeof text, "tolerance %.3g", way.tolerance);
+  if (setup.stepless()) return "no steps";
+  if (setup.tolerance > 0.0)
+    std::snprintf(text, sizeof text, "tolerance %.3g", setup.tolerance);
   else
-    std::snprintf(text, sizeof text, "h = %.4g us", 1e6 * way.step);
+    std::snprintf(text, sizeof text, "h = %.4g us", 1e6 * setup.step);
   return text;
 }
 

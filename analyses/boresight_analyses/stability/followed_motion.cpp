@@ -1,4 +1,4 @@
-#include "boresight_analyses/stability/followed.hpp"
+#include "boresight_analyses/stability/followed_motion.hpp"
 
 #include <algorithm>
 
@@ -22,7 +22,7 @@ RunResult run(const Rung& rung, const Mechanism& mechanism, double until) {
 
 }  // namespace
 
-RunOptions Followed::options(double at_step) const {
+RunOptions FollowedMotion::options(double at_step) const {
   RunOptions options;
   options.step = at_step;
   options.sample_spacing = 0.0;
@@ -31,10 +31,10 @@ RunOptions Followed::options(double at_step) const {
   return options;
 }
 
-Followed follow(const std::shared_ptr<const Mechanism>& mechanism) {
+FollowedMotion follow(const std::shared_ptr<const Mechanism>& mechanism) {
   // A rung's own step is the paper's or shorter, so this much is a hundred thousand steps or more.
   const double until = std::min(mechanism->duration(), kMostSteps * kPaperStep);
-  Followed followed;
+  FollowedMotion followed;
   try {
     followed.rung = make_rung("perturbation", mechanism);
     followed.result = run(*followed.rung, *mechanism, until);

@@ -21,11 +21,11 @@
 
 namespace boresight {
 
-enum class DesignKind { random, lhs, sobol };
-const char* to_string(DesignKind kind);
+enum class SamplingKind { random, lhs, sobol };
+const char* to_string(SamplingKind kind);
 
-struct DesignOptions {
-  DesignKind kind = DesignKind::random;
+struct SamplingOptions {
+  SamplingKind kind = SamplingKind::random;
   std::uint64_t seed = 1;
   std::uint64_t strata = 100;     // lhs: points per hypercube
   std::uint64_t replicates = 16;  // sobol: nets
@@ -33,12 +33,12 @@ struct DesignOptions {
   std::string text() const;  // equal texts give equal points
 };
 
-class Design {
+class SamplingDesign {
  public:
   // Throws std::invalid_argument for options out of range.
-  Design(const DesignOptions& options, int dimensions);
+  SamplingDesign(const SamplingOptions& options, int dimensions);
 
-  const DesignOptions& options() const { return options_; }
+  const SamplingOptions& options() const { return options_; }
   int dimensions() const { return dimensions_; }
   // Coordinates in (0, 1).
   void point(std::uint64_t k, std::span<double> coordinates) const;
@@ -53,7 +53,7 @@ class Design {
   std::string warning(std::uint64_t n) const;
 
  private:
-  DesignOptions options_;
+  SamplingOptions options_;
   int dimensions_;
   std::unique_ptr<const SobolNet> net_;
 };

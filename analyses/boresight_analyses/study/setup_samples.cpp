@@ -1,4 +1,4 @@
-#include "boresight_analyses/study/way_samples.hpp"
+#include "boresight_analyses/study/setup_samples.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -10,22 +10,22 @@
 
 namespace boresight {
 
-WaySamples::WaySamples(std::shared_ptr<const Mechanism> mechanism, const std::vector<Parameters>& samples, Way way,
-                       const IndexChoice& index, bool scene_varies)
-    : way_(std::move(way)), outcome_(samples.size()), asked_(samples.size(), false) {
+SetupSamples::SetupSamples(std::shared_ptr<const Mechanism> mechanism, const std::vector<Parameters>& samples,
+                           RungSetup setup, const IndexChoice& index, bool scene_varies)
+    : setup_(std::move(setup)), outcome_(samples.size()), asked_(samples.size(), false) {
   // A sample's only value is its place in the list.
   const auto parameters_of = [&samples](std::span<const double> values) {
     return samples[static_cast<std::size_t>(values[0])];
   };
-  if (way_.lanes)
+  if (setup_.lanes)
     model_ = std::make_unique<LaneSampleModel>(std::move(mechanism), parameters_of, index, scene_varies,
-                                               way_.tolerance > 0.0 ? way_.tolerance : kLaneTolerance);
+                                               setup_.tolerance > 0.0 ? setup_.tolerance : kLaneTolerance);
   else
-    model_ = std::make_unique<RungSampleModel>(way_.rung, std::move(mechanism), parameters_of, index, way_.options(),
-                                               scene_varies);
+    model_ = std::make_unique<RungSampleModel>(setup_.rung, std::move(mechanism), parameters_of, index,
+                                               setup_.options(), scene_varies);
 }
 
-bool WaySamples::compute(const std::vector<std::size_t>& which, int jobs, const std::function<bool()>& advance) {
+bool SetupSamples::compute(const std::vector<std::size_t>& which, int jobs, const std::function<bool()>& advance) {
   std::vector<std::size_t> open;
   for (std::size_t k : which)
     if (!asked_[k]) open.push_back(k);
@@ -65,13 +65,13 @@ bool WaySamples::compute(const std::vector<std::size_t>& which, int jobs, const 
   return !stop;
 }
 
-std::vector<double> WaySamples::values(const std::vector<std::size_t>& which) const {
+std::vector<double> SetupSamples::values(const std::vector<std::size_t>& which) const {
   std::vector<double> values;
   for (std::size_t k : which) values.push_back(value(k));
   return values;
 }
 
-double WaySamples::cpu_seconds() const {
+double SetupSamples::cpu_seconds() const {
   std::vector<double> cpu;
   for (std::size_t k = 0; k < outcome_.size(); ++k)
     if (asked_[k] && outcome_[k].status == Outcome::Status::done) cpu.push_back(outcome_[k].cpu_seconds);
@@ -81,7 +81,7 @@ double WaySamples::cpu_seconds() const {
   return *middle;
 }
 
-double WaySamples::estimate() const {
+double SetupSamples::estimate() const {
   double largest = 0.0;
   for (std::size_t k = 0; k < outcome_.size(); ++k)
     if (asked_[k] && outcome_[k].status == Outcome::Status::done) largest = std::max(largest, outcome_[k].model_error);
