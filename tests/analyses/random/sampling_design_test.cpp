@@ -36,10 +36,10 @@ TEST(CounterStream, NeverReachesZeroOrOne) {
   EXPECT_LT(CounterStream::to_unit(~std::uint64_t{0}), 1.0);
 }
 
-TEST(Design, PointsDependOnSeedAndNumberAlone) {
+TEST(SamplingDesign, PointsDependOnSeedAndNumberAlone) {
   for (const SamplingKind kind : {SamplingKind::random, SamplingKind::lhs, SamplingKind::sobol}) {
     const SamplingOptions options{.kind = kind, .seed = 7};
-    const Design one(options, 3), other(options, 3), wider(options, 5);
+    const SamplingDesign one(options, 3), other(options, 3), wider(options, 5);
     for (const std::uint64_t k : {0ull, 1ull, 999ull, 123456789ull}) {
       EXPECT_EQ(point(one, k), point(other, k));
       std::vector<double> first = point(wider, k);
@@ -52,7 +52,7 @@ TEST(Design, PointsDependOnSeedAndNumberAlone) {
   }
 }
 
-TEST(Design, EachHypercubeHasOnePointInEveryStratumOfEveryDimension) {
+TEST(SamplingDesign, EachHypercubeHasOnePointInEveryStratumOfEveryDimension) {
   const SamplingDesign design({.kind = SamplingKind::lhs, .seed = 3, .strata = 37}, 4);
   for (std::uint64_t cube = 0; cube < 5; ++cube)
     for (std::size_t d = 0; d < 4; ++d) {
@@ -124,7 +124,7 @@ TEST(SobolNet, EveryPointIsUniformOverScramblings) {
   }
 }
 
-TEST(Design, NetsIntegrateSmoothFunctionsFarBetterThanIndependentPoints) {
+TEST(SamplingDesign, NetsIntegrateSmoothFunctionsFarBetterThanIndependentPoints) {
   // f = product of (1 + (u_d - 1/2)), integral 1.
   const auto error = [](SamplingKind kind) {
     double squares = 0.0;
@@ -147,7 +147,7 @@ TEST(Design, NetsIntegrateSmoothFunctionsFarBetterThanIndependentPoints) {
   EXPECT_LT(error(SamplingKind::sobol), random / 50.0);
 }
 
-TEST(Design, SaysWhenANetLosesItsBalance) {
+TEST(SamplingDesign, SaysWhenANetLosesItsBalance) {
   const SamplingDesign design({.kind = SamplingKind::sobol, .replicates = 16}, 2);
   EXPECT_EQ(design.warning(16 * 512), "");
   EXPECT_NE(design.warning(10000).find("8192 or 16384"), std::string::npos) << design.warning(10000);
@@ -161,7 +161,7 @@ TEST(Design, SaysWhenANetLosesItsBalance) {
   EXPECT_EQ(SamplingDesign({.kind = SamplingKind::random}, 2).whole_points(10007), 10007u);
 }
 
-TEST(Design, IndependentPointsAreUniformInEveryDimension) {
+TEST(SamplingDesign, IndependentPointsAreUniformInEveryDimension) {
   const SamplingDesign design({.kind = SamplingKind::random, .seed = 2}, 3);
   for (std::size_t d = 0; d < 3; ++d) {
     std::vector<double> u;
