@@ -7,6 +7,7 @@
 #include "boresight/io/units.hpp"
 #include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/allocation/allocation_keys.hpp"
 #include "boresight_analyses/allocation/confirmation.hpp"
 #include "boresight_analyses/random/fit_size.hpp"
 #include "boresight_analyses/statistics/binomial.hpp"
@@ -14,18 +15,12 @@
 namespace boresight {
 namespace {
 
-double positive_price(Cursor& entry) {
-  const double price = entry.number("price");
-  entry.require(price >= 0.0, "price", "a price, 0 or more");
-  return price;
-}
-
 // `journals`: those that the fits are for, where they are known yet.
 std::vector<AllocationOption> read_fits(Cursor& table, ZoneLaw law, const std::vector<JournalSize>& journals = {}) {
   std::vector<AllocationOption> options;
   for (Cursor& entry : table.tables("fits")) {
-    entry.only({"fit", "price"});
-    AllocationOption option{.name = entry.text("fit"), .price = positive_price(entry), .gap = {}};
+    entry.only(allocate_fit_keys());
+    AllocationOption option{.name = entry.text("fit"), .price = entry.number("price"), .gap = {}};
     try {
       const Fit fit = parse_fit(option.name);
       entry.require(fit.least_clearance() >= 0.0, "fit", "a fit with clearance");
@@ -45,11 +40,10 @@ std::vector<AllocationOption> read_fits(Cursor& table, ZoneLaw law, const std::v
 std::vector<AllocationOption> read_processes(Cursor& joint, double least, ZoneLaw law) {
   std::vector<AllocationOption> options;
   for (Cursor& entry : joint.tables("processes")) {
-    entry.only({"name", "tolerance", "price"});
-    const double tolerance = entry.quantity("tolerance", kLength);
-    entry.require(tolerance > 0.0, "tolerance", "more than 0");
+    entry.only(allocate_process_keys());
+    const double tolerance = entry.quantity("tolerance");
     entry.require(!entry.text("name").empty(), "name", "a name");
-    options.push_back({entry.text("name"), positive_price(entry), make_zone(least, tolerance, law)});
+    options.push_back({entry.text("name"), entry.number("price"), make_zone(least, tolerance, law)});
     entry.finish();
   }
   if (options.empty()) joint.fail("processes", "at least one { name = .., tolerance = .., price = .. }");
@@ -58,15 +52,12 @@ std::vector<AllocationOption> read_processes(Cursor& joint, double least, ZoneLa
 
 ContinuousJoint read_curve(Cursor& joint) {
   Cursor cost = joint.table("cost");
-  cost.only({"law", "a", "b", "k", "unit"});
-  const std::string law = cost.choice("law", cost_law_names(), "reciprocal");
-  const double a = cost.number("a", 0.0), b = cost.number("b");
-  cost.require(a >= 0.0, "a", "0 or more");
-  cost.require(b > 0.0, "b", "more than 0: a wider tolerance never costs more");
+  cost.only(allocate_cost_keys());
+  const std::string law = cost.choice("law");
+  const double a = cost.number("a"), b = cost.number("b");
   if (cost.has("k") && law != "reciprocal-power") cost.fail("k", "k with law = \"reciprocal-power\" only");
   const double k = law == "reciprocal-power" ? cost.number("k") : 1.0;
-  cost.require(k > 0.0, "k", "more than 0");
-  const std::string unit = cost.text("unit", "mm");
+  const std::string unit = cost.text("unit");
   double metres = 1e-3;
   try {
     metres = scale_of_unit(unit, kLength);
@@ -74,8 +65,8 @@ ContinuousJoint read_curve(Cursor& joint) {
     cost.fail_found("unit", fault.found, fault.expected, fault.nearest);
   }
   cost.finish();
-  const std::vector<double> bounds = joint.quantities("tolerance", kLength);
-  joint.require(bounds.size() == 2 && bounds[0] > 0.0 && bounds[0] < bounds[1], "tolerance",
+  const std::vector<double> bounds = joint.quantities("tolerance");
+  joint.require(bounds[0] > 0.0 && bounds[0] < bounds[1], "tolerance",
                 "two lengths, the tightest and the widest tolerance");
   return {make_cost_curve(law, a, b, k, metres), bounds[0], bounds[1]};
 }
@@ -103,10 +94,9 @@ void check_gaps(Cursor& entry, const AllocationJoint& joint, const std::function
 
 AllocationJoint read_joint(Cursor& entry, const std::vector<AllocationOption>& common, ZoneLaw law,
                            const MechanismDescription& mechanism, const std::function<void(const Setting&)>& accepts) {
-  entry.only({"parameter", "fits", "processes", "cost", "tolerance", "least"});
+  entry.only(allocate_joint_keys());
   AllocationJoint joint;
-  joint.paths =
-      entry.is_list("parameter") ? entry.texts("parameter") : std::vector<std::string>{entry.text("parameter")};
+  joint.paths = entry.one_or_texts("parameter");
   entry.require(!joint.paths.empty(), "parameter", "the path of a radial clearance, or a list of them");
   std::vector<JournalSize> journals;
   for (const std::string& path : joint.paths) {
@@ -120,8 +110,7 @@ AllocationJoint read_joint(Cursor& entry, const std::vector<AllocationOption>& c
   if (kinds > 1) entry.fail("parameter", "one of fits, processes and cost");
   if (entry.has("least") && !entry.has("processes") && !entry.has("cost"))
     entry.fail("least", "least with processes or cost only: a fit has its own");
-  joint.least = entry.quantity("least", kLength, 0.0);
-  entry.require(joint.least >= 0.0, "least", "0 or more");
+  joint.least = entry.quantity("least");
   if (entry.has("tolerance") && !entry.has("cost")) entry.fail("tolerance", "tolerance with cost only");
   if (entry.has("fits")) {
     joint.options = read_fits(entry, law, journals);
@@ -168,7 +157,7 @@ std::string AllocationPlan::sample_text(const Study& study) const {
 AllocationPlan read_allocation_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
                                     const std::function<void(const Setting&)>& accepts) {
   Cursor table = root.table("allocate");
-  table.only({"requirement", "samples", "confirm", "seed", "zone", "front", "fits", "joint"});
+  table.only(allocate_keys());
   AllocationPlan plan;
   Cursor asked = table.table("requirement");
   plan.requirement = read_requirement(asked, study);
@@ -183,9 +172,9 @@ AllocationPlan read_allocation_plan(Cursor& root, const Study& study, const Mech
   const auto shows = static_cast<std::size_t>(
       wilks_one_sided(plan.requirement.probability, confirmation_confidence(plan.requirement)));
   plan.confirm = std::max(plan.confirm, shows);
-  plan.seed = count("seed", 0, 1'000'000'000, 1);
-  plan.front = static_cast<int>(count("front", 0, 50, 6));
-  plan.zone = table.choice("zone", {"normal", "uniform"}, "normal") == "uniform" ? ZoneLaw::uniform : ZoneLaw::normal;
+  plan.seed = static_cast<std::uint64_t>(table.integer("seed"));
+  plan.front = static_cast<int>(table.integer("front"));
+  plan.zone = table.choice("zone") == "uniform" ? ZoneLaw::uniform : ZoneLaw::normal;
   std::vector<AllocationOption> common;
   if (table.has("fits")) common = read_fits(table, plan.zone);
   std::set<std::string> taken;

@@ -8,13 +8,12 @@
 #include "boresight/io/referred_file.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/budget/budget_keys.hpp"
 #include "boresight_analyses/random/read_distribution.hpp"
-#include "boresight_analyses/study/plan_values.hpp"
 
 namespace boresight {
 namespace {
 
-constexpr long long kMostMembers = 5'000;  // whose histories are held at once
 constexpr double kMostHistorySamples = 100'000;
 constexpr double kUsualHistorySamples = 2000.0;
 
@@ -26,17 +25,10 @@ std::vector<std::string> names_of(const Values& values) {
 }
 
 template <typename Values>
-auto chosen(Cursor& table, const std::string& key, const Values& values, const std::string& otherwise = "") {
+auto chosen(Cursor& table, const std::string& key, const Values& values) {
   const std::vector<std::string> names = names_of(values);
-  const std::string name = table.choice(key, names, otherwise);
+  const std::string name = table.choice(key);
   return values[std::find(names.begin(), names.end(), name) - names.begin()];
-}
-
-double positive_time(Cursor& table, const std::string& key, double otherwise) {
-  if (!table.has(key)) return otherwise;
-  const double time = table.quantity(key, kDuration);
-  table.require(time > 0.0, key, "more than 0");
-  return time;
 }
 
 std::size_t read_axis(Cursor& table, const std::string& key, const BudgetAxes& axes) {
@@ -46,26 +38,24 @@ std::size_t read_axis(Cursor& table, const std::string& key, const BudgetAxes& a
 }
 
 BudgetRequirement read_requirement(Cursor& table, const BudgetPlan& plan, const BudgetAxes& axes, const SiUnit& unit) {
-  table.only({"index", "axis", "interpretation", "limit", "probability", "confidence"});
+  table.only(budget_requirement_keys());
   BudgetRequirement r;
-  r.index = chosen(table, "index", kErrorIndices, "APE");
+  r.index = chosen(table, "index", kErrorIndices);
   const std::string missing = plan.windows.missing_for(r.index, plan.duration);
   if (!missing.empty())
     table.fail("index", std::string("in [budget] ") + missing + ", which " + to_string(r.index) + " needs");
   r.axis = read_axis(table, "axis", axes);
-  r.interpretation = chosen(table, "interpretation", kInterpretations, "mixed");
+  r.interpretation = chosen(table, "interpretation", kInterpretations);
   r.limit = table.quantity("limit", unit);
-  table.require(r.limit > 0.0, "limit", "more than 0");
-  r.probability = share_of(table, "probability", r.probability);
-  r.confidence = share_of(table, "confidence", r.confidence);
-  table.require(r.confidence > 0.5, "confidence", "more than 0.5 and less than 1");
+  r.probability = table.number("probability");
+  r.confidence = table.number("confidence");
   table.finish();
   return r;
 }
 
 Contributor read_contributor(Cursor& table, const BudgetPlan& plan, const BudgetAxes& axes, const SiUnit& unit,
                              const SiUnit& rate) {
-  table.only({"name", "class", "distribution", "value", "axes", "period", "correlation_time", "recalibrated", "group"});
+  table.only(budget_contributor_keys());
   constexpr ContributorClass kClasses[] = {ContributorClass::bias, ContributorClass::random, ContributorClass::periodic,
                                            ContributorClass::drift};
   Contributor c;
@@ -98,9 +88,9 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, const Budget
   if (periodic && !table.has("period")) table.fail("period", "a period, which class = \"periodic\" needs");
   if (table.has("correlation_time") && !random)
     table.fail("correlation_time", "a correlation time with class = \"random\" only");
-  c.period = positive_time(table, "period", 0.0);
-  c.correlation_time = positive_time(table, "correlation_time", plan.sampling);
-  c.recalibrated = table.boolean("recalibrated", false);
+  c.period = table.quantity("period", 0.0);
+  c.correlation_time = table.quantity("correlation_time", plan.sampling);
+  c.recalibrated = table.boolean("recalibrated");
   if (c.recalibrated && (periodic || random))
     table.fail("recalibrated", "this with class = \"bias\" or \"drift\" only");
   c.group = table.text("group", "");
@@ -109,20 +99,20 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, const Budget
 }
 
 void read_times(Cursor& table, BudgetPlan& plan, double index_start, double duration) {
-  plan.start = table.quantity("start", kDuration, index_start);
+  plan.start = table.quantity("start", index_start);
   table.require(plan.start >= 0.0 && plan.start < duration, "start", "0 or more, and before the end of the motion");
   plan.duration = duration - plan.start;
-  plan.sampling = positive_time(table, "sampling", duration / kUsualHistorySamples);
+  plan.sampling = table.quantity("sampling", duration / kUsualHistorySamples);
   table.require(duration / plan.sampling <= kMostHistorySamples && plan.sampling <= 0.1 * plan.duration, "sampling",
                 "10 to 100000 samples in the motion");
   Windows& w = plan.windows;
   w.start = plan.start;
-  w.window = positive_time(table, "window", 0.0);
+  w.window = table.quantity("window", 0.0);
   table.require(w.window == 0.0 || w.window >= 2.0 * plan.sampling, "window", "at least two samples of the history");
-  w.separation = positive_time(table, "separation", 0.0);
-  w.observation = positive_time(table, "observation", 0.0);
+  w.separation = table.quantity("separation", 0.0);
+  w.observation = table.quantity("observation", 0.0);
   table.require(w.observation <= plan.duration, "observation", "no longer than the motion from `start` on");
-  w.revisit = positive_time(table, "revisit", 0.0);
+  w.revisit = table.quantity("revisit", 0.0);
   // What is given is meant: a window that an index cannot use is a mistake, not less of a budget.
   const auto fits = [&](const char* key, ErrorIndex index) {
     const std::string missing = w.missing_for(index, plan.duration);
@@ -146,8 +136,8 @@ void read_scatter(Cursor& root, Cursor& table, BudgetPlan& plan, const Study& st
       Document document = Document::from_file(plan.posterior);
       plan.posterior_hash = document.content_hash();
       Cursor posterior(document);
-      posterior.only({"random", "correlation", "interrupted"});
-      posterior.require(!posterior.boolean("interrupted", false), "interrupted",
+      posterior.only(posterior_keys());
+      posterior.require(!posterior.boolean("interrupted"), "interrupted",
                         "the posterior of a calibration that was not interrupted");
       plan.inputs = read_random_inputs(posterior, mechanism, accepts);
     });
@@ -228,16 +218,16 @@ std::string question_of(const BudgetPlan& plan, const BudgetRequirement& r) {
 BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism, double duration,
                             const std::function<void(const Setting&)>& accepts) {
   Cursor table = root.table("budget");
-  table.only({"members", "attribution", "seed", "confidence", "sampling", "start", "window", "separation",
-              "observation", "revisit", "leave_out", "posterior", "groups", "requirement", "contributor"});
+  table.only(budget_keys());
   BudgetPlan plan;
-  plan.members = count_of(table, "members", 2, kMostMembers, static_cast<long long>(plan.members));
+  plan.members = static_cast<std::uint64_t>(table.integer("members"));
   const auto most = static_cast<long long>(plan.members);
-  plan.attribution = count_of(table, "attribution", 2, most, std::min(most, static_cast<long long>(plan.attribution)));
-  plan.seed = seed_of(table);
-  plan.confidence = share_of(table, "confidence", plan.confidence);
-  plan.leave_out = table.number("leave_out", 0.0);
-  table.require(plan.leave_out >= 0.0 && plan.leave_out < 1.0, "leave_out", "0 or more and less than 1");
+  const long long again = table.integer("attribution", std::min(most, static_cast<long long>(plan.attribution)));
+  table.require(again >= 2 && again <= most, "attribution", "2 to " + std::to_string(most));
+  plan.attribution = static_cast<std::uint64_t>(again);
+  plan.seed = static_cast<std::uint64_t>(table.integer("seed"));
+  plan.confidence = table.number("confidence");
+  plan.leave_out = table.number("leave_out");
   read_times(table, plan, study.index.start, duration);
   read_scatter(root, table, plan, study, mechanism, accepts);
   const BudgetAxes axes(study.index.kind());

@@ -6,6 +6,7 @@
 #include "boresight/io/referred_file.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/calibration/calibration_keys.hpp"
 #include "boresight_analyses/random/csv_column.hpp"
 
 namespace boresight {
@@ -23,7 +24,7 @@ std::vector<Setting> settings_of(Cursor& table) {
 }
 
 PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechanism) {
-  table.only({"path", "start", "lower", "upper"});
+  table.only(calibrate_parameter_keys());
   PlannedParameter p;
   p.path = table.text("path");
   p.origin = table.origin("path");
@@ -32,9 +33,7 @@ PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechan
   const std::string unit = ParameterPath(mechanism, p.path, p.origin).unit();
   const auto value = [&](const char* key) -> std::optional<double> {
     if (!table.has(key)) return {};
-    const double v = unit == "1" ? table.number(key) : table.quantity(key, unit_called(unit));
-    table.require(v > 0.0, key, "more than 0");
-    return v;
+    return table.value(key, unit_called(unit));
   };
   p.start = value("start");
   p.lower = value("lower");
@@ -63,64 +62,39 @@ void check_values(const PlannedParameter& p, const Mechanism& mechanism,
 
 CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism) {
   Cursor table = root.table("calibrate");
-  table.only({"window", "start", "loss", "loss_scale", "starts", "seed", "confidence", "time_offset", "mounting_bias",
-              "hold_out", "corrections", "profile", "laws", "noise", "parameter", "run", "candidate"});
+  table.only(calibrate_keys());
   CalibrationPlan plan;
-  if (table.text("window", "whole") != "whole") {
-    plan.window = table.quantity("window", kDuration);
-    table.require(plan.window > 0.0, "window", "more than 0, or \"whole\"");
-  }
-  plan.from_rest = table.choice("start", {"rest", "free"}, "rest") == "rest";
+  if (const std::optional<double> window = table.quantity_or_word("window")) plan.window = *window;
+  plan.from_rest = table.choice("start") == "rest";
   plan.data_from = study.index.start;
-  const std::string loss = table.choice("loss", {"none", "huber", "cauchy"}, "huber");
+  const std::string loss = table.choice("loss");
   plan.loss.kind = loss == "none" ? Loss::none : loss == "huber" ? Loss::huber : Loss::cauchy;
   plan.loss.scale = table.number("loss_scale", loss == "cauchy" ? 2.4 : 2.0);
-  table.require(plan.loss.scale > 0.0, "loss_scale", "more than 0 standard deviations");
-  const auto whole = [&](const char* key, long long least, long long most, long long otherwise) {
-    const long long value = table.integer(key, otherwise);
-    table.require(value >= least && value <= most, key, std::to_string(least) + " to " + std::to_string(most));
-    return value;
-  };
-  plan.starts = static_cast<int>(whole("starts", 1, 1000, 4));
-  plan.seed = static_cast<std::uint64_t>(whole("seed", 0, 1LL << 62, 1));
-  plan.corrections = static_cast<int>(whole("corrections", 0, 10, 6));
-  plan.confidence = table.number("confidence", 0.95);
-  table.require(plan.confidence > 0.5 && plan.confidence < 1.0, "confidence", "more than 0.5 and less than 1");
-  if (table.has("time_offset")) {
-    plan.largest_time_offset = table.quantity("time_offset", kDuration);
-    table.require(plan.largest_time_offset > 0.0, "time_offset", "more than 0: the largest that is possible");
-  }
-  plan.mounting_bias = table.boolean("mounting_bias", false);
-  if (table.has("hold_out")) {
-    plan.hold_out = table.quantity("hold_out", kRatio);
-    table.require(plan.hold_out > 0.0 && plan.hold_out <= 0.5, "hold_out", "more than 0 % and at most 50 %");
-  }
-  plan.profile = table.boolean("profile", true);
-  if (table.has("laws")) {
-    std::vector<std::string> known;
-    for (const NormalLawEntry& law : normal_laws()) known.emplace_back(law.name);
-    for (const std::string& law : table.texts("laws")) {
-      if (std::find(known.begin(), known.end(), law) == known.end())
-        table.fail_found("laws", in_quotes(law), "contact laws", nearest_name(law, known));
-      plan.laws.push_back(law);
-    }
-  }
+  plan.starts = static_cast<int>(table.integer("starts"));
+  plan.seed = static_cast<std::uint64_t>(table.integer("seed"));
+  plan.corrections = static_cast<int>(table.integer("corrections"));
+  plan.confidence = table.number("confidence");
+  if (table.has("time_offset")) plan.largest_time_offset = table.quantity("time_offset");
+  plan.mounting_bias = table.boolean("mounting_bias");
+  if (table.has("hold_out")) plan.hold_out = table.quantity("hold_out");
+  plan.profile = table.boolean("profile");
+  if (table.has("laws")) plan.laws = table.choices("laws");
   plan.noise =
       VecX::Constant(static_cast<Eigen::Index>(channel_names().size()), std::numeric_limits<double>::quiet_NaN());
   if (table.has("noise")) {
     Cursor noise = table.table("noise");
+    noise.only(calibrate_noise_keys());
     for (std::size_t c = 0; c < channel_names().size(); ++c) {
       const ChannelName& channel = channel_names()[c];
       if (!noise.has(channel.name)) continue;
-      plan.noise[static_cast<Eigen::Index>(c)] = noise.quantity(channel.name, unit_called(channel.si_unit));
-      noise.require(plan.noise[static_cast<Eigen::Index>(c)] > 0.0, channel.name, "more than 0");
+      plan.noise[static_cast<Eigen::Index>(c)] = noise.quantity(channel.name);
     }
     noise.finish();
   }
   for (Cursor& parameter : table.tables("parameter")) plan.parameters.push_back(read_parameter(parameter, mechanism));
   table.require(!plan.parameters.empty(), "parameter", "at least one [[calibrate.parameter]]");
   for (Cursor& run : table.tables("run")) {
-    run.only({"data", "name", "set"});
+    run.only(calibrate_run_keys());
     const std::string data = run.text("data");
     const std::string name = run.text("name", data);
     run.require(!name.empty(), "name", "a name, or no key at all");
@@ -129,7 +103,7 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
   }
   table.require(!plan.runs.empty(), "run", "at least one [[calibrate.run]]");
   for (Cursor& candidate : table.tables("candidate")) {
-    candidate.only({"name", "set"});
+    candidate.only(calibrate_candidate_keys());
     const std::string name = candidate.text("name");
     candidate.require(!name.empty(), "name", "a name");
     plan.candidates.push_back({name, "", settings_of(candidate), candidate.origin()});

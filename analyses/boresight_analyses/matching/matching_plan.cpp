@@ -3,36 +3,29 @@
 #include <algorithm>
 #include <set>
 
-#include "boresight/io/names_of.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight_analyses/matching/design_slopes.hpp"
-#include "boresight_analyses/optimise/minimise.hpp"
-#include "boresight_analyses/study/plan_values.hpp"
+#include "boresight_analyses/matching/matching_keys.hpp"
 
 namespace boresight {
 namespace {
 
 MeasureChoice read_measure(Cursor& table, const std::string& key) {
   MeasureChoice m;
-  const std::string measure = table.choice(key, names_of(measure_names()), "index");
+  const std::string measure = table.choice(key);
   for (const MeasureName& name : measure_names())
     if (measure == name.name) m.measure = name.measure;
-  const std::string over = table.choice("over", names_of(over_names()), "nominal");
+  const std::string over = table.choice("over");
   for (const OverName& name : over_names())
     if (over == name.name) m.over = name.over;
   if (table.has("probability")) {
     if (m.over != Over::quantile) table.fail("probability", "probability with over = \"quantile\" only");
     m.probability = table.number("probability");
-    table.require(m.probability > 0.0 && m.probability < 1.0, "probability", "more than 0 and less than 1");
   }
   return m;
 }
 
-int count(Cursor& table, const std::string& key, long long least, long long most, int otherwise) {
-  const long long value = table.integer(key, otherwise);
-  table.require(value >= least && value <= most, key, std::to_string(least) + " to " + std::to_string(most));
-  return static_cast<int>(value);
-}
+int count(Cursor& table, const char* key) { return static_cast<int>(table.integer(key)); }
 
 }  // namespace
 
@@ -67,38 +60,35 @@ std::string MatchingPlan::sample_text(const Study& study) const {
 MatchingPlan read_matching_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
                                 const std::function<void(const Setting&)>& accepts) {
   Cursor table = root.table("match");
-  table.only({"minimise", "over", "probability", "samples", "seed", "evaluations", "tolerance", "global", "local",
-              "map", "front", "confirm", "variable", "constraint"});
+  table.only(match_keys());
   MatchingPlan plan;
   plan.objective = read_measure(table, "minimise");
   bool scatters = plan.objective.over != Over::nominal;
   for (Cursor& entry : table.tables("constraint")) {
-    entry.only({"measure", "at_most", "over", "probability"});
+    entry.only(match_constraint_keys());
     MatchingConstraint c;
     c.measure = read_measure(entry, "measure");
     const std::string unit = c.measure.si_unit(study.index);
-    c.at_most = unit == "1" ? entry.number("at_most") : entry.quantity("at_most", unit_called(unit));
-    entry.require(c.at_most > 0.0, "at_most", "more than 0");
+    c.at_most = entry.value("at_most", unit_called(unit));
     if ((c.measure.over == Over::nominal) != (plan.objective.over == Over::nominal))
       entry.fail("over", "nominal for the objective and all constraints, or for none of them");
     scatters = scatters || c.measure.over != Over::nominal;
     plan.constraints.push_back(c);
     entry.finish();
   }
-  plan.samples = static_cast<std::size_t>(count(table, "samples", 2, 1'000'000, 32));
-  plan.confirm = static_cast<std::size_t>(count(table, "confirm", 2, 1'000'000, 64));
+  plan.samples = static_cast<std::size_t>(table.integer("samples"));
+  plan.confirm = static_cast<std::size_t>(table.integer("confirm"));
   if (!scatters)
     for (const char* key : {"samples", "confirm"})
       if (table.has(key)) table.fail(key, std::string(key) + " with over = \"mean\", \"quantile\" or \"worst\" only");
-  plan.seed = seed_of(table);
-  plan.evaluations = count(table, "evaluations", 1, 1'000'000, plan.evaluations);
-  plan.tolerance = table.number("tolerance", plan.tolerance);
-  table.require(plan.tolerance > 0.0 && plan.tolerance < 1.0, "tolerance", "more than 0 and less than 1");
-  plan.global = table.choice("global", global_algorithms(), "auto");
-  plan.local = table.choice("local", local_algorithms(), "auto");
-  plan.map = count(table, "map", 0, 200, plan.map);
+  plan.seed = static_cast<std::uint64_t>(table.integer("seed"));
+  plan.evaluations = count(table, "evaluations");
+  plan.tolerance = table.number("tolerance");
+  plan.global = table.choice("global");
+  plan.local = table.choice("local");
+  plan.map = count(table, "map");
   if (plan.map == 1) table.fail("map", "0, or 2 to 200");
-  plan.front = count(table, "front", 0, 100, plan.front);
+  plan.front = count(table, "front");
 
   std::set<std::string> taken;
   for (Cursor& entry : table.tables("variable")) {

@@ -5,53 +5,36 @@
 
 #include "boresight/io/units.hpp"
 #include "boresight/io/value_fault.hpp"
-#include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
-#include "boresight_analyses/study/plan_values.hpp"
+#include "boresight_analyses/montecarlo/montecarlo_keys.hpp"
 
 namespace boresight {
 namespace {
 
-constexpr long long kMostPerReplicate = 1'000'000;
-
 SiUnit unit_of_index(const std::string& si_unit) { return si_unit == "rad" ? kAngle : kLength; }
 
 StopRule read_stop(Cursor table) {
-  table.only({"width", "of", "time"});
+  table.only(stop_keys());
   StopRule stop;
-  if (table.has("width")) {
-    stop.width = table.quantity("width", kRatio);
-    table.require(stop.width > 0.0 && stop.width < 1.0, "width", "more than 0 % and less than 100 %");
-  }
-  std::vector<std::string> names;
-  for (const Headline& h : headlines()) names.emplace_back(h.name);
-  stop.of = table.choice("of", names, stop.of);
-  if (table.has("time")) {
-    stop.seconds = table.quantity("time", kDuration);
-    table.require(stop.seconds > 0.0, "time", "more than 0");
-  }
+  if (table.has("width")) stop.width = table.quantity("width");
+  stop.of = table.choice("of");
+  if (table.has("time")) stop.seconds = table.quantity("time");
   table.require(stop.width > 0.0 || stop.seconds > 0.0, "width", "width, or time, or both");
   table.finish();
   return stop;
 }
 
 void read_budget(Cursor& table, double& budget, std::uint64_t& pilot) {
-  budget = table.quantity("budget", kDuration);
-  table.require(budget > 0.0, "budget", "more than 0");
-  const long long samples = table.integer("pilot", static_cast<long long>(pilot));
-  table.require(samples >= 10 && samples <= 100'000, "pilot", "10 to 100000");
-  pilot = static_cast<std::uint64_t>(samples);
+  budget = table.quantity("budget");
+  pilot = static_cast<std::uint64_t>(table.integer("pilot"));
 }
 
 FidelityQuestion read_fidelities(Cursor table) {
-  table.only({"models", "budget", "pilot"});
+  table.only(fidelities_keys());
   FidelityQuestion q;
-  q.models = table.texts("models");
-  const std::vector<std::string> known = rung_names();
+  q.models = table.choices("models");
   for (std::size_t i = 0; i < q.models.size(); ++i) {
     const std::string& name = q.models[i];
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      table.fail_found("models", "\"" + name + "\"", "the name of a rung", nearest_name(name, known));
     if (std::find(q.models.begin(), q.models.begin() + static_cast<std::ptrdiff_t>(i), name) !=
         q.models.begin() + static_cast<std::ptrdiff_t>(i))
       table.fail_found("models", "\"" + name + "\" a second time", "each rung once");
@@ -63,10 +46,10 @@ FidelityQuestion read_fidelities(Cursor table) {
 }
 
 TailQuestion read_tail(Cursor table) {
-  table.only({"cheap", "exact", "budget", "pilot"});
+  table.only(tail_keys());
   TailQuestion q;
-  q.cheap = table.choice("cheap", rung_names(), "perturbation");
-  q.exact = table.choice("exact", rung_names(), "multibody");
+  q.cheap = table.choice("cheap");
+  q.exact = table.choice("exact");
   table.require(q.cheap != q.exact, "cheap", "another rung than exact");
   read_budget(table, q.budget, q.pilot);
   table.finish();
@@ -76,13 +59,11 @@ TailQuestion read_tail(Cursor table) {
 }  // namespace
 
 Requirement read_requirement(Cursor table, const Study& study) {
-  table.only({"limit", "probability", "confidence"});
+  table.only(requirement_keys());
   Requirement r;
   r.limit = table.quantity("limit", unit_of_index(study.index.si_unit()));
-  table.require(r.limit > 0.0, "limit", "more than 0");
-  r.probability = share_of(table, "probability", r.probability);
-  r.confidence = share_of(table, "confidence", r.confidence);
-  table.require(r.confidence > 0.5, "confidence", "more than 0.5 and less than 1");
+  r.probability = table.number("probability");
+  r.confidence = table.number("confidence");
   table.finish();
   return r;
 }
@@ -121,27 +102,23 @@ std::string MonteCarloPlan::sample_text(const Study& study) const {
 MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism,
                                     const std::function<void(const Setting&)>& accepts) {
   Cursor table = root.table("montecarlo");
-  table.only(
-      {"samples", "seed", "design", "strata", "replicates", "confidence", "requirement", "stop", "fidelities", "tail"});
+  table.only(montecarlo_keys());
   MonteCarloPlan plan;
   // Those that have a budget take as many samples as it pays.
   const bool by_budget = table.has("fidelities") || table.has("tail");
   const long long samples = by_budget ? table.integer("samples", 1) : table.integer("samples");
-  table.require(samples >= 1 && static_cast<std::uint64_t>(samples) <= kMostMonteCarloSamples, "samples",
-                "1 to " + std::to_string(kMostMonteCarloSamples));
   plan.samples = static_cast<std::uint64_t>(samples);
-  plan.design.seed = seed_of(table);
+  plan.design.seed = static_cast<std::uint64_t>(table.integer("seed"));
 
-  const std::string design = table.choice("design", {"random", "lhs", "sobol"}, "random");
+  const std::string design = table.choice("design");
   for (const SamplingKind kind : {SamplingKind::random, SamplingKind::lhs, SamplingKind::sobol})
     if (design == to_string(kind)) plan.design.kind = kind;
   if (table.has("strata") && plan.design.kind != SamplingKind::lhs)
     table.fail("strata", "strata with design = \"lhs\" only");
   if (table.has("replicates") && plan.design.kind != SamplingKind::sobol)
     table.fail("replicates", "replicates with design = \"sobol\" only");
-  plan.design.strata = count_of(table, "strata", 2, kMostPerReplicate, static_cast<long long>(plan.design.strata));
-  plan.design.replicates =
-      count_of(table, "replicates", 2, kMostPerReplicate, static_cast<long long>(plan.design.replicates));
+  plan.design.strata = static_cast<std::uint64_t>(table.integer("strata"));
+  plan.design.replicates = static_cast<std::uint64_t>(table.integer("replicates"));
   const std::uint64_t unit = plan.design.kind == SamplingKind::lhs     ? plan.design.strata
                              : plan.design.kind == SamplingKind::sobol ? plan.design.replicates
                                                                        : 1;
@@ -151,7 +128,7 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
                               std::to_string(unit) + "), at least twice: " +
                               std::to_string(std::max<std::uint64_t>(2, (plan.samples + unit - 1) / unit) * unit));
 
-  plan.confidence = share_of(table, "confidence", plan.confidence);
+  plan.confidence = table.number("confidence");
   if (table.has("requirement")) plan.requirement = read_requirement(table.table("requirement"), study);
   if (table.has("stop")) plan.stop = read_stop(table.table("stop"));
   if (table.has("fidelities")) plan.fidelities = read_fidelities(table.table("fidelities"));

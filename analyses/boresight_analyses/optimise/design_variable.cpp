@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/optimise/design_variable_keys.hpp"
 
 namespace boresight {
 
@@ -16,9 +17,9 @@ double DesignVariable::from_search(double x) const {
 
 DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& mechanism,
                                     const std::function<void(const Setting&)>& accepts) {
-  entry.only({"parameter", "from", "to", "starts", "scale"});
+  entry.only(design_variable_keys());
   DesignVariable v;
-  v.paths = entry.is_list("parameter") ? entry.texts("parameter") : std::vector<std::string>{entry.text("parameter")};
+  v.paths = entry.one_or_texts("parameter");
   entry.require(!v.paths.empty(), "parameter", "a parameter's path, or a list of them");
   for (const std::string& path : v.paths) {
     v.places.emplace_back(mechanism, path, entry.origin("parameter"));
@@ -29,13 +30,13 @@ DesignVariable read_design_variable(Cursor& entry, const MechanismDescription& m
   }
   const bool pure = v.si_unit == "1";
   const SiUnit unit = unit_called(v.si_unit);
-  v.from = pure ? entry.number("from") : entry.quantity("from", unit);
-  v.to = pure ? entry.number("to") : entry.quantity("to", unit);
+  v.from = entry.value("from", unit);
+  v.to = entry.value("to", unit);
   entry.require(v.from < v.to, "to", "more than from");
-  v.log = entry.choice("scale", {"linear", "log"}, "linear") == "log";
+  v.log = entry.choice("scale") == "log";
   if (v.log) entry.require(v.from > 0.0, "from", "more than 0, as the scale is \"log\"");
   if (entry.has("starts")) {
-    v.starts = pure ? entry.numbers("starts") : entry.quantities("starts", unit);
+    v.starts = entry.values("starts", unit);
     for (const double start : v.starts)
       entry.require(start >= v.from && start <= v.to, "starts", "values between from and to");
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/random/random_keys.hpp"
 
 namespace boresight {
 namespace {
@@ -26,6 +27,7 @@ NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs) {
   std::vector<bool> taken(d, false);
   if (table.has("groups")) {
     Cursor groups = table.table("groups");
+    groups.only(groups_keys());
     for (const std::string& name : groups.keys()) {
       std::vector<int> members;
       for (const std::string& path : groups.texts(name)) {

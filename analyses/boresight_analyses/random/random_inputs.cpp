@@ -9,6 +9,7 @@
 
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/random/random_keys.hpp"
 #include "boresight_analyses/random/read_distribution.hpp"
 
 namespace boresight {
@@ -32,10 +33,9 @@ void check_ends(Cursor& entry, const RandomParameter& random, const std::functio
 
 RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechanism,
                                const std::function<void(const Setting&)>& accepts) {
-  entry.only({"parameter", "distribution"});
+  entry.only(random_keys());
   RandomParameter random;
-  random.paths =
-      entry.is_list("parameter") ? entry.texts("parameter") : std::vector<std::string>{entry.text("parameter")};
+  random.paths = entry.one_or_texts("parameter");
   entry.require(!random.paths.empty(), "parameter", "a parameter's path, or a list of them");
   std::vector<JournalSize> journals;
   bool radial = true;
@@ -71,8 +71,7 @@ std::vector<std::string> meant_by(const MechanismDescription& mechanism, const s
 
 double normal_correlation(Cursor& entry) {
   const double coefficient = entry.number("coefficient");
-  entry.require(coefficient > -1.0 && coefficient < 1.0, "coefficient", "more than -1 and less than 1");
-  const std::string measure = entry.choice("measure", {"normal", "spearman", "kendall"}, "normal");
+  const std::string measure = entry.choice("measure");
   if (measure == "spearman") return normal_from_spearman(coefficient);
   return measure == "kendall" ? normal_from_kendall(coefficient) : coefficient;
 }
@@ -90,9 +89,8 @@ void read_correlations(Cursor& root, RandomInputs& inputs) {
   Eigen::MatrixXd correlation =
       Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(inputs.size()), static_cast<Eigen::Index>(inputs.size()));
   for (Cursor& entry : entries) {
-    entry.only({"parameters", "coefficient", "measure"});
+    entry.only(correlation_keys());
     const std::vector<std::string> pair = entry.texts("parameters");
-    entry.require(pair.size() == 2, "parameters", "two parameters");
     for (const std::string& path : pair)
       if (!index.contains(path))
         entry.fail_found("parameters", "\"" + path + "\"", "a parameter of a [[random]] table",

@@ -8,82 +8,48 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/random/csv_column.hpp"
 #include "boresight_analyses/random/fit_clearance.hpp"
+#include "boresight_analyses/random/random_keys.hpp"
 
 namespace boresight {
 namespace {
 
-// Values of the parameter: with their unit, or pure numbers.
-class Values {
- public:
-  explicit Values(const SiUnit& unit) : unit_(unit), pure_(std::string(unit.unit) == "1") {}
-  bool pure() const { return pure_; }
-  const SiUnit& unit() const { return unit_; }
-  double one(Cursor& table, const std::string& key) const {
-    return pure_ ? table.number(key) : table.quantity(key, unit_);
-  }
-  double one(Cursor& table, const std::string& key, double otherwise) const {
-    return table.has(key) ? one(table, key) : otherwise;
-  }
-  std::vector<double> many(Cursor& table, const std::string& key) const {
-    return pure_ ? table.numbers(key) : table.quantities(key, unit_);
-  }
-
- private:
-  const SiUnit& unit_;
-  bool pure_;
-};
-
-DistributionPtr normal(Cursor& table, const Values& values) {
-  table.only({"mean", "sd"});
-  const double mean = values.one(table, "mean"), sd = values.one(table, "sd");
-  table.require(sd > 0.0, "sd", "more than 0");
+DistributionPtr normal(Cursor& table, const SiUnit& unit) {
+  const double mean = table.value("mean", unit), sd = table.value("sd", unit);
   return make_normal(mean, sd);
 }
 
-DistributionPtr uniform(Cursor& table, const Values& values) {
-  table.only({"min", "max"});
-  const double min = values.one(table, "min"), max = values.one(table, "max");
+DistributionPtr uniform(Cursor& table, const SiUnit& unit) {
+  const double min = table.value("min", unit), max = table.value("max", unit);
   table.require(max > min, "max", "more than min");
   return make_uniform(min, max);
 }
 
-DistributionPtr lognormal(Cursor& table, const Values& values) {
-  table.only({"median", "factor"});
-  const double median = values.one(table, "median"), factor = table.number("factor");
-  table.require(median > 0.0, "median", "more than 0");
-  table.require(factor > 1.0, "factor", "more than 1: 68 % lie between median / factor and median * factor");
+DistributionPtr lognormal(Cursor& table, const SiUnit& unit) {
+  const double median = table.value("median", unit), factor = table.number("factor");
   return make_lognormal(median, factor);
 }
 
-DistributionPtr triangular(Cursor& table, const Values& values) {
-  table.only({"min", "mode", "max"});
-  const double min = values.one(table, "min"), mode = values.one(table, "mode"), max = values.one(table, "max");
+DistributionPtr triangular(Cursor& table, const SiUnit& unit) {
+  const double min = table.value("min", unit), mode = table.value("mode", unit), max = table.value("max", unit);
   table.require(max > min, "max", "more than min");
   table.require(mode >= min && mode <= max, "mode", "between min and max");
   return make_triangular(min, mode, max);
 }
 
-DistributionPtr beta(Cursor& table, const Values& values) {
-  table.only({"alpha", "beta", "min", "max"});
+DistributionPtr beta(Cursor& table, const SiUnit& unit) {
   const double a = table.number("alpha"), b = table.number("beta");
-  table.require(a > 0.0, "alpha", "more than 0");
-  table.require(b > 0.0, "beta", "more than 0");
-  const double min = values.one(table, "min"), max = values.one(table, "max");
+  const double min = table.value("min", unit), max = table.value("max", unit);
   table.require(max > min, "max", "more than min");
   return make_beta(a, b, min, max);
 }
 
-DistributionPtr weibull(Cursor& table, const Values& values) {
-  table.only({"shape", "scale", "location"});
-  const double shape = table.number("shape"), scale = values.one(table, "scale");
-  table.require(shape > 0.0, "shape", "more than 0");
-  table.require(scale > 0.0, "scale", "more than 0");
-  return make_weibull(shape, scale, values.one(table, "location", 0.0));
+DistributionPtr weibull(Cursor& table, const SiUnit& unit) {
+  const double shape = table.number("shape"), scale = table.value("scale", unit);
+  return make_weibull(shape, scale, table.value("location", unit));
 }
 
-DistributionPtr discrete(Cursor& table, const Values& values) {
-  table.only({"values", "probabilities"});
-  const std::vector<double> value = values.many(table, "values");
+DistributionPtr discrete(Cursor& table, const SiUnit& unit) {
+  const std::vector<double> value = table.values("values", unit);
   table.require(!value.empty(), "values", "at least one value");
   std::vector<double> probability(value.size(), 1.0);
   if (table.has("probabilities")) {
@@ -91,23 +57,19 @@ DistributionPtr discrete(Cursor& table, const Values& values) {
     table.require(probability.size() == value.size(), "probabilities",
                   std::to_string(value.size()) + " of them, as many as values");
     double sum = 0.0;
-    for (const double p : probability) {
-      table.require(p >= 0.0, "probabilities", "none below 0");
-      sum += p;
-    }
+    for (const double p : probability) sum += p;
     table.require(std::abs(sum - 1.0) < 1e-6, "probabilities", "probabilities that add up to 1");
   }
   return make_discrete(value, probability);
 }
 
-DistributionPtr empirical(Cursor& table, const Values& values) {
-  table.only({"file", "column", "unit"});
+DistributionPtr empirical(Cursor& table, const SiUnit& unit) {
   const std::string file = table.text("file"), column = table.text("column");
   double scale = 1.0;
-  if (!values.pure() || table.has("unit")) {
-    const std::string unit = table.text("unit");
+  if (std::string(unit.unit) != "1" || table.has("unit")) {
+    const std::string unit_of_column = table.text("unit");
     try {
-      scale = scale_of_unit(unit, values.unit());
+      scale = scale_of_unit(unit_of_column, unit);
     } catch (const ValueFault& fault) {
       throw InputError(table.origin("unit"), table.path("unit"), fault.found, fault.expected, fault.nearest);
     }
@@ -124,8 +86,7 @@ DistributionPtr empirical(Cursor& table, const Values& values) {
 
 DistributionPtr fit(Cursor& entry, const std::vector<JournalSize>& journals) {
   if (journals.empty()) entry.fail("fit", "a fit for a radial clearance only (parameter = \"clearance.JOINT.radial\")");
-  const ZoneLaw law =
-      entry.choice("zone", {"normal", "uniform"}, "normal") == "normal" ? ZoneLaw::normal : ZoneLaw::uniform;
+  const ZoneLaw law = entry.choice("zone") == "normal" ? ZoneLaw::normal : ZoneLaw::uniform;
   try {
     const Fit found = parse_fit(entry.text("fit"));
     if (found.least_clearance() < 0.0)
@@ -143,18 +104,24 @@ DistributionPtr fit(Cursor& entry, const std::vector<JournalSize>& journals) {
 
 struct Family {
   const char* name;
-  DistributionPtr (*read)(Cursor&, const Values&);
+  const KeyTable& (*keys)();
+  DistributionPtr (*read)(Cursor&, const SiUnit&);
 };
-constexpr Family kFamilies[] = {{"normal", normal},         {"uniform", uniform},    {"lognormal", lognormal},
-                                {"triangular", triangular}, {"beta", beta},          {"weibull", weibull},
-                                {"discrete", discrete},     {"empirical", empirical}};
+constexpr Family kFamilies[] = {
+    {"normal", normal_keys, normal},
+    {"uniform", uniform_keys, uniform},
+    {"lognormal", lognormal_keys, lognormal},
+    {"triangular", triangular_keys, triangular},
+    {"beta", beta_keys, beta},
+    {"weibull", weibull_keys, weibull},
+    {"discrete", discrete_keys, discrete},
+    {"empirical", empirical_keys, empirical},
+};
 
 }  // namespace
 
 DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::vector<JournalSize>& journals) {
-  entry.only({"normal", "uniform", "lognormal", "triangular", "beta", "weibull", "discrete", "empirical", "fit", "zone",
-              "truncate"});
-  const Values values(unit);
+  entry.only(distribution_keys());
   DistributionPtr distribution;
   const char* first = nullptr;
   const auto one_only = [&](const char* name) {
@@ -166,7 +133,8 @@ DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::
     one_only(family.name);
     if (!entry.is_table(family.name)) entry.fail(family.name, "a table of its numbers, such as { min = .., max = .. }");
     Cursor table = entry.table(family.name);
-    distribution = family.read(table, values);
+    table.only(family.keys());
+    distribution = family.read(table, unit);
     table.finish();
   }
   if (entry.has("fit")) {
@@ -177,8 +145,8 @@ DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::
     throw InputError(entry.origin(), entry.path(), "no distribution",
                      "one of normal, uniform, lognormal, triangular, beta, weibull, discrete, empirical, fit");
   if (entry.has("truncate")) {
-    const std::vector<double> bounds = values.many(entry, "truncate");
-    entry.require(bounds.size() == 2 && bounds[1] > bounds[0], "truncate", "[low, high], the second one larger");
+    const std::vector<double> bounds = entry.values("truncate", unit);
+    entry.require(bounds[1] > bounds[0], "truncate", "[low, high], the second one larger");
     try {
       distribution = distribution->truncated(bounds[0], bounds[1]);
     } catch (const std::domain_error&) {

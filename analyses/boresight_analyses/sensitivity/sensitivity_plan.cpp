@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <bit>
 
-#include "boresight_analyses/study/plan_values.hpp"
+#include "boresight_analyses/sensitivity/sensitivity_keys.hpp"
 
 namespace boresight {
 namespace {
-
-constexpr long long kMostRows = 1LL << 24;
 
 bool power_of_two(std::uint64_t n) { return std::has_single_bit(n); }
 
@@ -38,24 +36,22 @@ std::string SensitivityPlan::text(const Study& study) const {
 SensitivityPlan read_sensitivity_plan(Cursor& root, const Study&, const MechanismDescription& mechanism,
                                       const std::function<void(const Setting&)>& accepts) {
   Cursor table = root.table("sensitivity");
-  table.only({"samples", "seed", "design", "replicates", "confidence", "groups"});
+  table.only(sensitivity_keys());
   SensitivityPlan plan;
   const long long rows = table.integer("samples");
-  table.require(rows >= 16 && rows <= kMostRows, "samples", "16 to " + std::to_string(kMostRows));
   plan.rows = static_cast<std::uint64_t>(rows);
-  plan.design.seed = seed_of(table);
-  const bool net = table.choice("design", {"sobol", "random"}, "sobol") == "sobol";
+  plan.design.seed = static_cast<std::uint64_t>(table.integer("seed"));
+  const bool net = table.choice("design") == "sobol";
   plan.design.kind = net ? SamplingKind::sobol : SamplingKind::random;
   if (table.has("replicates") && !net) table.fail("replicates", "replicates with design = \"sobol\" only");
-  const long long replicates = table.integer("replicates", 16);
-  table.require(replicates >= 2 && replicates <= 1024, "replicates", "2 to 1024");
+  const long long replicates = table.integer("replicates");
   plan.design.replicates = static_cast<std::uint64_t>(replicates);
   if (net && (plan.rows % plan.design.replicates != 0 || !power_of_two(plan.rows / plan.design.replicates))) {
     const std::uint64_t size = std::bit_ceil((plan.rows + plan.design.replicates - 1) / plan.design.replicates);
     table.fail("samples", "replicates (" + std::to_string(replicates) + ") times a power of two, for example " +
                               std::to_string(size * plan.design.replicates));
   }
-  plan.confidence = share_of(table, "confidence", 0.95);
+  plan.confidence = table.number("confidence");
   plan.inputs = read_random_inputs(root, mechanism, accepts);
   if (net && 2 * plan.inputs.size() > static_cast<std::size_t>(SobolNet::kMostDimensions))
     table.fail("design",

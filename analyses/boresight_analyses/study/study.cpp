@@ -4,17 +4,16 @@
 #include <filesystem>
 #include <vector>
 
-#include "boresight/io/names_of.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/study/study_keys.hpp"
 
 namespace boresight {
+
 Study read_study(Cursor& root, const std::string& content_hash) {
   if (!root.has("mechanism") && root.has("body"))
     root.fail_found("body", "a mechanism file", "a study file, which names its mechanism: mechanism = \"FILE\"");
-  root.only({"format", "mechanism", "accuracy", "index", "random", "correlation", "sweep", "montecarlo", "sensitivity",
-             "match", "allocate", "calibrate", "budget", "chart"});
-  const long long format = root.integer("format");
-  root.require(format == 1, "format", "1");
+  root.only(study_keys());
+  root.integer("format");
 
   Study study;
   study.file = root.origin().file;
@@ -24,19 +23,15 @@ Study read_study(Cursor& root, const std::string& content_hash) {
       mechanism.is_absolute()
           ? mechanism.string()
           : (std::filesystem::path(study.file).parent_path() / mechanism).lexically_normal().string();
-  if (root.has("accuracy")) {
-    study.accuracy = root.quantity("accuracy", kRatio);
-    root.require(*study.accuracy > 0.0 && *study.accuracy < 1.0, "accuracy", "more than 0 % and less than 100 %");
-  }
+  if (root.has("accuracy")) study.accuracy = root.quantity("accuracy");
   if (root.has("index")) {
     Cursor index = root.table("index");
-    index.only({"quantity", "statistic", "start"});
+    index.only(index_keys());
     study.index_origin = index.origin("quantity");
     study.start_origin = index.origin("start");
-    study.index.quantity = index.choice("quantity", names_of(quantity_names()), study.index.quantity);
-    study.index.statistic = index.choice("statistic", names_of(statistic_names()), study.index.statistic);
-    study.index.start = index.quantity("start", kDuration, 0.0);
-    index.require(study.index.start >= 0.0, "start", "a time of zero or more");
+    study.index.quantity = index.choice("quantity");
+    study.index.statistic = index.choice("statistic");
+    study.index.start = index.quantity("start");
     index.finish();
   }
   return study;

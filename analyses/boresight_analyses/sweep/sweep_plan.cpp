@@ -6,14 +6,14 @@
 #include <set>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/sweep/sweep_keys.hpp"
 
 namespace boresight {
 namespace {
 
 std::vector<double> spaced(Cursor& axis, double from, double to) {
   const long long count = axis.integer("count");
-  axis.require(count >= 2 && count <= static_cast<long long>(kMostSweepPoints), "count", "2 to 100000");
-  const bool log = axis.choice("scale", {"linear", "log"}, "linear") == "log";
+  const bool log = axis.choice("scale") == "log";
   if (log) {
     axis.require(from > 0.0, "from", "more than 0, as the scale is \"log\"");
     axis.require(to > 0.0, "to", "more than 0, as the scale is \"log\"");
@@ -45,12 +45,9 @@ void check_values(Cursor& axis, const SweepAxis& result, const std::function<voi
 
 SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism,
                     const std::function<void(const Setting&)>& accepts) {
-  axis.only({"parameter", "values", "from", "to", "count", "scale"});
+  axis.only(sweep_axis_keys());
   SweepAxis result;
-  if (axis.is_list("parameter"))
-    result.parameters = axis.texts("parameter");
-  else
-    result.parameters = {axis.text("parameter")};
+  result.parameters = axis.one_or_texts("parameter");
   axis.require(!result.parameters.empty(), "parameter", "a parameter's path, or a list of them");
 
   for (const std::string& path : result.parameters) {
@@ -61,16 +58,14 @@ SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism,
                       "parameters that take the same values, in " + result.si_unit);
   }
 
-  const bool pure = result.si_unit == "1";
   const SiUnit unit = unit_called(result.si_unit);
   if (axis.has("values")) {
     for (const char* key : {"from", "to", "count", "scale"})
       if (axis.has(key)) axis.fail(key, "either values, or from, to and count");
-    result.values = pure ? axis.numbers("values") : axis.quantities("values", unit);
+    result.values = axis.values("values", unit);
     axis.require(!result.values.empty(), "values", "at least one value");
   } else if (axis.has("from")) {
-    const double from = pure ? axis.number("from") : axis.quantity("from", unit);
-    const double to = pure ? axis.number("to") : axis.quantity("to", unit);
+    const double from = axis.value("from", unit), to = axis.value("to", unit);
     result.values = spaced(axis, from, to);
   } else {
     axis.fail("values", "values = [...], or from, to and count");
@@ -110,9 +105,9 @@ Parameters SweepPlan::parameters_at(const Mechanism& mechanism, std::size_t k) c
 SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism,
                           const std::function<void(const Setting&)>& accepts) {
   Cursor sweep = root.table("sweep");
-  sweep.only({"axis", "findings"});
+  sweep.only(sweep_keys());
   SweepPlan plan;
-  if (sweep.has("findings")) plan.findings = sweep.choice("findings", {"sun-3-rrcpr"});
+  if (sweep.has("findings")) plan.findings = sweep.choice("findings");
   std::set<std::string> swept;
   std::size_t points = 1;
   for (Cursor& axis : sweep.tables("axis")) {

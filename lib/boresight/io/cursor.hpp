@@ -1,17 +1,19 @@
-// Reads one table of a TOML file, key by key, and refuses what it does not expect: the reader of mechanism and study files.
+// Reads one table of a TOML file, key by key, as its table of keys (key.hpp) says, and refuses what that does not know: the reader of
+// mechanism and study files.
 //
 //   Cursor root(document);
-//   root.only({"format", "accuracy", "index"});            // any other key: an error with the nearest of these
-//   const double accuracy = root.quantity("accuracy", kRatio, 0.01);
+//   root.only(study_keys());                    // any other key: an error with the nearest of these
+//   const double accuracy = root.quantity("accuracy");
 //   Cursor index = root.table("index");
+//   index.only(index_keys());
 //   ...
-//   index.finish();                                        // a key that was given but never read: an error
+//   index.finish();                             // a key that was given but never read: an error
 //   root.finish();
 //   document.refuse_unused_settings();
 //
-// Every fault is an InputError with file, line, path, what was found and what was expected. Values come with their unit
-// (`quantity`) or are pure numbers (`number`); none is ever NaN or infinite. Settings apply to every value by its path; vector
-// components are addressed as `.x .y .z`.
+// Every fault is an InputError with file, line, path, what was found and what was expected. Unit, default and range of a value are
+// those of the table of keys; none is ever NaN or infinite. A key that the table lacks, or has as another kind, is a fault of the
+// reader itself: std::logic_error. Settings apply to every value by its path; vector components are addressed as `.x .y .z`.
 //
 // Inside a circular pattern a cursor carries the copy's number, put in place of {i} in every string, and the copy's turn,
 // applied to every point and direction.
@@ -25,6 +27,7 @@
 #include <vector>
 
 #include "boresight/io/document.hpp"
+#include "boresight/io/key.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight/math/types.hpp"
 
@@ -34,39 +37,47 @@ class Cursor {
  public:
   explicit Cursor(Document& document);
 
-  // Refuses at once any key that is not among these.
-  void only(std::initializer_list<const char*> keys) const;
+  // From here on this table says what may be read; any key of the file that it lacks is refused at once.
+  void only(const KeyTable& keys);
   // Refuses keys that were given but not read since.
   void finish() const;
 
   bool has(const std::string& key) const;  // in the file, or set
   std::vector<std::string> keys() const;   // in the order of the file
 
-  // Without a last argument the key must be there; with one, that is the value if it is not.
+  // A key without a default must be there. `otherwise` is the value of a key whose default depends on others.
+  double quantity(const std::string& key);
+  double quantity(const std::string& key, double otherwise);
+  // Where another key decides the unit. value(): of the unit "1" a pure number.
+  double quantity(const std::string& key, const PhysicalRange& range);
   double quantity(const std::string& key, const SiUnit& unit);
-  double quantity(const std::string& key, const SiUnit& unit, double otherwise);
+  double value(const std::string& key, const SiUnit& unit);
+  // Where a word may stand in place of the quantity: none for the word.
+  std::optional<double> quantity_or_word(const std::string& key);
   double number(const std::string& key);
   double number(const std::string& key, double otherwise);
   long long integer(const std::string& key);
   long long integer(const std::string& key, long long otherwise);
-  bool boolean(const std::string& key, bool otherwise);
+  bool boolean(const std::string& key);
   std::string text(const std::string& key);
   std::string text(const std::string& key, const std::string& otherwise);
-  // A text that must be one of these.
-  std::string choice(const std::string& key, const std::vector<std::string>& choices,
-                     const std::string& otherwise = "");
+  std::string choice(const std::string& key);
+  // Of the table's words only these; without the key, `otherwise`.
+  std::string choice(const std::string& key, const std::vector<std::string>& choices, const std::string& otherwise);
 
-  // Lists. Element k is also addressed as PATH.NAMES[k], or PATH.k (from 1) without names.
-  // A setting of PATH itself gives all elements one value. `otherwise` is the list if the key is not there.
-  std::vector<double> quantities(const std::string& key, const SiUnit& unit, const std::vector<std::string>& names = {},
-                                 const std::vector<double>* otherwise = nullptr);
-  std::vector<double> numbers(const std::string& key, const std::vector<std::string>& names = {},
-                              const std::vector<double>* otherwise = nullptr);
-  std::vector<std::string> texts(const std::string& key, const std::vector<std::string>& names = {});
+  // Lists. Element k is also addressed as PATH.ELEMENT with the table's names, or PATH.k (from 1) without.
+  // A setting of PATH itself gives all elements one value.
+  std::vector<double> quantities(const std::string& key);
+  std::vector<double> values(const std::string& key, const SiUnit& unit);
+  std::vector<double> numbers(const std::string& key);
+  std::vector<std::string> texts(const std::string& key);
+  std::vector<std::string> choices(const std::string& key);
+  // Where one text may stand without the list.
+  std::vector<std::string> one_or_texts(const std::string& key);
 
   // Three components in world axes, turned with the copy of a pattern.
-  Vec3 vector(const std::string& key, const SiUnit& unit);
-  std::vector<Vec3> points(const std::string& key, std::size_t count);  // a list of points [m]
+  Vec3 vector(const std::string& key);
+  std::vector<Vec3> points(const std::string& key);
   // Three pure numbers, not all zero, made a unit vector and turned.
   Vec3 direction(const std::string& key);
 
@@ -97,14 +108,21 @@ class Cursor {
 
  private:
   Cursor(Document& document, const Node& node, std::string path);
-  const Node* member(const std::string& key) const;  // and remembers that it was asked for
+  const Key& known(const std::string& key, std::initializer_list<KeyKind> kinds) const;  // throws std::logic_error
+  bool given(const std::string& key) const;
+  void check(const Key& key, const std::string& name, double value) const;  // range and bounds
+  const Node* member(const std::string& key) const;                         // and remembers that it was asked for
   const Node& required(const std::string& key, const std::string& expected) const;
   std::string replaced(const std::string& text) const;  // {i}
   const Setting* setting(const std::string& path) const { return document_->setting_for(path); }
   const Setting* blamed_setting(const std::string& key) const;
   Cursor child(const Node& node, std::string path) const;
-  std::vector<double> list(const std::string& key, const SiUnit* unit, const std::vector<std::string>& names,
-                           const std::vector<double>* otherwise);
+  double one(const std::string& key, const SiUnit* unit);
+  long long whole(const Key& key, const std::string& name);
+  std::string word(const std::string& key);
+  std::string chosen(const std::string& key, const std::string& value, const std::vector<std::string>& choices) const;
+  std::vector<double> list(const std::string& name, const Key& key, const SiUnit* unit);
+  std::vector<std::string> words(const std::string& key, const std::vector<std::string>& elements);
   Vec3 point_of(const Node& node, const std::string& key, const SiUnit& unit);
   double element(const Node& node, const std::string& key, const SiUnit* unit) const;
   double set_value(const Setting& setting, const std::string& path, const SiUnit* unit) const;
@@ -113,6 +131,7 @@ class Cursor {
   const Node* node_;
   int line_;
   std::string path_;
+  const KeyTable* keys_ = nullptr;  // null: not said yet
   mutable std::set<std::string> asked_;
   int copy_ = 0;  // 0: not in a pattern
   Mat3 turn_ = Mat3::Identity();

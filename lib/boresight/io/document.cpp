@@ -126,7 +126,7 @@ Document Document::from_text(std::string_view text, const std::string& filename,
 }
 
 const Setting* Document::setting_for(const std::string& path) {
-  if (settings_.empty()) return nullptr;
+  if (settings_.empty() && !records_paths_) return nullptr;
   asked_.insert(path);
   const Setting* last = nullptr;
   for (std::size_t i = 0; i < settings_.size(); ++i) {

@@ -57,6 +57,10 @@ class Document {
   // The last setting that applies to this path or to one below it, or nullptr. Marks nothing.
   const Setting* setting_under(const std::string& path) const;
 
+  // From here on every path that is asked for is remembered, even where there are no settings.
+  void record_paths() { records_paths_ = true; }
+  const std::set<std::string>& asked_paths() const { return asked_; }
+
   // Throws InputError for the first setting whose path nothing asked for.
   void refuse_unused_settings() const;
 
@@ -66,6 +70,7 @@ class Document {
   std::vector<Setting> settings_;
   std::vector<bool> used_;
   std::set<std::string> asked_;
+  bool records_paths_ = false;
 };
 
 // "--set PATH=VALUE", where an error in a setting is reported.

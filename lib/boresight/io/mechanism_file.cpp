@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "boresight/io/mechanism_keys.hpp"
 #include "boresight/io/mechanism_sections.hpp"
-#include "boresight/io/physical_ranges.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
@@ -11,15 +11,14 @@ namespace {
 
 MechanismDescription read(Document& document, std::vector<AssumedValue>* assumed = nullptr) {
   Cursor root(document);
-  root.only({"format", "name", "gravity", "body", "payload", "pattern", "joint", "motion", "clearance", "initial",
-             "spring", "load", "pointing"});
+  root.only(mechanism_keys());
   MechanismDescription mechanism;
   mechanism.origin = {document.filename(), 0};
   mechanism.content_hash = document.content_hash();
-  root.require(root.integer("format") == 1, "format", "1");
+  root.integer("format");
   mechanism.name = root.text("name", document.filename());
   root.require(!mechanism.name.empty(), "name", "a name, or no key at all");
-  mechanism.gravity = vector_in(root, "gravity", kGravityRange);
+  mechanism.gravity = root.vector("gravity");
 
   Sections sections = gather_sections(root);
   for (Cursor& body : sections.bodies) mechanism.bodies.push_back(read_body(body, mechanism));
@@ -61,6 +60,13 @@ MechanismDescription read_mechanism_text(std::string_view text, const std::strin
                                          const std::vector<Setting>& settings) {
   Document document = Document::from_text(text, filename, settings);
   return read(document);
+}
+
+std::set<std::string> settable_paths(const std::string& path, const std::vector<Setting>& settings) {
+  Document document = Document::from_file(path, settings);
+  document.record_paths();
+  read(document);
+  return document.asked_paths();
 }
 
 std::vector<AssumedValue> assumed_values(const std::string& path, const std::vector<Setting>& settings) {

@@ -6,6 +6,7 @@
 // file, line, key, what was found, what was expected, and the nearest known name.
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,5 +21,8 @@ MechanismDescription read_mechanism(const std::string& path, const std::vector<S
 // The same from text in memory; `filename` is what errors name.
 MechanismDescription read_mechanism_text(std::string_view text, const std::string& filename,
                                          const std::vector<Setting>& settings = {});
+
+// Every path of the file that a setting may name, sorted: "clearance.F1.radial", "motion.duration". Throws what read_mechanism throws.
+std::set<std::string> settable_paths(const std::string& path, const std::vector<Setting>& settings = {});
 
 }  // namespace boresight

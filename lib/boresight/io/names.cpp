@@ -63,8 +63,7 @@ int joint_index(const MechanismDescription& mechanism, const Cursor& cursor, con
 }
 
 std::pair<int, int> read_connects(Cursor& cursor, const MechanismDescription& mechanism) {
-  const std::vector<std::string> names = cursor.texts("connects", {"first", "second"});
-  cursor.require(names.size() == 2, "connects", "two names of bodies");
+  const std::vector<std::string> names = cursor.texts("connects");
   const int first = body_index(mechanism, cursor, "connects", names[0], true);
   const int second = body_index(mechanism, cursor, "connects", names[1], true);
   if (first == second) cursor.fail_found("connects", in_quotes(names[0]) + " twice", "two different bodies");

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "boresight/io/mechanism_keys.hpp"
 #include "boresight/io/mechanism_sections.hpp"
 
 namespace boresight {
@@ -22,7 +23,6 @@ void append_copies(std::vector<Cursor>& to, const std::vector<Cursor>& tables, i
 }  // namespace
 
 Sections gather_sections(Cursor& root) {
-  constexpr long long kMostCopies = 360;
   Sections sections;
   append(sections.bodies, root.tables("body"));
   append(sections.joints, root.tables("joint"));
@@ -30,10 +30,9 @@ Sections gather_sections(Cursor& root) {
   append(sections.springs, root.tables("spring"));
   append(sections.loads, root.tables("load"));
   for (Cursor& pattern : root.tables("pattern")) {
-    pattern.only({"count", "axis", "body", "joint", "clearance", "spring", "load"});
+    pattern.only(pattern_keys());
     const long long count = pattern.integer("count");
-    pattern.require(count >= 1 && count <= kMostCopies, "count", "a number of copies from 1 to 360");
-    const std::string axis = pattern.choice("axis", {"x", "y", "z"});
+    const std::string axis = pattern.choice("axis");
     const auto bodies = pattern.tables("body"), joints = pattern.tables("joint"),
                clearances = pattern.tables("clearance"), springs = pattern.tables("spring"),
                loads = pattern.tables("load");

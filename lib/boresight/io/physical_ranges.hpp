@@ -6,9 +6,7 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "boresight/io/cursor.hpp"
 #include "boresight/io/units.hpp"
 
 namespace boresight {
@@ -48,14 +46,5 @@ inline constexpr double kLargestLaw = 1e15, kLargestLawDerivative = 1e18;
 // "an elastic modulus from 1 kPa to 10 TPa".
 std::string in_words(const PhysicalRange& range);
 bool holds(const PhysicalRange& range, double value);
-
-// As Cursor's functions, refusing in addition what is out of range.
-double quantity_in(Cursor& cursor, const std::string& key, const PhysicalRange& range);
-double quantity_in(Cursor& cursor, const std::string& key, const PhysicalRange& range, double otherwise);
-std::vector<double> quantities_in(Cursor& cursor, const std::string& key, const PhysicalRange& range,
-                                  const std::vector<std::string>& names,
-                                  const std::vector<double>* otherwise = nullptr);
-Vec3 vector_in(Cursor& cursor, const std::string& key, const PhysicalRange& range);
-std::vector<Vec3> points_in(Cursor& cursor, const std::string& key, std::size_t count);
 
 }  // namespace boresight

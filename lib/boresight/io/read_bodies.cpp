@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "boresight/io/mechanism_keys.hpp"
 #include "boresight/io/mechanism_sections.hpp"
 #include "boresight/io/physical_ranges.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -17,7 +18,7 @@ constexpr double kLargestSkew = 1e-3;
 Mat3 read_axes(Cursor& body) {
   if (!body.has("axes")) return body.turn();
   Cursor cursor = body.table("axes");
-  cursor.only({"x", "y", "z"});
+  cursor.only(body_axes_keys());
   const char* const names[3] = {"x", "y", "z"};
   std::vector<int> given;
   Mat3 axes = Mat3::Zero();
@@ -46,8 +47,7 @@ Mat3 read_axes(Cursor& body) {
 
 // Three principal moments, or six numbers xx yy zz xy xz yz (the off-diagonal elements of the matrix itself, with their sign).
 Mat3 read_inertia(Cursor& body) {
-  const auto values = quantities_in(body, "inertia", kInertiaRange, {"xx", "yy", "zz", "xy", "xz", "yz"});
-  body.require(values.size() == 3 || values.size() == 6, "inertia", "3 or 6 moments of inertia (xx yy zz xy xz yz)");
+  const auto values = body.quantities("inertia");
   Mat3 inertia = Mat3::Zero();
   for (int k = 0; k < 3; ++k) inertia(k, k) = values[k];
   if (values.size() == 6) {
@@ -84,7 +84,7 @@ void check_gyration(Cursor& cursor, const BodyDescription& body) {
 }  // namespace
 
 BodyDescription read_body(Cursor& cursor, const MechanismDescription& so_far) {
-  cursor.only({"name", "mass", "center_of_mass", "inertia", "axes", "boresight"});
+  cursor.only(body_keys());
   BodyDescription body;
   body.origin = cursor.origin();
   body.name = read_name(cursor, "name");
@@ -97,9 +97,8 @@ BodyDescription read_body(Cursor& cursor, const MechanismDescription& so_far) {
     }
   }
   cursor.rename("body." + body.name);
-  body.mass = quantity_in(cursor, "mass", kMassRange);
-  cursor.require(body.mass > 0.0, "mass", "a mass above zero");
-  body.center_of_mass = vector_in(cursor, "center_of_mass", kCoordinateRange);
+  body.mass = cursor.quantity("mass");
+  body.center_of_mass = cursor.vector("center_of_mass");
   body.axes = read_axes(cursor);
   body.inertia = read_inertia(cursor);
   check_gyration(cursor, body);
@@ -116,15 +115,13 @@ BodyDescription read_body(Cursor& cursor, const MechanismDescription& so_far) {
 }
 
 PayloadDescription read_payload(Cursor& cursor, const MechanismDescription& so_far) {
-  cursor.only({"body", "mass", "center_of_mass", "gyration"});
+  cursor.only(payload_keys());
   PayloadDescription payload;
   payload.origin = cursor.origin();
   payload.body = body_index(so_far, cursor, "body", cursor.text("body"), false);
-  payload.mass = quantity_in(cursor, "mass", kMassRange);
-  cursor.require(payload.mass >= 0.0, "mass", "a mass of zero or more");
-  payload.center_of_mass = vector_in(cursor, "center_of_mass", kCoordinateRange);
-  const auto radii = quantities_in(cursor, "gyration", kSizeRange, {"x", "y", "z"});
-  cursor.require(radii.size() == 3, "gyration", "three radii of gyration such as \"141.42 mm\"");
+  payload.mass = cursor.quantity("mass");
+  payload.center_of_mass = cursor.vector("center_of_mass");
+  const auto radii = cursor.quantities("gyration");
   for (int k = 0; k < 3; ++k) {
     payload.gyration[k] = radii[k];
     if (!(radii[k] >= 0.0)) cursor.fail_found("gyration", "a radius that is negative", "radii of zero or more");

@@ -1,15 +1,15 @@
+#include "boresight/io/mechanism_keys.hpp"
 #include "boresight/io/mechanism_sections.hpp"
-#include "boresight/io/physical_ranges.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
 
 SpringDescription read_spring(Cursor& cursor, const MechanismDescription& so_far) {
-  cursor.only({"connects", "points", "stiffness", "damping", "free_length"});
+  cursor.only(spring_keys());
   SpringDescription spring;
   spring.origin = cursor.origin();
   std::tie(spring.first, spring.second) = read_connects(cursor, so_far);
-  const auto points = points_in(cursor, "points", 2);
+  const auto points = cursor.points("points");
   spring.first_point = points[0];
   spring.second_point = points[1];
   if ((points[1] - points[0]).stableNorm() < 1e-12) {
@@ -17,18 +17,15 @@ SpringDescription read_spring(Cursor& cursor, const MechanismDescription& so_far
                       "two points apart: the spring acts along the line between them");
   }
   SpringParameters& p = spring.parameters;
-  p.stiffness = quantity_in(cursor, "stiffness", kStiffnessRange);
-  cursor.require(p.stiffness >= 0.0, "stiffness", "a stiffness of zero or more");
-  p.damping = quantity_in(cursor, "damping", kDampingRange, 0.0);
-  cursor.require(p.damping >= 0.0, "damping", "a damping of zero or more");
-  p.free_length = quantity_in(cursor, "free_length", kSizeRange);
-  cursor.require(p.free_length >= 0.0, "free_length", "a length of zero or more");
+  p.stiffness = cursor.quantity("stiffness");
+  p.damping = cursor.quantity("damping");
+  p.free_length = cursor.quantity("free_length");
   cursor.finish();
   return spring;
 }
 
 LoadDescription read_load(Cursor& cursor, const MechanismDescription& so_far) {
-  cursor.only({"joint", "torque", "force", "body", "point"});
+  cursor.only(load_keys());
   const double duration = so_far.motion.duration;
   LoadDescription load;
   load.origin = cursor.origin();
@@ -47,9 +44,8 @@ LoadDescription read_load(Cursor& cursor, const MechanismDescription& so_far) {
     if (!cursor.has("body"))
       cursor.fail_found("body", "neither joint nor body", "the joint or the body that the load acts on");
     load.body = body_index(so_far, cursor, "body", cursor.text("body"), false);
-    load.point = vector_in(cursor, "point", kCoordinateRange);
-    const auto texts = cursor.texts("force", {"x", "y", "z"});
-    cursor.require(texts.size() == 3, "force", "three expressions of t [N], along the world's x, y, z");
+    load.point = cursor.vector("point");
+    const auto texts = cursor.texts("force");
     std::array<TimeFunctionPtr, 3> force;
     for (int k = 0; k < 3; ++k) force[k] = compile_expression(cursor, "force", texts[k], duration);
     load.force = force;

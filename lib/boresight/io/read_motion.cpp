@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "boresight/io/mechanism_keys.hpp"
 #include "boresight/io/mechanism_sections.hpp"
 #include "boresight/io/physical_ranges.hpp"
 #include "boresight/io/value_fault.hpp"
@@ -10,15 +11,7 @@ namespace {
 
 // "ZYZ": three axes, no two neighbours alike.
 std::array<int, 3> read_convention(Cursor& cursor) {
-  std::vector<std::string> all;
-  for (char a = 'X'; a <= 'Z'; ++a) {
-    for (char b = 'X'; b <= 'Z'; ++b) {
-      for (char c = 'X'; c <= 'Z'; ++c) {
-        if (a != b && b != c) all.push_back({a, b, c});
-      }
-    }
-  }
-  const std::string word = cursor.choice("convention", all);
+  const std::string word = cursor.choice("convention");
   return {word[0] - 'X', word[1] - 'X', word[2] - 'X'};
 }
 
@@ -39,7 +32,7 @@ PoseMotionDescription read_pose(Cursor& motion, const MechanismDescription& so_f
   // The position may refer to the angles, and each angle to those before it.
   NamedExpressions named;
   Cursor angles = motion.table("angles");
-  angles.only({"convention", "psi", "theta", "phi"});
+  angles.only(angles_keys());
   pose.sequence = read_convention(angles);
   const char* const angle_names[3] = {"psi", "theta", "phi"};
   for (int k = 0; k < 3; ++k) {
@@ -49,7 +42,7 @@ PoseMotionDescription read_pose(Cursor& motion, const MechanismDescription& so_f
   angles.finish();
 
   Cursor position = motion.table("position");
-  position.only({"unit", "x", "y", "z"});
+  position.only(position_keys());
   const double scale = read_unit(position);
   const char* const axis_names[3] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k) pose.position[k] = read_expression(position, axis_names[k], duration, named, scale);
@@ -60,6 +53,7 @@ PoseMotionDescription read_pose(Cursor& motion, const MechanismDescription& so_f
 std::map<int, TimeFunctionPtr> read_drives(Cursor& motion, const MechanismDescription& so_far, double duration) {
   std::map<int, TimeFunctionPtr> laws;
   Cursor drives = motion.table("drives");
+  drives.only(drives_keys());
   for (const std::string& name : drives.keys()) {
     const int joint = joint_index(so_far, drives, name, name);
     if (!so_far.joints[joint].driven) {
@@ -81,11 +75,10 @@ std::map<int, TimeFunctionPtr> read_drives(Cursor& motion, const MechanismDescri
 }  // namespace
 
 MotionDescription read_motion(Cursor& cursor, const MechanismDescription& so_far) {
-  cursor.only({"duration", "body", "angles", "position", "drives"});
+  cursor.only(motion_keys());
   MotionDescription motion;
   motion.origin = cursor.origin();
-  motion.duration = quantity_in(cursor, "duration", kDurationRange);
-  cursor.require(motion.duration > 0.0, "duration", "a time above zero");
+  motion.duration = cursor.quantity("duration");
   const bool pose = cursor.has("body") || cursor.has("angles") || cursor.has("position");
   const bool any_driven =
       std::any_of(so_far.joints.begin(), so_far.joints.end(), [](const auto& j) { return j.driven; });
@@ -107,6 +100,7 @@ namespace {
 
 std::vector<InitialRateDescription> read_rates(Cursor& table, const MechanismDescription& so_far) {
   using Freedom = InitialRateDescription::Freedom;
+  table.only(rates_keys());
   std::vector<InitialRateDescription> rates;
 
   const auto read_one = [&](Cursor& where, const std::string& key, const std::string& name,
@@ -131,8 +125,7 @@ std::vector<InitialRateDescription> read_rates(Cursor& table, const MechanismDes
       where.fail_found(key, in_quotes(freedom), turns && slides ? both : turns ? "\"angle\"" : "\"displacement\"");
     }
     rate.freedom = freedom == "displacement" || (freedom.empty() && slides) ? Freedom::displacement : Freedom::angle;
-    rate.rate =
-        quantity_in(where, key, rate.freedom == Freedom::angle ? kStartingAngularRateRange : kStartingSpeedRange);
+    rate.rate = where.quantity(key, rate.freedom == Freedom::angle ? kStartingAngularRateRange : kStartingSpeedRange);
     for (const InitialRateDescription& other : rates) {
       if (other.joint == rate.joint && other.freedom == rate.freedom) {
         where.fail_found(key, "a second rate of the same freedom", "one");
@@ -144,6 +137,7 @@ std::vector<InitialRateDescription> read_rates(Cursor& table, const MechanismDes
   for (const std::string& key : table.keys()) {
     if (table.is_table(key)) {  // C.angle = "..." without quotation marks is a table in TOML
       Cursor inner = table.table(key);
+      inner.only(freedom_rates_keys());
       for (const std::string& freedom : inner.keys()) read_one(inner, freedom, key, freedom);
       inner.finish();
       continue;
@@ -158,8 +152,8 @@ std::vector<InitialRateDescription> read_rates(Cursor& table, const MechanismDes
 }  // namespace
 
 void read_initial(Cursor& cursor, MechanismDescription& mechanism) {
-  cursor.only({"rates", "journals"});
-  const bool centred = cursor.choice("journals", {"rest", "centred"}, "rest") == "centred";
+  cursor.only(initial_keys());
+  const bool centred = cursor.choice("journals") == "centred";
   mechanism.journals = centred ? JournalStart::centred : JournalStart::rest;
   if (cursor.has("rates")) {
     Cursor rates = cursor.table("rates");
@@ -169,12 +163,12 @@ void read_initial(Cursor& cursor, MechanismDescription& mechanism) {
 }
 
 LineOfSightDescription read_pointing(Cursor& cursor, const MechanismDescription& so_far) {
-  cursor.only({"target", "distance", "from"});
+  cursor.only(pointing_keys());
   const auto body =
       std::find_if(so_far.bodies.begin(), so_far.bodies.end(), [](const auto& b) { return b.boresight.has_value(); });
   LineOfSightDescription sight;
   sight.origin = cursor.origin();
-  sight.from = cursor.has("from") ? vector_in(cursor, "from", kCoordinateRange) : body->center_of_mass;
+  sight.from = cursor.has("from") ? cursor.vector("from") : body->center_of_mass;
   const bool target = cursor.has("target"), distance = cursor.has("distance");
   if (target && distance) cursor.fail_found("distance", "both a target and a distance", "one of the two");
   if (!target && !distance) {
@@ -182,11 +176,10 @@ LineOfSightDescription read_pointing(Cursor& cursor, const MechanismDescription&
                      "a target, such as [\"0 m\", \"0 m\", \"5 m\"], or a distance along the boresight");
   }
   if (distance) {
-    const double length = quantity_in(cursor, "distance", kTargetRange);
-    cursor.require(length > 0.0, "distance", "a length above zero");
+    const double length = cursor.quantity("distance");
     sight.target = sight.from + length * *body->boresight;
   } else {
-    sight.target = vector_in(cursor, "target", kTargetRange);
+    sight.target = cursor.vector("target");
     // What rounding leaves of two equal points is no line.
     const double size = std::max(sight.from.norm(), sight.target.norm());
     cursor.require((sight.target - sight.from).norm() > 1e-9 * size, "target",

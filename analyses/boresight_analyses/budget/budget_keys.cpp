@@ -1,0 +1,151 @@
+#include "boresight_analyses/budget/budget_keys.hpp"
+
+#include "boresight_analyses/budget/budget_plan.hpp"
+#include "boresight_analyses/random/random_keys.hpp"
+#include "boresight_analyses/study/study_keys.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr double kMostMembers = 5000.0;  // whose histories are held at once
+
+Key time_key(const char* name) { return keys::quantity(name, kDuration).above(0.0, "more than 0"); }
+
+std::vector<KeyChoice> titled_indices() {
+  std::vector<KeyChoice> choices;
+  for (const ErrorIndex index : kErrorIndices) choices.push_back({to_string(index), title_of(index)});
+  return choices;
+}
+
+}  // namespace
+
+const KeyTable& budget_keys() {
+  using namespace keys;
+  static const BudgetPlan p;
+  static const KeyTable table_of_keys{
+      .name = "budget",
+      .says = "The pointing budget by ECSS-E-ST-60-10C: APE, MPE, RPE, PDE and PRE of an ensemble of mechanisms.",
+      .keys = {
+          integer("members")
+              .counting(2.0, kMostMembers)
+              .otherwise(static_cast<double>(p.members))
+              .says("Members of the ensemble: samples of what [[random]] scatters, each with its own external errors."),
+          integer("attribution")
+              .usually("24, or all members where these are fewer")
+              .says("How many members are run again with each group held and each clearance halved, to share the error "
+                    "out; from 2 to members."),
+          seed_key(), confidence_key(p.confidence),
+          time_key("sampling").usually("a 2000th of the motion").says("Spacing of the pointing histories."),
+          quantity("start", kDuration).usually("that of [index]").says("What the motion does before is left out."),
+          time_key("window")
+              .sometimes("needed for MPE, RPE, PDE and PRE")
+              .says("Length of the window over which MPE, RPE, PDE and PRE take their means."),
+          time_key("separation")
+              .sometimes("needed for PDE")
+              .says("Time between the beginnings of the two windows of PDE."),
+          time_key("observation").usually("the whole motion, and no PRE").says("Length of one observation."),
+          time_key("revisit")
+              .usually("one observation")
+              .says("Time between the beginnings of the two windows of PRE, which lie in different observations."),
+          number("leave_out")
+              .bounded({.least = 0.0, .most = 1.0, .below = true, .expected = "0 or more and less than 1"})
+              .otherwise(p.leave_out)
+              .says("Share of the members, the worst ones, that the temporal interpretation leaves out."),
+          text("posterior")
+              .sometimes("left out, the [[random]] tables say what scatters")
+              .says("The posterior.toml of a calibration: what scatters is what that knows, instead of [[random]]."),
+          table("groups", groups_keys)
+              .sometimes("left out, every parameter by itself")
+              .says("Parameters that are taken as one."),
+          tables("requirement", budget_requirement_keys)
+              .sometimes("left out, nothing is required")
+              .says("What is required, one table each; the first one is what shares and reliefs are about."),
+          tables("contributor", budget_contributor_keys)
+              .sometimes("left out, the clearances make all of the error")
+              .says("Errors from outside of the clearances, one table each.")}};
+  return table_of_keys;
+}
+
+const KeyTable& budget_requirement_keys() {
+  using namespace keys;
+  static const BudgetRequirement r;
+  static const KeyTable table_of_keys{
+      .name = "budget.requirement",
+      .says = "A limit of an error index that is kept with a probability, shown at a confidence.",
+      .keys = {choice("index", titled_indices())
+                   .otherwise(to_string(r.index))
+                   .says("The error index (ECSS-E-ST-60-10C, 3.2)."),
+               choice("axis", {"x", "y", "z", "half cone", "total"})
+                   .usually("all axes together: half cone, or total")
+                   .says("The axis of the error: of angles of a direction x, y and half cone, of positions and "
+                         "orientations x, y, z and "
+                         "total."),
+               choice("interpretation",
+                      std::vector<KeyChoice>{
+                          {to_string(Interpretation::ensemble), "every member by its largest error over time"},
+                          {to_string(Interpretation::temporal), "over time, in the worst member"},
+                          {to_string(Interpretation::mixed), "over members and time together"}})
+                   .otherwise(to_string(r.interpretation))
+                   .says("What the probability is over (ECSS-E-ST-60-10C, A.1.4)."),
+               quantity_of("limit", "the index").above(0.0, "more than 0").says("What the error shall not exceed."),
+               number("probability")
+                   .share()
+                   .otherwise(r.probability)
+                   .says("Probability with which the limit shall be kept."),
+               number("confidence")
+                   .share()
+                   .above(0.5, "more than 0.5 and less than 1")
+                   .otherwise(r.confidence)
+                   .says("One-sided confidence at which that probability is shown.")}};
+  return table_of_keys;
+}
+
+const KeyTable& budget_contributor_keys() {
+  using namespace keys;
+  static const std::string one = "this, or the other of distribution and value";
+  static const KeyTable table_of_keys{
+      .name = "budget.contributor",
+      .says = "An error from outside of the clearances, by its class (ECSS-E-ST-60-10C, Annex B).",
+      .keys = {
+          text("name").says("Its name."),
+          choice("class",
+                 std::vector<KeyChoice>{{to_string(ContributorClass::bias), "one value for a member, all the time"},
+                                        {to_string(ContributorClass::random), "noise of first order"},
+                                        {to_string(ContributorClass::periodic), "a sinusoid of unknown phase"},
+                                        {to_string(ContributorClass::drift), "grows with time"}})
+              .says("Its course in time."),
+          table("distribution", distribution_keys)
+              .sometimes(one)
+              .says("How it scatters over the members: a bias, a noise's standard deviation, an amplitude, a drift per "
+                    "time."),
+          quantity_of("value", "the index, of a drift per time").sometimes(one).says("The same value in all members."),
+          texts("axes")
+              .sometimes("left out, all axes")
+              .says("The axes that it acts on: \"x\", \"y\", and where there is one \"z\"."),
+          time_key("period").sometimes("needed with class = \"periodic\" only").says("Period of the sinusoid."),
+          time_key("correlation_time")
+              .usually("the sampling")
+              .says("Correlation time of noise; with class = \"random\" only."),
+          boolean("recalibrated", Contributor{}.recalibrated)
+              .says("Whether every observation has another bias, and a drift that begins at zero; with class = "
+                    "\"bias\" or "
+                    "\"drift\" only."),
+          text("group").usually("a group of its own").says("Contributors of one group vary together.")}};
+  return table_of_keys;
+}
+
+const KeyTable& posterior_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "posterior",
+      .says = "The posterior.toml that `calibrate` writes and [budget] may name.",
+      .keys = {tables("random", random_keys).says("The calibrated parameters and what is known of them."),
+               tables("correlation", correlation_keys)
+                   .sometimes("left out, all are independent")
+                   .says("How their errors depend on each other."),
+               boolean("interrupted", false)
+                   .says("Whether the calibration was interrupted; a budget then refuses the file.")}};
+  return table_of_keys;
+}
+
+}  // namespace boresight

@@ -1,0 +1,13 @@
+// What the [budget] table of a study file may hold, and the posterior of a calibration that it may name.
+#pragma once
+
+#include "boresight/io/key.hpp"
+
+namespace boresight {
+
+const KeyTable& budget_keys();
+const KeyTable& budget_requirement_keys();
+const KeyTable& budget_contributor_keys();
+const KeyTable& posterior_keys();  // a file of its own
+
+}  // namespace boresight

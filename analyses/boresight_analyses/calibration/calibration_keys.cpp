@@ -1,0 +1,137 @@
+#include "boresight_analyses/calibration/calibration_keys.hpp"
+
+#include "boresight/contact/normal_law.hpp"
+#include "boresight/io/names_of.hpp"
+#include "boresight_analyses/calibration/calibration_plan.hpp"
+
+namespace boresight {
+namespace {
+
+Key settings_key(const char* sentence) {
+  return keys::texts("set").sometimes("left out, the mechanism file's own values hold").says(sentence);
+}
+
+Key above_zero(const char* name, const char* otherwise, const char* sentence) {
+  return keys::value(name, "the parameter").above(0.0, "more than 0").usually(otherwise).says(sentence);
+}
+
+}  // namespace
+
+const KeyTable& calibrate_keys() {
+  using namespace keys;
+  static const CalibrationPlan p;
+  static const KeyTable table_of_keys{
+      .name = "calibrate",
+      .says = "Contact parameters from measured pointing data, by least squares over windows of the runs (Ceres).",
+      .keys = {
+          quantity("window", kDuration)
+              .or_word("whole")
+              .above(0.0, "more than 0, or \"whole\"")
+              .says(
+                  "Length of the windows that data are cut into, each with a start state of its own that is estimated "
+                  "too; "
+                  "\"whole\": a run is one window. Motions that cannot be predicted over a whole run need short ones."),
+          choice("start", std::vector<KeyChoice>{{"rest", "as the mechanism file starts"}, {"free", "anywhere"}})
+              .otherwise("rest")
+              .says("Where the first window of a run begins."),
+          choice("loss", std::vector<KeyChoice>{{"none", "least squares"},
+                                                {"huber", "linear beyond loss_scale"},
+                                                {"cauchy", "logarithmic beyond loss_scale, for gross outliers"}})
+              .otherwise("huber")
+              .says("How much single readings weigh that are far off."),
+          number("loss_scale")
+              .above(0.0, "more than 0 standard deviations")
+              .usually("2, of cauchy 2.4")
+              .says("From how many standard deviations of the noise on a reading counts less."),
+          integer("starts").counting(1.0, 1000.0).otherwise(p.starts).says("Fits from other starts, side by side."),
+          integer("seed")
+              .counting(0.0, 4611686018427387904.0)
+              .otherwise(static_cast<double>(p.seed))
+              .says("Seed of the random numbers: the same seed gives the same results, bit for bit."),
+          number("confidence")
+              .inside_of(0.5, 1.0, "more than 0.5 and less than 1")
+              .otherwise(p.confidence)
+              .says("Confidence of all intervals."),
+          quantity("time_offset", kDuration)
+              .above(0.0, "more than 0: the largest that is possible")
+              .sometimes("left out, the rig's clock is taken as right")
+              .says("The largest offset of the rig's clock; an offset within it is fitted too."),
+          boolean("mounting_bias", p.mounting_bias).says("Whether a constant offset of every channel is fitted too."),
+          quantity("hold_out", kRatio)
+              .bounded({.least = 0.0, .most = 0.5, .above = true, .expected = "more than 0 % and at most 50 %"})
+              .sometimes("left out, all windows are fitted")
+              .says("Share of the windows that is kept out of the fit, to score it."),
+          integer("corrections")
+              .counting(0.0, 10.0)
+              .otherwise(p.corrections)
+              .says("How often at most what the fit's rung leaves out is taken from multibody."),
+          boolean("profile", p.profile)
+              .says("Whether intervals come from the profile of the loss as well, which takes other fits."),
+          choices("laws", names_of(normal_laws()), "contact laws")
+              .sometimes("left out, the mechanism's own law only")
+              .says("Contact laws that are fitted too, and compared by the same data."),
+          table("noise", calibrate_noise_keys)
+              .sometimes("left out, all noise is estimated")
+              .says("Known noise of single channels."),
+          tables("parameter", calibrate_parameter_keys).says("What is fitted, one table each; at least one."),
+          tables("run", calibrate_run_keys).says("The runs that were measured, one table each; at least one."),
+          tables("candidate", calibrate_candidate_keys)
+              .sometimes("left out, none is judged")
+              .says(
+                  "Further tests that could be made; the report says which of them would narrow the intervals most.")}};
+  return table_of_keys;
+}
+
+const KeyTable& calibrate_noise_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys = [] {
+    KeyTable noise{
+        .name = "calibrate.noise", .says = "Standard deviation of the noise of single channels.", .keys = {}};
+    for (const ChannelName& channel : channel_names()) {
+      SiUnit unit = unit_called(channel.si_unit);
+      if (unit.what == std::string("a value")) unit = {"a value", channel.si_unit, channel.si_unit};
+      noise.keys.push_back(quantity(channel.name, unit)
+                               .above(0.0, "more than 0")
+                               .sometimes("left out, it is estimated")
+                               .says(std::string("Noise of the channel ") + channel.name + ", " + channel.title + "."));
+    }
+    return noise;
+  }();
+  return table_of_keys;
+}
+
+const KeyTable& calibrate_parameter_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "calibrate.parameter",
+      .says = "A parameter that is fitted.",
+      .keys = {text("path").says("The path of a parameter of a clearance, such as clearance.F1.contact.restitution."),
+               above_zero("start", "the mechanism file's value", "Where the fit starts."),
+               above_zero("lower", "a tenth of start", "Lower bound."),
+               above_zero("upper", "ten times start, where the parameter may be as large", "Upper bound.")}};
+  return table_of_keys;
+}
+
+const KeyTable& calibrate_run_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "calibrate.run",
+      .says = "A run that was measured.",
+      .keys = {
+          text("data").says("The CSV file of its readings; a relative name is taken from the study file's folder."),
+          text("name").usually("the name of the data file").says("What reports call the run."),
+          settings_key("The mechanism's settings in this run, as --set takes them: [\"motion.drives.A=2*pi*t\"].")}};
+  return table_of_keys;
+}
+
+const KeyTable& calibrate_candidate_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "calibrate.candidate",
+      .says = "A test that could be made next.",
+      .keys = {text("name").says("What reports call the test."),
+               settings_key("The mechanism's settings in this test, as --set takes them.")}};
+  return table_of_keys;
+}
+
+}  // namespace boresight

@@ -1,0 +1,14 @@
+// What the [calibrate] table of a study file may hold.
+#pragma once
+
+#include "boresight/io/key.hpp"
+
+namespace boresight {
+
+const KeyTable& calibrate_keys();
+const KeyTable& calibrate_noise_keys();
+const KeyTable& calibrate_parameter_keys();
+const KeyTable& calibrate_run_keys();
+const KeyTable& calibrate_candidate_keys();
+
+}  // namespace boresight

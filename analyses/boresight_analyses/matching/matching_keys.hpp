@@ -1,0 +1,11 @@
+// What the [match] table of a study file may hold.
+#pragma once
+
+#include "boresight/io/key.hpp"
+
+namespace boresight {
+
+const KeyTable& match_keys();
+const KeyTable& match_constraint_keys();
+
+}  // namespace boresight

@@ -1,0 +1,97 @@
+#include "boresight_analyses/random/random_keys.hpp"
+
+namespace boresight {
+namespace {
+
+Key value_of(const char* name, const char* sentence) { return keys::value(name, "the parameter").says(sentence); }
+
+}  // namespace
+
+const KeyTable& normal_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "distribution.normal",
+      .says = "Normal distribution.",
+      .keys = {value_of("mean", "Mean."),
+               value("sd", "the parameter").above(0.0, "more than 0").says("Standard deviation.")}};
+  return table_of_keys;
+}
+
+const KeyTable& uniform_keys() {
+  static const KeyTable table_of_keys{.name = "distribution.uniform",
+                                      .says = "Uniform distribution.",
+                                      .keys = {value_of("min", "Least value."), value_of("max", "Largest value.")}};
+  return table_of_keys;
+}
+
+const KeyTable& lognormal_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "distribution.lognormal",
+      .says = "Lognormal distribution: the logarithm is normal.",
+      .keys = {value("median", "the parameter").above(0.0, "more than 0").says("Median."),
+               number("factor")
+                   .above(1.0, "more than 1: 68 % lie between median / factor and median * factor")
+                   .says("Geometric standard deviation: 68 % lie between median / factor and median * factor.")}};
+  return table_of_keys;
+}
+
+const KeyTable& triangular_keys() {
+  static const KeyTable table_of_keys{
+      .name = "distribution.triangular",
+      .says = "Triangular distribution.",
+      .keys = {value_of("min", "Least value."), value_of("mode", "Most probable value, between min and max."),
+               value_of("max", "Largest value.")}};
+  return table_of_keys;
+}
+
+const KeyTable& beta_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "distribution.beta",
+      .says =
+          "Beta distribution: density proportional to x^(alpha - 1) (1 - x)^(beta - 1), x from 0 at min to 1 at max.",
+      .keys = {number("alpha").above(0.0, "more than 0").says("Exponent at min; 1 is a finite density there."),
+               number("beta").above(0.0, "more than 0").says("Exponent at max; 1 is a finite density there."),
+               value_of("min", "Least value."), value_of("max", "Largest value.")}};
+  return table_of_keys;
+}
+
+const KeyTable& weibull_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "distribution.weibull",
+      .says = "Weibull distribution: exp(-((x - location) / scale)^shape) is the probability of more than x.",
+      .keys = {
+          number("shape").above(0.0, "more than 0").says("Shape; 1 is an exponential distribution."),
+          value("scale", "the parameter").above(0.0, "more than 0").says("Scale: 63 % lie within it above location."),
+          value("location", "the parameter").otherwise(0.0).says("Least value.")}};
+  return table_of_keys;
+}
+
+const KeyTable& discrete_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{.name = "distribution.discrete",
+                                      .says = "Some values, each with a probability.",
+                                      .keys = {values("values", "the parameter").says("The values; at least one."),
+                                               numbers("probabilities")
+                                                   .at_least(0.0, "none below 0")
+                                                   .usually("the same for all")
+                                                   .says("Their probabilities, as many as values; they add up to 1.")}};
+  return table_of_keys;
+}
+
+const KeyTable& empirical_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "distribution.empirical",
+      .says = "The values of a CSV column, each as probable as any other.",
+      .keys = {text("file").says("The CSV file; a relative name is taken from the study file's folder."),
+               text("column").says("The column's name, as in the file's first line."),
+               text("unit")
+                   .sometimes("needed unless the parameter is a pure number")
+                   .says("Unit of the column, such as \"mm\".")}};
+  return table_of_keys;
+}
+
+}  // namespace boresight

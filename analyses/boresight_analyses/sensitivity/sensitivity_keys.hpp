@@ -1,0 +1,10 @@
+// What the [sensitivity] table of a study file may hold.
+#pragma once
+
+#include "boresight/io/key.hpp"
+
+namespace boresight {
+
+const KeyTable& sensitivity_keys();
+
+}  // namespace boresight

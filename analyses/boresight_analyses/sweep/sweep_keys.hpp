@@ -1,0 +1,11 @@
+// What the [sweep] table of a study file may hold.
+#pragma once
+
+#include "boresight/io/key.hpp"
+
+namespace boresight {
+
+const KeyTable& sweep_keys();
+const KeyTable& sweep_axis_keys();
+
+}  // namespace boresight
