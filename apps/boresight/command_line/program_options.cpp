@@ -1,0 +1,44 @@
+#include "command_line/program_options.hpp"
+
+#include "command_line/program_help.hpp"
+
+namespace boresight::app {
+
+ProgramOptions::ProgramOptions()
+    : verbs(all_verbs()),
+      options(verbs.size()),
+      app("Accuracy of pointing mechanisms whose joints have clearance.", "boresight") {
+  app.set_version_flag("--version", std::string("boresight ") + BORESIGHT_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "boresight VERB --help tells more; boresight help WORD explains a key of a file. Exit status: 0 done, 1 the "
+      "answer is no, 2 bad "
+      "input, 3 failed, 130 interrupted.");
+  for (std::size_t i = 0; i < verbs.size(); ++i) {
+    CLI::App* command = app.add_subcommand(verbs[i]->name(), verbs[i]->summary());
+    options[i].declare(*command, *verbs[i]);
+    verbs[i]->declare_options(*command);
+    command->footer("Example:\n  " + verbs[i]->example());
+    commands.push_back(command);
+  }
+  completion = app.add_subcommand("completion", "completion of verbs and options in a shell: bash, zsh, fish");
+  completion->add_option("SHELL", shell, "bash, zsh or fish")->required()->type_name("");
+  completion->footer("Example:\n  source <(boresight completion bash)");
+}
+
+std::string help_of_program() { return ProgramOptions().app.help(); }
+
+std::string help_of_verb(const std::string& verb) {
+  const ProgramOptions program;
+  for (const CLI::App* command : program.app.get_subcommands([](const CLI::App*) { return true; }))
+    if (command->get_name() == verb) return command->help("boresight");
+  return "";
+}
+
+std::vector<std::string> verb_names() {
+  std::vector<std::string> names;
+  for (const auto& verb : all_verbs()) names.push_back(verb->name());
+  return names;
+}
+
+}  // namespace boresight::app

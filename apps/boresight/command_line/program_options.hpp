@@ -1,0 +1,25 @@
+// The program's command line: every verb with its options.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "command_line/command.hpp"
+#include "command_line/verb.hpp"
+
+namespace boresight::app {
+
+struct ProgramOptions {
+  std::vector<std::unique_ptr<Verb>> verbs;
+  std::vector<CommandOptions> options;  // one a verb
+  std::string shell;                    // of completion
+  CLI::App app;
+  std::vector<CLI::App*> commands;  // one a verb
+  CLI::App* completion = nullptr;
+
+  ProgramOptions();
+};
+
+}  // namespace boresight::app

@@ -1,0 +1,148 @@
+#include "reference/json_schema.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "reference/key_facts.hpp"
+
+namespace boresight::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A number and a unit, or anything with the {i} of a pattern.
+constexpr const char* kQuantity =
+    "^[ \\t]*[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?(?![0-9.]|[eE][-+]?[0-9])([ \\t]*[^-+ \\t0-9.]|[ "
+    "\\t]+1).*$"
+    "|\\{i\\}";
+
+Json quantity() { return {{"type", "string"}, {"pattern", kQuantity}}; }
+
+Json number(const Key& key, const char* type) {
+  Json schema = {{"type", type}};
+  for (const KeyBound& bound : key.bounds) {
+    if (std::isfinite(bound.least)) schema[bound.above ? "exclusiveMinimum" : "minimum"] = bound.least;
+    if (std::isfinite(bound.most)) schema[bound.below ? "exclusiveMaximum" : "maximum"] = bound.most;
+  }
+  return schema;
+}
+
+Json list(const Json& items, const std::vector<std::size_t>& counts) {
+  Json schema = {{"type", "array"}, {"items", items}};
+  if (counts.empty()) return schema;
+  schema["minItems"] = *std::min_element(counts.begin(), counts.end());
+  schema["maxItems"] = *std::max_element(counts.begin(), counts.end());
+  return schema;
+}
+
+Json words(const Key& key) {
+  Json names = Json::array(), says = Json::array();
+  for (const KeyChoice& choice : key.choices) {
+    names.push_back(choice.name);
+    says.push_back(choice.says);
+  }
+  Json schema = {{"enum", names}};
+  const bool any =
+      std::any_of(key.choices.begin(), key.choices.end(), [](const KeyChoice& c) { return !c.says.empty(); });
+  if (any) schema["x-taplo"] = {{"docs", {{"enumValues", says}}}};
+  return schema;
+}
+
+Json reference_to(const Key& key) {
+  const KeyTable* inside = table_inside(key);
+  if (inside == nullptr) return {{"type", "object"}};
+  return {{"$ref", "#/definitions/" + inside->name}};
+}
+
+Json of_kind(const Key& key) {
+  const Json text = {{"type", "string"}};
+  switch (key.kind) {
+    case KeyKind::quantity:
+      if (!key.word.empty()) return {{"anyOf", {Json{{"const", key.word}}, quantity()}}};
+      if (key.inside != nullptr) return {{"anyOf", {quantity(), reference_to(key)}}};
+      return quantity();
+    case KeyKind::quantities:
+      return list(quantity(), key.counts);
+    case KeyKind::vector:
+      return list(quantity(), {3});
+    case KeyKind::points:
+      return list(list(quantity(), {3}), key.counts);
+    case KeyKind::number:
+      return number(key, "number");
+    case KeyKind::numbers:
+      return list(number(key, "number"), key.counts);
+    case KeyKind::direction:
+      return list({{"type", "number"}}, {3});
+    case KeyKind::integer:
+      return number(key, "integer");
+    case KeyKind::value:
+      return {{"anyOf", {number(key, "number"), quantity()}}};
+    case KeyKind::values:
+      return list({{"anyOf", {number(key, "number"), quantity()}}}, key.counts);
+    case KeyKind::boolean:
+      return {{"type", "boolean"}};
+    case KeyKind::text:
+    case KeyKind::expression:
+      return text;
+    case KeyKind::texts:
+    case KeyKind::expressions:
+      if (key.or_one) return {{"anyOf", {text, list(text, key.counts)}}};
+      return list(text, key.counts);
+    case KeyKind::choice:
+      return words(key);
+    case KeyKind::choices:
+      return list(words(key), {});
+    case KeyKind::table:
+      return {{"allOf", Json::array({reference_to(key)})}};  // beside a bare $ref editors read nothing
+    case KeyKind::tables:
+      return list(reference_to(key), {});
+  }
+  return {};
+}
+
+Json schema_of(const Key& key) {
+  Json schema = of_kind(key);
+  schema["description"] = key.sentence + " (" + facts_text(key) + ")";
+  if (const std::string otherwise = default_text(key); !otherwise.empty()) schema["default"] = Json::parse(otherwise);
+  return schema;
+}
+
+Json schema_of(const KeyTable& table) {
+  Json schema = {{"type", "object"}, {"description", table.says}};
+  if (table.any_name) {
+    schema["additionalProperties"] = schema_of(table.keys.front());
+    return schema;
+  }
+  Json properties = Json::object(), required = Json::array();
+  for (const Key& key : table.keys) {
+    properties[key.name] = schema_of(key);
+    if (key.presence == Key::Presence::required) required.push_back(key.name);
+  }
+  schema["properties"] = properties;
+  if (!required.empty()) schema["required"] = required;
+  schema["additionalProperties"] = false;
+  return schema;
+}
+
+}  // namespace
+
+Json json_schema(const std::string& file) {
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "Boresight " + file + " file"}};
+  Json definitions = Json::object();
+  bool known = false;
+  for (const Section& section : sections()) {
+    if (section.file != file) continue;
+    if (section.path().empty()) {
+      known = true;
+      schema.update(schema_of(*section.keys));
+    } else {
+      definitions[section.keys->name] = schema_of(*section.keys);
+    }
+  }
+  if (!known) throw std::out_of_range("no files are called " + file);
+  schema["definitions"] = definitions;
+  return schema;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,95 @@
+// What the program says of keys, paths and schemas.
+#include <gmock/gmock.h>
+
+#include "program.hpp"
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+using ReferenceProgram = Program;
+
+TEST_F(ReferenceProgram, HelpSaysWhatAKeyIs) {
+  const Ended ended = call({"help", "restitution"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out,
+              AllOf(HasSubstr("[clearance.contact]"), HasSubstr("Range: 0 to 1."), HasSubstr("Unless given: 0.9.")));
+  EXPECT_THAT(call({"help", "stribeck_speed"}).out, HasSubstr("10 mm/s"));
+}
+
+TEST_F(ReferenceProgram, HelpListsTheKeysOfATable) {
+  EXPECT_THAT(call({"help", "clearance.friction"}).out,
+              AllOf(HasSubstr("bristle_stiffness"), HasSubstr("viscosity"), HasSubstr("lugre")));
+}
+
+TEST_F(ReferenceProgram, HelpOfAVerbIsItsOptionsAndItsKeys) {
+  const Ended ended = call({"help", "montecarlo"});
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("Usage: boresight montecarlo"), HasSubstr("--resume"), HasSubstr("strata")));
+  EXPECT_THAT(ended.out, HasSubstr(call({"montecarlo", "--help"}).out));
+}
+
+TEST_F(ReferenceProgram, HelpOfAnUnknownWordOffersTheNearest) {
+  const Ended ended = call({"help", "restituton"});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("did you mean restitution?"));
+  EXPECT_THAT(call({"help", "montecarl"}).err, HasSubstr("did you mean montecarlo?"));
+}
+
+TEST_F(ReferenceProgram, HelpAloneIsAnOverview) {
+  const Ended ended = call({"help"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("sensitivity"), HasSubstr("expressions")));
+}
+
+TEST_F(ReferenceProgram, SchemasAreJsonAndOtherKindsAreRefused) {
+  for (const char* kind : {"mechanism", "study"})
+    EXPECT_EQ(nlohmann::json::parse(call({"schema", kind}).out)["type"], "object") << kind;
+  const Ended refused = call({"schema", "studies"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("did you mean study?"));
+}
+
+TEST_F(ReferenceProgram, PathsAreThoseThatSettingsTake) {
+  const nlohmann::json paths = nlohmann::json::parse(call({"paths", mechanism_, "--json"}).out);
+  bool radial = false;
+  for (const nlohmann::json& number : paths["numbers"])
+    if (number["path"] == "clearance.F1.radial") {
+      radial = true;
+      EXPECT_EQ(number["value"], 1e-4);
+      EXPECT_EQ(number["unit"], "m");
+    }
+  EXPECT_TRUE(radial);
+  EXPECT_THAT(paths["others"].dump(), AllOf(HasSubstr("\"motion.duration\""), HasSubstr("\"clearance.F1.axes\"")));
+  EXPECT_THAT(call({"paths", mechanism_}).out, AllOf(HasSubstr("clearance.F1.radial"), Not(HasSubstr("bristle"))));
+  const Ended sticky = call({"paths", mechanism_, "--set", "clearance.F1.friction.law=lugre"});
+  EXPECT_EQ(sticky.status, 0) << sticky.err;
+  EXPECT_THAT(sticky.out, HasSubstr("clearance.F1.friction.coefficient"));
+}
+
+TEST_F(ReferenceProgram, EveryNumberListedMayBeSetToItsOwnValue) {
+  const nlohmann::json paths = nlohmann::json::parse(call({"paths", mechanism_, "--json"}).out);
+  std::vector<std::string> arguments = {"paths", mechanism_};
+  for (const nlohmann::json& number : paths["numbers"]) {
+    const std::string unit = number["unit"].get<std::string>();
+    arguments.push_back("--set");
+    arguments.push_back(number["path"].get<std::string>() + "=" + number["value"].dump() +
+                        (unit == "1" ? "" : " " + unit));
+  }
+  const Ended ended = call(arguments);
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(ended.out, call({"paths", mechanism_}).out);
+}
+
+TEST_F(ReferenceProgram, ThePageIsOneFileThatWorksOffline) {
+  const Ended ended = call({"help", "--page"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("</html>"), HasSubstr("bristle_damping"), HasSubstr("boresight calibrate")));
+  EXPECT_THAT(ended.out, AllOf(Not(HasSubstr("<script")), Not(HasSubstr("<link")), Not(HasSubstr("src="))));
+}
+
+}  // namespace
+}  // namespace boresight::app

@@ -1,0 +1,138 @@
+// The JSON schemas accept every file that the program accepts, and refuse what an editor should underline.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/io/toml_tree.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "file_corpus.hpp"
+#include "reference/json_schema.hpp"
+
+namespace boresight::app {
+namespace {
+
+using Adapter = valijson::adapters::NlohmannJsonAdapter;
+
+class Schema {
+ public:
+  explicit Schema(const std::string& file) : text_(nlohmann::json::parse(json_schema(file).dump())) {
+    valijson::SchemaParser(valijson::SchemaParser::kDraft7).populateSchema(Adapter(text_), schema_);
+  }
+  // What is wrong, or "".
+  std::string fault_of(const nlohmann::json& json) const {
+    valijson::Validator validator;
+    valijson::ValidationResults results;
+    if (validator.validate(schema_, Adapter(json), &results)) return "";
+    std::string faults;
+    valijson::ValidationResults::Error error;
+    while (results.popError(error)) {
+      for (const std::string& part : error.context) faults += part;
+      faults += ": " + error.description + "\n";
+    }
+    return faults.empty() ? "refused" : faults;
+  }
+
+ private:
+  nlohmann::json text_;
+  valijson::Schema schema_;
+};
+
+TEST(Schemas, AcceptEveryFileThatTheProgramTakes) {
+  const Schema mechanism("mechanism"), study("study");
+  int seen = 0;
+  for (const CorpusFile& file : file_corpus()) {
+    if (file.kind == "posterior") continue;
+    const nlohmann::json json = json_of(Document::from_file(file.path).root());
+    EXPECT_EQ((file.kind == "mechanism" ? mechanism : study).fault_of(json), "") << file.path;
+    ++seen;
+  }
+  EXPECT_GT(seen, 30);
+}
+
+struct Damage {
+  const char* what;
+  const char* with;
+};
+
+// The text with the damage is refused by the reader and by the schema, the text without it by none.
+template <typename Read>
+void expect_both_refuse(const std::filesystem::path& file, const std::string& kind, const std::vector<Damage>& damages,
+                        const Read& read) {
+  const Schema schema(kind);
+  std::string good;
+  {
+    std::ifstream in(file);
+    good.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  ASSERT_EQ(schema.fault_of(json_of(parse_toml(good, "f.toml"))), "");
+  ASSERT_NO_THROW(read(good));
+  for (const Damage& damage : damages) {
+    std::string text = good;
+    const std::size_t at = text.find(damage.what);
+    ASSERT_NE(at, std::string::npos) << damage.what;
+    text.replace(at, std::string(damage.what).size(), damage.with);
+    EXPECT_THROW(read(text), InputError) << damage.with;
+    EXPECT_NE(schema.fault_of(json_of(parse_toml(text, "f.toml"))), "") << damage.with;
+  }
+}
+
+TEST(Schemas, RefuseDamagedMechanisms) {
+  expect_both_refuse(BORESIGHT_TEMPLATES "/mechanism.toml", "mechanism",
+                     {{"mass = \"0.2 kg\"", "mass = 0.2"},  // without its unit
+                      {"mass = \"0.2 kg\"", "mass = \"0.2\""},
+                      {"mass = \"0.2 kg\"", "mas = \"0.2 kg\""},  // an unknown key
+                      {"mass = \"0.2 kg\"\n", ""},                // a missing key
+                      {"[motion]\nduration = \"1 s\"\n", "[motion]\n"},
+                      {"type = \"revolute\"", "type = \"revolut\""},  // a wrong choice
+                      {"type = \"revolute\"", "type = 1"},
+                      {"law = \"flores\"", "law = \"florez\""},
+                      {"law = \"modified-coulomb\"", "law = \"coulomb\""},
+                      {"restitution = 0.85", "restitution = \"0.85\""},  // a wrong type
+                      {"restitution = 0.85", "restitution = 1.5"},       // out of range
+                      {"coefficient = 0.05", "coeficient = 0.05"},
+                      {"poisson = [0.3, 0.33]", "poisson = [0.3]"},  // too few
+                      {"axis = [0, 1, 0]", "axis = [0, 1]"},
+                      {"connects = [\"ground\", \"crank\"]", "connects = [\"ground\"]"},
+                      {"driven = true", "driven = \"yes\""},
+                      {"format = 1", "format = 2"},
+                      {"[motion]", "[[motion]]"},  // tables where one is expected
+                      {"[payload]", "[payloads]"}},
+                     [](const std::string& text) { read_mechanism_text(text, "f.toml"); });
+}
+
+TEST(Schemas, RefuseDamagedStudies) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("schema-" + std::to_string(::getpid()));
+  std::filesystem::create_directory(folder);
+  std::filesystem::copy_file(BORESIGHT_TEMPLATES "/mechanism.toml", folder / "mechanism.toml");
+  const auto read = [&](const std::string& text) {
+    std::ofstream(folder / "study.toml") << text;
+    read_whole(folder / "study.toml", "study");
+  };
+  expect_both_refuse(BORESIGHT_TEMPLATES "/montecarlo.toml", "study",
+                     {{"accuracy = \"2 %\"", "accuracy = 0.02"},
+                      {"mechanism = \"mechanism.toml\"", "mechanism = 1"},
+                      {"quantity = \"boresight_error\"", "quantity = \"boresight\""},
+                      {"statistic = \"max\"", "statistics = \"max\""},
+                      {"samples = 1000", "samples = 1000.5"},
+                      {"samples = 1000", "samples = \"1000\""},
+                      {"samples = 1000", "samples = 0"},
+                      {"seed = 1", "seed = -1"},
+                      {"{ uniform = { min = 0.7, max = 0.95 } }", "{ uniform = { min = 0.7 } }"},
+                      {"{ uniform = { min = 0.7, max = 0.95 } }", "{ uniforms = { min = 0.7, max = 0.95 } }"},
+                      {"probability = 0.95", "probability = 1.5"},
+                      {"[montecarlo]", "[monte_carlo]"}},
+                     read);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace boresight::app
