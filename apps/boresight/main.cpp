@@ -17,7 +17,7 @@
 #include "boresight_analyses/study/pilot.hpp"
 #include "command_line/completion.hpp"
 #include "command_line/montecarlo_study.hpp"
-#include "command_line/verb.hpp"
+#include "command_line/program_options.hpp"
 #include "results/output_directory.hpp"
 #include "results/summary.hpp"
 #include "terminal/exit_status.hpp"
@@ -74,29 +74,8 @@ std::string unknown_option(const std::vector<std::string>& left_over, const std:
 }
 
 int run_program(int argc, char** argv) {
-  const auto verbs = all_verbs();
-  std::vector<CommandOptions> options(verbs.size());
-  std::vector<CLI::App*> commands;
-
-  CLI::App app("Accuracy of pointing mechanisms whose joints have clearance.", "boresight");
-  app.set_version_flag("--version", std::string("boresight ") + BORESIGHT_VERSION);
-  app.require_subcommand(1);
-  app.footer(
-      "boresight VERB --help tells more. Exit status: 0 done, 1 the answer is no, 2 bad input, 3 failed, 130 "
-      "interrupted.");
-  for (std::size_t i = 0; i < verbs.size(); ++i) {
-    CLI::App* command = app.add_subcommand(verbs[i]->name(), verbs[i]->summary());
-    options[i].declare(*command, verbs[i]->file_kind(), verbs[i]->needs_file(), verbs[i]->unused_options());
-    verbs[i]->declare_options(*command);
-    command->footer("Example:\n  " + verbs[i]->example());
-    commands.push_back(command);
-  }
-
-  std::string shell;
-  CLI::App* completion =
-      app.add_subcommand("completion", "completion of verbs and options in a shell: bash, zsh, fish");
-  completion->add_option("SHELL", shell, "bash, zsh or fish")->required()->type_name("");
-  completion->footer("Example:\n  source <(boresight completion bash)");
+  ProgramOptions program;
+  auto& [verbs, options, shell, app, commands, completion] = program;
 
   if (argc < 2) return fail(kBadInput, "found no verb, expected boresight VERB FILE; boresight --help tells more");
   const bool known =

@@ -17,7 +17,10 @@ namespace boresight::app {
   VERB(calibrate)             \
   VERB(budget)                \
   VERB(export)                \
-  VERB(laws)
+  VERB(laws)                  \
+  VERB(paths)                 \
+  VERB(help)                  \
+  VERB(schema)
 
 #define DECLARE(name) std::unique_ptr<Verb> make_##name##_verb();
 BORESIGHT_VERBS(DECLARE)

@@ -12,6 +12,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "command_line/option_range.hpp"
+#include "command_line/verb.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/terminal.hpp"
 
@@ -46,10 +47,10 @@ double quantity_between(const std::string& option, const std::string& text, cons
   return value;
 }
 
-void CommandOptions::declare(CLI::App& app, const std::string& file_kind, bool needs_file,
-                             const std::vector<std::string>& unused) {
+void CommandOptions::declare(CLI::App& app, const Verb& verb) {
+  const std::vector<std::string> unused = verb.unused_options();
   const auto used = [&](const char* name) { return std::find(unused.begin(), unused.end(), name) == unused.end(); };
-  app.add_option("FILE", file, (needs_file ? "the " : "a ") + file_kind + " file")->required(needs_file)->type_name("");
+  app.add_option(verb.operand(), file, verb.operand_is())->required(verb.needs_file())->type_name("");
   if (used("--set"))
     app.add_option("--set", settings,
                    "change a value of the mechanism: clearance.F1.radial=0.2mm (any number of times)")
@@ -63,9 +64,9 @@ void CommandOptions::declare(CLI::App& app, const std::string& file_kind, bool n
         ->capture_default_str();
   if (used("--accuracy"))
     app.add_option("--accuracy", accuracy, "wanted of the index, e.g. \"1 %\"; chooses the rung")->type_name("SHARE");
-  app.add_option("--jobs", jobs, "threads; otherwise as many as there are cores")->type_name("N");
-  app.add_flag("--quiet", quiet, "no progress, no summary on the terminal");
-  app.add_flag("--json", json, "summary.json to standard output instead of the summary for people");
+  if (used("--jobs")) app.add_option("--jobs", jobs, "threads; otherwise as many as there are cores")->type_name("N");
+  if (used("--quiet")) app.add_flag("--quiet", quiet, "no progress, no summary on the terminal");
+  if (used("--json")) app.add_flag("--json", json, verb.json_is());
 }
 
 Command CommandOptions::command(const std::string& verb) const {
@@ -75,6 +76,7 @@ Command CommandOptions::command(const std::string& verb) const {
   command.out = out;
   command.rung = rung;
   command.quiet = quiet || json;
+  command.json = json;
   for (const std::string& text : settings) command.settings.push_back(parse_setting(text));
   if (!accuracy.empty()) command.accuracy = quantity_between("--accuracy", accuracy, {kRatio, "0.0001 %", "100 %"});
   if (jobs < 0 || jobs > 4096) throw InputError(kCommandLine, "--jobs", std::to_string(jobs), "1 to 4096 threads");

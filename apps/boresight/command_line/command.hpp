@@ -22,6 +22,8 @@ class App;
 
 namespace boresight::app {
 
+class Verb;
+
 struct Command {
   std::string verb;
   std::string file;
@@ -31,6 +33,7 @@ struct Command {
   std::optional<double> accuracy;  // --accuracy, relative, of the index
   int jobs = 1;                    // threads
   bool quiet = false;
+  bool json = false;  // --json: then quiet as well
 };
 
 // The exit status of a verb of which the computation failed. The summary on the terminal has said why; where none was wanted,
@@ -45,8 +48,8 @@ struct CommandOptions {
   bool quiet = false;
   bool json = false;
 
-  // unused: those among them that the verb has no use for.
-  void declare(CLI::App& app, const std::string& file_kind, bool needs_file, const std::vector<std::string>& unused);
+  // Those among them that the verb has a use for.
+  void declare(CLI::App& app, const Verb& verb);
   Command command(const std::string& verb) const;
 };
 

@@ -3,6 +3,17 @@
 #include "command_line/program_help.hpp"
 
 namespace boresight::app {
+namespace {
+
+constexpr const char* kOtherVerbs = "Files and help";
+
+// Under which heading --help lists a verb.
+std::string group_of(const Verb& verb) {
+  if (verb.file_kind() == "study") return "Studies of a mechanism";
+  return verb.file_kind().starts_with("mechanism") && verb.name() != "paths" ? "One mechanism" : kOtherVerbs;
+}
+
+}  // namespace
 
 ProgramOptions::ProgramOptions()
     : verbs(all_verbs()),
@@ -18,10 +29,12 @@ ProgramOptions::ProgramOptions()
     CLI::App* command = app.add_subcommand(verbs[i]->name(), verbs[i]->summary());
     options[i].declare(*command, *verbs[i]);
     verbs[i]->declare_options(*command);
+    command->group(group_of(*verbs[i]));
     command->footer("Example:\n  " + verbs[i]->example());
     commands.push_back(command);
   }
   completion = app.add_subcommand("completion", "completion of verbs and options in a shell: bash, zsh, fish");
+  completion->group(kOtherVerbs);
   completion->add_option("SHELL", shell, "bash, zsh or fish")->required()->type_name("");
   completion->footer("Example:\n  source <(boresight completion bash)");
 }

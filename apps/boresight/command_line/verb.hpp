@@ -22,6 +22,9 @@ class Verb {
   virtual std::string name() const = 0;
   virtual std::string file_kind() const = 0;  // what FILE is: "mechanism", "study"
   virtual bool needs_file() const { return true; }
+  virtual std::string operand() const { return "FILE"; }  // what --help calls it, and says of it
+  virtual std::string operand_is() const { return (needs_file() ? "the " : "a ") + file_kind() + " file"; }
+  virtual std::string json_is() const { return "summary.json to standard output instead of the summary for people"; }
   virtual std::string summary() const = 0;    // one line for --help
   virtual std::string example() const = 0;    // a command that works as it stands
   virtual void declare_options(CLI::App&) {}  // beyond those that verbs share

@@ -104,10 +104,12 @@ class TableFile {
 class ExportVerb : public Verb {
  public:
   std::string name() const override { return "export"; }
-  std::string file_kind() const override { return "results folder, not a"; }
+  std::string file_kind() const override { return "results"; }
+  std::string operand() const override { return "DIR"; }
+  std::string operand_is() const override { return "the folder of a study's results"; }
   std::string summary() const override { return "the samples of a study as CSV: samples.csv"; }
   std::string example() const override { return "boresight export results/montecarlo"; }
-  std::vector<std::string> unused_options() const override { return {"--set", "--rung", "--accuracy"}; }
+  std::vector<std::string> unused_options() const override { return {"--set", "--rung", "--accuracy", "--json"}; }
 
   int execute(const Command& command) override {
     const std::filesystem::path folder = command.file,

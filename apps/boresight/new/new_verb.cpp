@@ -34,10 +34,14 @@ std::string text_of(const fs::path& file) {
 class NewVerb : public Verb {
  public:
   std::string name() const override { return "new"; }
-  std::string file_kind() const override { return "folder to make, not a"; }
+  std::string file_kind() const override { return "folder"; }
+  std::string operand() const override { return "FOLDER"; }
+  std::string operand_is() const override { return "the folder to make"; }
   std::string summary() const override { return "a commented mechanism and study to start from"; }
   std::string example() const override { return "boresight new antenna"; }
-  std::vector<std::string> unused_options() const override { return {"--set", "--out", "--rung", "--accuracy"}; }
+  std::vector<std::string> unused_options() const override {
+    return {"--set", "--out", "--rung", "--accuracy", "--json"};
+  }
 
   int execute(const Command& command) override {
     const fs::path folder = command.file;
