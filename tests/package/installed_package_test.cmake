@@ -10,6 +10,13 @@ function(call)
 endfunction()
 
 call(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/prefix)
+if(EXISTS ${work}/prefix/bin/boresight)
+  foreach(file share/doc/boresight/reference.html share/boresight/mechanism.schema.json share/boresight/study.schema.json)
+    if(NOT EXISTS ${work}/prefix/${file})
+      message(FATAL_ERROR "the program is installed without ${file}")
+    endif()
+  endforeach()
+endif()
 call(${CMAKE_COMMAND} -G ${GENERATOR} -DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM} -S ${SOURCE}/examples/library -B ${work}/build
      -DCMAKE_PREFIX_PATH=${work}/prefix -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}")
 call(${CMAKE_COMMAND} --build ${work}/build)

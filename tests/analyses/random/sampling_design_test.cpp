@@ -1,3 +1,5 @@
+#include "boresight_analyses/random/sampling_design.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 
 #include "boresight_analyses/random/counter_stream.hpp"
 #include "boresight_analyses/random/permutation.hpp"
-#include "boresight_analyses/random/sampling_design.hpp"
 
 namespace boresight {
 namespace {

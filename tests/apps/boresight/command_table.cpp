@@ -66,6 +66,10 @@ void expect_error_follows_play(const Left& left, const std::string& path, const 
 
 std::vector<Command> commands() {
   return {
+      {.text = "boresight help clearance.friction",
+       .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("static_coefficient")); }},
+      {.text = "boresight paths examples/3-rrcpr/3-rrcpr.toml",
+       .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("clearance.F1.radial")); }},
       {.text = "boresight check examples/3-rrcpr/3-rrcpr.toml", .claims = freedoms(6, 0)},
       // "near the clearance times 1.9 and breaks down four times"; "The orientation error is zero to rounding."
       {.text = "boresight run examples/3-rrcpr/3-rrcpr.toml",
