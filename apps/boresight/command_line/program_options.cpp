@@ -10,7 +10,8 @@ constexpr const char* kOtherVerbs = "Files and help";
 // Under which heading --help lists a verb.
 std::string group_of(const Verb& verb) {
   if (verb.file_kind() == "study") return "Studies of a mechanism";
-  return verb.file_kind().starts_with("mechanism") && verb.name() != "paths" ? "One mechanism" : kOtherVerbs;
+  const bool of_mechanism = verb.file_kind().starts_with("mechanism") && verb.name() != "paths";
+  return of_mechanism || verb.name() == "new" ? "One mechanism" : kOtherVerbs;
 }
 
 }  // namespace

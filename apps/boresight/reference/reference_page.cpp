@@ -55,6 +55,21 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+// Text with `code` in it.
+std::string prose(const std::string& text) {
+  std::string out;
+  bool code = false;
+  for (const char c : escaped(text)) {
+    if (c != '`') {
+      out += c;
+      continue;
+    }
+    out += code ? "</code>" : "<code>";
+    code = !code;
+  }
+  return out;
+}
+
 std::string anchor(const Section& section) {
   return "file-" + section.file + (section.path().empty() ? "" : "-" + section.path());
 }
@@ -69,14 +84,14 @@ std::string key_row(const Section& section, const Key& key) {
   return fmt::format(
       "<tr id=\"{}.{}\"><td><code>{}</code></td><td>{}{}</td><td class=\"small\">{}</td><td class=\"small\">{}</td>"
       "<td class=\"small\">{}</td></tr>\n",
-      anchor(section), escaped(key.name), escaped(key.name), escaped(key.sentence), words, value,
-      escaped(presence_text(key)), escaped(verbs_text(section, &key)));
+      anchor(section), escaped(key.name), escaped(key.name), prose(key.sentence), words, value,
+      prose(presence_text(key)), escaped(verbs_text(section, &key)));
 }
 
 std::string section_part(const Section& section) {
   const std::string heading = section.path().empty() ? "at the top of the file" : section.heading();
   std::string part =
-      fmt::format("<h3 id=\"{}\">{}</h3>\n<p>{}", anchor(section), escaped(heading), escaped(section.keys->says));
+      fmt::format("<h3 id=\"{}\">{}</h3>\n<p>{}", anchor(section), escaped(heading), prose(section.keys->says));
   if (section.paths.size() > 1)
     part += fmt::format(" <span class=\"small\">Also [{}].</span>",
                         escaped(fmt::format("{}", fmt::join(section.paths.begin() + 1, section.paths.end(), "], ["))));
@@ -89,7 +104,7 @@ std::string topic_part(const Topic& topic) {
   std::string part = fmt::format("<h3 id=\"topic-{}\">{}</h3>\n", topic.name, escaped(topic.title));
   for (const std::string& paragraph : topic.paragraphs)
     part += paragraph.starts_with(' ') ? "<pre>" + escaped(paragraph.substr(1)) + "</pre>\n"
-                                       : "<p>" + escaped(paragraph) + "</p>\n";
+                                       : "<p>" + prose(paragraph) + "</p>\n";
   return part;
 }
 
