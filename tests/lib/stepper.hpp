@@ -22,7 +22,7 @@ struct Stepper {
     std::array<ContactState<double>, kContactPlaces> contact;
     for (std::size_t c = 0; c < trackers.size(); ++c) {
       const int k = static_cast<int>(c);
-      formulation.forces().joint(k).penetrations(formulation.forces().journal_motion(k, formulation.bodies(t, y)),
+      formulation.forces().joint(k).penetrations(formulation.forces().play_motion(k, formulation.bodies(t, y)),
                                                  contact);
       contacts += trackers[c].accept(t, contact);
       memory[c] = trackers[c].memory();

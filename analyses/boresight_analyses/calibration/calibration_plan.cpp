@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/io/referred_file.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -133,7 +133,7 @@ CalibrationProblem calibration_problem(
                          "a [pointing] table with a target or a distance in " + mechanism.description().origin.file);
   for (int c = 0; c < mechanism.clearances(); ++c) {
     const ClearanceDescription& clearance = mechanism.description().clearances[c];
-    if (JournalInSleeve(clearance, mechanism.description().joints[clearance.joint].type, clearance.parameters).sticks)
+    if (JointPlay(clearance, mechanism.description().joints[clearance.joint].type, clearance.parameters).sticks)
       throw InputError(clearance.origin, "friction.law", in_quotes(clearance.friction_law),
                        "a law without bristles: calibrate does not follow their state");
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/integrate/explicit_method.hpp"
 #include "boresight/integrate/rosenbrock_method.hpp"
 
@@ -49,7 +49,7 @@ Settling follow(Method method, SettlingContact& contact, double height, double d
 SettlingContact SettlingContact::of(const Mechanism& mechanism, const Parameters& parameters, int clearance,
                                     const ContactFrequency& found) {
   const MechanismDescription& m = mechanism.description();
-  const JournalInSleeve joint(m.clearances[clearance], m.joints[m.clearances[clearance].joint].type,
+  const JointPlay joint(m.clearances[clearance], m.joints[m.clearances[clearance].joint].type,
                               parameters.clearance[clearance]);
   SettlingContact contact;
   contact.mass = found.effective_mass;

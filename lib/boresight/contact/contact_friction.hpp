@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "boresight/contact/friction_law.hpp"
+#include "boresight/contact/contact_memory.hpp"
 #include "boresight/contact/lugre.hpp"
 
 namespace boresight {

@@ -24,6 +24,9 @@ inline const char* to_string(ContactPlace place) {
   return names[static_cast<int>(place)];
 }
 
+// Whether a place limits the motion along the joint's axis, and not across it.
+inline bool is_axial(ContactPlace place) { return place >= ContactPlace::axial_minus; }
+
 struct ContactMemory {
   std::array<bool, kContactPlaces> touching{};
   // Approach speed at the start of the contact; while not touching, the speed to use should a contact begin inside the

@@ -1,7 +1,7 @@
 // Friction of a contact, by the law that the mechanism names: force over normal force as a function of the sliding speed.
 //
 // Modified Coulomb is the default and stays a few instructions; the others are asked for behind one test that every lane
-// answers alike. LuGre has a state and is not a function of speed: it is carried beside (see JournalInSleeve::lugre).
+// answers alike. LuGre has a state and is not a function of speed: it is carried beside (see JointPlay::lugre).
 #pragma once
 
 #include <stdexcept>

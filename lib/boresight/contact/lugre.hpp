@@ -12,7 +12,7 @@
 
 #include <cmath>
 
-#include "boresight/contact/journal_motion.hpp"
+#include "boresight/math/types.hpp"
 
 namespace boresight {
 

@@ -4,14 +4,14 @@
 
 #include <vector>
 
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/play/joint_play.hpp"
 
 namespace boresight {
 
 class BristleState {
  public:
   BristleState() = default;
-  explicit BristleState(const std::vector<JournalInSleeve>& joints) {
+  explicit BristleState(const std::vector<JointPlay>& joints) {
     for (std::size_t c = 0; c < joints.size(); ++c)
       if (joints[c].sticks)
         for (const ContactPlace place : joints[c].places()) slots_.push_back({c, static_cast<int>(place)});

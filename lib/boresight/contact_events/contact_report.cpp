@@ -28,10 +28,10 @@ struct AlongMotion {
 };
 
 // The larger of the loads that a joint's contacts carry: the force, and on a tilting journal what its couple asks of the ends.
-double radial_load(const VecX& reaction, const OffsetLayout::Joint& at, const JournalInSleeve& joint) {
+double radial_load(const VecX& reaction, const OffsetLayout::Joint& at, const JointPlay& joint) {
   const double force = reaction.segment<3>(at.first).norm();
   if (!at.tilts) return force;
-  return force + reaction.segment<2>(at.first + 3).norm() / joint.half_length;
+  return force + reaction.segment<2>(at.first + 3).norm() / joint.lever();
 }
 
 // Of each body as if it were free: what a unit wrench about its own centre of mass accelerates.
@@ -53,7 +53,7 @@ AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, con
   const ForceElements& forces = formulation->forces();
   const OffsetLayout layout(mechanism);
   const int n = forces.clearances();
-  std::vector<JournalInSleeve> joints;
+  std::vector<JointPlay> joints;
   for (int c = 0; c < n; ++c) joints.push_back(forces.joint(c));
   std::vector<ContactMemory> memory(n);
   AlongMotion along;
@@ -135,16 +135,16 @@ std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const
   // suddenly applied to an elastic contact reaches. All joints together bound the frequency of each.
   const OffsetLayout layout(mechanism);
   VecX root_stiffness = VecX::Zero(layout.size());
-  const std::vector<JournalInSleeve> laws = clearance_joints(m, parameters);
+  const std::vector<JointPlay> laws = joint_plays(m, parameters);
   for (int c = 0; c < n; ++c) {
     const OffsetLayout::Joint& at = layout.joint(c);
-    const JournalInSleeve& law = laws[c];
+    const JointPlay& law = laws[c];
     ContactFrequency f;
     f.joint = m.joints[m.clearances[c].joint].name;
-    f.hertz_stiffness = law.radial_law.curve == ElasticCurve::point ? law.radial_law.stiffness : 0.0;
-    f.axial_stiffness = law.face_stiffness;
+    f.hertz_stiffness = law.normal_law().curve == ElasticCurve::point ? law.normal_law().stiffness : 0.0;
+    f.axial_stiffness = law.axial_stiffness();
     f.typical_load = along.reaction_rms[c];
-    f.typical_penetration = law.radial_law.depth_under(f.typical_load);
+    f.typical_penetration = law.normal_law().depth_under(f.typical_load);
     f.validity_speed = law.validity_speed;
     double largest = 0.0;
     for (const MatX& A : along.compliance)
@@ -152,17 +152,7 @@ std::vector<ContactFrequency> analyse_contacts(const Mechanism& mechanism, const
                          Eigen::SelfAdjointEigenSolver<Mat3>(Mat3(A.block<3, 3>(at.first, at.first))).eigenvalues()[2]);
     f.effective_mass = largest > 0.0 ? 1.0 / largest : 0.0;
     f.largest_load = along.reaction_max[c];
-    const double deepest = law.radial_law.depth_under(2.0 * along.reaction_max[c]);
-    const double radial = deepest > 0.0 ? law.radial_law.elastic_slope(deepest) : 0.0;
-    root_stiffness.segment<3>(at.first) << std::sqrt(radial), std::sqrt(law.face_stiffness), std::sqrt(radial);
-    // Both ends of a tilting journal at half the stiffness each, half a sleeve's length from its centre; and a face in full contact, whose
-    // ring resists tilts by K_c R^2 / 2 (ring_contact.hpp).
-    if (at.tilts) {
-      const double ends = radial * law.half_length * law.half_length;
-      const double ring =
-          law.has_faces ? 0.5 * law.face_stiffness * law.tilted.ring_radius * law.tilted.ring_radius : 0.0;
-      root_stiffness.segment<2>(at.first + 3).setConstant(std::sqrt(ends + ring));
-    }
+    root_stiffness.segment(at.first, at.count()) = law.root_stiffness(along.reaction_max[c]).head(at.count());
     result.push_back(f);
   }
   for (const MatX& A : along.compliance) {

@@ -61,7 +61,7 @@ Crossing flight_crossing(const FreeFlight& f, double h, double secant_share) {
 
 }  // namespace
 
-ContactTracker::ContactTracker(int clearance, std::string joint_name, const JournalInSleeve& law, bool keep_events,
+ContactTracker::ContactTracker(int clearance, std::string joint_name, const JointPlay& law, bool keep_events,
                                double start)
     : clearance_(clearance),
       places_(law.places()),

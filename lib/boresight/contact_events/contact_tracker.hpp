@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/rungs/run_result.hpp"
 
 namespace boresight {
@@ -18,10 +18,10 @@ namespace boresight {
 class ContactTracker {
  public:
   // start: the summary leaves out what comes before [s]; events are kept from t = 0 on.
-  ContactTracker(int clearance, std::string joint_name, const JournalInSleeve& law, bool keep_events,
+  ContactTracker(int clearance, std::string joint_name, const JointPlay& law, bool keep_events,
                  double start = 0.0);
 
-  // The state of the contacts at an accepted time, from JournalInSleeve::penetrations. Call at the start, then after every step.
+  // The state of the contacts at an accepted time, from JointPlay::penetrations. Call at the start, then after every step.
   // Returns true if a contact began or ended.
   bool accept(double t, const std::array<ContactState<double>, kContactPlaces>& contact);
   // Forces at the state accepted last (normal_force of each place).

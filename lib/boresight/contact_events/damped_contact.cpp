@@ -13,10 +13,10 @@ constexpr double kAsARule = 0.1;
 
 // -d (force on the offsets) / d (their rates), of one joint. A tilting journal's slopes change with its spin, s' = w x y, and the contact's
 // moment works on that.
-Eigen::Matrix<double, 5, 5> damping(const JournalInSleeve& joint, const JournalMotion<double>& motion,
+Eigen::Matrix<double, 5, 5> damping(const JointPlay& joint, const PlayMotion<double>& motion,
                                     const ContactMemory& memory) {
   ContactJacobian J;
-  contact_jacobian(joint, motion, memory.impact_speed, MomentAbout::journal, J);
+  contact_jacobian(joint, motion, memory.impact_speed, MomentAbout::insert, J);
   Eigen::Matrix<double, 6, 5> by_rate;
   by_rate << J.col(3), J.col(4), J.col(5), J.col(11) - J.col(8), J.col(12) + J.col(6);
   Eigen::Matrix<double, 5, 5> D;
@@ -26,8 +26,8 @@ Eigen::Matrix<double, 5, 5> damping(const JournalInSleeve& joint, const JournalM
 
 }  // namespace
 
-DampedContact most_damped_contact(const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
-                                  const std::vector<JournalMotion<double>>& motion,
+DampedContact most_damped_contact(const OffsetLayout& layout, const std::vector<JointPlay>& joints,
+                                  const std::vector<PlayMotion<double>>& motion,
                                   const std::vector<ContactTracker>& trackers,
                                   const Eigen::Ref<const MatX>& compliance) {
   MatX D = MatX::Zero(layout.size(), layout.size());
@@ -50,7 +50,7 @@ DampedContact most_damped_contact(const OffsetLayout& layout, const std::vector<
     // A slope's moment over a length that makes it a force.
     const OffsetLayout::Joint& at = layout.joint(c);
     double share = mode.segment(at.first, 3).norm();
-    if (at.tilts) share += mode.segment(at.first + 3, 2).norm() / joints[c].half_length;
+    if (at.tilts) share += mode.segment(at.first + 3, 2).norm() / joints[c].lever();
     if (share > largest) {
       largest = share;
       result.clearance = c;
@@ -62,14 +62,14 @@ DampedContact most_damped_contact(const OffsetLayout& layout, const std::vector<
 DampingWatch::DampingWatch(const Mechanism& mechanism, double step, double limit)
     : mechanism_(mechanism), step_(step), limit_(limit) {}
 
-void DampingWatch::look(double t, const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
-                        const std::vector<JournalMotion<double>>& motion, const std::vector<ContactTracker>& trackers,
+void DampingWatch::look(double t, const OffsetLayout& layout, const std::vector<JointPlay>& joints,
+                        const std::vector<PlayMotion<double>>& motion, const std::vector<ContactTracker>& trackers,
                         const Eigen::Ref<const MatX>& compliance) {
   // A journal that rests may part or press on by what rounding leaves: either way damping is what it is where nothing moves.
-  std::vector<JournalMotion<double>> at_rest;
+  std::vector<PlayMotion<double>> at_rest;
   if (t == 0.0) {
     at_rest = motion;
-    for (JournalMotion<double>& m : at_rest) {
+    for (PlayMotion<double>& m : at_rest) {
       m.e_dot.setZero();
       m.slope_rate.setZero();
     }

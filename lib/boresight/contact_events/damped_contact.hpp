@@ -22,8 +22,8 @@ struct DampedContact {
   int clearance = -1;  // the joint with the largest share in what is damped so fast
 };
 
-DampedContact most_damped_contact(const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
-                                  const std::vector<JournalMotion<double>>& motion,
+DampedContact most_damped_contact(const OffsetLayout& layout, const std::vector<JointPlay>& joints,
+                                  const std::vector<PlayMotion<double>>& motion,
                                   const std::vector<ContactTracker>& trackers,
                                   const Eigen::Ref<const MatX>& compliance);
 
@@ -33,8 +33,8 @@ class DampingWatch {
   // step [s]; limit: the method's, on the negative real axis.
   DampingWatch(const Mechanism& mechanism, double step, double limit);
 
-  void look(double t, const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
-            const std::vector<JournalMotion<double>>& motion, const std::vector<ContactTracker>& trackers,
+  void look(double t, const OffsetLayout& layout, const std::vector<JointPlay>& joints,
+            const std::vector<PlayMotion<double>>& motion, const std::vector<ContactTracker>& trackers,
             const Eigen::Ref<const MatX>& compliance);
   // Whether a contact was damped beyond the limit as a rule, not in single impacts; or where the motion starts from rest: the first steps then
   // throw the journal off, and what it strikes later on is damped less.

@@ -1,15 +1,7 @@
 #include "boresight/contact_events/located_contacts.hpp"
 
 namespace boresight {
-namespace {
-
-constexpr double kOutOfReach = 1e6;  // [m]
-
-bool is_axial(ContactPlace place) { return place >= ContactPlace::axial_minus; }
-
-}  // namespace
-
-LocatedContacts::LocatedContacts(const std::vector<JournalInSleeve>& joints, std::vector<ContactTracker>& trackers)
+LocatedContacts::LocatedContacts(const std::vector<JointPlay>& joints, std::vector<ContactTracker>& trackers)
     : own_(joints), acting_(joints), trackers_(&trackers) {
   for (std::size_t c = 0; c < joints.size(); ++c) {
     first_.push_back(gap_count());
@@ -45,14 +37,8 @@ void LocatedContacts::start(int clearance, double t, const std::array<ContactSta
 }
 
 void LocatedContacts::act(int clearance) {
-  const ContactMemory& memory = (*trackers_)[clearance].memory();
-  bool radial = false, axial = false;
-  for (int g = first_[clearance]; g < gap_count() && gaps_[g].clearance == clearance; ++g)
-    if (memory.touching[static_cast<int>(gaps_[g].place)]) (is_axial(gaps_[g].place) ? axial : radial) = true;
-  const JournalInSleeve& own = own_[clearance];
-  JournalInSleeve& acting = acting_[clearance];
-  acting.radial_clearance = acting.tilted.radial_clearance = radial ? own.radial_clearance : kOutOfReach;
-  acting.axial_clearance = acting.tilted.axial_clearance = axial ? own.axial_clearance : kOutOfReach;
+  acting_[clearance] = own_[clearance];
+  acting_[clearance].keep_only((*trackers_)[clearance].memory().touching);
 }
 
 }  // namespace boresight

@@ -2,8 +2,7 @@
 // can touch.
 //
 // A contact that the memory calls open must give no force, even where a trial step dips below zero: the step is then
-// smooth up to its event. So the laws that act() differ from the joints' own: a direction (radial, axial) in which no
-// contact is closed has a clearance that nothing reaches.
+// smooth up to its event. So the laws that act() differ from the joints' own: JointPlay::keep_only().
 #pragma once
 
 #include "boresight/contact_events/contact_tracker.hpp"
@@ -13,10 +12,10 @@ namespace boresight {
 
 class LocatedContacts {
  public:
-  LocatedContacts(const std::vector<JournalInSleeve>& joints, std::vector<ContactTracker>& trackers);
+  LocatedContacts(const std::vector<JointPlay>& joints, std::vector<ContactTracker>& trackers);
 
   int gap_count() const { return static_cast<int>(gaps_.size()); }
-  // Of one joint, from JournalInSleeve::penetrations: into the places that gap_count() counts. Open where positive [m].
+  // Of one joint, from JointPlay::penetrations: into the places that gap_count() counts. Open where positive [m].
   void read(int clearance, const std::array<ContactState<double>, kContactPlaces>& contact, VecX& gaps) const;
 
   // Tells the trackers. contact: of the joint that joint_of() names, at the event.
@@ -26,7 +25,7 @@ class LocatedContacts {
   void start(int clearance, double t, const std::array<ContactState<double>, kContactPlaces>& contact);
 
   bool touches(int clearance) const { return (*trackers_)[clearance].touching(); }
-  const JournalInSleeve& acting(int clearance) const { return acting_[clearance]; }
+  const JointPlay& acting(int clearance) const { return acting_[clearance]; }
 
  private:
   struct Gap {
@@ -37,7 +36,7 @@ class LocatedContacts {
 
   std::vector<Gap> gaps_;
   std::vector<int> first_;  // gap of each joint
-  std::vector<JournalInSleeve> own_, acting_;
+  std::vector<JointPlay> own_, acting_;
   std::vector<ContactTracker>* trackers_;
 };
 

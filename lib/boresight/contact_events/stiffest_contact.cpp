@@ -3,12 +3,12 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "boresight/contact/contact_tangent.hpp"
+#include "boresight/play/joint_play.hpp"
 
 namespace boresight {
 
-StiffestContact stiffest_contact(const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
-                                 const std::vector<JournalMotion<double>>& motion, const Eigen::Ref<const MatX>& A) {
+StiffestContact stiffest_contact(const OffsetLayout& layout, const std::vector<JointPlay>& joints,
+                                 const std::vector<PlayMotion<double>>& motion, const Eigen::Ref<const MatX>& A) {
   struct Touch {
     int clearance;
     ContactPlace place;
@@ -16,7 +16,7 @@ StiffestContact stiffest_contact(const OffsetLayout& layout, const std::vector<J
   };
   std::vector<Touch> touches;
   for (int c = 0; c < layout.clearances(); ++c) {
-    const ContactTangent tangent = contact_tangent(joints[c], motion[c]);
+    const ContactTangent tangent = joints[c].tangent(motion[c]);
     for (int k = 0; k < tangent.count; ++k) touches.push_back({c, tangent.column[k].place, tangent.column[k].n});
   }
   const Eigen::Index n = static_cast<Eigen::Index>(touches.size());
@@ -34,11 +34,11 @@ StiffestContact stiffest_contact(const OffsetLayout& layout, const std::vector<J
   return {std::sqrt(std::max(0.0, eigen.eigenvalues()[n - 1])), touches[share].clearance, touches[share].place};
 }
 
-double stiffest_contact_bound(const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
-                              const std::vector<JournalMotion<double>>& motion, const Eigen::Ref<const MatX>& A) {
+double stiffest_contact_bound(const OffsetLayout& layout, const std::vector<JointPlay>& joints,
+                              const std::vector<PlayMotion<double>>& motion, const Eigen::Ref<const MatX>& A) {
   double sum = 0.0;
   for (int c = 0; c < layout.clearances(); ++c) {
-    const ContactTangent tangent = contact_tangent(joints[c], motion[c]);
+    const ContactTangent tangent = joints[c].tangent(motion[c]);
     const OffsetLayout::Joint& at = layout.joint(c);
     const int count = at.count();
     for (int k = 0; k < tangent.count; ++k) {

@@ -19,13 +19,13 @@ struct StiffestContact {
   ContactPlace place = ContactPlace::radial;
 };
 
-StiffestContact stiffest_contact(const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
-                                 const std::vector<JournalMotion<double>>& motion,
+StiffestContact stiffest_contact(const OffsetLayout& layout, const std::vector<JointPlay>& joints,
+                                 const std::vector<PlayMotion<double>>& motion,
                                  const Eigen::Ref<const MatX>& compliance);
 
 // An upper bound of the same angular frequency squared [1/s^2], without an eigenvalue: the trace.
-double stiffest_contact_bound(const OffsetLayout& layout, const std::vector<JournalInSleeve>& joints,
-                              const std::vector<JournalMotion<double>>& motion,
+double stiffest_contact_bound(const OffsetLayout& layout, const std::vector<JointPlay>& joints,
+                              const std::vector<PlayMotion<double>>& motion,
                               const Eigen::Ref<const MatX>& compliance);
 
 }  // namespace boresight

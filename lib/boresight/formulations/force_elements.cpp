@@ -31,7 +31,7 @@ ForceElements::ForceElements(const Mechanism& mechanism, const Parameters& param
     const ClearanceDescription& d = m.clearances[c];
     const JointGeometry& g = mechanism.geometry(d.joint);
     const bool journal_first = d.journal == m.joints[d.joint].first;
-    joints_.push_back({JournalInSleeve(d, m.joints[d.joint].type, parameters.clearance[c]),
+    joints_.push_back({JointPlay(d, m.joints[d.joint].type, parameters.clearance[c]),
                        journal_first ? g.second : g.first,
                        journal_first ? g.first : g.second,
                        {},
@@ -45,7 +45,7 @@ ForceElements::ForceElements(const Mechanism& mechanism, const Parameters& param
   for (const LoadDescription& d : m.loads) load_point_.push_back(in_body(m, d.body, d.point));
 }
 
-JournalMotion<double> ForceElements::journal_motion(int clearance, const std::vector<BodyMotion>& bodies) const {
+PlayMotion<double> ForceElements::play_motion(int clearance, const std::vector<BodyMotion>& bodies) const {
   const Joint& joint = joints_[clearance];
   const BodyMotion& S = motion_of(bodies, joint.sleeve.body);
   const BodyMotion& J = motion_of(bodies, joint.journal.body);
@@ -53,8 +53,8 @@ JournalMotion<double> ForceElements::journal_motion(int clearance, const std::ve
   const Vec3 rS = S.R * joint.sleeve.p, rJ = J.R * joint.journal.p;
   const Vec3 d = J.p + rJ - S.p - rS;
   const Vec3 d_dot = J.v + J.w.cross(rJ) - S.v - S.w.cross(rS) - S.w.cross(d);
-  JournalMotion<double> motion{R_WS.transpose() * d, R_WS.transpose() * d_dot, R_WS.transpose() * (J.w - S.w)};
-  if (joint.law.tilts) {
+  PlayMotion<double> motion{R_WS.transpose() * d, R_WS.transpose() * d_dot, R_WS.transpose() * (J.w - S.w)};
+  if (joint.law.inputs() == MotionInputs::tilting) {
     const Vec3 a = R_WS.transpose() * (J.R * joint.journal.R.col(1)), a_dot = motion.w.cross(a);
     motion.slope << a.x() / a.y(), a.z() / a.y();
     motion.slope_rate << (a_dot.x() - motion.slope[0] * a_dot.y()) / a.y(),
@@ -63,17 +63,17 @@ JournalMotion<double> ForceElements::journal_motion(int clearance, const std::ve
   return motion;
 }
 
-void ForceElements::load(Joint& joint, const Eigen::Matrix<double, 5, 1>& held) const {
+void ForceElements::load(Joint& joint, const PlayOffsets& held) const {
   joint.wrench.force = held.head<3>();
   joint.wrench.moment =
-      joint.motion.e.cross(joint.wrench.force) + TiltedJournal::moment_of(held[3], held[4], joint.motion);
+      joint.motion.e.cross(joint.wrench.force) + moment_of_couple(held[3], held[4], joint.motion);
 }
 
 void ForceElements::apply(double t, const std::vector<BodyMotion>& bodies, const std::vector<ContactMemory>& memory,
                           std::vector<Vec6>& wrench) {
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     Joint& joint = joints_[c];
-    joint.motion = journal_motion(static_cast<int>(c), bodies);
+    joint.motion = play_motion(static_cast<int>(c), bodies);
     if (hold_)
       ;  // the last wrench
     else if (held_.empty() && joint.law.sticks)
@@ -131,7 +131,7 @@ void ForceElements::apply(double t, const std::vector<BodyMotion>& bodies, const
 double ForceElements::elastic_energy(const std::vector<BodyMotion>& bodies) const {
   double energy = 0.0;
   for (std::size_t c = 0; c < joints_.size(); ++c)
-    energy += joints_[c].law.elastic_energy(journal_motion(static_cast<int>(c), bodies));
+    energy += joints_[c].law.elastic_energy(play_motion(static_cast<int>(c), bodies));
   for (const Spring& s : springs_) {
     const BodyMotion& A = motion_of(bodies, s.first);
     const BodyMotion& B = motion_of(bodies, s.second);

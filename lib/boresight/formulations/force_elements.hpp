@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/mechanism/body_motion.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 
@@ -21,31 +21,31 @@ class ForceElements {
 
   // In place of contact, from now on: constant loads on the journals' offsets (sleeve axes, in the order x y z of the centre,
   // then couples on the slopes), one per clearance [N, N m].
-  void replace_contact(std::vector<Eigen::Matrix<double, 5, 1>> loads) { held_ = std::move(loads); }
+  void replace_contact(std::vector<PlayOffsets> loads) { held_ = std::move(loads); }
 
   // The contacts' wrenches as they stand, whatever the motion: for derivatives of everything but the contact laws.
   void hold_contact(bool hold) { hold_ = hold; }
-  JournalWrench<double>& contact(int clearance) { return joints_[clearance].wrench; }
+  PlayWrench<double>& contact(int clearance) { return joints_[clearance].wrench; }
 
   // Elastic energy of springs and contacts [J].
   double elastic_energy(const std::vector<BodyMotion>& bodies) const;
 
   int clearances() const { return static_cast<int>(joints_.size()); }
-  const JournalInSleeve& joint(int clearance) const { return joints_[clearance].law; }
+  const JointPlay& joint(int clearance) const { return joints_[clearance].law; }
   // The law that acts from now on: that of the contacts that are closed (located_contacts.hpp).
-  void act(int clearance, const JournalInSleeve& law) { joints_[clearance].law = law; }
-  JournalMotion<double> journal_motion(int clearance, const std::vector<BodyMotion>& bodies) const;
+  void act(int clearance, const JointPlay& law) { joints_[clearance].law = law; }
+  PlayMotion<double> play_motion(int clearance, const std::vector<BodyMotion>& bodies) const;
   // Of the last apply().
-  const JournalWrench<double>& contact(int clearance) const { return joints_[clearance].wrench; }
-  const JournalMotion<double>& motion(int clearance) const { return joints_[clearance].motion; }
+  const PlayWrench<double>& contact(int clearance) const { return joints_[clearance].wrench; }
+  const PlayMotion<double>& motion(int clearance) const { return joints_[clearance].motion; }
   const Bristles<double>& bristle_rate(int clearance) const { return joints_[clearance].bristle_rate; }
 
  private:
   struct Joint {
-    JournalInSleeve law;
+    JointPlay law;
     JointFrame sleeve, journal;
-    JournalMotion<double> motion;
-    JournalWrench<double> wrench;
+    PlayMotion<double> motion;
+    PlayWrench<double> wrench;
     Bristles<double> bristle_rate{};
   };
   struct Spring {
@@ -54,12 +54,12 @@ class ForceElements {
     SpringParameters law;
   };
 
-  void load(Joint& joint, const Eigen::Matrix<double, 5, 1>& held) const;
+  void load(Joint& joint, const PlayOffsets& held) const;
 
   const Mechanism& mechanism_;
   bool hold_ = false;
   std::vector<Joint> joints_;
-  std::vector<Eigen::Matrix<double, 5, 1>> held_;
+  std::vector<PlayOffsets> held_;
   std::vector<Spring> springs_;
   std::vector<Vec3> load_point_;  // of the description's loads at a point, body axes
 };

@@ -29,18 +29,20 @@ const KeyTable& clearance_keys() {
   static const KeyTable table_of_keys{
       .name = "clearance",
       .says =
-          "Play of a revolute or cylindrical joint: a journal, carried by one body, in a sleeve, carried by the other.",
+          "Play of a joint: of a revolute or cylindrical one a journal, carried by one body, in a sleeve, carried by the other; of a "
+          "spherical one a ball in its socket.",
       .keys = {
           text("joint").says("The joint that has play; its paths are clearance.JOINT.radial and so on."),
-          text("journal").says("Which of the joint's bodies carries the journal; the other one carries the sleeve."),
+          text("journal").says("Which of the joint's bodies carries the journal or the ball; the other one carries the sleeve or socket."),
           quantity("radial", kSizeRange)
               .above(0.0, "a length above zero")
-              .says("Radial clearance: the sleeve's radius less the journal's, half the difference of the diameters."),
+              .says("Radial clearance: the sleeve's radius less the journal's, half the difference of the diameters; of a ball "
+                "likewise."),
           quantity("axial", kSizeRange)
               .at_least(0.0, "a length of zero or more")
-              .sometimes("needed of a revolute joint; a cylindrical one slides through its sleeve and has none")
+              .sometimes("needed of a revolute joint; a cylindrical one slides through its sleeve and has none, nor has a ball")
               .says("Axial clearance on each side, between end face and cap."),
-          quantity("journal_radius", kSizeRange).above(0.0, "a length above zero").says("Radius of the journal."),
+          quantity("journal_radius", kSizeRange).above(0.0, "a length above zero").says("Radius of the journal, or of the ball."),
           quantity("cap_radius", kSizeRange)
               .above(0.0, "a length above zero")
               .sometimes("needed of a revolute joint")

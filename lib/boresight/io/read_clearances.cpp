@@ -145,10 +145,8 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
   clearance.origin = cursor.origin();
   clearance.joint = joint_index(so_far, cursor, "joint", cursor.text("joint"));
   const JointDescription& joint = so_far.joints[clearance.joint];
-  if (joint.type != JointType::revolute && joint.type != JointType::cylindrical) {
-    cursor.fail_found("joint", in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint",
-                      "a revolute or cylindrical joint");
-  }
+  if (!can_have_play(joint.type))
+    cursor.fail_found("joint", in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint", kTypesWithPlay);
   for (const ClearanceDescription& other : so_far.clearances) {
     if (other.joint == clearance.joint) {
       cursor.fail_found(
@@ -166,12 +164,17 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
         "journal", in_quotes(journal),
         "one of the bodies of joint " + joint.name + ": " + name(joint.first) + " or " + name(joint.second));
   }
+  const bool ball = joint.type == JointType::spherical;
+  for (const char* key : {"axial", "cap_radius", "sleeve_length", "axes"})
+    if (ball && cursor.has(key))
+      cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", a spherical joint",
+                        "radial and journal_radius alone: the play of a ball and its radius");
   clearance.axes = cursor.choice("axes") == "free" ? JournalAxes::free : JournalAxes::parallel;
 
   // A cylindrical joint slides along its axis: no caps, no axial clearance, and no ends unless the journal may tilt.
   ClearanceParameters& p = clearance.parameters;
   const bool caps = joint.type == JointType::revolute;
-  if (!caps && cursor.has("axial"))
+  if (joint.type == JointType::cylindrical && cursor.has("axial"))
     cursor.fail_found("axial", "it on " + in_quotes(joint.name) + ", a cylindrical joint",
                       "no axial clearance: the journal slides through its sleeve and has no end faces");
   p.radial = cursor.quantity("radial");
@@ -187,8 +190,11 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
   }
   Cursor contact = cursor.table_or_empty("contact"), friction = cursor.table_or_empty("friction");
   std::vector<AssumedValue> left_out;
-  if (!cursor.has("axes")) left_out.push_back({.joint = "", .key = "axes", .value = "\"parallel\""});
+  if (!ball && !cursor.has("axes")) left_out.push_back({.joint = "", .key = "axes", .value = "\"parallel\""});
   p.contact = read_contact(contact, clearance.contact_law, clearance.dissipation_law, left_out);
+  if (ball && normal_law(clearance.contact_law).geometry == ContactGeometry::line)
+    contact.fail_found("law", in_quotes(clearance.contact_law) + ", a law for cylinders",
+                       "a law for points or a spring: " + in_quotes(joint.name) + " is a ball in its socket");
   if (normal_law(clearance.contact_law).geometry == ContactGeometry::line && p.sleeve_length == 0.0)
     p.sleeve_length = cursor.quantity("sleeve_length");
   p.friction = read_friction(friction, clearance.friction_law, left_out);

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <type_traits>
 
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/integrate/rosenbrock_tables.hpp"
 #include "boresight/scene/scene_layout.hpp"
 
@@ -41,7 +41,7 @@ struct LaneScene {
 
 struct LaneJob {
   const LaneScene* scene = nullptr;
-  const JournalInSleeve* joints = nullptr;  // one per clearance
+  const JointPlay* joints = nullptr;  // one per clearance
   const double* tolerance = nullptr;        // 2 n: largest error of one step, of each z, then of each zdot
   const double* start = nullptr;            // 2n: z and zdot at the start; zero where none is given
   const double* gap_tolerance = nullptr;    // one per clearance [m]: a contact begins this close to its located start

@@ -29,8 +29,8 @@ class LaneDynamics {
  public:
   static constexpr int N = Layout::kCount;
 
-  LaneDynamics(const SceneLayout& layout, const JournalInSleeve* first_sample) : at(layout) {
-    for (std::size_t c = 0; c < at.joints.size(); ++c) laws.push_back(in_all_lanes<T>(first_sample[c]));
+  LaneDynamics(const SceneLayout& layout, const JointPlay* first_sample) : at(layout) {
+    for (std::size_t c = 0; c < at.joints.size(); ++c) laws.push_back(in_all_lanes<T>(journal_of(first_sample[c])));
     acting = laws;
     impact_speed.resize(at.joints.size());
     for (auto& speeds : impact_speed) speeds.fill(T(1e-3));
@@ -42,8 +42,8 @@ class LaneDynamics {
     LaneVector<T, N> force;
     for (int i = 0; i < count(); ++i) force[i] = T(0.0);
     for (std::size_t c = 0; c < at.joints.size(); ++c) {
-      const JournalMotion<T> motion = journal_motion(at, at.joints[c], row, z, v);
-      JournalLoad<T> load;
+      const PlayMotion<T> motion = play_motion(at, at.joints[c], row, z, v);
+      PlayLoad<T> load;
       load_of(c, motion, load);
       add_generalised_force(at, at.joints[c], row, motion, load, force.data());
     }
@@ -85,7 +85,7 @@ class LaneDynamics {
   // Gaps and their rates, of every place of every joint.
   void contacts(const T* row, const T* z, const T* v, std::array<ContactState<T>, kContactPlaces>* out) const {
     for (std::size_t c = 0; c < at.joints.size(); ++c) {
-      const JournalMotion<T> motion = journal_motion(at, at.joints[c], row, z, v);
+      const PlayMotion<T> motion = play_motion(at, at.joints[c], row, z, v);
       if constexpr (Layout::kParallel)
         laws[c].parallel_penetrations(motion, out[c]);
       else
@@ -107,7 +107,7 @@ class LaneDynamics {
   };
 
   template <typename M>
-  void load_of(std::size_t c, const JournalMotion<M>& motion, JournalLoad<M>& load) const {
+  void load_of(std::size_t c, const PlayMotion<M>& motion, PlayLoad<M>& load) const {
     if constexpr (Layout::kParallel)
       acting[c].parallel_wrench(motion, impact_speed[c], SlidingFriction<T>{acting[c].friction}, load);
     else
@@ -123,9 +123,9 @@ class LaneDynamics {
     constexpr int offsets = tilts ? 5 : 3, spins = tilts ? 3 : 1;
     const auto& joint = at.joints[c];
     const int n = count();
-    const JournalMotion<T> m = journal_motion(at, joint, row, z, v);
+    const PlayMotion<T> m = play_motion(at, joint, row, z, v);
 
-    JournalMotion<D> motion;
+    PlayMotion<D> motion;
     each_index<3>(3, [&](auto k) {
       motion.e[k] = D(m.e[k], k);
       motion.e_dot[k] = D(m.e_dot[k], offsets + k);
@@ -137,7 +137,7 @@ class LaneDynamics {
         motion.slope_rate[k] = D(m.slope_rate[k], offsets + 3 + k);
       });
     each_index<spins>(spins, [&](auto k) { motion.w[tilts ? k : 1] = D(m.w[tilts ? k : 1], 2 * offsets + k); });
-    JournalLoad<D> wrench;
+    PlayLoad<D> wrench;
     load_of(c, motion, wrench);
 
     // The wrench as the coordinates see it: its force, and its moment about the journal's centre.

@@ -94,8 +94,8 @@ class LaneIntegrator {
       slowest_[k].set(l, job.tolerance[count() + k] / job.tolerance[k]);
     }
     for (std::size_t c = 0; c < dynamics_.at.joints.size(); ++c) {
-      set_lane(dynamics_.laws[c], l, job.joints[c]);
-      set_lane(dynamics_.acting[c], l, job.joints[c]);
+      set_lane(dynamics_.laws[c], l, journal_of(job.joints[c]));
+      set_lane(dynamics_.acting[c], l, journal_of(job.joints[c]));
       contacts_.tolerance[c].set(l, job.gap_tolerance[c]);
       contacts_.slowest[c].set(l, job.joints[c].minimum_impact_speed);
     }

@@ -65,9 +65,11 @@ bool PerturbationLanes::serve(const Mechanism& mechanism) {
   if (mechanism.clearances() > kMostLaneJoints) return false;
   // Every coordinate is an offset or a freedom that nothing drives.
   if (OffsetLayout(mechanism).size() + undriven_freedoms(mechanism) > kMostLaneCoordinates) return false;
-  for (const JournalInSleeve& law : clearance_joints(m, mechanism.parameters())) {
-    if (law.radial_law.curve != ElasticCurve::point || law.sticks) return false;
-    if (law.friction.kind != FrictionKind::modified_coulomb && law.friction.kind != FrictionKind::none) return false;
+  for (const JointPlay& law : joint_plays(m, mechanism.parameters())) {
+    const auto* journal = std::get_if<JournalInSleeve>(&law.kind);
+    if (journal == nullptr || journal->radial_law.curve != ElasticCurve::point || law.sticks) return false;
+    const FrictionKind friction = journal->friction.kind;
+    if (friction != FrictionKind::modified_coulomb && friction != FrictionKind::none) return false;
   }
   return mechanism.clearances() > 0;
 }
@@ -138,7 +140,7 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
   lane.in_double = p->in_double.data();
   lane.in_single = p->in_single.data();
 
-  for (const JournalInSleeve& law : clearance_joints(mechanism_->description(), parameters)) {
+  for (const JointPlay& law : joint_plays(mechanism_->description(), parameters)) {
     LanePlaces places;
     for (ContactPlace place : law.places()) places.place[places.count++] = place;
     p->places.push_back(places);
@@ -166,7 +168,7 @@ void PerturbationLanes::run(std::span<const Parameters> samples, std::span<LaneO
 void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters> samples,
                             std::span<LaneOutcome> outcomes, double tolerance, const LaneWatch& watch) const {
   std::vector<std::shared_ptr<const Prepared>> prepared;
-  std::vector<std::vector<JournalInSleeve>> joints;
+  std::vector<std::vector<JointPlay>> joints;
   std::vector<std::vector<double>> tolerances;
   std::vector<VecX> starts;
   std::vector<LaneJob> jobs;
@@ -183,19 +185,18 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
       return;
     }
     const SceneLayout& at = p.tables->layout;
-    const std::vector<JournalInSleeve>& own = joints.emplace_back(clearance_joints(mechanism_->description(), sample));
+    const std::vector<JointPlay>& own = joints.emplace_back(joint_plays(mechanism_->description(), sample));
     // Scale of each coordinate: of an offset its clearance, of a slope the slope that crosses it.
     VecX scale = VecX::Zero(at.n);
     std::vector<double> gap;
     for (int c = 0; c < mechanism_->clearances(); ++c) {
-      const JournalInSleeve& law = own[c];
-      const double clearance =
-          law.has_faces ? std::min(law.radial_clearance, law.axial_clearance) : law.radial_clearance;
+      const JointPlay& law = own[c];
+      const double clearance = law.narrowest();
       gap.push_back(kGapShare * clearance);
       for (int k = 0; k < at.joints[c].offsets; ++k) {
         const int source = at.joints[c].source[k];
         if (source < 0) continue;
-        const double own_scale = k < 3 ? clearance : clearance / law.half_length;
+        const double own_scale = k < 3 ? clearance : clearance / law.lever();
         scale[source] = scale[source] == 0.0 ? own_scale : std::min(scale[source], own_scale);
       }
     }

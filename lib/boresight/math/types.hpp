@@ -21,6 +21,8 @@ using VecX = Eigen::VectorXd;
 using MatX = Eigen::MatrixXd;
 
 template <typename T>
+using Vec2T = Eigen::Matrix<T, 2, 1>;
+template <typename T>
 using Vec3T = Eigen::Matrix<T, 3, 1>;
 template <typename T>
 using Mat3T = Eigen::Matrix<T, 3, 3>;

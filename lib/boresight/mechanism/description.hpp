@@ -47,6 +47,15 @@ enum class JointType { revolute, prismatic, cylindrical, universal, spherical, p
 // "revolute", ...: the word of the mechanism file.
 const char* to_string(JointType type);
 
+// Whether a joint of this type may have play: there is a kind of it in play/kinds.hpp.
+inline bool can_have_play(JointType type) {
+  return type == JointType::revolute || type == JointType::cylindrical || type == JointType::spherical;
+}
+inline constexpr char kTypesWithPlay[] = "a revolute, cylindrical or spherical joint";
+
+// Whether both bodies share the joint's axis all the time.
+inline bool keeps_axis(JointType type) { return type != JointType::universal && type != JointType::spherical; }
+
 struct JointDescription {
   std::string name;
   JointType type = JointType::revolute;
@@ -63,7 +72,7 @@ enum class JournalAxes { parallel, free };
 
 struct ClearanceDescription {
   int joint = 0;
-  int journal = 0;  // the body that carries the journal; the joint's other body carries the sleeve
+  int journal = 0;  // the body that carries the journal (of a spherical joint the ball); the joint's other body carries the sleeve
   JournalAxes axes = JournalAxes::parallel;
   std::string contact_law = "flores";
   std::string dissipation_law;  // whose damping factor a law for cylinders takes; "": its own

@@ -21,7 +21,6 @@ bool has_points(JointType t) {
   return t == JointType::revolute || t == JointType::universal || t == JointType::spherical || t == JointType::fixed;
 }
 bool slides_along_axis(JointType t) { return t == JointType::prismatic || t == JointType::cylindrical; }
-bool keeps_axis(JointType t) { return t != JointType::universal && t != JointType::spherical; }
 
 }  // namespace
 

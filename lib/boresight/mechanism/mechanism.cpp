@@ -64,9 +64,14 @@ void check_clearances(const MechanismDescription& m) {
     const std::string key = "clearance." + j.name;
     if (!seen.insert(c.joint).second)
       throw InputError(c.origin, key, "a second clearance on the same joint", "one clearance per joint");
-    if (j.type != JointType::revolute && j.type != JointType::cylindrical)
-      throw InputError(c.origin, key + ".joint", std::string("a ") + to_string(j.type) + " joint",
-                       "a revolute or cylindrical joint");
+    if (!can_have_play(j.type))
+      throw InputError(c.origin, key + ".joint", std::string("a ") + to_string(j.type) + " joint", kTypesWithPlay);
+    if (!keeps_axis(j.type) && c.axes == JournalAxes::free)
+      throw InputError(c.origin, key + ".axes", std::string("it on a ") + to_string(j.type) + " joint",
+                       "nothing: a ball turns freely");
+    if (!keeps_axis(j.type) && c.friction_law == "lugre")
+      throw InputError(c.origin, key + ".friction.law", std::string("\"lugre\" on a ") + to_string(j.type) + " joint",
+                       "a law of the sliding speed: bristles have no lasting directions on a ball");
     if (c.journal != j.first && c.journal != j.second)
       throw InputError(c.origin, key + ".journal", "a body that the joint does not connect",
                        "one of the joint's two bodies");

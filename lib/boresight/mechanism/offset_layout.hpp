@@ -1,5 +1,5 @@
-// The offsets of all clearance joints in one vector, joint after joint: the journal centre's x y z in sleeve axes [m], then,
-// where the journal may tilt (axes = "free"), the slopes x z of its axis [-]. A cylindrical joint's y keeps its place in the
+// The offsets of all joints with play in one vector, joint after joint: the x y z of the journal's or ball's centre in the axes of its
+// seat [m], then, where a journal may tilt (axes = "free"), the slopes x z of its axis [-]. A cylindrical joint's y keeps its place in the
 // vector, though it slides freely and is no offset.
 #pragma once
 
@@ -16,8 +16,10 @@ class OffsetLayout {
     for (const ClearanceDescription& c : m.clearances) {
       Joint joint;
       joint.first = size_;
-      joint.tilts = c.axes == JournalAxes::free;
-      joint.slides = m.joints[c.joint].type == JointType::cylindrical;
+      const JointType type = m.joints[c.joint].type;
+      joint.tilts = keeps_axis(type) && c.axes == JournalAxes::free;
+      joint.slides = type == JointType::cylindrical;
+      joint.spins = joint.tilts || !keeps_axis(type) ? 3 : 1;
       size_ += joint.count();
       joints_.push_back(joint);
     }
@@ -27,6 +29,7 @@ class OffsetLayout {
     int first = 0;
     bool tilts = false;   // five offsets, else three
     bool slides = false;  // y is no offset
+    int spins = 1;        // components of the relative spin that its contacts see: y, or x y z
     int count() const { return tilts ? 5 : 3; }
     // Row of an offset among the released constraint rows of its joint (ClearanceRows::released); -1: not released.
     int released_row(int offset) const { return !slides ? offset : offset == 0 ? 0 : offset - 1; }

@@ -21,22 +21,22 @@ namespace {
 constexpr int kShorter = 64;
 
 // Whether a contact is deeper than solids are pressed into each other: a tenth of the bore's radius.
-bool sunk(const std::vector<JournalInSleeve>& joints, const std::vector<JournalMotion<double>>& motion) {
+bool sunk(const std::vector<JointPlay>& joints, const std::vector<PlayMotion<double>>& motion) {
   std::array<ContactState<double>, kContactPlaces> contact;
   for (std::size_t c = 0; c < joints.size(); ++c) {
     joints[c].penetrations(motion[c], contact);
     for (const ContactState<double>& place : contact)
-      if (place.penetration > 0.1 * joints[c].bore_radius) return true;
+      if (place.penetration > 0.1 * joints[c].size()) return true;
   }
   return false;
 }
 
 void accept_contacts(const std::vector<BodyMotion>& bodies, double t, const ForceElements& forces,
                      std::vector<ContactTracker>& trackers, std::vector<ContactMemory>& memory,
-                     std::vector<JournalMotion<double>>& motion) {
+                     std::vector<PlayMotion<double>>& motion) {
   std::array<ContactState<double>, kContactPlaces> contact;
   for (std::size_t c = 0; c < trackers.size(); ++c) {
-    motion[c] = forces.journal_motion(static_cast<int>(c), bodies);
+    motion[c] = forces.play_motion(static_cast<int>(c), bodies);
     forces.joint(static_cast<int>(c)).penetrations(motion[c], contact);
     trackers[c].accept(t, contact);
     memory[c] = trackers[c].memory();
@@ -64,11 +64,11 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
   const ForceElements& forces = formulation->forces();
 
   const OffsetLayout layout(mechanism);
-  std::vector<JournalInSleeve> joints;
+  std::vector<JointPlay> joints;
   for (int c = 0; c < forces.clearances(); ++c) joints.push_back(forces.joint(c));
   std::vector<ContactTracker> trackers = run.make_trackers(forces);
   std::vector<ContactMemory> memory(trackers.size());
-  std::vector<JournalMotion<double>> motion(trackers.size());
+  std::vector<PlayMotion<double>> motion(trackers.size());
   MotionRecorder recorder(mechanism, ideal, options, static_cast<double>(steps));
 
   std::string start_warning;

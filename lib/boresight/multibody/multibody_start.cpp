@@ -51,7 +51,7 @@ VecX unbalanced(const ClearanceScene::Start& scene, const std::vector<MassProper
 // The contacts elastic and without friction, until the end of its life.
 class ElasticOnly {
  public:
-  ElasticOnly(ForceElements& forces, const std::vector<JournalInSleeve>& laws) : forces_(forces) {
+  ElasticOnly(ForceElements& forces, const std::vector<JointPlay>& laws) : forces_(forces) {
     for (int c = 0; c < forces_.clearances(); ++c) {
       own_.push_back(forces_.joint(c));
       forces_.act(c, laws[static_cast<std::size_t>(c)]);
@@ -65,7 +65,7 @@ class ElasticOnly {
 
  private:
   ForceElements& forces_;
-  std::vector<JournalInSleeve> own_;
+  std::vector<JointPlay> own_;
 };
 
 // The journals' balance on the mechanism's own geometry, as a function of where they are sent.
@@ -107,7 +107,7 @@ class ExactBalance {
   Formulation& formulation_;
   std::vector<MassProperties> mass_;
   std::vector<ContactMemory> memory_;
-  std::vector<JournalMotion<double>> journals_;
+  std::vector<PlayMotion<double>> journals_;
   VecX state_, rate_;
 };
 
@@ -143,7 +143,7 @@ double rest_as_clearances_grow(const Mechanism& mechanism, const Parameters& par
       c.axial *= share;
     }
     const RestingBalance balance(scene.layout, scene.numbers.row.data(),
-                                 clearance_joints(mechanism.description(), narrowed));
+                                 joint_plays(mechanism.description(), narrowed));
     if (!from) {
       const RestingStart linear = balance.solve();
       if (!linear.refusal.empty()) return std::numeric_limits<double>::infinity();
@@ -189,7 +189,7 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
   const std::unique_ptr<Formulation> formulation = make_paper_formulation(mechanism, parameters, &ideal, {});
   VecX y;
   formulation->start(scene.ideal, y);
-  std::vector<JournalInSleeve> joints;
+  std::vector<JointPlay> joints;
   for (int c = 0; c < formulation->forces().clearances(); ++c) joints.push_back(formulation->forces().joint(c));
   const RestingBalance balance(scene.layout, scene.numbers.row.data(), joints);
   const RestingStart rest = balance.solve();

@@ -9,8 +9,8 @@
 namespace boresight {
 namespace {
 
-std::vector<JournalInSleeve> joints_of(const ForceElements& forces) {
-  std::vector<JournalInSleeve> joints;
+std::vector<JointPlay> joints_of(const ForceElements& forces) {
+  std::vector<JointPlay> joints;
   for (int c = 0; c < forces.clearances(); ++c) joints.push_back(forces.joint(c));
   return joints;
 }
@@ -56,7 +56,7 @@ MultibodySystem::MultibodySystem(Formulation& formulation, std::vector<ContactTr
       of_motion_(trackers.size(), MatX::Zero(formulation.state_size(), kMotionNumbers)) {}
 
 void MultibodySystem::read(int clearance, double t, const VecX& y) const {
-  joints_[clearance].penetrations(formulation_.forces().journal_motion(clearance, formulation_.bodies(t, y)), contact_);
+  joints_[clearance].penetrations(formulation_.forces().play_motion(clearance, formulation_.bodies(t, y)), contact_);
 }
 
 void MultibodySystem::start(double t, const VecX& y) {
@@ -91,9 +91,9 @@ void MultibodySystem::respond(double t, const VecX& y) const {
   ContactJacobian law;
   for (int c = 0; c < static_cast<int>(joints_.size()); ++c) {
     if (!contacts_.touches(c)) continue;
-    const JournalMotion<double> motion = forces.motion(c);
-    contact_jacobian(contacts_.acting(c), motion, memory_[c].impact_speed, MomentAbout::sleeve, law);
-    const JournalWrench<double> wrench = forces.contact(c);
+    const PlayMotion<double> motion = forces.motion(c);
+    contact_jacobian(contacts_.acting(c), motion, memory_[c].impact_speed, MomentAbout::seat, law);
+    const PlayWrench<double> wrench = forces.contact(c);
     if (unit_then_[c].change(t, bodies_now_, size_) <= kUnitShare) {
       of_motion_[c].noalias() = unit_[c] * law;
       continue;
@@ -103,7 +103,7 @@ void MultibodySystem::respond(double t, const VecX& y) const {
     const double size = std::max(1.0, wrench.force.norm());
     for (int k = 0; k < 6; ++k) {
       const Vec3 axis = Vec3::Unit(k % 3) * size;
-      JournalWrench<double>& changed = forces.contact(c);
+      PlayWrench<double>& changed = forces.contact(c);
       (k < 3 ? changed.force : changed.moment) += axis;
       formulation_.derivative(t, y, memory_, response_);
       unit_[c].col(k) = (response_ - base_) / size;
@@ -117,7 +117,7 @@ void MultibodySystem::respond(double t, const VecX& y) const {
 void MultibodySystem::remember_motion(double t, const VecX& y) const {
   const std::vector<BodyMotion>& bodies = formulation_.bodies(t, y);
   for (int c = 0; c < static_cast<int>(joints_.size()); ++c)
-    here_[c] = numbers(formulation_.forces().journal_motion(c, bodies));
+    here_[c] = numbers(formulation_.forces().play_motion(c, bodies));
 }
 
 void MultibodySystem::jacobian(double t, const VecX& y, MatX& J) const {
@@ -147,7 +147,7 @@ void MultibodySystem::jacobian(double t, const VecX& y, MatX& J) const {
     for (int c = 0; c < static_cast<int>(joints_.size()); ++c)
       if (contacts_.touches(c))
         J.col(k).noalias() +=
-            of_motion_[c] * ((numbers(forces.journal_motion(c, moved)) - here_[c]) / (shifted_[k] - y[k]));
+            of_motion_[c] * ((numbers(forces.play_motion(c, moved)) - here_[c]) / (shifted_[k] - y[k]));
   }
 }
 
@@ -164,7 +164,7 @@ void MultibodySystem::time_derivative(double t, const VecX& y, VecX& ft) const {
   const std::vector<BodyMotion>& bodies = formulation_.bodies(later, y);
   for (int c = 0; c < static_cast<int>(joints_.size()); ++c)
     if (contacts_.touches(c))
-      ft.noalias() += of_motion_[c] * ((numbers(forces.journal_motion(c, bodies)) - here_[c]) / (later - t));
+      ft.noalias() += of_motion_[c] * ((numbers(forces.play_motion(c, bodies)) - here_[c]) / (later - t));
 }
 
 void MultibodySystem::gaps(double t, const VecX& y, VecX& g) const {

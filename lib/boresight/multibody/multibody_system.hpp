@@ -57,7 +57,7 @@ class MultibodySystem {
   // Shows the trackers a state; with forces only if evaluate() was called there.
   void observe(double t, const VecX& y, bool with_forces);
 
-  const std::vector<JournalInSleeve>& joints() const { return joints_; }
+  const std::vector<JointPlay>& joints() const { return joints_; }
   // Why a trial step failed last; empty if none did.
   const std::string& fault() const { return fault_; }
 
@@ -69,7 +69,7 @@ class MultibodySystem {
 
   Formulation& formulation_;
   std::vector<ContactTracker>& trackers_;
-  std::vector<JournalInSleeve> joints_;
+  std::vector<JointPlay> joints_;
   LocatedContacts contacts_;
   mutable std::vector<ContactMemory> memory_;
   mutable std::array<ContactState<double>, kContactPlaces> contact_;

@@ -170,9 +170,9 @@ class Perturbation final : public SceneRung {
     for (std::size_t c = 0; c < at.joints.size(); ++c)
       for (int k = 3; k < at.joints[c].offsets; ++k)
         if (at.joints[c].source[k] >= 0)
-          tolerance[at.joints[c].source[k]] = asked * length / system.joints()[c].half_length;
+          tolerance[at.joints[c].source[k]] = asked * length / system.joints()[c].lever();
     double slowest_impact = std::numeric_limits<double>::infinity();
-    for (const JournalInSleeve& joint : system.joints())
+    for (const JointPlay& joint : system.joints())
       slowest_impact = std::min(slowest_impact, joint.minimum_impact_speed);
     const MotionScales scales = scales_of(prepared, system, parameters);
     IntegrationOptions integration;

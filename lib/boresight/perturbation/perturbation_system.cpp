@@ -9,7 +9,7 @@
 namespace boresight {
 namespace {
 
-std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::vector<JournalInSleeve>& joints,
+std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::vector<JointPlay>& joints,
                                         bool keep_events, double start) {
   std::vector<ContactTracker> trackers;
   const MechanismDescription& m = mechanism.description();
@@ -18,7 +18,7 @@ std::vector<ContactTracker> trackers_of(const Mechanism& mechanism, const std::v
   return trackers;
 }
 
-// How the numbers of a joint's motion follow the state: kMotionNumbers x 2n; what journal_motion() computes, without
+// How the numbers of a joint's motion follow the state: kMotionNumbers x 2n; what play_motion() computes, without
 // its constants.
 void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const double* scene, MatX& gain) {
   const int n = at.n;
@@ -41,7 +41,7 @@ void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const d
   }
   for (int i = 0; i < joint.spins; ++i)
     for (int j = 0; j < n; ++j) {
-      const int spin = 6 + (joint.tilts ? i : 1);
+      const int spin = 6 + (joint.spins == 3 ? i : 1);
       gain(spin, n + j) = scene[joint.spin_gain + i * n + j];
       if (joint.gains_move) gain(spin, j) = scene[joint.spin_drift + i * n + j];
     }
@@ -52,7 +52,7 @@ void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const d
 PerturbationSystem::PerturbationSystem(const Mechanism& mechanism, const Parameters& parameters,
                                        std::shared_ptr<const SceneTables> tables, bool keep_events, double start)
     : tables_(std::move(tables)),
-      joints_(clearance_joints(mechanism.description(), parameters)),
+      joints_(joint_plays(mechanism.description(), parameters)),
       trackers_(trackers_of(mechanism, joints_, keep_events, start)),
       bristles_(joints_),
       contacts_(joints_, trackers_),
@@ -91,13 +91,13 @@ void PerturbationSystem::derivative(double t, const VecX& y, VecX& dy) const {
   bristles_.hand_over(y.tail(bristles_.size()), step_, memory_);
   force_.setZero();
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    motion_[c] = journal_motion(at, at.joints[c], row_.data(), z, rate);
+    motion_[c] = play_motion(at, at.joints[c], row_.data(), z, rate);
     const bool free = located_ && !contacts_.touches(static_cast<int>(c));
     if (free) {
       joints_[c].penetrations(motion_[c], wrench_[c].contact);
       continue;
     }
-    const JournalInSleeve& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
+    const JointPlay& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
     if (law.sticks)
       law.wrench(motion_[c], trackers_[c].memory().impact_speed, memory_[c].bristle, wrench_[c], bristle_rate_[c],
                  memory_[c].largest_bristle_rate);
@@ -121,9 +121,9 @@ void PerturbationSystem::jacobian(double t, const VecX& y, MatX& J) const {
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     if (located_ && !contacts_.touches(static_cast<int>(c))) continue;
     const SceneLayout::Joint& joint = at.joints[c];
-    const JournalMotion<double> motion = journal_motion(at, joint, scene, y.data(), y.data() + n);
-    const JournalInSleeve& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
-    contact_jacobian(law, motion, trackers_[c].memory().impact_speed, MomentAbout::journal, of_motion);
+    const PlayMotion<double> motion = play_motion(at, joint, scene, y.data(), y.data() + n);
+    const JointPlay& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
+    contact_jacobian(law, motion, trackers_[c].memory().impact_speed, MomentAbout::insert, of_motion);
     motion_gain(at, joint, scene, gain_);
     // A wrench works on e_dot and w: it acts on the coordinates as these follow their rates.
     virtual_gain_.topRows<3>() = gain_.block(3, n, 3, n);
@@ -143,7 +143,7 @@ void PerturbationSystem::accept(double t, VecX& y) {
   scene_at(t);
   const SceneLayout& at = tables_->layout;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    motion_[c] = journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n);
+    motion_[c] = play_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n);
     joints_[c].penetrations(motion_[c], contact_);
     trackers_[c].accept(t, contact_);
     if (!bristles_.empty()) memory_[c].touching = trackers_[c].memory().touching;
@@ -156,7 +156,7 @@ void PerturbationSystem::start_located(double t, const VecX& y) {
   scene_at(t);
   const SceneLayout& at = tables_->layout;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    joints_[c].penetrations(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
+    joints_[c].penetrations(play_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
     contacts_.start(static_cast<int>(c), t, contact_);
   }
 }
@@ -165,7 +165,7 @@ void PerturbationSystem::gaps(double t, const VecX& y, VecX& g) const {
   scene_at(t);
   const SceneLayout& at = tables_->layout;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    joints_[c].penetrations(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
+    joints_[c].penetrations(play_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
     contacts_.read(static_cast<int>(c), contact_, g);
   }
 }
@@ -174,7 +174,7 @@ AfterEvent PerturbationSystem::on_event(const GapEvent& event, VecX& y) {
   scene_at(event.t);
   const SceneLayout& at = tables_->layout;
   const int c = contacts_.joint_of(event);
-  joints_[c].penetrations(journal_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
+  joints_[c].penetrations(play_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
   contacts_.change(event, contact_);
   return AfterEvent::crossed;
 }

@@ -43,26 +43,26 @@ class PerturbationSystem {
   // The scene's functions of time at the time last asked for.
   const double* row() const { return row_.data(); }
   const SceneLayout& layout() const { return tables_->layout; }
-  const std::vector<JournalInSleeve>& joints() const { return joints_; }
+  const std::vector<JointPlay>& joints() const { return joints_; }
   std::vector<ContactTracker>& trackers() { return trackers_; }
   bool touching() const;
   // Of the last derivative().
-  const std::vector<JournalMotion<double>>& motion() const { return motion_; }
-  const std::vector<JournalWrench<double>>& wrench() const { return wrench_; }
+  const std::vector<PlayMotion<double>>& motion() const { return motion_; }
+  const std::vector<PlayWrench<double>>& wrench() const { return wrench_; }
 
  private:
   PerturbationSystem(const PerturbationSystem&) = delete;  // contacts_ knows where trackers_ are
   void scene_at(double t) const;
 
   std::shared_ptr<const SceneTables> tables_;
-  std::vector<JournalInSleeve> joints_;
+  std::vector<JointPlay> joints_;
   std::vector<ContactTracker> trackers_;
   BristleState bristles_;
   double step_ = 0.0;
   LocatedContacts contacts_;
   bool located_ = false;
-  mutable std::vector<JournalMotion<double>> motion_;
-  mutable std::vector<JournalWrench<double>> wrench_;
+  mutable std::vector<PlayMotion<double>> motion_;
+  mutable std::vector<PlayWrench<double>> wrench_;
   mutable std::vector<ContactMemory> memory_;  // with bristles
   mutable std::vector<Bristles<double>> bristle_rate_;
   mutable std::vector<double> row_;

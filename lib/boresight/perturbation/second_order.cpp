@@ -57,7 +57,7 @@ DependentOffsets dependent_offsets(const SceneLayout& at, const double* row, con
   for (std::size_t c = 0; c < at.joints.size(); ++c) {
     const SceneLayout::Joint& joint = at.joints[c];
     if (!joint.has_dependent) continue;
-    const JournalMotion<double>& motion = exact.motion(static_cast<int>(c));
+    const PlayMotion<double>& motion = exact.motion(static_cast<int>(c));
     for (int k = 0; k < joint.offsets; ++k) {
       if (joint.source[k] != DeviationCoordinates::kDependent) continue;
       const double length = k < 3 ? 1.0 : 0.5 * parameters.clearance[c].sleeve_length;

@@ -91,7 +91,7 @@ void MotionRecorder::sample_body(int wanted, const BodyMotion& body, const BodyA
   history.samples.push_back(pose_sample(history.body, body, acceleration));
 }
 
-void MotionRecorder::sample_clearance(int clearance, const JournalMotion<double>& motion,
+void MotionRecorder::sample_clearance(int clearance, const PlayMotion<double>& motion,
                                       const std::array<ContactState<double>, kContactPlaces>& contact) {
   ClearanceSample s;
   s.offset = motion.e;

@@ -26,7 +26,7 @@ class MotionRecorder {
   const std::vector<int>& bodies_wanted() const { return framing_ ? bodies_of_frame_ : bodies_of_sample_; }
   void sample_body(int wanted, const BodyMotion& body,
                    const BodyAcceleration& acceleration);  // wanted: index in those
-  void sample_clearance(int clearance, const JournalMotion<double>& motion,
+  void sample_clearance(int clearance, const PlayMotion<double>& motion,
                         const std::array<ContactState<double>, kContactPlaces>& contact);
 
   double position_error_max() const { return position_error_max_; }

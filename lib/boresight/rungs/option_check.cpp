@@ -5,7 +5,7 @@
 #include <sstream>
 #include <vector>
 
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/spanning_tree.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
@@ -83,7 +83,7 @@ void check_options(const RunOptions& options, const std::string& rung, const Mec
   if (integrator == "rk4") return;
   const MechanismDescription& m = mechanism.description();
   for (std::size_t c = 0; c < m.clearances.size(); ++c)
-    if (JournalInSleeve(m.clearances[c], m.joints[m.clearances[c].joint].type, parameters.clearance[c]).sticks)
+    if (JointPlay(m.clearances[c], m.joints[m.clearances[c].joint].type, parameters.clearance[c]).sticks)
       throw OptionRefused("integrator", quoted(integrator),
                           "rk4: the friction of " + m.joints[m.clearances[c].joint].name +
                               ", LuGre's, has a state that only rk4 carries");

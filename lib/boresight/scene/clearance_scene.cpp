@@ -231,7 +231,7 @@ void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
     const Mat3 R_WS = S.R * sleeve.R;
     const Vec3 spin = R_WS.transpose() * (J.w - S.w);
     const MatX spin_gain = R_WS.transpose() * (TJ.bottomRows<3>() - TS.bottomRows<3>());
-    if (at.tilts) {
+    if (at.spins == 3) {
       append(knot.joints, spin);
       append(knot.joints, spin_gain);
     } else {
@@ -242,7 +242,7 @@ void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
       // w of a body turned by theta = T_w z is w_ideal + thetadot + theta x w_ideal, and the sleeve's axes turn with it.
       const MatX drift = R_WS.transpose() * (TdJ.bottomRows<3>() - TdS.bottomRows<3>() -
                                              cross_matrix(J.w) * (TJ.bottomRows<3>() - TS.bottomRows<3>()));
-      if (at.tilts)
+      if (at.spins == 3)
         append(knot.joints, drift);
       else
         append(knot.joints, drift.row(1));

@@ -35,7 +35,7 @@ RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ide
       recorder.sample_body(static_cast<int>(k), state.bodies[body], state.acceleration[body]);
     }
     for (int c = 0; c < forces.clearances(); ++c) {
-      const JournalMotion<double> motion = forces.journal_motion(c, state.bodies);
+      const PlayMotion<double> motion = forces.play_motion(c, state.bodies);
       forces.joint(c).penetrations(motion, contact);
       recorder.sample_clearance(c, motion, contact);
     }

@@ -4,15 +4,16 @@
 // doubles where all samples share them, lanes where each sample is at its own time. State: z (n), then zdot (n).
 #pragma once
 
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/math/scalar.hpp"
+#include "boresight/play/play_motion.hpp"
 #include "boresight/scene/scene_layout.hpp"
 
 namespace boresight {
 
 // How a journal moves, from the coordinates and the scene (one row of its table) at that time.
 template <typename Layout, typename Joint, typename T, typename S>
-JournalMotion<T> journal_motion(const Layout& at, const Joint& joint, const S* scene, const T* z, const T* rate) {
-  std::array<T, 5> offset, offset_rate;
+PlayMotion<T> play_motion(const Layout& at, const Joint& joint, const S* scene, const T* z, const T* rate) {
+  std::array<T, kMostOffsets> offset, offset_rate;
   for (int k = 0; k < joint.offsets; ++k) {
     const int source = joint.source[k];
     if (source >= 0) {
@@ -33,7 +34,7 @@ JournalMotion<T> journal_motion(const Layout& at, const Joint& joint, const S* s
         for (int j = 0; j < at.n; ++j) offset_rate[k] += T(scene[joint.slide_drift + j]) * z[j];
     }
   }
-  JournalMotion<T> m;
+  PlayMotion<T> m;
   for (int i = 0; i < 3; ++i) {
     m.e[i] = offset[i];
     m.e_dot[i] = offset_rate[i];
@@ -50,15 +51,15 @@ JournalMotion<T> journal_motion(const Layout& at, const Joint& joint, const S* s
     for (int j = 0; j < at.n; ++j) spin = fused(T(gain[j]), rate[j], spin);
     if (joint.gains_move)
       for (int j = 0; j < at.n; ++j) spin = fused(T(scene[joint.spin_drift + i * at.n + j]), z[j], spin);
-    m.w[joint.tilts ? i : 1] = spin;
+    m.w[joint.spins == 3 ? i : 1] = spin;
   }
   return m;
 }
 
 // Adds a joint's wrench to the generalised force (n numbers).
 template <typename Layout, typename Joint, typename T, typename S>
-void add_generalised_force(const Layout& at, const Joint& joint, const S* scene, const JournalMotion<T>& motion,
-                           const JournalLoad<T>& wrench, T* force) {
+void add_generalised_force(const Layout& at, const Joint& joint, const S* scene, const PlayMotion<T>& motion,
+                           const PlayLoad<T>& wrench, T* force) {
   for (int k = 0; k < 3; ++k) {
     const int source = joint.source[k];
     if (source >= 0) {
@@ -73,7 +74,7 @@ void add_generalised_force(const Layout& at, const Joint& joint, const S* scene,
   const Vec3T<T> moment = wrench.moment - motion.e.cross(wrench.force);
   for (int i = 0; i < joint.spins; ++i) {
     const S* gain = scene + joint.spin_gain + i * at.n;
-    const T& m = moment[joint.tilts ? i : 1];
+    const T& m = moment[joint.spins == 3 ? i : 1];
     for (int j = 0; j < at.n; ++j) force[j] = fused(T(gain[j]), m, force[j]);
   }
 }

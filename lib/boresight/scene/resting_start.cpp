@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "boresight/contact_events/contact_jacobian.hpp"
-#include "boresight/scene/quasistatic_offset.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/scene/rest_search.hpp"
 
 namespace boresight {
@@ -24,15 +24,6 @@ constexpr double kLeastDamping = 1e-8;
 // Stiffness below this share of the largest holds nothing.
 constexpr double kSoft = 1e-11;
 
-// A rest is a matter of elastic forces: what contacts dissipate and rub hangs on how fast the bodies carry them along.
-JournalInSleeve elastic_only(JournalInSleeve joint) {
-  for (NormalLaw* law : {&joint.radial_law, &joint.tilted.end_law}) law->damping_factor = law->dashpot = 0.0;
-  joint.friction.kind = joint.tilted.friction.kind = FrictionKind::none;
-  joint.friction.stiction = joint.tilted.friction.stiction = 0.0;
-  joint.sticks = false;
-  return joint;
-}
-
 // z per offset: M_r of the other coordinates pulls them to where the bodies move least, T z in the metric of their masses.
 MatX carried_along(const MatX& mass, const std::vector<bool>& held) {
   const auto n = static_cast<Eigen::Index>(held.size());
@@ -45,15 +36,16 @@ MatX carried_along(const MatX& mass, const std::vector<bool>& held) {
   return along;
 }
 
-constexpr std::array<double, kContactPlaces> kSlow = {1e-3, 1e-3, 1e-3, 1e-3,
+constexpr ImpactSpeeds<double> kSlow = {1e-3, 1e-3, 1e-3, 1e-3,
                                                       1e-3};  // of no account where nothing dissipates
 
 }  // namespace
 
-RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std::vector<JournalInSleeve> joints)
+RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std::vector<JointPlay> joints)
     : at_(layout), held_(static_cast<std::size_t>(layout.n), false) {
   const int n = at_.n;
-  for (JournalInSleeve& joint : joints) joints_.push_back(elastic_only(std::move(joint)));
+  // A rest is a matter of elastic forces: what contacts dissipate and rub hangs on how fast the bodies carry them along.
+  for (const JointPlay& joint : joints) joints_.push_back(joint.elastic_only());
   MatX inverse;
   at_.inverse_mass(row, inverse);
   mass_ = inverse.ldlt().solve(MatX::Identity(n, n));
@@ -61,20 +53,16 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
   reaction_ = mass_ * Eigen::Map<const VecX>(row + at_.Ar, n);
   stiffness_ = at_.stiff ? MatX(mass_ * Rows(row + at_.AK, n, n)) : MatX(MatX::Zero(n, n));
   double widest = 0.0;
-  for (const JournalInSleeve& law : joints_) widest = std::max({widest, law.radial_clearance, law.axial_clearance});
+  for (const JointPlay& law : joints_) widest = std::max(widest, law.widest());
   if (!(widest > 0.0)) widest = 1e-6;
   VecX scale = VecX::Constant(n, widest);
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     const SceneLayout::Joint& joint = at_.joints[c];
-    const JournalInSleeve& law = joints_[c];
-    MatX& G = offsets_of_.emplace_back(MatX::Zero(5, n));
+    const JointPlay& law = joints_[c];
+    MatX& G = offsets_of_.emplace_back(MatX::Zero(kMostOffsets, n));
     MatX& V = works_on_.emplace_back(MatX::Zero(6, n));
     slide_.push_back(joint.slides ? row[joint.slide] : 0.0);
-    const double radial = law.radial_clearance > 0.0 ? law.radial_clearance : widest,
-                 axial = law.axial_clearance > 0.0 ? law.axial_clearance : widest;
-    const double slope = joint.tilts ? radial / law.half_length : 1.0;
-    Offsets& width = widths_.emplace_back();
-    width << radial, axial, radial, slope, slope;
+    const PlayOffsets& width = widths_.emplace_back(law.widths(widest));
     for (int k = 0; k < joint.offsets; ++k) {
       const int source = joint.source[k];
       if (source >= 0) {
@@ -89,7 +77,7 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
       if (k < 3 && source != DeviationCoordinates::kSlides) V.row(k) = G.row(k);
     }
     for (int i = 0; i < joint.spins; ++i)
-      V.row(3 + (joint.tilts ? i : 1)) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.spin_gain + i * n, n);
+      V.row(3 + (joint.spins == 3 ? i : 1)) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.spin_gain + i * n, n);
   }
   with_offsets_ = carried_along(mass_, held_);
   reaction_ = balanceable(reaction_);
@@ -110,11 +98,8 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
   load_ = size(reaction_);
 }
 
-JournalMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z) const {
-  const Eigen::Matrix<double, 5, 1> offset = offsets_of_[joint] * z;
-  JournalMotion<double> m{offset.head<3>(), Vec3::Zero(), Vec3::Zero()};
-  m.slope = offset.tail<2>();
-  m.slope_rate.setZero();
+PlayMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z) const {
+  PlayMotion<double> m = at_rest_at(offsets_of_[joint] * z);
   if (at_.joints[joint].slides) m.e.y() = slide_[joint];
   return m;
 }
@@ -122,10 +107,10 @@ JournalMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z
 void RestingBalance::evaluate(const VecX& offsets, VecX& F, MatX& by_z) const {
   const VecX z = completed(offsets);
   F = -stiffness_ * z;
-  std::vector<JournalMotion<double>> journals;
-  JournalWrench<double> wrench;
+  std::vector<PlayMotion<double>> journals;
+  PlayWrench<double> wrench;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    const JournalMotion<double>& motion = journals.emplace_back(motion_of(c, z));
+    const PlayMotion<double>& motion = journals.emplace_back(motion_of(c, z));
     joints_[c].wrench(motion, kSlow, wrench);
     Vec6 load;
     load << wrench.force, wrench.moment - motion.e.cross(wrench.force);
@@ -135,16 +120,16 @@ void RestingBalance::evaluate(const VecX& offsets, VecX& F, MatX& by_z) const {
   by_z = stiffness_at(journals);
 }
 
-MatX RestingBalance::stiffness_at(const std::vector<JournalMotion<double>>& journals) const {
+MatX RestingBalance::stiffness_at(const std::vector<PlayMotion<double>>& journals) const {
   MatX by_z = -stiffness_;
   ContactJacobian of_motion;
-  Eigen::Matrix<double, 6, 5> of_offsets;
+  Eigen::Matrix<double, 6, kMostOffsets> of_offsets;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    JournalMotion<double> still = journals[c];
+    PlayMotion<double> still = journals[c];
     still.e_dot.setZero();
     still.w.setZero();
     still.slope_rate.setZero();
-    contact_jacobian(joints_[c], still, kSlow, MomentAbout::journal, of_motion);
+    contact_jacobian(joints_[c], still, kSlow, MomentAbout::insert, of_motion);
     of_offsets << of_motion.leftCols<3>(), of_motion.middleCols<2>(9);
     by_z.noalias() += works_on_[c].transpose() * (of_offsets * offsets_of_[c]);
   }
@@ -172,11 +157,10 @@ VecX RestingBalance::guess() const {
   const VecX shared = unit_ * (unit_.transpose() * reaction_);
   VecX there = VecX::Zero(at_.n);
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    Offsets load = over_widths_[c] * shared;
+    PlayOffsets load = over_widths_[c] * shared;
     load = (load.array().abs() > kNoLoad * load_).select(load.cwiseQuotient(widths_[c]), 0.0);
-    const JournalMotion<double> rest = resting_journal_under(joints_[c], load, slide_[c], {}).motion;
-    Offsets offset;
-    offset << rest.e, rest.slope;
+    const PlayMotion<double> rest = joints_[c].rest_under(load, slide_[c], {}).motion;
+    const PlayOffsets offset = offsets_of(rest);
     for (int k = 0; k < at_.joints[c].offsets; ++k)
       if (std::isfinite(offset[k])) there += offset[k] / widths_[c][k] * over_widths_[c].row(k).transpose();
   }
@@ -247,7 +231,7 @@ std::string centred_for_want_of(const std::string& refusal) {
 }
 
 VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const SceneStart& start,
-                       const std::vector<JournalInSleeve>& joints, std::string& warning) {
+                       const std::vector<JointPlay>& joints, std::string& warning) {
   VecX state = VecX::Zero(2 * layout.n);
   if (mechanism.description().journals == JournalStart::centred) return state;
   const RestingStart rest = RestingBalance(layout, start.row.data(), joints).solve();

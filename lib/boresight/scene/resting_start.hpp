@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight/scene/clearance_scene.hpp"
 
@@ -30,14 +30,14 @@ struct RestingStart {
 // The balance at one instant: `row` holds the scene's numbers there (SceneTables::dynamics).
 class RestingBalance {
  public:
-  RestingBalance(const SceneLayout& layout, const double* row, std::vector<JournalInSleeve> joints);
+  RestingBalance(const SceneLayout& layout, const double* row, std::vector<JointPlay> joints);
 
   RestingStart solve() const;
 
   // Of what is left unbalanced with the offsets of z, F = r + f - K z, and of its change with z: n, n x n [N, N m; per m, per slope].
   void evaluate(const VecX& offsets, VecX& F, MatX& by_z) const;
   // The latter where the journals stand as given, which a mechanism's own geometry may put a little off z.
-  MatX stiffness_at(const std::vector<JournalMotion<double>>& journals) const;
+  MatX stiffness_at(const std::vector<PlayMotion<double>>& journals) const;
   // The step of z that balances F: the shortest, in offsets over clearances, where contact holds no direction.
   VecX correction(const MatX& by_z, const VecX& F) const;
   // A load on z without the part that no journal's place can balance.
@@ -49,22 +49,21 @@ class RestingBalance {
   // Of a load on z, likewise [N m].
   double size(const VecX& load) const { return (unit_.transpose() * load).norm(); }
   const MatX& unit() const { return unit_; }  // z = unit y: y of length 1 makes offsets of that length
-  const std::vector<JournalInSleeve>& joints() const { return joints_; }  // elastic, without friction
+  const std::vector<JointPlay>& joints() const { return joints_; }  // elastic, without friction
 
  private:
-  JournalMotion<double> motion_of(std::size_t joint, const VecX& z) const;
+  PlayMotion<double> motion_of(std::size_t joint, const VecX& z) const;
   double energy(const VecX& offsets) const;
   VecX guess() const;
 
   const SceneLayout& at_;
-  std::vector<JournalInSleeve> joints_;
+  std::vector<JointPlay> joints_;
   MatX mass_, stiffness_;
-  using Offsets = Eigen::Matrix<double, 5, 1>;
   VecX reaction_;
   MatX unit_;                      // upper triangle
   std::vector<bool> held_;         // coordinates that the balance may move: offsets
   MatX with_offsets_;              // n x n: z per offset, the others' columns zero
-  std::vector<Offsets> widths_;    // per joint: what each offset crosses its clearance with
+  std::vector<PlayOffsets> widths_;    // per joint: what each offset crosses its clearance with
   std::vector<MatX> offsets_of_;   // per joint: 5 x n, offsets per coordinate
   std::vector<MatX> over_widths_;  // the same over the widths, of coordinates that the balance may move
   std::vector<MatX> works_on_;     // per joint: 6 x n, the rates that force and moment work on
@@ -75,7 +74,7 @@ class RestingBalance {
 // The coordinates, and then their rates, that motions of this mechanism start with: zero where the file has the journals centred,
 // else their balance. warning: a sentence where that was wanted and not found; else left alone.
 VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const SceneStart& start,
-                       const std::vector<JournalInSleeve>& joints, std::string& warning);
+                       const std::vector<JointPlay>& joints, std::string& warning);
 std::string centred_for_want_of(const std::string& refusal);
 
 }  // namespace boresight

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "boresight/play/play_motion.hpp"
 #include "boresight/scene/deviation_coordinates.hpp"
 
 namespace boresight {
@@ -16,10 +17,10 @@ constexpr int upper_triangle(int n, int i, int j) {
 struct SceneLayout {
   struct Joint {
     bool tilts = false, slides = false;
-    // Per offset (three, or five where the journal tilts): its coordinate, or DeviationCoordinates::kSlides, kDependent.
+    // Per offset (three, or five where a journal tilts): its coordinate, or DeviationCoordinates::kSlides, kDependent.
     int offsets = 3;
-    std::array<int, 5> source = {};
-    int spins = 1;        // components of the relative spin kept: y, or x y z where the journal tilts
+    std::array<int, kMostOffsets> source = {};
+    int spins = 1;        // components of the relative spin kept: y, or x y z where the contacts see all of it
     int spin = 0;         // ideal spin
     int spin_gain = 0;    // spins x n: what coordinate rates add to it
     int spin_drift = 0;   // spins x n: what coordinates add to it (where gains move)
@@ -51,7 +52,7 @@ struct SceneLayout {
         j.source[k] = coordinates.source()[offsets.joint(c).first + k];
         j.has_dependent = j.has_dependent || j.source[k] == DeviationCoordinates::kDependent;
       }
-      j.spins = j.tilts ? 3 : 1;
+      j.spins = offsets.joint(c).spins;
       j.gains_move = coordinates.has_dependent();
       const auto take = [this](int numbers) {
         const int at = width;

@@ -16,9 +16,9 @@ StartingJournals starting_journals(const Mechanism& mechanism, const Parameters&
   try {
     const ClearanceScene::Start scene = ClearanceScene::at_start(mechanism, ideal, parameters);
     const VecX state =
-        start_coordinates(mechanism, scene.layout, scene.numbers, clearance_joints(m, parameters), start.warning);
+        start_coordinates(mechanism, scene.layout, scene.numbers, joint_plays(m, parameters), start.warning);
     for (std::size_t c = 0; c < start.journals.size(); ++c) {
-      const JournalMotion<double> motion = journal_motion(
+      const PlayMotion<double> motion = play_motion(
           scene.layout, scene.layout.joints[c], scene.numbers.row.data(), state.data(), state.data() + scene.layout.n);
       start.journals[c].offset = motion.e;
       if (m.clearances[c].axes == JournalAxes::free) start.journals[c].slope = {motion.slope[0], 0.0, motion.slope[1]};

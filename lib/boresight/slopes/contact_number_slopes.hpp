@@ -1,4 +1,4 @@
-// The numbers of all contacts (JournalInSleeve) as functions of the fitted parameters, with their
+// The numbers of all contacts (JointPlay) as functions of the fitted parameters, with their
 // derivatives.
 //
 // A contact's numbers are closed-form functions of a mechanism's parameters (hertz.hpp, the laws' damping
@@ -13,14 +13,14 @@
 #include <functional>
 #include <vector>
 
-#include "boresight/contact/contact_numbers.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 
 namespace boresight {
 
 struct ContactNumbers {
-  std::vector<JournalInSleeve> joints;                               // per clearance
-  std::vector<std::vector<std::array<double, kContactNumbers>>> by;  // [parameter][clearance]: d number / d parameter
+  std::vector<JointPlay> joints;                               // per clearance
+  std::vector<std::vector<std::array<double, kMostContactNumbers>>> by;  // [parameter][clearance]: d number / d parameter
   std::vector<double> values;                                        // of the parameters
 };
 

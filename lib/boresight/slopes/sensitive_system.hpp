@@ -31,7 +31,7 @@ class SensitiveSystem {
         acceleration_(tables_->layout.n) {
     for (std::size_t c = 0; c < numbers.joints.size(); ++c) {
       joints_.push_back(joint_with_derivatives(numbers, c, first));
-      std::array<Jet, kContactPlaces> speed;
+      ImpactSpeeds<Jet> speed;
       speed.fill(Jet(numbers.joints[c].minimum_impact_speed));
       impact_speed_.push_back(speed);
       for (ContactPlace place : numbers.joints[c].places()) gaps_.push_back({static_cast<int>(c), place});
@@ -45,12 +45,12 @@ class SensitiveSystem {
     scene_at(t);
     load(Y);
     std::fill(force_.begin(), force_.end(), Jet(0.0));
-    JournalWrench<Jet> wrench;
+    PlayWrench<Jet> wrench;
     for (std::size_t c = 0; c < joints_.size(); ++c) {
       const auto& touching = memory(c).touching;
       if (!touches(touching)) continue;
-      const JournalMotion<Jet> motion =
-          journal_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n);
+      const PlayMotion<Jet> motion =
+          play_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n);
       acting(c, touching).wrench(motion, impact_speed_[c], wrench);
       add_generalised_force(at, at.joints[c], row_.data(), motion, wrench, force_.data());
     }
@@ -104,25 +104,13 @@ class SensitiveSystem {
     ContactPlace place;
   };
 
-  JournalInSleeveT<Jet> joint_with_derivatives(const ContactNumbers& numbers, std::size_t c, int first) const {
-    JournalInSleeve plain = numbers.joints[c];
-    JournalInSleeveT<Jet> joint;
-    joint.has_faces = plain.has_faces;
-    joint.minimum_impact_speed = plain.minimum_impact_speed;
-    joint.tilts = plain.tilts;
-    joint.tilted.has_faces = plain.tilted.has_faces;
-    joint.tilted.slides = plain.tilted.slides;
-    joint.radial_law.curve = plain.radial_law.curve;
-    joint.tilted.end_law.curve = plain.tilted.end_law.curve;
-    joint.friction.kind = plain.friction.kind;
-    const auto from = numbers_of<double>(plain);
-    const auto to = numbers_of<Jet>(joint);
-    for (int i = 0; i < kContactNumbers; ++i) {
-      *to[i] = Jet(*from[i]);
+  JointPlayT<Jet> joint_with_derivatives(const ContactNumbers& numbers, std::size_t c, int first) const {
+    JointPlayT<Jet> joint = with_scalar<Jet>(numbers.joints[c]);
+    const std::vector<Jet*> to = joint.numbers();
+    for (std::size_t i = 0; i < to.size(); ++i)
       for (int d = 0; d < W && first + d < static_cast<int>(numbers.by.size()); ++d)
         to[i]->v[d] = numbers.by[first + d][c][i];
-    }
-    joint.tilted.friction = joint.friction;
+    joint.complete();
     return joint;
   }
 
@@ -132,15 +120,10 @@ class SensitiveSystem {
   static bool touches(const std::array<bool, kContactPlaces>& touching) {
     return std::any_of(touching.begin(), touching.end(), [](bool b) { return b; });
   }
-  // As LocatedContacts: a direction in which no contact is closed has a clearance that nothing reaches.
-  JournalInSleeveT<Jet> acting(std::size_t c, const std::array<bool, kContactPlaces>& touching) const {
-    constexpr double kOutOfReach = 1e6;  // [m]
-    const int axial = static_cast<int>(ContactPlace::axial_minus);
-    JournalInSleeveT<Jet> joint = joints_[c];
-    if (!std::any_of(touching.begin(), touching.begin() + axial, [](bool b) { return b; }))
-      joint.radial_clearance = joint.tilted.radial_clearance = Jet(kOutOfReach);
-    if (!std::any_of(touching.begin() + axial, touching.end(), [](bool b) { return b; }))
-      joint.axial_clearance = joint.tilted.axial_clearance = Jet(kOutOfReach);
+  // As LocatedContacts.
+  JointPlayT<Jet> acting(std::size_t c, const std::array<bool, kContactPlaces>& touching) const {
+    JointPlayT<Jet> joint = joints_[c];
+    joint.keep_only(touching);
     return joint;
   }
 
@@ -162,7 +145,7 @@ class SensitiveSystem {
     const SceneLayout& at = tables_->layout;
     const int c = gap.clearance, place = static_cast<int>(gap.place);
     std::array<ContactState<Jet>, kContactPlaces> contact;
-    joints_[c].penetrations(journal_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n),
+    joints_[c].penetrations(play_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n),
                             contact);
     const ContactState<Jet>& here = contact[place];
     Jet& speed = impact_speed_[c][place];
@@ -181,12 +164,12 @@ class SensitiveSystem {
     const SceneLayout& at = tables_->layout;
     const int c = gap.clearance, place = static_cast<int>(gap.place);
     std::array<ContactState<Jet>, kContactPlaces> contact;
-    joints_[c].penetrations(journal_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n),
+    joints_[c].penetrations(play_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n),
                             contact);
     const double rate = contact[place].rate.a;
     if (std::abs(rate) < joints_[c].minimum_impact_speed) return;
     // Without a dashpot the difference is the rounding of the event's time.
-    if (!(joints_[c].radial_law.dashpot.a > 0.0)) return;
+    if (!(plain_.joints()[c].normal_law().dashpot > 0.0)) return;
     for (int i = 0; i < plain_.size(); ++i)
       Y.template segment<W>(plain_.size() + W * i) -= difference[i] / rate * contact[place].penetration.v;
   }
@@ -204,7 +187,7 @@ class SensitiveSystem {
       tables_->dynamics.at(t + dt, row.data());
       const VecX y = y_ + dt * slope_;
       plain_.joints()[gap.clearance].penetrations(
-          journal_motion(at, at.joints[gap.clearance], row.data(), y.data(), y.data() + at.n), contact);
+          play_motion(at, at.joints[gap.clearance], row.data(), y.data(), y.data() + at.n), contact);
       rate[side] = contact[static_cast<int>(gap.place)].rate;
     }
     return (rate[0] - rate[1]) / (2.0 * kShort);
@@ -212,8 +195,8 @@ class SensitiveSystem {
 
   std::shared_ptr<const SceneTables> tables_;
   PerturbationSystem plain_;
-  std::vector<JournalInSleeveT<Jet>> joints_;
-  std::vector<std::array<Jet, kContactPlaces>> impact_speed_;
+  std::vector<JointPlayT<Jet>> joints_;
+  std::vector<ImpactSpeeds<Jet>> impact_speed_;
   std::vector<Gap> gaps_;
   mutable std::vector<double> row_;
   mutable double row_time_ = -1.0;

@@ -17,7 +17,7 @@ StartSlopes start_slopes(const Mechanism& mechanism, const SceneTables& tables,
   const auto start = [&](const std::vector<double>& at) {
     std::string unused;
     return start_coordinates(mechanism, tables.layout, tables.start,
-                             clearance_joints(mechanism.description(), parameters_at(at)), unused);
+                             joint_plays(mechanism.description(), parameters_at(at)), unused);
   };
   StartSlopes out{VecX::Zero(2 * n), {}};
   out.state = start(values);

@@ -1,5 +1,6 @@
 #include "boresight/statics/envelope.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -37,41 +38,11 @@ Vec3 worst_offset(const Gain& G, double radial, double axial) {
   return {radial * std::cos(best), axial, radial * std::sin(best)};
 }
 
-// A joint's gap as independent parts, each with its own gain: a cylinder of centre offsets where axes are parallel; where the
-// journal tilts, a disc at each end of the sleeve and the axial play.
-struct GapParts {
-  struct Part {
-    Gain moves, turns;                   // columns x y z of what the part offers
-    double radial, axial;                // its reach
-    Eigen::Matrix<double, 5, 3> offset;  // the joint's offsets per unit of it
-  };
-  std::vector<Part> parts;
-};
-
-GapParts parts_of(const JournalInSleeve& joint, const RestingJournal& rest, double slide,
-                  const Eigen::Matrix<double, 6, 5>& gain) {
-  GapParts gap;
-  const auto add = [&](const Eigen::Matrix<double, 5, 3>& offset, double radial, double axial) {
-    gap.parts.push_back({gain.topRows<3>() * offset, gain.bottomRows<3>() * offset, radial, axial, offset});
-  };
-  Eigen::Matrix<double, 5, 3> offset = Eigen::Matrix<double, 5, 3>::Zero();
-  if (!joint.tilts) {
-    offset.topRows<3>().setIdentity();
-    add(offset, rest.radial_reach[0], rest.axial_reach);
-    return gap;
-  }
-  // Centre e = (rho+ + rho-) / 2 + e_y sigma, sigma = (rho+ - rho-) / L_b.
-  const double length = 2.0 * joint.half_length;
-  for (int side : {-1, 1}) {
-    offset.setZero();
-    offset(0, 0) = offset(2, 2) = 0.5 + side * slide / length;
-    offset(3, 0) = offset(4, 2) = side / length;
-    add(offset, rest.radial_reach[side < 0 ? 0 : 1], 0.0);
-  }
-  offset.setZero();
-  offset(1, 1) = 1.0;
-  add(offset, 0.0, rest.axial_reach);
-  return gap;
+// The same in a part of any shape. In a ball it lies along the direction that G stretches most.
+Vec3 worst_offset(const Gain& G, const GapPart& part) {
+  if (part.shape == GapPart::Shape::cylinder) return worst_offset(G, part.radial, part.axial);
+  const Eigen::SelfAdjointEigenSolver<Gain> stretch(G.transpose() * G);
+  return part.radial * stretch.eigenvectors().col(2);
 }
 
 constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
@@ -91,10 +62,10 @@ class Envelope final : public SceneRung {
   RunResult follow(const PreparedScene& prepared, const Parameters& parameters,
                    const RunOptions& options) const override {
     const ReactionTable reactions(mechanism(), prepared.scene(), parameters);
-    const std::vector<JournalInSleeve>& joints = reactions.joints();
+    const std::vector<JointPlay>& joints = reactions.joints();
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<ContactSummary> summary = reactions.summaries();
-    std::vector<RestingJournal> worst_rest(joints.size()), at_rest(joints.size());
+    std::vector<RestingPlay> worst_rest(joints.size()), at_rest(joints.size());
     bool interrupted = false;
     for (int i = 0; i < reactions.instants() && !interrupted; ++i) {
       const ReactionTable::Instant now = reactions.at(i);
@@ -110,30 +81,27 @@ class Envelope final : public SceneRung {
 
       PoseError bound;
       for (std::size_t c = 0; c < joints.size(); ++c) {
-        const RestingJournal rest = resting_journal_under(joints[c], now.load[c].force, now.load[c].slide, at_rest[c]);
+        const RestingPlay rest = joints[c].rest_under(now.load[c].force, now.load[c].slide, at_rest[c]);
         at_rest[c] = rest;
         reactions.note(rest, summary[c]);
-        const GapParts gap =
-            parts_of(joints[c], rest, now.load[c].slide, reactions.joint_gain(now, static_cast<int>(c)));
-        Eigen::Matrix<double, 5, 1> offset = Eigen::Matrix<double, 5, 1>::Zero(), rest_offset;
-        rest_offset << rest.motion.e, rest.motion.slope;
-        const Vec3 resting = reactions.joint_gain(now, static_cast<int>(c)).topRows<3>() * rest_offset;
-        for (const GapParts::Part& part : gap.parts) {
-          const auto worst = [&](const Gain& G) { return (G * worst_offset(G, part.radial, part.axial)).norm(); };
+        const Eigen::Matrix<double, 6, kMostOffsets> gain = reactions.joint_gain(now, static_cast<int>(c));
+        PlayOffsets offset = PlayOffsets::Zero();
+        const Vec3 resting = gain.topRows<3>() * offsets_of(rest.motion);
+        for (const GapPart& part : joints[c].gap_parts(rest, now.load[c].slide)) {
+          const Gain moves = gain.topRows<3>() * part.offset, turns = gain.bottomRows<3>() * part.offset;
+          const auto worst = [&](const Gain& G) { return (G * worst_offset(G, part)).norm(); };
           // The place that is worst for the position stands for the joint in the pictures: of the two opposite ones, the one
           // on the side where the journal rests.
-          Vec3 place = worst_offset(part.moves, part.radial, part.axial);
-          if (resting.dot(part.moves * place) < 0.0) place = -place;
+          Vec3 place = worst_offset(moves, part);
+          if (resting.dot(moves * place) < 0.0) place = -place;
           offset += part.offset * place;
-          bound.position += (part.moves * place).norm();
-          bound.orientation += worst(part.turns);
-          bound.boresight += worst(across * part.turns);
-          bound.line_of_sight += worst(sight.leftCols<3>() * part.moves + sight.rightCols<3>() * part.turns);
+          bound.position += (moves * place).norm();
+          bound.orientation += worst(turns);
+          bound.boresight += worst(across * turns);
+          bound.line_of_sight += worst(sight.leftCols<3>() * moves + sight.rightCols<3>() * turns);
         }
-        JournalMotion<double>& m = worst_rest[c].motion;
-        m.e = offset.head<3>();
-        m.slope = offset.tail<2>();
-        joints[c].penetrations(m, worst_rest[c].contact);
+        worst_rest[c].motion = at_rest_at(offset);
+        joints[c].penetrations(worst_rest[c].motion, worst_rest[c].contact);
       }
       const VecX z = reactions.coordinates(worst_rest);
       const DisplacedBodies displaced(prepared, now.t, z);

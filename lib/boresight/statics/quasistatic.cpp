@@ -67,12 +67,12 @@ class Quasistatic final : public SceneRung {
   // Where the journals rest at one instant, and by how much that displaces the body of the boresight.
   struct Balance {
     ReactionTable::Instant now;
-    std::vector<RestingJournal> rest;
+    std::vector<RestingPlay> rest;
     VecX z;
     Vec3 moved;
   };
   static Balance balance_at(const ReactionTable& reactions, double t, const Balance* before) {
-    Balance balance{reactions.at_time(t), std::vector<RestingJournal>(reactions.joints().size()), {}, {}};
+    Balance balance{reactions.at_time(t), std::vector<RestingPlay>(reactions.joints().size()), {}, {}};
     for (std::size_t c = 0; c < balance.rest.size(); ++c) {
       const ReactionTable::Load& load = balance.now.load[c];
       // Where next to nothing pushes it, a journal stays where it was.
@@ -80,7 +80,7 @@ class Quasistatic final : public SceneRung {
         balance.rest[c] = before->rest[c];
       else
         balance.rest[c] = resting_journal_under(reactions.joints()[c], load.force, load.slide,
-                                                before ? before->rest[c] : RestingJournal{});
+                                                before ? before->rest[c] : RestingPlay{});
     }
     balance.z = reactions.coordinates(balance.rest);
     balance.moved = (balance.now.pose_gain * balance.z).head<3>();

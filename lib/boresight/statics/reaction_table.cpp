@@ -25,8 +25,9 @@ constexpr double kRounding = 10.0 * ClearanceScene::kAccuracy;
 constexpr double kDecides = 500.0 * ClearanceScene::kAccuracy;
 
 // Of a load: its force, and its couple as forces at the sleeve's ends [N].
-double size(const Eigen::Matrix<double, 5, 1>& load, const JournalInSleeve& joint) {
-  return load.head<3>().norm() + (joint.tilts ? load.tail<2>().norm() / joint.half_length : 0.0);
+double size(const PlayOffsets& load, const JointPlay& joint) {
+  const double couple = load.tail<2>().norm();
+  return load.head<3>().norm() + (couple > 0.0 ? couple / joint.lever() : 0.0);
 }
 
 }  // namespace
@@ -72,10 +73,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& s
     for (const SceneLayout::Joint& j : layout_.joints) values.push_back(j.slides ? row[j.slide] : 0.0);
   }
   table_ = TimeTable(scene.spacing(), width, values);
-  for (int c = 0; c < mechanism.clearances(); ++c) {
-    const ClearanceDescription& d = mechanism.description().clearances[c];
-    joints_.emplace_back(d, mechanism.description().joints[d.joint].type, parameters.clearance[c]);
-  }
+  joints_ = joint_plays(mechanism.description(), parameters);
   largest_load_.assign(joints_.size(), 0.0);
   for (int i = 0; i < instants_; ++i) {
     const Instant now = at(i);
@@ -98,32 +96,31 @@ ReactionTable::Instant ReactionTable::at_time(double t) const {
   now.reaction = Eigen::Map<const VecX>(row.data(), n);
   now.pose_gain = Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>>(row.data() + n, 6, n);
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    Load load{Eigen::Matrix<double, 5, 1>::Zero(), row[7 * n + c]};
+    Load load{PlayOffsets::Zero(), row[7 * n + c]};
     for (int k = 0; k < layout_.joints[c].offsets; ++k)
       if (const int source = layout_.joints[c].source[k]; source >= 0) load.force[k] = now.reaction[source];
     // Along the axis and in tilt next to nothing would push a journal all the way that its play leaves.
     const double least = kRounding * largest_of_all_;
     if (std::abs(load.force[1]) < least) load.force[1] = 0.0;
-    if (joints_[c].tilts && load.force.tail<2>().norm() < least * joints_[c].half_length)
+    if (load.force.tail<2>().norm() < least * joints_[c].lever())
       load.force.tail<2>().setZero();
     now.load.push_back(load);
   }
   return now;
 }
 
-Eigen::Matrix<double, 6, 5> ReactionTable::joint_gain(const Instant& instant, int clearance) const {
-  Eigen::Matrix<double, 6, 5> gain = Eigen::Matrix<double, 6, 5>::Zero();
+Eigen::Matrix<double, 6, kMostOffsets> ReactionTable::joint_gain(const Instant& instant, int clearance) const {
+  Eigen::Matrix<double, 6, kMostOffsets> gain = Eigen::Matrix<double, 6, kMostOffsets>::Zero();
   const SceneLayout::Joint& joint = layout_.joints[clearance];
   for (int k = 0; k < joint.offsets; ++k)
     if (joint.source[k] >= 0) gain.col(k) = instant.pose_gain.col(joint.source[k]);
   return gain;
 }
 
-VecX ReactionTable::coordinates(const std::vector<RestingJournal>& rest) const {
+VecX ReactionTable::coordinates(const std::vector<RestingPlay>& rest) const {
   VecX z = VecX::Zero(layout_.n);
   for (std::size_t c = 0; c < rest.size(); ++c) {
-    const JournalMotion<double>& m = rest[c].motion;
-    const std::array<double, 5> offset = {m.e.x(), m.e.y(), m.e.z(), m.slope[0], m.slope[1]};
+    const PlayOffsets offset = offsets_of(rest[c].motion);
     for (int k = 0; k < layout_.joints[c].offsets; ++k)
       if (const int source = layout_.joints[c].source[k]; source >= 0) z[source] = offset[k];
   }
@@ -140,7 +137,7 @@ std::vector<ContactSummary> ReactionTable::summaries() const {
   return result;
 }
 
-void ReactionTable::note(const RestingJournal& rest, ContactSummary& summary) {
+void ReactionTable::note(const RestingPlay& rest, ContactSummary& summary) {
   for (const ContactState<double>& c : rest.contact) summary.max_force = std::max(summary.max_force, c.normal_force);
   summary.max_penetration = std::max(summary.max_penetration, rest.penetration());
 }

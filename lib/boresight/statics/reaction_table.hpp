@@ -6,7 +6,7 @@
 
 #include "boresight/rungs/run_result.hpp"
 #include "boresight/scene/clearance_scene.hpp"
-#include "boresight/scene/quasistatic_offset.hpp"
+#include "boresight/play/joint_play.hpp"
 
 namespace boresight {
 
@@ -17,7 +17,7 @@ class ReactionTable {
   ReactionTable(const Mechanism& mechanism, const ClearanceScene& scene, const Parameters& parameters);
 
   struct Load {
-    Eigen::Matrix<double, 5, 1> force;  // on the journal's offsets; zero where an offset is none [N, N m]
+    PlayOffsets force;  // on the journal's offsets; zero where an offset is none [N, N m]
     double slide = 0.0;                 // displacement of a cylindrical joint [m]
   };
   struct Instant {
@@ -30,18 +30,18 @@ class ReactionTable {
   double spacing() const { return spacing_; }  // of instants [s]
   Instant at(int instant) const { return at_time(instant * spacing_); }
   Instant at_time(double t) const;
-  const std::vector<JournalInSleeve>& joints() const { return joints_; }
+  const std::vector<JointPlay>& joints() const { return joints_; }
   // Whether a load is known well enough for its direction: the tables are accurate to a hundred-thousandth of the largest.
   bool decides(const Instant& instant, int clearance) const;
   // E of one joint's offsets: 6 x 5, zero columns where an offset is none.
-  Eigen::Matrix<double, 6, 5> joint_gain(const Instant& instant, int clearance) const;
+  Eigen::Matrix<double, 6, kMostOffsets> joint_gain(const Instant& instant, int clearance) const;
   // Coordinates of journals at rest.
-  VecX coordinates(const std::vector<RestingJournal>& rest) const;
+  VecX coordinates(const std::vector<RestingPlay>& rest) const;
 
   // One per joint, named, in lasting contact.
   std::vector<ContactSummary> summaries() const;
   // Adds a rest's forces and deflections to a summary.
-  static void note(const RestingJournal& rest, ContactSummary& summary);
+  static void note(const RestingPlay& rest, ContactSummary& summary);
 
  private:
   const Mechanism& mechanism_;
@@ -49,7 +49,7 @@ class ReactionTable {
   int instants_;
   double spacing_;
   TimeTable table_;  // r (n), E (6 x n), slides (one per clearance)
-  std::vector<JournalInSleeve> joints_;
+  std::vector<JointPlay> joints_;
   std::vector<double> largest_load_;  // per clearance [N]
   double largest_of_all_ = 0.0;       // the largest of these [N]
 };

@@ -1,4 +1,4 @@
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/play/journal/journal_in_sleeve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ JournalInSleeve default_joint() {
 const std::array<double, kContactPlaces> kImpactSpeed{0.02, 0.02, 0.02, 0.02, 0.02};
 
 // The same forces by vectors, straight from the equations: normal, contact point, velocity of the journal's material there.
-void expected_wrench(const JournalInSleeve& joint, const JournalMotion<double>& m, Vec3& force, Vec3& moment) {
+void expected_wrench(const JournalInSleeve& joint, const PlayMotion<double>& m, Vec3& force, Vec3& moment) {
   force.setZero();
   moment.setZero();
   const auto add = [&](const Vec3& point, const Vec3& push, double normal_force) {
@@ -46,11 +46,11 @@ TEST(JournalInSleeve, ForcesAreThoseOfTheVectorEquations) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   int touching = 0;
   for (int k = 0; k < 1000; ++k) {
-    JournalMotion<double> m;
+    PlayMotion<double> m;
     m.e = 1.4e-4 * Vec3(uniform(generator), uniform(generator), uniform(generator));
     m.e_dot = 0.01 * Vec3(uniform(generator), uniform(generator), uniform(generator));
     m.w = Vec3(0.0, 5.0 * uniform(generator), 0.0);  // parallel axes: the spin is along the axis
-    JournalWrench<double> wrench;
+    PlayWrench<double> wrench;
     joint.wrench(m, kImpactSpeed, wrench);
     Vec3 force, moment;
     expected_wrench(joint, m, force, moment);
@@ -62,8 +62,8 @@ TEST(JournalInSleeve, ForcesAreThoseOfTheVectorEquations) {
 }
 
 TEST(JournalInSleeve, AConcentricJournalFeelsNothing) {
-  JournalMotion<double> m{Vec3::Zero(), Vec3::Zero(), Vec3(0, 100, 0)};
-  JournalWrench<double> wrench;
+  PlayMotion<double> m{Vec3::Zero(), Vec3::Zero(), Vec3(0, 100, 0)};
+  PlayWrench<double> wrench;
   default_joint().wrench(m, kImpactSpeed, wrench);
   EXPECT_EQ(wrench.force, Vec3::Zero());
   EXPECT_EQ(wrench.moment, Vec3::Zero());
@@ -71,8 +71,8 @@ TEST(JournalInSleeve, AConcentricJournalFeelsNothing) {
 
 TEST(JournalInSleeve, SpinRubsInContinuousContact) {
   // The journal rests against the bore and turns on the spot: friction drives it round against its spin.
-  JournalMotion<double> m{Vec3(1.1e-4, 0, 0), Vec3::Zero(), Vec3(0, 10, 0)};
-  JournalWrench<double> wrench;
+  PlayMotion<double> m{Vec3(1.1e-4, 0, 0), Vec3::Zero(), Vec3(0, 10, 0)};
+  PlayWrench<double> wrench;
   const JournalInSleeve joint = default_joint();
   joint.wrench(m, kImpactSpeed, wrench);
   const double normal = wrench.contact[static_cast<int>(ContactPlace::radial)].normal_force;
@@ -84,8 +84,8 @@ TEST(JournalInSleeve, ACylindricalJointHasNoEndFaces) {
   d.parameters.radial = 1e-4;
   d.parameters.journal_radius = 10e-3;
   const JournalInSleeve joint(d, JointType::cylindrical, d.parameters);
-  JournalMotion<double> m{Vec3(0, 0.5, 0), Vec3::Zero(), Vec3::Zero()};
-  JournalWrench<double> wrench;
+  PlayMotion<double> m{Vec3(0, 0.5, 0), Vec3::Zero(), Vec3::Zero()};
+  PlayWrench<double> wrench;
   joint.wrench(m, kImpactSpeed, wrench);
   EXPECT_EQ(wrench.force, Vec3::Zero());
 }

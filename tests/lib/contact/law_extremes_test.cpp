@@ -3,7 +3,7 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include "boresight/contact/contact_tangent.hpp"
+#include "boresight/play/contact_tangent.hpp"
 
 namespace boresight {
 namespace {
@@ -66,8 +66,8 @@ std::vector<std::array<double, 13>> motions(double radial) {
 }
 
 template <typename T>
-JournalMotion<T> as_motion(const std::array<T, 13>& x) {
-  JournalMotion<T> m;
+PlayMotion<T> as_motion(const std::array<T, 13>& x) {
+  PlayMotion<T> m;
   m.e = {x[0], x[1], x[2]};
   m.e_dot = {x[3], x[4], x[5]};
   m.w = {x[6], x[7], x[8]};
@@ -80,7 +80,7 @@ bool is_finite(double x) { return std::isfinite(x); }
 bool is_finite(const Jet& x) { return std::isfinite(x.a) && x.v.allFinite(); }
 
 template <typename T>
-bool is_finite(const JournalWrench<T>& wrench) {
+bool is_finite(const PlayWrench<T>& wrench) {
   bool all = true;
   for (int i = 0; i < 3; ++i) all = all && is_finite(wrench.force[i]) && is_finite(wrench.moment[i]);
   for (const ContactState<T>& c : wrench.contact)
@@ -97,8 +97,8 @@ TEST(EveryPairOfLaws, StaysFiniteAtTheEndsOfWhatAFileMaySay) {
       for (const std::array<double, 13>& x : motions(joint.numbers.radial_clearance)) {
         std::array<double, kContactPlaces> impact_speeds;
         impact_speeds.fill(impact_speed);
-        const JournalMotion<double> motion = as_motion(x);
-        JournalWrench<double> wrench;
+        const PlayMotion<double> motion = as_motion(x);
+        PlayWrench<double> wrench;
         if (joint.numbers.sticks) {
           for (const double bristle : {0.0, 1e-5, -1.0}) {
             Bristles<double> bristles, rate;
@@ -112,7 +112,7 @@ TEST(EveryPairOfLaws, StaysFiniteAtTheEndsOfWhatAFileMaySay) {
           ASSERT_TRUE(is_finite(wrench)) << joint.name;
           std::array<Jet, 13> jets;
           for (int i = 0; i < 13; ++i) jets[i] = Jet(x[i], i);
-          JournalWrench<Jet> with_slopes;
+          PlayWrench<Jet> with_slopes;
           joint.numbers.wrench(as_motion(jets), impact_speeds, with_slopes);
           ASSERT_TRUE(is_finite(with_slopes)) << joint.name << ": a derivative, at offset " << x[0] << ", " << x[1]
                                               << ", speed " << x[3] << ", slope " << x[9];

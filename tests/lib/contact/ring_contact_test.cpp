@@ -1,4 +1,4 @@
-#include "boresight/contact/ring_contact.hpp"
+#include "boresight/play/journal/ring_contact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <random>
 
-#include "boresight/contact/contact_tangent.hpp"
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/play/contact_tangent.hpp"
+#include "boresight/play/journal/journal_in_sleeve.hpp"
 
 namespace boresight {
 namespace {
@@ -27,8 +27,8 @@ JournalInSleeve joint(JointType type = JointType::revolute, double friction = 0.
 }
 
 // A journal at the given offsets, its body turning with w: slope rates follow from w.
-JournalMotion<double> at(const Offsets& o, const Vec3& e_dot, const Vec3& w) {
-  JournalMotion<double> m{o.head<3>(), e_dot, w};
+PlayMotion<double> at(const Offsets& o, const Vec3& e_dot, const Vec3& w) {
+  PlayMotion<double> m{o.head<3>(), e_dot, w};
   m.slope = o.tail<2>();
   const Vec3 along(m.slope[0], 1.0, m.slope[1]), turning = w.cross(along);
   m.slope_rate << turning.x() - m.slope[0] * turning.y(), turning.z() - m.slope[1] * turning.y();
@@ -44,7 +44,7 @@ Offsets random_offsets(std::mt19937& generator, double slide) {
 }
 
 // Power of the wrench on the journal's motion.
-double power(const JournalWrench<double>& wrench, const JournalMotion<double>& m) {
+double power(const PlayWrench<double>& wrench, const PlayMotion<double>& m) {
   return wrench.force.dot(m.e_dot) + (wrench.moment - m.e.cross(wrench.force)).dot(m.w);
 }
 
@@ -58,8 +58,8 @@ TEST(TiltedJournal, TakesNoMoreEnergyThanItsSpringsStore) {
       const Offsets o = random_offsets(generator, type == JointType::cylindrical ? 0.01 : 0.0);
       const Vec3 e_dot = 0.1 * Vec3(uniform(generator), uniform(generator), uniform(generator));
       const Vec3 w = 5.0 * Vec3(uniform(generator), uniform(generator), uniform(generator));
-      const JournalMotion<double> m = at(o, e_dot, w);
-      JournalWrench<double> wrench;
+      const PlayMotion<double> m = at(o, e_dot, w);
+      PlayWrench<double> wrench;
       law.wrench(m, kImpactSpeed, wrench);
       const double h = 1e-8;
       Offsets rate;
@@ -83,16 +83,16 @@ TEST(TiltedJournal, HasThePapersForcesWhenItIsParallel) {
   for (int k = 0; k < 1000; ++k) {
     Offsets o = random_offsets(generator, 0.0);
     o.tail<2>().setZero();
-    const JournalMotion<double> m = at(o, 0.01 * Vec3(uniform(generator), uniform(generator), uniform(generator)),
+    const PlayMotion<double> m = at(o, 0.01 * Vec3(uniform(generator), uniform(generator), uniform(generator)),
                                        {0.0, 5.0 * uniform(generator), 0.0});
-    JournalWrench<double> a, b;
+    PlayWrench<double> a, b;
     tilts.wrench(m, kImpactSpeed, a);
     parallel.wrench(m, kImpactSpeed, b);
     EXPECT_LT((a.force - b.force).norm(), 1e-10 * (1.0 + b.force.norm()));
     // The parallel journal's normal forces meet at the sleeve's centre, the tilting one's at its own: no work without tilt.
     const JournalInSleeve smooth = joint(),
                           smooth_parallel = joint(JointType::revolute, 0.0, "hertz", JournalAxes::parallel);
-    JournalWrench<double> normal, normal_parallel;
+    PlayWrench<double> normal, normal_parallel;
     smooth.wrench(m, kImpactSpeed, normal);
     smooth_parallel.wrench(m, kImpactSpeed, normal_parallel);
     ASSERT_LT((normal.moment - m.e.cross(normal.force)).norm(), 1e-10 * (1.0 + normal.force.norm()));
@@ -115,7 +115,7 @@ TEST(TiltedJournal, CarriesAPureCoupleAtBothEnds) {
   const double l = 30e-3, depth = 3e-5, slope = 2.0 * (1e-4 + depth) / l;
   Offsets o = Offsets::Zero();
   o[3] = slope;
-  JournalWrench<double> wrench;
+  PlayWrench<double> wrench;
   law.wrench(at(o, Vec3::Zero(), Vec3::Zero()), kImpactSpeed, wrench);
   const double F = 0.5 * law.radial_law.stiffness * std::pow(depth, 1.5);
   EXPECT_NEAR(wrench.contact[static_cast<int>(ContactPlace::radial_plus)].normal_force, F, 1e-9 * F);
@@ -133,7 +133,7 @@ TEST(TiltedJournal, TangentIsTheChangeOfForce) {
     for (int k = 0; k < 500; ++k) {
       Offsets o = random_offsets(generator, 0.0);
       if (axes == JournalAxes::parallel) o.tail<2>().setZero();
-      const JournalMotion<double> m = at(o, Vec3::Zero(), Vec3::Zero());
+      const PlayMotion<double> m = at(o, Vec3::Zero(), Vec3::Zero());
       Eigen::Matrix<double, 5, 5> stiffness = Eigen::Matrix<double, 5, 5>::Zero();
       const ContactTangent tangent = contact_tangent(law, m);
       for (int i = 0; i < tangent.count; ++i) stiffness += tangent.column[i].n * tangent.column[i].n.transpose();

@@ -4,15 +4,15 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include "boresight/contact/journal_in_sleeve.hpp"
+#include "boresight/play/journal/journal_in_sleeve.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
 namespace {
 
 template <typename M, typename Law>
-JournalWrench<M> wrench_of(const Law& law, const std::array<double, 13>& x) {
-  JournalMotion<M> m;
+PlayWrench<M> wrench_of(const Law& law, const std::array<double, 13>& x) {
+  PlayMotion<M> m;
   for (int k = 0; k < 3; ++k) {
     m.e[k] = M(x[k], k);
     m.e_dot[k] = M(x[3 + k], 3 + k);
@@ -22,7 +22,7 @@ JournalWrench<M> wrench_of(const Law& law, const std::array<double, 13>& x) {
     m.slope[k] = M(x[9 + k], 9 + k);
     m.slope_rate[k] = M(x[11 + k], 11 + k);
   }
-  JournalWrench<M> out;
+  PlayWrench<M> out;
   using T = std::remove_cvref_t<decltype(law.radial_clearance)>;
   std::array<T, kContactPlaces> speed;
   speed.fill(T(0.02));

@@ -1,5 +1,5 @@
 // Where journals rest: the balance of forces by the contact laws that the rungs with dynamics use.
-#include "boresight/scene/quasistatic_offset.hpp"
+#include "boresight/play/journal/quasistatic_offset.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,10 +19,10 @@ JournalInSleeve journal(bool tilts, double friction) {
 }
 
 // What the contacts do to the five offsets of a journal at rest there.
-Offsets contact_forces(const JournalInSleeve& joint, const JournalMotion<double>& motion) {
+Offsets contact_forces(const JournalInSleeve& joint, const PlayMotion<double>& motion) {
   std::array<double, kContactPlaces> impact_speed;
   impact_speed.fill(1e-3);
-  JournalWrench<double> wrench;
+  PlayWrench<double> wrench;
   joint.wrench(motion, impact_speed, wrench);
   const Vec3 moment = wrench.moment - motion.e.cross(wrench.force);
   // moment = a' x (g_x, -g . sigma, g_z), a' = (sigma_x, 1, sigma_z): see tilted_journal.hpp.
@@ -39,12 +39,12 @@ Offsets load(double x, double y, double z, double gx, double gz) {
   return l;
 }
 
-TEST(RestingJournal, BalancesItsLoadByTheContactLaw) {
+TEST(RestingPlay, BalancesItsLoadByTheContactLaw) {
   const JournalInSleeve joint = journal(true, 0.0);
   const Offsets loads[] = {load(100, 0, 50, 0, 0),      load(100, 30, 0, 0.4, -0.2), load(3, -200, 1, 0.5, 0.1),
                            load(0, 150, 0, 1.2, 0),     load(0, 150, 0, 4.0, -3.0),  load(-40, 1, 20, -6, 9),
                            load(1e-3, 1e3, 0, 0, 1e-3), load(500, -500, 500, 5, 5),  load(0, 0, 0, 2.0, 1.0)};
-  RestingJournal rest;
+  RestingPlay rest;
   for (const Offsets& l : loads) {
     rest = resting_journal_under(joint, l, 0.0, rest);
     const Offsets left = l + contact_forces(joint, rest.motion);
@@ -57,26 +57,26 @@ TEST(RestingJournal, BalancesItsLoadByTheContactLaw) {
 
 // Closed form: K_c rho^2 / 2 resists the tilt of a face in full contact, which it stays in while the couple
 // is below half of what the load at the ring's edge holds.
-TEST(RestingJournal, StandsEvenlyOnItsFaceUntilTheCoupleLiftsAnEdge) {
+TEST(RestingPlay, StandsEvenlyOnItsFaceUntilTheCoupleLiftsAnEdge) {
   const JournalInSleeve joint = journal(true, 0.03);
   const double weight = 200.0, ring = joint.tilted.ring_radius, lifts = 0.5 * weight * ring;
   for (double share : {0.1, 0.5, 0.99}) {
-    const RestingJournal rest = resting_journal_under(joint, load(0.0, -weight, 0.0, share * lifts, 0.0), 0.0, {});
+    const RestingPlay rest = resting_journal_under(joint, load(0.0, -weight, 0.0, share * lifts, 0.0), 0.0, {});
     EXPECT_NEAR(rest.motion.slope[0], 2.0 * share * lifts / (joint.face_stiffness * ring * ring),
                 1e-6 * rest.motion.slope[0]);
     EXPECT_NEAR(rest.motion.e.y(), -(joint.axial_clearance + weight / joint.face_stiffness), 1e-12);
     EXPECT_EQ(rest.contact[static_cast<int>(ContactPlace::radial_minus)].normal_force, 0.0);
   }
   // Beyond what the ring's edge carries it falls against the ends of the bore.
-  const RestingJournal fallen = resting_journal_under(joint, load(0.0, -weight, 0.0, 2.5 * lifts, 0.0), 0.0, {});
+  const RestingPlay fallen = resting_journal_under(joint, load(0.0, -weight, 0.0, 2.5 * lifts, 0.0), 0.0, {});
   EXPECT_GT(fallen.motion.slope.norm(), 0.99 * joint.radial_clearance / joint.half_length);
 }
 
-TEST(RestingJournal, StaysWhereItWasWhereNoForceMovesIt) {
+TEST(RestingPlay, StaysWhereItWasWhereNoForceMovesIt) {
   const JournalInSleeve joint = journal(true, 0.03);
-  RestingJournal before;
+  RestingPlay before;
   before.motion.e << 3e-5, 0.0, -2e-5;
-  const RestingJournal rest = resting_journal_under(joint, load(0.0, -200.0, 0.0, 0.0, 0.0), 0.0, before);
+  const RestingPlay rest = resting_journal_under(joint, load(0.0, -200.0, 0.0, 0.0, 0.0), 0.0, before);
   EXPECT_NEAR(rest.motion.e.x(), 3e-5, 1e-9);
   EXPECT_NEAR(rest.motion.e.z(), -2e-5, 1e-9);
   EXPECT_LT(rest.motion.e.y(), -joint.axial_clearance);

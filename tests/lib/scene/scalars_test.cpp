@@ -36,8 +36,8 @@ std::vector<T> accelerations(const Mechanism& mechanism, const SceneTables& tabl
   std::vector<T> force(at.n, T(0.0)), acceleration(at.n);
   std::array<T, kContactPlaces> impact_speed;
   impact_speed.fill(T(0.02));
-  JournalWrench<T> wrench;
-  const JournalMotion<T> motion = journal_motion(at, at.joints[0], row.data(), z, rate);
+  PlayWrench<T> wrench;
+  const PlayMotion<T> motion = play_motion(at, at.joints[0], row.data(), z, rate);
   law.wrench(motion, impact_speed, wrench);
   add_generalised_force(at, at.joints[0], row.data(), motion, wrench, force.data());
   coordinate_acceleration(at, row.data(), z, rate, force.data(), acceleration.data());

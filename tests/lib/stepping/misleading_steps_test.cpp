@@ -60,7 +60,7 @@ TEST(MostDampedContact, IsTheSlopeOfTheForcesOverTheMass) {
   const auto mechanism = scenes::build(scenes::rrcpr({{"clearance.F1.axes", "free"}}));
   const OffsetLayout layout(*mechanism);
   const std::vector<JournalInSleeve> joints = clearance_joints(mechanism->description(), mechanism->parameters());
-  JournalMotion<double> motion{Vec3(joints[0].radial_clearance + 2e-6, 0.0, 0.0), Vec3::Zero(), Vec3::Zero()};
+  PlayMotion<double> motion{Vec3(joints[0].radial_clearance + 2e-6, 0.0, 0.0), Vec3::Zero(), Vec3::Zero()};
   motion.slope = Eigen::Vector2d(1e-6, 0.0);
   motion.slope_rate.setZero();
   ContactTracker tracker(0, "F1", joints[0], false);
@@ -71,9 +71,9 @@ TEST(MostDampedContact, IsTheSlopeOfTheForcesOverTheMass) {
   MatX compliance = MatX::Zero(5, 5);
   compliance(0, 0) = 1.0 / 3.0;
   const auto force = [&](double rate) {
-    JournalMotion<double> moving = motion;
+    PlayMotion<double> moving = motion;
     moving.e_dot.x() = rate;
-    JournalWrench<double> wrench;
+    PlayWrench<double> wrench;
     joints[0].wrench(moving, tracker.memory().impact_speed, wrench);
     return wrench.force.x();
   };

@@ -109,7 +109,7 @@ void PeerContact::forces(double t, Vec6& on_journal, Vec6& on_sleeve) {
 
 void PeerContact::accept(double t) {
   Laws& l = *laws_;
-  l.elements.joint(0).penetrations(l.elements.journal_motion(0, l.bodies), l.contact);
+  l.elements.joint(0).penetrations(l.elements.play_motion(0, l.bodies), l.contact);
   l.tracker.accept(t, l.contact);
   l.memory[0] = l.tracker.memory();
   if (first_contact_ < 0.0 && l.tracker.touching()) first_contact_ = t;

@@ -1,16 +1,26 @@
-#include "boresight/scene/quasistatic_offset.hpp"
-
+// Where a journal rests under a load on its offsets.
+//
+// Parallel axes, load r = (r_x, r_y, r_z):
+//   xi_rad = (c_r + (|r_rad| / K)^(2/3)) r_rad / |r_rad|           Hertz, pressed against the bore
+//   xi_ax  = sign(r_ax) (c_a + |r_ax| / K_c)                        once |r_ax| exceeds what friction holds, mu |r_rad|;
+//                                                                   until then the journal stays where it was axially
+// A journal that may tilt also carries a couple g on its slopes. It rests where its elastic energy less the work of the load,
+//   V(e, sigma) = U_ends + U_rings - r . e - g . sigma,
+// is least (tilted_journal.hpp has the contacts). V is convex, so there is one such place, or a set of places between which
+// no force decides: the one nearest to where the journal was. The ends and the faces share the couple as their stiffness
+// decides: under an axial load a cap stands evenly on its face until the couple lifts its edge.
+// Friction holds the axial place as above, by the forces of both ends.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "boresight/contact/contact_tangent.hpp"
+#include "boresight/play/journal/journal_in_sleeve.hpp"
 
 namespace boresight {
 namespace {
 
 using Vec2 = Vec2T<double>;
-using Offsets = Eigen::Matrix<double, 5, 1>;  // x y z of the centre [m], slopes x z
+using Offsets = PlayOffsets;
 using Stiffness = Eigen::Matrix<double, 5, 5>;
 
 constexpr int kIterations = 200;
@@ -25,7 +35,7 @@ Vec2 rest_along(const Vec2& force, double clearance, const NormalLaw& law, doubl
   return size > 0.0 ? Vec2(reach / size * force) : Vec2(Vec2::Zero());
 }
 
-void rest_parallel(const JournalInSleeve& joint, const Vec3& load, const RestingJournal& before, RestingJournal& rest) {
+void rest_parallel(const JournalInSleeve& joint, const Vec3& load, const RestingPlay& before, RestingPlay& rest) {
   Vec3& e = rest.motion.e;
   const Vec2 radial(load.x(), load.z());
   const Vec2 at = rest_along(radial, joint.radial_clearance, joint.radial_law, rest.radial_reach[0]);
@@ -86,7 +96,7 @@ class PressedJournal {
       gradient_[1] -= side * ring.force;
       if (tilt > 0.0) gradient_.tail<2>() += ring.force * ring.moment_arm * t.ring_radius / tilt * motion_.slope;
     }
-    const ContactTangent tangent = contact_tangent(joint_, motion_);
+    const ContactTangent tangent = joint_.tangent(motion_);
     for (int k = 0; k < tangent.count; ++k) curvature_ += tangent.column[k].n * tangent.column[k].n.transpose();
     // Slopes as displacements of the sleeve's ends.
     gradient_ = gradient_.cwiseProduct(unit_);
@@ -131,15 +141,15 @@ class PressedJournal {
   Offsets load_, unit_;
   bool hold_;
   double size_ = 0.0;
-  JournalMotion<double> motion_{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  PlayMotion<double> motion_{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   double value_ = 0.0;
   Offsets gradient_;
   Stiffness curvature_;
   std::array<double, 2> end_force_ = {}, face_force_ = {};
 };
 
-void rest_tilted(const JournalInSleeve& joint, const Offsets& load, double slide, const RestingJournal& before,
-                 RestingJournal& rest) {
+void rest_tilted(const JournalInSleeve& joint, const Offsets& load, double slide, const RestingPlay& before,
+                 RestingPlay& rest) {
   const TiltedJournal& t = joint.tilted;
   Offsets start;
   start << before.motion.e, before.motion.slope;
@@ -162,7 +172,7 @@ void rest_tilted(const JournalInSleeve& joint, const Offsets& load, double slide
   } else {
     at = free.rest_near(start);
   }
-  JournalMotion<double>& m = rest.motion;
+  PlayMotion<double>& m = rest.motion;
   m.e = at.head<3>();
   m.slope = at.tail<2>();
   joint.penetrations(m, rest.contact);
@@ -180,26 +190,12 @@ void rest_tilted(const JournalInSleeve& joint, const Offsets& load, double slide
 
 }  // namespace
 
-double RestingJournal::normal_force() const {
-  double sum = 0.0;
-  for (const ContactState<double>& c : contact) sum += c.normal_force;
-  return sum;
-}
-
-double RestingJournal::penetration() const {
-  double deepest = 0.0;
-  for (const ContactState<double>& c : contact)
-    if (c.normal_force > 0.0) deepest = std::max(deepest, c.penetration);
-  return deepest;
-}
-
-RestingJournal resting_journal_under(const JournalInSleeve& joint, const Eigen::Matrix<double, 5, 1>& load,
-                                     double slide, const RestingJournal& before) {
-  RestingJournal rest;
-  if (joint.tilts)
-    rest_tilted(joint, load, slide, before, rest);
+RestingPlay JournalInSleeve::rest_under(const PlayOffsets& load, double slide, const RestingPlay& before) const {
+  RestingPlay rest;
+  if (tilts)
+    rest_tilted(*this, load, slide, before, rest);
   else
-    rest_parallel(joint, load.head<3>(), before, rest);
+    rest_parallel(*this, load.head<3>(), before, rest);
   return rest;
 }
 

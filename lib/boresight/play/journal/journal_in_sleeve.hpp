@@ -13,12 +13,12 @@
 
 #include <vector>
 
-#include "boresight/contact/tilted_journal.hpp"
-#include "boresight/mechanism/description.hpp"
+#include "boresight/play/journal/tilted_journal.hpp"
+#include "boresight/play/play_kind.hpp"
 
 namespace boresight {
 
-// Numbers of one clearance joint that a motion does not change. T: those that a sample varies may be lanes or jets.
+// Numbers of one journal that a motion does not change. T: those that a sample varies may be lanes or jets.
 template <typename T>
 struct JournalInSleeveT {
   T radial_clearance{};   // c_r [m]
@@ -29,45 +29,43 @@ struct JournalInSleeveT {
   NormalLawT<T> radial_law;
   T face_stiffness{};  // K_c [N/m]
   FrictionLawT<T> friction;
-  LuGreT<T> lugre;                     // in place of friction where `sticks`
-  bool sticks = false;                 // the friction has a state: wrench() with bristles
-  double minimum_impact_speed = 1e-3;  // [m/s]
-  double validity_speed = 0.0;         // Eq. 26 [m/s]
-  bool tilts = false;                  // axes = "free": the contacts are those of `tilted`
+  bool tilts = false;  // axes = "free": the contacts are those of `tilted`
   TiltedJournalT<T> tilted;
 
+  static bool serves(JointType type) { return type == JointType::revolute || type == JointType::cylindrical; }
+
   // impact_speed: by ContactPlace [m/s]. M: the scalar of the motion, T itself or one that carries derivatives besides.
-  // Out: JournalWrench<M>, or JournalLoad<M> where what each contact carries is not asked for.
+  // Out: PlayWrench<M>, or PlayLoad<M> where what each contact carries is not asked for.
+  template <typename M, typename Friction, typename Out>
+  void wrench(const PlayMotion<M>& motion, const ImpactSpeeds<T>& impact_speed, const Friction& traction,
+              Out& out) const {
+    if (tilts)
+      tilted.wrench(motion, impact_speed, traction, out);
+    else
+      parallel_wrench(motion, impact_speed, traction, out);
+  }
   template <typename M, typename Out>
-  void wrench(const JournalMotion<M>& motion, const std::array<T, kContactPlaces>& impact_speed, Out& out) const {
-    if (tilts)
-      tilted.wrench(motion, impact_speed, SlidingFriction<T>{friction}, out);
-    else
-      parallel_wrench(motion, impact_speed, SlidingFriction<T>{friction}, out);
+  void wrench(const PlayMotion<M>& motion, const ImpactSpeeds<T>& impact_speed, Out& out) const {
+    wrench(motion, impact_speed, SlidingFriction<T>{friction}, out);
   }
-  // With LuGre's bristles, and how fast they bend.
-  void wrench(const JournalMotion<T>& motion, const std::array<T, kContactPlaces>& impact_speed,
-              const Bristles<T>& bristles, JournalWrench<T>& out, Bristles<T>& bristle_rate,
-              const T& largest_rate) const {
-    const BristleFriction<T> friction_with_state{lugre, bristles, bristle_rate, largest_rate};
-    for (Vec2T<T>& rate : bristle_rate) rate.setConstant(T(0.0));
-    if (tilts)
-      tilted.wrench(motion, impact_speed, friction_with_state, out);
-    else
-      parallel_wrench(motion, impact_speed, friction_with_state, out);
-  }
+
+  void keep_only(const std::array<bool, kContactPlaces>& touching);
+  std::array<T*, kMostContactNumbers> numbers();
+  template <typename U>
+  void take_shape_of(const JournalInSleeveT<U>& other);
+  void complete() { tilted.friction = friction; }
 
   // Penetration of every place only; used to see where contacts stand without their forces.
   template <typename M>
-  void penetrations(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const {
+  void penetrations(const PlayMotion<M>& motion, ContactStates<M>& contact) const {
     if (tilts)
       tilted.penetrations(motion, contact);
     else
       parallel_penetrations(motion, contact);
   }
   template <typename M>
-  void parallel_penetrations(const JournalMotion<M>& motion,
-                             std::array<ContactState<M>, kContactPlaces>& contact) const;
+  void parallel_penetrations(const PlayMotion<M>& motion,
+                             ContactStates<M>& contact) const;
 
   // The radial contact of a parallel journal: its normal, and how deep it is.
   template <typename M>
@@ -75,7 +73,7 @@ struct JournalInSleeveT {
     M nx, nz, penetration, rate;
   };
   template <typename M>
-  Radial<M> radial_contact(const JournalMotion<M>& m) const {
+  Radial<M> radial_contact(const PlayMotion<M>& m) const {
     // A concentric journal has no normal; length_from_square gives it some.
     const M distance = length_from_square(fused(M(m.e.x()), M(m.e.x()), M(m.e.z() * m.e.z()))),
             inverse = T(1.0) / distance;
@@ -85,12 +83,12 @@ struct JournalInSleeveT {
 
   // The axial one of the face at side * L_b/2, without its force.
   template <typename M>
-  ContactState<M> face_contact(const JournalMotion<M>& m, const T& side) const {
+  ContactState<M> face_contact(const PlayMotion<M>& m, const T& side) const {
     return {-side * m.e.y() - axial_clearance, -side * m.e_dot.y(), M(0.0)};
   }
 
   template <typename M, typename Friction, typename Out>
-  void parallel_wrench(const JournalMotion<M>& motion, const std::array<T, kContactPlaces>& impact_speed,
+  void parallel_wrench(const PlayMotion<M>& motion, const ImpactSpeeds<T>& impact_speed,
                        const Friction& friction, Out& out) const;
 };
 
@@ -98,21 +96,81 @@ struct JournalInSleeve : JournalInSleeveT<double> {
   JournalInSleeve() = default;
   JournalInSleeve(const ClearanceDescription& description, JointType joint, const ClearanceParameters& parameters);
 
-  // The contacts this joint can have.
+  // The rest is what play_kind.hpp asks of a kind.
   std::vector<ContactPlace> places() const;
-  // Of all contacts [J].
-  double elastic_energy(const JournalMotion<double>& motion) const;
+  MotionInputs inputs() const { return tilts ? MotionInputs::tilting : MotionInputs::parallel; }
+  double elastic_energy(const PlayMotion<double>& motion) const;
+  JournalInSleeve elastic_only() const;
+  ContactTangent tangent(const PlayMotion<double>& motion) const;
+  RestingPlay rest_under(const PlayOffsets& load, double slide, const RestingPlay& before) const;
+  std::vector<GapPart> gap_parts(const RestingPlay& rest, double slide) const;
+  std::vector<double> clearances() const;
+  PlayOffsets widths(double other) const;
+  double lever() const { return half_length; }
+  double size() const { return bore_radius; }
+  const NormalLaw& normal_law() const { return radial_law; }
+  double axial_stiffness() const { return face_stiffness; }
+  PlayOffsets root_stiffness(double load) const;
 };
-
-// Of every clearance of a mechanism.
-std::vector<JournalInSleeve> clearance_joints(const MechanismDescription& mechanism, const Parameters& parameters);
 
 // ---------------------------------------------------------------------------------------------------------------------
 
+// A direction (radial, axial) in which no contact is closed has a clearance that nothing reaches.
+template <typename T>
+void JournalInSleeveT<T>::keep_only(const std::array<bool, kContactPlaces>& touching) {
+  bool radial = false, axial = false;
+  for (int k = 0; k < kContactPlaces; ++k)
+    if (touching[k]) (is_axial(static_cast<ContactPlace>(k)) ? axial : radial) = true;
+  if (!radial) radial_clearance = tilted.radial_clearance = T(kOutOfReach);
+  if (!axial) axial_clearance = tilted.axial_clearance = T(kOutOfReach);
+}
+
+template <typename T>
+std::array<T*, kMostContactNumbers> JournalInSleeveT<T>::numbers() {
+  return {&radial_clearance,
+          &axial_clearance,
+          &bore_radius,
+          &half_length,
+          &radial_law.stiffness,
+          &radial_law.damping_factor,
+          &radial_law.length,
+          &radial_law.exponent,
+          &radial_law.dashpot,
+          &face_stiffness,
+          &friction.coefficient,
+          &friction.static_speed,
+          &friction.dynamic_speed,
+          &friction.stiction,
+          &friction.stribeck_speed,
+          &tilted.radial_clearance,
+          &tilted.axial_clearance,
+          &tilted.bore_radius,
+          &tilted.half_length,
+          &tilted.ring_radius,
+          &tilted.face_stiffness,
+          &tilted.end_law.stiffness,
+          &tilted.end_law.damping_factor,
+          &tilted.end_law.length,
+          &tilted.end_law.exponent,
+          &tilted.end_law.dashpot};
+}
+
+template <typename T>
+template <typename U>
+void JournalInSleeveT<T>::take_shape_of(const JournalInSleeveT<U>& other) {
+  has_faces = other.has_faces;
+  tilts = other.tilts;
+  tilted.has_faces = other.tilted.has_faces;
+  tilted.slides = other.tilted.slides;
+  radial_law.curve = other.radial_law.curve;
+  tilted.end_law.curve = other.tilted.end_law.curve;
+  friction.kind = tilted.friction.kind = other.friction.kind;
+}
+
 template <typename T>
 template <typename M>
-void JournalInSleeveT<T>::parallel_penetrations(const JournalMotion<M>& m,
-                                                std::array<ContactState<M>, kContactPlaces>& contact) const {
+void JournalInSleeveT<T>::parallel_penetrations(const PlayMotion<M>& m,
+                                                ContactStates<M>& contact) const {
   for (ContactState<M>& c : contact) c = {M(-1.0), M(0.0), M(0.0)};
   const Radial<M> at = radial_contact(m);
   contact[static_cast<int>(ContactPlace::radial)] = {at.penetration, at.rate, M(0.0)};
@@ -123,7 +181,7 @@ void JournalInSleeveT<T>::parallel_penetrations(const JournalMotion<M>& m,
 
 template <typename T>
 template <typename M, typename Friction, typename Out>
-void JournalInSleeveT<T>::parallel_wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed,
+void JournalInSleeveT<T>::parallel_wrench(const PlayMotion<M>& m, const ImpactSpeeds<T>& impact_speed,
                                           const Friction& traction, Out& out) const {
   forget_contacts(out);
   out.force.setConstant(M(0.0));

@@ -17,9 +17,9 @@
 #pragma once
 
 #include "boresight/contact/contact_friction.hpp"
-#include "boresight/contact/journal_motion.hpp"
 #include "boresight/contact/normal_law.hpp"
-#include "boresight/contact/ring_contact.hpp"
+#include "boresight/play/play_motion.hpp"
+#include "boresight/play/journal/ring_contact.hpp"
 
 namespace boresight {
 
@@ -37,7 +37,7 @@ struct TiltedJournalT {
 
   // M: the scalar of the motion, T itself or one that carries derivatives besides.
   template <typename M>
-  void penetrations(const JournalMotion<M>& motion, std::array<ContactState<M>, kContactPlaces>& contact) const {
+  void penetrations(const PlayMotion<M>& motion, ContactStates<M>& contact) const {
     for (ContactState<M>& c : contact) c = {M(-1.0), M(0.0), M(0.0)};
     for (int side : {-1, 1}) {
       const End<M> at = end(motion, side);
@@ -48,13 +48,13 @@ struct TiltedJournalT {
     }
   }
 
-  // Out: JournalWrench<M>, or JournalLoad<M>.
+  // Out: PlayWrench<M>, or PlayLoad<M>.
   template <typename M, typename Out>
-  void wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed, Out& out) const {
+  void wrench(const PlayMotion<M>& m, const ImpactSpeeds<T>& impact_speed, Out& out) const {
     wrench(m, impact_speed, SlidingFriction<T>{friction}, out);
   }
   template <typename M, typename Friction, typename Out>
-  void wrench(const JournalMotion<M>& m, const std::array<T, kContactPlaces>& impact_speed, const Friction& traction,
+  void wrench(const PlayMotion<M>& m, const ImpactSpeeds<T>& impact_speed, const Friction& traction,
               Out& out) const {
     forget_contacts(out);
     out.force.setConstant(M(0.0));
@@ -69,7 +69,7 @@ struct TiltedJournalT {
       const M tilted = at.nx * m.slope[0] + at.nz * m.slope[1];
       const Vec3T<M> push(-F * at.nx, slides ? M(F * tilted) : M(0.0), -F * at.nz);
       out.force += push;
-      out.moment += m.e.cross(push) + moment_of(-F * at.reach * at.nx, -F * at.reach * at.nz, m);
+      out.moment += m.e.cross(push) + moment_of_couple(-F * at.reach * at.nx, -F * at.reach * at.nz, m);
       const Vec3T<M> point(bore_radius * at.nx, M(T(side) * half_length), bore_radius * at.nz);
       const Vec3T<M> v = m.e_dot + m.w.cross(Vec3T<M>(point - m.e));
       const M around = v.x() * at.nz - v.z() * at.nx;
@@ -89,7 +89,7 @@ struct TiltedJournalT {
       const Vec3T<M> push(M(0.0), T(side) * F, M(0.0));
       const M swing = ring_radius * ring.moment_arm;
       out.force += push;
-      out.moment += m.e.cross(push) + moment_of(-F * swing * on.ux, -F * swing * on.uz, m);
+      out.moment += m.e.cross(push) + moment_of_couple(-F * swing * on.ux, -F * swing * on.uz, m);
       const Vec3T<M> point(T(side) * swing * on.ux, M(T(side) * half_length), T(side) * swing * on.uz);
       const Vec3T<M> v = m.e_dot + m.w.cross(Vec3T<M>(point - m.e));
       const auto [fx, fz] = traction(static_cast<int>(place), F, M(v.x()), M(v.z()));
@@ -97,7 +97,7 @@ struct TiltedJournalT {
     }
   }
 
-  T elastic_energy(const JournalMotion<T>& m) const {
+  T elastic_energy(const PlayMotion<T>& m) const {
     T energy(0.0);
     for (int side : {-1, 1}) {
       const T d = end(m, side).penetration;
@@ -114,13 +114,6 @@ struct TiltedJournalT {
   }
   static ContactPlace axial_place(int side) { return side < 0 ? ContactPlace::axial_minus : ContactPlace::axial_plus; }
 
-  // Of the couple (gx, gz) on the slopes, about the journal's centre.
-  template <typename M>
-  static Vec3T<M> moment_of(const M& gx, const M& gz, const JournalMotion<M>& m) {
-    const Vec3T<M> along(m.slope[0], M(1.0), m.slope[1]);
-    return along.cross(Vec3T<M>(gx, -gx * m.slope[0] - gz * m.slope[1], gz));
-  }
-
  private:
   template <typename M>
   struct End {
@@ -132,7 +125,7 @@ struct TiltedJournalT {
   };
 
   template <typename M>
-  End<M> end(const JournalMotion<M>& m, int side) const {
+  End<M> end(const PlayMotion<M>& m, int side) const {
     End<M> at;
     at.reach = slides ? M(T(side) * half_length - m.e.y()) : M(T(side) * half_length);
     const M x = m.e.x() + at.reach * m.slope[0], z = m.e.z() + at.reach * m.slope[1];
@@ -150,7 +143,7 @@ struct TiltedJournalT {
   }
 
   template <typename M>
-  Face<M> face(const JournalMotion<M>& m, int side) const {
+  Face<M> face(const PlayMotion<M>& m, int side) const {
     Face<M> on;
     const M tilt = length_from_square(M(m.slope[0] * m.slope[0] + m.slope[1] * m.slope[1]));
     on.ux = m.slope[0] / tilt;
@@ -162,7 +155,7 @@ struct TiltedJournalT {
   }
 
   template <typename M>
-  static void add(const Vec3T<M>& point, const Vec3T<M>& force, JournalLoad<M>& out) {
+  static void add(const Vec3T<M>& point, const Vec3T<M>& force, PlayLoad<M>& out) {
     out.force += force;
     out.moment += point.cross(force);
   }

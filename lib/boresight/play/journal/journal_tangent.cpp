@@ -1,4 +1,8 @@
-#include "boresight/contact/contact_tangent.hpp"
+// How stiff a journal's contacts are where they stand. A radial contact has one column: the root of the elastic slope (Hertz:
+// 1.5 K sqrt(d)) times the gradient of its penetration. A face that tilts has three: with cos a = -d0 / A (a = pi in full contact)
+// the energy's second derivatives are (K_c / pi) [a, sin a; sin a, (a + sin a cos a) / 2] in (d0, A), and
+// (K_c / 2 pi) (a - sin a cos a) for a slope across the tilt. Derivatives of ring_contact.hpp.
+#include "boresight/play/journal/journal_in_sleeve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +11,9 @@
 namespace boresight {
 namespace {
 
-using Column = Eigen::Matrix<double, 5, 1>;
+using Column = PlayOffsets;
 
-void add_ring(const TiltedJournal& joint, const JournalMotion<double>& m, int side, double penetration,
+void add_ring(const TiltedJournal& joint, const PlayMotion<double>& m, int side, double penetration,
               ContactTangent& tangent) {
   const ContactPlace place = TiltedJournal::axial_place(side);
   const double tilt = m.slope.norm(), swing = joint.ring_radius * tilt, depth = penetration - swing;
@@ -23,42 +27,42 @@ void add_ring(const TiltedJournal& joint, const JournalMotion<double>& m, int si
   // Cholesky factor of the two by two matrix: [p 0; q r].
   const double p = std::sqrt(k * a), q = p > 0.0 ? k * s / p : 0.0;
   const double r = std::sqrt(std::max(0.0, 0.5 * k * (a + s * c) - q * q));
-  tangent.column[tangent.count++] = {place, p * depth_gradient + q * swing_gradient};
-  tangent.column[tangent.count++] = {place, r * swing_gradient};
-  tangent.column[tangent.count++] = {place, std::sqrt(std::max(0.0, 0.5 * k * (a - s * c))) * across};
+  tangent.add(place, p * depth_gradient + q * swing_gradient);
+  tangent.add(place, r * swing_gradient);
+  tangent.add(place, std::sqrt(std::max(0.0, 0.5 * k * (a - s * c))) * across);
 }
 
 }  // namespace
 
-ContactTangent contact_tangent(const JournalInSleeve& joint, const JournalMotion<double>& m) {
+ContactTangent JournalInSleeve::tangent(const PlayMotion<double>& m) const {
   ContactTangent tangent;
-  std::array<ContactState<double>, kContactPlaces> contact;
-  joint.penetrations(m, contact);
+  ContactStates<double> contact;
+  penetrations(m, contact);
   const auto depth = [&](ContactPlace place) { return contact[static_cast<int>(place)].penetration; };
-  if (!joint.tilts) {
+  if (!tilts) {
     if (const double d = depth(ContactPlace::radial); d > 0.0) {
-      const double root = std::sqrt(joint.radial_law.elastic_slope(d)) / std::hypot(m.e.x(), m.e.z());
-      tangent.column[tangent.count++] = {ContactPlace::radial, Column(root * m.e.x(), 0.0, root * m.e.z(), 0.0, 0.0)};
+      const double root = std::sqrt(radial_law.elastic_slope(d)) / std::hypot(m.e.x(), m.e.z());
+      tangent.add(ContactPlace::radial, Column(root * m.e.x(), 0.0, root * m.e.z(), 0.0, 0.0));
     }
     for (ContactPlace face : {ContactPlace::axial_minus, ContactPlace::axial_plus})
       if (depth(face) > 0.0)
-        tangent.column[tangent.count++] = {face, Column(0.0, std::sqrt(joint.face_stiffness), 0.0, 0.0, 0.0)};
+        tangent.add(face, Column(0.0, std::sqrt(face_stiffness), 0.0, 0.0, 0.0));
     return tangent;
   }
   for (int side : {-1, 1}) {
     const ContactPlace end = TiltedJournal::radial_place(side);
     if (const double d = depth(end); d > 0.0) {
-      const bool slides = joint.tilted.slides;
-      const double reach = side * joint.half_length - (slides ? m.e.y() : 0.0);
+      const bool slides = tilted.slides;
+      const double reach = side * half_length - (slides ? m.e.y() : 0.0);
       const double x = m.e.x() + reach * m.slope[0], z = m.e.z() + reach * m.slope[1];
-      const double root = std::sqrt(joint.tilted.end_law.elastic_slope(d)) / std::hypot(x, z);
+      const double root = std::sqrt(tilted.end_law.elastic_slope(d)) / std::hypot(x, z);
       Column n;
       n << x, slides ? -x * m.slope[0] - z * m.slope[1] : 0.0, z, reach * x, reach * z;
-      tangent.column[tangent.count++] = {end, root * n};
+      tangent.add(end, root * n);
     }
-    if (!joint.has_faces) continue;
+    if (!has_faces) continue;
     const double d = depth(TiltedJournal::axial_place(side));
-    if (d > 0.0) add_ring(joint.tilted, m, side, d, tangent);
+    if (d > 0.0) add_ring(tilted, m, side, d, tangent);
   }
   return tangent;
 }

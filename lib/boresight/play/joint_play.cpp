@@ -1,0 +1,108 @@
+#include "boresight/play/joint_play.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "boresight/contact/hertz.hpp"
+
+namespace boresight {
+namespace {
+
+// The first kind that serves the type of joint.
+template <std::size_t K = 0>
+PlayKinds<double> made(const ClearanceDescription& description, JointType joint, const ClearanceParameters& p) {
+  if constexpr (K < std::variant_size_v<PlayKinds<double>>) {
+    using Kind = std::variant_alternative_t<K, PlayKinds<double>>;
+    if (Kind::serves(joint)) return Kind(description, joint, p);
+    return made<K + 1>(description, joint, p);
+  } else {
+    throw std::invalid_argument(std::string("no kind of play for a joint of type ") + to_string(joint));
+  }
+}
+
+template <std::size_t K = 0>
+bool any_serves(JointType joint) {
+  if constexpr (K < std::variant_size_v<PlayKinds<double>>)
+    return std::variant_alternative_t<K, PlayKinds<double>>::serves(joint) || any_serves<K + 1>(joint);
+  else
+    return false;
+}
+
+}  // namespace
+
+JointPlay::JointPlay(const ClearanceDescription& description, JointType joint, const ClearanceParameters& p) {
+  kind = made(description, joint, p);
+  const FrictionLaw friction = make_friction_law(description.friction_law, p.friction);
+  sticks = friction.kind == FrictionKind::lugre && friction.stiction > 0.0;
+  lugre = {friction.coefficient,         friction.stiction,          friction.stribeck_speed, friction.dynamic_speed,
+           p.friction.bristle_stiffness, p.friction.bristle_damping, p.friction.viscosity};
+  minimum_impact_speed = p.contact.minimum_impact_speed;
+  validity_speed = boresight::validity_speed(p.contact);
+}
+
+bool JointPlay::serves(JointType joint) { return any_serves(joint); }
+
+std::vector<ContactPlace> JointPlay::places() const {
+  return std::visit([](const auto& k) { return k.places(); }, kind);
+}
+MotionInputs JointPlay::inputs() const {
+  return std::visit([](const auto& k) { return k.inputs(); }, kind);
+}
+double JointPlay::elastic_energy(const PlayMotion<double>& motion) const {
+  return std::visit([&](const auto& k) { return k.elastic_energy(motion); }, kind);
+}
+JointPlay JointPlay::elastic_only() const {
+  JointPlay elastic = *this;
+  std::visit([&](const auto& k) { elastic.kind = k.elastic_only(); }, kind);
+  elastic.sticks = false;
+  return elastic;
+}
+ContactTangent JointPlay::tangent(const PlayMotion<double>& motion) const {
+  return std::visit([&](const auto& k) { return k.tangent(motion); }, kind);
+}
+RestingPlay JointPlay::rest_under(const PlayOffsets& load, double slide, const RestingPlay& before) const {
+  return std::visit([&](const auto& k) { return k.rest_under(load, slide, before); }, kind);
+}
+std::vector<GapPart> JointPlay::gap_parts(const RestingPlay& rest, double slide) const {
+  return std::visit([&](const auto& k) { return k.gap_parts(rest, slide); }, kind);
+}
+std::vector<double> JointPlay::clearances() const {
+  return std::visit([](const auto& k) { return k.clearances(); }, kind);
+}
+double JointPlay::widest() const {
+  const std::vector<double> all = clearances();
+  return *std::max_element(all.begin(), all.end());
+}
+double JointPlay::narrowest() const {
+  const std::vector<double> all = clearances();
+  return *std::min_element(all.begin(), all.end());
+}
+PlayOffsets JointPlay::widths(double other) const {
+  return std::visit([&](const auto& k) { return k.widths(other); }, kind);
+}
+double JointPlay::lever() const {
+  return std::visit([](const auto& k) { return k.lever(); }, kind);
+}
+double JointPlay::size() const {
+  return std::visit([](const auto& k) { return k.size(); }, kind);
+}
+const NormalLaw& JointPlay::normal_law() const {
+  return std::visit([](const auto& k) -> const NormalLaw& { return k.normal_law(); }, kind);
+}
+double JointPlay::axial_stiffness() const {
+  return std::visit([](const auto& k) { return k.axial_stiffness(); }, kind);
+}
+PlayOffsets JointPlay::root_stiffness(double load) const {
+  return std::visit([&](const auto& k) { return k.root_stiffness(load); }, kind);
+}
+
+std::vector<JointPlay> joint_plays(const MechanismDescription& mechanism, const Parameters& parameters) {
+  std::vector<JointPlay> plays;
+  for (std::size_t c = 0; c < mechanism.clearances.size(); ++c) {
+    const ClearanceDescription& clearance = mechanism.clearances[c];
+    plays.emplace_back(clearance, mechanism.joints[clearance.joint].type, parameters.clearance[c]);
+  }
+  return plays;
+}
+
+}  // namespace boresight

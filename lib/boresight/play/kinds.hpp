@@ -1,0 +1,21 @@
+// The kinds of play there are. A new kind is one folder beside this file and one line here.
+#pragma once
+
+#include <type_traits>
+#include <variant>
+
+#include "boresight/play/ball/ball_in_socket.hpp"
+#include "boresight/play/journal/journal_in_sleeve.hpp"
+
+namespace boresight {
+
+template <typename T, template <typename> typename Lanes, typename Own>
+using PlayKind = std::conditional_t<std::is_same_v<T, double>, Own, Lanes<T>>;
+
+template <typename T>
+using PlayKinds = std::variant<            //
+    PlayKind<T, JournalInSleeveT, JournalInSleeve>,  // revolute, cylindrical
+    PlayKind<T, BallInSocketT, BallInSocket>         // spherical
+    >;
+
+}  // namespace boresight

@@ -1,0 +1,83 @@
+// How the parts of a joint with play sit and move in one another, and what the one does to the other: what goes into the contact
+// laws and what comes out, in the seat's frame (the sleeve's, the socket's: origin at its centre, y along the joint's axis).
+// The other part, the journal or the ball, is the insert.
+#pragma once
+
+#include <array>
+
+#include "boresight/contact/contact_memory.hpp"
+#include "boresight/math/types.hpp"
+
+namespace boresight {
+
+template <typename T>
+struct PlayMotion {
+  Vec3T<T> e, e_dot;  // centre of the insert [m] and its rate as seen from the seat [m/s]
+  Vec3T<T> w;         // angular velocity relative to the seat [rad/s]
+  // Of the insert's axis a, where it may tilt: (a_x, a_z) / a_y, and its rate as seen from the seat [1/s].
+  Vec2T<T> slope = Vec2T<T>::Constant(T(0.0)), slope_rate = Vec2T<T>::Constant(T(0.0));
+};
+
+// Numbers of a PlayMotion: e, e_dot, w (3 each), then slope, slope_rate (2 each).
+inline constexpr int kMotionNumbers = 13;
+
+// The offsets that play can free: x y z of the insert's centre [m], then the slopes x z of its axis [-]. A kind that frees fewer
+// leaves the rest zero. With forces in their place: the loads on them [N], couples on the slopes [N m].
+inline constexpr int kMostOffsets = 5;
+using PlayOffsets = Eigen::Matrix<double, kMostOffsets, 1>;
+
+inline PlayMotion<double> at_rest_at(const PlayOffsets& offsets) {
+  PlayMotion<double> motion{offsets.head<3>(), Vec3::Zero(), Vec3::Zero()};
+  motion.slope = offsets.tail<2>();
+  return motion;
+}
+inline PlayOffsets offsets_of(const PlayMotion<double>& motion) {
+  PlayOffsets offsets;
+  offsets << motion.e, motion.slope;
+  return offsets;
+}
+
+// One possible contact. Not zero from the start: penetrations() and wrench() write every place.
+template <typename T>
+struct ContactState {
+  T penetration, rate, normal_force;  // [m], [m/s], [N]; penetration < 0: a gap
+};
+template <typename T>
+using ContactStates = std::array<ContactState<T>, kContactPlaces>;  // by ContactPlace; unused places keep a gap of -1 m
+template <typename T>
+using ImpactSpeeds = std::array<T, kContactPlaces>;  // by ContactPlace [m/s]
+
+// Force on the insert, and moment about the seat's centre.
+template <typename T>
+struct PlayLoad {
+  Vec3T<T> force, moment;
+};
+
+// The same with what each contact carries of it.
+template <typename T>
+struct PlayWrench : PlayLoad<T> {
+  ContactStates<T> contact;
+};
+
+// Of the couple (gx, gz) on the slopes, about the insert's centre: the moment that works at gx, gz per unit of their rates.
+template <typename M>
+Vec3T<M> moment_of_couple(const M& gx, const M& gz, const PlayMotion<M>& m) {
+  const Vec3T<M> along(m.slope[0], M(1.0), m.slope[1]);
+  return along.cross(Vec3T<M>(gx, -gx * m.slope[0] - gz * m.slope[1], gz));
+}
+
+// What a law fills in of a contact: everything where it is kept, nothing where only the load is asked for.
+template <typename T>
+void keep_contact(PlayLoad<T>&, ContactPlace, const ContactState<T>&) {}
+template <typename T>
+void keep_contact(PlayWrench<T>& out, ContactPlace place, const ContactState<T>& state) {
+  out.contact[static_cast<int>(place)] = state;
+}
+template <typename T>
+void forget_contacts(PlayLoad<T>&) {}
+template <typename T>
+void forget_contacts(PlayWrench<T>& out) {
+  for (ContactState<T>& c : out.contact) c = {T(-1.0), T(0.0), T(0.0)};
+}
+
+}  // namespace boresight
