@@ -2,7 +2,6 @@
 
 #include <cstdio>
 
-#include "boresight/play/joint_play.hpp"
 #include "boresight/io/referred_file.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "boresight/play/joint_play.hpp"
 #include "boresight/integrate/explicit_method.hpp"
 #include "boresight/integrate/rosenbrock_method.hpp"
+#include "boresight/play/joint_play.hpp"
 
 namespace boresight {
 namespace {
@@ -50,11 +50,11 @@ SettlingContact SettlingContact::of(const Mechanism& mechanism, const Parameters
                                     const ContactFrequency& found) {
   const MechanismDescription& m = mechanism.description();
   const JointPlay joint(m.clearances[clearance], m.joints[m.clearances[clearance].joint].type,
-                              parameters.clearance[clearance]);
+                        parameters.clearance[clearance]);
   SettlingContact contact;
   contact.mass = found.effective_mass;
   contact.load = found.typical_load > 0.0 ? found.typical_load : 9.81 * found.effective_mass;
-  contact.law = joint.radial_law;
+  contact.law = joint.normal_law();
   contact.minimum_impact_speed = contact.impact_speed = joint.minimum_impact_speed;
   return contact;
 }

@@ -5,8 +5,8 @@
 #include <array>
 #include <utility>
 
-#include "boresight/contact/friction_law.hpp"
 #include "boresight/contact/contact_memory.hpp"
+#include "boresight/contact/friction_law.hpp"
 #include "boresight/contact/lugre.hpp"
 
 namespace boresight {

@@ -18,8 +18,7 @@ namespace boresight {
 class ContactTracker {
  public:
   // start: the summary leaves out what comes before [s]; events are kept from t = 0 on.
-  ContactTracker(int clearance, std::string joint_name, const JointPlay& law, bool keep_events,
-                 double start = 0.0);
+  ContactTracker(int clearance, std::string joint_name, const JointPlay& law, bool keep_events, double start = 0.0);
 
   // The state of the contacts at an accepted time, from JointPlay::penetrations. Call at the start, then after every step.
   // Returns true if a contact began or ended.

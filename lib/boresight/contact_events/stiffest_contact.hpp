@@ -25,7 +25,6 @@ StiffestContact stiffest_contact(const OffsetLayout& layout, const std::vector<J
 
 // An upper bound of the same angular frequency squared [1/s^2], without an eigenvalue: the trace.
 double stiffest_contact_bound(const OffsetLayout& layout, const std::vector<JointPlay>& joints,
-                              const std::vector<PlayMotion<double>>& motion,
-                              const Eigen::Ref<const MatX>& compliance);
+                              const std::vector<PlayMotion<double>>& motion, const Eigen::Ref<const MatX>& compliance);
 
 }  // namespace boresight

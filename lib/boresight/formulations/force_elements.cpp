@@ -65,8 +65,7 @@ PlayMotion<double> ForceElements::play_motion(int clearance, const std::vector<B
 
 void ForceElements::load(Joint& joint, const PlayOffsets& held) const {
   joint.wrench.force = held.head<3>();
-  joint.wrench.moment =
-      joint.motion.e.cross(joint.wrench.force) + moment_of_couple(held[3], held[4], joint.motion);
+  joint.wrench.moment = joint.motion.e.cross(joint.wrench.force) + moment_of_couple(held[3], held[4], joint.motion);
 }
 
 void ForceElements::apply(double t, const std::vector<BodyMotion>& bodies, const std::vector<ContactMemory>& memory,

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "boresight/play/joint_play.hpp"
 #include "boresight/mechanism/body_motion.hpp"
 #include "boresight/mechanism/mechanism.hpp"
+#include "boresight/play/joint_play.hpp"
 
 namespace boresight {
 

@@ -4,8 +4,8 @@
 #include <atomic>
 #include <type_traits>
 
-#include "boresight/play/joint_play.hpp"
 #include "boresight/integrate/rosenbrock_tables.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/scene/scene_layout.hpp"
 
 namespace boresight {
@@ -41,10 +41,10 @@ struct LaneScene {
 
 struct LaneJob {
   const LaneScene* scene = nullptr;
-  const JointPlay* joints = nullptr;  // one per clearance
-  const double* tolerance = nullptr;        // 2 n: largest error of one step, of each z, then of each zdot
-  const double* start = nullptr;            // 2n: z and zdot at the start; zero where none is given
-  const double* gap_tolerance = nullptr;    // one per clearance [m]: a contact begins this close to its located start
+  const JointPlay* joints = nullptr;      // one per clearance
+  const double* tolerance = nullptr;      // 2 n: largest error of one step, of each z, then of each zdot
+  const double* start = nullptr;          // 2n: z and zdot at the start; zero where none is given
+  const double* gap_tolerance = nullptr;  // one per clearance [m]: a contact begins this close to its located start
 };
 
 enum class LaneStatus { done, step_too_small, too_many_steps, not_reached };  // not_reached: stopped before its end

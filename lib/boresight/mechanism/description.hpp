@@ -72,7 +72,8 @@ enum class JournalAxes { parallel, free };
 
 struct ClearanceDescription {
   int joint = 0;
-  int journal = 0;  // the body that carries the journal (of a spherical joint the ball); the joint's other body carries the sleeve
+  int journal =
+      0;  // the body that carries the journal (of a spherical joint the ball); the joint's other body carries the sleeve
   JournalAxes axes = JournalAxes::parallel;
   std::string contact_law = "flores";
   std::string dissipation_law;  // whose damping factor a law for cylinders takes; "": its own

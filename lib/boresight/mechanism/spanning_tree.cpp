@@ -30,8 +30,7 @@ Shape shape_of(const Mechanism& mechanism, int joint, bool with_clearance) {
   const int clearance = mechanism.clearance_of(joint);
   Shape s;
   if (with_clearance && clearance >= 0) {
-    const bool tilts =
-        !keeps_axis(d.type) || mechanism.description().clearances[clearance].axes == JournalAxes::free;
+    const bool tilts = !keeps_axis(d.type) || mechanism.description().clearances[clearance].axes == JournalAxes::free;
     s.slides = kAnywhere;
     s.turns = tilts ? Turns::ball : Turns::about_axis;
     s.driven = d.driven && !tilts;

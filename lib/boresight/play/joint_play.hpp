@@ -83,11 +83,12 @@ struct JointPlay : JointPlayT<double> {
   double narrowest() const;
   // Of each offset, the clearance that it crosses; `other` where that is zero [m, -].
   PlayOffsets widths(double other) const;
-  double lever() const;                          // a slope times it is a displacement [m]
-  double size() const;                           // radius of the seat [m]
-  const NormalLaw& normal_law() const;           // of the contact that carries the loads across its axis
-  double axial_stiffness() const;                // of the contact that carries them along it [N/m]; 0 where there is none
-  PlayOffsets root_stiffness(double load) const;  // per offset, the root of the tangent stiffness under twice the load [N]
+  double lever() const;                 // a slope times it is a displacement [m]
+  double size() const;                  // radius of the seat [m]
+  const NormalLaw& normal_law() const;  // of the contact that carries the loads across its axis
+  double axial_stiffness() const;       // of the contact that carries them along it [N/m]; 0 where there is none
+  PlayOffsets root_stiffness(
+      double load) const;  // per offset, the root of the tangent stiffness under twice the load [N]
 };
 
 // A joint's play with another scalar: the same numbers, of which the caller then changes what varies.

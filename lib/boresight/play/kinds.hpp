@@ -13,7 +13,7 @@ template <typename T, template <typename> typename Lanes, typename Own>
 using PlayKind = std::conditional_t<std::is_same_v<T, double>, Own, Lanes<T>>;
 
 template <typename T>
-using PlayKinds = std::variant<            //
+using PlayKinds = std::variant<                      //
     PlayKind<T, JournalInSleeveT, JournalInSleeve>,  // revolute, cylindrical
     PlayKind<T, BallInSocketT, BallInSocket>         // spherical
     >;

@@ -5,9 +5,9 @@
 #include <sstream>
 #include <vector>
 
-#include "boresight/play/joint_play.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/spanning_tree.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 
 namespace boresight {

@@ -36,8 +36,7 @@ MatX carried_along(const MatX& mass, const std::vector<bool>& held) {
   return along;
 }
 
-constexpr ImpactSpeeds<double> kSlow = {1e-3, 1e-3, 1e-3, 1e-3,
-                                                      1e-3};  // of no account where nothing dissipates
+constexpr ImpactSpeeds<double> kSlow = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3};  // of no account where nothing dissipates
 
 }  // namespace
 

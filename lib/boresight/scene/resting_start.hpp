@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "boresight/play/joint_play.hpp"
 #include "boresight/mechanism/mechanism.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/scene/clearance_scene.hpp"
 
 namespace boresight {
@@ -60,13 +60,13 @@ class RestingBalance {
   std::vector<JointPlay> joints_;
   MatX mass_, stiffness_;
   VecX reaction_;
-  MatX unit_;                      // upper triangle
-  std::vector<bool> held_;         // coordinates that the balance may move: offsets
-  MatX with_offsets_;              // n x n: z per offset, the others' columns zero
-  std::vector<PlayOffsets> widths_;    // per joint: what each offset crosses its clearance with
-  std::vector<MatX> offsets_of_;   // per joint: 5 x n, offsets per coordinate
-  std::vector<MatX> over_widths_;  // the same over the widths, of coordinates that the balance may move
-  std::vector<MatX> works_on_;     // per joint: 6 x n, the rates that force and moment work on
+  MatX unit_;                        // upper triangle
+  std::vector<bool> held_;           // coordinates that the balance may move: offsets
+  MatX with_offsets_;                // n x n: z per offset, the others' columns zero
+  std::vector<PlayOffsets> widths_;  // per joint: what each offset crosses its clearance with
+  std::vector<MatX> offsets_of_;     // per joint: 5 x n, offsets per coordinate
+  std::vector<MatX> over_widths_;    // the same over the widths, of coordinates that the balance may move
+  std::vector<MatX> works_on_;       // per joint: 6 x n, the rates that force and moment work on
   std::vector<double> slide_;
   double load_ = 0.0;  // size() of the reactions [N m]
 };

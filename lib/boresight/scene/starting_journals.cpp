@@ -18,8 +18,8 @@ StartingJournals starting_journals(const Mechanism& mechanism, const Parameters&
     const VecX state =
         start_coordinates(mechanism, scene.layout, scene.numbers, joint_plays(m, parameters), start.warning);
     for (std::size_t c = 0; c < start.journals.size(); ++c) {
-      const PlayMotion<double> motion = play_motion(
-          scene.layout, scene.layout.joints[c], scene.numbers.row.data(), state.data(), state.data() + scene.layout.n);
+      const PlayMotion<double> motion = play_motion(scene.layout, scene.layout.joints[c], scene.numbers.row.data(),
+                                                    state.data(), state.data() + scene.layout.n);
       start.journals[c].offset = motion.e;
       if (m.clearances[c].axes == JournalAxes::free) start.journals[c].slope = {motion.slope[0], 0.0, motion.slope[1]};
     }

@@ -13,15 +13,16 @@
 #include <functional>
 #include <vector>
 
-#include "boresight/play/joint_play.hpp"
 #include "boresight/mechanism/mechanism.hpp"
+#include "boresight/play/joint_play.hpp"
 
 namespace boresight {
 
 struct ContactNumbers {
-  std::vector<JointPlay> joints;                               // per clearance
-  std::vector<std::vector<std::array<double, kMostContactNumbers>>> by;  // [parameter][clearance]: d number / d parameter
-  std::vector<double> values;                                        // of the parameters
+  std::vector<JointPlay> joints;  // per clearance
+  std::vector<std::vector<std::array<double, kMostContactNumbers>>>
+      by;                      // [parameter][clearance]: d number / d parameter
+  std::vector<double> values;  // of the parameters
 };
 
 // parameters_at: the mechanism's parameters at some values of those fitted. values: > 0.

@@ -20,8 +20,7 @@ IntegrationOptions integration_options(const SceneLayout& at, const Parameters& 
   VecX tolerance = VecX::Constant(at.n, asked * length);
   for (std::size_t c = 0; c < at.joints.size(); ++c)
     for (int k = 3; k < at.joints[c].offsets; ++k)
-      if (at.joints[c].source[k] >= 0)
-        tolerance[at.joints[c].source[k]] = asked * length / numbers.joints[c].lever();
+      if (at.joints[c].source[k] >= 0) tolerance[at.joints[c].source[k]] = asked * length / numbers.joints[c].lever();
   IntegrationOptions options;
   options.relative_tolerance = 0.0;
   options.absolute_tolerances = VecX::Constant(size, 1e200);

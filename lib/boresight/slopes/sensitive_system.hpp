@@ -49,8 +49,7 @@ class SensitiveSystem {
     for (std::size_t c = 0; c < joints_.size(); ++c) {
       const auto& touching = memory(c).touching;
       if (!touches(touching)) continue;
-      const PlayMotion<Jet> motion =
-          play_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n);
+      const PlayMotion<Jet> motion = play_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n);
       acting(c, touching).wrench(motion, impact_speed_[c], wrench);
       add_generalised_force(at, at.joints[c], row_.data(), motion, wrench, force_.data());
     }
@@ -145,8 +144,7 @@ class SensitiveSystem {
     const SceneLayout& at = tables_->layout;
     const int c = gap.clearance, place = static_cast<int>(gap.place);
     std::array<ContactState<Jet>, kContactPlaces> contact;
-    joints_[c].penetrations(play_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n),
-                            contact);
+    joints_[c].penetrations(play_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n), contact);
     const ContactState<Jet>& here = contact[place];
     Jet& speed = impact_speed_[c][place];
     speed = Jet(memory(c).impact_speed[place]);
@@ -164,8 +162,7 @@ class SensitiveSystem {
     const SceneLayout& at = tables_->layout;
     const int c = gap.clearance, place = static_cast<int>(gap.place);
     std::array<ContactState<Jet>, kContactPlaces> contact;
-    joints_[c].penetrations(play_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n),
-                            contact);
+    joints_[c].penetrations(play_motion(at, at.joints[c], row_.data(), states_.data(), states_.data() + at.n), contact);
     const double rate = contact[place].rate.a;
     if (std::abs(rate) < joints_[c].minimum_impact_speed) return;
     // Without a dashpot the difference is the rounding of the event's time.

@@ -79,8 +79,8 @@ class Quasistatic final : public SceneRung {
       if (before && !reactions.decides(balance.now, static_cast<int>(c)))
         balance.rest[c] = before->rest[c];
       else
-        balance.rest[c] = resting_journal_under(reactions.joints()[c], load.force, load.slide,
-                                                before ? before->rest[c] : RestingPlay{});
+        balance.rest[c] =
+            reactions.joints()[c].rest_under(load.force, load.slide, before ? before->rest[c] : RestingPlay{});
     }
     balance.z = reactions.coordinates(balance.rest);
     balance.moved = (balance.now.pose_gain * balance.z).head<3>();

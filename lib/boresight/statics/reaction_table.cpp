@@ -102,8 +102,7 @@ ReactionTable::Instant ReactionTable::at_time(double t) const {
     // Along the axis and in tilt next to nothing would push a journal all the way that its play leaves.
     const double least = kRounding * largest_of_all_;
     if (std::abs(load.force[1]) < least) load.force[1] = 0.0;
-    if (load.force.tail<2>().norm() < least * joints_[c].lever())
-      load.force.tail<2>().setZero();
+    if (load.force.tail<2>().norm() < least * joints_[c].lever()) load.force.tail<2>().setZero();
     now.load.push_back(load);
   }
   return now;

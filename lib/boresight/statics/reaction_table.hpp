@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "boresight/play/joint_play.hpp"
 #include "boresight/rungs/run_result.hpp"
 #include "boresight/scene/clearance_scene.hpp"
-#include "boresight/play/joint_play.hpp"
 
 namespace boresight {
 
@@ -17,8 +17,8 @@ class ReactionTable {
   ReactionTable(const Mechanism& mechanism, const ClearanceScene& scene, const Parameters& parameters);
 
   struct Load {
-    PlayOffsets force;  // on the journal's offsets; zero where an offset is none [N, N m]
-    double slide = 0.0;                 // displacement of a cylindrical joint [m]
+    PlayOffsets force;   // on the journal's offsets; zero where an offset is none [N, N m]
+    double slide = 0.0;  // displacement of a cylindrical joint [m]
   };
   struct Instant {
     double t;

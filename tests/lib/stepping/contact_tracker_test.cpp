@@ -21,7 +21,7 @@ TEST(ContactTracker, PlacesTheStartOfAFlightWithAParabolaForItsRateExactly) {
     const double s = t - kFrom;
     return kSpeed + kAcceleration * s + kJerk * s * s / 2.0;
   };
-  ContactTracker tracker(0, "joint", JournalInSleeve{}, true);
+  ContactTracker tracker(0, "joint", JointPlay{}, true);
   const auto accept = [&](double t) {
     std::array<ContactState<double>, kContactPlaces> contact{};
     for (ContactState<double>& c : contact) c.penetration = -1.0;

@@ -59,8 +59,8 @@ TEST(FixedSteps, SayWhereAContactIsDampedFasterThanTheyFollow) {
 TEST(MostDampedContact, IsTheSlopeOfTheForcesOverTheMass) {
   const auto mechanism = scenes::build(scenes::rrcpr({{"clearance.F1.axes", "free"}}));
   const OffsetLayout layout(*mechanism);
-  const std::vector<JournalInSleeve> joints = clearance_joints(mechanism->description(), mechanism->parameters());
-  PlayMotion<double> motion{Vec3(joints[0].radial_clearance + 2e-6, 0.0, 0.0), Vec3::Zero(), Vec3::Zero()};
+  const std::vector<JointPlay> joints = joint_plays(mechanism->description(), mechanism->parameters());
+  PlayMotion<double> motion{Vec3(joints[0].narrowest() + 2e-6, 0.0, 0.0), Vec3::Zero(), Vec3::Zero()};
   motion.slope = Eigen::Vector2d(1e-6, 0.0);
   motion.slope_rate.setZero();
   ContactTracker tracker(0, "F1", joints[0], false);
@@ -86,8 +86,8 @@ TEST(MostDampedContact, IsTheSlopeOfTheForcesOverTheMass) {
 }
 
 TEST(OpenContact, TakesTheSpeedAtWhichItWouldBeginNowUnderLocatedEvents) {
-  JournalInSleeve law;
-  law.tilts = true;
+  JointPlay law;
+  std::get<JournalInSleeve>(law.kind).tilts = true;
   law.minimum_impact_speed = 1e-3;
   ContactTracker tracker(0, "F1", law, false);
   constexpr int minus = static_cast<int>(ContactPlace::radial_minus),

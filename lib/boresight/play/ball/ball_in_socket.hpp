@@ -56,9 +56,18 @@ struct BallInSocketT {
     if (!touching[static_cast<int>(ContactPlace::radial)]) clearance = T(kOutOfReach);
   }
   std::array<T*, 12> numbers() {
-    return {&clearance,           &socket_radius,         &law.stiffness,          &law.damping_factor,
-            &law.length,          &law.exponent,          &law.dashpot,            &friction.coefficient,
-            &friction.static_speed, &friction.dynamic_speed, &friction.stiction,   &friction.stribeck_speed};
+    return {&clearance,
+            &socket_radius,
+            &law.stiffness,
+            &law.damping_factor,
+            &law.length,
+            &law.exponent,
+            &law.dashpot,
+            &friction.coefficient,
+            &friction.static_speed,
+            &friction.dynamic_speed,
+            &friction.stiction,
+            &friction.stribeck_speed};
   }
   template <typename U>
   void take_shape_of(const BallInSocketT<U>& other) {

@@ -64,8 +64,7 @@ struct JournalInSleeveT {
       parallel_penetrations(motion, contact);
   }
   template <typename M>
-  void parallel_penetrations(const PlayMotion<M>& motion,
-                             ContactStates<M>& contact) const;
+  void parallel_penetrations(const PlayMotion<M>& motion, ContactStates<M>& contact) const;
 
   // The radial contact of a parallel journal: its normal, and how deep it is.
   template <typename M>
@@ -88,8 +87,8 @@ struct JournalInSleeveT {
   }
 
   template <typename M, typename Friction, typename Out>
-  void parallel_wrench(const PlayMotion<M>& motion, const ImpactSpeeds<T>& impact_speed,
-                       const Friction& friction, Out& out) const;
+  void parallel_wrench(const PlayMotion<M>& motion, const ImpactSpeeds<T>& impact_speed, const Friction& friction,
+                       Out& out) const;
 };
 
 struct JournalInSleeve : JournalInSleeveT<double> {
@@ -169,8 +168,7 @@ void JournalInSleeveT<T>::take_shape_of(const JournalInSleeveT<U>& other) {
 
 template <typename T>
 template <typename M>
-void JournalInSleeveT<T>::parallel_penetrations(const PlayMotion<M>& m,
-                                                ContactStates<M>& contact) const {
+void JournalInSleeveT<T>::parallel_penetrations(const PlayMotion<M>& m, ContactStates<M>& contact) const {
   for (ContactState<M>& c : contact) c = {M(-1.0), M(0.0), M(0.0)};
   const Radial<M> at = radial_contact(m);
   contact[static_cast<int>(ContactPlace::radial)] = {at.penetration, at.rate, M(0.0)};

@@ -2,11 +2,11 @@
 // 1.5 K sqrt(d)) times the gradient of its penetration. A face that tilts has three: with cos a = -d0 / A (a = pi in full contact)
 // the energy's second derivatives are (K_c / pi) [a, sin a; sin a, (a + sin a cos a) / 2] in (d0, A), and
 // (K_c / 2 pi) (a - sin a cos a) for a slope across the tilt. Derivatives of ring_contact.hpp.
-#include "boresight/play/journal/journal_in_sleeve.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "boresight/play/journal/journal_in_sleeve.hpp"
 
 namespace boresight {
 namespace {
@@ -45,8 +45,7 @@ ContactTangent JournalInSleeve::tangent(const PlayMotion<double>& m) const {
       tangent.add(ContactPlace::radial, Column(root * m.e.x(), 0.0, root * m.e.z(), 0.0, 0.0));
     }
     for (ContactPlace face : {ContactPlace::axial_minus, ContactPlace::axial_plus})
-      if (depth(face) > 0.0)
-        tangent.add(face, Column(0.0, std::sqrt(face_stiffness), 0.0, 0.0, 0.0));
+      if (depth(face) > 0.0) tangent.add(face, Column(0.0, std::sqrt(face_stiffness), 0.0, 0.0, 0.0));
     return tangent;
   }
   for (int side : {-1, 1}) {

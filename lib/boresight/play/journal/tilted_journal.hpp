@@ -18,8 +18,8 @@
 
 #include "boresight/contact/contact_friction.hpp"
 #include "boresight/contact/normal_law.hpp"
-#include "boresight/play/play_motion.hpp"
 #include "boresight/play/journal/ring_contact.hpp"
+#include "boresight/play/play_motion.hpp"
 
 namespace boresight {
 
@@ -54,8 +54,7 @@ struct TiltedJournalT {
     wrench(m, impact_speed, SlidingFriction<T>{friction}, out);
   }
   template <typename M, typename Friction, typename Out>
-  void wrench(const PlayMotion<M>& m, const ImpactSpeeds<T>& impact_speed, const Friction& traction,
-              Out& out) const {
+  void wrench(const PlayMotion<M>& m, const ImpactSpeeds<T>& impact_speed, const Friction& traction, Out& out) const {
     forget_contacts(out);
     out.force.setConstant(M(0.0));
     out.moment.setConstant(M(0.0));

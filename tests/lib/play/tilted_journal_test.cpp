@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "boresight/play/contact_tangent.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight/play/journal/journal_in_sleeve.hpp"
 
 namespace boresight {
@@ -84,7 +84,7 @@ TEST(TiltedJournal, HasThePapersForcesWhenItIsParallel) {
     Offsets o = random_offsets(generator, 0.0);
     o.tail<2>().setZero();
     const PlayMotion<double> m = at(o, 0.01 * Vec3(uniform(generator), uniform(generator), uniform(generator)),
-                                       {0.0, 5.0 * uniform(generator), 0.0});
+                                    {0.0, 5.0 * uniform(generator), 0.0});
     PlayWrench<double> a, b;
     tilts.wrench(m, kImpactSpeed, a);
     parallel.wrench(m, kImpactSpeed, b);
@@ -135,7 +135,7 @@ TEST(TiltedJournal, TangentIsTheChangeOfForce) {
       if (axes == JournalAxes::parallel) o.tail<2>().setZero();
       const PlayMotion<double> m = at(o, Vec3::Zero(), Vec3::Zero());
       Eigen::Matrix<double, 5, 5> stiffness = Eigen::Matrix<double, 5, 5>::Zero();
-      const ContactTangent tangent = contact_tangent(law, m);
+      const ContactTangent tangent = law.tangent(m);
       for (int i = 0; i < tangent.count; ++i) stiffness += tangent.column[i].n * tangent.column[i].n.transpose();
       // Second differences of the energy; forces that stand add a geometric part of (force / offset), which the tangent
       // leaves out: along the offset's own direction there is none.
@@ -159,7 +159,7 @@ TEST(ContactTangent, TurnsWithTheDirectionInWhichTheJournalTilts) {
     Offsets o;
     o << 0.0, 1.2e-4, 0.0, 2e-3 * std::cos(direction), 2e-3 * std::sin(direction);
     Eigen::Matrix<double, 5, 5> sum = Eigen::Matrix<double, 5, 5>::Zero();
-    const ContactTangent tangent = contact_tangent(law, at(o, Vec3::Zero(), Vec3::Zero()));
+    const ContactTangent tangent = law.tangent(at(o, Vec3::Zero(), Vec3::Zero()));
     for (int i = 0; i < tangent.count; ++i) sum += tangent.column[i].n * tangent.column[i].n.transpose();
     return sum;
   };

@@ -3,7 +3,7 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include "boresight/play/contact_tangent.hpp"
+#include "boresight/play/joint_play.hpp"
 
 namespace boresight {
 namespace {
@@ -12,7 +12,8 @@ using Jet = ceres::Jet<double, 13>;  // by e, e_dot, w, slope, slope_rate
 
 struct Joint {
   std::string name;
-  JournalInSleeve numbers;
+  JointPlay numbers;
+  FrictionLaw friction;
 };
 
 // read_joints.cpp accepts open intervals: their ends are approached.
@@ -48,7 +49,7 @@ std::vector<Joint> joints_at_the_ends() {
                 out.push_back({std::string(normal.name) + ", " + friction.name +
                                    (axes == JournalAxes::free ? ", free" : ", parallel") + ", e " +
                                    std::to_string(restitution) + ", mu " + std::to_string(rub),
-                               JournalInSleeve(d, JointType::revolute, p)});
+                               JointPlay(d, JointType::revolute, p), make_friction_law(d.friction_law, p.friction)});
               }
   return out;
 }
@@ -92,9 +93,9 @@ TEST(EveryPairOfLaws, StaysFiniteAtTheEndsOfWhatAFileMaySay) {
   int pressing = 0;
   for (const Joint& joint : joints_at_the_ends()) {
     for (const double speed : {0.0, 1e-300, 1e-9, 1e3})
-      ASSERT_TRUE(std::isfinite(joint.numbers.friction.force_per_velocity(speed))) << joint.name << " at " << speed;
+      ASSERT_TRUE(std::isfinite(joint.friction.force_per_velocity(speed))) << joint.name << " at " << speed;
     for (const double impact_speed : {1e-9, 10.0})
-      for (const std::array<double, 13>& x : motions(joint.numbers.radial_clearance)) {
+      for (const std::array<double, 13>& x : motions(joint.numbers.clearances()[0])) {
         std::array<double, kContactPlaces> impact_speeds;
         impact_speeds.fill(impact_speed);
         const PlayMotion<double> motion = as_motion(x);
@@ -119,7 +120,7 @@ TEST(EveryPairOfLaws, StaysFiniteAtTheEndsOfWhatAFileMaySay) {
         }
         pressing += wrench.force.norm() > 0.0;
         ASSERT_TRUE(std::isfinite(joint.numbers.elastic_energy(motion))) << joint.name;
-        const ContactTangent tangent = contact_tangent(joint.numbers, motion);
+        const ContactTangent tangent = joint.numbers.tangent(motion);
         for (int c = 0; c < tangent.count; ++c) ASSERT_TRUE(tangent.column[c].n.allFinite()) << joint.name;
       }
   }

@@ -1,0 +1,134 @@
+// Play in spherical joints: a ball in its socket against closed forms, and the rungs against each other.
+#include <gtest/gtest.h>
+
+#include "boresight/ladder/ladder.hpp"
+#include "scenes.hpp"
+#include "stepper.hpp"
+#include "tree_formulation_scenes.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr double kRadius = 9.5e-3, kClearance = 0.5e-3, kAngle = 0.02;
+
+// A solid ball of 1 kg in a spherical socket.
+MechanismDescription ball(double friction) {
+  MechanismDescription m;
+  m.name = "ball in its socket";
+  m.gravity = Vec3(0.0, 0.0, -9.81);
+  BodyDescription b;
+  b.name = "ball";
+  b.mass = 1.0;
+  b.inertia = Mat3::Identity() * 0.4 * kRadius * kRadius;
+  b.boresight = Vec3::UnitZ();
+  m.bodies.push_back(b);
+  JointDescription j;
+  j.name = "socket";
+  j.type = JointType::spherical;
+  j.first = kGround;
+  j.second = 0;
+  m.joints.push_back(j);
+  ClearanceDescription c;
+  c.journal = 0;
+  c.contact_law = "hertz";
+  c.friction_law = friction > 0.0 ? "modified-coulomb" : "none";
+  c.parameters.radial = kClearance;
+  c.parameters.journal_radius = kRadius;
+  c.parameters.contact.young = {207e9, 207e9};
+  c.parameters.contact.poisson = {0.3, 0.3};
+  // So low that creep is a ten-thousandth of the speed of the swing.
+  c.parameters.friction = {.coefficient = friction, .static_speed = 1e-12, .dynamic_speed = 1e-5};
+  m.clearances.push_back(c);
+  return m;
+}
+
+double depth_at_rest() {
+  const double stiffness = 4.0 / 3.0 * 207e9 / (2.0 * 0.91) * std::sqrt(kRadius * (kRadius + kClearance) / kClearance);
+  return std::pow(9.81 / stiffness, 2.0 / 3.0);
+}
+
+// Circular frequency between the first two passages of the lowest point, released at rest from a small angle in a direction that is
+// no axis of anything [rad/s].
+double frequency(bool paper, double friction) {
+  const Mechanism mechanism(ball(friction));
+  const auto formulation = scenes::formulate(paper, mechanism);
+  IdealState start = scenes::at_home(mechanism);
+  const double radius = kClearance + depth_at_rest() * std::cbrt(std::pow(std::cos(kAngle), 2.0));
+  const Vec3 across = Vec3(3.0, 4.0, 0.0).normalized();
+  start.bodies[0].p = radius * (std::sin(kAngle) * across - std::cos(kAngle) * Vec3::UnitZ());
+  scenes::Stepper stepper(*formulation, start);
+  double passage[2] = {0.0, 0.0}, before = radius * std::sin(kAngle);
+  const double h = 2e-6;
+  for (int passages = 0; passages < 2 && stepper.t < 0.2;) {
+    stepper.step(h);
+    const double now = formulation->bodies(stepper.t, stepper.y)[0].p.dot(across);
+    if (before * now < 0.0) passage[passages++] = stepper.t - h * now / (now - before);
+    before = now;
+  }
+  return std::numbers::pi / (passage[1] - passage[0]);
+}
+
+TEST(BallInItsSocket, SlidesLikeAPendulumOfTheClearancesLength) {
+  const double length = kClearance + depth_at_rest();
+  for (const bool paper : {false, true})
+    EXPECT_NEAR(frequency(paper, 0.0) / (std::sqrt(9.81 / length) * (1.0 - kAngle * kAngle / 16.0)), 1.0, 1e-5);
+}
+
+// 2/5 m R^2 turns with it, about the point where it touches.
+TEST(BallInItsSocket, RollsAsSlowlyAsItsInertiaSays) {
+  const double length = kClearance + depth_at_rest();
+  const double turning = 0.4 * std::pow(kRadius / (kRadius - depth_at_rest()), 2.0);
+  for (const bool paper : {false, true})
+    EXPECT_NEAR(frequency(paper, 0.3) / (std::sqrt(9.81 / (length * (1.0 + turning))) * (1.0 - kAngle * kAngle / 16.0)),
+                1.0, 1e-5);
+}
+
+// The platform of examples/2-us-pointing, its rods' ends with play.
+MechanismDescription platform(double clearance) {
+  MechanismDescription m = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/2-us-pointing/2-us-pointing.toml", {});
+  const ClearanceDescription revolute = m.clearances.front();
+  m.clearances.clear();
+  for (std::size_t j = 0; j < m.joints.size(); ++j) {
+    if (m.joints[j].type != JointType::spherical) continue;
+    ClearanceDescription c = revolute;
+    c.joint = static_cast<int>(j);
+    c.journal = m.joints[j].first;
+    c.parameters.radial = clearance;
+    c.parameters.axial = c.parameters.cap_radius = c.parameters.sleeve_length = 0.0;
+    m.clearances.push_back(c);
+  }
+  m.motion.duration = 0.4;
+  return m;
+}
+
+TEST(BallJoints, AreFollowedAlikeByAllRungs) {
+  const auto mechanism = scenes::build(platform(0.05e-3));
+  const RunResult exact = make_rung("multibody", mechanism)->run(mechanism->parameters(), {});
+  const RunResult linear = make_rung("perturbation", mechanism)->run(mechanism->parameters(), {});
+  const RunResult still = make_rung("quasistatic", mechanism)->run(mechanism->parameters(), {});
+  const RunResult bound = make_rung("envelope", mechanism)->run(mechanism->parameters(), {});
+  const double reference = exact.index.orientation_error.rms;
+  ASSERT_GT(reference, 1e-6);
+  EXPECT_NEAR(linear.index.orientation_error.rms / reference, 1.0, 0.01);
+  EXPECT_NEAR(still.index.orientation_error.rms / reference, 1.0, 0.05);
+  EXPECT_GT(bound.index.orientation_error.max, still.index.orientation_error.max);
+  ASSERT_EQ(exact.contact.size(), 2u);
+  for (const ContactSummary& contact : exact.contact) EXPECT_GT(contact.contact_fraction, 0.5) << contact.joint;
+}
+
+TEST(BallJoints, WithoutPlayAreIdealJoints) {
+  double before = 0.0;
+  for (const double clearance : {0.1e-3, 0.01e-3, 0.001e-3}) {
+    const auto mechanism = scenes::build(platform(clearance));
+    const double error = make_rung("quasistatic", mechanism)->run(mechanism->parameters(), {}).index.position_error.max;
+    // The Hertzian deflection is left as the clearance goes.
+    EXPECT_LT(error, 2.0 * clearance + 2e-6);
+    if (before > 0.0) {
+      EXPECT_LT(error, before);
+    }
+    before = error;
+  }
+}
+
+}  // namespace
+}  // namespace boresight
