@@ -167,7 +167,7 @@ struct ViewBody {
   bool muted = false;   // the ground
 };
 
-// The room a journal has: its centre from the sleeve's.
+// The room that a journal's centre has in its sleeve, or a ball's in its socket, where the joint has no tip.
 struct ViewClearance {
   double radial = 0.0, axial = 0.0;
 };

@@ -60,7 +60,8 @@ class ViewBuilder {
           "clearance stay "
           "closed, and bodies look strained where the exaggeration is large. A ring is the room of a "
           "journal's centre in its "
-          "sleeve, the dot the journal's centre, both exaggerated alike.";
+          "sleeve, the dot the journal's centre, both exaggerated alike; a ball's room in its socket is drawn as three "
+          "rings.";
     return text;
   }
 
@@ -109,7 +110,7 @@ class ViewBuilder {
     if (c >= 0) {
       const ClearanceParameters& p = mechanism_.parameters().clearance[c];
       drawn.clearance = report::ViewClearance{kMmPerM * p.radial, kMmPerM * p.axial};
-      drawn.second_tip = add_tip(*second);
+      if (drawn.tip >= 0) drawn.second_tip = add_tip(*second);
     }
     view_.joints.push_back(std::move(drawn));
   }

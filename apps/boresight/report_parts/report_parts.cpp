@@ -258,14 +258,21 @@ report::Table contact_table(const std::vector<Overlay>& overlays) {
   return table;
 }
 
-report::Chart orbit_chart(const std::string& joint, double radial_clearance, const RunResult& result,
+bool is_ball(const Mechanism& mechanism, int clearance) {
+  const MechanismDescription& m = mechanism.description();
+  return m.joints[m.clearances[clearance].joint].type == JointType::spherical;
+}
+
+report::Chart orbit_chart(const std::string& joint, bool ball, double radial_clearance, const RunResult& result,
                           std::size_t clearance) {
   const DisplayUnit unit = display_unit("m", radial_clearance);
   report::Chart chart{
-      .title = joint + ": journal in sleeve",
-      .caption = "Path of the journal's centre seen along the joint's axis. Contact begins at the circle.",
-      .x = {"x of the sleeve", unit.name},
-      .y = {"z of the sleeve", unit.name},
+      .title = joint + (ball ? ": ball in socket" : ": journal in sleeve"),
+      .caption = ball ? "Path of the ball's centre, seen along y of the socket. Contact begins at a sphere, of which "
+                        "the circle is the outline."
+                      : "Path of the journal's centre seen along the joint's axis. Contact begins at the circle.",
+      .x = {ball ? "x of the socket" : "x of the sleeve", unit.name},
+      .y = {ball ? "z of the socket" : "z of the sleeve", unit.name},
       .equal_axes = true};
   // Every point of a path matters, so it is cut down evenly; 4000 points draw a second of motion.
   const auto& samples = result.clearances[clearance];
@@ -275,7 +282,7 @@ report::Chart orbit_chart(const std::string& joint, double radial_clearance, con
     x.push_back(samples[i].offset.x() * unit.per_si);
     z.push_back(samples[i].offset.z() * unit.per_si);
   }
-  chart.series.push_back({.name = "journal centre", .x = x, .y = z});
+  chart.series.push_back({.name = ball ? "ball's centre" : "journal centre", .x = x, .y = z});
   if (!x.empty())
     chart.series.push_back({.name = "start",
                             .x = report::Numbers{x.front()},
@@ -287,12 +294,17 @@ report::Chart orbit_chart(const std::string& joint, double radial_clearance, con
 }
 
 report::Strip contact_strip(const Mechanism& mechanism, const RunResult& result) {
-  report::Strip strip{
-      .title = "Contact state",
-      .caption = "Where the journal touches the sleeve, sample by sample.",
-      .x = {"Time", "s"},
-      .states = {
-          {"free", "free flight", true}, {"radial", "bore"}, {"axial", "end face"}, {"both", "bore and end face"}}};
+  bool any_ball = false;
+  for (int c = 0; c < mechanism.clearances(); ++c) any_ball = any_ball || is_ball(mechanism, c);
+  report::Strip strip{.title = "Contact state",
+                      .caption = any_ball
+                                     ? "Where each journal touches its sleeve or ball its socket, sample by sample."
+                                     : "Where the journal touches the sleeve, sample by sample.",
+                      .x = {"Time", "s"},
+                      .states = {{"free", "free flight", true},
+                                 {"radial", any_ball ? "bore or socket" : "bore"},
+                                 {"axial", "end face"},
+                                 {"both", "bore and end face"}}};
   static const char* const state[] = {"free", "radial", "axial", "both"};
   for (std::size_t c = 0; c < result.clearances.size(); ++c) {
     report::StripRow row{

@@ -44,8 +44,11 @@ report::Table index_table(const std::vector<Overlay>& overlays);
 // Contact statistics, one row per overlay and clearance joint.
 report::Table contact_table(const std::vector<Overlay>& overlays);
 
-// The journal's centre in the sleeve, seen along the axis, with the circle at which contact begins.
-report::Chart orbit_chart(const std::string& joint, double radial_clearance, const RunResult& result,
+// Whether a joint with play is a ball in its socket.
+bool is_ball(const Mechanism& mechanism, int clearance);
+
+// The journal's centre in the sleeve or the ball's in its socket, seen along the axis, with the circle at which contact begins.
+report::Chart orbit_chart(const std::string& joint, bool ball, double radial_clearance, const RunResult& result,
                           std::size_t clearance);
 
 // Free, radial, axial, both: along time, one row per clearance joint.

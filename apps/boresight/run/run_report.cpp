@@ -53,29 +53,35 @@ report::Chart joint_chart(const std::string& title, const std::string& label, co
 report::Section joint_section(const Mechanism& mechanism, const RunResult& result, std::size_t c) {
   const std::string joint = joint_of_clearance(mechanism, static_cast<int>(c));
   const ClearanceParameters& p = mechanism.parameters().clearance[c];
+  const bool ball = is_ball(mechanism, static_cast<int>(c));
   report::Section section{.id = fmt::format("joint-{}", c + 1),
                           .title = "Joint " + joint,
-                          .intro = fmt::format("Radial clearance {}, axial clearance {} per side.",
-                                               readable(p.radial, "m"), readable(p.axial, "m"))};
-  section.items.push_back(orbit_chart(joint, p.radial, result, c));
+                          .intro = ball ? fmt::format("A ball in its socket: play {}.", readable(p.radial, "m"))
+                                        : fmt::format("Radial clearance {}, axial clearance {} per side.",
+                                                      readable(p.radial, "m"), readable(p.axial, "m"))};
+  section.items.push_back(orbit_chart(joint, ball, p.radial, result, c));
 
   report::Panels panels{.title = joint + " over time",
                         .caption = "Penetration and force are drawn with their peaks kept.",
                         .columns = 2,
                         .shared_legend = false};
-  report::Chart axial = joint_chart("Axial offset", "along the axis", "m", result, c,
-                                    [](const ClearanceSample& s) { return s.offset.y(); });
+  report::Chart axial =
+      joint_chart(ball ? "Offset along y" : "Axial offset", ball ? "y of the socket" : "along the axis", "m", result, c,
+                  [](const ClearanceSample& s) { return s.offset.y(); });
   const DisplayUnit axial_unit{axial.y.unit, axial.y.unit == "mm"   ? 1e3
                                              : axial.y.unit == "µm" ? 1e6
                                              : axial.y.unit == "nm" ? 1e9
                                                                     : 1.0};
-  axial.lines = {{'y', p.axial * axial_unit.per_si, "end face"}, {'y', -p.axial * axial_unit.per_si, "end face"}};
+  if (!ball)
+    axial.lines = {{'y', p.axial * axial_unit.per_si, "end face"}, {'y', -p.axial * axial_unit.per_si, "end face"}};
   panels.panels = {joint_chart("Penetration", "penetration", "m", result, c,
                                [](const ClearanceSample& s) { return std::max(0.0, s.penetration); }),
                    joint_chart("Contact force", "normal force", "N", result, c,
                                [](const ClearanceSample& s) { return s.normal_force; }),
-                   joint_chart("Radial offset", "distance of the centres", "m", result, c,
-                               [](const ClearanceSample& s) { return std::hypot(s.offset.x(), s.offset.z()); }),
+                   joint_chart(ball ? "Offset" : "Radial offset", "distance of the centres", "m", result, c,
+                               [ball](const ClearanceSample& s) {
+                                 return ball ? s.offset.norm() : std::hypot(s.offset.x(), s.offset.z());
+                               }),
                    std::move(axial)};
   section.items.push_back(std::move(panels));
   return section;

@@ -123,15 +123,19 @@ export function scene(item) {
     set(triad, { d: tips.map(([x, y]) => line(corner, { x: corner.x + 22 * x, y: corner.y + 22 * y })).join(""), stroke: colors.soft, "stroke-width": 1.4 });
     tips.forEach(([x, y], k) => set(triadNames[k], { x: f(corner.x + 31 * x), y: f(corner.y + 31 * y + 4), fill: colors.soft }));
 
-    // The cylinder that a journal's centre can move in: a ring at each end.
+    // What the centre can move in: of a journal a cylinder, a ring at each end; of a ball a sphere, a ring about every axis.
     function room({ first, tip, clearance }) {
-      const center = world[first], axis = unit(minus(world[tip], center));
-      const a = unit(cross(axis, Math.abs(axis[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0])), b = cross(axis, a);
-      const ring = (along) => `${line(...Array.from({ length: 48 }, (_, i) => {
-        const angle = (2 * Math.PI * i) / 48, r = exaggeration * clearance.radial;
-        return view.project(plus(plus(plus(center, axis, exaggeration * along), a, r * Math.cos(angle)), b, r * Math.sin(angle)));
-      }))}z`;
-      return clearance.axial > 0 ? ring(-clearance.axial) + ring(clearance.axial) : ring(0);
+      const center = world[first];
+      const ring = (axis, along) => {
+        const a = unit(cross(axis, Math.abs(axis[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0])), b = cross(axis, a);
+        return `${line(...Array.from({ length: 48 }, (_, i) => {
+          const angle = (2 * Math.PI * i) / 48, r = exaggeration * clearance.radial;
+          return view.project(plus(plus(plus(center, axis, exaggeration * along), a, r * Math.cos(angle)), b, r * Math.sin(angle)));
+        }))}z`;
+      };
+      if (tip === undefined) return [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => ring(axis, 0)).join("");
+      const axis = unit(minus(world[tip], center));
+      return clearance.axial > 0 ? ring(axis, -clearance.axial) + ring(axis, clearance.axial) : ring(axis, 0);
     }
   }
   return { picture, paint };

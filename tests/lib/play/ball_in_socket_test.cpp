@@ -96,7 +96,8 @@ TEST(EveryKindOfPlay, KeepsItsEnergy) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (const auto& [type, axes] :
        {std::pair{JointType::revolute, JournalAxes::parallel}, std::pair{JointType::revolute, JournalAxes::free},
-        std::pair{JointType::cylindrical, JournalAxes::parallel}, std::pair{JointType::spherical, JournalAxes::parallel}}) {
+        std::pair{JointType::cylindrical, JournalAxes::parallel},
+        std::pair{JointType::spherical, JournalAxes::parallel}}) {
     ClearanceDescription d = ball_description();
     d.axes = axes;
     d.parameters.axial = 0.1e-3;
@@ -118,8 +119,9 @@ TEST(EveryKindOfPlay, KeepsItsEnergy) {
       PlayWrench<double> wrench;
       joint.wrench(m, speeds(1e-3), wrench);
       const double h = 1e-9;
-      const double change = (joint.elastic_energy(at_rest_at(at + h * along)) -
-                             joint.elastic_energy(at_rest_at(at - h * along))) / (2.0 * h);
+      const double change =
+          (joint.elastic_energy(at_rest_at(at + h * along)) - joint.elastic_energy(at_rest_at(at - h * along))) /
+          (2.0 * h);
       const Vec3 couple = wrench.moment - m.e.cross(wrench.force);
       // The spin that moves the slopes so: w = a x a' / |a|^2 with a = (s_x, 1, s_z), without spin about a.
       const Vec3 a(m.slope[0], 1.0, m.slope[1]), a_rate(m.slope_rate[0], 0.0, m.slope_rate[1]);
