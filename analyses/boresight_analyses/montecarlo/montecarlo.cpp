@@ -147,7 +147,7 @@ MonteCarloResult run_montecarlo(const SampleModel& model, const MonteCarloPlan& 
     Ranks::Work work;
     work.compute = [&](const NumberRange& block, bool& whole) {
       std::vector<double> block_values;
-      SamplingOptions sampling{.jobs = options.jobs, .landed = {}, .stop = &watcher.stop};
+      ParallelSampling sampling{.jobs = options.jobs, .landed = {}, .stop = &watcher.stop};
       sampling.landed = [&](std::span<const SampleRecord> records) {
         landed.clear();
         for (const SampleRecord& record : records) {

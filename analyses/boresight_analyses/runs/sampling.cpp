@@ -62,7 +62,7 @@ class BatchSize {
 }  // namespace
 
 bool compute_samples(const SampleModel& model, const RandomInputs& inputs, const SamplingDesign& design,
-                     const std::vector<NumberRange>& ranges, const SamplingOptions& options) {
+                     const std::vector<NumberRange>& ranges, const ParallelSampling& options) {
   const ValuesOf values_of = [&](std::uint64_t number, std::span<double> values) {
     design.point(number, values);
     inputs.values(values);
@@ -71,7 +71,7 @@ bool compute_samples(const SampleModel& model, const RandomInputs& inputs, const
 }
 
 bool compute_samples(const SampleModel& model, std::size_t parameters, const ValuesOf& values_of,
-                     const std::vector<NumberRange>& ranges, const SamplingOptions& options) {
+                     const std::vector<NumberRange>& ranges, const ParallelSampling& options) {
   Numbers numbers(ranges);
   std::mutex landing;
   std::atomic<bool> no_more{false}, failed{false}, all_reached{true};

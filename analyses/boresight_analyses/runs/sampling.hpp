@@ -16,7 +16,7 @@
 
 namespace boresight {
 
-struct SamplingOptions {
+struct ParallelSampling {
   int jobs = 1;
   // Called with samples that are done, one thread at a time, in the order in which they are; samples that were not
   // reached are left out. Return false to take no further batch.
@@ -30,8 +30,8 @@ using ValuesOf = std::function<void(std::uint64_t, std::span<double>)>;
 
 // Returns true if every sample was reached. What `landed` throws ends the sampling and is thrown on.
 bool compute_samples(const SampleModel& model, const RandomInputs& inputs, const SamplingDesign& design,
-                     const std::vector<NumberRange>& ranges, const SamplingOptions& options);
+                     const std::vector<NumberRange>& ranges, const ParallelSampling& options);
 bool compute_samples(const SampleModel& model, std::size_t parameters, const ValuesOf& values_of,
-                     const std::vector<NumberRange>& ranges, const SamplingOptions& options);
+                     const std::vector<NumberRange>& ranges, const ParallelSampling& options);
 
 }  // namespace boresight

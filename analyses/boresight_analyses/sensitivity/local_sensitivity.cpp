@@ -77,7 +77,7 @@ LocalResult local_sensitivity(const SampleModel& model, const RandomInputs& inpu
   }
   std::vector<double> values(points.size(), kNone);
   Watcher watcher(interrupted);
-  SamplingOptions sampling{.jobs = jobs, .landed = {}, .stop = &watcher.stop};
+  ParallelSampling sampling{.jobs = jobs, .landed = {}, .stop = &watcher.stop};
   sampling.landed = [&](std::span<const SampleRecord> records) {
     for (const SampleRecord& r : records)
       if (r.outcome.status == Outcome::Status::done) values[r.number] = r.outcome.value;
