@@ -25,7 +25,7 @@ const std::vector<Outcome>& DesignEvaluator::at(std::span<const double> design) 
   const std::size_t scattered = inputs_ != nullptr ? inputs_->size() : 0, n = options_.samples;
   std::vector<std::vector<double>> values(n, key);
   if (scattered > 0) {
-    const Design points({.kind = SamplingKind::random, .seed = options_.seed}, static_cast<int>(scattered));
+    const SamplingDesign points({.kind = SamplingKind::random, .seed = options_.seed}, static_cast<int>(scattered));
     std::vector<double> point(scattered);
     for (std::size_t k = 0; k < n; ++k) {
       points.point(k, point);
