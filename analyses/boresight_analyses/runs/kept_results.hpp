@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -22,11 +23,13 @@ namespace boresight {
 
 class KeptResults {
  public:
-  // store: opened with columns().
+  // store: opened with columns(); one that is there, or made with the first result.
   explicit KeptResults(std::unique_ptr<SampleStore> store);
+  explicit KeptResults(std::function<std::unique_ptr<SampleStore>()> make);
   static std::vector<std::string> columns();
 
-  SampleStore& store() { return *store_; }
+  // What the starts before this one took.
+  SampleStore::Cost earlier() const { return earlier_; }
   // Of all starts together.
   std::size_t size() const;
 
@@ -36,6 +39,8 @@ class KeptResults {
 
  private:
   std::unique_ptr<SampleStore> store_;
+  std::function<std::unique_ptr<SampleStore>()> make_;
+  SampleStore::Cost earlier_;
   std::map<std::uint64_t, std::uint64_t> number_;  // of the sample, by key
   std::uint64_t next_number_ = 0;
   std::chrono::steady_clock::time_point next_commit_;

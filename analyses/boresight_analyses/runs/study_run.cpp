@@ -70,23 +70,27 @@ void StudyRun::forget(const std::string& name) const {
   for (const char* suffix : {"", "-wal", "-shm"}) std::filesystem::remove(options_.folder / (name + suffix), error);
 }
 
-Unfinished StudyRun::go_on(const std::function<RungChoice()>& choose) const {
-  const auto open = [&] {
-    return std::make_unique<KeptResults>(open_samples("", KeptResults::columns(), kUnfinished));
-  };
-  Unfinished study;
-  if (std::filesystem::exists(options_.folder / kUnfinished)) {
-    study.results = open();
-    if (std::optional<RungChoice> begun_with = stored_choice(study.results->store())) {
-      study.rung = std::move(*begun_with);
-      return study;
+Unfinished StudyRun::go_on(const std::function<RungChoice()>& choose, const std::string& decides) const {
+  const std::filesystem::path file = options_.folder / kUnfinished;
+  if (std::filesystem::exists(file)) {
+    if (SampleStore(file).fact("study") != hash(decides)) {
+      forget(kUnfinished);
+    } else {
+      std::unique_ptr<SampleStore> store = open_samples(decides, KeptResults::columns(), kUnfinished);
+      if (std::optional<RungChoice> begun_with = stored_choice(*store))
+        return {std::make_unique<KeptResults>(std::move(store)), std::move(*begun_with)};
     }
   }
-  study.rung = choose();  // before anything is made in the folder: it may be interrupted, and refuse
-  if (!study.results) study.results = open();
-  note_choice(study.results->store(), study.rung);
-  study.results->store().use_rung(study.rung.name, study.rung.step);
-  return study;
+  const RungChoice choice = choose();
+  const auto make = [this, choice, decides] {
+    std::unique_ptr<SampleStore> store = open_samples(decides, KeptResults::columns(), kUnfinished);
+    note_choice(*store, choice);
+    store->use_rung(choice.name, choice.step);
+    return store;
+  };
+  // A pilot has taken its time; without one nothing is in the folder before there is something to keep.
+  if (choice.pilot) return {std::make_unique<KeptResults>(make()), choice};
+  return {std::make_unique<KeptResults>(make), choice};
 }
 
 RungChoice StudyRun::choose_rung(RungQuestion question, double trials, const std::vector<Parameters>& samples) const {

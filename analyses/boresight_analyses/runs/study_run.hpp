@@ -94,8 +94,8 @@ class StudyRun {
   void forget(const std::string& name) const;
 
   // Of a study that keeps its results until it is whole: goes on with those of an earlier start and the rung that it chose, or
-  // has one chosen and begins. forget(kUnfinished) ends it.
-  Unfinished go_on(const std::function<RungChoice()>& choose) const;
+  // has one chosen and begins. decides: where it is another, it begins anew. forget(kUnfinished) ends it.
+  Unfinished go_on(const std::function<RungChoice()>& choose, const std::string& decides = "") const;
 
   // choose_rung() with the pilot's progress shown and an interruption heard (PilotInterrupted). trials: about as many as the
   // pilot makes. question: what only the caller knows; the rung asked for, accuracy, index and options are filled in.

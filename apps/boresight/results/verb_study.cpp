@@ -113,12 +113,18 @@ std::unique_ptr<SampleStore> VerbStudy::open_samples(const std::string& decides,
   return run_.open_samples(decides, parameters);
 }
 
-Json VerbStudy::head(const Study& study, const RungChoice& rung, const Stopwatch& watch,
-                     const std::vector<std::string>& warnings, bool interrupted,
-                     const SampleStore::Cost& earlier) const {
+Json VerbStudy::head(const RungChoice& rung, const Stopwatch& watch, const std::vector<std::string>& warnings,
+                     bool interrupted, const SampleStore::Cost& earlier) const {
   Json json = common_summary(command_, *run_.mechanism(), rung, watch, warnings, interrupted, out_);
   json["cpu_seconds"] = json["cpu_seconds"].get<double>() + earlier.cpu_seconds;
   json["wall_seconds"] = json["wall_seconds"].get<double>() + earlier.wall_seconds;
+  return json;
+}
+
+Json VerbStudy::head(const Study& study, const RungChoice& rung, const Stopwatch& watch,
+                     const std::vector<std::string>& warnings, bool interrupted,
+                     const SampleStore::Cost& earlier) const {
+  Json json = head(rung, watch, warnings, interrupted, earlier);
   json["study"] = {{"file", study.file}, {"hash", study.content_hash}};
   return json;
 }

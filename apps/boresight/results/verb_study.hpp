@@ -54,7 +54,9 @@ class VerbStudy {
   std::unique_ptr<SampleStore> open_samples(const std::string& decides, const std::vector<std::string>& parameters,
                                             const Resumption& resumption) const;
 
-  // common_summary() and the study; seconds of CPU and wall clock are those of all its parts.
+  // common_summary() and the study, where it has a file; seconds of CPU and wall clock are those of all its parts.
+  Json head(const RungChoice& rung, const Stopwatch& watch, const std::vector<std::string>& warnings, bool interrupted,
+            const SampleStore::Cost& earlier = {}) const;
   Json head(const Study& study, const RungChoice& rung, const Stopwatch& watch,
             const std::vector<std::string>& warnings, bool interrupted, const SampleStore::Cost& earlier = {}) const;
 

@@ -149,8 +149,7 @@ class SweepVerb : public Verb {
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
     const SweepResult result = run_sweep(*rung, *mechanism, plan, options);
 
-    write_json(out, "summary.json",
-               summary_of(own, study, choice, plan, result, watch, begun.results->store().earlier()));
+    write_json(out, "summary.json", summary_of(own, study, choice, plan, result, watch, begun.results->earlier()));
     out.write("sweep.csv", [&](std::ostream& s) { write_sweep(s, plan, *mechanism, result); });
     out.write("report.html", [&](std::ostream& s) {
       report::write_html(s, sweep_report(command, study, *mechanism, choice, rung->leaves_out(), plan, result));
