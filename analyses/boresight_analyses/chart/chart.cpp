@@ -5,6 +5,7 @@
 
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 
 namespace boresight {
 
@@ -48,6 +49,8 @@ class Chart {
             [this] { return advance(); }, options_.kept);
       }
     } catch (const MeasurementInterrupted&) {
+      result_.interrupted = true;
+    } catch (const Interrupted&) {  // heard while a scene was built
       result_.interrupted = true;
     }
     result_.front = pareto_front(result_.points, result_.reference.uncertainty);
