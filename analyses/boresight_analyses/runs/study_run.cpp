@@ -26,6 +26,15 @@ std::string exact(double value) {
   return text;
 }
 
+// Nothing where there is none, or one that was cut short as it was made, or damaged: who opens it to go on sees to that.
+std::unique_ptr<SampleStore> readable_store(const std::filesystem::path& file) {
+  try {
+    return std::filesystem::exists(file) ? std::make_unique<SampleStore>(file) : nullptr;
+  } catch (const StoreRefused&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 StudyRun::StudyRun(std::shared_ptr<const Mechanism> mechanism, StudyRunOptions options)
@@ -72,14 +81,14 @@ void StudyRun::forget(const std::string& name) const {
 
 Unfinished StudyRun::go_on(const std::function<RungChoice()>& choose, const std::string& decides) const {
   const std::filesystem::path file = options_.folder / kUnfinished;
+  if (auto found = readable_store(file); found && found->fact("study") != hash(decides)) {
+    found.reset();
+    forget(kUnfinished);
+  }
   if (std::filesystem::exists(file)) {
-    if (SampleStore(file).fact("study") != hash(decides)) {
-      forget(kUnfinished);
-    } else {
-      std::unique_ptr<SampleStore> store = open_samples(decides, KeptResults::columns(), kUnfinished);
-      if (std::optional<RungChoice> begun_with = stored_choice(*store))
-        return {std::make_unique<KeptResults>(std::move(store)), std::move(*begun_with)};
-    }
+    std::unique_ptr<SampleStore> store = open_samples(decides, KeptResults::columns(), kUnfinished);
+    if (std::optional<RungChoice> begun_with = stored_choice(*store))
+      return {std::make_unique<KeptResults>(std::move(store)), std::move(*begun_with)};
   }
   const RungChoice choice = choose();
   const auto make = [this, choice, decides] {
@@ -108,7 +117,11 @@ RungChoice StudyRun::choose_rung(RungQuestion question, double trials, const std
   return boresight::choose_rung(question, mechanism_, samples);
 }
 
-RungChoice StudyRun::rung_of_corners(const std::vector<Parameters>& corners) const {
+RungChoice StudyRun::rung_of_corners(const std::vector<Parameters>& corners, const std::string& store) const {
+  // What a pilot chooses hangs on times.
+  if (const auto found = readable_store(options_.folder / store); found && found->fact("study") == hash())
+    if (std::optional<RungChoice> begun_with = stored_choice(*found); begun_with && begun_with->pilot)
+      return std::move(*begun_with);
   return choose_rung({.wants_multibody = !options_.run.formulation.empty() || !options_.run.stabilisation.empty()},
                      kPilotTrialsOfScatter, corners);
 }
@@ -211,12 +224,20 @@ StudySteps StudyRun::steps_of_scatter(const ScatterAsked& asked, const RunOption
   return steps;
 }
 
-void note_choice(SampleStore& store, const RungChoice& choice) {
+namespace {
+
+template <typename Store>
+void note_in(Store& store, const RungChoice& choice) {
   store.note("rung_why", choice.why);
   store.note("integrator", choice.integrator);
   store.note("tolerance", exact(choice.tolerance));
   if (choice.pilot) store.note("pilot", text_of(*choice.pilot));
 }
+
+}  // namespace
+
+void note_choice(SampleStore& store, const RungChoice& choice) { note_in(store, choice); }
+void note_choice(EvaluationStore& store, const RungChoice& choice) { note_in(store, choice); }
 
 std::optional<RungChoice> stored_choice(const SampleStore& store) {
   const std::vector<SampleStore::StoredRung> stored = store.rungs();

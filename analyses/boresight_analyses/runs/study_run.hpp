@@ -100,8 +100,9 @@ class StudyRun {
   // choose_rung() with the pilot's progress shown and an interruption heard (PilotInterrupted). trials: about as many as the
   // pilot makes. question: what only the caller knows; the rung asked for, accuracy, index and options are filled in.
   RungChoice choose_rung(RungQuestion question, double trials, const std::vector<Parameters>& samples) const;
-  // For a study of designs: at these corners of them, each a motion of its own.
-  RungChoice rung_of_corners(const std::vector<Parameters>& corners) const;
+  // For a study of designs: at these corners of them, each a motion of its own. store: the name of its evaluations, where
+  // note_choice() has kept what a pilot chose.
+  RungChoice rung_of_corners(const std::vector<Parameters>& corners, const std::string& store) const;
   // For a study of a scatter. With a store, the one it was begun with, or the one that is chosen and noted now.
   RungChoice choose_rung_of_scatter(const ScatterAsked& asked) const;
   RungChoice rung_of_scatter(const ScatterAsked& asked, SampleStore& store) const;
@@ -129,6 +130,7 @@ inline constexpr double kPilotTrials = 24.0, kPilotTrialsOfScatter = 72.0;
 
 // What rung_of_scatter() keeps.
 void note_choice(SampleStore& store, const RungChoice& choice);
+void note_choice(EvaluationStore& store, const RungChoice& choice);
 // Nothing where no run is stored yet, and none was chosen.
 std::optional<RungChoice> stored_choice(const SampleStore& store);
 

@@ -94,7 +94,7 @@ class MatchVerb : public Verb {
     const OutputDirectory& out = own.out();
 
     const std::vector<Parameters> corners = corners_of(plan, *mechanism);
-    const RungChoice choice = own.run().rung_of_corners(corners);
+    const RungChoice choice = own.run().rung_of_corners(corners, "evaluations.db");
     const std::string upper = next_rung_up(choice.name);
     const auto parameters_of = [mechanism, &plan](std::span<const double> values) {
       return plan.parameters_with(*mechanism, values);
@@ -106,6 +106,7 @@ class MatchVerb : public Verb {
     std::vector<std::string> names;
     for (const DesignVariable& v : plan.variables) names.push_back(v.name());
     const auto store = own.run().open_evaluations("evaluations.db", names, model.rung(), model.step());
+    if (choice.pilot) note_choice(*store, choice);
     const RandomInputs* inputs = plan.inputs ? &*plan.inputs : nullptr;
     DesignEvaluator evaluator(model, inputs, store.get(),
                               {.samples = plan.samples, .seed = plan.seed, .jobs = command.jobs, .interrupted = [] {

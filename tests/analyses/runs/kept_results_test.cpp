@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight_analyses/runs/study_run.hpp"
@@ -93,6 +94,15 @@ TEST_F(KeptResultsTest, AStudyGoesOnWithTheRungThatItWasBegunWith) {
   }
   study("one").forget(kUnfinished);
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+TEST_F(KeptResultsTest, AStoreThatWasCutShortAsItWasMadeBlocksNobody) {
+  std::ofstream(folder_ / kUnfinished).close();
+  const StudyRun run = study("one");
+  const Unfinished begun = run.go_on([] { return RungChoice{.name = "perturbation", .why = "asked"}; });
+  EXPECT_EQ(begun.rung.name, "perturbation");
+  begun.results->keep(7, {1.0});
+  EXPECT_TRUE(begun.results->find(7));
 }
 
 }  // namespace
