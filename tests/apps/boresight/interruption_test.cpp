@@ -120,7 +120,6 @@ TEST_F(InterruptionTest, ASweepGoesOnWithThePointsThatWereDone) {
 TEST_F(InterruptionTest, AChartGoesOnWithWhatWasMeasured) {
   const std::vector<std::string> chart = {"chart",  mechanism_, "--set", "motion.duration=50ms",
                                           "--time", "4 s",      "--out", "out"};
-  ASSERT_EQ(interrupted(chart, SIGINT).status, 130);
   const auto rows = [&] {
     std::vector<std::string> found;
     std::istringstream table(text("out/chart.csv"));
@@ -128,7 +127,12 @@ TEST_F(InterruptionTest, AChartGoesOnWithWhatWasMeasured) {
       found.push_back(line.substr(0, line.rfind(',', line.rfind(',') - 1)));
     return found;
   };
-  const std::vector<std::string> before = rows();
+  // On a busy machine the first start may not come beyond the reference: the next one goes on from there.
+  std::vector<std::string> before;
+  for (int start = 0; start < 10 && before.size() < 2; ++start) {
+    ASSERT_EQ(interrupted(chart, SIGINT).status, 130);
+    before = rows();
+  }
   EXPECT_THAT(files("out"), testing::Contains("unfinished.db"));
   ASSERT_EQ(call(chart).status, 0);
   EXPECT_THAT(files("out"), testing::Not(testing::Contains("unfinished.db")));
