@@ -23,5 +23,5 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libeigen3-dev, libgsl-dev, libtbb-dev, libceres-dev, libsqlite3-dev, libnlopt-cxx-dev")  # to build on the library
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libeigen3-dev, libgsl-dev, libtbb-dev, libceres-dev, libsqlite3-dev, libnlopt-cxx-dev, nlohmann-json3-dev")  # to build on the library
 include(CPack)

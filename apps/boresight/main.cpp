@@ -104,7 +104,7 @@ int run_program(int argc, char** argv) {
     if (!commands[i]->parsed()) continue;
     const Command command = options[i].command(verbs[i]->name());
     show_work(!command.quiet);
-    const int status = verbs[i]->execute(command);
+    const int status = with_options_checked([&] { return verbs[i]->execute(command); });
     if (options[i].json && !last_summary().empty()) std::cout << std::ifstream(last_summary()).rdbuf();
     return status;
   }

@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/calibration/kept_fits.hpp"
 
 namespace boresight {
 namespace {
@@ -125,8 +126,10 @@ std::vector<VecX> guess_states(const CalibrationProblem& problem, const std::vec
   return states;
 }
 
-FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vector<VecX> states,
-              const FitOptions& options) {
+namespace {
+
+FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, std::vector<VecX> states,
+                       const FitOptions& options) {
   FitResult result;
   result.globals = start;
   result.windows = windows_of(problem, options);
@@ -225,6 +228,22 @@ FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vect
     result.reason = "stopped after " + std::to_string(result.iterations) + " iterations, still falling";
   else
     result.reason = "failed: " + summary.message;
+  return result;
+}
+
+}  // namespace
+
+FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vector<VecX> states,
+              const FitOptions& options) {
+  if (problem.kept == nullptr) return computed_fit(problem, start, std::move(states), options);
+  const std::uint64_t key =
+      CalibrationKey("fit", problem)
+          .add(start, states, options.most_iterations, options.cost_tolerance, options.parameter_tolerance,
+               options.windows, std::vector<int>(options.fixed.begin(), options.fixed.end()), options.fix_nuisance)
+          .value();
+  if (std::optional<FitResult> found = kept_result<FitResult>(problem.kept, key)) return std::move(*found);
+  FitResult result = computed_fit(problem, start, std::move(states), options);
+  if (!result.interrupted) problem.kept->keep(key, Numbers::of(result));
   return result;
 }
 

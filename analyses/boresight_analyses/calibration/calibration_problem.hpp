@@ -26,6 +26,8 @@
 
 namespace boresight {
 
+class KeptResults;
+
 struct CalibrationRun {
   std::string name;
   std::shared_ptr<const Mechanism> mechanism;  // with this run's settings
@@ -105,6 +107,8 @@ class CalibrationProblem {
   // 1e-7 by nothing that matters.
   double tolerance = 1e-7;
   double derivative_tolerance = 1e-4;
+  // Where what takes long is kept as it is done, and what an earlier start computed is found; none: nowhere.
+  KeptResults* kept = nullptr;
 
   // Collects the channels, cuts the windows. from_rest: a run's first window starts at t = 0 where the model
   // does, its journals where the mechanism's file has them. Throws InputError where the data reach beyond the motion.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight_analyses/calibration/kept_fits.hpp"
+
 namespace boresight {
 namespace {
 
@@ -80,7 +82,10 @@ bool leaves_more_than_noise(const CalibrationProblem& problem, const Globals& at
   return false;
 }
 
-bool look_around(const CalibrationProblem& problem, const std::vector<bool>& fixed, int jobs, Globals& at) {
+namespace {
+
+// The least of the losses around, and where; `at` where nothing around is lower.
+Globals lowest_around(const CalibrationProblem& problem, const std::vector<bool>& fixed, int jobs, const Globals& at) {
   std::vector<Globals> tried = {at};
   for (int p = 0; p < problem.parameter_count(); ++p)
     for (const double step : {-0.2, -0.03, 0.03, 0.2}) {
@@ -93,13 +98,29 @@ bool look_around(const CalibrationProblem& problem, const std::vector<bool>& fix
   std::vector<double> loss(tried.size(), 0.0);
   for_each_on_threads(static_cast<int>(tried.size()), jobs, [&](int k) { loss[k] = loss_at(problem, tried[k]); });
   const auto best = std::min_element(loss.begin(), loss.end());
-  if (!(*best < 0.999 * loss[0])) return false;
-  at = tried[best - loss.begin()];
-  return true;
+  return *best < 0.999 * loss[0] ? tried[best - loss.begin()] : at;
 }
 
-std::vector<Globals> other_valleys(const CalibrationProblem& problem, const FitResult& fit, const Inference& inference,
-                                   const std::vector<bool>& fixed, int jobs, long& evaluations) {
+std::vector<int> numbers_of(const std::vector<bool>& fixed) { return {fixed.begin(), fixed.end()}; }
+
+}  // namespace
+
+bool look_around(const CalibrationProblem& problem, const std::vector<bool>& fixed, int jobs, Globals& at) {
+  const Globals before = at;
+  at = kept_or_computed<Globals>(problem.kept, CalibrationKey("around", problem).add(at, numbers_of(fixed)).value(),
+                                 [&] { return lowest_around(problem, fixed, jobs, before); });
+  return at.u != before.u;
+}
+
+namespace {
+
+struct Valleys {
+  std::vector<Globals> places;
+  long evaluations = 0;
+};
+
+Valleys valleys_beside(const CalibrationProblem& problem, const FitResult& fit, const Inference& inference,
+                       const std::vector<bool>& fixed, int jobs) {
   struct Trial {
     Globals at;
     double share = 0.0;  // of the foretold rise
@@ -119,12 +140,27 @@ std::vector<Globals> other_valleys(const CalibrationProblem& problem, const FitR
   const double least = loss_at(rough, fit.globals);
   for_each_on_threads(static_cast<int>(trials.size()), jobs,
                       [&](int k) { trials[k].share = (loss_at(rough, trials[k].at) - least) / foretold[k]; });
-  evaluations += static_cast<long>(trials.size()) + 1;
+  Valleys found{{}, static_cast<long>(trials.size()) + 1};
   std::sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.share < b.share; });
-  std::vector<Globals> places;
   for (const Trial& t : trials)
-    if (t.share < kSurprise) places.push_back(t.at);
-  return places;
+    if (t.share < kSurprise) found.places.push_back(t.at);
+  return found;
+}
+
+}  // namespace
+
+static void fields(Numbers& n, Valleys& v) { n(v.places, v.evaluations); }
+
+std::vector<Globals> other_valleys(const CalibrationProblem& problem, const FitResult& fit, const Inference& inference,
+                                   const std::vector<bool>& fixed, int jobs, long& evaluations) {
+  const Valleys found = kept_or_computed<Valleys>(
+      problem.kept,
+      CalibrationKey("valleys", problem)
+          .add(fit.globals, inference.covariance, inference.variance_factor, numbers_of(fixed))
+          .value(),
+      [&] { return valleys_beside(problem, fit, inference, fixed, jobs); });
+  evaluations += found.evaluations;
+  return found.places;
 }
 
 }  // namespace boresight

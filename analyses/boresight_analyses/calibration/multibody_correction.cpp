@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "boresight_analyses/calibration/calibration_fit.hpp"
+#include "boresight_analyses/calibration/kept_fits.hpp"
 #include "boresight_analyses/calibration/rig.hpp"
 
 namespace boresight {
@@ -27,7 +27,11 @@ MatX window_readings(const CalibrationProblem& problem, const Window& w, const G
   const CalibrationRun& run = problem.runs[w.run];
   std::vector<double> times;
   for (int i = w.first; i <= w.last; ++i) times.push_back(std::max(0.0, run.data.time[i] + at.time_offset));
-  return multibody_readings(run.mechanism, problem.parameters_at(w.run, problem.values(at)), times, run.data.channels);
+  return kept_or_computed<MatX>(
+      problem.kept, CalibrationKey("multibody", problem).add(w.run, w.first, w.last, at).value(), [&] {
+        return multibody_readings(run.mechanism, problem.parameters_at(w.run, problem.values(at)), times,
+                                  run.data.channels);
+      });
 }
 
 }  // namespace

@@ -5,8 +5,14 @@
 
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
 
 namespace boresight {
+
+static void fields(Numbers& n, Measurement& m) {
+  n(m.values, m.value, m.half_spread, m.estimate, m.step, m.cpu_seconds, m.spent_seconds, m.refusal);
+}
+
 namespace {
 
 class Chart {
@@ -20,9 +26,10 @@ class Chart {
     result_.machine = this_machine();
     try {
       now_ = "the reference";
-      ReferenceOptions reference{
-          .target = options_.reference_target, .most_seconds = options_.reference_seconds, .measure = measuring(0.0)};
       const auto multibody = make_rung("multibody", mechanism_);
+      ReferenceOptions reference{.target = options_.reference_target,
+                                 .most_seconds = options_.reference_seconds,
+                                 .measured = [&](const RungSetup& setup) { return measured(*multibody, setup, 0.0); }};
       result_.reference = find_reference(*multibody, parameters_, reference);
       const std::vector<SetupFamily> families = chart_ways(result_.reference.own_step);
       runs_left_ = 0;
@@ -37,10 +44,13 @@ class Chart {
         done_before_ = 0.85;
         runs_left_ = 200;
         runs_ = 0;
-        result_.flight = fly(*mechanism_, parameters_, result_.reference.own_step, 0.2 * options_.total_seconds,
-                             [this] { return advance(); });
+        result_.flight = fly(
+            *mechanism_, parameters_, result_.reference.own_step, 0.2 * options_.total_seconds,
+            [this] { return advance(); }, options_.kept);
       }
     } catch (const MeasurementInterrupted&) {
+      result_.interrupted = true;
+    } catch (const Interrupted&) {  // heard while a scene was built
       result_.interrupted = true;
     }
     result_.front = pareto_front(result_.points, result_.reference.uncertainty);
@@ -56,6 +66,12 @@ class Chart {
   }
   MeasureOptions measuring(double most_seconds) {
     return {.index = options_.index, .most_seconds = most_seconds, .advance = [this] { return advance(); }};
+  }
+
+  // What is measured next hangs on what was measured before: a start that goes on asks for the same, in the same order.
+  Measurement measured(const Rung& rung, const RungSetup& setup, double most_seconds) {
+    return kept_or_computed<Measurement>(options_.kept, measurements_++,
+                                         [&] { return measure(rung, parameters_, setup, measuring(most_seconds)); });
   }
 
   // From coarse to fine, until finer ways only cost more: below the floor of the reference, or too long.
@@ -77,10 +93,8 @@ class Chart {
   }
 
   const ChartPoint& add(const RungSetup& setup, const std::string& family, const Rung& rung, bool papers) {
-    ChartPoint point{.setup = setup,
-                     .family = family,
-                     .measured = measure(rung, parameters_, setup, measuring(options_.most_seconds)),
-                     .papers = papers};
+    ChartPoint point{
+        .setup = setup, .family = family, .measured = measured(rung, setup, options_.most_seconds), .papers = papers};
     spent_ += point.measured.spent_seconds;
     if (point.measured.refusal.empty()) point.error = relative_error(point.measured, result_.reference.value);
     result_.points.push_back(std::move(point));
@@ -94,6 +108,7 @@ class Chart {
   std::string now_;
   double done_before_ = 0.0, spent_ = 0.0;
   std::size_t runs_ = 0, runs_left_ = 15;
+  std::uint64_t measurements_ = 0;
 };
 
 }  // namespace

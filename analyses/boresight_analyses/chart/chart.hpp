@@ -9,6 +9,7 @@
 #include "boresight_analyses/chart/machine.hpp"
 #include "boresight_analyses/chart/reference.hpp"
 #include "boresight_analyses/chart/setups.hpp"
+#include "boresight_analyses/runs/kept_results.hpp"
 
 namespace boresight {
 
@@ -21,6 +22,8 @@ struct ChartOptions {
   bool flight = true;              // also the trajectory error before the first impact
   // Called with the share done (of an estimate) and what comes next; return false to stop.
   std::function<bool(double, const std::string&)> progress = {};
+  // Where what was measured is kept as it is done, and an earlier start's is found, with the times that it took; none: nowhere.
+  KeptResults* kept = nullptr;
 };
 
 struct ChartPoint {

@@ -6,15 +6,17 @@
 #pragma once
 
 #include "boresight_analyses/chart/setups.hpp"
+#include "boresight_analyses/runs/kept_results.hpp"
 
 namespace boresight {
 
 struct FlightPoint {
   RungSetup setup;
   std::string family;
-  double error = 0.0;        // over the largest clearance
-  double cpu_seconds = 0.0;  // of one run, the least
-  std::string refusal;       // "" if it ran
+  double error = 0.0;          // over the largest clearance
+  double cpu_seconds = 0.0;    // of one run, the least
+  double spent_seconds = 0.0;  // of all runs
+  std::string refusal;         // "" if it ran
 };
 
 struct FreeFlight {
@@ -28,7 +30,9 @@ struct FreeFlight {
 
 // most_seconds: of CPU, beyond which no further family is begun. advance: called before every run; return
 // false to stop (throws MeasurementInterrupted).
+//
+// kept: where points are kept as they are done, and those of an earlier start are found; none: nowhere.
 FreeFlight fly(const Mechanism& mechanism, const Parameters& parameters, double own_step, double most_seconds,
-               const std::function<bool()>& advance);
+               const std::function<bool()>& advance, KeptResults* kept = nullptr);
 
 }  // namespace boresight

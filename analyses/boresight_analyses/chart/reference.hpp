@@ -7,6 +7,7 @@
 // the floor that the chart draws.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct ReferenceOptions {
   double target = 1e-5;        // relative uncertainty that is good enough
   double most_seconds = 20.0;  // of CPU, beyond which no finer step is begun
   MeasureOptions measure = {};
+  // In place of measure(), for one who keeps what was measured; none: measure().
+  std::function<Measurement(const RungSetup&)> measured = {};
 };
 
 // Throws ComputationError where multibody cannot follow the motion, MeasurementInterrupted.

@@ -1,6 +1,7 @@
 #include "boresight_analyses/runs/counted_cost.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
 
 #include "boresight_analyses/runs/model_samples.hpp"
@@ -38,6 +39,17 @@ double counted_cost(const SampleModel& model, const Mechanism& mechanism, const 
   return std::max(kLeast, count * nominal_seconds_an_evaluation(model.rung(), model.batch() > 1,
                                                                 mechanism.description().bodies.size(),
                                                                 mechanism.description().clearances.size()));
+}
+
+double kept_counted_cost(const SampleModel& model, const Mechanism& mechanism, const RandomInputs& inputs,
+                         const SamplingDesign& design, SampleStore& store) {
+  std::string kept = store.fact("counted_cost");
+  if (kept.empty()) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", counted_cost(model, mechanism, inputs, design));
+    store.note("counted_cost", kept = text);
+  }
+  return std::stod(kept);
 }
 
 }  // namespace boresight

@@ -11,6 +11,7 @@
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight_analyses/random/random_inputs.hpp"
 #include "boresight_analyses/random/sampling_design.hpp"
+#include "boresight_analyses/runs/sample_store.hpp"
 #include "boresight_analyses/study/sample_model.hpp"
 
 namespace boresight {
@@ -22,5 +23,8 @@ double nominal_seconds_an_evaluation(const std::string& rung, bool on_lanes, std
 // Of a sample, from the median evaluations of the first eight of the design, which are computed for it [s].
 double counted_cost(const SampleModel& model, const Mechanism& mechanism, const RandomInputs& inputs,
                     const SamplingDesign& design);
+// The same, counted when the study is begun, and kept in its store.
+double kept_counted_cost(const SampleModel& model, const Mechanism& mechanism, const RandomInputs& inputs,
+                         const SamplingDesign& design, SampleStore& store);
 
 }  // namespace boresight

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "boresight_analyses/runs/stored_runs.hpp"
 #include "boresight_analyses/threads/watcher.hpp"
@@ -67,36 +69,111 @@ StoredValues stored_values(const SampleStore& store, const NumberRange& range) {
   return result;
 }
 
-BatchModel on_normal_space(const SampleModel& model, const RandomInputs& inputs, const MethodOptions& options,
-                           std::shared_ptr<std::vector<double>> cost) {
-  return [&model, &inputs, options, cost](const Points& points) {
-    std::vector<double> values(points.size(), std::numeric_limits<double>::quiet_NaN());
-    Watcher watcher(options.interrupted);
-    const bool whole = compute_samples(model, inputs.size(),
-                                       [&](std::uint64_t number, std::span<double> at) {
-                                         for (std::size_t i = 0; i < at.size(); ++i)
-                                           at[i] = unit_of_normal(points[number][i]);
-                                         inputs.values(at);
-                                       },
-                                       {{0, points.size()}},
-                                       {.jobs = options.jobs,
-                                        .landed =
-                                            [&](std::span<const SampleRecord> records) {
-                                              double spent = 0.0;
-                                              for (const SampleRecord& r : records) {
-                                                if (r.outcome.status == Outcome::Status::done)
-                                                  values[r.number] = r.outcome.value;
-                                                if (r.outcome.status == Outcome::Status::failed && options.failed)
-                                                  options.failed(r.number, r.outcome);
-                                                cost->push_back(r.outcome.cpu_seconds);
-                                                spent += r.outcome.cpu_seconds;
-                                              }
-                                              if (options.progress) options.progress(spent);
-                                              return !watcher.stop;
-                                            },
-                                        .stop = &watcher.stop});
-    if (!whole) throw MethodInterrupted{};
+namespace {
+
+// The points that a method asks for, one batch after the other.
+class AskedPoints {
+ public:
+  AskedPoints(const SampleModel& model, const RandomInputs& inputs, MethodOptions options,
+              std::shared_ptr<std::vector<double>> cost, SampleStore* store)
+      : model_(model), inputs_(inputs), options_(std::move(options)), cost_(std::move(cost)), store_(store) {
+    if (store_ == nullptr) return;
+    store_->read(~std::uint64_t{0} >> 1, [&](const SampleRecord& record) { known_[record.number] = record; });
+  }
+
+  std::vector<double> values(const Points& points) {
+    const std::uint64_t first = asked_;
+    asked_ += points.size();
+    const auto values_of = [&](std::uint64_t number, std::span<double> at) {
+      const Point& point = points[number - first];
+      for (std::size_t i = 0; i < at.size(); ++i) at[i] = unit_of_normal(point[i]);
+      inputs_.values(at);
+    };
+    std::vector<Outcome> outcomes(points.size());
+    const std::vector<NumberRange> missing = take_known(first, values_of, outcomes);
+    Watcher watcher(options_.interrupted);
+    const auto landed = [&](std::span<const SampleRecord> records) {
+      for (const SampleRecord& record : records) {
+        if (store_ != nullptr) store_->add(record);
+        outcomes[record.number - first] = record.outcome;
+      }
+      commit_now_and_then();
+      tell(records);
+      return !watcher.stop;
+    };
+    const bool whole = compute_samples(model_, inputs_.size(), values_of, missing,
+                                       {.jobs = options_.jobs, .landed = landed, .stop = &watcher.stop});
+    if (!whole) {
+      if (store_ != nullptr) store_->commit();
+      throw MethodInterrupted{};
+    }
+    std::vector<double> values;
+    for (std::size_t k = 0; k < outcomes.size(); ++k) {
+      const bool done = outcomes[k].status == Outcome::Status::done;
+      values.push_back(done ? outcomes[k].value : std::numeric_limits<double>::quiet_NaN());
+      if (outcomes[k].status == Outcome::Status::failed && options_.failed) options_.failed(k, outcomes[k]);
+    }
     return values;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // Returns the numbers of those that are not.
+  std::vector<NumberRange> take_known(std::uint64_t first, const ValuesOf& values_of, std::vector<Outcome>& outcomes) {
+    std::vector<NumberRange> missing;
+    std::vector<double> at(inputs_.size());
+    std::vector<SampleRecord> found;
+    for (std::uint64_t number = first; number < first + outcomes.size(); ++number) {
+      const auto known = known_.find(number);
+      if (known == known_.end()) {
+        if (missing.empty() || missing.back().end != number) missing.push_back({number, number});
+        ++missing.back().end;
+        continue;
+      }
+      values_of(number, at);
+      if (at != known->second.inputs)
+        throw StoreRefused(store_->file().string() + " holds other points than are asked for now; remove it");
+      outcomes[number - first] = known->second.outcome;
+      found.push_back(std::move(known->second));
+      known_.erase(known);
+    }
+    if (!found.empty()) tell(found);
+    return missing;
+  }
+
+  void tell(std::span<const SampleRecord> records) {
+    double spent = 0.0;
+    for (const SampleRecord& r : records) {
+      cost_->push_back(r.outcome.cpu_seconds);
+      spent += r.outcome.cpu_seconds;
+    }
+    if (options_.progress) options_.progress(spent);
+  }
+
+  void commit_now_and_then() {
+    constexpr auto kCommitEvery = std::chrono::milliseconds(250);
+    if (store_ == nullptr || Clock::now() < next_commit_) return;
+    store_->commit();
+    next_commit_ = Clock::now() + kCommitEvery;
+  }
+
+  const SampleModel& model_;
+  const RandomInputs& inputs_;
+  MethodOptions options_;
+  std::shared_ptr<std::vector<double>> cost_;
+  SampleStore* store_;
+  std::map<std::uint64_t, SampleRecord> known_;
+  std::uint64_t asked_ = 0;
+  Clock::time_point next_commit_ = Clock::now();
+};
+
+}  // namespace
+
+BatchModel on_normal_space(const SampleModel& model, const RandomInputs& inputs, const MethodOptions& options,
+                           std::shared_ptr<std::vector<double>> cost, SampleStore* store) {
+  return [asked = std::make_shared<AskedPoints>(model, inputs, options, std::move(cost), store)](const Points& points) {
+    return asked->values(points);
   };
 }
 

@@ -20,8 +20,8 @@ struct MethodOptions {
   int jobs = 1;
   std::function<void(double)> progress;  // CPU seconds spent since the last call
   std::function<bool()> interrupted;
-  std::function<void(std::uint64_t, const Outcome&)> failed =
-      {};  // each point that did, one at a time, by its number in its batch
+  // Each point that did, by its number in its batch and in that order, once the batch is done.
+  std::function<void(std::uint64_t, const Outcome&)> failed = {};
 };
 
 // The numbers of a range that the store lacks are computed and stored. Throws MethodInterrupted; what was computed is stored.
@@ -39,8 +39,12 @@ StoredValues stored_values(const SampleStore& store, const NumberRange& range);
 
 // A model as a function on the standard normal space, u -> Phi(u) -> quantiles -> index; NaN where it fails. The costs of
 // all its samples are kept in `cost`. Throws MethodInterrupted.
+//
+// store: where every point is kept as it is done, by its place among all that the method has asked for; none: nowhere. A method
+// asks for the same points again when it is begun again, and finds there those that an earlier start computed. Throws
+// StoreRefused where it asks for others.
 BatchModel on_normal_space(const SampleModel& model, const RandomInputs& inputs, const MethodOptions& options,
-                           std::shared_ptr<std::vector<double>> cost);
+                           std::shared_ptr<std::vector<double>> cost, SampleStore* store = nullptr);
 
 double median(std::vector<double> values);
 

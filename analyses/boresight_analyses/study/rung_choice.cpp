@@ -5,6 +5,7 @@
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
+#include "boresight_analyses/study/rung_sample_model.hpp"
 
 namespace boresight {
 namespace {
@@ -30,6 +31,24 @@ void apply(const RungChoice& choice, RunOptions& options) {
   // A tolerance without an integrator is that of lanes.
   if (choice.tolerance > 0.0) options.tolerance = choice.tolerance;
   if (!choice.integrator.empty()) options.integrator = choice.integrator;
+}
+
+std::string next_rung_up(const std::string& rung) {
+  // Envelope and quasistatic are both static answers; what confirms either is a motion with impacts.
+  if (rung == "envelope" || rung == "quasistatic") return "perturbation";
+  return rung_names().back();
+}
+
+RunOptions options_on(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism,
+                      const std::vector<Parameters>& motions, RunOptions run) {
+  const std::vector<std::string> known = integrator_names(rung);
+  if (!run.integrator.empty() && std::find(known.begin(), known.end(), run.integrator) == known.end()) {
+    run.integrator.clear();
+    run.tolerance = 0.0;
+  }
+  const bool adaptive = !run.integrator.empty() && run.integrator != "rk4";
+  if (!adaptive && run.step == 0.0) run.step = common_step(rung, mechanism, motions, run);
+  return run;
 }
 
 RungChoice choose_rung(const RungQuestion& question, std::shared_ptr<const Mechanism> mechanism,

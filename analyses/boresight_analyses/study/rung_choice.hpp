@@ -39,6 +39,13 @@ struct RungQuestion {
 // Puts what the pilot found into the options of the runs to come.
 void apply(const RungChoice& choice, RunOptions& options);
 
+// The rung that leaves out less than this one, to confirm on; the same where there is none.
+std::string next_rung_up(const std::string& rung);
+// The run's options on this rung, with one step for all motions where it takes fixed steps and none was given. An integrator
+// that the rung does not have is left out: the question was put to another rung. Throws OptionRefused, ComputationError.
+RunOptions options_on(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism,
+                      const std::vector<Parameters>& motions, RunOptions run);
+
 // Throws InputError (key = --rung) for a name that no rung has.
 void check_rung_name(const std::string& asked);
 // With "auto" and an accuracy a pilot is flown: over the samples' scatter, or over each of them where `statistic` is

@@ -7,9 +7,13 @@
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
+#include "boresight_analyses/runs/result_numbers.hpp"
 #include "boresight_analyses/threads/on_threads.hpp"
 
 namespace boresight {
+
+static void fields(Numbers& n, SweepPoint& p) { n(p.status, p.values, p.result, p.failure); }
+
 namespace {
 
 // Gathers how far every point has come; tells the caller, one thread at a time, and remembers a wish to stop.
@@ -38,7 +42,13 @@ class Watch {
 };
 
 void compute(SweepPoint& point, std::size_t k, const Rung& rung, const Mechanism& mechanism, const SweepPlan& plan,
-             RunOptions options, Watch& watch) {
+             const SweepOptions& sweep, Watch& watch) {
+  if (std::optional<SweepPoint> found = kept_result<SweepPoint>(sweep.kept, k)) {
+    point = std::move(*found);
+    watch.update(k, 1.0, point.result.index.position_error.max);
+    return;
+  }
+  RunOptions options = sweep.run;
   options.progress = [&](const RunProgress& p) {
     const double share = p.duration > 0.0 ? std::clamp(p.t / p.duration, 0.0, 1.0) : 0.0;
     return watch.update(k, share, p.position_error_max_so_far);
@@ -53,7 +63,9 @@ void compute(SweepPoint& point, std::size_t k, const Rung& rung, const Mechanism
     watch.stop();
     return;
   }
-  if (point.status != SweepPoint::Status::interrupted) watch.update(k, 1.0, point.result.index.position_error.max);
+  if (point.status == SweepPoint::Status::interrupted) return;
+  if (sweep.kept != nullptr) sweep.kept->keep(k, Numbers::of(point));
+  watch.update(k, 1.0, point.result.index.position_error.max);
 }
 
 }  // namespace
@@ -82,7 +94,7 @@ SweepResult run_sweep(const Rung& rung, const Mechanism& mechanism, const SweepP
   for_each_on_threads(
       result.points.size(), options.jobs,
       [&](std::size_t k) {
-        if (!watch.stopped()) compute(result.points[k], k, rung, mechanism, plan, options.run, watch);
+        if (!watch.stopped()) compute(result.points[k], k, rung, mechanism, plan, options, watch);
       },
       [&] { watch.stop(); });
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "boresight/rungs/rung.hpp"
+#include "boresight_analyses/runs/kept_results.hpp"
 #include "boresight_analyses/sweep/sweep_plan.hpp"
 
 namespace boresight {
@@ -33,6 +34,8 @@ struct SweepOptions {
   int jobs = 1;
   // Called from one thread at a time; return false to stop: points under way are then marked interrupted.
   std::function<bool(const SweepProgress&)> progress;
+  // Where points are kept as they are done, and those of an earlier start are found; none: nowhere.
+  KeptResults* kept = nullptr;
 };
 
 struct SweepResult {

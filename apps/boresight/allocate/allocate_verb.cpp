@@ -6,17 +6,14 @@
 #include <ostream>
 
 #include "allocate/allocate_report.hpp"
-#include "boresight/io/content_hash.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
 #include "report/report.hpp"
-#include "report_parts/optimise_parts.hpp"
 #include "results/scatter_parts.hpp"
-#include "results/stored_study.hpp"
-#include "results/summary.hpp"
 #include "results/tables.hpp"
+#include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
 #include "terminal/progress.hpp"
@@ -128,11 +125,9 @@ class AllocateVerb : public Verb {
     const AllocationPlan plan = read_allocation_plan(input.root, study, mechanism->description(), input.trial);
     check_rung_name(command.rung);
     const RunOptions asked = motion_.run_options(*mechanism, command.rung);
-    ContentHash samples;
-    samples.add(plan.sample_text(study));
-    const OutputDirectory out = OutputDirectory::open(
-        command.out, command.verb, command.file,
-        identity_of(command, mechanism->description().content_hash, samples.hexadecimal(), motion_.identity()));
+    const VerbStudy own(command, mechanism, study.index, study.accuracy, asked,
+                        identity_of_study(command, *mechanism, plan.sample_text(study), motion_.identity()));
+    const OutputDirectory& out = own.out();
 
     const RungChoice choice = rung_for(command);
     const std::vector<std::vector<double>> gaps = corner_gaps(plan);
@@ -156,7 +151,7 @@ class AllocateVerb : public Verb {
     for (const AllocationJoint& joint : plan.joints) names.push_back(joint.name());
     if (plan.inputs)
       for (const RandomParameter& p : plan.inputs->parameters) names.push_back(p.name());
-    const auto store = open_evaluations(out, name(), "confirmation.db", names, model.rung(), model.step());
+    const auto store = own.run().open_evaluations("confirmation.db", names, model.rung(), model.step());
     Confirming confirming(model, plan, *store, command.jobs);
 
     if (!command.quiet) {
@@ -165,13 +160,11 @@ class AllocateVerb : public Verb {
       std::fflush(stdout);
     }
     Progress progress(command.quiet, 1.0, "of the allocation");
-    AllocationResult result = with_options_checked([&] {
-      return run_allocation(
-          plan, deviation, misfit, std::ref(confirming), choice.name,
-          {.accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.05),
-           .interrupted = [] { return interrupted(); },
-           .progress = [&](const std::string& stage, double share) { progress.update(share, stage); }});
-    });
+    AllocationResult result =
+        run_allocation(plan, deviation, misfit, std::ref(confirming), choice.name,
+                       {.accuracy = own.run().options().accuracy.value_or(0.05),
+                        .interrupted = [] { return interrupted(); },
+                        .progress = [&](const std::string& stage, double share) { progress.update(share, stage); }});
     progress.clear();
     result.evaluations = confirming.computed;
     result.reused = confirming.reused;
@@ -189,8 +182,7 @@ class AllocateVerb : public Verb {
           fmt::format("{} of {} confirming runs failed", confirming.failures.count, confirming.runs) +
           first_failure_text(confirming.failures, "run"));
     if (!store->damage().empty()) allocated.warnings.push_back(store->damage());
-    Json summary = summary_of(allocated, watch, out);
-    add_earlier_cost(summary, store->earlier());
+    Json summary = summary_of(allocated, own, watch, store->earlier());
     add_first_failure(summary, confirming.failures, "run");
     write_json(out, "summary.json", summary);
     out.write("allocation.csv", [&](std::ostream& s) { write_allocation(s, allocated); });
@@ -258,10 +250,10 @@ class AllocateVerb : public Verb {
     return json;
   }
 
-  static Json summary_of(const AllocateStudy& s, const Stopwatch& watch, const OutputDirectory& out) {
+  static Json summary_of(const AllocateStudy& s, const VerbStudy& own, const Stopwatch& watch,
+                         const SampleStore::Cost& earlier) {
     const AllocationResult& r = s.result;
-    Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, r.interrupted, out);
-    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    Json json = own.head(s.study, s.rung, watch, s.warnings, r.interrupted, earlier);
     json["seed"] = s.plan.seed;
     json["optimum"] = optimum_json(s);
     json["optimum_of"] = "mean radial clearance per joint";

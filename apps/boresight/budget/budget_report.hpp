@@ -7,11 +7,11 @@
 
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight_analyses/budget/budget.hpp"
+#include "boresight_analyses/runs/study_run.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 #include "boresight_analyses/study/study.hpp"
 #include "command_line/command.hpp"
 #include "report/document.hpp"
-#include "results/stored_study.hpp"
 
 namespace boresight::app {
 

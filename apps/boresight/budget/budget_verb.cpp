@@ -5,7 +5,6 @@
 #include <cmath>
 #include <ostream>
 
-#include "boresight/io/content_hash.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/runs/stored_runs.hpp"
@@ -13,11 +12,9 @@
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
 #include "report/report.hpp"
-#include "report_parts/optimise_parts.hpp"
 #include "results/scatter_parts.hpp"
-#include "results/stored_study.hpp"
-#include "results/summary.hpp"
 #include "results/tables.hpp"
+#include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
 #include "terminal/progress.hpp"
@@ -166,24 +163,20 @@ class BudgetVerb : public Verb {
     RunOptions run = motion_.run_options(*mechanism, command.rung);
 
     const std::string text = plan.sample_text(study);
-    ContentHash hash;
-    hash.add(text);
     nlohmann::json options = motion_.model_identity();
     if (study.accuracy) options["study_accuracy"] = *study.accuracy;
-    const OutputDirectory out =
-        OutputDirectory::open(command.out, command.verb, command.file,
-                              identity_of(command, mechanism->description().content_hash, hash.hexadecimal(), options));
-    SampleStore store = open_runs(out, name(), plan.inputs, text, resumption_);
-    tell_of_damage(store.damage());
+    const VerbStudy own(command, mechanism, study.index, study.accuracy, run,
+                        identity_of_study(command, *mechanism, text, options));
+    const std::unique_ptr<SampleStore> opened = own.open_samples(text, plan.inputs.names(), resumption_);
+    SampleStore& store = *opened;
     const BudgetRuns runs(plan, *mechanism);
     // Levels of a budget are quantiles over the members.
-    const RungChoice choice = rung_of_study(
-        command, study, mechanism,
-        {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count(), .integrators = true}, run, store);
+    const RungChoice choice = own.run().rung_of_scatter(
+        {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count(), .integrators = true}, store);
     apply(choice, run);
     const bool takes_steps = !integrator_names(choice.name).empty();
     if (takes_steps && run.step == 0.0 && (run.integrator.empty() || run.integrator == "rk4"))
-      run.step = kept_common_step(choice.name, mechanism, plan.inputs, run, store);
+      run.step = own.run().common_step_of_scatter(choice.name, plan.inputs, run, store);
     run = options_on(choice.name, mechanism, pilot_samples(plan.inputs, *mechanism), run);
     const BudgetModel model(choice.name, mechanism, plan, runs, {study.index.quantity, "max", plan.start}, run,
                             scene_varies(plan.inputs));
@@ -191,14 +184,13 @@ class BudgetVerb : public Verb {
     note_origin(store, study, *mechanism, plan);
     const std::uint64_t begun_with = store.count();
     const Stopwatch computing;
-    bool whole = with_options_checked([&] { return compute(command, study, *mechanism, plan, runs, model, store); });
+    bool whole = compute(command, study, *mechanism, plan, runs, model, store);
     const std::string stuck = no_run_done(!whole, begun_with, store.count(), computing.wall_seconds());
     // Last, as it keeps nothing before it ends.
     StudySteps steps{kNotMeasured, "not measured: the study was interrupted before"};
     if (whole)
-      steps =
-          steps_of_study(command, study, mechanism, {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count()},
-                         run, choice.name, &store);
+      steps = own.run().steps_of_scatter({.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count()}, run,
+                                         choice.name, &store);
     whole = whole && !steps.interrupted;
 
     std::optional<Budget> budget;
@@ -219,8 +211,8 @@ class BudgetVerb : public Verb {
     if (budget) result.warnings = warnings_of(result, seen);
     if (!stuck.empty()) result.warnings.push_back(stuck);
     if (!store.damage().empty()) result.warnings.push_back(store.damage());
-    write(result, seen, out, watch, store.earlier());
-    if (!command.quiet) print(result, out);
+    write(result, seen, own, watch, store.earlier());
+    if (!command.quiet) print(result, own.out());
     if (!budget) return kInterrupted;
     return budget->met() ? status_with_accuracy(choice, kDone) : kAnswerIsNo;
   }
@@ -318,11 +310,10 @@ class BudgetVerb : public Verb {
     return json;
   }
 
-  static void write(const BudgetStudy& s, const RunsSeen& seen, const OutputDirectory& out, const Stopwatch& watch,
+  static void write(const BudgetStudy& s, const RunsSeen& seen, const VerbStudy& own, const Stopwatch& watch,
                     const SampleStore::Cost& earlier) {
-    Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, !s.budget, out);
-    add_earlier_cost(json, earlier);
-    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    const OutputDirectory& out = own.out();
+    Json json = own.head(s.study, s.rung, watch, s.warnings, !s.budget, earlier);
     json["seed"] = s.plan.seed;
     json["index"] = {{"quantity", s.study.index.quantity}, {"unit", s.study.index.si_unit()}};
     json["windows"] = {{"window", s.plan.windows.window},

@@ -19,7 +19,7 @@
 #include "command_line/declared_option.hpp"
 #include "command_line/verb.hpp"
 #include "report/report.hpp"
-#include "results/summary.hpp"
+#include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
 #include "terminal/progress.hpp"
@@ -77,24 +77,31 @@ class CalibrateVerb : public Verb {
     for (const PlannedRun& c : plan.candidates) options.candidates.push_back({c.name, mechanism_with(c.settings)});
     ContentHash data;
     for (const CalibrationRun& run : problem.runs) data.add(csv_of(run.data));
-    const OutputDirectory out = OutputDirectory::open(command.out, command.verb, command.file,
-                                                      identity_of(command, mechanism->description().content_hash,
-                                                                  study.content_hash, {{"data", data.hexadecimal()}}));
+    const VerbStudy own(command, mechanism, study.index, study.accuracy, {},
+                        identity_of(command, mechanism->description().content_hash, study.content_hash,
+                                    {{"data", data.hexadecimal()}}));
+    const OutputDirectory& out = own.out();
     Progress progress(command.quiet, 1.0, "of the fit");
     options.progress = [&](const std::string& stage, double share, const std::string& estimate) {
       progress.update(share, stage + ": " + estimate);
       return !interrupted();
     };
-    const CalibrationResult result = calibrate(problem, options);
-    progress.clear();
     RungChoice rung;
     rung.name = "perturbation";
     rung.why = plan.corrections > 0
                    ? "the fit needs exact derivatives, which it has; what it leaves out is corrected by multibody"
                    : "the fit needs exact derivatives, which it has";
+    Unfinished begun = own.run().go_on([&] { return rung; });
+    problem.kept = begun.results.get();
+    const CalibrationResult result = calibrate(problem, options);
+    progress.clear();
     const CalibrationStudy whole{command, study, *mechanism, rung, plan, problem, result};
-    if (result.interrupted && result.inference.parameters.empty()) throw Interrupted{};
-    write_json(out, "summary.json", summary_of(whole, watch, out));
+    if (result.interrupted && result.inference.parameters.empty()) {
+      if (begun.results->size() == 0) throw Interrupted{};
+      if (!command.quiet) tell("  interrupted; what was computed is kept, the same command goes on\n");
+      return kInterrupted;
+    }
+    write_json(out, "summary.json", summary_of(whole, own, watch, begun.results->earlier()));
     if (!result.inference.parameters.empty()) {
       out.write("posterior.toml", [&](std::ostream& s) {
         if (result.interrupted)
@@ -106,6 +113,8 @@ class CalibrateVerb : public Verb {
       out.write("report.html", [&](std::ostream& s) { report::write_html(s, calibrate_report(whole)); });
     }
     out.publish();
+    begun.results.reset();
+    if (!result.interrupted) own.run().forget(kUnfinished);
     if (!command.quiet) print(whole, out);
     if (result.interrupted) return kInterrupted;
     const bool all = std::all_of(result.inference.parameters.begin(), result.inference.parameters.end(),
@@ -149,11 +158,11 @@ class CalibrateVerb : public Verb {
     return kDone;
   }
 
-  static Json summary_of(const CalibrationStudy& s, const Stopwatch& watch, const OutputDirectory& out) {
+  static Json summary_of(const CalibrationStudy& s, const VerbStudy& own, const Stopwatch& watch,
+                         const SampleStore::Cost& earlier) {
     const CalibrationResult& r = s.result;
-    Json json = common_summary(s.command, s.mechanism, s.rung, watch, r.warnings, r.interrupted, out);
+    Json json = own.head(s.study, s.rung, watch, r.warnings, r.interrupted, earlier);
     json["seed"] = s.plan.seed;
-    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
     json["data"] = Json::array();
     for (const CalibrationRun& run : s.problem.runs) json["data"].push_back(run.data.file);
     json["objective"] = number(r.fit.cost);
@@ -219,7 +228,8 @@ class CalibrateVerb : public Verb {
     for (const std::string& sentence : s.result.verdict) tell("  {}\n", sentence);
     if (!s.result.next_tests.empty()) tell("  next test: {}\n", s.result.next_tests.front().name);
     for (const std::string& warning : s.result.warnings) tell("  warning: {}\n", warning);
-    if (s.result.interrupted) tell("  interrupted: the posterior is that of a fit that had not ended\n");
+    if (s.result.interrupted)
+      tell("  interrupted: the posterior is that of a fit that had not ended; the same command goes on\n");
     if (s.result.inference.parameters.empty()) return;
     tell("  posterior: {}\n  report: {}\n", (out.path() / "posterior.toml").string(),
          (out.path() / "report.html").string());

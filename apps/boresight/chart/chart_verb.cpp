@@ -15,8 +15,8 @@
 #include "command_line/option_range.hpp"
 #include "command_line/verb.hpp"
 #include "report/report.hpp"
-#include "results/summary.hpp"
 #include "results/tables.hpp"
+#include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
 #include "terminal/progress.hpp"
@@ -69,14 +69,15 @@ Json point_json(const ChartPoint& p) {
   return json;
 }
 
-Json summary_of(const Command& command, const Mechanism& mechanism, const ChartResult& result,
-                std::optional<double> accuracy, const Stopwatch& watch, const OutputDirectory& out) {
+const RungChoice kAllRungs{.name = "all", .why = "the chart compares them"};
+
+Json summary_of(const VerbStudy& own, const ChartResult& result, std::optional<double> accuracy, const Stopwatch& watch,
+                const SampleStore::Cost& earlier) {
   std::vector<std::string> warnings;
   for (const std::string& name : result.left_out) warnings.push_back("no time was left for " + name);
   for (const std::string& name : result.flight.left_out)
     warnings.push_back("no time was left for the flight before the first impact of " + name);
-  Json json = common_summary(command, mechanism, {.name = "all", .why = "the chart compares them"}, watch, warnings,
-                             result.interrupted, out);
+  Json json = own.head(kAllRungs, watch, warnings, result.interrupted, earlier);
   json["index"] = result.index;
   json["reference"] = {
       {"value", result.reference.value}, {"uncertainty", result.reference.uncertainty}, {"refinements", Json::array()}};
@@ -107,7 +108,7 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const ChartR
 void print(const Mechanism& mechanism, const ChartResult& result, std::optional<double> accuracy,
            const OutputDirectory& out) {
   tell("{}: accuracy against speed, {}{}\n", mechanism.name(), result.index,
-       result.interrupted ? " (interrupted)" : "");
+       result.interrupted ? " (interrupted; the same command goes on)" : "");
   tell("  reference {}, known to {}\n", readable(result.reference.value, result.unit),
        readable_share(result.reference.uncertainty));
   tell("  Pareto front:\n");
@@ -177,23 +178,28 @@ class ChartVerb : public Verb {
     else
       check_line_of_sight(options.index, *mechanism, {"command line", 0}, "--index");
     check_start(options.index.start, *mechanism, {"command line", 0}, "--start");
-    const OutputDirectory out = OutputDirectory::open(
-        command.out, command.verb, command.file,
-        identity_of(command, mechanism->description().content_hash, study_hash,
-                    {{"index", index_ + (start_.empty() ? "" : " from " + start_)}, {"time", time_}}));
+    const VerbStudy own(command, mechanism, options.index, study ? study->accuracy : std::nullopt, {},
+                        identity_of(command, mechanism->description().content_hash, study_hash,
+                                    {{"index", index_ + (start_.empty() ? "" : " from " + start_)}, {"time", time_}}));
     Progress progress(command.quiet, 100.0, "%");
     options.progress = [&](double share, const std::string& what) {
       progress.update(100.0 * share, what);
       return !interrupted();
     };
+    const OutputDirectory& out = own.out();
+    // Times of two machines are not to be compared.
+    Unfinished begun = own.run().go_on([] { return kAllRungs; }, this_machine().processor);
+    options.kept = begun.results.get();
     const ChartResult result = make_chart(mechanism, mechanism->parameters(), options);
 
-    write_json(out, "summary.json", summary_of(command, *mechanism, result, accuracy, watch, out));
+    write_json(out, "summary.json", summary_of(own, result, accuracy, watch, begun.results->earlier()));
     out.write("chart.csv", [&](std::ostream& s) { write_points(s, result); });
     out.write("flight.csv", [&](std::ostream& s) { write_flight(s, result.flight); });
     out.write("report.html",
               [&](std::ostream& s) { report::write_html(s, chart_report(command, *mechanism, result, accuracy)); });
     out.publish();
+    begun.results.reset();
+    if (!result.interrupted) own.run().forget(kUnfinished);
     progress.clear();
     if (!command.quiet) print(*mechanism, result, accuracy, out);
     if (result.interrupted) return kInterrupted;

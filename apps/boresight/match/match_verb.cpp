@@ -6,7 +6,6 @@
 #include <cmath>
 #include <ostream>
 
-#include "boresight/io/content_hash.hpp"
 #include "boresight_analyses/matching/design_slopes.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
@@ -14,11 +13,9 @@
 #include "command_line/verb.hpp"
 #include "match/match_report.hpp"
 #include "report/report.hpp"
-#include "report_parts/optimise_parts.hpp"
 #include "results/scatter_parts.hpp"
-#include "results/stored_study.hpp"
-#include "results/summary.hpp"
 #include "results/tables.hpp"
+#include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
 #include "terminal/progress.hpp"
@@ -90,16 +87,14 @@ class MatchVerb : public Verb {
     check_rung_name(command.rung);
     const RunOptions asked = motion_.run_options(*mechanism, command.rung);
 
-    ContentHash samples;
-    samples.add(plan.sample_text(study));
     nlohmann::json options = motion_.identity();
     if (study.accuracy) options["study_accuracy"] = *study.accuracy;
-    const OutputDirectory out = OutputDirectory::open(
-        command.out, command.verb, command.file,
-        identity_of(command, mechanism->description().content_hash, samples.hexadecimal(), options));
+    const VerbStudy own(command, mechanism, study.index, study.accuracy, asked,
+                        identity_of_study(command, *mechanism, plan.sample_text(study), options));
+    const OutputDirectory& out = own.out();
 
     const std::vector<Parameters> corners = corners_of(plan, *mechanism);
-    const RungChoice choice = choose_rung_of_corners(command, study, asked, mechanism, corners);
+    const RungChoice choice = own.run().rung_of_corners(corners, "evaluations.db");
     const std::string upper = next_rung_up(choice.name);
     const auto parameters_of = [mechanism, &plan](std::span<const double> values) {
       return plan.parameters_with(*mechanism, values);
@@ -110,7 +105,8 @@ class MatchVerb : public Verb {
     const RungSampleModel model(choice.name, mechanism, parameters_of, study.index, run, any_scene_varies(plan));
     std::vector<std::string> names;
     for (const DesignVariable& v : plan.variables) names.push_back(v.name());
-    const auto store = open_evaluations(out, name(), "evaluations.db", names, model.rung(), model.step());
+    const auto store = own.run().open_evaluations("evaluations.db", names, model.rung(), model.step());
+    if (choice.pilot) note_choice(*store, choice);
     const RandomInputs* inputs = plan.inputs ? &*plan.inputs : nullptr;
     DesignEvaluator evaluator(model, inputs, store.get(),
                               {.samples = plan.samples, .seed = plan.seed, .jobs = command.jobs, .interrupted = [] {
@@ -126,7 +122,7 @@ class MatchVerb : public Verb {
       const RunOptions upper_run = options_on(upper, mechanism, corners, asked);
       upper_model = std::make_unique<RungSampleModel>(upper, mechanism, parameters_of, study.index, upper_run,
                                                       any_scene_varies(plan));
-      upper_store = open_evaluations(out, name(), "confirmation.db", names, upper, upper_model->step());
+      upper_store = own.run().open_evaluations("confirmation.db", names, upper, upper_model->step());
       upper_evaluator =
           std::make_unique<DesignEvaluator>(*upper_model, inputs, upper_store.get(),
                                             DesignEvaluator::Options{.samples = plan.confirm,
@@ -162,8 +158,7 @@ class MatchVerb : public Verb {
     if (how.no_slopes.empty())
       how.slopes = [slopes = DesignSlopes(mechanism, plan, study.index, run)](
                        const std::vector<double>& design, std::string& why) { return slopes.at(design, why); };
-    const MatchingResult result =
-        with_options_checked([&] { return run_matching(plan, evaluator, upper_evaluator.get(), upper, how); });
+    const MatchingResult result = run_matching(plan, evaluator, upper_evaluator.get(), upper, how);
     progress.clear();
     MatchStudy matched{.command = command,
                        .study = study,
@@ -182,8 +177,7 @@ class MatchVerb : public Verb {
     add_failed(evaluator, choice.name);
     if (upper_evaluator) add_failed(*upper_evaluator, upper);
     if (!store->damage().empty()) matched.warnings.push_back(store->damage());
-    Json summary = summary_of(matched, watch, out);
-    add_earlier_cost(summary, store->earlier());
+    Json summary = summary_of(matched, own, watch, store->earlier());
     add_first_failure(summary, evaluator.failures(), "run");
     write_json(out, "summary.json", summary);
     out.write("evaluations.csv", [&](std::ostream& s) { write_evaluations(s, plan, result); });
@@ -217,10 +211,10 @@ class MatchVerb : public Verb {
     return warnings;
   }
 
-  static Json summary_of(const MatchStudy& s, const Stopwatch& watch, const OutputDirectory& out) {
+  static Json summary_of(const MatchStudy& s, const VerbStudy& own, const Stopwatch& watch,
+                         const SampleStore::Cost& earlier) {
     const MatchingResult& r = s.result;
-    Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, r.interrupted, out);
-    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    Json json = own.head(s.study, s.rung, watch, s.warnings, r.interrupted, earlier);
     json["seed"] = s.plan.seed;
     json["optimum"] = design_json(s.plan, r.design);
     json["objective"] = r.design.empty() ? Json() : number_json(r.objective);

@@ -1,77 +1,21 @@
-// `fidelities` of a Monte Carlo study: a pilot on every rung, a forecast of the gain before anything more is spent, samples
-// as the plan divides them, and the estimate that is unbiased for the first rung.
-//
-// Samples 0 to pilot - 1 are the pilot's, the estimate's follow. A store per rung keeps them, the first one also what a sample
-// of each was counted at (counted_cost.hpp); the plan follows from the pilot's values and these alone. So a resumed study goes
-// on with the plan it was begun with, and a repeated one has the same.
+// `fidelities` of a Monte Carlo study: what it found (fidelities/fidelity_study.hpp), as files and words.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numeric>
 #include <ostream>
 
-#include "boresight/io/content_hash.hpp"
-#include "boresight_analyses/fidelities/fidelity_estimate.hpp"
-#include "boresight_analyses/runs/counted_cost.hpp"
-#include "boresight_analyses/runs/scatter_draws.hpp"
+#include "boresight_analyses/fidelities/fidelity_study.hpp"
 #include "montecarlo/several_rungs.hpp"
 #include "report/report.hpp"
-#include "results/stored_study.hpp"
 #include "results/tables.hpp"
 #include "terminal/exit_status.hpp"
-#include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
 namespace boresight::app {
 namespace {
-
-struct Level {
-  std::string rung;
-  std::unique_ptr<SampleModel> model;
-  std::unique_ptr<SampleStore> store;
-};
-
-struct FidelityOutcome {
-  FidelityPilot pilot;
-  FidelityPlan plan;
-  FidelityEstimate mean;
-  std::optional<IndependentInterval> excess;  // probability of exceeding the requirement's limit
-  double spent = 0.0;                         // CPU seconds of all samples, measured
-  std::vector<double> measured_cost;          // CPU seconds of a sample, per rung
-};
-
-std::vector<Level> open_levels(const SeveralRungs& s) {
-  ContentHash hash;
-  hash.add(s.out.identity().dump());
-  std::vector<Level> levels;
-  for (const std::string& rung : s.question.plan.fidelities->models) {
-    const std::filesystem::path file = s.out.path() / ("samples-" + rung + ".db");
-    levels.push_back({rung, model_on(s, rung), nullptr});
-    levels.back().store = std::make_unique<SampleStore>(
-        file, std::map<std::string, std::string>{{"study", hash.hexadecimal()}}, s.question.plan.inputs.names());
-    tell_of_damage(levels.back().store->damage());
-    levels.back().store->use_rung(rung, levels.back().model->step());
-  }
-  return levels;
-}
-
-// Of a sample on each rung, in seconds: counted when the study is begun, and kept.
-std::vector<double> counted_costs(const SeveralRungs& s, std::vector<Level>& levels, const SamplingDesign& design) {
-  std::vector<double> costs;
-  for (Level& level : levels) {
-    std::string kept = level.store->fact("counted_cost");
-    if (kept.empty()) {
-      kept = fmt::format("{:.17g}", counted_cost(*level.model, *s.question.mechanism, s.question.plan.inputs, design));
-      level.store->note("counted_cost", kept);
-    }
-    costs.push_back(std::stod(kept));
-  }
-  return costs;
-}
 
 std::string forecast_sentence(const FidelityPlan& plan, const std::string& top) {
   if (plan.models.size() == 1)
@@ -81,14 +25,7 @@ std::string forecast_sentence(const FidelityPlan& plan, const std::string& top) 
       plan.gain, plan.gain_low, plan.gain_high, top);
 }
 
-// Against the first rung alone for the same CPU: its sample variance over as many samples as that pays.
-double measured_gain(const FidelityOutcome& o) {
-  const double variance = o.mean.standard_error * o.mean.standard_error;
-  const double plain = o.plan.sd[0] * o.plan.sd[0] * o.measured_cost[0] / o.spent;
-  return variance > 0.0 ? plain / variance : 0.0;
-}
-
-void write_levels(std::ostream& out, const SeveralRungs& s, const FidelityOutcome& o) {
+void write_levels(std::ostream& out, const SeveralRungs& s, const FidelityStudy& o) {
   out << "rung,cpu_seconds_per_sample,pilot_mean,pilot_sd,correlation,samples,weight\n";
   for (std::size_t i = 0; i < o.pilot.models(); ++i) {
     const auto at = std::find(o.plan.models.begin(), o.plan.models.end(), static_cast<int>(i)) - o.plan.models.begin();
@@ -99,7 +36,7 @@ void write_levels(std::ostream& out, const SeveralRungs& s, const FidelityOutcom
   }
 }
 
-report::Table levels_table(const SeveralRungs& s, const FidelityOutcome& o) {
+report::Table levels_table(const SeveralRungs& s, const FidelityStudy& o) {
   report::Table table{
       .title = "Rungs",
       .caption =
@@ -116,7 +53,7 @@ report::Table levels_table(const SeveralRungs& s, const FidelityOutcome& o) {
   return table;
 }
 
-report::Chart agreement_chart(const SeveralRungs& s, const FidelityOutcome& o) {
+report::Chart agreement_chart(const SeveralRungs& s, const FidelityStudy& o) {
   const std::vector<std::string>& names = s.question.plan.fidelities->models;
   double most = 0.0;
   for (const auto& values : o.pilot.values)
@@ -150,96 +87,28 @@ int run_fidelities(const SeveralRungs& s) {
   const MonteCarloPlan& plan = s.question.plan;
   const std::string& top = asked.models.front();
   const std::string unit = s.question.study.index.si_unit();
-  claim_folder(s);
-  std::vector<Level> levels = open_levels(s);
-  const SamplingDesign design(plan.design, static_cast<int>(plan.inputs.size()));
-
-  Progress progress(s.command.quiet, asked.budget, "s of CPU");
-  double spent = 0.0;
-  std::string doing;
-  const MethodOptions options{.jobs = s.command.jobs,
-                              .progress =
-                                  [&](double cpu) {
-                                    spent += cpu;
-                                    progress.update(std::min(spent, asked.budget), doing);
-                                  },
-                              .interrupted = [] { return interrupted(); }};
-  FidelityOutcome o;
-  Failures failures;  // on any rung
-  try {
-    for (Level& level : levels) {
-      doing = "pilot on " + level.rung;
-      complete_samples(*level.model, plan.inputs, design, {0, asked.pilot}, *level.store, options);
-      const StoredValues pilot = stored_values(*level.store, {0, asked.pilot});
-      o.pilot.values.push_back(pilot.values);
-      o.measured_cost.push_back(std::max(pilot.typical_cost, 1e-7));
-      o.spent += pilot.spent;
-      failures.add(pilot.failures);
-    }
-    o.pilot.cost = counted_costs(s, levels, design);
-    try {
-      o.plan = plan_fidelities(o.pilot, asked.budget, plan.design.seed);
-    } catch (const std::invalid_argument& refusal) {
-      progress.clear();
-      throw ComputationError(std::string("[montecarlo] fidelities: ") + refusal.what() +
-                             (failures.count > 0 ? fmt::format("; {} runs of the pilot failed", failures.count) +
-                                                       first_failure_text(failures, "sample")
-                                                 : ""));
-    }
-    progress.clear();
-    if (!s.command.quiet) tell("{}: {}\n", s.question.mechanism->name(), forecast_sentence(o.plan, top));
+  const FidelityStudy o = run_fidelity_study(s.own.run(), plan, [&](const FidelityPlan& planned) {
+    if (!s.command.quiet) tell("{}: {}\n", s.question.mechanism->name(), forecast_sentence(planned, top));
     std::fflush(stdout);
-    std::vector<std::vector<double>> values;
-    for (std::size_t k = 0; k < o.plan.models.size(); ++k) {
-      const Level& level = levels[static_cast<std::size_t>(o.plan.models[k])];
-      const NumberRange range{asked.pilot, asked.pilot + static_cast<std::uint64_t>(o.plan.samples[k])};
-      doing = fmt::format("{} samples on {}", o.plan.samples[k], level.rung);
-      complete_samples(*level.model, plan.inputs, design, range, *level.store, options);
-      const StoredValues stored = stored_values(*level.store, range);
-      values.push_back(stored.values);
-      o.spent += stored.spent;
-      failures.add(stored.failures);
-    }
-    o.mean = estimate_fidelities(o.plan, values, plan.confidence);
-    if (plan.requirement) {
-      const ExcessPilot excess = excess_pilot(o.pilot, plan.requirement->limit);
-      const FidelityPlan weighted = with_excess_weights(o.plan, o.pilot, excess, plan.requirement->limit);
-      // Two sides at 2 c - 1 are one side at c each.
-      o.excess = excess_bounds(weighted, excess_indicators(weighted, values, excess.limits),
-                               2.0 * plan.requirement->confidence - 1.0);
-    }
-  } catch (const MethodInterrupted&) {
-    progress.clear();
+  });
+  if (o.interrupted) {
     if (!s.command.quiet) tell("  interrupted; what was computed is kept, the same command goes on\n");
     return kInterrupted;
   }
-  progress.clear();
-
-  RunOptions top_run = s.run;
-  if (levels[0].model->step() > 0.0) top_run.step = levels[0].model->step();
-  const StudySteps steps = steps_of_study(s.command, s.question.study, s.question.mechanism,
-                                          {.inputs = plan.inputs,
-                                           .runs = static_cast<std::uint64_t>(o.plan.samples[0]),
-                                           .lanes = levels[0].model->batch() > 1},
-                                          top_run, top, levels[0].store.get());
-  if (steps.interrupted) {
-    if (!s.command.quiet) tell("  interrupted; what was computed is kept, the same command goes on\n");
-    return kInterrupted;
-  }
+  const StudySteps& steps = o.steps;
   const double sampling = 0.5 * (o.mean.value.high - o.mean.value.low) / std::abs(o.mean.value.value);
   std::vector<std::string> warnings;
   if (o.mean.failed > 0)
     warnings.push_back(fmt::format("{} samples failed on some rung and are left out of its mean", o.mean.failed) +
-                       first_failure_text(failures, "sample"));
+                       first_failure_text(o.failures, "sample"));
   if (o.plan.models.size() == 1)
     warnings.push_back("the cheaper rungs do not pay: this is plain Monte Carlo on " + top +
                        ", the pilot was spent in vain");
   bool met = true;
-  Json json = several_rungs_summary(s, top, warnings);
-  add_earlier_cost(json, levels.front().store->earlier());
+  Json json = several_rungs_summary(s, top, warnings, o.earlier);
   json["samples"] = o.plan.samples[0];
   json["failed"] = o.mean.failed;
-  add_first_failure(json, failures, "sample");
+  add_first_failure(json, o.failures, "sample");
   json["index"]["mean"] = interval_json(reported(o.mean.value));
   json["error"] = {{"of", "mean"},
                    {"sampling", {{"relative", sampling}, {"why", o.mean.value.basis}}},
@@ -284,14 +153,14 @@ int run_fidelities(const SeveralRungs& s) {
   f["budget"] = asked.budget;
   f["cpu_seconds"] = o.spent;
   f["gain"] = {
-      {"forecast", o.plan.gain}, {"low", o.plan.gain_low}, {"high", o.plan.gain_high}, {"measured", measured_gain(o)}};
+      {"forecast", o.plan.gain}, {"low", o.plan.gain_low}, {"high", o.plan.gain_high}, {"measured", o.measured_gain()}};
   f["standard_error"] = o.mean.standard_error;
   json["files"] = {"summary.json", "report.html", "rungs.csv"};
-  for (const std::string& rung : asked.models) json["files"].push_back("samples-" + rung + ".db");
-  write_json(s.out, "summary.json", json);
-  s.out.write("rungs.csv", [&](std::ostream& out) { write_levels(out, s, o); });
+  for (const std::string& rung : asked.models) json["files"].push_back(store_of_rung(rung));
+  write_json(s.own.out(), "summary.json", json);
+  s.own.out().write("rungs.csv", [&](std::ostream& out) { write_levels(out, s, o); });
 
-  report::Document document = several_rungs_report(s, top, levels.front().model->leaves_out(), warnings);
+  report::Document document = several_rungs_report(s, top, o.leaves_out, warnings);
   document.subtitle = "The mean of the " + s.question.study.index.title() + ", on several rungs at once";
   const std::string sentence = fmt::format("Mean {} ± {}, unbiased for {}", readable(o.mean.value.value, unit),
                                            readable(0.5 * (o.mean.value.high - o.mean.value.low), unit), top);
@@ -304,7 +173,7 @@ int run_fidelities(const SeveralRungs& s) {
       {"mean", readable(o.mean.value.value, unit), "", fmt::format("{:g} % confidence", 100.0 * plan.confidence)},
       {"forecast gain", readable_number(o.plan.gain), "",
        fmt::format("{:.3g} to {:.3g}", o.plan.gain_low, o.plan.gain_high)},
-      {"gain measured", readable_number(measured_gain(o)), "",
+      {"gain measured", readable_number(o.measured_gain()), "",
        "variance of " + top + " alone for the same CPU, over this one's"},
       {"CPU", readable(o.spent, "s"), "", "all samples, the pilot's included"}};
   document.sections.insert(
@@ -313,18 +182,18 @@ int run_fidelities(const SeveralRungs& s) {
                       .title = "How the budget was spent",
                       .intro = "Made before anything but the pilot was spent: " + forecast_sentence(o.plan, top) + ".",
                       .items = {levels_table(s, o), agreement_chart(s, o)}});
-  s.out.write("report.html", [&](std::ostream& out) { report::write_html(out, document); });
-  s.out.publish();
+  s.own.out().write("report.html", [&](std::ostream& out) { report::write_html(out, document); });
+  s.own.out().publish();
   if (!s.command.quiet) {
     tell("  {}\n", sentence);
-    tell("  gain measured: {:.3g} ({:.1f} s of CPU)\n", measured_gain(o), o.spent);
+    tell("  gain measured: {:.3g} ({:.1f} s of CPU)\n", o.measured_gain(), o.spent);
     for (std::size_t k = 0; k < o.plan.models.size(); ++k)
       tell("  {:<14} {:>8} samples, correlation {:.4f}, {} each\n",
            asked.models[static_cast<std::size_t>(o.plan.models[k])], o.plan.samples[k],
            o.plan.correlation[static_cast<std::size_t>(o.plan.models[k])],
            readable(o.measured_cost[static_cast<std::size_t>(o.plan.models[k])], "s"));
     for (const std::string& warning : warnings) tell("  warning: {}\n", warning);
-    tell("  report: {}\n", (s.out.path() / "report.html").string());
+    tell("  report: {}\n", (s.own.out().path() / "report.html").string());
   }
   return met ? kDone : kAnswerIsNo;
 }

@@ -5,9 +5,7 @@
 #include <fstream>
 #include <ostream>
 
-#include "boresight/io/content_hash.hpp"
 #include "boresight_analyses/montecarlo/montecarlo.hpp"
-#include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "command_line/montecarlo_study.hpp"
 #include "command_line/study_input.hpp"
@@ -17,8 +15,7 @@
 #include "montecarlo/several_rungs.hpp"
 #include "report/report.hpp"
 #include "results/scatter_parts.hpp"
-#include "results/stored_study.hpp"
-#include "results/summary.hpp"
+#include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
 #include "terminal/progress.hpp"
@@ -68,24 +65,25 @@ class MonteCarloVerb : public Verb {
     const nlohmann::json identity = identity_for(command, question);
     if (question.plan.fidelities || question.plan.tail) {
       if (!first) return kDone;  // one rank does it all
-      const OutputDirectory out = OutputDirectory::open(command.out, command.verb, command.file, identity);
+      const VerbStudy own(command, question.mechanism, question.study.index, question.study.accuracy, run, identity);
       if (!resumption_.from.empty())
         throw InputError({"command line", 0}, "--from", in_quotes(resumption_.from),
                          "none: a study on several rungs goes on in its own folder");
-      const SeveralRungs several{command, question, run, out, watch};
+      const SeveralRungs several{command, question, own, watch};
       return question.plan.fidelities ? run_fidelities(several) : run_tail(several);
     }
 
     // Rank 0 owns the folder, finds the rung, and tells the others both.
     std::string told;
-    std::unique_ptr<OutputDirectory> out;
+    std::unique_ptr<VerbStudy> own;
     std::unique_ptr<SampleStore> store;
     RungChoice choice;
     if (first) {
-      out = std::make_unique<OutputDirectory>(OutputDirectory::open(command.out, command.verb, command.file, identity));
-      store = open_store(*out, question);
-      choice = rung_for(command, question, run, *store);
-      told = nlohmann::json{{"folder", out->path().string()},
+      own = std::make_unique<VerbStudy>(command, question.mechanism, question.study.index, question.study.accuracy, run,
+                                        identity);
+      store = open_store(*own, question);
+      choice = rung_for(own->run(), question, *store);
+      told = nlohmann::json{{"folder", own->out().path().string()},
                             {"rung", choice.name},
                             {"step", choice.step},
                             {"integrator", choice.integrator},
@@ -102,12 +100,14 @@ class MonteCarloVerb : public Verb {
            .integrator = heard["integrator"],
            .tolerance = heard["tolerance"]},
           model_options);
+    StudyRunOptions asked = run_options_of(command, question.study.index, question.study.accuracy, run);
+    asked.identity = identity.dump();
+    const StudyRun on_any_rank(question.mechanism, asked);
     const std::unique_ptr<SampleModel> sampled =
-        sample_model(heard["rung"], question.mechanism, question.parameters_of(), question.study.index, model_options,
-                     scene_varies(question.plan.inputs));
+        on_any_rank.model_of_scatter(heard["rung"], question.plan.inputs, model_options);
     const SampleModel& model = *sampled;
     MonteCarloOptions options{.folder = heard["folder"].get<std::string>(),
-                              .facts = {{"study", hash_of(identity)}},
+                              .facts = {{"study", on_any_rank.hash()}},
                               .jobs = command.jobs,
                               .progress = {},
                               .interrupted = [] { return interrupted(); }};
@@ -121,48 +121,33 @@ class MonteCarloVerb : public Verb {
     options.progress = [&](const MonteCarloProgress& p) { show(progress, p, question); };
     const std::uint64_t begun_with = store->count();
     const Stopwatch sampling;
-    MonteCarloResult result =
-        with_options_checked([&] { return run_montecarlo(model, question.plan, store.get(), *ranks, options); });
+    MonteCarloResult result = run_montecarlo(model, question.plan, store.get(), *ranks, options);
     progress.clear();
     const std::string stuck = no_run_done(result.ended == Ended::interrupted || result.ended == Ended::time, begun_with,
                                           store->count(), sampling.wall_seconds());
     // Last, as it keeps nothing before it ends: the samples get on in however short a time a process has.
     StudySteps steps{kNotMeasured, "not measured: the study was interrupted before"};
     if (result.ended != Ended::interrupted)
-      steps = steps_of_study(command, question.study, question.mechanism,
-                             {.inputs = question.plan.inputs,
-                              .statistic = asked_of_scatter(question.plan),
-                              .runs = question.plan.samples,
-                              .lanes = true},
-                             model_options, model.rung(), store.get());
+      steps = own->run().steps_of_scatter({.inputs = question.plan.inputs,
+                                           .statistic = asked_of_scatter(question.plan),
+                                           .runs = question.plan.samples,
+                                           .lanes = true},
+                                          model_options, model.rung(), store.get());
     if (steps.interrupted) result.ended = Ended::interrupted;
-    return write_results(command, question, choice, model, *store, steps, result, watch, *out, stuck);
+    return write_results(command, question, choice, model, *store, steps, result, watch, *own, stuck);
   }
 
  private:
   nlohmann::json identity_for(const Command& command, const MonteCarloQuestion& question) const {
-    ContentHash samples;
-    samples.add(question.plan.sample_text(question.study));
     nlohmann::json options = motion_.model_identity();
     if (question.study.accuracy) options["study_accuracy"] = *question.study.accuracy;
-    return identity_of(command, question.mechanism->description().content_hash, samples.hexadecimal(), options);
-  }
-  static std::string hash_of(const nlohmann::json& identity) {
-    ContentHash hash;
-    hash.add(identity.dump());
-    return hash.hexadecimal();
+    return identity_of_study(command, *question.mechanism, question.plan.sample_text(question.study), options);
   }
 
-  std::unique_ptr<SampleStore> open_store(const OutputDirectory& out, const MonteCarloQuestion& question) const {
-    bring_runs(out, hash_of(out.identity()), resumption_);
-    const std::filesystem::path file = out.path() / "samples.db";
-    const bool there = std::filesystem::exists(file);
-    announce_begun(out, name(), "begun and not yet ended: samples.db holds what there is; the same command goes on");
-    auto store = std::make_unique<SampleStore>(
-        file, std::map<std::string, std::string>{{"study", hash_of(out.identity())}}, question.plan.inputs.names());
-    tell_of_damage(store->damage());
-    merge_shards(*store, out.path());
-    if (!there || store->fact("mechanism").empty()) {
+  std::unique_ptr<SampleStore> open_store(const VerbStudy& own, const MonteCarloQuestion& question) const {
+    std::unique_ptr<SampleStore> store = own.open_samples("", question.plan.inputs.names(), resumption_);
+    merge_shards(*store, own.out().path());
+    if (store->fact("mechanism").empty()) {
       store->note("mechanism", question.mechanism->name());
       store->note("mechanism_hash", question.mechanism->description().content_hash);
       store->note("index", question.study.index.quantity + "." + question.study.index.statistic);
@@ -176,21 +161,20 @@ class MonteCarloVerb : public Verb {
   }
 
   // A study keeps its rung: the one it was begun with is the one it goes on with.
-  static RungChoice rung_for(const Command& command, const MonteCarloQuestion& question, const RunOptions& run,
-                             SampleStore& store) {
-    if (!store.rungs().empty()) return stored_choice(store);
-    RungChoice choice = choose_rung_of_scatter(command, question.study, run, question.mechanism,
-                                               {.inputs = question.plan.inputs,
-                                                .statistic = asked_of_scatter(question.plan),
-                                                .runs = question.plan.samples,
-                                                .lanes = true,
-                                                .integrators = true});
+  static RungChoice rung_for(const StudyRun& own, const MonteCarloQuestion& question, SampleStore& store) {
+    if (const std::optional<RungChoice> begun_with = stored_choice(store)) return *begun_with;
+    const RunOptions& run = own.options().run;
+    RungChoice choice = own.choose_rung_of_scatter({.inputs = question.plan.inputs,
+                                                    .statistic = asked_of_scatter(question.plan),
+                                                    .runs = question.plan.samples,
+                                                    .lanes = true,
+                                                    .integrators = true});
     // A pilot has chosen the step too. Lanes choose each sample's steps by its error; what else runs with rk4 takes one
     // step for all samples.
     const bool lanes =
         choice.name == "perturbation" && LaneSampleModel::serve(*question.mechanism, question.study.index, run);
     if (!choice.pilot && !lanes && run.step == 0.0)
-      choice.step = kept_common_step(choice.name, question.mechanism, question.plan.inputs, run, store);
+      choice.step = own.common_step_of_scatter(choice.name, question.plan.inputs, run, store);
     note_choice(store, choice);
     if (choice.pilot) {
       store.note("pilot_reference_error", fmt::format("{:.17g}", choice.pilot->reference_error));
@@ -211,8 +195,9 @@ class MonteCarloVerb : public Verb {
 
   int write_results(const Command& command, const MonteCarloQuestion& question, const RungChoice& choice,
                     const SampleModel& model, SampleStore& store, const StudySteps& steps,
-                    const MonteCarloResult& result, const Stopwatch& watch, const OutputDirectory& out,
+                    const MonteCarloResult& result, const Stopwatch& watch, const VerbStudy& own,
                     const std::string& stuck) const {
+    const OutputDirectory& out = own.out();
     ModelError error;
     const ShownSamples shown = shown_samples(store, result, error);
     error.discretisation = steps.relative;
@@ -241,7 +226,7 @@ class MonteCarloVerb : public Verb {
                           .replay = replay_command(command, choice, model)};
     if (!stuck.empty()) study.warnings.push_back(stuck);
     if (!store.damage().empty()) study.warnings.push_back(store.damage());
-    write_json(out, "summary.json", summary_of(study, watch, out, store));
+    write_json(out, "summary.json", summary_of(study, watch, own, store));
     out.write("report.html", [&](std::ostream& s) { report::write_html(s, montecarlo_report(study)); });
     out.publish();
     if (!command.quiet) print(study, out);
@@ -321,12 +306,9 @@ class MonteCarloVerb : public Verb {
     return text + " --sample-number";
   }
 
-  static Json summary_of(const MonteCarloStudy& s, const Stopwatch& watch, const OutputDirectory& out,
+  static Json summary_of(const MonteCarloStudy& s, const Stopwatch& watch, const VerbStudy& own,
                          const SampleStore& store) {
-    Json json =
-        common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, s.result.ended == Ended::interrupted, out);
-    add_earlier_cost(json, store.earlier());
-    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    Json json = own.head(s.study, s.rung, watch, s.warnings, s.result.ended == Ended::interrupted, store.earlier());
     json["seed"] = s.plan.design.seed;
     json["design"] = s.plan.design.text();
     json["step"] = store.rungs().front().step;

@@ -22,8 +22,8 @@
 #include "report_parts/step_error_parts.hpp"
 #include "results/assumed.hpp"
 #include "results/scatter_parts.hpp"
-#include "results/summary.hpp"
 #include "results/tables.hpp"
+#include "results/verb_study.hpp"
 #include "run/nonlinear_section.hpp"
 #include "run/run_report.hpp"
 #include "terminal/exit_status.hpp"
@@ -182,19 +182,13 @@ class RunVerb : public Verb {
       progress.update(p.t, "position error so far " + readable(p.position_error_max_so_far, "m"));
       return !interrupted();
     };
-    const RungChoice choice = choose_rung_in_sight(command,
-                                                   {.accuracy = command.accuracy,
-                                                    .wants_multibody = motion_.asks_for_multibody(),
-                                                    .index = index,
-                                                    .step = options.step,
-                                                    .integrator = options.integrator,
-                                                    .tolerance = options.tolerance,
-                                                    .integrators = true},
-                                                   kPilotTrials, mechanism, {mechanism->parameters()});
+    const RungChoice choice = StudyRun(mechanism, run_options_of(command, index, {}, options))
+                                  .choose_rung({.wants_multibody = motion_.asks_for_multibody(), .integrators = true},
+                                               kPilotTrials, {mechanism->parameters()});
     apply(choice, options);
 
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
-    RunResult result = with_options_checked([&] { return rung->run(mechanism->parameters(), options); });
+    RunResult result = rung->run(mechanism->parameters(), options);
     refuse_infinite(result);
     add_range_warnings(*mechanism, result);
     std::vector<Compared> others;

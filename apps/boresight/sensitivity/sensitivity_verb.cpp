@@ -4,17 +4,14 @@
 #include <cmath>
 #include <ostream>
 
-#include "boresight/io/content_hash.hpp"
-#include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/sensitivity/exact_slopes.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
 #include "report/report.hpp"
 #include "results/scatter_parts.hpp"
-#include "results/stored_study.hpp"
-#include "results/summary.hpp"
 #include "results/tables.hpp"
+#include "results/verb_study.hpp"
 #include "sensitivity/sensitivity_report.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
@@ -70,21 +67,15 @@ class SensitivityVerb : public Verb {
     check_rung_name(command.rung);
     RunOptions run = motion_.run_options(*mechanism, command.rung);
 
-    ContentHash runs;
-    runs.add(plan.text(study));
     nlohmann::json options = motion_.model_identity();
     if (study.accuracy) options["study_accuracy"] = *study.accuracy;
-    const OutputDirectory out =
-        OutputDirectory::open(command.out, command.verb, command.file,
-                              identity_of(command, mechanism->description().content_hash, runs.hexadecimal(), options));
-    SampleStore store = open_runs(out, name(), plan.inputs, plan.text(study), resumption_);
-    tell_of_damage(store.damage());
-    const RungChoice choice = rung_for(command, study, mechanism, plan, run, store);
+    const VerbStudy own(command, mechanism, study.index, study.accuracy, run,
+                        identity_of_study(command, *mechanism, plan.text(study), options));
+    const std::unique_ptr<SampleStore> opened = own.open_samples(plan.text(study), plan.inputs.names(), resumption_);
+    SampleStore& store = *opened;
+    const RungChoice choice = rung_for(own.run(), plan, store);
     apply(choice, run);
-    const std::unique_ptr<SampleModel> sampled = sample_model(
-        choice.name, mechanism,
-        [mechanism, &plan](std::span<const double> values) { return plan.inputs.parameters_with(*mechanism, values); },
-        study.index, run, scene_varies(plan.inputs));
+    const std::unique_ptr<SampleModel> sampled = own.run().model_of_scatter(choice.name, plan.inputs, run);
     const SampleModel& model = *sampled;
     store.use_rung(model.rung(), model.step());
 
@@ -103,8 +94,7 @@ class SensitivityVerb : public Verb {
     };
     const std::uint64_t begun_with = store.count();
     const Stopwatch computing;
-    const bool whole =
-        with_options_checked([&] { return compute_sensitivity_runs(model, plan, store, options_of_runs); });
+    const bool whole = compute_sensitivity_runs(model, plan, store, options_of_runs);
     const std::string stuck = no_run_done(!whole, begun_with, store.count(), computing.wall_seconds());
     std::optional<GlobalSensitivity> global;
     LocalResult local;
@@ -137,8 +127,8 @@ class SensitivityVerb : public Verb {
     result.warnings = warnings_of(result);
     if (!stuck.empty()) result.warnings.push_back(stuck);
     if (!store.damage().empty()) result.warnings.push_back(store.damage());
-    write(result, out, watch, store.earlier());
-    if (!command.quiet) print(result, out);
+    write(result, own, watch, store.earlier());
+    if (!command.quiet) print(result, own.out());
     if (result.interrupted) return kInterrupted;
     if (!global)
       return failed(command, "too many runs failed for indices" + first_failure_text(result.failures, "run"));
@@ -147,17 +137,16 @@ class SensitivityVerb : public Verb {
 
  private:
   // With the step that all runs share.
-  static RungChoice rung_for(const Command& command, const Study& study,
-                             const std::shared_ptr<const Mechanism>& mechanism, const SensitivityPlan& plan,
-                             const RunOptions& run, SampleStore& store) {
+  static RungChoice rung_for(const StudyRun& own, const SensitivityPlan& plan, SampleStore& store) {
     const bool begun = !store.rungs().empty();
     RungChoice choice =
-        rung_of_study(command, study, mechanism,
-                      {.inputs = plan.inputs, .runs = plan.runs(), .lanes = true, .integrators = true}, run, store);
+        own.rung_of_scatter({.inputs = plan.inputs, .runs = plan.runs(), .lanes = true, .integrators = true}, store);
     if (begun || choice.pilot) return choice;
-    const bool lanes = choice.name == "perturbation" && LaneSampleModel::serve(*mechanism, study.index, run);
+    const RunOptions& run = own.options().run;
+    const bool lanes =
+        choice.name == "perturbation" && LaneSampleModel::serve(*own.mechanism(), own.options().index, run);
     if (!lanes && choice.step == 0.0 && run.step == 0.0)
-      choice.step = kept_common_step(choice.name, mechanism, plan.inputs, run, store);
+      choice.step = own.common_step_of_scatter(choice.name, plan.inputs, run, store);
     return choice;
   }
 
@@ -187,11 +176,10 @@ class SensitivityVerb : public Verb {
     return warnings;
   }
 
-  static void write(const SensitivityStudy& s, const OutputDirectory& out, const Stopwatch& watch,
+  static void write(const SensitivityStudy& s, const VerbStudy& own, const Stopwatch& watch,
                     const SampleStore::Cost& earlier) {
-    Json json = common_summary(s.command, s.mechanism, s.rung, watch, s.warnings, s.interrupted, out);
-    add_earlier_cost(json, earlier);
-    json["study"] = {{"file", s.study.file}, {"hash", s.study.content_hash}};
+    const OutputDirectory& out = own.out();
+    Json json = own.head(s.study, s.rung, watch, s.warnings, s.interrupted, earlier);
     json["seed"] = s.plan.design.seed;
     json["design"] = s.plan.design.text();
     json["samples"] = s.plan.rows;

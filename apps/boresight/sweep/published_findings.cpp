@@ -6,9 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "boresight/contact_events/contact_report.hpp"
-#include "boresight/mechanism/error.hpp"
-#include "boresight_analyses/sweep/sweep_line.hpp"
+#include "boresight_analyses/sweep/paper_facts.hpp"
 #include "terminal/readable.hpp"
 
 namespace boresight::app {
@@ -41,22 +39,8 @@ double max_error(const RunResult& r) { return r.index.position_error.max; }
 double rms_error(const RunResult& r) { return r.index.position_error.rms; }
 double max_rotation(const RunResult& r) { return r.index.orientation_error.max; }
 
-bool parallel_axes(const Mechanism& mechanism) {
-  const auto& all = mechanism.description().clearances;
-  return std::all_of(all.begin(), all.end(),
-                     [](const ClearanceDescription& c) { return c.axes == JournalAxes::parallel; });
-}
-
-// A rotation is called none if it moves a point one characteristic length away by less than 1 % of the
-// displacement error.
-bool untouched(const Mechanism& mechanism, const SweepLine& line) {
-  return std::all_of(line.results.begin(), line.results.end(), [&](const RunResult* r) {
-    return max_rotation(*r) * mechanism.characteristic_length() < 0.01 * max_error(*r);
-  });
-}
-
 PublishedFinding orientation_untouched(const Mechanism& mechanism, const SweepLine& line, const std::string& what) {
-  const bool none = untouched(mechanism, line);
+  const bool none = orientation_stays(mechanism, line);
   return {fmt::format("The {} has a great influence on the linear displacement of the platform but little on "
                       "the angular displacement.",
                       what),
@@ -95,18 +79,15 @@ PublishedFinding angular_acceleration(const Mechanism& mechanism, const SweepLin
 // ---- clearance
 
 PublishedFinding strongest_direction(const SweepLine& line) {
-  int strongest_is_y = 0;
+  const DisturbedDirections found = disturbed_directions(line);
   std::string axes;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    const Vec3 a = acceleration_disturbance(*line.results[i]).value_or(Vec3::Zero());
-    Vec3::Index k = 0;
-    a.maxCoeff(&k);
-    strongest_is_y += k == 1;
+    const Vec3& a = found.disturbance[i];
     axes += fmt::format("{}{}: x {:.0f}, y {:.0f}, z {:.0f} m/s²", i ? "; " : "",
                         readable(line.values[i], line.axis->si_unit), a.x(), a.y(), a.z());
   }
   return {"Especially the acceleration changes in the Y direction are more severe.",
-          agrees_if(2 * strongest_is_y > static_cast<int>(line.size())),
+          agrees_if(2 * found.strongest_is_y > static_cast<int>(line.size())),
           "Largest departure from the ideal acceleration: " + axes + ".",
           "Which world axis takes the impacts depends on where leg 1 stands and on the leg's dimensions, "
           "which the paper does not give. In our mechanism leg 1 stands in the "
@@ -158,24 +139,6 @@ Findings of_clearance(const Mechanism& mechanism, const SweepLine& line) {
 
 // ---- load
 
-// The means at every point of the line, or nothing if one of them has none.
-std::optional<std::vector<MeanContact>> mean_contacts(const Mechanism& mechanism, const SweepPlan& plan,
-                                                      const SweepLine& line) {
-  std::vector<MeanContact> means;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    try {
-      const auto contacts = analyse_contacts(mechanism, plan.parameters_at(mechanism, line.point[i]));
-      const auto mean =
-          contacts.empty() ? std::nullopt : mean_contact(*line.results[i], contacts.front().hertz_stiffness);
-      if (!mean) return std::nullopt;
-      means.push_back(*mean);
-    } catch (const ComputationError&) {
-      return std::nullopt;
-    }
-  }
-  return means;
-}
-
 PublishedFinding deviation_grows_with_load(const Mechanism& mechanism, const SweepPlan& plan, const SweepLine& line) {
   const std::vector<double> maximum = over(line, max_error), rms = over(line, rms_error);
   PublishedFinding finding{
@@ -201,20 +164,7 @@ PublishedFinding deviation_grows_with_load(const Mechanism& mechanism, const Swe
 }
 
 PublishedFinding directions_under_load(const SweepLine& line) {
-  Vec3 first = Vec3::Zero(), last = Vec3::Zero();
-  double time_of_z = 0.0, largest_z = 0.0;
-  for (const PoseSample& s : line.results.front()->boresight.samples)
-    first = first.cwiseMax(s.error.displacement.cwiseAbs());
-  const RunResult& heaviest = *line.results.back();
-  for (std::size_t i = 0; i < heaviest.time.size(); ++i) {
-    const Vec3 now = heaviest.boresight.samples[i].error.displacement.cwiseAbs();
-    last = last.cwiseMax(now);
-    if (now.z() > largest_z) {
-      largest_z = now.z();
-      time_of_z = heaviest.time[i];
-    }
-  }
-  const Vec3 growth = last - first;
+  const auto [growth, time_of_z] = growth_per_axis(line);
   return {
       "The X displacement does not change significantly with load, the Y displacement deviates at its peak, "
       "the Z displacement most at 0.25 s.",
@@ -231,10 +181,8 @@ PublishedFinding peaks_against_load(const SweepLine& line) {
   const std::vector<double> peak = over(line, peak_acceleration), speed = over(line, fastest_impact),
                             force = over(line, largest_force);
   const std::vector<double> flight = over(line, free_flight_share);
-  const std::vector<double> off = over(line, [](const RunResult& r) { return off_the_bore_share(r).value_or(0.0); });
+  const auto [off, least, interior] = least_off_the_bore(line);
   const bool rising = rises(peak, 0.05), falling = falls(peak, 0.05);
-  const auto least = static_cast<std::size_t>(std::min_element(off.begin(), off.end()) - off.begin());
-  const bool interior = line.size() > 2 && least > 0 && least + 1 < line.size();
   std::string measured = fmt::format(
       "Peak acceleration: {}. Fastest impact: {}. Largest force: {}. Impacts: {}. Free flight: {}. Away from "
       "the bore: {}. ",
@@ -266,18 +214,10 @@ PublishedFinding peaks_against_load(const SweepLine& line) {
 }
 
 std::optional<PublishedFinding> intervals_of_impacts(const SweepLine& line) {
-  // A "sudden change" is an impact that shows in the curve: among the twenty fastest, in the order of time.
-  const RunResult& heaviest = *line.results.back();
-  std::vector<const ContactEvent*> events;
-  for (const ContactEvent& e : heaviest.events) events.push_back(&e);
-  constexpr std::size_t kShown = 20;
-  if (events.size() < 10) return std::nullopt;
-  std::sort(events.begin(), events.end(), [](const auto* a, const auto* b) { return a->start_speed > b->start_speed; });
-  events.resize(std::min(kShown, events.size()));
-  std::sort(events.begin(), events.end(), [](const auto* a, const auto* b) { return a->start < b->start; });
-  const std::size_t n = events.size();
-  const double early = (events[4]->start - events[0]->start) / 4.0,
-               late = (events[n - 1]->start - events[n - 5]->start) / 4.0;
+  // A "sudden change" is an impact that shows in the curve.
+  const std::optional<ImpactIntervals> found = impact_intervals(*line.results.back());
+  if (!found) return std::nullopt;
+  const auto [n, early, late] = *found;
   return PublishedFinding{
       "At 500 kg the first four sudden changes of the acceleration are about 0.02 s apart, the last four "
       "0.09 s.",
@@ -314,23 +254,13 @@ std::optional<PublishedFinding> matching(const SweepPlan& plan, const SweepResul
                                          std::size_t load) {
   std::string text;
   bool interior = false, least_load_is_best = true;
-  for (const double c : plan.axes[clearance].values) {
-    const SweepPoint *steadiest = nullptr, *best = nullptr;
-    for (const SweepPoint& p : result.points) {
-      if (p.status != SweepPoint::Status::done || p.values[clearance] != c) continue;
-      if (!steadiest || free_flight_share(p.result) < free_flight_share(steadiest->result)) steadiest = &p;
-      if (!best || max_error(p.result) < max_error(best->result)) best = &p;
-    }
-    if (!best) continue;
-    const auto& loads = plan.axes[load].values;
-    const double least = *std::min_element(loads.begin(), loads.end()),
-                 most = *std::max_element(loads.begin(), loads.end());
-    interior = interior || (steadiest->values[load] > least && steadiest->values[load] < most);
-    least_load_is_best = least_load_is_best && best->values[load] == least;
-    text +=
-        fmt::format("{}At {}: smallest error at {}, least free flight at {}.", text.empty() ? "" : " ",
-                    readable(c, plan.axes[clearance].si_unit), readable(best->values[load], plan.axes[load].si_unit),
-                    readable(steadiest->values[load], plan.axes[load].si_unit));
+  for (const BestLoads& best : best_loads(plan, result, clearance, load)) {
+    interior = interior || best.interior;
+    least_load_is_best = least_load_is_best && best.least_load;
+    text += fmt::format("{}At {}: smallest error at {}, least free flight at {}.", text.empty() ? "" : " ",
+                        readable(best.clearance, plan.axes[clearance].si_unit),
+                        readable(best.smallest_error, plan.axes[load].si_unit),
+                        readable(best.least_flight, plan.axes[load].si_unit));
   }
   if (text.empty()) return std::nullopt;
   return PublishedFinding{
@@ -344,16 +274,6 @@ std::optional<PublishedFinding> matching(const SweepPlan& plan, const SweepResul
                            "the share of time in which the journal does not fly."
                          : "At some clearance the error is smallest with a load above the least one: there "
                            "matching pays in accuracy as well."};
-}
-
-bool names_clearance(const SweepAxis& axis) {
-  return std::any_of(axis.parameters.begin(), axis.parameters.end(), [](const std::string& path) {
-    return path.starts_with("clearance.") && (path.ends_with(".radial") || path.ends_with(".axial"));
-  });
-}
-
-bool names_load(const SweepAxis& axis) {
-  return std::find(axis.parameters.begin(), axis.parameters.end(), "payload.mass") != axis.parameters.end();
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 // held against the numbers of a sweep: each statement, what the sweep measured, whether they agree, and why
 // it is so.
 //
-// Every verdict is a comparison of the sweep's own numbers. A statement shows only if an axis of the sweep
+// Every verdict is a comparison of the sweep's own numbers (sweep/paper_facts.hpp). A statement shows only if an axis of the sweep
 // speaks to it: one over clearance.*.radial or .axial, one over payload.mass.
 #pragma once
 

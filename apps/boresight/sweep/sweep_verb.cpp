@@ -10,8 +10,8 @@
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
 #include "report/report.hpp"
-#include "results/summary.hpp"
 #include "results/tables.hpp"
+#include "results/verb_study.hpp"
 #include "sweep/sweep_report.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
@@ -86,7 +86,7 @@ void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mech
 void print(const Study& study, const SweepPlan& plan, const Mechanism& mechanism, const SweepResult& result,
            const OutputDirectory& out) {
   tell("{}: {} points{}; index: {}\n", mechanism.name(), result.points.size(),
-       result.interrupted ? " (interrupted)" : "", study.index.title());
+       result.interrupted ? " (interrupted; the same command goes on)" : "", study.index.title());
   constexpr std::size_t kShown = 20;
   for (std::size_t k = 0; k < std::min(kShown, result.points.size()); ++k) {
     const SweepPoint& p = result.points[k];
@@ -120,9 +120,10 @@ class SweepVerb : public Verb {
     options.run = motion_.run_options(*mechanism, command.rung);
     options.run.start = study.index.start;
     options.jobs = command.jobs;
-    const OutputDirectory out = OutputDirectory::open(
-        command.out, command.verb, command.file,
+    const VerbStudy own(
+        command, mechanism, study.index, study.accuracy, options.run,
         identity_of(command, mechanism->description().content_hash, study.content_hash, motion_.identity()));
+    const OutputDirectory& out = own.out();
     const bool histories = plan.points() <= kMostPointsWithHistories;
     options.run.sample_spacing =
         histories ? options.run.sample_spacing /
@@ -131,18 +132,14 @@ class SweepVerb : public Verb {
     options.run.events = histories;
 
     // The grid's first and last corner: what is true of both is taken to be true between them.
-    const RungChoice choice =
-        choose_rung_in_sight(command,
-                             {.accuracy = command.accuracy ? command.accuracy : study.accuracy,
-                              .wants_multibody = motion_.asks_for_multibody(),
-                              .index = study.index,
-                              .step = options.run.step,
-                              .integrator = options.run.integrator,
-                              .tolerance = options.run.tolerance,
-                              .integrators = true},
-                             kPilotTrials, mechanism,
-                             {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
+    Unfinished begun = own.run().go_on([&] {
+      return own.run().choose_rung(
+          {.wants_multibody = motion_.asks_for_multibody(), .integrators = true}, kPilotTrials,
+          {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
+    });
+    const RungChoice& choice = begun.rung;
     apply(choice, options.run);
+    options.kept = begun.results.get();
 
     Progress progress(command.quiet, static_cast<double>(plan.points()), "points");
     options.progress = [&](const SweepProgress& p) {
@@ -150,14 +147,16 @@ class SweepVerb : public Verb {
       return !interrupted();
     };
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
-    const SweepResult result = with_options_checked([&] { return run_sweep(*rung, *mechanism, plan, options); });
+    const SweepResult result = run_sweep(*rung, *mechanism, plan, options);
 
-    write_json(out, "summary.json", summary_of(command, study, *mechanism, choice, plan, result, watch, out));
+    write_json(out, "summary.json", summary_of(own, study, choice, plan, result, watch, begun.results->earlier()));
     out.write("sweep.csv", [&](std::ostream& s) { write_sweep(s, plan, *mechanism, result); });
     out.write("report.html", [&](std::ostream& s) {
       report::write_html(s, sweep_report(command, study, *mechanism, choice, rung->leaves_out(), plan, result));
     });
     out.publish();
+    begun.results.reset();
+    if (!result.interrupted) own.run().forget(kUnfinished);
     progress.clear();
     if (!command.quiet) print(study, plan, *mechanism, result, out);
     if (result.interrupted) return kInterrupted;
@@ -169,14 +168,12 @@ class SweepVerb : public Verb {
   }
 
  private:
-  static Json summary_of(const Command& command, const Study& study, const Mechanism& mechanism,
-                         const RungChoice& choice, const SweepPlan& plan, const SweepResult& result,
-                         const Stopwatch& watch, const OutputDirectory& out) {
+  static Json summary_of(const VerbStudy& own, const Study& study, const RungChoice& choice, const SweepPlan& plan,
+                         const SweepResult& result, const Stopwatch& watch, const SampleStore::Cost& earlier) {
     std::vector<std::string> warnings;
     for (const SweepPoint& p : result.points)
       if (p.status == SweepPoint::Status::failed) warnings.push_back(point_name(plan, p, true) + ": " + p.failure);
-    Json json = common_summary(command, mechanism, choice, watch, warnings, result.interrupted, out);
-    json["study"] = {{"file", study.file}, {"hash", study.content_hash}};
+    Json json = own.head(study, choice, watch, warnings, result.interrupted, earlier);
     json["index"] = {
         {"quantity", study.index.quantity}, {"statistic", study.index.statistic}, {"values", Json::array()}};
     json["points"] = Json::array();

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
 #include "boresight/ladder/ladder.hpp"
 #include "example.hpp"
 
@@ -80,6 +82,44 @@ TEST_F(SweepTest, AFailedPointNamesItsReasonAndTheOthersGoOn) {
   EXPECT_EQ(result.failed, 6u);
   EXPECT_FALSE(result.interrupted);
   EXPECT_THAT(result.points[0].failure, testing::HasSubstr("F1"));
+}
+
+// Of all that a point has, its history and its contacts, and the time that it took: it was not computed again.
+TEST_F(SweepTest, GoesOnWithThePointsThatAreKept) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "boresight_kept_points.db";
+  std::filesystem::remove(file);
+  const auto sweep_kept = [&](const std::function<bool(const SweepProgress&)>& progress) {
+    KeptResults kept(std::make_unique<SampleStore>(file, std::map<std::string, std::string>{{"study", "this"}},
+                                                   KeptResults::columns()));
+    SweepOptions options;
+    options.progress = progress;
+    options.kept = &kept;
+    return run_sweep(*rung_, *mechanism_, plan_, options);
+  };
+  const SweepResult begun = sweep_kept([](const SweepProgress& p) { return p.done < 2.5; });
+  ASSERT_TRUE(begun.interrupted);
+  ASSERT_EQ(begun.points[1].status, SweepPoint::Status::done);
+  const SweepResult ended = sweep_kept({}), whole = sweep(1);
+  ASSERT_FALSE(ended.interrupted);
+  for (std::size_t k = 0; k < whole.points.size(); ++k) {
+    const RunResult &mine = ended.points[k].result, &theirs = whole.points[k].result;
+    expect_same(mine, theirs);
+    EXPECT_EQ(ended.points[k].values, whole.points[k].values);
+    EXPECT_EQ(mine.integrator, theirs.integrator);
+    EXPECT_EQ(mine.contact[0].joint, theirs.contact[0].joint);
+    EXPECT_EQ(mine.error.basis, theirs.error.basis);
+    EXPECT_EQ(mine.warnings, theirs.warnings);
+    EXPECT_EQ(mine.boresight.samples.back().pose.q.coeffs(), theirs.boresight.samples.back().pose.q.coeffs());
+    ASSERT_EQ(mine.events.size(), theirs.events.size());
+    for (std::size_t e = 0; e < mine.events.size(); ++e) {
+      EXPECT_EQ(mine.events[e].place, theirs.events[e].place);
+      EXPECT_EQ(mine.events[e].max_force, theirs.events[e].max_force);
+    }
+    if (k < 2) {
+      EXPECT_EQ(mine.cost.cpu_seconds, begun.points[k].result.cost.cpu_seconds);
+    }
+  }
+  std::filesystem::remove(file);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <sstream>
 
 #include "program.hpp"
 
@@ -86,6 +87,59 @@ TEST_F(InterruptionTest, ASweepKeepsThePointsThatWereDone) {
   const auto alone = json("alone/summary.json")["points"];
   EXPECT_EQ(points[done.front()]["index"], alone[0]["index"]);
   EXPECT_EQ(points[done.back()]["index"], alone[1]["index"]);
+}
+
+TEST_F(InterruptionTest, ASweepGoesOnWithThePointsThatWereDone) {
+  std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << mechanism_
+                                        << "\"\n[[sweep.axis]]\nparameter = \"payload.mass\"\n"
+                                        << "from = \"0 kg\"\nto = \"500 kg\"\ncount = 40\n";
+  const auto sweep = [](const std::string& out) {
+    return std::vector<std::string>{"sweep", "study.toml", "--rung", "perturbation", "--step",
+                                    "10 us", "--out",      out,      "--jobs",       "2"};
+  };
+  ASSERT_EQ(interrupted(sweep("out"), SIGINT).status, 130);
+  EXPECT_THAT(files("out"), testing::UnorderedElementsAre("report.html", "summary.json", "sweep.csv", "unfinished.db"));
+  const auto before = json("out/summary.json")["points"];
+  const Ended ended = call(sweep("out"));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(files("out"), testing::UnorderedElementsAre("report.html", "summary.json", "sweep.csv"));
+  const auto after = json("out/summary.json")["points"];
+  int done = 0;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (before[k]["status"] != "done") continue;
+    ++done;
+    EXPECT_EQ(before[k], after[k]) << "its CPU time too: it was not computed again";
+  }
+  EXPECT_GT(done, 0);
+  EXPECT_LT(done, 40);
+  ASSERT_EQ(call(sweep("whole")).status, 0);
+  EXPECT_EQ(text("out/sweep.csv"), text("whole/sweep.csv"));
+  EXPECT_TRUE(text("out/report.html") == text("whole/report.html"));
+}
+
+TEST_F(InterruptionTest, AChartGoesOnWithWhatWasMeasured) {
+  const std::vector<std::string> chart = {"chart",  mechanism_, "--set", "motion.duration=50ms",
+                                          "--time", "4 s",      "--out", "out"};
+  const auto rows = [&] {
+    std::vector<std::string> found;
+    std::istringstream table(text("out/chart.csv"));
+    for (std::string line; std::getline(table, line);)
+      found.push_back(line.substr(0, line.rfind(',', line.rfind(',') - 1)));
+    return found;
+  };
+  // On a busy machine the first start may not come beyond the reference: the next one goes on from there.
+  std::vector<std::string> before;
+  for (int start = 0; start < 10 && before.size() < 2; ++start) {
+    ASSERT_EQ(interrupted(chart, SIGINT).status, 130);
+    before = rows();
+  }
+  EXPECT_THAT(files("out"), testing::Contains("unfinished.db"));
+  ASSERT_EQ(call(chart).status, 0);
+  EXPECT_THAT(files("out"), testing::Not(testing::Contains("unfinished.db")));
+  const std::vector<std::string> after = rows();
+  ASSERT_GT(before.size(), 1u);
+  ASSERT_GT(after.size(), before.size());
+  for (std::size_t k = 0; k < before.size(); ++k) EXPECT_EQ(before[k], after[k]) << "with the time that it took";
 }
 
 }  // namespace

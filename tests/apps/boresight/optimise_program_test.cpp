@@ -79,6 +79,20 @@ TEST_F(OptimiseProgram, MatchReusesEveryEvaluationOfAnEarlierRun) {
   EXPECT_EQ(second["optimum"], first["optimum"]);
 }
 
+// What a pilot chooses hangs on times: given again, a match goes on with what the first one chose.
+TEST_F(OptimiseProgram, MatchKeepsTheRungThatAPilotChose) {
+  write("study.toml", match());
+  quick("match", "study.toml", "out", {"--accuracy", "50 %"});
+  const auto first = json("out/summary.json");
+  ASSERT_TRUE(first.contains("pilot"));
+  quick("match", "study.toml", "out", {"--accuracy", "50 %"});
+  const auto again = json("out/summary.json");
+  EXPECT_EQ(again["pilot"], first["pilot"]) << "with the times that it took";
+  EXPECT_EQ(again["rung_why"], first["rung_why"]);
+  EXPECT_EQ(again["optimum"], first["optimum"]);
+  EXPECT_EQ(again["evaluations"], 0);
+}
+
 TEST_F(OptimiseProgram, MatchThatWasKilledGoesOnWithWhatItHadPaidFor) {
   write("study.toml", R"(
 [[random]]

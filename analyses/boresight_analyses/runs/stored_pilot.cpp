@@ -1,16 +1,19 @@
-#include "results/stored_pilot.hpp"
+#include "boresight_analyses/runs/stored_pilot.hpp"
 
-#include <fmt/format.h>
-
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
-namespace boresight::app {
+namespace boresight {
 namespace {
 
 // One list of the fields for both ways. JSON has no infinities: numbers are words.
 struct ToJson {
   nlohmann::json& json;
-  void operator()(const char* key, double value) const { json[key] = fmt::format("{:.17g}", value); }
+  void operator()(const char* key, double value) const {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    json[key] = text;
+  }
   void operator()(const char* key, const std::string& value) const { json[key] = value; }
   void operator()(const char* key, bool value) const { json[key] = value; }
   void operator()(const char* key, int value) const { json[key] = value; }
@@ -74,4 +77,4 @@ std::optional<PilotResult> pilot_of_text(const std::string& text) {
   }
 }
 
-}  // namespace boresight::app
+}  // namespace boresight

@@ -6,10 +6,10 @@
 
 #include "boresight_analyses/study/pilot.hpp"
 
-namespace boresight::app {
+namespace boresight {
 
 std::string text_of(const PilotResult& pilot);
 // Nothing where the text is none of text_of()'s.
 std::optional<PilotResult> pilot_of_text(const std::string& text);
 
-}  // namespace boresight::app
+}  // namespace boresight
