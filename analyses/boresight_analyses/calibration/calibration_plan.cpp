@@ -5,6 +5,7 @@
 #include "boresight/io/referred_file.hpp"
 #include "boresight/io/units.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "boresight_analyses/calibration/calibration_keys.hpp"
 #include "boresight_analyses/random/csv_column.hpp"
 

@@ -31,13 +31,13 @@ class Chart {
                                  .most_seconds = options_.reference_seconds,
                                  .measured = [&](const RungSetup& setup) { return measured(*multibody, setup, 0.0); }};
       result_.reference = find_reference(*multibody, parameters_, reference);
-      const std::vector<SetupFamily> families = chart_ways(result_.reference.own_step);
+      const std::vector<SetupFamily> families = chart_setups(result_.reference.own_step);
       runs_left_ = 0;
       for (const SetupFamily& f : families) runs_left_ += 3 * f.setups.size();
       runs_left_ += 3;
       done_before_ = 0.15;
       runs_ = 0;
-      add(papers_way(), "multibody, paper, baumgarte, rk4", *multibody, true);
+      add(papers_setup(), "multibody, paper, baumgarte, rk4", *multibody, true);
       for (const SetupFamily& family : families) measure_family(family);
       if (options_.flight) {
         now_ = "the flight before the first impact";

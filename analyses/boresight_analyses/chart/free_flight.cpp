@@ -71,7 +71,7 @@ FreeFlight fly(const Mechanism& mechanism, const Parameters& parameters, double 
   finest.step *= 2.0;
   flight.rounding = (displacement_at_end(run(*multibody, finest)) - reference).norm() / clearance;
 
-  for (const SetupFamily& family : chart_ways(own_step)) {
+  for (const SetupFamily& family : chart_setups(own_step)) {
     RungSetup setup = family.setups.front();
     if (setup.stepless()) continue;  // they know no trajectory
     if (earlier + thread_cpu_seconds() - start > most_seconds) {

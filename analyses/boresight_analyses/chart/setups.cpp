@@ -34,7 +34,7 @@ SetupFamily family_of(RungSetup setup, double own_step) {
 
 }  // namespace
 
-std::vector<SetupFamily> chart_ways(double own_step) {
+std::vector<SetupFamily> chart_setups(double own_step) {
   std::vector<SetupFamily> families;
   const auto add = [&](const RungSetup& setup) { families.push_back(family_of(setup, own_step)); };
   for (const std::string& rung : rung_names()) {
@@ -55,7 +55,7 @@ std::vector<SetupFamily> chart_ways(double own_step) {
   return families;
 }
 
-RungSetup papers_way() {
+RungSetup papers_setup() {
   return {.rung = "multibody",
           .formulation = "paper",
           .stabilisation = "baumgarte",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "report_parts/mechanism_view.hpp"
 #include "report_parts/report_parts.hpp"
@@ -39,7 +40,8 @@ std::vector<report::Fact> headline(const RunResult& result) {
 
 // One quantity of a clearance joint over time.
 report::Chart joint_chart(const std::string& title, const std::string& label, const std::string& si_unit,
-                          const RunResult& result, std::size_t clearance, double (*value)(const ClearanceSample&)) {
+                          const RunResult& result, std::size_t clearance,
+                          const std::function<double(const ClearanceSample&)>& value) {
   std::vector<double> values;
   for (const ClearanceSample& s : result.clearances[clearance]) values.push_back(value(s));
   double most = 0.0;

@@ -34,7 +34,7 @@ TEST(ParetoFront, EndsWhereTheReferenceTellsNothingApart) {
 }
 
 TEST(ChartWays, CoverEveryRungFormulationAndIntegratorFromCoarseToFine) {
-  const std::vector<SetupFamily> families = chart_ways(1e-4);
+  const std::vector<SetupFamily> families = chart_setups(1e-4);
   std::set<std::string> rungs, names, integrators;
   for (const SetupFamily& f : families) {
     EXPECT_TRUE(names.insert(f.name).second) << f.name;
@@ -153,7 +153,7 @@ TEST_F(MeasureTest, AChartMarksThePapersSettingAndItsFront) {
   // What there was no time for is named, not left out in silence.
   std::set<std::string> there(result.left_out.begin(), result.left_out.end());
   for (const ChartPoint& p : result.points) there.insert(p.family);
-  EXPECT_EQ(there.size(), chart_ways(1e-4).size());
+  EXPECT_EQ(there.size(), chart_setups(1e-4).size());
 }
 
 TEST_F(MeasureTest, AChartStopsWhereItIsTold) {

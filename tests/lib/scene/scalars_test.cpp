@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/play/journal/journal_in_sleeve.hpp"
 #include "boresight/scene/offset_dynamics.hpp"
 #include "boresight/scene/scene_rung.hpp"
 #include "scenes.hpp"

@@ -92,7 +92,7 @@ class Comparing {
     const auto multibody = make_rung("multibody", mechanism_);
     out_.reference = find_reference(*multibody, parameters_, {.target = 1e-5, .most_seconds = 10.0});
     out_.machine = this_machine();
-    for (const SetupFamily& family : chart_ways(out_.reference.own_step)) ours(family);
+    for (const SetupFamily& family : chart_setups(out_.reference.own_step)) ours(family);
     on_lanes();
     for (const auto& peer : peers()) {
       options_.progress("what " + peer->name() + " models");
@@ -110,7 +110,7 @@ class Comparing {
     // Left to `boresight chart`, being far from the front here: second order, and the paper's coordinates but
     // for its own way.
     if (first.integrator == "generalized-alpha") return;
-    if (first.formulation == "paper" && first.family() != papers_way().family()) return;
+    if (first.formulation == "paper" && first.family() != papers_setup().family()) return;
     const auto rung = make_rung(first.rung, mechanism_);
     std::string setup = family.name;
     setup.erase(0, std::min(setup.size(), first.rung.size() + 2));

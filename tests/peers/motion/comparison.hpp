@@ -14,14 +14,14 @@ namespace boresight::peers {
 
 struct ComparedPoint {
   std::string program;  // "multibody", "perturbation", "perturbation on lanes", "MuJoCo 2.2.2", ...
-  std::string way;      // the rest of what tells one line of the chart from another
+  std::string setup;    // the rest of what tells one line of the chart from another
   std::string fineness;
   bool ours = false;
   bool stands_alone = false;  // a whole program, not an integrator on our right-hand side
   Measurement measured;
   double error = 0.0;  // relative, of the index; see relative_error
 
-  std::string line() const { return way.empty() ? program : program + ", " + way; }
+  std::string line() const { return setup.empty() ? program : program + ", " + setup; }
   bool done() const { return measured.refusal.empty(); }
 };
 
