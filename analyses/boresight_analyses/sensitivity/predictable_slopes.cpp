@@ -30,7 +30,7 @@ IndexSlopes predictable_slopes(const std::shared_ptr<const Mechanism>& mechanism
   if (horizon.parted) throw ComputationError(beyond(horizon, mechanism->duration()));
   const PreparedScene prepared(*mechanism, ideal_motion(*mechanism, parameters), parameters);
   const PerturbationSystem system(*mechanism, parameters, prepared.tables(parameters), false);
-  if (system.has_bristles()) throw ComputationError("bristles of LuGre friction carry no derivatives");
+  if (!system.elements().empty()) throw ComputationError("friction with a state (LuGre) carries no derivatives");
   SlopeOptions options;
   // Steps that serve the motion alone leave its derivatives to grow where a journal rests on its sleeve: there they stand at the
   // limit of stability, which only the derivatives' own error tells.

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "boresight/contact_events/bristle_state.hpp"
 #include "boresight/contact_events/damped_contact.hpp"
 #include "boresight/contact_events/stiffest_contact.hpp"
+#include "boresight/elements/bristle_state.hpp"
 #include "boresight/formulations/energy_balance.hpp"
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -73,13 +73,15 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
 
   std::string start_warning;
   VecX y = multibody_start(mechanism, parameters, ideal, *formulation, start_warning);
-  const BristleState bristles(joints);
-  // Where friction has a state it follows the bodies', which then are a copy of the head of the whole.
+  ElementStates elements;
+  elements.add(std::make_unique<BristleState>(
+      joints, memory, [&forces](int c) -> const Bristles<double>& { return forces.bristle_rate(c); }));
+  // Where elements have states these follow the bodies', which then are a copy of the head of the whole.
   const Eigen::Index n = y.size();
   VecX head, head_dot(n);
-  if (!bristles.empty()) y.conservativeResizeLike(VecX::Zero(n + bristles.size()));
+  if (!elements.empty()) y.conservativeResizeLike(VecX::Zero(n + elements.size()));
   const auto bodies_of = [&](const VecX& state) -> const VecX& {
-    if (bristles.empty()) return state;
+    if (elements.empty()) return state;
     head = state.head(n);
     return head;
   };
@@ -94,21 +96,20 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
       work += h * classical_rk4().b[stage++] * energy.power(*formulation, formulation->bodies(t, bodies_of(state)));
   };
   const auto derivative = [&](double t, const VecX& state, VecX& dy) {
-    if (bristles.empty()) {
+    if (elements.empty()) {
       formulation->derivative(t, state, memory, dy);
       return add_power(t, state);
     }
-    bristles.hand_over(state.tail(bristles.size()), h, memory);
+    elements.take(state.tail(elements.size()), h);
     formulation->derivative(t, bodies_of(state), memory, head_dot);
     dy.head(n) = head_dot;
-    bristles.rates([&](std::size_t c) -> const Bristles<double>& { return forces.bristle_rate(static_cast<int>(c)); },
-                   dy.tail(bristles.size()));
+    elements.rates(dy.tail(elements.size()));
     add_power(t, state);
   };
 
   const auto advance = [&](double t, double step, VecX& state) {
     method.step(t, step, state, derivative);
-    if (bristles.empty()) return formulation->stabilise(t + step, state);
+    if (elements.empty()) return formulation->stabilise(t + step, state);
     head = state.head(n);
     formulation->stabilise(t + step, head);
     state.head(n) = head;
@@ -126,7 +127,7 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
     const double t = static_cast<double>(i) * h;
     if (!y.allFinite()) throw UnstableStep("the state is not finite", t, h);
     accept_contacts(formulation->bodies(t, bodies_of(y)), t, forces, trackers, memory, motion);
-    bristles.release(memory, y.tail(bristles.size()));
+    elements.accept(y.tail(elements.size()));
     energy.add_work(work);
     work = 0.0;
     stage = 0;

@@ -29,7 +29,8 @@ MotionScales scales_of(const MultibodyMotion& run) {
 }
 
 // Displacements are held to the tolerance, turns as if they worked on the mechanism's size.
-IntegrationOptions integration_options(const MultibodyMotion& run, const Formulation& formulation) {
+IntegrationOptions integration_options(const MultibodyMotion& run, const Formulation& formulation,
+                                       const ElementStates& elements) {
   const Parameters& parameters = run.parameters;
   const RunOptions& options = run.options;
   const double clearance = smallest_clearance(parameters), size = run.mechanism.characteristic_length();
@@ -42,10 +43,11 @@ IntegrationOptions integration_options(const MultibodyMotion& run, const Formula
   integration.step = options.step;
   if (clearance > 0.0) integration.most_error = most_error(tolerance_of(options, kMultibody));
   integration.relative_tolerance = 0.0;
-  integration.absolute_tolerances.resize(formulation.state_size());
+  integration.absolute_tolerances.resize(formulation.state_size() + elements.size());
   for (int k = 0; k < formulation.state_size(); ++k)
     integration.absolute_tolerances[k] =
         length / (formulation.is_length(k) ? 1.0 : size) / (formulation.is_speed(k) ? scales.flight_time : 1.0);
+  elements.tolerances(tolerance_of(options, kMultibody), integration.absolute_tolerances.tail(elements.size()));
   scales.apply(run.mechanism.duration(), slowest_impact, integration);
   integration.largest_step *= options.share_of_longest_step;
   return integration;
@@ -65,19 +67,20 @@ RunResult follow_locating_contacts(const MultibodyMotion& run, const std::string
   std::string start_warning;
   VecX y = multibody_start(mechanism, parameters, ideal, *formulation, start_warning);
   MultibodySystem system(*formulation, trackers, mechanism.characteristic_length());
+  y.conservativeResizeLike(VecX::Zero(system.size()));
   system.start(0.0, y);
   double drift = 0.0;
   long points = 0;
   bool interrupted = false;
   // The energy's balance, by Simpson's rule over each step. The power at a step's start is that at the end of the one
   // before, unless an event changed what acts in between.
-  EnergyBalance energy(mechanism, parameters, formulation->bodies(0.0, y));
+  EnergyBalance energy(mechanism, parameters, formulation->bodies(0.0, system.bodies_part(y)));
   VecX within = y;
   double power_at_end = 0.0;
   long events = -1;
   const auto power = [&](double t, const VecX& state) {
     system.evaluate(t, state);
-    return energy.power(*formulation, formulation->bodies(t, state));
+    return energy.power(*formulation, formulation->bodies(t, system.bodies_part(state)));
   };
   const auto taken = [&](const auto& step) {
     const double h = step.end() - step.start();
@@ -90,7 +93,7 @@ RunResult follow_locating_contacts(const MultibodyMotion& run, const std::string
     const double in_middle = power_within(0.5);
     power_at_end = power(step.end(), step.state());
     energy.add_work(h / 6.0 * (at_start + 4.0 * in_middle + power_at_end));
-    energy.look(formulation->bodies(step.end(), step.state()));
+    energy.look(formulation->bodies(step.end(), system.bodies_part(step.state())));
   };
   const auto show = [&](double t, const VecX& state, bool at_end) {
     // Poses are cheap, accelerations and forces are not: inside a step only where they are sampled.
@@ -100,7 +103,7 @@ RunResult follow_locating_contacts(const MultibodyMotion& run, const std::string
       drift = std::max(drift, formulation->violation());
     }
     system.observe(t, state, whole);
-    run.record(*formulation, state, t, recorder);
+    run.record(*formulation, system.bodies_part(state), t, recorder);
     interrupted =
         ++points % 1024 == 0 && options.progress && !options.progress({t, duration, recorder.position_error_max()});
     return !interrupted;
@@ -108,7 +111,7 @@ RunResult follow_locating_contacts(const MultibodyMotion& run, const std::string
   IntegrationSummary summary;
   try {
     summary = follow_located(integrator, system, duration, options.sample_spacing, y,
-                             integration_options(run, *formulation), show, taken);
+                             integration_options(run, *formulation, system.elements()), show, taken);
   } catch (const ComputationError& failure) {
     throw ComputationError(failure.what() + (system.fault().empty() ? "" : "; refused last: " + system.fault()));
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "boresight/integrate/partial_derivatives.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
@@ -53,10 +54,28 @@ MultibodySystem::MultibodySystem(Formulation& formulation, std::vector<ContactTr
       unit_then_(trackers.size()),
       unit_(trackers.size(), MatX::Zero(formulation.state_size(), 6)),
       here_(trackers.size()),
-      of_motion_(trackers.size(), MatX::Zero(formulation.state_size(), kMotionNumbers)) {}
+      of_motion_(trackers.size(), MatX::Zero(formulation.state_size(), kMotionNumbers)) {
+  elements_.add(std::make_unique<BristleState>(
+      joints_, memory_, [this](int c) -> const Bristles<double>& { return formulation_.forces().bristle_rate(c); }));
+  head_dot_ = VecX::Zero(formulation.state_size());
+}
+
+const VecX& MultibodySystem::bodies_part(const VecX& y) const {
+  if (elements_.empty()) return y;
+  head_ = y.head(formulation_.state_size());
+  return head_;
+}
 
 void MultibodySystem::read(int clearance, double t, const VecX& y) const {
-  joints_[clearance].penetrations(formulation_.forces().play_motion(clearance, formulation_.bodies(t, y)), contact_);
+  const std::vector<BodyMotion>& bodies = formulation_.bodies(t, bodies_part(y));
+  joints_[clearance].penetrations(formulation_.forces().play_motion(clearance, bodies), contact_);
+}
+
+void MultibodySystem::stabilise(double t, VecX& y) {
+  if (elements_.empty()) return formulation_.stabilise(t, y);
+  bodies_part(y);
+  formulation_.stabilise(t, head_);
+  y.head(head_.size()) = head_;
 }
 
 void MultibodySystem::start(double t, const VecX& y) {
@@ -68,9 +87,31 @@ void MultibodySystem::start(double t, const VecX& y) {
   }
 }
 
+void MultibodySystem::derivative_of_all(double t, const VecX& y, VecX& dy) const {
+  if (elements_.empty()) return formulation_.derivative(t, y, memory_, dy);
+  elements_.take(y.tail(elements_.size()), 0.0);
+  formulation_.derivative(t, bodies_part(y), memory_, head_dot_);
+  dy.head(head_dot_.size()) = head_dot_;
+  elements_.rates(dy.tail(elements_.size()));
+}
+
+// The laws' own derivatives know nothing of what elements remember.
+void MultibodySystem::jacobian_by_differences(double t, const VecX& y, MatX& J) const {
+  VecX moved = y, base(y.size()), slope(y.size());
+  derivative(t, y, base);
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    moved[i] = y[i] + difference_increment(y[i]);
+    derivative(t, moved, slope);
+    J.col(i) = (slope - base) / (moved[i] - y[i]);
+    moved[i] = y[i];
+  }
+  evaluations_ += y.size() + 1;
+  base_ = base;
+}
+
 void MultibodySystem::derivative(double t, const VecX& y, VecX& dy) const {
   try {
-    formulation_.derivative(t, y, memory_, dy);
+    derivative_of_all(t, y, dy);
     evaluated_time_ = t;
     evaluated_ = y;
   } catch (const ComputationError& failure) {
@@ -121,6 +162,7 @@ void MultibodySystem::remember_motion(double t, const VecX& y) const {
 }
 
 void MultibodySystem::jacobian(double t, const VecX& y, MatX& J) const {
+  if (!elements_.empty()) return jacobian_by_differences(t, y, J);
   ForceElements& forces = formulation_.forces();
   respond(t, y);
   const int size = static_cast<int>(y.size());
@@ -152,6 +194,14 @@ void MultibodySystem::jacobian(double t, const VecX& y, MatX& J) const {
 }
 
 void MultibodySystem::time_derivative(double t, const VecX& y, VecX& ft) const {
+  if (!elements_.empty()) {
+    const double after = t + difference_increment(t);
+    VecX slope(y.size());
+    derivative(after, y, slope);
+    ++evaluations_;
+    ft = (slope - base_) / (after - t);
+    return;
+  }
   ForceElements& forces = formulation_.forces();
   remember_motion(t, y);
   const double later = t + kIncrement;
@@ -180,12 +230,14 @@ AfterEvent MultibodySystem::on_event(const GapEvent& event, VecX& y) {
   read(c, event.t, y);
   contacts_.change(event, contact_);
   memory_[c] = trackers_[c].memory();
+  elements_.accept(y.tail(elements_.size()));
   formulation_.forces().act(c, contacts_.acting(c));
   return AfterEvent::crossed;
 }
 
 void MultibodySystem::evaluate(double t, const VecX& y) {
   if (t == evaluated_time_ && y == evaluated_) return;
+  slope_.resize(y.size());
   derivative(t, y, slope_);
 }
 

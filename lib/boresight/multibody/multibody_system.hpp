@@ -4,6 +4,7 @@
 
 #include "boresight/contact_events/contact_jacobian.hpp"
 #include "boresight/contact_events/located_contacts.hpp"
+#include "boresight/elements/bristle_state.hpp"
 #include "boresight/formulations/formulation.hpp"
 
 namespace boresight {
@@ -35,6 +36,12 @@ class MultibodySystem {
   // trackers: one per clearance, the caller's. size: of the mechanism [m].
   MultibodySystem(Formulation& formulation, std::vector<ContactTracker>& trackers, double size);
 
+  // The formulation's state, then those of elements: as long as this where the motion starts.
+  int size() const { return formulation_.state_size() + static_cast<int>(elements_.size()); }
+  const ElementStates& elements() const { return elements_; }
+  // The formulation's part. The reference holds until the next call.
+  const VecX& bodies_part(const VecX& y) const;
+
   void start(double t, const VecX& y);
 
   // Not a number where the formulation cannot follow (a trial step into a singular pose): the step is then rejected.
@@ -50,7 +57,7 @@ class MultibodySystem {
   void gaps(double t, const VecX& y, VecX& g) const;
   AfterEvent on_event(const GapEvent& event, VecX& y);
   long events() const { return events_; }  // so far
-  void stabilise(double t, VecX& y) { formulation_.stabilise(t, y); }
+  void stabilise(double t, VecX& y);
 
   // Makes sure that accelerations and forces are those of (t, y), for whoever reads them from the formulation.
   void evaluate(double t, const VecX& y);
@@ -65,6 +72,8 @@ class MultibodySystem {
   struct Held;  // the contacts' wrenches, while it lives
   void remember_motion(double t, const VecX& y) const;
   void respond(double t, const VecX& y) const;
+  void derivative_of_all(double t, const VecX& y, VecX& dy) const;
+  void jacobian_by_differences(double t, const VecX& y, MatX& J) const;
   void read(int clearance, double t, const VecX& y) const;
 
   Formulation& formulation_;
@@ -72,6 +81,8 @@ class MultibodySystem {
   std::vector<JointPlay> joints_;
   LocatedContacts contacts_;
   mutable std::vector<ContactMemory> memory_;
+  ElementStates elements_;
+  mutable VecX head_, head_dot_;
   mutable std::array<ContactState<double>, kContactPlaces> contact_;
   mutable double evaluated_time_ = -1.0;
   mutable VecX evaluated_, slope_;

@@ -179,8 +179,9 @@ class Perturbation final : public SceneRung {
     integration.step = options.step;
     if (clearance > 0.0) integration.most_error = most_error(asked);
     integration.relative_tolerance = 0.0;
-    integration.absolute_tolerances.resize(2 * at.n);
-    integration.absolute_tolerances << tolerance, tolerance / scales.flight_time;
+    integration.absolute_tolerances.resize(system.size());
+    integration.absolute_tolerances.head(2 * at.n) << tolerance, tolerance / scales.flight_time;
+    system.elements().tolerances(asked, integration.absolute_tolerances.tail(system.elements().size()));
     scales.apply(mechanism().duration(), slowest_impact, integration);
     integration.largest_step *= options.share_of_longest_step;
     return integration;

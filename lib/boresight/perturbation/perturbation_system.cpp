@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "boresight/contact_events/contact_jacobian.hpp"
+#include "boresight/integrate/partial_derivatives.hpp"
 #include "boresight/scene/offset_dynamics.hpp"
 #include "boresight/scene/resting_start.hpp"
 
@@ -54,7 +55,6 @@ PerturbationSystem::PerturbationSystem(const Mechanism& mechanism, const Paramet
     : tables_(std::move(tables)),
       joints_(joint_plays(mechanism.description(), parameters)),
       trackers_(trackers_of(mechanism, joints_, keep_events, start)),
-      bristles_(joints_),
       contacts_(joints_, trackers_),
       motion_(joints_.size()),
       wrench_(joints_.size()),
@@ -62,9 +62,13 @@ PerturbationSystem::PerturbationSystem(const Mechanism& mechanism, const Paramet
       bristle_rate_(joints_.size()),
       row_(tables_->dynamics.width()),
       force_(VecX::Zero(tables_->layout.n)),
-      gain_(kMotionNumbers, size()),
+      gain_(kMotionNumbers, 2 * tables_->layout.n),
       virtual_gain_(6, tables_->layout.n),
-      force_gradient_(tables_->layout.n, size()) {}
+      force_gradient_(tables_->layout.n, 2 * tables_->layout.n) {
+  elements_.add(std::make_unique<BristleState>(joints_, memory_, [this](int c) -> const Bristles<double>& {
+    return bristle_rate_[static_cast<std::size_t>(c)];
+  }));
+}
 
 VecX PerturbationSystem::start_state(const Mechanism& mechanism, double offset, std::string& warning) const {
   VecX y = VecX::Zero(size());
@@ -88,13 +92,14 @@ void PerturbationSystem::derivative(double t, const VecX& y, VecX& dy) const {
   scene_at(t);
   const SceneLayout& at = tables_->layout;
   const double *z = y.data(), *rate = z + at.n;
-  bristles_.hand_over(y.tail(bristles_.size()), step_, memory_);
+  elements_.take(y.tail(elements_.size()), step_);
   force_.setZero();
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     motion_[c] = play_motion(at, at.joints[c], row_.data(), z, rate);
     const bool free = located_ && !contacts_.touches(static_cast<int>(c));
     if (free) {
       joints_[c].penetrations(motion_[c], wrench_[c].contact);
+      for (Vec2T<double>& bending : bristle_rate_[c]) bending.setZero();
       continue;
     }
     const JointPlay& law = located_ ? contacts_.acting(static_cast<int>(c)) : joints_[c];
@@ -107,11 +112,23 @@ void PerturbationSystem::derivative(double t, const VecX& y, VecX& dy) const {
   }
   std::copy(rate, rate + at.n, dy.data());
   coordinate_acceleration(at, row_.data(), z, rate, force_.data(), dy.data() + at.n);
-  bristles_.rates([&](std::size_t c) -> const Bristles<double>& { return bristle_rate_[c]; },
-                  dy.tail(bristles_.size()));
+  elements_.rates(dy.tail(elements_.size()));
+}
+
+// The laws' own derivatives know nothing of what elements remember.
+void PerturbationSystem::jacobian_by_differences(double t, const VecX& y, MatX& J) const {
+  VecX shifted = y, base(y.size()), slope(y.size());
+  derivative(t, y, base);
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    shifted[i] = y[i] + difference_increment(y[i]);
+    derivative(t, shifted, slope);
+    J.col(i) = (slope - base) / (shifted[i] - y[i]);
+    shifted[i] = y[i];
+  }
 }
 
 void PerturbationSystem::jacobian(double t, const VecX& y, MatX& J) const {
+  if (!elements_.empty()) return jacobian_by_differences(t, y, J);
   scene_at(t);
   const SceneLayout& at = tables_->layout;
   const int n = at.n;
@@ -146,9 +163,9 @@ void PerturbationSystem::accept(double t, VecX& y) {
     motion_[c] = play_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n);
     joints_[c].penetrations(motion_[c], contact_);
     trackers_[c].accept(t, contact_);
-    if (!bristles_.empty()) memory_[c].touching = trackers_[c].memory().touching;
+    memory_[c].touching = trackers_[c].memory().touching;
   }
-  bristles_.release(memory_, y.tail(bristles_.size()));
+  elements_.accept(y.tail(elements_.size()));
 }
 
 void PerturbationSystem::start_located(double t, const VecX& y) {
@@ -158,6 +175,7 @@ void PerturbationSystem::start_located(double t, const VecX& y) {
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     joints_[c].penetrations(play_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
     contacts_.start(static_cast<int>(c), t, contact_);
+    memory_[c].touching = trackers_[c].memory().touching;
   }
 }
 
@@ -176,6 +194,8 @@ AfterEvent PerturbationSystem::on_event(const GapEvent& event, VecX& y) {
   const int c = contacts_.joint_of(event);
   joints_[c].penetrations(play_motion(at, at.joints[c], row_.data(), y.data(), y.data() + at.n), contact_);
   contacts_.change(event, contact_);
+  memory_[c].touching = trackers_[c].memory().touching;
+  elements_.accept(y.tail(elements_.size()));
   return AfterEvent::crossed;
 }
 

@@ -7,8 +7,8 @@
 
 #include <memory>
 
-#include "boresight/contact_events/bristle_state.hpp"
 #include "boresight/contact_events/located_contacts.hpp"
+#include "boresight/elements/bristle_state.hpp"
 #include "boresight/scene/clearance_scene.hpp"
 
 namespace boresight {
@@ -22,15 +22,14 @@ class PerturbationSystem {
   // warning: as start_coordinates().
   VecX start_state(const Mechanism& mechanism, double offset, std::string& warning) const;
 
-  // The bristles of LuGre friction, if any, follow z and zdot; only accept() carries them, not the Jacobian or the events.
-  int size() const { return 2 * tables_->layout.n + static_cast<int>(bristles_.size()); }
-  bool has_bristles() const { return !bristles_.empty(); }
-  // Of the fixed step to come [s]: bristles relax no faster than it resolves.
+  // States of elements, if any, follow z and zdot.
+  int size() const { return 2 * tables_->layout.n + static_cast<int>(elements_.size()); }
+  const ElementStates& elements() const { return elements_; }
+  // Of the fixed steps to come [s]: elements relax no faster than they resolve. Not called where steps follow an error estimate.
   void set_step(double h) { step_ = h; }
   void derivative(double t, const VecX& y, VecX& dy) const;
   void jacobian(double t, const VecX& y, MatX& J) const;
 
-  // Lets go the bristles of contacts that have parted.
   void accept(double t, VecX& y);
 
   void start_located(double t, const VecX& y);
@@ -53,17 +52,18 @@ class PerturbationSystem {
  private:
   PerturbationSystem(const PerturbationSystem&) = delete;  // contacts_ knows where trackers_ are
   void scene_at(double t) const;
+  void jacobian_by_differences(double t, const VecX& y, MatX& J) const;
 
   std::shared_ptr<const SceneTables> tables_;
   std::vector<JointPlay> joints_;
   std::vector<ContactTracker> trackers_;
-  BristleState bristles_;
+  ElementStates elements_;
   double step_ = 0.0;
   LocatedContacts contacts_;
   bool located_ = false;
   mutable std::vector<PlayMotion<double>> motion_;
   mutable std::vector<PlayWrench<double>> wrench_;
-  mutable std::vector<ContactMemory> memory_;  // with bristles
+  mutable std::vector<ContactMemory> memory_;  // where elements keep what they took
   mutable std::vector<Bristles<double>> bristle_rate_;
   mutable std::vector<double> row_;
   mutable double row_time_ = -1.0;

@@ -82,11 +82,12 @@ void check_options(const RunOptions& options, const std::string& rung, const Mec
     throw OptionRefused("tolerance", "a step too", "one of the two: steps are fixed, or follow an error estimate");
   if (integrator == "rk4") return;
   const MechanismDescription& m = mechanism.description();
-  for (std::size_t c = 0; c < m.clearances.size(); ++c)
+  for (std::size_t c = 0; c < m.clearances.size() && integrator == "generalized-alpha"; ++c)
     if (JointPlay(m.clearances[c], m.joints[m.clearances[c].joint].type, parameters.clearance[c]).sticks)
       throw OptionRefused("integrator", quoted(integrator),
-                          "rk4: the friction of " + m.joints[m.clearances[c].joint].name +
-                              ", LuGre's, has a state that only rk4 carries");
+                          "rk4, dopri5 or rosenbrock: generalized-alpha needs coordinates whose rates are the speeds, "
+                          "and the friction of " +
+                              m.joints[m.clearances[c].joint].name + ", LuGre's, has a state without one");
   if (integrator == "generalized-alpha" && has_quaternions(options, mechanism))
     throw OptionRefused(
         "integrator", quoted(integrator),

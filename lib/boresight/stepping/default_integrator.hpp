@@ -2,15 +2,12 @@
 // this motion: it blows up, or a contact is damped faster than it follows.
 //
 // Shorter steps of rk4 would go on from there as well, but what they make of such contacts is wrong by any amount until they follow them:
-// with a planar loop of the gauntlet ten times, at a step that does not blow up, for two hundred times the cost of rosenbrock. Where rosenbrock
-// cannot take over, steps are halved until that changes nothing.
+// with a planar loop of the gauntlet ten times, at a step that does not blow up, for two hundred times the cost of rosenbrock.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 #include <optional>
-#include <stdexcept>
+#include <string>
 
 #include "boresight/formulations/singular_pose.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -27,47 +24,6 @@ inline RunOptions growing(RunOptions options, double& reached) {
       return tell(p);
     };
   return options;
-}
-
-// Whether two runs of one motion agree in every index to `share` of it.
-inline bool indices_agree(const PointingIndices& a, const PointingIndices& b, double share) {
-  constexpr double kRounding = 1e-12;  // [m or rad]
-  for (const auto quantity :
-       {&PointingIndices::position_error, &PointingIndices::orientation_error, &PointingIndices::boresight_error})
-    for (const auto statistic : {&Statistics::max, &Statistics::rms})
-      if (!(std::abs(a.*quantity.*statistic - b.*quantity.*statistic) <=
-            kRounding + share * std::abs(b.*quantity.*statistic)))
-        return false;
-  return true;
-}
-
-// Goes on from `result` with steps halved until a contact's damping is followed and halving them once more changes no index.
-template <typename Steps>
-RunResult with_steps_that_agree(const RunOptions& options, RunResult result, Steps&& by_steps) {
-  constexpr int kMostHalvings = 6;
-  constexpr double kAgreed = 0.01;  // where errors are measured afterwards, on neighbouring steps
-  if (result.cost.steps == 0) return result;
-  double step = result.end_time / static_cast<double>(result.cost.steps);
-  for (int halving = 1; halving <= kMostHalvings && !result.interrupted; ++halving) {
-    step = step_on_grid(0.5 * step, options.sample_spacing);
-    std::optional<RunResult> finer;
-    try {
-      finer = by_steps(options, step);
-    } catch (const UnstableStep&) {  // near the largest stable step it is chance which run
-      continue;
-    } catch (const SingularPose&) {
-      continue;
-    }
-    const bool agree = !finer->damped_beyond_steps && indices_agree(result.index, finer->index, kAgreed);
-    result = *std::move(finer);
-    if (!agree) continue;
-    char text[160];
-    std::snprintf(text, sizeof text, "steps were halved %d times, until that changed the indices by less than %g %%",
-                  halving, 100.0 * kAgreed);
-    result.warnings.insert(result.warnings.begin(), text);
-    break;
-  }
-  return result;
 }
 
 // own: of rk4 [s]. by_steps(options, step): rk4. located(options): the integrator that the options name.
@@ -97,8 +53,6 @@ RunResult follow_by_default(const RunOptions& asked, double own, Steps&& by_step
     followed.warnings.insert(followed.warnings.begin(), std::string("rosenbrock took over from rk4: ") + why);
     return followed;
   } catch (const ComputationError&) {
-  } catch (const std::invalid_argument&) {  // friction with a state of its own, which rk4 alone carries
-    return with_steps_that_agree(options, first ? *std::move(first) : stable(), by_steps);
   }
   return first ? *std::move(first) : stable();
 }
