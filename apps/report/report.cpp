@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "report/bundle.hpp"
+#include "page/bundle.hpp"
 #include "report/contract.hpp"
 
 namespace boresight::report {
