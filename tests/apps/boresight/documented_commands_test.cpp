@@ -1,10 +1,11 @@
-// Every command that README.md, the examples and .ci/start tell a user to give runs here, shortened where it is long, and does what the text
+// Every command that the READMEs, the examples and .ci/start tell a user to give runs here, shortened where it is long, and does what the text
 // around it says. A command or an example file that is new and not run here makes a test fail.
 #include "documented_commands.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <regex>
 
 #include "command_table.hpp"
 #include "documented_summary.hpp"
@@ -102,6 +103,25 @@ TEST(Documents, OtherCommandsOfTheReadmeAreKnownAndHeldElsewhere) {
   EXPECT_THAT(other_documented_commands(),
               testing::UnorderedElementsAre("bash .ci/start",   // its commands are among the above
                                             "bash .ci/test"));  // is what runs this
+}
+
+// Each link to a file of the repository, of every page that a reader may come to.
+TEST(Documents, LinkToFilesThatAreThere) {
+  const std::filesystem::path source = BORESIGHT_SOURCE;
+  std::vector<std::filesystem::path> pages;
+  for (const char* part : {"lib", "apps", "examples", "tests"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(source / part))
+      if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  pages.push_back(source / "README.md");
+  int links = 0;
+  for (const auto& page : pages) {
+    std::ifstream in(page);
+    const std::string words{std::istreambuf_iterator<char>(in), {}};
+    const std::regex link(R"(\]\(([^)#:\s]+)\))");
+    for (std::sregex_iterator at(words.begin(), words.end(), link), end; at != end; ++at, ++links)
+      EXPECT_TRUE(std::filesystem::exists(page.parent_path() / (*at)[1].str())) << page << " links to " << (*at)[1];
+  }
+  EXPECT_GT(links, 40);
 }
 
 TEST(Examples, EveryFileIsRunByADocumentedCommand) {
