@@ -89,11 +89,13 @@ std::string budget_value(const BudgetStudy& s, double value) {
 }
 
 std::string requirement_sentence(const BudgetStudy& s, const RequirementAnswer& r) {
-  std::string text =
-      fmt::format("{}: {}, limit {}: {}",
-                  level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability),
-                  budget_value(s, r.level.level.value), budget_value(s, r.asked.limit),
-                  r.compliance.met ? "met" : "not shown to be met");
+  const auto in_its_unit = [&](double value) {
+    return r.asked.unit.empty() ? budget_value(s, value) : readable_as(value, s.study.index.si_unit(), r.asked.unit);
+  };
+  std::string text = fmt::format(
+      "{}: {}, limit {}: {}",
+      level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability),
+      in_its_unit(r.level.level.value), in_its_unit(r.asked.limit), r.compliance.met ? "met" : "not shown to be met");
   if (r.compliance.met)
     text += fmt::format(" with {} confidence, margin {}", percent(r.asked.confidence),
                         readable_share(r.margin() / r.asked.limit));

@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <regex>
+#include <set>
 
 #include "command_table.hpp"
 #include "documented_summary.hpp"
@@ -122,6 +123,27 @@ TEST(Documents, LinkToFilesThatAreThere) {
       EXPECT_TRUE(std::filesystem::exists(page.parent_path() / (*at)[1].str())) << page << " links to " << (*at)[1];
   }
   EXPECT_GT(links, 40);
+}
+
+// lib/README.md says in which file an equation is.
+TEST(Documents, NameFilesOfTheLibraryThatAreThere) {
+  const std::filesystem::path library = std::filesystem::path(BORESIGHT_SOURCE) / "lib";
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(library))
+    names.insert(entry.path().filename());
+  std::ifstream in(library / "README.md");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  const std::regex file(R"(`(?:([a-z_/]+)/)?([a-z_]+\.[ch]pp)`)");
+  int found = 0;
+  for (std::sregex_iterator at(page.begin(), page.end(), file), end; at != end; ++at, ++found) {
+    const std::string folder = (*at)[1], name = (*at)[2];
+    const bool there = folder.empty() ? names.contains(name)
+                       : folder.starts_with("analyses/")
+                           ? std::filesystem::exists(library.parent_path() / folder / name)
+                           : std::filesystem::exists(library / "boresight" / folder / name);
+    EXPECT_TRUE(there) << "lib/README.md names " << at->str();
+  }
+  EXPECT_GT(found, 30);
 }
 
 TEST(Examples, EveryFileIsRunByADocumentedCommand) {

@@ -15,8 +15,9 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-const std::vector<std::string> kVerbs = {"new",      "check",     "run",    "sweep",  "chart", "stability", "montecarlo", "sensitivity", "match",
-                                         "allocate", "calibrate", "budget", "export", "laws",  "paths",     "help",       "schema"};
+const std::vector<std::string> kVerbs = {"new",        "check",       "run",   "sweep",    "chart",     "stability",
+                                         "montecarlo", "sensitivity", "match", "allocate", "calibrate", "budget",
+                                         "export",     "laws",        "paths", "help",     "schema"};
 
 class HelpExamples : public Program, public testing::WithParamInterface<std::string> {
  protected:
@@ -71,7 +72,8 @@ TEST_F(Program, TheVerbsWhoseExamplesRunAreAllThatHelpLists) {
   std::set<std::string> listed;
   std::istringstream help(call({"--help"}).out);
   for (std::string line; std::getline(help, line);)
-    if (std::smatch match; std::regex_match(line, match, std::regex("  ([a-z]+) {2,}[A-Za-z].*"))) listed.insert(match[1]);
+    if (std::smatch match; std::regex_match(line, match, std::regex("  ([a-z]+) {2,}[A-Za-z].*")))
+      listed.insert(match[1]);
   listed.erase("completion");  // held by FrontDoor
   EXPECT_EQ(listed, std::set<std::string>(kVerbs.begin(), kVerbs.end()));
 }
