@@ -24,8 +24,8 @@ inline void record(const std::string& file, const std::string& source, const std
   const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
   std::FILE* out = std::fopen(name, "a");
   ASSERT_NE(out, nullptr) << name;
-  std::fprintf(out, "%s\t%s.%s\t%s\t%s\t%s\t%.17g\t%.17g\t%.17g\t%d\n", file.c_str(), test->test_suite_name(), test->name(),
-               source.c_str(), quantity.c_str(), printed.c_str(), ours, deviation, tolerance, count);
+  std::fprintf(out, "%s\t%s.%s\t%s\t%s\t%s\t%.17g\t%.17g\t%.17g\t%d\n", file.c_str(), test->test_suite_name(),
+               test->name(), source.c_str(), quantity.c_str(), printed.c_str(), ours, deviation, tolerance, count);
   std::fclose(out);
 }
 

@@ -267,9 +267,9 @@ report::Document check_report(const Command& command, const Mechanism& mechanism
                                 .value = worst(&ConditioningSample::position),
                                 .note = "1 is best; at 0 the drives lose a motion"});
     } else {
-      document.facts.push_back({.label = "Smallest singular value",
+      document.facts.push_back({.label = "Distance from losing a motion",
                                 .value = worst(&ConditioningSample::smallest_singular_value),
-                                .note = "of all constraints; at 0 the drives lose a motion"});
+                                .note = "0 where the drives lose one"});
     }
   }
   // A play that cannot move has no step.
