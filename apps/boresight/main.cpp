@@ -106,6 +106,10 @@ int run_program(int argc, char** argv) {
     show_work(!command.quiet);
     const int status = with_options_checked([&] { return verbs[i]->execute(command); });
     if (options[i].json && !last_summary().empty()) std::cout << std::ifstream(last_summary()).rdbuf();
+    const bool answered = status == kDone || status == kAnswerIsNo;
+    if (const std::string next = answered && !command.quiet ? verbs[i]->next(command, status == kAnswerIsNo) : "";
+        !next.empty())
+      tell("  next: {}\n", next);
     return status;
   }
   return kBadInput;

@@ -71,12 +71,12 @@ const KeyTable& allocate_joint_keys() {
               .says("What a tolerance costs, as a curve: it is then chosen continuously."),
           quantities("tolerance", kLength)
               .of_length({2}, "two lengths, the tightest and the widest tolerance")
-              .sometimes("needed beside cost")
+              .sometimes("needed with cost")
               .says("The tightest and the widest tolerance that may be chosen."),
           quantity("least", kLength)
               .at_least(0.0, "0 or more")
               .otherwise(AllocationJoint{}.least)
-              .says("Radial clearance at tolerance zero, beside processes or cost: the gap lies between least and "
+              .says("Radial clearance at tolerance zero, with processes or cost: the gap lies between least and "
                     "least + "
                     "tolerance.")}};
   return table_of_keys;

@@ -47,6 +47,7 @@ BudgetRequirement read_requirement(Cursor& table, const BudgetPlan& plan, const 
   r.axis = read_axis(table, "axis", axes);
   r.interpretation = chosen(table, "interpretation", kInterpretations);
   r.limit = table.quantity("limit", unit);
+  r.unit = table.unit_as_written("limit");
   r.probability = table.number("probability");
   r.confidence = table.number("confidence");
   table.finish();

@@ -69,6 +69,7 @@ struct BudgetRequirement {
   double limit = 0.0;  // SI; 0: none was asked for
   double probability = 0.95;
   double confidence = 0.9;
+  std::string unit = "";  // in which the study writes the limit: "arcsec"
 };
 
 struct BudgetPlan {
@@ -88,6 +89,8 @@ struct BudgetPlan {
 
   // What shares and reliefs are about: the first requirement, or the APE of all axes, mixed, 95 %.
   BudgetRequirement headline(const BudgetAxes& axes) const;
+  // In which the first limit is written; "": there is none.
+  std::string written_unit() const { return requirements.empty() ? "" : requirements.front().unit; }
   // The indices that windows and motion allow, in the order of kErrorIndices.
   std::vector<ErrorIndex> indices() const;
   SamplingOptions design() const { return {.kind = SamplingKind::random, .seed = seed}; }

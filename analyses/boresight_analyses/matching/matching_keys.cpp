@@ -70,7 +70,7 @@ const KeyTable& match_keys() {
           integer("front")
               .counting(0.0, 100.0)
               .otherwise(p.front)
-              .says("Points sought on the front of accuracy against stability, beside those found anyway; 0: none."),
+              .says("Points sought on the front of accuracy against stability, besides those found anyway; 0: none."),
           integer("confirm").counting(2.0, 1e6).otherwise(64.0).says(
               "Samples, with another seed, that confirm the winner on the next rung up; where parameters scatter "
               "only."),

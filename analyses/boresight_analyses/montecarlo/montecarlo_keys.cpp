@@ -28,7 +28,7 @@ const KeyTable& montecarlo_keys() {
       .says = "The index's distribution over the scatter of the [[random]] parameters, with confidence intervals.",
       .keys = {integer("samples")
                    .counting(1.0, kMostMonteCarloSamples)
-                   .sometimes("needed, but beside fidelities or tail, whose budget decides")
+                   .sometimes("needed, except with fidelities or tail, whose budget decides")
                    .says("Number of samples; given again with more, a study goes on where it was. Of lhs a multiple of "
                          "strata, of "
                          "sobol of replicates."),
@@ -49,7 +49,7 @@ const KeyTable& montecarlo_keys() {
                    .says("Independent nets side by side, from which intervals come; with design = \"sobol\" only."),
                confidence_key(p.confidence),
                table("requirement", requirement_keys)
-                   .sometimes("left out, nothing is required; needed beside tail")
+                   .sometimes("left out, nothing is required; needed with tail")
                    .says("What the index shall keep, and with which probability."),
                table("stop", stop_keys)
                    .sometimes("left out, the number of samples ends the study")

@@ -62,6 +62,7 @@ Requirement read_requirement(Cursor table, const Study& study) {
   table.only(requirement_keys());
   Requirement r;
   r.limit = table.quantity("limit", unit_of_index(study.index.si_unit()));
+  r.unit = table.unit_as_written("limit");
   r.probability = table.number("probability");
   r.confidence = table.number("confidence");
   table.finish();

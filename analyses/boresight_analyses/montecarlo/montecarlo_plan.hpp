@@ -30,6 +30,7 @@ struct Requirement {
   double limit = 0.0;         // of the index, SI
   double probability = 0.95;  // with which the index is to stay at or below the limit
   double confidence = 0.95;   // one-sided, that it does
+  std::string unit = "";      // in which the study writes the limit: "arcsec"
 };
 
 struct StopRule {

@@ -36,7 +36,7 @@ void assess_linearity(LocalSensitivity& s, bool discrete) {
   if (discrete) {
     s.why_not = "the parameter is discrete";
   } else if (!std::all_of(s.derivative.begin(), s.derivative.end(), [](double v) { return std::isfinite(v); })) {
-    s.why_not = "a run beside the medians failed";
+    s.why_not = "a run near the medians failed";
   } else if (size == 0.0) {
     s.meaningful = true;
   } else {

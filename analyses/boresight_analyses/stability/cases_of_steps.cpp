@@ -90,7 +90,7 @@ FailureCase case_of_no_stabilisation(const Scene& scene) {
 FailureCase case_of_baumgarte_gains(const BaumgarteMap& map) {
   FailureCase c{.name = "Baumgarte's gains times the step too large",
                 .happens = "the model is stable, the solver is not",
-                .program = "draws the map of the drift per step over both gains times the step, limits beside it",
+                .program = "draws the map of the drift per step over both gains times the step, with its limits",
                 .measured = {}};
   double worst = 0.0;
   for (const BaumgarteLimit& limit : map.limits) worst = std::max(worst, std::abs(limit.measured / limit.theory - 1.0));

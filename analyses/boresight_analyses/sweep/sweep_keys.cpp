@@ -20,7 +20,7 @@ const KeyTable& sweep_keys() {
 
 const KeyTable& sweep_axis_keys() {
   using namespace keys;
-  static const std::string spaced = "with from, to and count; not beside values";
+  static const std::string spaced = "with from, to and count; not together with values";
   static const KeyTable table_of_keys{
       .name = "sweep.axis",
       .says = "One axis of the grid: a parameter and its values, listed or spaced.",

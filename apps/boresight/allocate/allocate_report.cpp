@@ -18,7 +18,7 @@ std::string joint_label(const std::string& path) {
 }
 
 std::string index_text(const AllocateStudy& s, double value) {
-  return std::isfinite(value) ? readable(value, s.study.index.si_unit()) : "none";
+  return std::isfinite(value) ? readable_as(value, s.study.index.si_unit(), s.plan.requirement.unit) : "none";
 }
 
 std::vector<const Allocation*> all_of(const AllocateStudy& s) {
@@ -84,7 +84,7 @@ report::Chart share_chart(const AllocateStudy& s) {
 report::Chart front_chart(const AllocateStudy& s) {
   double most = s.plan.requirement.limit;
   for (const CostPoint& p : s.result.front) most = std::max(most, p.limit);
-  const DisplayUnit unit = display_unit(s.study.index.si_unit(), most);
+  const DisplayUnit unit = display_unit_as(s.study.index.si_unit(), most, s.plan.requirement.unit);
   report::Chart chart{.title = "What accuracy costs",
                       .caption = "The cheapest set for each limit, by the samples of the search.",
                       .x = {"limit of the " + s.study.index.title(), unit.name},
@@ -167,7 +167,7 @@ std::string allocate_sentence(const AllocateStudy& s) {
                        index_text(s, s.result.best_reachable), s.result.chosen.price,
                        s.result.confirmations.back().sentence);
   return fmt::format(
-      "{:.5g} buys {}. {}{}.", s.result.chosen.price, requirement_text(s),
+      "The cheapest choice costs {:.5g} and keeps the {}. {}{}.", s.result.chosen.price, requirement_text(s),
       s.result.chosen.proven     ? "Nothing cheaper keeps the limit with the room that this confirmation needs. "
       : s.result.chosen.finished ? "Nothing cheaper was found near it; that nothing is elsewhere is not proven. "
                                  : "",

@@ -114,7 +114,11 @@ class AllocateVerb : public Verb {
   std::string summary() const override {
     return "fits or tolerances per joint at least cost that meet the requirement";
   }
-  std::string example() const override { return "boresight allocate examples/3-rrcpr/allocate.toml"; }
+  std::string example() const override { return "boresight allocate antenna/allocate.toml"; }
+  std::string next(const Command&, bool answer_is_no) const override {
+    return answer_is_no ? "a wider limit or finer fits in the study, then the same command"
+                        : std::string("boresight help budget: the pointing budget with these fits");
+  }
   void declare_options(CLI::App& app) override { motion_.declare_model(app); }
 
   int execute(const Command& command) override {

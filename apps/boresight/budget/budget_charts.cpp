@@ -37,7 +37,7 @@ report::Chart level_chart(const BudgetStudy& s, const Budget& b) {
     }
   const DisplayUnit unit = budget_unit(s, largest);
   report::Chart chart{
-      .title = fmt::format("Simulated levels beside the classical rule, {}, {}", to_string(b.headline.interpretation),
+      .title = fmt::format("Simulated levels and the classical rule, {}, {}", to_string(b.headline.interpretation),
                            percent(b.headline.probability)),
       .caption = fmt::format("Whiskers: {} interval of the simulated level; one that has no upper bound is drawn "
                              "without its upper half.",

@@ -64,7 +64,7 @@ std::string posterior_origin(const BudgetPlan& plan) {
   std::ifstream stream(std::filesystem::path(plan.posterior).parent_path() / "summary.json");
   const nlohmann::json made_by = nlohmann::json::parse(stream, nullptr, false);
   if (!made_by.is_object() || made_by.value("verb", nlohmann::json()) != "calibrate" || !made_by.contains("data"))
-    return file + "; no calibrate's summary.json is beside it, so which data made it is not known";
+    return file + "; there is no summary.json of calibrate in its folder, so which data made it is not known";
   const auto named = [&](const char* pointer) {
     const nlohmann::json found = made_by.value(nlohmann::json::json_pointer(pointer), nlohmann::json("unknown"));
     return found.is_string() ? found.get<std::string>() : found.dump();
@@ -83,15 +83,19 @@ std::string level_title(const BudgetAxes& axes, ErrorIndex index, std::size_t ax
 }
 
 std::string budget_value(const BudgetStudy& s, double value) {
-  return s.study.index.si_unit() == "rad" ? readable_arcsec(value) : readable(value, s.study.index.si_unit());
+  const std::string written = s.plan.written_unit();
+  if (written.empty() && s.study.index.si_unit() == "rad") return readable_arcsec(value);
+  return readable_as(value, s.study.index.si_unit(), written);
 }
 
 std::string requirement_sentence(const BudgetStudy& s, const RequirementAnswer& r) {
-  std::string text =
-      fmt::format("{}: {}, limit {}: {}",
-                  level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability),
-                  budget_value(s, r.level.level.value), budget_value(s, r.asked.limit),
-                  r.compliance.met ? "met" : "not shown to be met");
+  const auto in_its_unit = [&](double value) {
+    return r.asked.unit.empty() ? budget_value(s, value) : readable_as(value, s.study.index.si_unit(), r.asked.unit);
+  };
+  std::string text = fmt::format(
+      "{}: {}, limit {}: {}",
+      level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability),
+      in_its_unit(r.level.level.value), in_its_unit(r.asked.limit), r.compliance.met ? "met" : "not shown to be met");
   if (r.compliance.met)
     text += fmt::format(" with {} confidence, margin {}", percent(r.asked.confidence),
                         readable_share(r.margin() / r.asked.limit));

@@ -33,8 +33,9 @@ std::string spread_text(const Distribution& d, const std::function<std::string(d
 std::string percent(double share) { return fmt::format("{:g} %", 100.0 * share); }
 
 DisplayUnit budget_unit(const BudgetStudy& s, double largest) {
-  if (s.study.index.si_unit() == "rad") return {"arcsec", kArcsecPerRadian};
-  return display_unit(s.study.index.si_unit(), largest);
+  const std::string written = s.plan.written_unit();
+  if (written.empty() && s.study.index.si_unit() == "rad") return {"arcsec", kArcsecPerRadian};
+  return display_unit_as(s.study.index.si_unit(), largest, written);
 }
 
 std::string interval_text(const BudgetStudy& s, const ReportedInterval& i) {
@@ -57,7 +58,7 @@ report::Table requirement_table(const BudgetStudy& s, const Budget& b) {
       .title = "Requirements",
       .caption =
           "Met only where the members show it at the confidence asked for. Margin: limit less level, over the "
-          "limit. The rule's answer beside it is that of the classical table.",
+          "limit. The rule's answer is that of the classical table.",
       .columns = {{"Requirement"},
                   {"Limit"},
                   {"Level"},

@@ -143,9 +143,12 @@ class BudgetVerb : public Verb {
   std::string name() const override { return "budget"; }
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "pointing budget: APE, MPE, RPE, PDE, PRE; ensemble, temporal, mixed"; }
-  std::string example() const override {
-    return "boresight budget examples/3-rrcpr/budget.toml --set clearance.F1.axes=free --rung perturbation "
-           "--integrator rosenbrock";
+  std::string example() const override { return "boresight budget antenna/budget.toml"; }
+  std::string next(const Command&, bool answer_is_no) const override {
+    return answer_is_no
+               ? "tighten what takes off most, or raise members, then the same command: known runs are not repeated"
+               : std::string(
+                     "other requirements or windows need no new runs: change the study, give the command again");
   }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);
@@ -350,8 +353,10 @@ class BudgetVerb : public Verb {
       for (const RequirementAnswer& r : b.requirements)
         tell("  {}; by the classical rule {}, {}\n", requirement_sentence(s, r), budget_value(s, r.level.by_rule),
              to_string(r.level.standing));
+      std::size_t widest = 0;
+      for (const ErrorReduction& r : b.reductions) widest = std::max(widest, r.name.size());
       for (const ErrorReduction& r : b.reductions)
-        tell("  {:<32} {:<20} takes off {}{}\n", r.name, r.action, budget_value(s, r.gain()),
+        tell("  {:<{}}  {:<20} takes off {}{}\n", r.name, widest, r.action, budget_value(s, r.gain()),
              std::isfinite(r.interval.low)
                  ? fmt::format(" ({} to {})", budget_value(s, r.interval.low), budget_value(s, r.interval.high))
                  : "");

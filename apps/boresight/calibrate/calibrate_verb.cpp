@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <ostream>
 
@@ -19,6 +20,7 @@
 #include "command_line/declared_option.hpp"
 #include "command_line/verb.hpp"
 #include "report/report.hpp"
+#include "results/summary.hpp"
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
@@ -36,7 +38,17 @@ class CalibrateVerb : public Verb {
   std::string name() const override { return "calibrate"; }
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "contact parameters from measured pointing data"; }
-  std::string example() const override { return "boresight calibrate examples/calibration/calibrate.toml"; }
+  std::string example() const override {
+    return "boresight calibrate antenna/calibrate.toml --make-data \"1 %\"\n  boresight calibrate "
+           "antenna/calibrate.toml";
+  }
+  std::string next(const Command& command, bool answer_is_no) const override {
+    return answer_is_no ? std::string("boresight help calibrate.candidate: which further test would tell more")
+           : noise_.empty()
+               ? "in the [budget] table of a study: posterior = \"" +
+                     std::filesystem::absolute(last_summary().parent_path() / "posterior.toml").string() + "\""
+               : "boresight calibrate " + shell_word(command.file);
+  }
   std::vector<std::string> unused_options() const override { return {"--rung", "--accuracy"}; }
   void declare_options(CLI::App& app) override {
     declare_option(app, "--make-data", noise_,
@@ -63,7 +75,7 @@ class CalibrateVerb : public Verb {
     };
     const auto mechanism = mechanism_with({});
     const CalibrationPlan plan = read_calibration_plan(root, study, mechanism->description());
-    if (!noise_.empty()) return make_data(plan, mechanism_with);
+    if (!noise_.empty()) return make_data(command, plan, mechanism_with);
     CalibrationProblem problem = calibration_problem(plan, mechanism_with);
     CalibrationOptions options;
     options.jobs = command.jobs;
@@ -139,7 +151,7 @@ class CalibrateVerb : public Verb {
   }
 
   template <typename MechanismWith>
-  int make_data(const CalibrationPlan& plan, const MechanismWith& mechanism_with) const {
+  int make_data(const Command& command, const CalibrationPlan& plan, const MechanismWith& mechanism_with) const {
     SyntheticRig rig;
     rig.noise = positive_quantity("--make-data", noise_, kRatio);
     rig.seed = seed_;
@@ -153,9 +165,17 @@ class CalibrateVerb : public Verb {
         times.push_back(std::min(i * rig.spacing, mechanism->duration()));
       const MatX clean = multibody_readings(mechanism, mechanism->parameters(), times, rig.channels);
       write_atomically(plan.runs[r].data, synthetic_csv_of(with_rig_errors(rig, times, clean, static_cast<int>(r))));
-      tell("wrote {}\n", plan.runs[r].data);
+      if (!command.quiet) tell("wrote {}\n", plan.runs[r].data);
     }
+    if (command.json) std::cout << made_data(plan, rig).dump(2) << "\n";
     return kDone;
+  }
+
+  Json made_data(const CalibrationPlan& plan, const SyntheticRig& rig) const {
+    Json files = Json::array();
+    for (const PlannedRun& planned : plan.runs) files.push_back(planned.data);
+    return {{"verb", "calibrate"}, {"version", BORESIGHT_VERSION}, {"made_data", files},
+            {"noise", rig.noise},  {"offset", rig.bias[0]},        {"seed", rig.seed}};
   }
 
   static Json summary_of(const CalibrationStudy& s, const VerbStudy& own, const Stopwatch& watch,
@@ -219,10 +239,10 @@ class CalibrateVerb : public Verb {
     tell("{}: {} runs, {} values; {}\n", s.mechanism.name(), s.problem.runs.size(), s.result.inference.values,
          s.result.fit.reason);
     for (const ParameterEstimate& e : s.result.inference.parameters)
-      if (e.identifiable)
+      if (const DisplayUnit unit = display_unit(e.si_unit, e.value); e.identifiable)
         tell("  {}: {} +- {} ({:.5g} to {:.5g}{}{})\n", e.name, readable(e.value, e.si_unit),
-             readable(e.standard_error, e.si_unit), e.low, e.high, e.si_unit == "1" ? "" : " ",
-             e.si_unit == "1" ? "" : e.si_unit);
+             readable(e.standard_error, e.si_unit), e.low * unit.per_si, e.high * unit.per_si,
+             unit.name.empty() ? "" : " ", unit.name);
       else
         tell("  {}: not identifiable: {}\n", e.name, e.reason);
     for (const std::string& sentence : s.result.verdict) tell("  {}\n", sentence);

@@ -59,8 +59,8 @@ report::Chart index_chart(const ChartResult& result, std::optional<double> accur
   front.y = fy;
   if (!fx.empty()) chart.series.push_back(std::move(front));
   if (const ChartPoint* papers = result.papers()) {
-    chart.lines.push_back({'x', 1e3 * papers->measured.cpu_seconds, "the paper's own setting"});
-    chart.series.push_back({.name = "the paper's own setting",
+    chart.lines.push_back({'x', 1e3 * papers->measured.cpu_seconds, "the setting of Sun, Song and Wang"});
+    chart.series.push_back({.name = "the setting of Sun, Song and Wang",
                             .x = report::Numbers{1e3 * papers->measured.cpu_seconds},
                             .y = report::Numbers{100.0 * drawn(papers->error)},
                             .style = report::Style::markers,
@@ -84,9 +84,10 @@ report::Chart index_chart(const ChartResult& result, std::optional<double> accur
 }
 
 report::Table front_table(const ChartResult& result) {
-  report::Table table{.title = "The Pareto front",
-                      .caption = "Fastest first; each is more accurate than all that are faster.",
-                      .columns = {{"Way"}, {"Fineness"}, {"Error", "%"}, {"CPU", "ms"}, {"Faster than the paper's"}}};
+  report::Table table{
+      .title = "The Pareto front",
+      .caption = "Fastest first; each is more accurate than all that are faster.",
+      .columns = {{"Way"}, {"Fineness"}, {"Error", "%"}, {"CPU", "ms"}, {"Faster than Sun, Song, Wang"}}};
   const ChartPoint* papers = result.papers();
   for (std::size_t k : result.front) {
     const ChartPoint& p = result.points[k];
@@ -110,7 +111,7 @@ report::Table all_table(const ChartResult& result) {
                                   {"CPU", "ms"},
                                   {"Outcome"}}};
   for (const ChartPoint& p : result.points) {
-    const std::string name = p.papers ? "the paper's: " + p.family : p.family;
+    const std::string name = p.papers ? "Sun, Song, Wang: " + p.family : p.family;
     if (!p.measured.refusal.empty()) {
       table.rows.push_back(
           {name, fineness(p.setup), nullptr, nullptr, nullptr, nullptr, nullptr, "failed: " + p.measured.refusal});
@@ -208,7 +209,7 @@ report::Document chart_report(const Command& command, const Mechanism& mechanism
         report::Verdict{report::Standing::good,
                         fmt::format("Cheapest within {}: {}, {}: {} of CPU{}.", readable_share(wanted), best->family,
                                     fineness(best->setup), readable(best->measured.cpu_seconds, "s"),
-                                    papers ? fmt::format(", {:.3g} times faster than the paper's own setting",
+                                    papers ? fmt::format(", {:.3g} times faster than the setting of Sun, Song and Wang",
                                                          papers->measured.cpu_seconds / best->measured.cpu_seconds)
                                            : std::string())};
   else
@@ -220,7 +221,7 @@ report::Document chart_report(const Command& command, const Mechanism& mechanism
                             .value = readable(result.reference.value, result.unit),
                             .note = "known to " + readable_share(result.reference.uncertainty)});
   if (papers)
-    document.facts.push_back({.label = "The paper's own setting",
+    document.facts.push_back({.label = "The setting of Sun, Song and Wang",
                               .value = readable(papers->measured.cpu_seconds, "s"),
                               .note = "off by " + readable_share(papers->error)});
   const auto failed = std::count_if(result.points.begin(), result.points.end(),

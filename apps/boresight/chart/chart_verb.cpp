@@ -118,7 +118,7 @@ void print(const Mechanism& mechanism, const ChartResult& result, std::optional<
          fineness(p.setup));
   }
   if (const ChartPoint* papers = result.papers())
-    tell("  the paper's own setting: {}, off by {}\n", readable(papers->measured.cpu_seconds, "s"),
+    tell("  the setting of Sun, Song and Wang: {}, off by {}\n", readable(papers->measured.cpu_seconds, "s"),
          readable_share(papers->error));
   if (accuracy) {
     const ChartPoint* best = result.cheapest_within(*accuracy);
@@ -139,7 +139,12 @@ class ChartVerb : public Verb {
   std::string summary() const override {
     return "accuracy against speed: every rung, formulation and integrator, measured now, on this machine";
   }
-  std::string example() const override { return "boresight chart examples/3-rrcpr/3-rrcpr.toml --accuracy \"1 %\""; }
+  std::string example() const override {
+    return "boresight chart antenna/mechanism.toml --time \"5 s\" --accuracy \"1 %\"";
+  }
+  std::string next(const Command& command, bool) const override {
+    return "boresight run " + shell_word(command.file) + " --accuracy '1 %' takes the cheapest way by itself";
+  }
   std::vector<std::string> unused_options() const override { return {"--rung"}; }
   void declare_options(CLI::App& app) override {
     declare_option_with_default(app, "--index", index_,

@@ -36,6 +36,12 @@ report::Table mobility_table(const KinematicReport& k) {
   return table;
 }
 
+// Whether the drives move all six freedoms of the boresight body: only then are there condition numbers of its pose.
+bool has_conditioning(const KinematicReport& k) {
+  return std::any_of(k.along.begin(), k.along.end(),
+                     [](const ConditioningSample& s) { return s.orientation > 0.0 || s.position > 0.0; });
+}
+
 report::Panels conditioning_panels(const KinematicReport& k) {
   std::vector<double> t, orientation, position, singular;
   for (const ConditioningSample& s : k.along) {
@@ -56,10 +62,10 @@ report::Panels conditioning_panels(const KinematicReport& k) {
       .y = {"smallest singular value", ""}};
   smallest.series = {{.name = "smallest singular value", .x = t, .y = singular}};
   for (const LostMotion& lost : k.lost) smallest.lines.push_back({'x', lost.t, "singular"});
-  return {.title = "Distance from singular poses along the motion",
-          .caption = {},
-          .columns = 2,
-          .panels = {std::move(inverse), std::move(smallest)}};
+  report::Panels panels{.title = "Distance from singular poses along the motion", .caption = {}, .columns = 2};
+  if (has_conditioning(k)) panels.panels.push_back(std::move(inverse));
+  panels.panels.push_back(std::move(smallest));
+  return panels;
 }
 
 report::Table contact_frequencies(const std::vector<ContactFrequency>& contacts) {
@@ -253,12 +259,18 @@ report::Document check_report(const Command& command, const Mechanism& mechanism
                                 [&](const auto& a, const auto& b) { return a.*value < b.*value; })).*
              value;
     };
-    document.facts.push_back({.label = "Worst conditioning, orientation",
-                              .value = worst(&ConditioningSample::orientation),
-                              .note = "1 best, 0 singular"});
-    document.facts.push_back({.label = "Worst conditioning, position",
-                              .value = worst(&ConditioningSample::position),
-                              .note = "1 best, 0 singular"});
+    if (has_conditioning(k)) {
+      document.facts.push_back({.label = "Worst conditioning, orientation",
+                                .value = worst(&ConditioningSample::orientation),
+                                .note = "1 is best; at 0 the drives lose a motion"});
+      document.facts.push_back({.label = "Worst conditioning, position",
+                                .value = worst(&ConditioningSample::position),
+                                .note = "1 is best; at 0 the drives lose a motion"});
+    } else {
+      document.facts.push_back({.label = "Distance from losing a motion",
+                                .value = worst(&ConditioningSample::smallest_singular_value),
+                                .note = "0 where the drives lose one"});
+    }
   }
   // A play that cannot move has no step.
   const auto step = [](const ContactFrequency& c) {

@@ -76,7 +76,13 @@ class CheckVerb : public Verb {
   std::string summary() const override {
     return "mobility, redundancy, singular poses, contact frequencies: what would go wrong before it does";
   }
-  std::string example() const override { return "boresight check examples/3-rrcpr/3-rrcpr.toml"; }
+  std::string example() const override { return "boresight check antenna/mechanism.toml"; }
+  std::string next(const Command& command, bool answer_is_no) const override {
+    if (answer_is_no)
+      return "mend what the problems name, then boresight check " + shell_word(command.file) +
+             " again; boresight help WORD explains a key";
+    return "boresight run " + shell_word(command.file);
+  }
   std::vector<std::string> unused_options() const override { return {"--rung", "--accuracy"}; }
 
   int execute(const Command& command) override {

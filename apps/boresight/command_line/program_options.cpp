@@ -31,7 +31,9 @@ ProgramOptions::ProgramOptions()
     options[i].declare(*command, *verbs[i]);
     verbs[i]->declare_options(*command);
     command->group(group_of(*verbs[i]));
-    command->footer("Example:\n  " + verbs[i]->example());
+    const std::string example = verbs[i]->example();
+    const bool of_files = example.find("antenna/") != std::string::npos;
+    command->footer(std::string(of_files ? "Example, after boresight new antenna:\n  " : "Example:\n  ") + example);
     commands.push_back(command);
   }
   completion = app.add_subcommand("completion", "completion of verbs and options in a shell: bash, zsh, fish");

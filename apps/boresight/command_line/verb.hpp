@@ -25,8 +25,11 @@ class Verb {
   virtual std::string operand() const { return "FILE"; }  // what --help calls it, and says of it
   virtual std::string operand_is() const { return (needs_file() ? "the " : "a ") + file_kind() + " file"; }
   virtual std::string json_is() const { return "summary.json to standard output instead of the summary for people"; }
-  virtual std::string summary() const = 0;    // one line for --help
-  virtual std::string example() const = 0;    // a command that works as it stands
+  virtual std::string summary() const = 0;  // one line for --help
+  // Commands that work as they stand, in this order, in a folder where `boresight new antenna` was called; one a line.
+  virtual std::string example() const = 0;
+  // What to do with the results, in one line: "boresight run FILE"; "": nothing more. answer_is_no: of exit status 1.
+  virtual std::string next(const Command&, bool /*answer_is_no*/) const { return ""; }
   virtual void declare_options(CLI::App&) {}  // beyond those that verbs share
   // Of the options that verbs share, those that it has no use for, and refuses: "--rung", ...
   virtual std::vector<std::string> unused_options() const { return {}; }

@@ -108,7 +108,9 @@ class ExportVerb : public Verb {
   std::string operand() const override { return "DIR"; }
   std::string operand_is() const override { return "the folder of a study's results"; }
   std::string summary() const override { return "the samples of a study as CSV: samples.csv"; }
-  std::string example() const override { return "boresight export results/montecarlo"; }
+  std::string example() const override {
+    return "boresight montecarlo antenna/montecarlo.toml\n  boresight export results/montecarlo";
+  }
   std::vector<std::string> unused_options() const override { return {"--set", "--rung", "--accuracy", "--json"}; }
 
   int execute(const Command& command) override {

@@ -59,8 +59,7 @@ class HelpVerb : public Verb {
   int execute(const Command& command) override {
     const std::string& word = command.file;
     if (page_) {
-      if (!word.empty())
-        throw InputError({"command line", 0}, "WORD", "\"" + word + "\" beside --page", "one of the two");
+      if (!word.empty()) throw InputError({"command line", 0}, "WORD", "\"" + word + "\" and --page", "one of the two");
       std::cout << page();
       return kDone;
     }

@@ -62,13 +62,16 @@ class LawsVerb : public Verb {
   std::string summary() const override {
     return "contact and friction laws: formula, source, restitution asked for and returned, where each holds";
   }
-  std::string example() const override { return "boresight laws examples/3-rrcpr/3-rrcpr.toml"; }
+  std::string example() const override { return "boresight laws antenna/mechanism.toml"; }
+  std::string next(const Command& command, bool) const override {
+    return "boresight run " + shell_word(command.file) + " --set 'clearance.*.contact.law=NAME'";
+  }
   std::vector<std::string> unused_options() const override { return {"--rung", "--accuracy"}; }
   void declare_options(CLI::App& app) override {
     declare_option(app, "--joint", joint_,
                    "the clearance joint whose geometry and material are taken; otherwise the first", "JOINT");
     declare_option_with_default(app, "--speed", speed_, "of the impact", "SPEED");
-    declare_option_with_default(app, "--mass", mass_, "that strikes", "MASS");
+    declare_option_with_default(app, "--mass", mass_, "of the body that hits", "MASS");
   }
 
   int execute(const Command& command) override {

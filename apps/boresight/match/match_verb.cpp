@@ -75,7 +75,10 @@ class MatchVerb : public Verb {
   std::string name() const override { return "match"; }
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "clearance, load, ... at which the pointing error is least"; }
-  std::string example() const override { return "boresight match examples/3-rrcpr/match.toml"; }
+  std::string example() const override { return "boresight match antenna/match.toml"; }
+  std::string next(const Command&, bool) const override {
+    return "boresight run MECHANISM with --set PATH=VALUE for each value found: that design's motion";
+  }
   void declare_options(CLI::App& app) override { motion_.declare_model(app); }
 
   int execute(const Command& command) override {

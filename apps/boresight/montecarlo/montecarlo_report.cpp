@@ -23,12 +23,30 @@ std::vector<double> sorted_values(const MonteCarloStudy& s) {
 }
 
 DisplayUnit unit_for(const MonteCarloStudy& s, const std::vector<double>& sorted) {
-  return display_unit(s.study.index.si_unit(), sorted.empty() ? 0.0 : sorted.back());
+  return display_unit_as(s.study.index.si_unit(), sorted.empty() ? 0.0 : sorted.back(), written_unit(s.plan));
 }
 
-std::vector<report::Line> level_lines(const MonteCarloStudy& s, const DisplayUnit& unit) {
+// Whether a line for the limit leaves the samples room: far from all of them it would press them into a corner of the chart.
+bool is_near(double limit, double lowest, double highest) {
+  const double room = 1.5 * (highest - lowest);
+  return limit >= lowest - room && limit <= highest + room;
+}
+bool limit_is_drawn(const MonteCarloStudy& s, const std::vector<double>& sorted) {
+  return s.plan.requirement && is_near(s.plan.requirement->limit, sorted.front(), sorted.back());
+}
+// For the caption, where no line says it.
+std::string far_limit(const MonteCarloStudy& s, const std::vector<double>& sorted) {
+  if (!s.plan.requirement || limit_is_drawn(s, sorted)) return "";
+  const double limit = s.plan.requirement->limit;
+  return fmt::format(" The required limit, {}, lies far {} all samples and is not drawn.",
+                     readable_as(limit, s.study.index.si_unit(), s.plan.requirement->unit),
+                     limit > sorted.back() ? "above" : "below");
+}
+
+std::vector<report::Line> level_lines(const MonteCarloStudy& s, const std::vector<double>& sorted,
+                                      const DisplayUnit& unit) {
   std::vector<report::Line> lines;
-  if (s.plan.requirement) lines.push_back({'x', s.plan.requirement->limit * unit.per_si, "required"});
+  if (limit_is_drawn(s, sorted)) lines.push_back({'x', s.plan.requirement->limit * unit.per_si, "required"});
   for (const char* name : {"p50", "p95", "p99.73"}) {
     const double value = s.estimates.of(name).interval.value;
     if (std::isfinite(value)) lines.push_back({'x', value * unit.per_si, name});
@@ -39,7 +57,7 @@ std::vector<report::Line> level_lines(const MonteCarloStudy& s, const DisplayUni
 // Bins by Freedman and Diaconis (1981).
 report::Chart histogram(const MonteCarloStudy& s, const std::vector<double>& sorted, const DisplayUnit& unit) {
   report::Chart chart{.title = "How the index is distributed",
-                      .caption = "Each bar is the share of samples in its bin.",
+                      .caption = "Each bar is the share of samples in its bin." + far_limit(s, sorted),
                       .x = {s.study.index.title(), unit.name},
                       .y = {"share of samples", "%"}};
   const std::size_t n = sorted.size();
@@ -53,7 +71,7 @@ report::Chart histogram(const MonteCarloStudy& s, const std::vector<double>& sor
   for (const double value : sorted)
     y[std::min(bins - 1, static_cast<std::size_t>((value - sorted.front()) / width))] += 100.0 / static_cast<double>(n);
   chart.series.push_back({.name = "samples", .x = x, .y = y, .style = report::Style::bars});
-  chart.lines = level_lines(s, unit);
+  chart.lines = level_lines(s, sorted, unit);
   return chart;
 }
 
@@ -84,20 +102,19 @@ report::Chart distribution_function(const MonteCarloStudy& s, const std::vector<
     for (const double value : {low, i.value, high, std::nan("")}) {
       bx.push_back(value * unit.per_si);
       by.push_back(100.0 * h.probability);
-      bars.text.push_back(std::string(h.name) + ": " + readable_interval(i, s.study.index.si_unit()));
+      bars.text.push_back(std::string(h.name) + ": " +
+                          readable_interval(i, s.study.index.si_unit(), written_unit(s.plan)));
     }
   }
   bars.x = bx;
   bars.y = by;
   chart.series.push_back(std::move(bars));
-  if (s.plan.requirement) {
-    chart.lines = {{'x', s.plan.requirement->limit * unit.per_si, "required"},
-                   {'y', 100.0 * s.plan.requirement->probability, "required"}};
-  }
+  if (limit_is_drawn(s, sorted)) chart.lines.push_back({'x', s.plan.requirement->limit * unit.per_si, "required"});
+  if (s.plan.requirement) chart.lines.push_back({'y', 100.0 * s.plan.requirement->probability, "required"});
   return chart;
 }
 
-report::Chart convergence(const MonteCarloStudy& s, const DisplayUnit& unit) {
+report::Chart convergence(const MonteCarloStudy& s, const std::vector<double>& sorted, const DisplayUnit& unit) {
   report::Chart chart{.title = headline_title(s.estimates.headline) + ": how the estimate settled",
                       .caption = fmt::format("The estimate and its {} interval from the first samples alone.",
                                              readable_share(s.plan.confidence)),
@@ -124,7 +141,7 @@ report::Chart convergence(const MonteCarloStudy& s, const DisplayUnit& unit) {
   line.x = lx;
   line.y = ly;
   chart.series.push_back(std::move(line));
-  if (s.plan.requirement) chart.lines = {{'y', s.plan.requirement->limit * unit.per_si, "required"}};
+  if (limit_is_drawn(s, sorted)) chart.lines = {{'y', s.plan.requirement->limit * unit.per_si, "required"}};
   return chart;
 }
 
@@ -159,7 +176,8 @@ report::Table error_table(const MonteCarloStudy& s) {
   return table;
 }
 
-report::Panels scatter(const MonteCarloStudy& s, const DisplayUnit& unit, double top) {
+report::Panels scatter(const MonteCarloStudy& s, const std::vector<double>& sorted, const DisplayUnit& unit) {
+  const double top = sorted.back();
   report::Panels panels{
       .title = "The index against each parameter",
       .caption = s.shown.failed.empty()
@@ -188,7 +206,7 @@ report::Panels scatter(const MonteCarloStudy& s, const DisplayUnit& unit, double
     };
     add("samples", s.shown.done, false);
     add("failed", s.shown.failed, true);
-    if (s.plan.requirement) chart.lines = {{'y', s.plan.requirement->limit * unit.per_si, "required"}};
+    if (limit_is_drawn(s, sorted)) chart.lines = {{'y', s.plan.requirement->limit * unit.per_si, "required"}};
     panels.panels.push_back(std::move(chart));
   }
   return panels;
@@ -253,8 +271,8 @@ std::vector<report::Fact> facts_of(const MonteCarloStudy& s) {
     const ReportedInterval& i = s.estimates.of(name).interval;
     if (std::isfinite(i.value))
       facts.push_back({.label = headline_title(name),
-                       .value = readable(i.value, s.study.index.si_unit()),
-                       .note = readable_interval(i, s.study.index.si_unit())});
+                       .value = readable_as(i.value, s.study.index.si_unit(), written_unit(s.plan)),
+                       .note = readable_interval(i, s.study.index.si_unit(), written_unit(s.plan))});
   }
   if (s.estimates.requirement) {
     const ReportedInterval& p = s.estimates.requirement->probability;
@@ -275,9 +293,11 @@ std::string headline_title(const std::string& name) {
   return name.substr(1) + " % lie below";
 }
 
-std::string readable_interval(const ReportedInterval& i, const std::string& si_unit) {
+std::string written_unit(const MonteCarloPlan& plan) { return plan.requirement ? plan.requirement->unit : ""; }
+
+std::string readable_interval(const ReportedInterval& i, const std::string& si_unit, const std::string& written) {
   const auto text = [&](double value) {
-    return std::isfinite(value) ? readable(value, si_unit) : std::string("no bound");
+    return std::isfinite(value) ? readable_as(value, si_unit, written) : std::string("no bound");
   };
   return text(i.low) + " to " + text(i.high);
 }
@@ -285,10 +305,10 @@ std::string readable_interval(const ReportedInterval& i, const std::string& si_u
 std::string verdict_sentence(const MonteCarloStudy& s) {
   const Requirement& asked = *s.plan.requirement;
   const RequirementVerdict& found = *s.estimates.requirement;
-  std::string text =
-      fmt::format("Wanted: {} at or below {} in {} of all cases, with {} confidence: {}.", s.study.index.title(),
-                  readable(asked.limit, s.study.index.si_unit()), fmt::format("{:g} %", 100.0 * asked.probability),
-                  fmt::format("{:g} %", 100.0 * asked.confidence), found.met ? "met" : "not shown to be met");
+  std::string text = fmt::format(
+      "Wanted: {} at or below {} in {} of all cases, with {} confidence: {}.", s.study.index.title(),
+      readable_as(asked.limit, s.study.index.si_unit(), asked.unit), fmt::format("{:g} %", 100.0 * asked.probability),
+      fmt::format("{:g} %", 100.0 * asked.confidence), found.met ? "met" : "not shown to be met");
   if (std::isfinite(found.probability.value))
     text += fmt::format(" The share is {:.6g} %, and at least {:.6g} % with {} confidence.",
                         100.0 * found.probability.value, 100.0 * found.probability.low,
@@ -334,9 +354,9 @@ report::Document montecarlo_report(const MonteCarloStudy& s) {
          .intro = "The study's index is the " + s.study.index.title() + ".",
          .items = {histogram(s, sorted, unit), distribution_function(s, sorted, unit), estimate_table(s, unit)}});
     document.sections.push_back(
-        {.id = "error", .title = "How sure the numbers are", .items = {convergence(s, unit), error_table(s)}});
+        {.id = "error", .title = "How sure the numbers are", .items = {convergence(s, sorted, unit), error_table(s)}});
     document.sections.push_back(
-        {.id = "parameters", .title = "What it hangs on", .items = {scatter(s, unit, sorted.back()), input_table(s)}});
+        {.id = "parameters", .title = "What it hangs on", .items = {scatter(s, sorted, unit), input_table(s)}});
   }
   if (s.estimates.failed > 0)
     document.sections.push_back({.id = "failed", .title = "Failed samples", .items = {failed_table(s)}});

@@ -39,7 +39,9 @@ struct MonteCarloStudy {
 // "p99.73" is "99.73 % of all lie below".
 std::string headline_title(const std::string& name);
 // "0.231 mm (0.229 mm to 0.234 mm)"; an end that the samples do not bound is "no bound".
-std::string readable_interval(const ReportedInterval& interval, const std::string& si_unit);
+std::string readable_interval(const ReportedInterval& interval, const std::string& si_unit, const std::string& written);
+// The unit in which the requirement's limit is written; "": there is none.
+std::string written_unit(const MonteCarloPlan& plan);
 // The requirement and what was found, in a sentence.
 std::string verdict_sentence(const MonteCarloStudy& study);
 

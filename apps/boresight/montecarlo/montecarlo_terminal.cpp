@@ -41,10 +41,10 @@ void show(Progress& progress, const MonteCarloProgress& p, const MonteCarloQuest
     if (name == h.name && p.done > p.failed) {
       try {
         const IndependentInterval i = p.running->quantile(h.probability, question.plan.confidence);
-        estimate = name + " " + readable(i.value, unit);
+        estimate = name + " " + readable_as(i.value, unit, written_unit(question.plan));
         // Order statistics are for independent samples only.
         if (question.plan.design.kind == SamplingKind::random)
-          estimate += " (" + readable_interval(reported(i), unit) + ")";
+          estimate += " (" + readable_interval(reported(i), unit, written_unit(question.plan)) + ")";
       } catch (const std::invalid_argument&) {
       }
     }
@@ -53,13 +53,13 @@ void show(Progress& progress, const MonteCarloProgress& p, const MonteCarloQuest
 }
 
 void print(const MonteCarloStudy& s, const OutputDirectory& out) {
-  const std::string& unit = s.study.index.si_unit();
+  const std::string &unit = s.study.index.si_unit(), written = written_unit(s.plan);
   tell("{}: {} samples on the {} rung, {} failed; {}; index: {}\n", s.mechanism.name(), s.estimates.samples,
        s.rung.name, s.estimates.failed, to_string(s.result.ended), s.study.index.title());
   for (const NamedEstimate& e : s.estimates.index)
     if (std::isfinite(e.interval.value))
-      tell("  {:<8} {:>10}   ({} at {} confidence)\n", e.name, readable(e.interval.value, unit),
-           readable_interval(e.interval, unit), readable_share(s.plan.confidence));
+      tell("  {:<8} {:>12}   ({} at {} confidence)\n", e.name, readable_as(e.interval.value, unit, written),
+           readable_interval(e.interval, unit, written), readable_share(s.plan.confidence));
   for (const ErrorStatement& e : s.estimates.errors)
     if (e.of == s.estimates.headline)
       tell("  {} is uncertain by sampling {}, discretisation {}, rung {}: {} dominates\n", e.of,

@@ -15,6 +15,7 @@
 #include "montecarlo/several_rungs.hpp"
 #include "report/report.hpp"
 #include "results/scatter_parts.hpp"
+#include "results/summary.hpp"
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
@@ -42,7 +43,12 @@ class MonteCarloVerb : public Verb {
   std::string name() const override { return "montecarlo"; }
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "the index's distribution, with confidence intervals"; }
-  std::string example() const override { return "boresight montecarlo examples/3-rrcpr/montecarlo.toml"; }
+  std::string example() const override { return "boresight montecarlo antenna/montecarlo.toml"; }
+  std::string next(const Command&, bool answer_is_no) const override {
+    return answer_is_no
+               ? "boresight help sensitivity: which parameter to tighten; boresight help allocate: which fits would do"
+               : "boresight export " + shell_word(last_summary().parent_path().string()) + ": every sample as CSV";
+  }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);
     resumption_.declare(app);

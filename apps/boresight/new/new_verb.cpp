@@ -1,4 +1,4 @@
-// boresight new FOLDER: a commented mechanism and a study to start from, and what to do with them.
+// boresight new FOLDER: a commented mechanism and a study of each kind to start from, and what to do with them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +19,12 @@
 extern "C" {
 extern const char boresight_template_mechanism[];
 extern const char boresight_template_montecarlo[];
+extern const char boresight_template_sweep[];
+extern const char boresight_template_sensitivity[];
+extern const char boresight_template_match[];
+extern const char boresight_template_allocate[];
+extern const char boresight_template_budget[];
+extern const char boresight_template_calibrate[];
 }
 
 namespace boresight::app {
@@ -37,7 +43,7 @@ class NewVerb : public Verb {
   std::string file_kind() const override { return "folder"; }
   std::string operand() const override { return "FOLDER"; }
   std::string operand_is() const override { return "the folder to make"; }
-  std::string summary() const override { return "a commented mechanism and study to start from"; }
+  std::string summary() const override { return "a commented mechanism to start from, and a study of each kind"; }
   std::string example() const override { return "boresight new antenna"; }
   std::vector<std::string> unused_options() const override {
     return {"--set", "--out", "--rung", "--accuracy", "--json"};
@@ -48,7 +54,10 @@ class NewVerb : public Verb {
     const struct {
       const char* name;
       const char* text;
-    } files[] = {{"mechanism.toml", boresight_template_mechanism}, {"montecarlo.toml", boresight_template_montecarlo}};
+    } files[] = {{"mechanism.toml", boresight_template_mechanism}, {"montecarlo.toml", boresight_template_montecarlo},
+                 {"sweep.toml", boresight_template_sweep},         {"sensitivity.toml", boresight_template_sensitivity},
+                 {"match.toml", boresight_template_match},         {"allocate.toml", boresight_template_allocate},
+                 {"budget.toml", boresight_template_budget},       {"calibrate.toml", boresight_template_calibrate}};
     // Some of them word for word as they would be written, and not all: a start that was killed, which this one completes.
     const auto is_there = [&](const auto& file) { return fs::exists(folder / file.name); };
     const bool all = std::all_of(std::begin(files), std::end(files), is_there);
@@ -73,7 +82,8 @@ class NewVerb : public Verb {
           "{0}: an antenna whose elevation bearing has play, to be changed into yours\n"
           "  boresight check {0}/mechanism.toml        what would go wrong, before it does\n"
           "  boresight run {0}/mechanism.toml          one motion: how far off it points\n"
-          "  boresight montecarlo {0}/montecarlo.toml  with what probability\n",
+          "  boresight montecarlo {0}/montecarlo.toml  how the error scatters\n"
+          "and a study for each of sweep, sensitivity, match, allocate, budget and calibrate\n",
           folder.string());
     return kDone;
   }

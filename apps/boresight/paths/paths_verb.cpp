@@ -79,7 +79,7 @@ class PathsVerb : public Verb {
   std::string file_kind() const override { return "mechanism or study"; }
   std::string summary() const override { return "every path that --set and studies may name, with value and unit"; }
   std::string json_is() const override { return "as JSON, to standard output"; }
-  std::string example() const override { return "boresight paths examples/3-rrcpr/3-rrcpr.toml"; }
+  std::string example() const override { return "boresight paths antenna/mechanism.toml"; }
   std::vector<std::string> unused_options() const override {
     return {"--out", "--rung", "--accuracy", "--jobs", "--quiet"};
   }

@@ -40,6 +40,24 @@ const std::vector<Topic>& topics() {
         "The schema knows names, kinds, words and what must be there. Units, names of bodies and what depends on other "
         "keys it cannot "
         "judge: `boresight check FILE` does."}},
+      {"results",
+       "Results and exit status",
+       {"Every verb that computes writes a folder: results/FILE-VERB, or the one that --out names. It holds "
+        "report.html, one "
+        "file for a browser, which needs no network; summary.json; and tables as CSV. Files are in SI with all digits, "
+        "the "
+        "terminal and the report in the units that people read.",
+        "A folder that holds another study's results is never overwritten. A study that was stopped goes on where it "
+        "was "
+        "when the same command is given again.",
+        "--json prints summary.json instead of the summary for people, --quiet nothing. In a pipe there are no "
+        "colours, "
+        "and progress comes as whole lines.",
+        "The exit status says how it ended:", " 0    done",
+        " 1    done, and the answer is no: a singular pose, a requirement not met",
+        " 2    bad input: one line with file, line, key, what was found, what was expected",
+        " 3    the computation failed, or its results could not be written",
+        " 130  interrupted; what was reached is there as whole files"}},
   };
   return all;
 }

@@ -228,7 +228,7 @@ report::Table contact_table(const std::vector<Overlay>& overlays) {
       .title = "Contacts",
       .caption =
           "An impact is a contact begun. Flores' law is valid up to the speed in the last column but one "
-          "(Eq. 26); faster impacts are counted beside it.",
+          "(Eq. 26); faster impacts are counted.",
       .columns = {{"Motion"},
                   {"Joint"},
                   {"In contact", "%"},

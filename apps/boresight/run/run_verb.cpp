@@ -129,7 +129,11 @@ class RunVerb : public Verb {
   std::string file_kind() const override { return "mechanism"; }
   std::string summary() const override { return "one motion: pose, pointing error, contact states, forces"; }
   std::string example() const override {
-    return "boresight run examples/3-rrcpr/3-rrcpr.toml --set clearance.F1.radial=0.2mm --out results/wide";
+    return "boresight run antenna/mechanism.toml --set clearance.elevation.radial=0.06mm --out results/wide";
+  }
+  std::string next(const Command& command, bool answer_is_no) const override {
+    return answer_is_no ? "boresight chart " + shell_word(command.file) + " shows what accuracy can be had here"
+                        : "boresight help montecarlo: how the error scatters; --compare: what simpler rungs give";
   }
   void declare_options(CLI::App& app) override {
     motion_.declare(app, true);

@@ -52,7 +52,10 @@ class SensitivityVerb : public Verb {
   std::string name() const override { return "sensitivity"; }
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "which parameter's scatter matters: Sobol' indices, slopes, tornado"; }
-  std::string example() const override { return "boresight sensitivity examples/3-rrcpr/sensitivity.toml"; }
+  std::string example() const override { return "boresight sensitivity antenna/sensitivity.toml"; }
+  std::string next(const Command&, bool) const override {
+    return "boresight help allocate: which fits meet a requirement at least cost";
+  }
   void declare_options(CLI::App& app) override {
     motion_.declare_model(app);
     resumption_.declare(app);
@@ -246,9 +249,11 @@ class SensitivityVerb : public Verb {
       tell("  index: {}; mean {}, standard deviation {}; {} rung\n", s.study.index.title(),
            readable(s.global->mean, s.study.index.si_unit()), readable(s.global->sd, s.study.index.si_unit()),
            s.rung.name);
+      std::size_t widest = 0;
+      for (const GroupSensitivity& g : s.global->groups) widest = std::max(widest, g.name.size());
       for (const GroupSensitivity& g : s.global->groups)
-        tell("  {:<40} first {:>6.3f} ({:.3f} to {:.3f})   total {:>6.3f} ({:.3f} to {:.3f})\n", g.name, g.first.value,
-             g.first.low, g.first.high, g.total.value, g.total.low, g.total.high);
+        tell("  {:<{}}  first {:>6.3f} ({:.3f} to {:.3f})   total {:>6.3f} ({:.3f} to {:.3f})\n", g.name, widest,
+             g.first.value, g.first.low, g.first.high, g.total.value, g.total.low, g.total.high);
     }
     for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
     tell("  report: {}\n", (out.path() / "report.html").string());

@@ -153,7 +153,10 @@ class StabilityVerb : public Verb {
   std::string summary() const override {
     return "where the methods fail: maps over step, contact frequency and gains, and every known case";
   }
-  std::string example() const override { return "boresight stability examples/3-rrcpr/3-rrcpr.toml"; }
+  std::string example() const override { return "boresight stability antenna/mechanism.toml"; }
+  std::string next(const Command& command, bool) const override {
+    return "boresight chart " + shell_word(command.file) + ": how accurate and how fast the methods are";
+  }
   std::vector<std::string> unused_options() const override { return {"--rung", "--accuracy"}; }
 
   int execute(const Command& command) override {

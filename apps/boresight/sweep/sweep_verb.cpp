@@ -106,7 +106,10 @@ class SweepVerb : public Verb {
   std::string name() const override { return "sweep"; }
   std::string file_kind() const override { return "study"; }
   std::string summary() const override { return "the index over a grid of parameters"; }
-  std::string example() const override { return "boresight sweep examples/3-rrcpr/clearance-sweep.toml --jobs 2"; }
+  std::string example() const override { return "boresight sweep antenna/sweep.toml"; }
+  std::string next(const Command&, bool) const override {
+    return "boresight help sensitivity: which parameter's scatter matters";
+  }
   void declare_options(CLI::App& app) override { motion_.declare(app, false); }
 
   int execute(const Command& command) override {

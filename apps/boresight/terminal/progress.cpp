@@ -16,7 +16,6 @@ namespace {
 using std::chrono::milliseconds;
 
 std::string time_left(double seconds) {
-  if (!std::isfinite(seconds)) return "? left";
   if (seconds < 90.0) return fmt::format("{:.0f} s left", seconds);
   if (seconds < 5400.0) return fmt::format("{:.0f} min left", seconds / 60.0);
   return fmt::format("{:.1f} h left", seconds / 3600.0);
@@ -36,9 +35,11 @@ std::string progress_line(double done, double total, const std::string& unit, do
   const double share = total > 0.0 ? std::clamp(done / total, 0.0, 1.0) : 0.0;
   const int filled = static_cast<int>(share * kBar);
   const double rate = elapsed_seconds > 0.0 ? (done - before) / elapsed_seconds : 0.0;
-  const double left = rate > 0.0 ? (total - done) / rate : INFINITY;
-  return fmt::format("[{}{}] {:3.0f} %  {:.3g} of {:.3g} {}, {:.3g}/s, {}{}{}", std::string(filled, '#'),
-                     std::string(kBar - filled, '-'), 100.0 * share, done, total, unit, rate, time_left(left),
+  // Before the first of them is done nothing is known of the rate.
+  const std::string pace = rate > 0.0 ? fmt::format("{:.3g}/s, {}", rate, time_left((total - done) / rate))
+                                      : fmt::format("{:.0f} s so far", elapsed_seconds);
+  return fmt::format("[{}{}] {:3.0f} %  {:.3g} of {:.3g} {}, {}{}{}", std::string(filled, '#'),
+                     std::string(kBar - filled, '-'), 100.0 * share, done, total, unit, pace,
                      estimate.empty() ? "" : "; ", estimate);
 }
 

@@ -7,6 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "boresight/io/units.hpp"
+
 namespace boresight::app {
 namespace {
 
@@ -63,6 +65,21 @@ std::string readable(double value, const std::string& si_unit) {
   // A length or angle this small is the rounding of the computation.
   if ((si_unit == "m" || si_unit == "rad") && value != 0.0 && std::abs(value) < 1e-10) return "below 0.1 " + unit.name;
   return digits(value * unit.per_si) + (unit.name.empty() ? "" : " " + unit.name);
+}
+
+DisplayUnit display_unit_as(const std::string& si_unit, double largest, const std::string& written) {
+  if (written.empty()) return display_unit(si_unit, largest);
+  const double per_si = 1.0 / scale_of_unit(written, unit_called(si_unit));
+  const double shown = std::abs(largest) * per_si;
+  constexpr double kFewZeros = 1e-3, kFewDigits = 1e5;
+  if (shown != 0.0 && (shown < kFewZeros || shown >= kFewDigits)) return display_unit(si_unit, largest);
+  return {written, per_si};
+}
+
+std::string readable_as(double value, const std::string& si_unit, const std::string& written) {
+  const DisplayUnit unit = display_unit_as(si_unit, value, written);
+  if (written.empty() || unit.name != written || !std::isfinite(value)) return readable(value, si_unit);
+  return digits(value * unit.per_si) + " " + written;
 }
 
 std::string readable_arcsec(double radians) {

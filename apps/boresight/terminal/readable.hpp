@@ -10,6 +10,9 @@ namespace boresight::app {
 // `si_unit` is what the value is in: "m", "rad", "N", "m/s", "s", "Pa", "kg", "m/s^2", "1", ...
 std::string readable(double value, const std::string& si_unit);
 
+// In the unit that the user wrote ("arcsec"), unless the number is long or full of zeros there; "": readable().
+std::string readable_as(double value, const std::string& si_unit, const std::string& written);
+
 std::string readable_arcsec(double radians);
 std::string readable_share(double share);  // 0.937 is "93.7 %"
 std::string readable_number(double value);
@@ -20,5 +23,6 @@ struct DisplayUnit {
   double per_si = 1.0;
 };
 DisplayUnit display_unit(const std::string& si_unit, double largest);
+DisplayUnit display_unit_as(const std::string& si_unit, double largest, const std::string& written);
 
 }  // namespace boresight::app

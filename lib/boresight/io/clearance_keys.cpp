@@ -84,7 +84,7 @@ const KeyTable& contact_keys() {
                   "Law of the normal force over penetration d and its rate. The first laws share Hertz's force K d^1.5 "
                   "(1 + h d' / v0) and differ in the damping factor h, which the restitution e decides."),
           choice("dissipation", cited_dissipations())
-              .sometimes("beside a law for cylinders: johnson, ...; left out, the law's own")
+              .sometimes("with a law for cylinders: johnson, ...; left out, the law's own")
               .says("The law whose damping factor h a law for cylinders takes."),
           number("restitution")
               .otherwise(p.restitution)

@@ -8,7 +8,7 @@ const KeyTable& spring_keys() {
   static const SpringParameters p;
   static const KeyTable table_of_keys{
       .name = "spring",
-      .says = "A spring with a damper beside it, along the line between two points.",
+      .says = "A spring and a damper along the line between two points.",
       .keys = {texts("connects")
                    .named({"first", "second"})
                    .of_length({2}, "two names of bodies")
@@ -49,7 +49,7 @@ const KeyTable& load_keys() {
                          "world's x, y, z."),
                text("body").sometimes("this, or joint").says("The body that a force acts on."),
                vector("point", kCoordinateRange)
-                   .sometimes("needed beside body")
+                   .sometimes("needed with body")
                    .says("The point of the body where the force acts, at home in world coordinates.")}};
   return table_of_keys;
 }

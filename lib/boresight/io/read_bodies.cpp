@@ -75,7 +75,7 @@ void check_gyration(Cursor& cursor, const BodyDescription& body) {
     const double radius = std::sqrt(std::max(0.0, moment) / body.mass);
     if (holds(kSizeRange, radius) && radius > 0.0) continue;
     char text[80];
-    std::snprintf(text, sizeof text, "a radius of gyration of %.3g m beside a mass of %.3g kg", radius, body.mass);
+    std::snprintf(text, sizeof text, "a radius of gyration of %.3g m with a mass of %.3g kg", radius, body.mass);
     cursor.fail_found("inertia", text,
                       std::string("radii of gyration from ") + kSizeRange.least + " to " + kSizeRange.most);
   }

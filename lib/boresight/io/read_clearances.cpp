@@ -44,7 +44,7 @@ void check_restitution(Cursor& cursor, double restitution, const std::string& la
       others += (others.empty() ? "" : ", ") + std::string(other.name);
   char least[40];
   std::snprintf(least, sizeof least, "%g", kLeastRestitution);
-  cursor.fail("restitution", std::string("a number from ") + least + " to 1 beside the law " + in_quotes(entry.name) +
+  cursor.fail("restitution", std::string("a number from ") + least + " to 1 with law = " + in_quotes(entry.name) +
                                  ", whose damping grows without bound towards 0; laws that take 0: " + others);
 }
 
@@ -57,8 +57,8 @@ ContactParameters read_contact(Cursor& cursor, std::string& law, std::string& di
   if (cursor.has("dissipation")) {
     dissipation = cursor.choice("dissipation");
     if (geometry != ContactGeometry::line)
-      cursor.fail_found("dissipation", "it beside the law " + in_quotes(law),
-                        "it beside a law for cylinders: johnson, ...");
+      cursor.fail_found("dissipation", "it with law = " + in_quotes(law),
+                        "it only with a law for cylinders: johnson, ...");
   }
   if (geometry == ContactGeometry::linear) {
     p.linear_stiffness = cursor.quantity("stiffness");
@@ -66,7 +66,7 @@ ContactParameters read_contact(Cursor& cursor, std::string& law, std::string& di
   } else {
     for (const char* key : {"stiffness", "damping"})
       if (cursor.has(key))
-        cursor.fail_found(key, "it beside the law " + in_quotes(law), "it beside the law \"kelvin-voigt\"");
+        cursor.fail_found(key, "it with law = " + in_quotes(law), "it only with law = \"kelvin-voigt\"");
   }
   p.restitution = cursor.number("restitution");
   check_restitution(cursor, p.restitution, law, dissipation);
@@ -103,16 +103,16 @@ FrictionParameters read_friction(Cursor& cursor, std::string& law, std::vector<A
                  "dynamic_speed above static_speed");
   const FrictionLawEntry& entry = friction_law(law);
   const auto belongs = [&](const char* key, bool allowed, const char* to) {
-    if (cursor.has(key) && !allowed) cursor.fail_found(key, "it beside the law " + in_quotes(law), to);
+    if (cursor.has(key) && !allowed) cursor.fail_found(key, "it with law = " + in_quotes(law), to);
     return cursor.has(key);
   };
-  const char* peaked = "it beside a law with a static peak: bengisu-akay, brown-mcphee, lugre";
+  const char* peaked = "it only with a law that has a static peak: bengisu-akay, brown-mcphee, lugre";
   if (belongs("static_coefficient", entry.peak, peaked)) {
     p.static_coefficient = cursor.number("static_coefficient");
     cursor.require(p.static_coefficient >= p.coefficient, "static_coefficient", "a number of at least coefficient");
   }
   if (belongs("stribeck_speed", entry.peak, peaked)) p.stribeck_speed = cursor.quantity("stribeck_speed");
-  const char* bristly = "it beside the law \"lugre\"";
+  const char* bristly = "it only with law = \"lugre\"";
   if (belongs("bristle_stiffness", entry.sticks, bristly)) p.bristle_stiffness = cursor.quantity("bristle_stiffness");
   if (belongs("bristle_damping", entry.sticks, bristly)) p.bristle_damping = cursor.quantity("bristle_damping");
   if (belongs("viscosity", entry.sticks, bristly)) p.viscosity = cursor.quantity("viscosity");

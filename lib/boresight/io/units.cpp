@@ -180,6 +180,12 @@ bool parse_number(std::string_view text, double& value) {
   return take_number(text, value) && text.empty();
 }
 
+std::string unit_as_written(std::string_view text) {
+  std::string_view rest = trimmed(text);
+  double number = 0.0;
+  return take_number(rest, number) ? std::string(trimmed(rest)) : "";
+}
+
 double scale_of_unit(std::string_view unit, const SiUnit& expected) {
   return convert(trimmed(unit), expected, in_quotes(unit));
 }

@@ -49,6 +49,9 @@ std::string expectation(const SiUnit& unit);
 // missing or unknown, the dimension is another one, or the SI value overflows. Safe from many threads.
 double parse_quantity(std::string_view text, const SiUnit& expected);
 
+// The unit of "NUMBER UNIT" as it is written there; "" where the text does not begin with a number.
+std::string unit_as_written(std::string_view text);
+
 // How many SI units one `unit` is: scale_of_unit("mm", kLength) = 1e-3. Throws ValueFault.
 double scale_of_unit(std::string_view unit, const SiUnit& expected);
 

@@ -27,7 +27,7 @@ Predictability measure_predictability(std::shared_ptr<const Mechanism> mechanism
   options.events = false;
   options.integrator = "rk4";
   options.progress = [](const RunProgress& p) {
-    work_reached("comparing with a twin that starts beside it", p.t / p.duration);
+    work_reached("comparing with a motion that starts a little off", p.t / p.duration);
     return true;
   };
   RunResult run, twin;

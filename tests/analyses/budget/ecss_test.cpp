@@ -6,11 +6,14 @@
 
 #include "boresight_analyses/budget/classical.hpp"
 #include "boresight_analyses/budget/half_cone.hpp"
+#include "validation/printed.hpp"
 
 namespace boresight {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+const char* const kFigureA5 = "ECSS-E-ST-60-10C, Figure A-5";
+const char* const kAnnexC = "ECSS-E-ST-60-10C, Annex C";
 
 // Figure A-5: e = A sin(omega t), A uniform on (0, 10). A quarter of a period holds every |e| equally often. `at`:
 // where in its cell of amplitudes and times a sample lies; the middle integrates best, the upper end holds the
@@ -28,12 +31,14 @@ EnsembleInTime figure_a5(double at) {
 TEST(EcssFigureA5, IsReproducedToThePrintedDigits) {
   const EnsembleInTime ends = figure_a5(1.0), middles = figure_a5(0.5);
   const auto level = [](const EnsembleInTime& e, Interpretation i, double p) { return e.level(i, p, 0.9).value; };
-  EXPECT_NEAR(level(ends, Interpretation::ensemble, 0.95), 9.500, 5e-4);
-  EXPECT_NEAR(level(ends, Interpretation::ensemble, 0.9973), 9.973, 5e-4);
-  EXPECT_NEAR(level(ends, Interpretation::temporal, 0.95), 9.969, 5e-4);
-  EXPECT_NEAR(level(ends, Interpretation::temporal, 0.9973), 10.000, 5e-4);
-  EXPECT_NEAR(level(middles, Interpretation::mixed, 0.95), 8.154, 5e-4);
-  EXPECT_NEAR(level(middles, Interpretation::mixed, 0.9973), 9.729, 5e-4);
+  validation::expect_printed(kFigureA5, "ensemble, 95 %", "9.500", level(ends, Interpretation::ensemble, 0.95), 5e-4);
+  validation::expect_printed(kFigureA5, "ensemble, 99.73 %", "9.973", level(ends, Interpretation::ensemble, 0.9973),
+                             5e-4);
+  validation::expect_printed(kFigureA5, "temporal, 95 %", "9.969", level(ends, Interpretation::temporal, 0.95), 5e-4);
+  validation::expect_printed(kFigureA5, "temporal, 99.73 %", "10.000", level(ends, Interpretation::temporal, 0.9973),
+                             5e-4);
+  validation::expect_printed(kFigureA5, "mixed, 95 %", "8.154", level(middles, Interpretation::mixed, 0.95), 5e-4);
+  validation::expect_printed(kFigureA5, "mixed, 99.73 %", "9.729", level(middles, Interpretation::mixed, 0.9973), 5e-4);
 }
 
 TEST(EcssFigureA5, TheClassicalRuleExceedsTheLargestPossibleErrorAndIsFlaggedWasteful) {
@@ -42,14 +47,17 @@ TEST(EcssFigureA5, TheClassicalRuleExceedsTheLargestPossibleErrorAndIsFlaggedWas
   const Moments mixed = moments(sinusoid, 0, ErrorIndex::ape, Interpretation::mixed, {}, 1.0);
   const std::vector<ClassicalLine> lines = {{"A5", "periodic", "", {mixed}}};
   const double three_sigma = total_of(lines).axis_level(0, 0.9973);
-  EXPECT_NEAR(three_sigma, 12.25, 5e-3);
+  validation::expect_printed(kFigureA5, "three sigma by the classical rule", "12.25", three_sigma, 5e-3);
   EXPECT_EQ(standing_of(three_sigma, 9.729), RuleStanding::wasteful);
   EXPECT_EQ(standing_of(total_of(lines).axis_level(0, 0.95), 8.154), RuleStanding::fair);
 }
 
 TEST(HalfCone, WithOneDeviationAndNoMeanIsRayleighs) {
-  EXPECT_NEAR(equal_axes_factor(0.95, 2), 2.448, 5e-4);
-  EXPECT_NEAR(equal_axes_factor(0.9973, 2), 3.439, 5e-4);
+  const char* const rayleigh = "Rayleigh's distribution, sqrt(-2 ln(1 - p))";
+  validation::expect_printed(rayleigh, "half cone over one axis' deviation, 95 %", "2.448", equal_axes_factor(0.95, 2),
+                             5e-4);
+  validation::expect_printed(rayleigh, "half cone over one axis' deviation, 99.73 %", "3.439",
+                             equal_axes_factor(0.9973, 2), 5e-4);
   EXPECT_NEAR(radius_of(0.9973, std::vector{0.0, 0.0}, std::vector{1.0, 1.0}), 3.4393, 1e-4);
 }
 
@@ -115,23 +123,27 @@ struct AnnexC {
 
 TEST(EcssAnnexC, DeviationsOfApeAndRpeAreReproducedToThePrintedDigits) {
   const ClassicalTotal ape = AnnexC::total(ErrorIndex::ape), rpe = AnnexC::total(ErrorIndex::rpe);
-  const double ape_printed[] = {13.51, 8.37, 8.61}, rpe_printed[] = {10.70, 6.89, 6.28};
+  const char* const ape_printed[] = {"13.51", "8.37", "8.61"};
+  const char* const rpe_printed[] = {"10.70", "6.89", "6.28"};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    EXPECT_NEAR(ape.axes[axis].sd, ape_printed[axis], 0.005);
-    EXPECT_NEAR(rpe.axes[axis].sd, rpe_printed[axis], 0.005);
+    const std::string deviation = std::string("deviation about ") + "xyz"[axis] + " [arcsec]";
+    validation::expect_printed(kAnnexC, "APE, " + deviation, ape_printed[axis], ape.axes[axis].sd, 0.005);
+    validation::expect_printed(kAnnexC, "RPE, " + deviation, rpe_printed[axis], rpe.axes[axis].sd, 0.005);
   }
 }
 
 TEST(EcssAnnexC, LevelsAreReproducedToThePrintedDigits) {
   const ClassicalTotal ape = AnnexC::total(ErrorIndex::ape), rpe = AnnexC::total(ErrorIndex::rpe);
-  EXPECT_NEAR(ape.axis_level(0, 0.95), 27.01, 0.005);
-  EXPECT_NEAR(ape.axis_level(1, 0.95), 16.75, 0.005);
+  validation::expect_printed(kAnnexC, "APE, level about x, 95 % [arcsec]", "27.01", ape.axis_level(0, 0.95), 0.005);
+  validation::expect_printed(kAnnexC, "APE, level about y, 95 % [arcsec]", "16.75", ape.axis_level(1, 0.95), 0.005);
   // Printed 17.21, cut off: the axes' variances differ by exactly 4 (12.5 + 4.5 - 0.5 - 12.5), which with y = 16.75
   // leaves sqrt(16.745^2 + 16) = 17.216 as the least.
   EXPECT_NEAR(std::floor(100.0 * ape.axis_level(2, 0.95)) / 100.0, 17.21, 1e-9);
-  EXPECT_NEAR(rpe.axis_level(0, 0.95), 21.40, 0.005);
-  EXPECT_NEAR(rpe.axis_level(1, 0.95), 13.78, 0.005);
-  EXPECT_NEAR(rpe.axis_level(2, 0.95), 12.57, 0.005);
+  validation::expect_printed(kAnnexC, "APE, level about z, 95 % [arcsec], which is printed cut off", "17.21",
+                             ape.axis_level(2, 0.95), 0.01);
+  validation::expect_printed(kAnnexC, "RPE, level about x, 95 % [arcsec]", "21.40", rpe.axis_level(0, 0.95), 0.005);
+  validation::expect_printed(kAnnexC, "RPE, level about y, 95 % [arcsec]", "13.78", rpe.axis_level(1, 0.95), 0.005);
+  validation::expect_printed(kAnnexC, "RPE, level about z, 95 % [arcsec]", "12.57", rpe.axis_level(2, 0.95), 0.005);
 }
 
 TEST(EcssAnnexC, ApeIsMetAndRpeIsNot) {

@@ -6,6 +6,7 @@
 
 #include "boresight/io/value_fault.hpp"
 #include "boresight_analyses/random/fit_clearance.hpp"
+#include "validation/printed.hpp"
 
 namespace boresight {
 namespace {
@@ -23,10 +24,11 @@ TEST(Iso286, CommonFitsHaveTheStandardsClearances) {
       {"40 H7/f7", 25, 75},  {"14 H8/f7", 16, 61},  {"20 H8/f7", 20, 74},    {"40 H8/f7", 25, 89},
       {"14 H8/e8", 32, 86},  {"20 H8/e8", 40, 106}, {"40 H8/e8", 50, 128},   {"14 H9/d9", 50, 136},
       {"20 H9/d9", 65, 169}, {"40 H9/d9", 80, 204}, {"45 H11/c11", 130, 450}};
+  validation::PrintedTable table("ISO 286-2:2010", "clearances of common fits [um]", 1e-9);
   for (const Golden& g : goldens) {
     const Fit fit = parse_fit(g.fit);
-    EXPECT_NEAR(1e6 * fit.least_clearance(), g.least, 1e-9) << g.fit;
-    EXPECT_NEAR(1e6 * fit.largest_clearance(), g.largest, 1e-9) << g.fit;
+    table.expect(g.fit, g.least, 1e6 * fit.least_clearance());
+    table.expect(g.fit, g.largest, 1e6 * fit.largest_clearance());
   }
 }
 
@@ -55,10 +57,11 @@ TEST(Iso286, GradesAreThoseOfTheStandardsTable) {
                                  {60, 75, 90, 110, 130, 160, 190, 220, 250, 290, 320, 360, 400},
                                  {100, 120, 150, 180, 210, 250, 300, 350, 400, 460, 520, 570, 630},
                                  {140, 180, 220, 270, 330, 390, 460, 540, 630, 720, 810, 890, 970}};
+  validation::PrintedTable table("ISO 286-1:2010, Table 1", "tolerance grades IT1 to IT13 [um]", 1e-9);
   for (int g = 0; g < 13; ++g)
     for (int r = 0; r < 13; ++r) {
       const std::string name = std::to_string(ends[r]) + " H" + std::to_string(g + 1) + "/h6";
-      EXPECT_NEAR(1e6 * parse_fit(name).hole.upper, grades[g][r], 1e-9) << name;
+      table.expect(name, grades[g][r], 1e6 * parse_fit(name).hole.upper);
     }
 }
 
@@ -75,13 +78,14 @@ TEST(Iso286, DeviationsAreThoseOfTheStandardsTable) {
                  {"e", {14, 20, 25, 32, 40, 50, 60, 72, 85, 100, 110, 125, 135}},
                  {"f", {6, 10, 13, 16, 20, 25, 30, 36, 43, 50, 56, 62, 68}},
                  {"g", {2, 4, 5, 6, 7, 9, 10, 12, 14, 15, 17, 18, 20}}};
+  validation::PrintedTable table("ISO 286-1:2010, Table 4", "deviations of shafts c, d, e, f, g [um]", 1e-9);
   for (const auto& l : letters)
-    for (int r = 0; r < 13; ++r) EXPECT_NEAR(es(ends[r], l.letter), l.es[r], 1e-9) << l.letter << ' ' << ends[r];
+    for (int r = 0; r < 13; ++r) table.expect(l.letter + std::to_string(ends[r]), l.es[r], es(ends[r], l.letter));
   const double c[][2] = {{3, 60},    {6, 70},    {10, 80},   {14, 95},   {18, 95},   {24, 110},  {30, 110},
                          {40, 120},  {50, 130},  {65, 140},  {80, 150},  {100, 170}, {120, 180}, {140, 200},
                          {160, 210}, {180, 230}, {200, 240}, {225, 260}, {250, 280}, {280, 300}, {315, 330},
                          {355, 360}, {400, 400}, {450, 440}, {500, 480}};
-  for (const auto& [size, expected] : c) EXPECT_NEAR(es(size, "c"), expected, 1e-9) << "c " << size;
+  for (const auto& [size, expected] : c) table.expect("c" + std::to_string(size), expected, es(size, "c"));
 }
 
 // i = 0.45 D^(1/3) + 0.001 D um, D the geometric mean of the range; the standard rounds. Grades 6 to 11 are 10 i ..

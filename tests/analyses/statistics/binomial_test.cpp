@@ -7,15 +7,18 @@
 #include <stdexcept>
 
 #include "reference/reference.hpp"
+#include "validation/printed.hpp"
 
 namespace boresight {
 namespace {
 
 // Published tables: 95/95 takes 59, 93, 124 runs (Wilks 1941; NUREG/IAEA practice); the others recomputed exactly.
 TEST(Wilks, OneSidedSizesMeetTheTables) {
-  EXPECT_EQ(wilks_one_sided(0.95, 0.95, 0), 59);
-  EXPECT_EQ(wilks_one_sided(0.95, 0.95, 1), 93);
-  EXPECT_EQ(wilks_one_sided(0.95, 0.95, 2), 124);
+  const char* const fewest[] = {"59", "93", "124"};
+  for (int above = 0; above < 3; ++above)
+    validation::expect_printed("Wilks 1941",
+                               "samples for 95 % with 95 % confidence, one-sided, " + std::to_string(above) + " above",
+                               fewest[above], static_cast<double>(wilks_one_sided(0.95, 0.95, above)), 0.0);
   for (const reference::Row& row : reference::table("statistics_tables", "wilks"))
     EXPECT_EQ(wilks_one_sided(row[0], row[1], static_cast<std::int64_t>(row[2])), static_cast<std::int64_t>(row[3]))
         << row[1];
@@ -23,9 +26,13 @@ TEST(Wilks, OneSidedSizesMeetTheTables) {
 
 // Two-sided 95/95: 93, and 90/90: 38, 99/99: 662 (Wilks 1941; Guba, Makai, Pal 2003, Table 2).
 TEST(Wilks, TwoSidedSizesMeetTheTables) {
-  EXPECT_EQ(wilks_two_sided(0.95, 0.95), 93);
-  EXPECT_EQ(wilks_two_sided(0.90, 0.90), 38);
-  EXPECT_EQ(wilks_two_sided(0.99, 0.99), 662);
+  const std::pair<double, const char*> fewest[] = {{0.95, "93"}, {0.90, "38"}, {0.99, "662"}};
+  for (const auto& [p, printed] : fewest) {
+    const std::string percent = std::to_string(std::lround(100.0 * p)) + " %";
+    validation::expect_printed("Guba, Makai, Pal 2003, Table 2",
+                               "samples for " + percent + " with " + percent + " confidence, two-sided", printed,
+                               static_cast<double>(wilks_two_sided(p, p)), 0.0);
+  }
 }
 
 // With no exceedance 1 - p^n >= confidence, and one sample fewer does not do.
@@ -44,6 +51,8 @@ TEST(ClopperPearson, MeetsKnownBounds) {
   const reference::Row exact = reference::line("statistics_tables", "clopper-pearson");
   EXPECT_NEAR(ten.low, exact[0], 1e-8);
   EXPECT_NEAR(ten.high, exact[1], 1e-8);
+  validation::expect_printed("Clopper, Pearson 1934", "10 of 100, 95 %: lower bound", "0.0490", ten.low, 5e-5);
+  validation::expect_printed("Clopper, Pearson 1934", "10 of 100, 95 %: upper bound", "0.1762", ten.high, 5e-5);
   EXPECT_EQ(clopper_pearson(0, 50, 0.95).low, 0.0);
   EXPECT_NEAR(clopper_pearson(0, 50, 0.95).high, 1.0 - std::pow(0.025, 1.0 / 50.0), 1e-14);
   EXPECT_EQ(clopper_pearson(50, 50, 0.95).high, 1.0);
@@ -78,7 +87,8 @@ TEST(QuantileRanks, CoverTheQuantileWithTheStatedProbability) {
   const QuantileRanks median = quantile_ranks(10, 0.5, 0.95);
   EXPECT_EQ(median.low, 2);
   EXPECT_EQ(median.high, 9);
-  EXPECT_NEAR(median.coverage, 0.978515625, 1e-12);
+  validation::expect_printed("closed form, 1 - 22 / 1024", "coverage of the median of 10 by ranks 2 and 9",
+                             "0.978515625", median.coverage, 1e-12);
 }
 
 TEST(QuantileRanks, LeaveUnboundedWhatTooFewSamplesCannotBound) {

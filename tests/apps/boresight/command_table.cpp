@@ -218,7 +218,8 @@ std::vector<Command> commands() {
        .shorter = {"--time", "2 s", "--set", "motion.duration=50ms"},
        .claims =
            [](const Left& left) {
-             EXPECT_THAT(left.ended.out, AllOf(HasSubstr("Pareto front"), HasSubstr("the paper's own setting")));
+             EXPECT_THAT(left.ended.out,
+                         AllOf(HasSubstr("Pareto front"), HasSubstr("the setting of Sun, Song and Wang")));
            }},
       {.text = "boresight stability examples/3-rrcpr/3-rrcpr.toml",
        .shorter = {"--set", "motion.duration=50ms"},

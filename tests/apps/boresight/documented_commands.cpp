@@ -72,7 +72,8 @@ std::vector<DocumentedCommand> documented_commands() {
       if (line.starts_with("boresight ") && !std::regex_search(line, std::regex(" [A-Z]{4,}( |$)")))
         commands.push_back({fs::relative(document, kSource), line});
   };
-  take(kSource / "README.md", code_of(kSource / "README.md"));
+  for (const char* page : {"README.md", "lib/README.md", "tests/README.md"})
+    take(kSource / page, code_of(kSource / page));
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(kSource / "examples")) files.push_back(entry.path());
   std::sort(files.begin(), files.end());

@@ -1,4 +1,4 @@
-// The commands that the documents tell a user to give: README.md, the READMEs and the comments of the examples, and what .ci/start runs.
+// The commands that the documents tell a user to give: README.md and those of lib and tests, the pages and the comments of the examples, and what .ci/start runs.
 #pragma once
 
 #include <set>

@@ -1,10 +1,12 @@
-// Every command that README.md, the examples and .ci/start tell a user to give runs here, shortened where it is long, and does what the text
+// Every command that the READMEs, the examples and .ci/start tell a user to give runs here, shortened where it is long, and does what the text
 // around it says. A command or an example file that is new and not run here makes a test fail.
 #include "documented_commands.hpp"
 
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <regex>
+#include <set>
 
 #include "command_table.hpp"
 #include "documented_summary.hpp"
@@ -102,6 +104,46 @@ TEST(Documents, OtherCommandsOfTheReadmeAreKnownAndHeldElsewhere) {
   EXPECT_THAT(other_documented_commands(),
               testing::UnorderedElementsAre("bash .ci/start",   // its commands are among the above
                                             "bash .ci/test"));  // is what runs this
+}
+
+// Each link to a file of the repository, of every page that a reader may come to.
+TEST(Documents, LinkToFilesThatAreThere) {
+  const std::filesystem::path source = BORESIGHT_SOURCE;
+  std::vector<std::filesystem::path> pages;
+  for (const char* part : {"lib", "apps", "examples", "tests"})
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(source / part))
+      if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  pages.push_back(source / "README.md");
+  int links = 0;
+  for (const auto& page : pages) {
+    std::ifstream in(page);
+    const std::string words{std::istreambuf_iterator<char>(in), {}};
+    const std::regex link(R"(\]\(([^)#:\s]+)\))");
+    for (std::sregex_iterator at(words.begin(), words.end(), link), end; at != end; ++at, ++links)
+      EXPECT_TRUE(std::filesystem::exists(page.parent_path() / (*at)[1].str())) << page << " links to " << (*at)[1];
+  }
+  EXPECT_GT(links, 40);
+}
+
+// lib/README.md says in which file an equation is.
+TEST(Documents, NameFilesOfTheLibraryThatAreThere) {
+  const std::filesystem::path library = std::filesystem::path(BORESIGHT_SOURCE) / "lib";
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(library))
+    names.insert(entry.path().filename());
+  std::ifstream in(library / "README.md");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  const std::regex file(R"(`(?:([a-z_/]+)/)?([a-z_]+\.[ch]pp)`)");
+  int found = 0;
+  for (std::sregex_iterator at(page.begin(), page.end(), file), end; at != end; ++at, ++found) {
+    const std::string folder = (*at)[1], name = (*at)[2];
+    const bool there = folder.empty() ? names.contains(name)
+                       : folder.starts_with("analyses/")
+                           ? std::filesystem::exists(library.parent_path() / folder / name)
+                           : std::filesystem::exists(library / "boresight" / folder / name);
+    EXPECT_TRUE(there) << "lib/README.md names " << at->str();
+  }
+  EXPECT_GT(found, 30);
 }
 
 TEST(Examples, EveryFileIsRunByADocumentedCommand) {

@@ -25,6 +25,9 @@ TEST_F(FrontDoor, NewFilesCheckRunAndScatterAsTheyStand) {
   const Ended scattered = call({"montecarlo", "mine/montecarlo.toml", "--rung", "perturbation", "--out", "scatter"});
   EXPECT_EQ(scattered.status, 0) << scattered.err;
   EXPECT_EQ(json("scatter/summary.json")["failed"], 0);
+  // The study writes its limit in arcsec, and reads its answer in arcsec.
+  EXPECT_THAT(scattered.out,
+              AllOf(HasSubstr("at or below 30 arcsec in 95 %"), HasSubstr("p95 "), Not(HasSubstr("rad "))));
 }
 
 TEST_F(FrontDoor, NewOverwritesNothing) {
@@ -43,6 +46,14 @@ TEST_F(FrontDoor, JsonIsTheSummaryAndNothingElse) {
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(nlohmann::json::parse(ended.out), json("out/summary.json"));
   EXPECT_EQ(ended.err, "");
+}
+
+TEST_F(FrontDoor, CheckOfASoundMechanismCallsNothingSingular) {
+  ASSERT_EQ(call({"new", "mine"}).status, 0);
+  ASSERT_EQ(call({"check", "mine/mechanism.toml", "--out", "out"}).status, 0);
+  const std::string report = text("out/report.html");
+  EXPECT_THAT(report, AllOf(HasSubstr("Nothing stands in the way"), HasSubstr("Distance from losing a motion"),
+                            Not(HasSubstr("0 singular")), Not(HasSubstr("Worst conditioning"))));
 }
 
 TEST_F(FrontDoor, PipesGetNoColourAndNoCarriageReturns) {

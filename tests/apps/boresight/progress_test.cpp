@@ -12,8 +12,9 @@ TEST(ProgressLine, ShowsBarRateTimeLeftAndEstimate) {
             "[#####---------------]  25 %  0.5 of 2 s of motion, 0.05/s, 30 s left; error 0.2 mm");
 }
 
-TEST(ProgressLine, KnowsNothingYetAndSaysSo) {
-  EXPECT_THAT(progress_line(0.0, 2.0, "points", 0.0, ""), HasSubstr("? left"));
+TEST(ProgressLine, SaysHowLongItHasTakenBeforeTheFirstIsDone) {
+  EXPECT_EQ(progress_line(0.0, 2.0, "points", 7.2, ""), "[--------------------]   0 %  0 of 2 points, 7 s so far");
+  EXPECT_EQ(progress_line(1.0, 2.0, "points", 7.2, "", 1.0), "[##########----------]  50 %  1 of 2 points, 7 s so far");
 }
 
 TEST(ProgressLine, NeverLeavesTheBar) {

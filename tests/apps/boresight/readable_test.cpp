@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace boresight::app {
 namespace {
 
@@ -25,6 +27,17 @@ TEST(Readable, ZeroAndRoundingAreSaidPlainly) {
   EXPECT_EQ(readable(0.0, "m"), "0 mm");
   EXPECT_EQ(readable(2.9e-12, "rad"), "below 0.1 nrad");
   EXPECT_EQ(readable_arcsec(2.9e-12), "below 0.0001 arcsec");
+}
+
+TEST(Readable, StaysInTheUnitThatTheUserWrote) {
+  const double arcsec = 4.84813681109536e-6;
+  EXPECT_EQ(readable_as(30.0 * arcsec, "rad", "arcsec"), "30 arcsec");
+  EXPECT_EQ(readable_as(15.06 * arcsec, "rad", "arcsec"), "15.1 arcsec");
+  EXPECT_EQ(readable_as(2.5e-4, "m", "um"), "250 um");
+  EXPECT_EQ(readable_as(2.5e-4, "m", ""), "0.25 mm");
+  EXPECT_EQ(readable_as(2.5e-7, "m", "m"), "0.25 µm") << "0.00000025 m is for nobody";
+  EXPECT_EQ(readable_as(INFINITY, "rad", "arcsec"), "not known");
+  EXPECT_DOUBLE_EQ(display_unit_as("rad", 1e-4, "arcsec").per_si * arcsec, 1.0);
 }
 
 TEST(Readable, ArcsecondsAndShares) {

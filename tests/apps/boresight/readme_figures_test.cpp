@@ -1,4 +1,4 @@
-// README.md's figures are those that the program gives.
+// The figures of README.md and lib/README.md are those that the program gives.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -35,8 +35,8 @@ TEST_F(Program, TheReadmesTableOfRungsIsWhatTheRungsGive) {
   EXPECT_EQ(rows, 4);
 }
 
-TEST_F(Program, TheReadmesErrorOfAFreeJournalIsWhatPerturbationGives) {
-  std::ifstream in(std::string(BORESIGHT_SOURCE) + "/README.md");
+TEST_F(Program, TheLibrarysErrorOfAFreeJournalIsWhatPerturbationGives) {
+  std::ifstream in(std::string(BORESIGHT_SOURCE) + "/lib/README.md");
   const std::string readme{std::istreambuf_iterator<char>(in), {}};
   const std::size_t at = readme.find("boresight is off by ");
   ASSERT_NE(at, std::string::npos);

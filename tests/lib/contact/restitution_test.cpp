@@ -9,6 +9,7 @@
 #include "boresight/contact/kelvin_voigt.hpp"
 #include "boresight/contact/normal_law.hpp"
 #include "reference/reference.hpp"
+#include "validation/printed.hpp"
 
 namespace boresight {
 namespace {
@@ -43,6 +44,7 @@ TEST(ContactLaws, ReturnWhatExudynPrintsForALinearSpring) {
     const char* name;
     double asked, returned;
   };
+  validation::PrintedTable table("EXUDYN, contactSphereSphereTest", "restitution returned by three laws", 5e-5);
   for (const Row& row :
        {Row{"hunt-crossley", .9, .90903}, Row{"hunt-crossley", .8, .83290}, Row{"hunt-crossley", .5, .66298},
         Row{"hunt-crossley", .3, .58132}, Row{"hunt-crossley", .1, .51586}, Row{"gonthier", .3, .30424},
@@ -50,7 +52,7 @@ TEST(ContactLaws, ReturnWhatExudynPrintsForALinearSpring) {
         Row{"carvalho-martins", .5, .50018}}) {
     NormalLaw law{1e9, normal_law(row.name).damping_factor(row.asked)};
     law.curve = ElasticCurve::linear;
-    EXPECT_NEAR(impact(law, 1.0, 10.0, 3000).restitution, row.returned, 5e-5) << row.name << " asked for " << row.asked;
+    table.expect(row.name, row.returned, impact(law, 1.0, 10.0, 3000).restitution);
   }
 }
 

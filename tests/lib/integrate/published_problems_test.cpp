@@ -10,6 +10,7 @@
 #include "boresight/integrate/rosenbrock_method.hpp"
 #include "bouncing_mass.hpp"
 #include "reference/reference.hpp"
+#include "validation/printed.hpp"
 
 namespace boresight {
 namespace {
@@ -131,9 +132,15 @@ double digits(const VecX& y, const VecX& reference) {
 
 TEST(StiffProblems, EndWhereTheTestSetPutsThem) {
   const Eigen::Vector3d robertson(0.2083340149701255e-7, 0.8333360770334713e-13, 0.9999999791665050);
-  EXPECT_GT(digits(solved<Robertson>(Eigen::Vector3d(1.0, 0.0, 0.0), 1e11, 1e-9, 1e-22), robertson), 9.0);
+  const VecX reaction = solved<Robertson>(Eigen::Vector3d(1.0, 0.0, 0.0), 1e11, 1e-9, 1e-22);
+  EXPECT_GT(digits(reaction, robertson), 9.0);
+  validation::expect_printed("Bari test set, Robertson", "y3 at 1e11 s", "0.9999999791665050", reaction[2], 1e-9);
   const Eigen::Vector2d van_der_pol(1.706167732170469, -0.8928097010248125e-3);
-  EXPECT_GT(digits(solved<VanDerPol>(Eigen::Vector2d(2.0, 0.0), 2000.0, 1e-9, 1e-12), van_der_pol), 9.0);
+  const VecX oscillator = solved<VanDerPol>(Eigen::Vector2d(2.0, 0.0), 2000.0, 1e-9, 1e-12);
+  EXPECT_GT(digits(oscillator, van_der_pol), 9.0);
+  validation::expect_printed("Bari test set, van der Pol", "y at 2000 s", "1.706167732170469", oscillator[0], 2e-9);
+  validation::expect_printed("Bari test set, van der Pol", "y' at 2000 s", "-0.0008928097010248125", oscillator[1],
+                             1e-12);
 }
 
 }  // namespace

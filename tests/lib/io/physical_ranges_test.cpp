@@ -155,7 +155,7 @@ TEST(Restitution, OfZeroIsTakenByALawForCylindersWithADissipationThatTakesIt) {
   const std::string text = example("/3-rrcpr/3-rrcpr.toml");
   const std::vector<Setting> zero = {{"clearance.F1.contact.law", "johnson"},
                                      {"clearance.F1.contact.restitution", "0"}};
-  EXPECT_NE(error_of(text, zero).find("beside the law \"johnson\""), std::string::npos);
+  EXPECT_NE(error_of(text, zero).find("with law = \"johnson\""), std::string::npos);
   std::vector<Setting> with = zero;
   with.push_back({"clearance.F1.contact.dissipation", "hunt-crossley"});
   EXPECT_EQ(error_of(text, with), "no error");

@@ -4,6 +4,7 @@
 
 #include "published_examples.hpp"
 #include "reference/reference.hpp"
+#include "validation/printed.hpp"
 
 namespace boresight {
 namespace {
@@ -13,6 +14,7 @@ using scenes::example;
 using scenes::follow;
 using scenes::sample;
 
+const char* const kBari = "Bari test set, Andrews' squeezer, at 0.03 s";
 const double kAndrewsStart[] = {-0.0617138900142764496, 0.0,
                                 0.455279819163070380,   0.222668390165885885,
                                 0.487364979543842550,   -0.222668390165885885,
@@ -51,6 +53,22 @@ TEST(AndrewsSqueezer, IsWhereTheBariTestSetPutsIt) {
     EXPECT_NEAR(s.alpha.z(), of_bodies(acceleration)[b], 2.0 * 0.06) << "body " << b + 1;
     EXPECT_NEAR(s.alpha.z() / of_bodies(solved)[b], 1.0, 1e-7) << "body " << b + 1;
     EXPECT_NEAR(sample(result, b, 0.0).alpha.z(), of_bodies(first_acceleration)[b], 1e-7) << "body " << b + 1;
+  }
+  // Of the bodies whose own angle it prints.
+  const struct {
+    int body;
+    const char *name, *angle, *rate;
+  } printed[] = {{0, "beta", "15.81077119629904", "1139.920302151208"},
+                 {2, "gamma", "0.04082224013073101", "11.03291221937134"},
+                 {4, "delta", "0.5244099658805304", "0.5735699284790808"},
+                 {6, "epsilon", "1.048080741042263", "0.3231791658026955"}};
+  for (const auto& p : printed) {
+    const PoseSample& s = sample(result, p.body, 0.03);
+    // The whole turns are those that are printed.
+    const double turned = kAndrewsStart[p.body] + 2.0 * std::atan2(s.pose.q.z(), s.pose.q.w());
+    const double angle = std::stod(p.angle) + difference(turned, std::stod(p.angle));
+    validation::expect_printed(kBari, std::string(p.name) + " [rad]", p.angle, angle, 1e-7);
+    validation::expect_printed(kBari, std::string("rate of ") + p.name + " [rad/s]", p.rate, s.w.z(), 1e-5);
   }
 }
 
@@ -134,11 +152,13 @@ TEST(AndrewsSqueezer, CarriesTheForcesThatAreTheTestSetsMultipliers) {
   const Vec3 on4 = force_at_E(*mechanism, result, t, fourth, E), on6 = force_at_E(*mechanism, result, t, sixth, E);
   const Vec3 on3 = -force_at_E(*mechanism, result, t, motor, E) - on4 - on6;
   const double computed[] = {on3.x(), on3.y(), on4.x(), on4.y(), on6.x(), on6.y()};
-  const double reference[] = {199.1753333731910, -29.75531228015052, 23.06654119098399,
-                              31.45271365475927, 22.64249232082739,  11.61740700019673};
+  const char* const reference[] = {"199.1753333731910", "-29.75531228015052", "23.06654119098399",
+                                   "31.45271365475927", "22.64249232082739",  "11.61740700019673"};
   // Like the accelerations, they satisfy the problem's equations at the published positions to 1e-7 of the
   // largest.
-  for (int k = 0; k < 6; ++k) EXPECT_NEAR(computed[k], reference[k], 1e-7 * 200.0) << "multiplier " << k + 1;
+  for (int k = 0; k < 6; ++k)
+    validation::expect_printed(kBari, "multiplier " + std::to_string(k + 1) + " [N]", reference[k], computed[k],
+                               1e-7 * 200.0);
   // At first the spring is held by the motor's chain alone, which is in line then, so that its own two links
   // cannot tell how much of it.
   EXPECT_NEAR(force_at_E(*mechanism, result, 0.0, fourth, E).norm(), 0.0, 1e-9);

@@ -4,6 +4,7 @@
 
 #include "boresight/ladder/ladder.hpp"
 #include "scenes.hpp"
+#include "validation/printed.hpp"
 
 namespace boresight {
 namespace {
@@ -70,12 +71,20 @@ TEST(CarAxis, EndsWhereTheTestSetPutsIt) {
   const RunResult result = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
   const PoseSample &left = result.boresight.samples.back(), &right = result.others[0].samples.back();
   ASSERT_NEAR(result.time.back(), 3.0, 1e-9);
-  const double reference[] = {.0493455784275402809122, .496989460230171153861,   1.04174252488542151681,
-                              .373911027265361256927,  -.0770583684040972357970, .00744686658723778553466,
-                              .0175568157537232222276, .770341043779251976443};
+  const std::pair<const char*, const char*> reference[] = {
+      {"x of the left wheel [m]", "0.0493455784275402809122"},
+      {"y of the left wheel [m]", "0.496989460230171153861"},
+      {"x of the right wheel [m]", "1.04174252488542151681"},
+      {"y of the right wheel [m]", "0.373911027265361256927"},
+      {"speed of the left wheel along x [m/s]", "-0.0770583684040972357970"},
+      {"speed of the left wheel along y [m/s]", "0.00744686658723778553466"},
+      {"speed of the right wheel along x [m/s]", "0.0175568157537232222276"},
+      {"speed of the right wheel along y [m/s]", "0.770341043779251976443"}};
   const double computed[] = {left.pose.p.x(), left.pose.p.y(), right.pose.p.x(), right.pose.p.y(),
                              left.v.x(),      left.v.y(),      right.v.x(),      right.v.y()};
-  for (int k = 0; k < 8; ++k) EXPECT_NEAR(computed[k], reference[k], 1e-9) << "component " << k + 1;
+  for (int k = 0; k < 8; ++k)
+    validation::expect_printed("Bari test set, car axis, at 3 s", reference[k].first, reference[k].second, computed[k],
+                               1e-9);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ Median boresight_error(const Mechanism& mechanism, const Rung& rung, double step
   return {max[2], rms[2]};
 }
 
-// The figure of README.md, 2.39 mrad, and that both formulations and perturbation come to it. Impacts scatter it: medians over neighbouring
+// The figure of lib/README.md, 2.39 mrad, and that both formulations and perturbation come to it. Impacts scatter it: medians over neighbouring
 // steps.
 TEST(FreeAxesLong, TurnThePlatformOfTheDefaultSceneByMilliradians) {
   const auto mechanism = with_free_axes("120 mm");
