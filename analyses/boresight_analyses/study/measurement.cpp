@@ -65,7 +65,9 @@ Measurement measure(const Rung& rung, const Parameters& parameters, const RungSe
       if (options.advance && !options.advance()) throw MeasurementInterrupted{};
       RunOptions run = setup.options();
       run.start = options.index.start;
-      const bool fixed = setup.integrator.empty() || setup.integrator == "rk4";
+      // Where another integrator took over, the neighbours are neighbours of that: its mean step is none of rk4's.
+      if (!out.integrator.empty()) run.integrator = out.integrator;
+      const bool fixed = run.integrator.empty() || run.integrator == "rk4";
       // Once the rung has chosen its own step, the neighbours are neighbours of that.
       if (fixed && run.step == 0.0) run.step = out.step;
       if (!fixed && !setup.stepless() && run.step == 0.0 && run.tolerance == 0.0)
@@ -93,6 +95,7 @@ Measurement measure(const Rung& rung, const Parameters& parameters, const RungSe
         return out;
       }
       values.push_back(value);
+      if (out.integrator.empty()) out.integrator = result.integrator_taken;
       out.estimate = std::max(out.estimate, result.error.model);
       const double cpu = result.cost.cpu_seconds;
       out.cpu_seconds = values.size() == 1 ? cpu : std::min(out.cpu_seconds, cpu);

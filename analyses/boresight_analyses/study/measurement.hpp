@@ -45,6 +45,7 @@ struct Measurement {
   double step = 0.0;           // of fixed steps, or the mean under error control [s]; 0 where there are none
   double cpu_seconds = 0.0;    // of one run, the least
   double spent_seconds = 0.0;  // of all runs
+  std::string integrator;      // that took over from rk4 where none was asked for; "" if none did
   std::string refusal;         // why it could not be run; "" if it was
 };
 

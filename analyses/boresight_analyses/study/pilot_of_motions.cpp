@@ -92,8 +92,10 @@ class PilotOfMotions {
     for (const Parameters& motion : motions_) {
       const Measurement first = measured(*multibody_, motion, {.rung = "multibody", .step = options_.step}, neighbours);
       if (!first.refusal.empty()) throw ComputationError(first.refusal);
-      const Measurement fine =
-          measured(*multibody_, motion, {.rung = "multibody", .step = 0.5 * first.step}, neighbours);
+      const RungSetup finer = first.integrator.empty()
+                                  ? RungSetup{.rung = "multibody", .step = 0.5 * first.step}
+                                  : RungSetup{.rung = "multibody", .integrator = first.integrator}.finer();
+      const Measurement fine = measured(*multibody_, motion, finer, neighbours);
       if (!fine.refusal.empty()) throw ComputationError(fine.refusal);
       Reference r{.own = first.values, .fine = fine.values, .step = first.step};
       r.deviation = std::sqrt((squares(r.own) + squares(r.fine)) / (2.0 * neighbours - 2.0));
@@ -101,7 +103,8 @@ class PilotOfMotions {
       const double size = std::abs(mean(r.fine));
       if (size > kNothing) result_.scatter = std::max(result_.scatter, r.deviation / size);
       if (reference_.size() == 1) {
-        own.step = first.step;
+        own.step = first.integrator.empty() ? first.step : 0.0;
+        own.integrator = first.integrator;
         own.value = mean(r.own);
         own.cpu_seconds = first.cpu_seconds;
       }

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "boresight/ladder/ladder.hpp"
 #include "boresight/lanes/perturbation_lanes.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
+#include "scenes.hpp"
 
 namespace boresight {
 namespace {
@@ -34,6 +36,18 @@ TEST(RungSetup, IsNamedByAllButHowFinely) {
   EXPECT_EQ(setup.family(), "multibody, paper, baumgarte, rk4");
   EXPECT_EQ(setup.finer().family(), setup.family());
   EXPECT_EQ((RungSetup{.rung = "quasistatic", .integrator = "rk4"}.family()), "quasistatic");
+}
+
+// Its mean step is none of rk4's: the motion blew up where a neighbour took it for one.
+TEST(Measurement, HasNeighboursOfTheIntegratorThatTookOver) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "50 ms"}, {"payload.mass", "500 kg"}}));
+  const auto rung = make_rung("multibody", mechanism);
+  ASSERT_EQ(rung->run(mechanism->parameters(), {}).integrator_taken, "rosenbrock");
+  const Measurement m = measure(*rung, mechanism->parameters(), {.rung = "multibody"}, {});
+  EXPECT_EQ(m.refusal, "");
+  EXPECT_EQ(m.integrator, "rosenbrock");
+  EXPECT_EQ(m.values.size(), 3u);
+  EXPECT_LT(m.half_spread, 0.02 * m.value);
 }
 
 }  // namespace

@@ -203,10 +203,11 @@ TEST_F(MonteCarloProgram, AStudyThatFailsSaysWhyOnTheTerminalInTheSummaryAndInTh
 
 TEST_F(MonteCarloProgram, WhatEverySampleWouldRefuseIsRefusedAtTheStart) {
   const Ended ended =
-      call(quick("study.toml", "out", {"--set", "clearance.F1.friction.law=lugre", "--integrator", "dopri5"}));
+      call({"montecarlo", "study.toml", "--set", "motion.duration=20ms", "--set", "clearance.F1.friction.law=lugre",
+            "--rung", "multibody", "--integrator", "generalized-alpha", "--out", "out", "--quiet"});
   EXPECT_EQ(ended.status, 2);
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
-  EXPECT_THAT(ended.err, AllOf(HasSubstr("--integrator: found \"dopri5\""), HasSubstr("LuGre")));
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("--integrator: found \"generalized-alpha\""), HasSubstr("LuGre")));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 

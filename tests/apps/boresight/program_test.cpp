@@ -37,7 +37,7 @@ TEST_F(ProgramTest, HelpAndVersion) {
   for (const char* verb : {"check", "run", "sweep", "chart", "stability"}) {
     const Ended ended = call({verb, "--help"});
     EXPECT_EQ(ended.status, 0);
-    EXPECT_THAT(ended.out, AllOf(HasSubstr("Example:"), HasSubstr("--set"), HasSubstr("--out"), HasSubstr("--quiet")));
+    EXPECT_THAT(ended.out, AllOf(HasSubstr("Example"), HasSubstr("--set"), HasSubstr("--out"), HasSubstr("--quiet")));
   }
 }
 
@@ -264,7 +264,7 @@ TEST_F(ProgramTest, AChartOfAStudyTakesItsIndexAndItsAccuracy) {
   const Ended ended = call({"chart", "study.toml", "--set", "motion.duration=50ms", "--time", "1 s", "--out", "out"});
   ASSERT_EQ(ended.status, 0) << ended.err << ended.out;
   EXPECT_THAT(ended.out, AllOf(HasSubstr("position error, RMS"), HasSubstr("Pareto front"),
-                               HasSubstr("the paper's own setting"), HasSubstr("cheapest within 20 %")));
+                               HasSubstr("the setting of Sun, Song and Wang"), HasSubstr("cheapest within 20 %")));
   EXPECT_THAT(files("out"), ElementsAre("chart.csv", "flight.csv", "report.html", "summary.json"));
   const auto summary = json("out/summary.json");
   EXPECT_EQ(summary["papers"]["way"], "multibody, paper, baumgarte, rk4");
