@@ -17,6 +17,18 @@ inline double difference_increment(double value) {
   return std::sqrt(std::numeric_limits<double>::epsilon() * std::max(1e-5, std::abs(value)));
 }
 
+// df/dy at (t, y) by forward differences; f0: the right-hand side there. shifted, f: work space of y's size.
+template <System S>
+void jacobian_by_differences(const S& system, double t, const VecX& y, const VecX& f0, VecX& shifted, VecX& f, MatX& J) {
+  shifted = y;
+  for (Eigen::Index i = 0; i < y.size(); ++i) {
+    shifted[i] = y[i] + difference_increment(y[i]);
+    system.derivative(t, shifted, f);
+    J.col(i) = (f - f0) / (shifted[i] - y[i]);
+    shifted[i] = y[i];
+  }
+}
+
 class PartialDerivatives {
  public:
   explicit PartialDerivatives(Eigen::Index size) : jacobian(size, size), time(VecX::Zero(size)), y_(time), f_(time) {}
@@ -41,13 +53,7 @@ class PartialDerivatives {
     if constexpr (GivesJacobian<S>) {
       system.jacobian(t, y, jacobian);
     } else {
-      y_ = y;
-      for (Eigen::Index i = 0; i < y.size(); ++i) {
-        y_[i] = y[i] + difference_increment(y[i]);
-        system.derivative(t, y_, f_);
-        jacobian.col(i) = (f_ - f0) / (y_[i] - y[i]);
-        y_[i] = y[i];
-      }
+      jacobian_by_differences(system, t, y, f0, y_, f_, jacobian);
       cost.evaluations += y.size();
     }
   }

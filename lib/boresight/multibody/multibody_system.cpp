@@ -95,20 +95,6 @@ void MultibodySystem::derivative_of_all(double t, const VecX& y, VecX& dy) const
   elements_.rates(dy.tail(elements_.size()));
 }
 
-// The laws' own derivatives know nothing of what elements remember.
-void MultibodySystem::jacobian_by_differences(double t, const VecX& y, MatX& J) const {
-  VecX moved = y, base(y.size()), slope(y.size());
-  derivative(t, y, base);
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
-    moved[i] = y[i] + difference_increment(y[i]);
-    derivative(t, moved, slope);
-    J.col(i) = (slope - base) / (moved[i] - y[i]);
-    moved[i] = y[i];
-  }
-  evaluations_ += y.size() + 1;
-  base_ = base;
-}
-
 void MultibodySystem::derivative(double t, const VecX& y, VecX& dy) const {
   try {
     derivative_of_all(t, y, dy);
@@ -162,7 +148,13 @@ void MultibodySystem::remember_motion(double t, const VecX& y) const {
 }
 
 void MultibodySystem::jacobian(double t, const VecX& y, MatX& J) const {
-  if (!elements_.empty()) return jacobian_by_differences(t, y, J);
+  if (!elements_.empty()) {  // the laws' own derivatives know nothing of what elements remember
+    VecX shifted, slope(y.size());
+    base_.resize(y.size());
+    derivative(t, y, base_);
+    evaluations_ += y.size() + 1;
+    return jacobian_by_differences(*this, t, y, base_, shifted, slope, J);
+  }
   ForceElements& forces = formulation_.forces();
   respond(t, y);
   const int size = static_cast<int>(y.size());

@@ -73,7 +73,6 @@ class MultibodySystem {
   void remember_motion(double t, const VecX& y) const;
   void respond(double t, const VecX& y) const;
   void derivative_of_all(double t, const VecX& y, VecX& dy) const;
-  void jacobian_by_differences(double t, const VecX& y, MatX& J) const;
   void read(int clearance, double t, const VecX& y) const;
 
   Formulation& formulation_;

@@ -115,20 +115,12 @@ void PerturbationSystem::derivative(double t, const VecX& y, VecX& dy) const {
   elements_.rates(dy.tail(elements_.size()));
 }
 
-// The laws' own derivatives know nothing of what elements remember.
-void PerturbationSystem::jacobian_by_differences(double t, const VecX& y, MatX& J) const {
-  VecX shifted = y, base(y.size()), slope(y.size());
-  derivative(t, y, base);
-  for (Eigen::Index i = 0; i < y.size(); ++i) {
-    shifted[i] = y[i] + difference_increment(y[i]);
-    derivative(t, shifted, slope);
-    J.col(i) = (slope - base) / (shifted[i] - y[i]);
-    shifted[i] = y[i];
-  }
-}
-
 void PerturbationSystem::jacobian(double t, const VecX& y, MatX& J) const {
-  if (!elements_.empty()) return jacobian_by_differences(t, y, J);
+  if (!elements_.empty()) {  // the laws' own derivatives know nothing of what elements remember
+    VecX base(y.size()), shifted, slope(y.size());
+    derivative(t, y, base);
+    return jacobian_by_differences(*this, t, y, base, shifted, slope, J);
+  }
   scene_at(t);
   const SceneLayout& at = tables_->layout;
   const int n = at.n;

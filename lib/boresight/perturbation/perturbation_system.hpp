@@ -52,7 +52,6 @@ class PerturbationSystem {
  private:
   PerturbationSystem(const PerturbationSystem&) = delete;  // contacts_ knows where trackers_ are
   void scene_at(double t) const;
-  void jacobian_by_differences(double t, const VecX& y, MatX& J) const;
 
   std::shared_ptr<const SceneTables> tables_;
   std::vector<JointPlay> joints_;
