@@ -19,7 +19,8 @@ inline double difference_increment(double value) {
 
 // df/dy at (t, y) by forward differences; f0: the right-hand side there. shifted, f: work space of y's size.
 template <System S>
-void jacobian_by_differences(const S& system, double t, const VecX& y, const VecX& f0, VecX& shifted, VecX& f, MatX& J) {
+void jacobian_by_differences(const S& system, double t, const VecX& y, const VecX& f0, VecX& shifted, VecX& f,
+                             MatX& J) {
   shifted = y;
   for (Eigen::Index i = 0; i < y.size(); ++i) {
     shifted[i] = y[i] + difference_increment(y[i]);
