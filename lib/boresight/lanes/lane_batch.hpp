@@ -21,6 +21,8 @@ struct LanePlaces {
 // The functions of time of one scene and one set of masses (SceneTables), with the gain of the index behind them.
 struct LaneScene {
   const SceneLayout* layout = nullptr;
+  // Accelerations where the layout is one that kernels know when compiling (SingleRevoluteLayout), forces elsewhere.
+  SceneForm form = SceneForm::accelerations;
   const double* in_double = nullptr;  // [cell][power 0..3][width]: cubics in s, 0 <= s <= 1 across a cell
   const float* in_single = nullptr;   // the same rounded
   int cells = 0;
@@ -63,9 +65,10 @@ struct LaneOutcome {
 struct LaneSettings {
   double start = 0.0;  // [s]: of the statistics of the index
   const RosenbrockTable* method = nullptr;
-  double longest_step = 4e-3;    // [s]: the scene's numbers are taken as straight lines across a step
-  double first_step = 1e-6;      // [s]
-  double smallest_step = 1e-13;  // [s]
+  double longest_step = 4e-3;       // [s]: the scene's numbers are taken as straight lines across a step
+  double longest_held_step = 1e-3;  // [s]: where the scene's matrices are held still over a step
+  double first_step = 1e-6;         // [s]
+  double smallest_step = 1e-13;     // [s]
   long most_steps = 10'000'000;
   const std::atomic<bool>* stop = nullptr;  // once it is set, the kernel leaves soon
   // Called as each job ends, in the order in which they end. attempts: those made so far, of all lanes together.

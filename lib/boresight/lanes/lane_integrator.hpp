@@ -2,36 +2,37 @@
 // estimate and its contacts; a lane whose sample is done takes the next one from the list. So a sample that needs small steps
 // holds nobody back, and no sample's result depends on what runs beside it.
 //
-// Per attempt and sample: one row of the scene, one right-hand side with derivatives, one decomposition, and the stages that
-// the method has besides. What all lanes do in common is counted in tests/benchmarks/README.md.
+// Per attempt and sample: the scene's numbers, one right-hand side with derivatives, one decomposition, and the stages that
+// the method has besides; that is the Step's (lane_row_step.hpp, lane_window_step.hpp). What all lanes do in common is counted in
+// tests/benchmarks/README.md.
 // Control of the step: Hairer and Wanner (1996), section IV.8, with the exponent 1/4 of methods of order 4(3).
 #pragma once
 
 #include "boresight/lanes/lane_clock.hpp"
 #include "boresight/lanes/lane_contacts.hpp"
-#include "boresight/lanes/lane_rosenbrock.hpp"
-#include "boresight/lanes/lane_rows.hpp"
 #include "boresight/lanes/lane_statistics.hpp"
 
 namespace boresight {
 
 // T: lanes of single or double precision.
-template <typename T, typename Layout>
+template <typename T, typename Step>
 class LaneIntegrator {
  public:
-  static constexpr int W = T::kWidth, N = Layout::kCount;
+  static constexpr int W = T::kWidth;
   using Mask = typename T::Mask;
 
   LaneIntegrator(const LaneJob& first, const LaneSettings& settings)
       : settings_(settings),
-        dynamics_(*first.scene->layout, first.joints),
-        width_(first.scene->width),
-        gain_(first.scene->gain),
+        step_(first, settings),
         contacts_(first.scene->layout->joints.size(), first.scene->places),
-        method_(*settings.method, dynamics_, width_),
-        row_(static_cast<std::size_t>(width_)),
-        new_row_(row_),
-        change_(row_) {
+        z_(step_.numbers()),
+        v_(z_),
+        new_z_(z_),
+        new_v_(z_),
+        middle_z_(z_),
+        slowest_(z_),
+        error_(step_.pairs()),
+        tolerance_(error_) {
     jobs_of_.fill(nullptr);
   }
 
@@ -79,8 +80,7 @@ class LaneIntegrator {
   }
 
  private:
-  int count() const { return dynamics_.count(); }
-  int used() const { return dynamics_.at.width + 3 * count(); }  // of a row's columns
+  int count() const { return step_.count(); }
 
   void begin(int l, const LaneJob& job, LaneOutcome& outcome) {
     jobs_of_[l] = &job;
@@ -93,9 +93,9 @@ class LaneIntegrator {
       tolerance_[count() + k].set(l, 1.0 / job.tolerance[count() + k]);
       slowest_[k].set(l, job.tolerance[count() + k] / job.tolerance[k]);
     }
-    for (std::size_t c = 0; c < dynamics_.at.joints.size(); ++c) {
-      set_lane(dynamics_.laws[c], l, journal_of(job.joints[c]));
-      set_lane(dynamics_.acting[c], l, journal_of(job.joints[c]));
+    for (std::size_t c = 0; c < step_.play.at.joints.size(); ++c) {
+      set_lane(step_.play.laws[c], l, journal_of(job.joints[c]));
+      set_lane(step_.play.acting[c], l, journal_of(job.joints[c]));
       contacts_.tolerance[c].set(l, job.gap_tolerance[c]);
       contacts_.slowest[c].set(l, job.joints[c].minimum_impact_speed);
     }
@@ -105,7 +105,7 @@ class LaneIntegrator {
     for (T* x : {&statistics_.value, &statistics_.max, &statistics_.time_of_max, &statistics_.integral,
                  &statistics_.square, &touching_time_, &deepest_, &impacts_, &steps_, &rejected_})
       x->set(l, 0.0);
-    entry_.set(l, settings_.longest_step);
+    entry_.set(l, step_.longest());
     running_.set(l, true);
     rejected_before_.set(l, false);
     entering_.set(l, false);
@@ -125,26 +125,22 @@ class LaneIntegrator {
 
   // Rows and gaps of lanes that stand at the start of their motion.
   void read_starts(const Mask& lanes) {
-    scene_rows(scenes_.data(), clock_.times(), width_, new_row_.data());
-    for (int k = 0; k < used(); ++k) row_[k] = select(lanes, new_row_[k], row_[k]);
-    statistics_.begin(lanes, index_value(count(), &new_row_[gain_], z_.data()), settings_.start == 0.0);
-    dynamics_.contacts(new_row_.data(), z_.data(), v_.data(), contacts_.end.data());
+    step_.open(lanes, scenes_, clock_);
+    statistics_.begin(lanes, step_.index_at_start(z_.data()), settings_.start == 0.0);
+    step_.contacts(z_.data(), v_.data(), contacts_.end.data());
     for (int l = 0; l < W; ++l)
-      if (lanes.lane(l)) contacts_.restart(l, dynamics_.impact_speed);
-    contacts_.act(dynamics_.laws, dynamics_.acting);
+      if (lanes.lane(l)) contacts_.restart(l, step_.play.impact_speed);
+    contacts_.act(step_.play.laws, step_.play.acting);
   }
 
   void attempt() {
     const int n = count();
     T h = h_;
     clock_.aim(h);
-    scene_rows(scenes_.data(), clock_.next(), width_, new_row_.data());
-    for (int k = 0; k < used(); ++k) change_[k] = new_row_[k] - row_[k];
-    method_.step(dynamics_, row_.data(), change_.data(), h, z_.data(), v_.data(), new_z_.data(), new_v_.data(),
-                 error_.data());
-    dynamics_.contacts(new_row_.data(), new_z_.data(), new_v_.data(), contacts_.end.data());
-
-    weigh_rates_of_settled_contacts();
+    step_.step(running_, scenes_, clock_, h, z_.data(), v_.data(), new_z_.data(), new_v_.data(), error_.data());
+    step_.contacts(new_z_.data(), new_v_.data(), contacts_.end.data());
+    step_.weigh_rates_of_settled_contacts(contacts_.touching(), clock_.now() - contact_since_, slowest_.data(),
+                                          error_.data());
     T error(0.0);
     Mask finite = Mask::all(true);
     for (int k = 0; k < 2 * n; ++k) {
@@ -160,12 +156,12 @@ class LaneIntegrator {
     factor =
         select(finite, larger(smaller(factor, select(rejected_before_, T(1.0), T(kLargestFactor))), T(kSmallestFactor)),
                T(kSmallestFactor));
-    T next = smaller(h * factor, T(settings_.longest_step));
+    T next = smaller(h * factor, T(step_.longest()));
     next = select(lands, h * larger(share, T(1e-3)), next);
 
     observe(accepted, h);
     const Mask was_open = !contacts_.touching();
-    const Mask began = contacts_.accept(accepted, dynamics_.impact_speed, impacts_);
+    const Mask began = contacts_.accept(accepted, step_.play.impact_speed, impacts_);
     // The first step into a contact is much shorter than the flight's: remember how long the last one was.
     entry_ = select(accepted & entering_, h, entry_);
     next = select(began, smaller(next, T(kEntryFactor) * entry_), next);
@@ -178,32 +174,19 @@ class LaneIntegrator {
       z_[k] = select(accepted, new_z_[k], z_[k]);
       v_[k] = select(accepted, new_v_[k], v_[k]);
     }
-    for (int k = 0; k < used(); ++k) row_[k] = select(accepted, new_row_[k], row_[k]);
-    contacts_.act(dynamics_.laws, dynamics_.acting);
+    step_.accept(accepted);
+    contacts_.act(step_.play.laws, step_.play.acting);
     clock_.advance(accepted);
     contact_since_ = select(accepted & (began | was_open), clock_.now(), contact_since_);
     gave_up_ = running_ & ((h_ < T(settings_.smallest_step)) | (steps_ + rejected_ >= T(double(settings_.most_steps))));
     ends_ = (running_ & clock_.ended()) | gave_up_;
   }
 
-  // While a contact begins and ends, an error of a rate lives on in the flight that follows. One that has lasted for tens of its
-  // own periods only vibrates: there a rate's error counts by the offset that it leads to. The index sees offsets; what the
-  // vibration is worth when the contact ends later on is what kSettledShare stands for.
-  void weigh_rates_of_settled_contacts() {
-    const int n = count();
-    for (int k = 0; k < n; ++k) settled_[k] = error_[n + k];
-    const T stiffest = method_.offsets_of_rate_errors(slowest_.data(), settled_.data());
-    const Mask settled = contacts_.touching() & ((clock_.now() - contact_since_) * stiffest > T(kSettledAngle));
-    for (int k = 0; k < n; ++k)
-      error_[n + k] = select(settled, T(1.0 / kSettledShare) * settled_[k] * slowest_[k], error_[n + k]);
-  }
-
   void observe(const Mask& accepted, const T& h) {
     const int n = count();
     for (int k = 0; k < n; ++k) middle_z_[k] = T(0.5) * (z_[k] + new_z_[k]) + T(0.125) * h * (v_[k] - new_v_[k]);
-    const T end = index_value(n, &new_row_[gain_], new_z_.data());
-    for (int k = gain_; k < gain_ + 3 * n; ++k) change_[k] = row_[k] + T(0.5) * change_[k];
-    const T middle = index_value(n, &change_[gain_], middle_z_.data());
+    T middle, end;
+    step_.index_over_step(h, middle_z_.data(), new_z_.data(), middle, end);
     if (settings_.start > 0.0)
       statistics_.add_from(T(settings_.start), accepted, clock_.now(), h, middle, end);
     else
@@ -233,19 +216,12 @@ class LaneIntegrator {
 
   static constexpr long kAttemptsPerLook = 64;  // well below a millisecond
   static constexpr double kSafety = 0.9, kSmallestFactor = 0.2, kLargestFactor = 4.0, kEntryFactor = 1.5;
-  // Measured over the default scene's nine combinations of clearance and load and eight tolerances around kLaneTolerance: steps
-  // fall by a fifth and no maximum leaves 1 %; from an angle of 60 or a share of 1 on some do (two peaks of nearly one height).
-  static constexpr double kSettledAngle = 200.0, kSettledShare = 1.0 / 3.0;
-
   LaneSettings settings_;
-  LaneDynamics<T, Layout> dynamics_;
-  int width_, gain_;
+  Step step_;
   LaneContacts<T> contacts_;
-  LaneRosenbrock<T, Layout> method_;
-  std::vector<T> row_, new_row_, change_;
-  LaneVector<T, N> z_, v_, new_z_, new_v_, middle_z_;
-  LaneVector<T, N> slowest_, settled_;  // rates' tolerances over offsets' [1/s]; offsets that rates' errors lead to
-  std::array<T, 2 * std::tuple_size_v<LaneVector<T, N>>> error_, tolerance_;  // of offsets, then of rates
+  typename Step::Numbers z_, v_, new_z_, new_v_, middle_z_;
+  typename Step::Numbers slowest_;          // rates' tolerances over offsets' [1/s]
+  typename Step::Pairs error_, tolerance_;  // of offsets, then of rates
   LaneStatistics<T> statistics_;
   LaneClock<T> clock_;
   T h_{1.0}, entry_{1.0};

@@ -2,20 +2,32 @@
 #pragma once
 
 #include "boresight/lanes/lane_integrator.hpp"
+#include "boresight/lanes/lane_row_step.hpp"
+#include "boresight/lanes/lane_window_step.hpp"
 
 namespace boresight {
+
+// Subnormal numbers cost a hundred times others and mean nothing here: while this lives they are zero.
+class NoSubnormals {
+ public:
+#if defined(__SSE2__)
+  NoSubnormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | 0x8040u); }  // flush to zero, denormals are zero
+  ~NoSubnormals() { _mm_setcsr(before_); }
+
+ private:
+  unsigned before_;
+#endif
+};
 
 template <int W, typename Target, typename Real>
 void lane_kernel(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
   if (count == 0) return;
   using T = Lanes<W, Target, Real>;
-  const SceneLayout& layout = *jobs[0].scene->layout;
-  if (SingleRevoluteLayout::describes(layout))
-    LaneIntegrator<T, SingleRevoluteLayout>(jobs[0], settings).run(jobs, count, outcomes);
-  else if (layout.n == 5)
-    LaneIntegrator<T, SizedLayout<5>>(jobs[0], settings).run(jobs, count, outcomes);
+  [[maybe_unused]] const NoSubnormals here;
+  if (jobs[0].scene->form == SceneForm::accelerations)
+    LaneIntegrator<T, LaneRowStep<T, SingleRevoluteLayout>>(jobs[0], settings).run(jobs, count, outcomes);
   else
-    LaneIntegrator<T, SizedLayout<0>>(jobs[0], settings).run(jobs, count, outcomes);
+    LaneIntegrator<T, LaneWindowStep<T>>(jobs[0], settings).run(jobs, count, outcomes);
 }
 
 }  // namespace boresight

@@ -1,5 +1,5 @@
-// SceneLayout as the lanes see it: with as much of it known when compiling as the mechanism allows, so that loops unroll and
-// numbers stay in registers. All have the same shape as SceneLayout; offset_dynamics.hpp takes any of them.
+// SceneLayout as the lanes see it: with all of it known when compiling, so that loops unroll and numbers stay in registers, or
+// for any mechanism. Both have the same shape as SceneLayout; offset_dynamics.hpp takes either.
 #pragma once
 
 #include <array>
@@ -8,15 +8,12 @@
 
 namespace boresight {
 
-// kCount: number of coordinates, 0 if known only when running.
-template <int N>
-struct SizedLayout : SceneLayout {
-  static constexpr int kCount = N;
+struct AnyLayout : SceneLayout {
   static constexpr bool kParallel = false;  // whether it is known that no journal tilts
-  explicit SizedLayout(const SceneLayout& layout) : SceneLayout(layout) {}
+  explicit AnyLayout(const SceneLayout& layout) : SceneLayout(layout) {}
 };
 
-// One revolute whose journal keeps parallel, its three offsets the only coordinates, and no springs: everything is known.
+// One revolute whose journal keeps parallel, its three offsets the only coordinates, and no springs.
 struct SingleRevoluteLayout {
   static constexpr int kCount = 3;
   static constexpr bool kParallel = true;

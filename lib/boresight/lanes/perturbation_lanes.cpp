@@ -1,5 +1,6 @@
 #include "boresight/lanes/perturbation_lanes.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <list>
@@ -7,17 +8,20 @@
 #include <stdexcept>
 
 #include "boresight/formulations/ideal_simulation.hpp"
-#include "boresight/lanes/lane_numbers.hpp"
+#include "boresight/lanes/lane_layouts.hpp"
 #include "boresight/scene/resting_start.hpp"
 
 namespace boresight {
 namespace {
 
 constexpr int kPad = 16;  // lanes of the widest register
-// A contact begins this close to where the journal meets the sleeve, as a share of the clearance: a tenth of what the default
-// tolerance lets a step err by.
-constexpr double kGapShare = 1e-4;
-constexpr std::size_t kScenesKept = 64;  // of different masses
+// A contact begins this close to where the journal meets the sleeve, as a share of what the tolerance lets a step err by.
+constexpr double kGapShare = 0.1;
+// A coordinate that the scene hardly loads is asked for no less than this share of the quickest one's rate.
+constexpr double kSlowestCrossing = 0.03;
+// Of scenes of different masses: kept for samples to come, and held by the samples of one call.
+constexpr std::size_t kScenesKept = 64;
+constexpr double kMostBytesKept = 2.5e8, kMostBytesHeld = 1e9;
 
 // G at t, 3 x n: the index to first order is |G z|.
 MatX index_gain(const Mechanism& mechanism, const PreparedScene& prepared, PointingQuantity quantity, double t) {
@@ -39,6 +43,16 @@ MatX index_gain(const Mechanism& mechanism, const PreparedScene& prepared, Point
   return mechanism.pointing().line_of_sight->gain({ideal.p, Quat(ideal.R)}) * E;
 }
 
+// The ideal reactions' accelerations of the coordinates, from one row.
+VecX accelerations(const LaneScene& scene, const double* row) {
+  const SceneLayout& at = *scene.layout;
+  const VecX r = Eigen::Map<const VecX>(row + at.Ar, at.n);
+  if (scene.form == SceneForm::accelerations) return r;
+  MatX M;
+  at.inverse_mass(row, M);  // which M's place is
+  return M.llt().solve(r);
+}
+
 }  // namespace
 
 struct PerturbationLanes::Prepared {
@@ -50,6 +64,8 @@ struct PerturbationLanes::Prepared {
   std::vector<LanePlaces> places;
   VecX acceleration;  // root mean square of the ideal reactions' accelerations of each coordinate
   LaneScene lane;
+
+  double bytes() const { return 12.0 * static_cast<double>(in_double.size()); }
 };
 
 struct PerturbationLanes::Cache {
@@ -61,11 +77,7 @@ struct PerturbationLanes::Cache {
 };
 
 bool PerturbationLanes::serve(const Mechanism& mechanism) {
-  const MechanismDescription& m = mechanism.description();
-  if (mechanism.clearances() > kMostLaneJoints) return false;
-  // Every coordinate is an offset or a freedom that nothing drives.
-  if (OffsetLayout(mechanism).size() + undriven_freedoms(mechanism) > kMostLaneCoordinates) return false;
-  for (const JointPlay& law : joint_plays(m, mechanism.parameters())) {
+  for (const JointPlay& law : joint_plays(mechanism.description(), mechanism.parameters())) {
     const auto* journal = std::get_if<JournalInSleeve>(&law.kind);
     if (journal == nullptr || journal->radial_law.curve != ElasticCurve::point || law.sticks) return false;
     const FrictionKind friction = journal->friction.kind;
@@ -116,13 +128,13 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
     p->scene = cache_->scene;
     gain_table = cache_->gain;
   }
-  p->tables = std::make_shared<const SceneTables>(p->scene->scene().tables(parameters));
+  LaneScene& lane = p->lane;
+  if (!SingleRevoluteLayout::describes(p->scene->scene().layout())) lane.form = SceneForm::forces;
+  p->tables = std::make_shared<const SceneTables>(p->scene->scene().tables(parameters, lane.form));
   const TimeTable &dynamics = p->tables->dynamics, &gain = *gain_table;
   const int n = p->tables->layout.n;
-  if (n > kMostLaneCoordinates) throw std::logic_error("lanes do not serve this mechanism: ask serve() first");
   if (n == 0) return p;  // no play can move: nothing to follow
 
-  LaneScene& lane = p->lane;
   lane.gain = dynamics.width();
   lane.width = (dynamics.width() + 3 * n + kPad - 1) / kPad * kPad;
   lane.cells = dynamics.cells();
@@ -149,14 +161,12 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
 
   p->acceleration = VecX::Zero(n);
   for (int cell = 0; cell < lane.cells; ++cell)
-    for (int k = 0; k < n; ++k) {
-      const double a = dynamics.cell(cell)[p->tables->layout.Ar + k];
-      p->acceleration[k] += a * a / lane.cells;
-    }
+    p->acceleration += accelerations(lane, dynamics.cell(cell)).cwiseAbs2() / lane.cells;
   p->acceleration = p->acceleration.cwiseSqrt();
   const std::lock_guard lock(cache_->mutex);
   cache_->prepared.push_front(p);
-  if (cache_->prepared.size() > kScenesKept) cache_->prepared.pop_back();
+  const auto kept = static_cast<std::size_t>(std::max(1.0, kMostBytesKept / p->bytes()));
+  if (cache_->prepared.size() > std::min(kScenesKept, kept)) cache_->prepared.pop_back();
   return p;
 }
 
@@ -165,72 +175,101 @@ void PerturbationLanes::run(std::span<const Parameters> samples, std::span<LaneO
   run(lane_targets(lane_precision(tolerance)).front(), samples, outcomes, tolerance, watch);
 }
 
+// The jobs of some samples, and what they point to.
+struct PerturbationLanes::Batch {
+  std::vector<std::shared_ptr<const Prepared>> prepared;
+  std::list<std::vector<JointPlay>> joints;
+  std::list<std::vector<double>> tolerances;
+  std::list<VecX> starts;
+  std::vector<LaneJob> jobs;
+  double bytes = 0.0;  // of scenes that only this batch needs, at most
+};
+
+void PerturbationLanes::add(const Parameters& sample, double tolerance, Batch& to) const {
+  if (to.prepared.empty() || !same_scene(to.prepared.back()->parameters, sample)) {
+    to.prepared.push_back(prepared_for(sample));
+    to.bytes += to.prepared.back()->bytes();
+  }
+  const Prepared& p = *to.prepared.back();
+  const SceneLayout& at = p.tables->layout;
+  const std::vector<JointPlay>& own = to.joints.emplace_back(joint_plays(mechanism_->description(), sample));
+  // Scale of each coordinate: of an offset its clearance, of a slope the slope that crosses it.
+  VecX scale = VecX::Zero(at.n);
+  std::vector<double> gap;
+  for (int c = 0; c < mechanism_->clearances(); ++c) {
+    const JointPlay& law = own[c];
+    const double clearance = law.narrowest();
+    gap.push_back(kGapShare * tolerance * clearance);
+    for (int k = 0; k < at.joints[c].offsets; ++k) {
+      const int source = at.joints[c].source[k];
+      if (source < 0) continue;
+      const double own_scale = k < 3 ? clearance : clearance / law.lever();
+      scale[source] = scale[source] == 0.0 ? own_scale : std::min(scale[source], own_scale);
+    }
+  }
+  for (int k = 0; k < at.n; ++k)
+    if (scale[k] == 0.0) scale[k] = scale.maxCoeff() > 0.0 ? scale.maxCoeff() : 1e-4;
+  auto& errors = to.tolerances.emplace_back();
+  for (int k = 0; k < at.n; ++k) errors.push_back(tolerance * scale[k]);
+  // Of a rate: what leads to that error of the offset in the time in which the scene throws the coordinate across its clearance. Where
+  // several joints strike no flight is left alone for longer than the quickest one's.
+  const VecX crossing = (p.acceleration.array() / scale.array()).sqrt();
+  const double quickest = crossing.maxCoeff() * (mechanism_->clearances() > 1 ? 1.0 : kSlowestCrossing);
+  for (int k = 0; k < at.n; ++k) errors.push_back(tolerance * scale[k] * std::max(crossing[k], quickest));
+  errors.insert(errors.end(), gap.begin(), gap.end());
+  std::string warning;  // the rung itself says it
+  to.starts.push_back(start_coordinates(*mechanism_, at, p.tables->start, own, warning));
+  to.jobs.push_back({.scene = &p.lane,
+                     .joints = own.data(),
+                     .tolerance = errors.data(),
+                     .start = to.starts.back().data(),
+                     .gap_tolerance = errors.data() + 2 * at.n});
+}
+
 void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters> samples,
                             std::span<LaneOutcome> outcomes, double tolerance, const LaneWatch& watch) const {
-  std::vector<std::shared_ptr<const Prepared>> prepared;
-  std::vector<std::vector<JointPlay>> joints;
-  std::vector<std::vector<double>> tolerances;
-  std::vector<VecX> starts;
-  std::vector<LaneJob> jobs;
-  for (const Parameters& sample : samples) {
-    if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {
-      for (LaneOutcome& outcome : outcomes) outcome.status = LaneStatus::not_reached;
-      return;
-    }
-    prepared.push_back(prepared_for(sample));
-    const Prepared& p = *prepared.back();
-    if (p.tables->layout.n == 0) {  // of one sample as of all: no play can move
-      std::fill(outcomes.begin(), outcomes.end(), LaneOutcome{.t = mechanism_->duration()});
-      for (std::size_t k = 0; watch.ended && k < samples.size(); ++k) watch.ended(k, 0.0);
-      return;
-    }
-    const SceneLayout& at = p.tables->layout;
-    const std::vector<JointPlay>& own = joints.emplace_back(joint_plays(mechanism_->description(), sample));
-    // Scale of each coordinate: of an offset its clearance, of a slope the slope that crosses it.
-    VecX scale = VecX::Zero(at.n);
-    std::vector<double> gap;
-    for (int c = 0; c < mechanism_->clearances(); ++c) {
-      const JointPlay& law = own[c];
-      const double clearance = law.narrowest();
-      gap.push_back(kGapShare * clearance);
-      for (int k = 0; k < at.joints[c].offsets; ++k) {
-        const int source = at.joints[c].source[k];
-        if (source < 0) continue;
-        const double own_scale = k < 3 ? clearance : clearance / law.lever();
-        scale[source] = scale[source] == 0.0 ? own_scale : std::min(scale[source], own_scale);
-      }
-    }
-    for (int k = 0; k < at.n; ++k)
-      if (scale[k] == 0.0) scale[k] = scale.maxCoeff() > 0.0 ? scale.maxCoeff() : 1e-4;
-    auto& errors = tolerances.emplace_back();
-    for (int k = 0; k < at.n; ++k) errors.push_back(tolerance * scale[k]);
-    for (int k = 0; k < at.n; ++k)
-      errors.push_back(tolerance * std::sqrt(scale[k] * std::max(p.acceleration[k], 1e-3 * p.acceleration.maxCoeff())));
-    errors.insert(errors.end(), gap.begin(), gap.end());
-    std::string warning;  // the rung itself says it
-    starts.push_back(start_coordinates(*mechanism_, at, p.tables->start, own, warning));
-    jobs.push_back(
-        {.scene = &p.lane, .joints = nullptr, .tolerance = nullptr, .start = nullptr, .gap_tolerance = nullptr});
-  }
-  for (std::size_t i = 0; i < jobs.size(); ++i) {
-    jobs[i].joints = joints[i].data();
-    jobs[i].tolerance = tolerances[i].data();
-    jobs[i].start = starts[i].data();
-    jobs[i].gap_tolerance = tolerances[i].data() + 2 * jobs[i].scene->layout->n;
-  }
+  struct Listener {
+    const LaneWatch& watch;
+    std::size_t first = 0;              // sample of the batch
+    double before = 0.0, latest = 0.0;  // attempts, of earlier batches and in all
+  } listener{watch};
   LaneSettings settings;
   settings.method = &rodas4();
   settings.start = start_;
   // Across a step the scene's numbers are straight lines: a hundredth of the time in which they turn.
   settings.longest_step = std::min(settings.longest_step, mechanism_->duration() / 100.0);
+  // What a step holds still leaves out a twelfth of its square, of what turns the scene: it goes with the tolerance.
+  settings.longest_held_step =
+      std::min(settings.longest_step, 0.25 * settings.longest_step * std::sqrt(tolerance / kLaneTolerance));
   settings.stop = watch.stop;
-  if (watch.ended) {
-    settings.listener = const_cast<LaneWatch*>(&watch);
-    settings.ended = [](void* listener, long job, double attempts) {
-      static_cast<const LaneWatch*>(listener)->ended(static_cast<std::size_t>(job), attempts);
-    };
+  settings.listener = &listener;
+  settings.ended = [](void* to, long job, double attempts) {
+    Listener& l = *static_cast<Listener*>(to);
+    l.latest = l.before + attempts;
+    if (l.watch.ended) l.watch.ended(l.first + static_cast<std::size_t>(job), l.latest);
+  };
+
+  auto batch = std::make_unique<Batch>();
+  const auto flush = [&] {
+    target.kernel(batch->jobs.data(), static_cast<long>(batch->jobs.size()), settings, &outcomes[listener.first]);
+    listener.first += batch->jobs.size();
+    listener.before = listener.latest;
+    batch = std::make_unique<Batch>();
+  };
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (watch.stop != nullptr && watch.stop->load(std::memory_order_relaxed)) {
+      for (std::size_t i = listener.first; i < samples.size(); ++i) outcomes[i].status = LaneStatus::not_reached;
+      return;
+    }
+    if (k == 0 && prepared_for(samples[0])->tables->layout.n == 0) {  // of one sample as of all: no play can move
+      std::fill(outcomes.begin(), outcomes.end(), LaneOutcome{.t = mechanism_->duration()});
+      for (std::size_t i = 0; watch.ended && i < samples.size(); ++i) watch.ended(i, 0.0);
+      return;
+    }
+    add(samples[k], tolerance, *batch);
+    if (batch->bytes > kMostBytesHeld) flush();
   }
-  target.kernel(jobs.data(), static_cast<long>(jobs.size()), settings, outcomes.data());
+  if (!batch->jobs.empty()) flush();
 }
 
 }  // namespace boresight

@@ -8,7 +8,7 @@
 // displaces the bodies by finite turns, it differs by the deviation squared (1e-6 of the index where that is 1 mrad).
 // A sample's outcome is the same to the last bit whatever runs beside it, on every processor with fused multiply-adds (AVX2 or
 // later; those without agree among each other) and for any split of the
-// samples into calls (with contacts on a tilted rim: on processors whose C library gives the same arc cosine).
+// samples into calls (in double precision with contacts on a tilted rim: where the C library gives the same arc cosine).
 #pragma once
 
 #include <atomic>
@@ -42,16 +42,15 @@ struct LaneWatch {
 
 class PerturbationLanes {
  public:
-  // Whether lanes pay: few joints with clearance, and laws that have lanes: Hertz's geometry with any damping factor, modified
-  // Coulomb friction or none.
+  // Whether all joints' play has lanes: journals with Hertz's geometry and any damping factor, modified Coulomb friction or none.
   static bool serve(const Mechanism& mechanism);
   // Throws ComputationError near a singular pose, as the rung does.
   // start: the index's statistics leave out what comes before [s].
   PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity, double start = 0.0);
   ~PerturbationLanes();
 
-  // tolerance: largest error of one step in an offset, relative to its clearance c, and in its rate, relative to the speed
-  // sqrt(c a) that a free flight across the clearance reaches under the scene's accelerations a.
+  // tolerance: largest error of one step in an offset, relative to its clearance c, and in its rate, relative to c sqrt(a / c)
+  // with the largest ratio of the scene's accelerations a to the clearances: an offset's error in the quickest free flight.
   // outcomes: as many as samples.
   void run(std::span<const Parameters> samples, std::span<LaneOutcome> outcomes, double tolerance = kLaneTolerance,
            const LaneWatch& watch = {}) const;
@@ -61,6 +60,8 @@ class PerturbationLanes {
 
  private:
   struct Prepared;
+  struct Batch;
+  void add(const Parameters& sample, double tolerance, Batch& to) const;
   std::shared_ptr<const Prepared> prepared_for(const Parameters& parameters) const;
   std::shared_ptr<const TimeTable> gain_over_time(const PreparedScene& scene, const Parameters& parameters) const;
 

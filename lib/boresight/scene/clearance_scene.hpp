@@ -42,7 +42,7 @@ struct SceneStart {
 // The scene for one set of masses and one gravity, ready to integrate.
 struct SceneTables {
   SceneLayout layout;
-  // Per time, row by row: A = M_r^-1 (its upper triangle), A r, A C, (A K), then the joints' parts: see SceneLayout.
+  // Per time, row by row: A = M_r^-1 (its upper triangle), A r, A C, (A K), then the joints' parts: see SceneLayout. As forces: M_r, r, C, (K).
   TimeTable dynamics;
   SceneStart start;
 };
@@ -72,7 +72,7 @@ class ClearanceScene {
   int knots() const { return static_cast<int>(knots_.size()); }
   double spacing() const { return spacing_; }
 
-  SceneTables tables(const Parameters& parameters) const;
+  SceneTables tables(const Parameters& parameters, SceneForm form = SceneForm::accelerations) const;
   // E of one body: 6 x n, row by row, over time.
   TimeTable pose_gain(int body) const;
   // Its rate of change, likewise.
@@ -113,7 +113,8 @@ class ClearanceScene {
   // What T'' takes, where offsets depend on others: a load on z of -K z.
   MatX moving_stiffness(const Parameters& parameters, const Knot& knot) const;
   // at_rest: for a balance of forces, which does not ask how the coordinates change.
-  void append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row, bool at_rest = false) const;
+  void append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row, bool at_rest = false,
+                  SceneForm form = SceneForm::accelerations) const;
   double slowest_rate(const std::vector<double>& rows, const Parameters& parameters) const;
   double interpolation_error(const std::vector<double>& rows, const Parameters& parameters) const;
   // Whether T'' has a part.

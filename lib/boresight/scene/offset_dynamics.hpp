@@ -46,11 +46,8 @@ PlayMotion<T> play_motion(const Layout& at, const Joint& joint, const S* scene, 
     }
   m.w[0] = m.w[2] = T(0.0);
   for (int i = 0; i < joint.spins; ++i) {
-    T spin(scene[joint.spin + i]);
-    const S* gain = scene + joint.spin_gain + i * at.n;
-    for (int j = 0; j < at.n; ++j) spin = fused(T(gain[j]), rate[j], spin);
-    if (joint.gains_move)
-      for (int j = 0; j < at.n; ++j) spin = fused(T(scene[joint.spin_drift + i * at.n + j]), z[j], spin);
+    T spin = sum_of_products(at.n, scene + joint.spin_gain + i * at.n, rate, T(scene[joint.spin + i]));
+    if (joint.gains_move) spin = sum_of_products(at.n, scene + joint.spin_drift + i * at.n, z, spin);
     m.w[joint.spins == 3 ? i : 1] = spin;
   }
   return m;

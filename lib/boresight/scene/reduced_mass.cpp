@@ -94,8 +94,8 @@ MatX ClearanceScene::spring_stiffness(const Parameters& parameters, int knot) co
   return spring_stiffness(parameters, knots_[knot]);
 }
 
-void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row,
-                                bool at_rest) const {
+void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row, bool at_rest,
+                                SceneForm form) const {
   const int n = layout_.n;
   MatX M, C;
   VecX r;
@@ -103,27 +103,30 @@ void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, 
   const Eigen::LLT<MatX> cholesky(M);
   if (cholesky.info() != Eigen::Success)
     throw ComputationError("the reduced mass is not positive at t = " + std::to_string(knot.state.t) + " s");
-  const MatX inverse = cholesky.solve(MatX::Identity(n, n));
+  const bool forces = form == SceneForm::forces;
+  const MatX mass = forces ? M : MatX(cholesky.solve(MatX::Identity(n, n)));
+  const auto divided = [&](const MatX& load) { return forces ? load : MatX(cholesky.solve(load)); };
   for (int i = 0; i < n; ++i)
-    for (int j = i; j < n; ++j) row.push_back(inverse(i, j));
-  append(row, VecX(cholesky.solve(r)));
-  append(row, MatX(cholesky.solve(C)));
+    for (int j = i; j < n; ++j) row.push_back(mass(i, j));
+  append(row, divided(r));
+  append(row, divided(C));
   if (coordinates_.leftover() > 0) {
     // Differences know what T'' takes.
-    append(row, moving() && at_rest ? MatX(knot.stiffness - cholesky.solve(moving_stiffness(parameters, knot)))
-                                    : knot.stiffness);
+    const MatX AK = moving() && at_rest ? MatX(knot.stiffness - cholesky.solve(moving_stiffness(parameters, knot)))
+                                        : knot.stiffness;
+    append(row, forces ? MatX(M * AK) : AK);
   } else if (layout_.stiff) {
     MatX K = spring_stiffness(parameters, knot);
     if (moving() && !at_rest) K += moving_stiffness(parameters, knot);
-    append(row, MatX(cholesky.solve(K)));
+    append(row, divided(K));
   }
   row.insert(row.end(), knot.joints.begin(), knot.joints.end());
 }
 
-SceneTables ClearanceScene::tables(const Parameters& parameters) const {
+SceneTables ClearanceScene::tables(const Parameters& parameters, SceneForm form) const {
   std::vector<double> rows;
   rows.reserve(knots_.size() * layout_.width);
-  for (const Knot& knot : knots_) append_row(parameters, knot, rows);
+  for (const Knot& knot : knots_) append_row(parameters, knot, rows, false, form);
   return {layout_, TimeTable(spacing_, layout_.width, rows), start_of(parameters, knots_.front())};
 }
 

@@ -14,6 +14,10 @@ constexpr int upper_triangle(int n, int i, int j) {
   return i <= j ? i * n - i * (i - 1) / 2 + j - i : upper_triangle(n, j, i);
 }
 
+// What a row says of the coordinates: their accelerations, zddot = A (r + f) - A C zdot - A K z, or the forces on them,
+// M zddot = r + f - C zdot - K z. Both lie alike: A and M, A r and r, ...
+enum class SceneForm { accelerations, forces };
+
 struct SceneLayout {
   struct Joint {
     bool tilts = false, slides = false;

@@ -192,10 +192,11 @@ TEST(Lanes, TakeDoublePrecisionForTolerancesThatSingleCannotHold) {
   }
 }
 
-// Before impacts have parted them, the rung's own fixed steps and the lanes' adaptive ones follow one motion.
+// Before impacts have parted them, the rung's own fixed steps and the lanes' adaptive ones follow one motion. A journal that tilts
+// in a long sleeve parts motions tenfold every few milliseconds.
 TEST(Lanes, FollowTheRungItself) {
-  for (const JournalAxes axes : {JournalAxes::parallel, JournalAxes::free}) {
-    const auto mechanism = scene("0.05 s", axes);
+  for (const auto& [axes, duration] : {std::pair{JournalAxes::parallel, "0.05 s"}, {JournalAxes::free, "0.02 s"}}) {
+    const auto mechanism = scene(duration, axes);
     RunOptions options;
     options.step = 2e-6;
     options.sample_spacing = 0.0;
@@ -209,7 +210,7 @@ TEST(Lanes, FollowTheRungItself) {
       if (expected->max < 1e-9) continue;  // parallel axes: no turning
       const PerturbationLanes lanes(mechanism, quantity);
       LaneOutcome out;
-      lanes.run({&mechanism->parameters(), 1}, {&out, 1}, 1e-4);
+      lanes.run({&mechanism->parameters(), 1}, {&out, 1}, 1e-5);
       EXPECT_NEAR(out.max, expected->max, 2e-3 * expected->max) << static_cast<int>(quantity);
       EXPECT_NEAR(std::sqrt(out.mean_square), expected->rms, 1e-3 * expected->rms) << static_cast<int>(quantity);
       EXPECT_NEAR(out.mean, expected->mean, 1e-3 * expected->mean) << static_cast<int>(quantity);
@@ -300,29 +301,6 @@ TEST(Lanes, RefuseLawsThatTheyDoNotHave) {
   MechanismDescription d = scenes::rrcpr();
   d.clearances[0].contact_law = "johnson";
   EXPECT_FALSE(PerturbationLanes::serve(*scenes::build(std::move(d))));
-}
-
-TEST(Lanes, RefuseMechanismsOfManyJointsWithClearance) {
-  EXPECT_FALSE(PerturbationLanes::serve(
-      *scenes::build(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/twelve-joints.toml", {}))));
-}
-
-// Freedoms that nothing drives are coordinates besides the offsets.
-TEST(Lanes, RefuseMoreCoordinatesThanTheyHaveRoomFor) {
-  MechanismDescription d =
-      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/double-four-bar/double-four-bar.toml", {});
-  ClearanceDescription clearance = scenes::rrcpr().clearances[0];
-  for (int j = 0; j < 4; ++j) {
-    ASSERT_EQ(d.joints[j].type, JointType::revolute);
-    clearance.joint = j;
-    clearance.journal = d.joints[j].second;
-    d.clearances.push_back(clearance);
-  }
-  const Mechanism parallel(d);
-  EXPECT_EQ(undriven_freedoms(parallel), 1);
-  EXPECT_TRUE(PerturbationLanes::serve(parallel));  // 12 offsets and 1
-  for (ClearanceDescription& c : d.clearances) c.axes = JournalAxes::free;
-  EXPECT_FALSE(PerturbationLanes::serve(Mechanism(d)));  // 20 and 1
 }
 
 // The index at the default tolerance against its converged value: RK4 at 2 us, medians over three neighbouring steps.
