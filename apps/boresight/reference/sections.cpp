@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "boresight/io/mechanism_keys.hpp"
+#include "boresight/keys/mechanism_keys.hpp"
 #include "boresight_analyses/allocation/allocation_keys.hpp"
 #include "boresight_analyses/budget/budget_keys.hpp"
 #include "boresight_analyses/calibration/calibration_keys.hpp"
