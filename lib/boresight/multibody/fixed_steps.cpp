@@ -123,6 +123,8 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
   // The compliance changes with the pose only: fifty times along the motion is often enough.
   const long compliance_every = std::max(1L, steps / 50);
   bool interrupted = false;
+  // Not the Integrator's loop (explicit_runge_kutta.hpp): between the accepted state and its first slope stand the contacts'
+  // memory and the look at their stability, and a step that fails is taken anew in shorter ones to say why.
   for (long i = 0;; ++i) {
     const double t = static_cast<double>(i) * h;
     if (!y.allFinite()) throw UnstableStep("the state is not finite", t, h);

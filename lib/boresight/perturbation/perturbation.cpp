@@ -78,6 +78,7 @@ class Perturbation final : public SceneRung {
     DampingWatch damping(mechanism, h, limit);
     const long damping_every = std::max(1L, steps / 50);
     LargestDeviations largest(duration);
+    // Not the Integrator's loop, as in multibody/fixed_steps.cpp; that one closes joints and balances energy besides.
     for (long i = 0;; ++i) {
       const double t = static_cast<double>(i) * h;
       if (!y.allFinite()) throw UnstableStep("the deviation is not finite", t, h);
