@@ -16,7 +16,6 @@
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -163,13 +162,13 @@ class AllocateVerb : public Verb {
            plan.is_continuous() ? "cost curves" : "fits with prices");
       std::fflush(stdout);
     }
-    Progress progress(command.quiet, 1.0, "of the allocation");
+    const std::unique_ptr<Stage> stage = own.run().stage(1.0, "of the allocation");
     AllocationResult result =
         run_allocation(plan, deviation, misfit, std::ref(confirming), choice.name,
                        {.accuracy = own.run().options().accuracy.value_or(0.05),
                         .interrupted = [] { return interrupted(); },
-                        .progress = [&](const std::string& stage, double share) { progress.update(share, stage); }});
-    progress.clear();
+                        .progress = [&](const std::string& of, double share) { stage->update(share, of); }});
+    stage->clear();
     result.evaluations = confirming.computed;
     result.reused = confirming.reused;
     AllocateStudy allocated{.command = command,

@@ -24,7 +24,6 @@
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -93,9 +92,9 @@ class CalibrateVerb : public Verb {
                         identity_of(command, mechanism->description().content_hash, study.content_hash,
                                     {{"data", data.hexadecimal()}}));
     const OutputDirectory& out = own.out();
-    Progress progress(command.quiet, 1.0, "of the fit");
-    options.progress = [&](const std::string& stage, double share, const std::string& estimate) {
-      progress.update(share, stage + ": " + estimate);
+    const std::unique_ptr<Stage> stage = own.run().stage(1.0, "of the fit");
+    options.progress = [&](const std::string& of, double share, const std::string& estimate) {
+      stage->update(share, of + ": " + estimate);
       return !interrupted();
     };
     RungChoice rung;
@@ -106,7 +105,7 @@ class CalibrateVerb : public Verb {
     Unfinished begun = own.run().go_on([&] { return rung; });
     problem.kept = begun.results.get();
     const CalibrationResult result = calibrate(problem, options);
-    progress.clear();
+    stage->clear();
     const CalibrationStudy whole{command, study, *mechanism, rung, plan, problem, result};
     if (result.interrupted && result.inference.parameters.empty()) {
       if (begun.results->size() == 0) throw Interrupted{};

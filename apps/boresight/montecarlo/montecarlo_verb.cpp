@@ -19,7 +19,6 @@
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -123,12 +122,12 @@ class MonteCarloVerb : public Verb {
     }
     store->use_rung(model.rung(), model.step());
     if (!command.quiet) announce(question, choice, store->count(), ranks->size());
-    Progress progress(command.quiet, static_cast<double>(question.plan.samples), "samples");
-    options.progress = [&](const MonteCarloProgress& p) { show(progress, p, question); };
+    const std::unique_ptr<Stage> stage = own->run().stage(static_cast<double>(question.plan.samples), "samples");
+    options.progress = [&](const MonteCarloProgress& p) { show(*stage, p, question); };
     const std::uint64_t begun_with = store->count();
     const Stopwatch sampling;
     MonteCarloResult result = run_montecarlo(model, question.plan, store.get(), *ranks, options);
-    progress.clear();
+    stage->clear();
     const std::string stuck = no_run_done(result.ended == Ended::interrupted || result.ended == Ended::time, begun_with,
                                           store->count(), sampling.wall_seconds());
     // Last, as it keeps nothing before it ends: the samples get on in however short a time a process has.

@@ -15,7 +15,6 @@
 #include "sweep/sweep_report.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -144,9 +143,9 @@ class SweepVerb : public Verb {
     apply(choice, options.run);
     options.kept = begun.results.get();
 
-    Progress progress(command.quiet, static_cast<double>(plan.points()), "points");
+    const std::unique_ptr<Stage> stage = own.run().stage(static_cast<double>(plan.points()), "points");
     options.progress = [&](const SweepProgress& p) {
-      progress.update(p.done, "largest position error so far " + readable(p.position_error_max_so_far, "m"));
+      stage->update(p.done, "largest position error so far " + readable(p.position_error_max_so_far, "m"));
       return !interrupted();
     };
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
@@ -160,7 +159,7 @@ class SweepVerb : public Verb {
     out.publish();
     begun.results.reset();
     if (!result.interrupted) own.run().forget(kUnfinished);
-    progress.clear();
+    stage->clear();
     if (!command.quiet) print(study, plan, *mechanism, result, out);
     if (result.interrupted) return kInterrupted;
     if (result.failed == 0) return kDone;
