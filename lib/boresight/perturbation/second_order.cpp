@@ -26,20 +26,23 @@ VecX lengths(const Mechanism& mechanism, const Parameters& parameters, const Sce
   return unit;
 }
 
-// Coordinates whose forces decide together where a journal rests: across its axis, tilts included; along it;
-// and every coordinate that is no offset.
-std::vector<std::vector<int>> pushed_together(const SceneLayout& at) {
+// Coordinates whose forces decide together where a journal or a ball rests: what the seat's shape does not tell apart, tilts with
+// what is across the axis; and every coordinate that is no offset.
+std::vector<std::vector<int>> pushed_together(const SceneLayout& at, const ForceElements& forces) {
   std::vector<std::vector<int>> groups;
   std::vector<bool> taken(at.n, false);
-  for (const SceneLayout::Joint& joint : at.joints) {
-    std::vector<int> across, along;
-    for (int k = 0; k < joint.offsets; ++k) {
-      if (joint.source[k] < 0) continue;
-      (k == 1 ? along : across).push_back(joint.source[k]);
-      taken[joint.source[k]] = true;
+  for (std::size_t c = 0; c < at.joints.size(); ++c) {
+    const SceneLayout::Joint& joint = at.joints[c];
+    const std::size_t first = groups.size();
+    for (const std::vector<int>& group : forces.joint(static_cast<int>(c)).pushed_together()) {
+      if (group.front() < 3) groups.emplace_back();
+      std::vector<int>& into = group.front() < 3 ? groups.back() : groups[first];
+      for (int k : group) {
+        if (k >= joint.offsets || joint.source[k] < 0) continue;
+        into.push_back(joint.source[k]);
+        taken[joint.source[k]] = true;
+      }
     }
-    groups.push_back(across);
-    groups.push_back(along);
   }
   for (int i = 0; i < at.n; ++i)
     if (!taken[i]) groups.push_back({i});
@@ -162,7 +165,7 @@ class LeftOut {
         coordinates_(prepared.scene().coordinates()),
         formulation_(make_tree_formulation(mechanism, parameters, &prepared.ideal(), {})),
         unit_(lengths(mechanism, parameters, at_)),
-        groups_(pushed_together(at_)),
+        groups_(pushed_together(at_, formulation_->forces())),
         memory_(at_.joints.size()),
         row_(tables_->dynamics.width()),
         part_(groups_.size()),
