@@ -149,7 +149,7 @@ MechanismDescription light_slider_crank(const Vec3& socket) {
   scenes::add_joint(m, JointType::prismatic, slider, kGround, {0.5, 0.0, 0.0}, Vec3::UnitX());
   m.joints[0].driven = true;
   m.motion.drives[0] = scenes::sine(0.2, 6.0);
-  m.motion.duration = 0.4;
+  m.motion.duration = 0.1;
   scenes::add_clearance(m, 0, false);
   scenes::add_clearance(m, 2, false);
   ClearanceParameters& ball = m.clearances.back().parameters;
