@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "allocate/allocate_report.hpp"
+#include "boresight_analyses/allocation/allocation_keys.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 #include "command_line/study_input.hpp"
@@ -110,6 +111,7 @@ class AllocateVerb : public Verb {
  public:
   std::string name() const override { return "allocate"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &allocate_keys(); }
   std::string summary() const override {
     return "fits or tolerances per joint at least cost that meet the requirement";
   }

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "boresight/rungs/integrator_choice.hpp"
+#include "boresight_analyses/budget/budget_keys.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/runs/stored_runs.hpp"
 #include "budget/budget_report.hpp"
@@ -141,6 +142,7 @@ class BudgetVerb : public Verb {
  public:
   std::string name() const override { return "budget"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &budget_keys(); }
   std::string summary() const override { return "pointing budget: APE, MPE, RPE, PDE, PRE; ensemble, temporal, mixed"; }
   std::string example() const override { return "boresight budget antenna/budget.toml"; }
   std::string next(const Command&, bool answer_is_no) const override {

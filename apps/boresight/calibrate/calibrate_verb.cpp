@@ -13,6 +13,7 @@
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/io/referred_file.hpp"
 #include "boresight/mechanism/interruption.hpp"
+#include "boresight_analyses/calibration/calibration_keys.hpp"
 #include "boresight_analyses/calibration/calibration_plan.hpp"
 #include "boresight_analyses/calibration/posterior.hpp"
 #include "boresight_analyses/calibration/rig.hpp"
@@ -36,6 +37,7 @@ class CalibrateVerb : public Verb {
  public:
   std::string name() const override { return "calibrate"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &calibrate_keys(); }
   std::string summary() const override { return "contact parameters from measured pointing data"; }
   std::string example() const override {
     return "boresight calibrate antenna/calibrate.toml --make-data \"1 %\"\n  boresight calibrate "

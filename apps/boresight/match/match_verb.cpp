@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "boresight_analyses/matching/design_slopes.hpp"
+#include "boresight_analyses/matching/matching_keys.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 #include "command_line/study_input.hpp"
@@ -73,6 +74,7 @@ class MatchVerb : public Verb {
  public:
   std::string name() const override { return "match"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &match_keys(); }
   std::string summary() const override { return "clearance, load, ... at which the pointing error is least"; }
   std::string example() const override { return "boresight match antenna/match.toml"; }
   std::string next(const Command&, bool) const override {

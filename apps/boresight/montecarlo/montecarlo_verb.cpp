@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "boresight_analyses/montecarlo/montecarlo.hpp"
+#include "boresight_analyses/montecarlo/montecarlo_keys.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "command_line/montecarlo_study.hpp"
 #include "command_line/study_input.hpp"
@@ -41,6 +42,7 @@ class MonteCarloVerb : public Verb {
  public:
   std::string name() const override { return "montecarlo"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &montecarlo_keys(); }
   std::string summary() const override { return "the index's distribution, with confidence intervals"; }
   std::string example() const override { return "boresight montecarlo antenna/montecarlo.toml"; }
   std::string next(const Command&, bool answer_is_no) const override {

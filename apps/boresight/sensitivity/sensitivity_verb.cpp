@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "boresight_analyses/sensitivity/exact_slopes.hpp"
+#include "boresight_analyses/sensitivity/sensitivity_keys.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
@@ -50,6 +51,7 @@ class SensitivityVerb : public Verb {
  public:
   std::string name() const override { return "sensitivity"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &sensitivity_keys(); }
   std::string summary() const override { return "which parameter's scatter matters: Sobol' indices, slopes, tornado"; }
   std::string example() const override { return "boresight sensitivity antenna/sensitivity.toml"; }
   std::string next(const Command&, bool) const override {

@@ -7,6 +7,7 @@
 #include "boresight/ladder/ladder.hpp"
 #include "boresight_analyses/study/study.hpp"
 #include "boresight_analyses/sweep/sweep.hpp"
+#include "boresight_analyses/sweep/sweep_keys.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
 #include "report/report.hpp"
@@ -104,6 +105,7 @@ class SweepVerb : public Verb {
  public:
   std::string name() const override { return "sweep"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &sweep_keys(); }
   std::string summary() const override { return "the index over a grid of parameters"; }
   std::string example() const override { return "boresight sweep antenna/sweep.toml"; }
   std::string next(const Command&, bool) const override {
