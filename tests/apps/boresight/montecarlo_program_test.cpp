@@ -17,6 +17,15 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
+double value_of_sample_7(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string row;
+  for (int k = 0; k < 9; ++k) std::getline(lines, row);
+  EXPECT_THAT(row, testing::StartsWith("7,"));
+  const std::string value = row.substr(0, row.rfind(','));
+  return std::stod(value.substr(value.rfind(',') + 1));
+}
+
 TEST_F(MonteCarloProgram, WritesSummaryReportStoreAndCsv) {
   const std::string csv = csv_of("study.toml", "out");
   EXPECT_THAT(csv, testing::StartsWith("sample,clearance.F1.radial,clearance.F1.contact.restitution,"

@@ -64,15 +64,6 @@ TEST_F(MonteCarloProgram, TheSameCommandGoesOnAndAnotherStudyIsLeftAlone) {
   EXPECT_EQ(call({"export", "nothing"}).status, 2);
 }
 
-double value_of_sample_7(const std::string& csv) {
-  std::istringstream lines(csv);
-  std::string row;
-  for (int k = 0; k < 9; ++k) std::getline(lines, row);
-  EXPECT_THAT(row, testing::StartsWith("7,"));
-  const std::string value = row.substr(0, row.rfind(','));
-  return std::stod(value.substr(value.rfind(',') + 1));
-}
-
 TEST_F(MonteCarloProgram, InterruptedWhileItsStepsAreMeasuredItHasItsSamplesAndTheirTable) {
   study("few.toml", 8);
   const std::vector<std::string> arguments = {"montecarlo", "few.toml",     "--set", "motion.duration=60s",
