@@ -1,6 +1,7 @@
 # boresight_room(NAME [LINKS target...] [PRIVATE target...] [INCLUDES folder...]): the library boresight::NAME from the .cpp and .hpp files of the
 # folder that calls for it. A header is included by its path below lib/ or analyses/, in this tree as after installation. LINKS and PRIVATE name
-# rooms (math) or imported targets (Eigen3::Eigen); INCLUDES is where headers of other libraries lie that only the .cpp files see.
+# rooms (math) or imported targets (Eigen3::Eigen); INCLUDES is where headers of other libraries lie that only the .cpp files see. The global
+# property BORESIGHT_ROOMS_OF_analyses (or _lib) names all of them.
 function(boresight_rooms_of variable)
   set(found)
   foreach(link IN LISTS ARGN)
@@ -30,6 +31,7 @@ function(boresight_room name)
     set(visibility INTERFACE)
   endif()
   add_library(boresight::${name} ALIAS ${target})
+  set_property(GLOBAL APPEND PROPERTY BORESIGHT_ROOMS_OF_${BORESIGHT_EXPORT} ${name})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   target_sources(${target} ${visibility} FILE_SET HEADERS BASE_DIRS ${CMAKE_CURRENT_SOURCE_DIR} FILES ${headers})
   target_compile_features(${target} ${visibility} cxx_std_20)

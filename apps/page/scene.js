@@ -101,11 +101,13 @@ export function scene(item) {
     // What slides is joined by a thin line: the axis between the two parts.
     const sliding = item.joints.filter((joint) => !joint.clearance);
     set(joined, { d: drawn(shown.real, sliding.map((joint) => line(real[joint.first], real[joint.second])).join("")), stroke: blue, "stroke-width": 1.2 });
+    // The axis of a joint that has one.
     const half = (joint) => {
+      if (joint.tip === undefined) return "";
       const center = world[joint.first], tip = world[joint.tip];
       return line(view.project(plus(center, minus(tip, center), -1)), real[joint.tip]);
     };
-    const pinned = sliding.map((joint) => dot(real[joint.first], 3.2) + (joint.tip === undefined ? "" : half(joint)));
+    const pinned = sliding.map((joint) => dot(real[joint.first], 3.2) + half(joint));
     set(pins, { d: drawn(shown.real, pinned.join("")), stroke: colors.ink, "stroke-width": 1.4, fill: colors.surface });
 
     const loose = item.joints.filter((joint) => joint.clearance);

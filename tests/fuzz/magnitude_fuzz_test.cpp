@@ -11,7 +11,7 @@
 
 #include "boresight/contact_events/contact_report.hpp"
 #include "boresight/io/mechanism_file.hpp"
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"

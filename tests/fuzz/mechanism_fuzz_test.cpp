@@ -8,8 +8,8 @@
 
 #include "boresight/io/expression.hpp"
 #include "boresight/io/mechanism_file.hpp"
-#include "boresight/io/units.hpp"
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/units.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "fuzz_seed.hpp"
 #include "mutation.hpp"

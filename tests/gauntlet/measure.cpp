@@ -105,7 +105,7 @@ Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& ask
   if (r.interrupted) throw std::runtime_error("longer than the limit, ended when asked to");
   std::string start;
   for (const std::string& warning : r.warnings)
-    if (warning.starts_with("journals start")) start = warning;
+    if (warning.find(" start in the middle of their ") != std::string::npos) start = warning;
   double deepest = 0.0;
   for (const ContactSummary& c : r.contact) deepest = std::max(deepest, c.max_penetration);
   const double play = smallest_clearance(mechanism->parameters());

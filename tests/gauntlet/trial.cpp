@@ -11,6 +11,7 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
+#include "conservation.hpp"
 #include "measure.hpp"
 #include "program_trial.hpp"
 #include "variants.hpp"
@@ -46,8 +47,8 @@ class Trial {
     compare({.rung = "multibody", .formulation = "paper"});
     compare({.rung = "envelope"});
     if (options_.invariances) compare_variants(text);
-    check_momentum();
-    check_energy();
+    check_momentum(mechanism_, options_.limits, verdict_);
+    check_energy(mechanism_, options_.limits, verdict_);
     if (program && options_.automatic && !reference_.empty()) {
       const Center truth = center(reference_, 0);
       program->automatic({truth.median, 3.0 * truth.spread + reference_.front().by_steps[0] + floor_of(0)});
@@ -345,51 +346,9 @@ class Trial {
     return center(runs, figure).spread;
   }
 
-  // Nothing holds it and nothing pulls at it from outside: its momentum is what it was, contacts and all.
-  void check_momentum() {
-    const MechanismDescription& m = mechanism_->description();
-    if (m.gravity.norm() > 0.0 || !m.loads.empty()) return;
-    for (const JointDescription& j : m.joints)
-      if (j.first == kGround || j.second == kGround) return;
-    for (const SpringDescription& s : m.springs)
-      if (s.first == kGround || s.second == kGround) return;
-    for (const char* formulation : {"tree", "paper"}) {
-      const Outcome outcome = in_sandbox(options_.limits, [&] {
-        return momentum_change(mechanism_, {.rung = "multibody", .formulation = formulation});
-      });
-      verdict_.cpu_seconds += outcome.cpu_seconds;
-      if (outcome.end != Outcome::End::answered) continue;  // the comparison of rungs has met it
-      const double change = outcome.answer["change"];
-      if (change > kMomentumTolerance)
-        verdict_.fault("momentum", std::string("multibody ") + formulation,
-                       fmt::format("changes by {:.2g} of its parts", change));
-    }
-  }
-
-  // Nothing drives or loads it: without play its energy stays, or with dampers only falls.
-  void check_energy() {
-    const MechanismDescription& m = mechanism_->description();
-    if (!m.loads.empty() || m.motion.pose || !m.motion.drives.empty()) return;
-    bool damped = false;
-    for (const SpringDescription& s : m.springs) damped = damped || s.parameters.damping > 0.0;
-    const Outcome outcome = in_sandbox(options_.limits, [&] { return energy_change(mechanism_); });
-    verdict_.cpu_seconds += outcome.cpu_seconds;
-    if (outcome.end == Outcome::End::refused) verdict_.refusals.push_back({"energy", outcome.reason});
-    if (outcome.end != Outcome::End::answered) return;
-    for (const auto& [formulation, energy] : outcome.answer.items()) {
-      const double change =
-          energy[damped ? "rise" : "change"].is_null() ? 1e300 : energy[damped ? "rise" : "change"].get<double>();
-      if (change > kEnergyTolerance)
-        verdict_.fault("energy", formulation,
-                       fmt::format("{} by {:.2g} of the kinetic energy", damped ? "rises" : "changes", change));
-    }
-  }
-
-  static constexpr double kTabled = 1e-5;             // what tables of time may do to a motion's figure
-  static constexpr double kMostOfLimit = 0.8;         // of the CPU limit, after which a run is asked to end
-  static constexpr double kDearRun = 1.5;             // [s]: variants of dearer runs are left out
-  static constexpr double kMomentumTolerance = 1e-5;  // of the sum of the parts, at the rung's own step
-  static constexpr double kEnergyTolerance = 1e-6;    // of the kinetic energy, at a two-thousandth of the motion
+  static constexpr double kTabled = 1e-5;      // what tables of time may do to a motion's figure
+  static constexpr double kMostOfLimit = 0.8;  // of the CPU limit, after which a run is asked to end
+  static constexpr double kDearRun = 1.5;      // [s]: variants of dearer runs are left out
 
   Verdict& verdict_;
   const TrialOptions& options_;

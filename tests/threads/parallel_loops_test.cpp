@@ -9,7 +9,7 @@
 
 #include "boresight/io/expression.hpp"
 #include "boresight/io/mechanism_file.hpp"
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight_analyses/montecarlo/montecarlo.hpp"

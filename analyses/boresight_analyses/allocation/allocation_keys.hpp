@@ -1,7 +1,7 @@
 // What the [allocate] table of a study file may hold.
 #pragma once
 
-#include "boresight/io/key.hpp"
+#include "boresight/keys/key.hpp"
 
 namespace boresight {
 

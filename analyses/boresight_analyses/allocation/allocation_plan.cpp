@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <set>
 
-#include "boresight/io/units.hpp"
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/units.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/allocation/allocation_keys.hpp"
 #include "boresight_analyses/allocation/confirmation.hpp"

@@ -11,15 +11,11 @@ namespace {
 double dot(const double* u, const double* v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
 double size_of(const double* v) { return std::sqrt(dot(v, v)); }
 
-// The vector whose length is the quantity, to first order.
-Vec3 error_vector(const PoseSample& sample, const std::string& quantity, const Pointing& pointing) {
-  if (quantity == "orientation_error") return sample.error.rotation;
-  if (quantity == "boresight_error") return sample.error.rotation.cross(sample.ideal.q * pointing.boresight_B);
-  if (quantity == "line_of_sight_error") {
-    const Eigen::Matrix<double, 3, 6> gain = pointing.line_of_sight.value().gain(sample.ideal);
-    return gain.leftCols<3>() * sample.error.displacement + gain.rightCols<3>() * sample.error.rotation;
-  }
-  return sample.error.displacement;
+// The vector whose length is the quantity, to first order: the form that the deviation is linear in.
+Vec3 error_vector(const PoseSample& sample, PointingQuantity quantity, const Pointing& pointing) {
+  const Eigen::Matrix<double, 3, 6> gain =
+      error_gain(quantity, sample.ideal, sample.ideal.q * pointing.boresight_B, pointing.line_of_sight);
+  return gain.leftCols<3>() * sample.error.displacement + gain.rightCols<3>() * sample.error.rotation;
 }
 
 }  // namespace
@@ -160,7 +156,8 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
                                       const std::vector<std::vector<ParameterPath>>& places,
                                       const std::vector<double>& probe, const IndexChoice& index, std::size_t instants,
                                       double& misfit) {
-  index.title();  // throws where the quantity or the statistic is unknown: below these are told apart by name
+  index.title();  // throws where the quantity or the statistic is unknown
+  const PointingQuantity quantity = index.kind();
   const auto rung = make_rung("quasistatic", mechanism);
   RunOptions options;
   options.events = false;
@@ -177,7 +174,7 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
     time = result.time;
     std::vector<double> out;
     for (const PoseSample& sample : result.boresight.samples) {
-      const Vec3 e = error_vector(sample, index.quantity, mechanism->pointing());
+      const Vec3 e = error_vector(sample, quantity, mechanism->pointing());
       out.insert(out.end(), {e.x(), e.y(), e.z()});
     }
     return out;

@@ -1,7 +1,7 @@
 // What the [budget] table of a study file may hold, and the posterior of a calibration that it may name.
 #pragma once
 
-#include "boresight/io/key.hpp"
+#include "boresight/keys/key.hpp"
 
 namespace boresight {
 

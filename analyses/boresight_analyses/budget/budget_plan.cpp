@@ -6,7 +6,7 @@
 
 #include "boresight/io/content_hash.hpp"
 #include "boresight/io/referred_file.hpp"
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/budget/budget_keys.hpp"
 #include "boresight_analyses/random/read_distribution.hpp"

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "boresight/io/referred_file.hpp"
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/play/joint_play.hpp"
 #include "boresight_analyses/calibration/calibration_keys.hpp"

@@ -147,22 +147,15 @@ void CalibrationProblem::channel_rows(const CalibrationRun& run, int kind, doubl
     out.rows.row(0) = E.row(kind);
     return;
   }
-  if (kind == 9) out.rows = E.topRows<3>();
-  if (kind == 10) out.rows = E.bottomRows<3>();
-  if (kind == 9 || kind == 10) return;
   const BodyMotion ideal = run.prepared->ideal().body(t, body);
-  if (kind == 12) {
-    out.rows = run.mechanism->pointing().line_of_sight.value().gain({ideal.p, Quat(ideal.R)}) * E;
-    return;
-  }
-  const Vec3 axis = ideal.R * run.mechanism->boresight_B();
-  Mat3 cross;  // theta x axis = cross theta
-  cross << 0.0, axis.z(), -axis.y(), -axis.z(), 0.0, axis.x(), axis.y(), -axis.x(), 0.0;
-  const MatX turned = cross * E.bottomRows<3>();
-  if (kind == 11)
-    out.rows = turned;
+  const PointingQuantity quantity = out.size ? PointingQuantity(kind - 9) : PointingQuantity::boresight_error;
+  const MatX rows = error_gain(quantity, {ideal.p, Quat(ideal.R)}, ideal.R * run.mechanism->boresight_B(),
+                               run.mechanism->pointing().line_of_sight) *
+                    E;
+  if (out.size)
+    out.rows = rows;
   else
-    out.rows.row(0) = turned.row(kind - 6);
+    out.rows.row(0) = rows.row(kind - 6);
 }
 
 void CalibrationProblem::set_start(const Window& w, const std::vector<double>& values, const VecX& state,

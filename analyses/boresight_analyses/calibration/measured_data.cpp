@@ -6,8 +6,8 @@
 
 #include "boresight/io/csv_fields.hpp"
 #include "boresight/io/text_lines.hpp"
-#include "boresight/io/units.hpp"
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/units.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

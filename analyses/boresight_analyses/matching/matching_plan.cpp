@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight_analyses/matching/design_slopes.hpp"
 #include "boresight_analyses/matching/matching_keys.hpp"
 

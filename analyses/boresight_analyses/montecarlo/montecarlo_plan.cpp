@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "boresight/io/units.hpp"
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/units.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/montecarlo/montecarlo_keys.hpp"
 

@@ -1,7 +1,7 @@
 // What the table of a parameter that an optimisation may choose may hold.
 #pragma once
 
-#include "boresight/io/key.hpp"
+#include "boresight/keys/key.hpp"
 
 namespace boresight {
 

@@ -5,7 +5,7 @@
 
 #include "boresight/io/csv_fields.hpp"
 #include "boresight/io/text_lines.hpp"
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

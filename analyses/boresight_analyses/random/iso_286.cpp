@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <vector>
 
-#include "boresight/io/units.hpp"
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/units.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

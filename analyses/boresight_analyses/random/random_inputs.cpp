@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/random/random_keys.hpp"
 #include "boresight_analyses/random/read_distribution.hpp"

@@ -1,7 +1,7 @@
 // What the tables of scattering parameters may hold.
 #pragma once
 
-#include "boresight/io/key.hpp"
+#include "boresight/keys/key.hpp"
 
 namespace boresight {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/random/csv_column.hpp"
 #include "boresight_analyses/random/fit_clearance.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "boresight/io/cursor.hpp"
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight_analyses/random/distribution.hpp"
 #include "boresight_analyses/random/fit_size.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "boresight/slopes/sensitive_motion.hpp"
 #include "boresight/slopes/start_slopes.hpp"
@@ -16,14 +15,6 @@ PoseError error_of(const Mechanism& mechanism, const PreparedScene& prepared, do
   const BodyMotion ideal = prepared.ideal().body(t, body);
   const BodyMotion truth = DisplacedBodies(prepared, t, z).at_rest(body, unused);
   return pose_error({truth.p, Quat(truth.R)}, {ideal.p, Quat(ideal.R)}, mechanism.pointing());
-}
-
-double quantity(const PoseError& e, const std::string& name) {
-  if (name == "position_error") return e.position;
-  if (name == "orientation_error") return e.orientation;
-  if (name == "boresight_error") return e.boresight;
-  if (name == "line_of_sight_error") return e.line_of_sight;
-  throw std::out_of_range("no index is called " + name);
 }
 
 }  // namespace
@@ -61,7 +52,7 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
     const VecX z = motion.state.col(column).head(n);
     const PoseError error = error_of(mechanism, prepared, t, z);
     indices.add(t, error);
-    e[k] = quantity(error, index.quantity);
+    e[k] = index.of(error);
     const double h = 1e-3 * z.lpNorm<Eigen::Infinity>();
     if (h == 0.0) continue;  // the error has no slope where it vanishes
     VecX gradient(n);
@@ -69,7 +60,7 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
       const auto at = [&](double steps) {
         VecX moved = z;
         moved[i] += steps * h;
-        return quantity(error_of(mechanism, prepared, t, moved), index.quantity);
+        return index.of(error_of(mechanism, prepared, t, moved));
       };
       gradient[i] = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h);
     }

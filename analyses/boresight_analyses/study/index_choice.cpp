@@ -18,15 +18,16 @@ const auto& named(const Names& names, const std::string& wanted) {
 
 const std::vector<QuantityName>& quantity_names() {
   static const std::vector<QuantityName> names = {
-      {"position_error", "m", "position error", &PointingIndices::position_error, PointingQuantity::position_error,
+      {"position_error", "m", "position error", &PointingIndices::position_error, &PoseError::position,
+       PointingQuantity::position_error,
        "Distance of the boresight body's centre of mass from where the ideal motion has it."},
-      {"orientation_error", "rad", "orientation error", &PointingIndices::orientation_error,
+      {"orientation_error", "rad", "orientation error", &PointingIndices::orientation_error, &PoseError::orientation,
        PointingQuantity::orientation_error,
        "Angle by which the boresight body is turned against its ideal orientation."},
-      {"boresight_error", "rad", "boresight error", &PointingIndices::boresight_error,
+      {"boresight_error", "rad", "boresight error", &PointingIndices::boresight_error, &PoseError::boresight,
        PointingQuantity::boresight_error, "Angle between the pointing axis and where the ideal motion has it."},
       {"line_of_sight_error", "rad", "line-of-sight error", &PointingIndices::line_of_sight_error,
-       PointingQuantity::line_of_sight_error,
+       &PoseError::line_of_sight, PointingQuantity::line_of_sight_error,
        "Angle at the target of [pointing] between the true and the ideal reference point, as seen from there."},
   };
   return names;
@@ -50,6 +51,8 @@ double IndexChoice::of(const PointingIndices& indices) const {
     return std::numeric_limits<double>::quiet_NaN();
   return indices.*name.statistics.*value;
 }
+
+double IndexChoice::of(const PoseError& error) const { return error.*named(quantity_names(), quantity).size; }
 
 std::string IndexChoice::si_unit() const { return named(quantity_names(), quantity).si_unit; }
 

@@ -14,6 +14,7 @@ struct QuantityName {
   const char* si_unit;
   const char* title;  // for people
   Statistics PointingIndices::*statistics;
+  double PoseError::*size;
   PointingQuantity kind;
   const char* definition;  // a sentence
 };
@@ -36,6 +37,7 @@ struct IndexChoice {
   // Throws std::out_of_range if one of the names is unknown; a study file's are checked when read. Not a number for a line
   // of sight of a motion that has none.
   double of(const PointingIndices& indices) const;
+  double of(const PoseError& error) const;  // the quantity at one instant
   std::string si_unit() const;
   std::string text() const;            // "position_error.max", and from when on: for identities
   std::string title() const;           // "position error, maximum", and from when on

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "boresight/io/key.hpp"
+#include "boresight/keys/key.hpp"
 
 namespace boresight {
 

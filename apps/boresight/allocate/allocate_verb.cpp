@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "allocate/allocate_report.hpp"
+#include "boresight_analyses/allocation/allocation_keys.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 #include "command_line/study_input.hpp"
@@ -16,7 +17,6 @@
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -111,6 +111,7 @@ class AllocateVerb : public Verb {
  public:
   std::string name() const override { return "allocate"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &allocate_keys(); }
   std::string summary() const override {
     return "fits or tolerances per joint at least cost that meet the requirement";
   }
@@ -163,13 +164,13 @@ class AllocateVerb : public Verb {
            plan.is_continuous() ? "cost curves" : "fits with prices");
       std::fflush(stdout);
     }
-    Progress progress(command.quiet, 1.0, "of the allocation");
+    const std::unique_ptr<Stage> stage = own.run().stage(1.0, "of the allocation");
     AllocationResult result =
         run_allocation(plan, deviation, misfit, std::ref(confirming), choice.name,
                        {.accuracy = own.run().options().accuracy.value_or(0.05),
                         .interrupted = [] { return interrupted(); },
-                        .progress = [&](const std::string& stage, double share) { progress.update(share, stage); }});
-    progress.clear();
+                        .progress = [&](const std::string& of, double share) { stage->update(share, of); }});
+    stage->clear();
     result.evaluations = confirming.computed;
     result.reused = confirming.reused;
     AllocateStudy allocated{.command = command,

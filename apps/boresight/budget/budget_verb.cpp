@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "boresight/rungs/integrator_choice.hpp"
+#include "boresight_analyses/budget/budget_keys.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/runs/stored_runs.hpp"
 #include "budget/budget_report.hpp"
@@ -17,7 +18,6 @@
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -142,6 +142,7 @@ class BudgetVerb : public Verb {
  public:
   std::string name() const override { return "budget"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &budget_keys(); }
   std::string summary() const override { return "pointing budget: APE, MPE, RPE, PDE, PRE; ensemble, temporal, mixed"; }
   std::string example() const override { return "boresight budget antenna/budget.toml"; }
   std::string next(const Command&, bool answer_is_no) const override {
@@ -187,7 +188,7 @@ class BudgetVerb : public Verb {
     note_origin(store, study, *mechanism, plan);
     const std::uint64_t begun_with = store.count();
     const Stopwatch computing;
-    bool whole = compute(command, study, *mechanism, plan, runs, model, store);
+    bool whole = compute(command, study, *mechanism, plan, runs, model, own.run(), store);
     const std::string stuck = no_run_done(!whole, begun_with, store.count(), computing.wall_seconds());
     // Last, as it keeps nothing before it ends.
     StudySteps steps{kNotMeasured, "not measured: the study was interrupted before"};
@@ -233,7 +234,7 @@ class BudgetVerb : public Verb {
 
   // Returns false if it was interrupted.
   static bool compute(const Command& command, const Study& study, const Mechanism& mechanism, const BudgetPlan& plan,
-                      const BudgetRuns& runs, const BudgetModel& model, SampleStore& store) {
+                      const BudgetRuns& runs, const BudgetModel& model, const StudyRun& run, SampleStore& store) {
     const std::vector<NumberRange> missing = runs.missing(store);
     std::uint64_t begun_with = runs.count(), done = 0;
     for (const NumberRange& range : missing) begun_with -= range.size();
@@ -244,7 +245,7 @@ class BudgetVerb : public Verb {
            begun_with > 0 ? fmt::format(", {} of them stored already", begun_with) : "");
       std::fflush(stdout);
     }
-    Progress progress(command.quiet, static_cast<double>(runs.count()), "runs");
+    const std::unique_ptr<Stage> stage = run.stage(static_cast<double>(runs.count()), "runs");
     double largest = 0.0;
     std::uint64_t failed = 0;
     const auto landed = [&](std::span<const SampleRecord> records) {
@@ -253,15 +254,14 @@ class BudgetVerb : public Verb {
         if (r.outcome.status == Outcome::Status::failed) ++failed;
         if (r.outcome.value > largest) largest = r.outcome.value;
       }
-      progress.update_from(static_cast<double>(begun_with), static_cast<double>(done),
-                           "largest " + study.index.quantity_title() + " so far " +
-                               readable(largest, study.index.si_unit()) +
-                               (failed > 0 ? fmt::format(", {} failed", failed) : ""));
+      stage->update(static_cast<double>(begun_with), static_cast<double>(done),
+                    "largest " + study.index.quantity_title() + " so far " + readable(largest, study.index.si_unit()) +
+                        (failed > 0 ? fmt::format(", {} failed", failed) : ""));
     };
     const bool whole = store_runs(
         model, plan.inputs.size(), [&](std::uint64_t number, std::span<double> values) { runs.values(number, values); },
         missing, store, {.jobs = command.jobs, .landed = landed, .interrupted = [] { return interrupted(); }});
-    progress.clear();
+    stage->clear();
     return whole;
   }
 

@@ -13,6 +13,7 @@
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/io/referred_file.hpp"
 #include "boresight/mechanism/interruption.hpp"
+#include "boresight_analyses/calibration/calibration_keys.hpp"
 #include "boresight_analyses/calibration/calibration_plan.hpp"
 #include "boresight_analyses/calibration/posterior.hpp"
 #include "boresight_analyses/calibration/rig.hpp"
@@ -24,7 +25,6 @@
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -37,6 +37,7 @@ class CalibrateVerb : public Verb {
  public:
   std::string name() const override { return "calibrate"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &calibrate_keys(); }
   std::string summary() const override { return "contact parameters from measured pointing data"; }
   std::string example() const override {
     return "boresight calibrate antenna/calibrate.toml --make-data \"1 %\"\n  boresight calibrate "
@@ -93,9 +94,9 @@ class CalibrateVerb : public Verb {
                         identity_of(command, mechanism->description().content_hash, study.content_hash,
                                     {{"data", data.hexadecimal()}}));
     const OutputDirectory& out = own.out();
-    Progress progress(command.quiet, 1.0, "of the fit");
-    options.progress = [&](const std::string& stage, double share, const std::string& estimate) {
-      progress.update(share, stage + ": " + estimate);
+    const std::unique_ptr<Stage> stage = own.run().stage(1.0, "of the fit");
+    options.progress = [&](const std::string& of, double share, const std::string& estimate) {
+      stage->update(share, of + ": " + estimate);
       return !interrupted();
     };
     RungChoice rung;
@@ -106,7 +107,7 @@ class CalibrateVerb : public Verb {
     Unfinished begun = own.run().go_on([&] { return rung; });
     problem.kept = begun.results.get();
     const CalibrationResult result = calibrate(problem, options);
-    progress.clear();
+    stage->clear();
     const CalibrationStudy whole{command, study, *mechanism, rung, plan, problem, result};
     if (result.interrupted && result.inference.parameters.empty()) {
       if (begun.results->size() == 0) throw Interrupted{};

@@ -19,7 +19,6 @@
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -186,9 +185,9 @@ class ChartVerb : public Verb {
     const VerbStudy own(command, mechanism, options.index, study ? study->accuracy : std::nullopt, {},
                         identity_of(command, mechanism->description().content_hash, study_hash,
                                     {{"index", index_ + (start_.empty() ? "" : " from " + start_)}, {"time", time_}}));
-    Progress progress(command.quiet, 100.0, "%");
+    const std::unique_ptr<Stage> stage = own.run().stage(100.0, "%");
     options.progress = [&](double share, const std::string& what) {
-      progress.update(100.0 * share, what);
+      stage->update(100.0 * share, what);
       return !interrupted();
     };
     const OutputDirectory& out = own.out();
@@ -205,7 +204,7 @@ class ChartVerb : public Verb {
     out.publish();
     begun.results.reset();
     if (!result.interrupted) own.run().forget(kUnfinished);
-    progress.clear();
+    stage->clear();
     if (!command.quiet) print(*mechanism, result, accuracy, out);
     if (result.interrupted) return kInterrupted;
     return accuracy && !result.cheapest_within(*accuracy) ? kAnswerIsNo : kDone;

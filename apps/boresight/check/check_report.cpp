@@ -12,6 +12,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/play_mobility.hpp"
+#include "boresight/play/joint_play.hpp"
 #include "report_parts/report_parts.hpp"
 #include "results/summary.hpp"
 #include "terminal/interruption.hpp"
@@ -131,8 +132,9 @@ void add_play_findings(const Mechanism& mechanism, const IdealMotion& ideal, Che
 
 // Where the journals start: centred as the file says, or how far off the middle of their sleeves.
 void add_start_note(const Mechanism& mechanism, const IdealMotion& ideal, CheckResult& result) {
+  const PartsInPlay parts = parts_in_play(mechanism.description());
   if (mechanism.description().journals == JournalStart::centred) {
-    result.notes.emplace_back("journals start in the middle of their sleeves, as the file says");
+    result.notes.push_back(parts.inserts + " start in the middle of their " + parts.seats + ", as the file says");
     return;
   }
   result.start = starting_journals(mechanism, mechanism.parameters(), ideal);
@@ -143,7 +145,8 @@ void add_start_note(const Mechanism& mechanism, const IdealMotion& ideal, CheckR
   std::string text;
   for (const StartingJournals::Journal& j : result.start.journals)
     text += (text.empty() ? "" : ", ") + j.joint + " " + readable(j.offset.norm(), "m");
-  result.notes.push_back("journals start at rest under the loads of t = 0, off the middle of their sleeves: " + text);
+  result.notes.push_back(parts.inserts + " start at rest under the loads of t = 0, off the middle of their " +
+                         parts.seats + ": " + text);
 }
 
 // What no joint can bear, or nothing can be computed of: numbers without bounds, journals pressed through their sleeves.
@@ -167,11 +170,13 @@ void add_contact_findings(const Mechanism& mechanism, CheckResult& result) {
     }
     // A line or point contact as deep as the journal is thick is no contact: the journal would be through its sleeve.
     const double depth = make_normal_law(d.contact_law, d.dissipation_law, p).depth_under(contact.largest_load);
+    const PlayWords parts = JointPlay::words(mechanism.description().joints[d.joint].type);
     if (!(depth < p.journal_radius))
       result.findings.push_back(fmt::format(
-          "{}: its largest load, {}, would press the journal {} into its sleeve, which is more than the journal's "
-          "radius of {}; check young, masses and gravity, and the speed of the motion",
-          contact.joint, readable(contact.largest_load, "N"), readable(depth, "m"), readable(p.journal_radius, "m")));
+          "{}: its largest load, {}, would press the {} {} into its {}, which is more than the {}'s radius of {}; "
+          "check young, masses and gravity, and the speed of the motion",
+          contact.joint, readable(contact.largest_load, "N"), parts.insert, readable(depth, "m"), parts.seat,
+          parts.insert, readable(p.journal_radius, "m")));
   }
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <thread>
 
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
@@ -216,7 +216,7 @@ IndexChoice index_named(const std::string& option, const std::string& text) {
   const std::size_t dot = text.find('.');
   IndexChoice index{text.substr(0, dot), dot == std::string::npos ? "" : text.substr(dot + 1)};
   try {
-    index.of({});
+    index.of(PointingIndices{});
   } catch (const std::out_of_range&) {
     throw InputError(kCommandLine, option, in_quotes(text), "a quantity and a statistic, like boresight_error.rms");
   }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "boresight/io/document.hpp"
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight/rungs/option_check.hpp"

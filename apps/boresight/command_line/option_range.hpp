@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "boresight/io/physical_ranges.hpp"
+#include "boresight/keys/physical_ranges.hpp"
 
 namespace boresight::app {
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "boresight/keys/key.hpp"
 #include "command_line/command.hpp"
 
 namespace CLI {
@@ -20,7 +21,8 @@ class Verb {
  public:
   virtual ~Verb() = default;
   virtual std::string name() const = 0;
-  virtual std::string file_kind() const = 0;  // what FILE is: "mechanism", "study"
+  virtual std::string file_kind() const = 0;                       // what FILE is: "mechanism", "study"
+  virtual const KeyTable* study_table() const { return nullptr; }  // what its table of a study file may hold
   virtual bool needs_file() const { return true; }
   virtual std::string operand() const { return "FILE"; }  // what --help calls it, and says of it
   virtual std::string operand_is() const { return (needs_file() ? "the " : "a ") + file_kind() + " file"; }

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "boresight_analyses/matching/design_slopes.hpp"
+#include "boresight_analyses/matching/matching_keys.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 #include "command_line/study_input.hpp"
@@ -18,7 +19,6 @@
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -74,6 +74,7 @@ class MatchVerb : public Verb {
  public:
   std::string name() const override { return "match"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &match_keys(); }
   std::string summary() const override { return "clearance, load, ... at which the pointing error is least"; }
   std::string example() const override { return "boresight match antenna/match.toml"; }
   std::string next(const Command&, bool) const override {
@@ -146,7 +147,7 @@ class MatchVerb : public Verb {
     const double designs = plan.evaluations * (1.0 + 0.5 * static_cast<double>(plan.starts().size() + 1)) +
                            std::pow(plan.map, std::min<double>(2.0, static_cast<double>(plan.variables.size()))) +
                            12.0 * plan.front;
-    Progress progress(command.quiet, designs, "designs");
+    const std::unique_ptr<Stage> stage = own.run().stage(designs, "designs");
     MatchingOptions how;
     how.accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.01);
     how.interrupted = [] { return interrupted(); };
@@ -155,14 +156,14 @@ class MatchVerb : public Verb {
       if (!r.design.empty())
         estimate += "; best so far " + readable(r.objective, plan.objective.si_unit(study.index)) + " at " +
                     design_text(plan, r.design);
-      progress.update(std::min(designs, static_cast<double>(r.visits.size())), estimate);
+      stage->update(std::min(designs, static_cast<double>(r.visits.size())), estimate);
     };
     how.no_slopes = choice.name == "perturbation" ? why_no_slopes(plan) : "slopes are those of the perturbation rung";
     if (how.no_slopes.empty())
       how.slopes = [slopes = DesignSlopes(mechanism, plan, study.index, run)](
                        const std::vector<double>& design, std::string& why) { return slopes.at(design, why); };
     const MatchingResult result = run_matching(plan, evaluator, upper_evaluator.get(), upper, how);
-    progress.clear();
+    stage->clear();
     MatchStudy matched{.command = command,
                        .study = study,
                        .mechanism = *mechanism,

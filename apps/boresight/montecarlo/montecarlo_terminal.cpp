@@ -33,7 +33,7 @@ void announce(const MonteCarloQuestion& question, const RungChoice& choice, std:
   std::fflush(stdout);
 }
 
-void show(Progress& progress, const MonteCarloProgress& p, const MonteCarloQuestion& question) {
+void show(Stage& stage, const MonteCarloProgress& p, const MonteCarloQuestion& question) {
   const std::string& unit = question.study.index.si_unit();
   std::string estimate;
   const std::string name = headline_of(question.plan);
@@ -49,7 +49,7 @@ void show(Progress& progress, const MonteCarloProgress& p, const MonteCarloQuest
       }
     }
   if (p.failed > 0) estimate += fmt::format(", {} failed", p.failed);
-  progress.update_from(static_cast<double>(p.begun_with), static_cast<double>(p.done), estimate);
+  stage.update(static_cast<double>(p.begun_with), static_cast<double>(p.done), estimate);
 }
 
 void print(const MonteCarloStudy& s, const OutputDirectory& out) {

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "boresight_analyses/montecarlo/montecarlo.hpp"
+#include "boresight_analyses/montecarlo/montecarlo_keys.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "command_line/montecarlo_study.hpp"
 #include "command_line/study_input.hpp"
@@ -19,7 +20,6 @@
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -42,6 +42,7 @@ class MonteCarloVerb : public Verb {
  public:
   std::string name() const override { return "montecarlo"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &montecarlo_keys(); }
   std::string summary() const override { return "the index's distribution, with confidence intervals"; }
   std::string example() const override { return "boresight montecarlo antenna/montecarlo.toml"; }
   std::string next(const Command&, bool answer_is_no) const override {
@@ -123,12 +124,12 @@ class MonteCarloVerb : public Verb {
     }
     store->use_rung(model.rung(), model.step());
     if (!command.quiet) announce(question, choice, store->count(), ranks->size());
-    Progress progress(command.quiet, static_cast<double>(question.plan.samples), "samples");
-    options.progress = [&](const MonteCarloProgress& p) { show(progress, p, question); };
+    const std::unique_ptr<Stage> stage = own->run().stage(static_cast<double>(question.plan.samples), "samples");
+    options.progress = [&](const MonteCarloProgress& p) { show(*stage, p, question); };
     const std::uint64_t begun_with = store->count();
     const Stopwatch sampling;
     MonteCarloResult result = run_montecarlo(model, question.plan, store.get(), *ranks, options);
-    progress.clear();
+    stage->clear();
     const std::string stuck = no_run_done(result.ended == Ended::interrupted || result.ended == Ended::time, begun_with,
                                           store->count(), sampling.wall_seconds());
     // Last, as it keeps nothing before it ends: the samples get on in however short a time a process has.

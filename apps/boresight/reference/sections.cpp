@@ -1,29 +1,28 @@
 #include "reference/sections.hpp"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
-#include "boresight/io/mechanism_keys.hpp"
-#include "boresight_analyses/allocation/allocation_keys.hpp"
+#include "boresight/keys/mechanism_keys.hpp"
 #include "boresight_analyses/budget/budget_keys.hpp"
-#include "boresight_analyses/calibration/calibration_keys.hpp"
-#include "boresight_analyses/matching/matching_keys.hpp"
-#include "boresight_analyses/montecarlo/montecarlo_keys.hpp"
 #include "boresight_analyses/random/random_keys.hpp"
-#include "boresight_analyses/sensitivity/sensitivity_keys.hpp"
 #include "boresight_analyses/study/study_keys.hpp"
-#include "boresight_analyses/sweep/sweep_keys.hpp"
+#include "command_line/verb.hpp"
 
 namespace boresight::app {
 namespace {
 
-// The tables of a study that rooms above its reader bring.
-const struct {
-  const char* key;
-  const KeyTable& (*keys)();
-} kTablesOfStudies[] = {{"random", random_keys},         {"correlation", correlation_keys}, {"sweep", sweep_keys},
-                        {"montecarlo", montecarlo_keys}, {"sensitivity", sensitivity_keys}, {"match", match_keys},
-                        {"allocate", allocate_keys},     {"calibrate", calibrate_keys},     {"budget", budget_keys}};
+// The tables of a study that rooms above its reader bring, by their names.
+const std::map<std::string, const KeyTable*>& tables_of_studies() {
+  static const std::map<std::string, const KeyTable*> all = [] {
+    std::map<std::string, const KeyTable*> tables = {{"random", &random_keys()}, {"correlation", &correlation_keys()}};
+    for (const auto& verb : all_verbs())
+      if (const KeyTable* own = verb->study_table()) tables[verb->name()] = own;
+    return tables;
+  }();
+  return all;
+}
 
 std::vector<std::string> words_of(const std::string& list) {
   std::vector<std::string> words;
@@ -71,9 +70,8 @@ std::string Section::heading() const {
 const KeyTable* table_inside(const Key& key) {
   if (key.inside != nullptr) return &key.inside();
   if (key.kind != KeyKind::table && key.kind != KeyKind::tables) return nullptr;
-  for (const auto& known : kTablesOfStudies)
-    if (key.name == known.key) return &known.keys();
-  return nullptr;
+  const auto known = tables_of_studies().find(key.name);
+  return known == tables_of_studies().end() ? nullptr : known->second;
 }
 
 const std::vector<Section>& sections() {

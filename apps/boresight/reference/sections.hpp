@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "boresight/io/key.hpp"
+#include "boresight/keys/key.hpp"
 
 namespace boresight::app {
 

@@ -1,10 +1,13 @@
 #include "report_parts/report_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <functional>
 
+#include "boresight/play/play_words.hpp"
 #include "boresight_analyses/study/index_choice.hpp"
 #include "results/assumed.hpp"
 #include "results/tables.hpp"
@@ -294,17 +297,22 @@ report::Chart orbit_chart(const std::string& joint, bool ball, double radial_cle
 }
 
 report::Strip contact_strip(const Mechanism& mechanism, const RunResult& result) {
-  bool any_ball = false;
-  for (int c = 0; c < mechanism.clearances(); ++c) any_ball = any_ball || is_ball(mechanism, c);
-  report::Strip strip{.title = "Contact state",
-                      .caption = any_ball
-                                     ? "Where each journal touches its sleeve or ball its socket, sample by sample."
-                                     : "Where the journal touches the sleeve, sample by sample.",
-                      .x = {"Time", "s"},
-                      .states = {{"free", "free flight", true},
-                                 {"radial", any_ball ? "bore or socket" : "bore"},
-                                 {"axial", "end face"},
-                                 {"both", "bore and end face"}}};
+  const PartsInPlay parts = parts_in_play(mechanism.description());
+  bool balls = false, journals = false;
+  for (int c = 0; c < mechanism.clearances(); ++c) (is_ball(mechanism, c) ? balls : journals) = true;
+  report::Strip strip{
+      .title = "Contact state",
+      .caption = fmt::format("Where {} {} touches {} {}, sample by sample.", balls && journals ? "each" : "the",
+                             parts.insert, balls && journals ? "its" : "the", parts.seat),
+      .x = {"Time", "s"},
+      .states = {{"free", "free flight", true},
+                 {"radial", !balls     ? "bore"
+                            : journals ? "bore or socket"
+                                       : "socket"}}};
+  if (journals || !balls) {
+    strip.states.push_back({"axial", "end face"});
+    strip.states.push_back({"both", "bore and end face"});
+  }
   static const char* const state[] = {"free", "radial", "axial", "both"};
   for (std::size_t c = 0; c < result.clearances.size(); ++c) {
     report::StripRow row{

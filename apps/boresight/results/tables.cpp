@@ -5,7 +5,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 
 namespace boresight::app {
 namespace {

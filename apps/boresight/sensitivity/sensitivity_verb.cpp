@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "boresight_analyses/sensitivity/exact_slopes.hpp"
+#include "boresight_analyses/sensitivity/sensitivity_keys.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
@@ -15,7 +16,6 @@
 #include "sensitivity/sensitivity_report.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -51,6 +51,7 @@ class SensitivityVerb : public Verb {
  public:
   std::string name() const override { return "sensitivity"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &sensitivity_keys(); }
   std::string summary() const override { return "which parameter's scatter matters: Sobol' indices, slopes, tornado"; }
   std::string example() const override { return "boresight sensitivity antenna/sensitivity.toml"; }
   std::string next(const Command&, bool) const override {
@@ -87,13 +88,13 @@ class SensitivityVerb : public Verb {
            plan.design.text());
       std::fflush(stdout);
     }
-    Progress progress(command.quiet, static_cast<double>(plan.runs()), "runs");
+    const std::unique_ptr<Stage> stage = own.run().stage(static_cast<double>(plan.runs()), "runs");
     SensitivityOptions options_of_runs{
         .jobs = command.jobs, .progress = {}, .interrupted = [] { return interrupted(); }};
     options_of_runs.progress = [&](const SensitivityProgress& p) {
-      progress.update_from(static_cast<double>(p.begun_with), static_cast<double>(p.done),
-                           "mean of the index " + readable(p.mean_so_far, study.index.si_unit()) +
-                               (p.failed > 0 ? fmt::format(", {} failed", p.failed) : ""));
+      stage->update(static_cast<double>(p.begun_with), static_cast<double>(p.done),
+                    "mean of the index " + readable(p.mean_so_far, study.index.si_unit()) +
+                        (p.failed > 0 ? fmt::format(", {} failed", p.failed) : ""));
     };
     const std::uint64_t begun_with = store.count();
     const Stopwatch computing;
@@ -108,7 +109,7 @@ class SensitivityVerb : public Verb {
       if (!local.interrupted && choice.name == "perturbation")
         add_exact_slopes(mechanism, plan.inputs, study.index, run, local);
     }
-    progress.clear();
+    stage->clear();
 
     SensitivityStudy result{.command = command,
                             .study = study,

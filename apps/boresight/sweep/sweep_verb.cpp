@@ -7,6 +7,7 @@
 #include "boresight/ladder/ladder.hpp"
 #include "boresight_analyses/study/study.hpp"
 #include "boresight_analyses/sweep/sweep.hpp"
+#include "boresight_analyses/sweep/sweep_keys.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
 #include "report/report.hpp"
@@ -15,7 +16,6 @@
 #include "sweep/sweep_report.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
-#include "terminal/progress.hpp"
 #include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
@@ -105,6 +105,7 @@ class SweepVerb : public Verb {
  public:
   std::string name() const override { return "sweep"; }
   std::string file_kind() const override { return "study"; }
+  const KeyTable* study_table() const override { return &sweep_keys(); }
   std::string summary() const override { return "the index over a grid of parameters"; }
   std::string example() const override { return "boresight sweep antenna/sweep.toml"; }
   std::string next(const Command&, bool) const override {
@@ -144,9 +145,9 @@ class SweepVerb : public Verb {
     apply(choice, options.run);
     options.kept = begun.results.get();
 
-    Progress progress(command.quiet, static_cast<double>(plan.points()), "points");
+    const std::unique_ptr<Stage> stage = own.run().stage(static_cast<double>(plan.points()), "points");
     options.progress = [&](const SweepProgress& p) {
-      progress.update(p.done, "largest position error so far " + readable(p.position_error_max_so_far, "m"));
+      stage->update(p.done, "largest position error so far " + readable(p.position_error_max_so_far, "m"));
       return !interrupted();
     };
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
@@ -160,7 +161,7 @@ class SweepVerb : public Verb {
     out.publish();
     begun.results.reset();
     if (!result.interrupted) own.run().forget(kUnfinished);
-    progress.clear();
+    stage->clear();
     if (!command.quiet) print(study, plan, *mechanism, result, out);
     if (result.interrupted) return kInterrupted;
     if (result.failed == 0) return kDone;

@@ -3,6 +3,9 @@
 //
 //   Progress progress(options.quiet);
 //   progress.update(0.4, "position error so far 0.21 mm");   // from any thread, as often as one likes
+//
+// A study shows it by StudyRun::stage (results/verb_study.cpp). `run` and `stability` use it as it is: they are no studies, and
+// have no StudyRun.
 #pragma once
 
 #include <chrono>

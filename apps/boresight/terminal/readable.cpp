@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 
 namespace boresight::app {
 namespace {

@@ -6,6 +6,11 @@
 // lower the order of the integrator through contact (a speed latched one step late would make it 1). What lies beyond the
 // start is not used: the contact's force has already bent it. An end, where the force fades smoothly, is placed by the cubic
 // that meets gap and rate at both ends of the step.
+//
+// Beginnings and ends of contacts are found in three ways, one a way of stepping, and kept here for the first two: by accept(),
+// where steps do not stop at contacts; by the Integrator's events (LocatedContacts), found on a method's dense output; and in
+// lanes (lanes/lane_contacts.hpp), where every sample of a register has its own step and no branch of its own, by one cubic
+// with four rounds of Newton. They share ContactState and what a joint's places are; what tells them apart is the stepping.
 #pragma once
 
 #include <vector>

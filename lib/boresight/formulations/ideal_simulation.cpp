@@ -137,7 +137,7 @@ class ClosedMechanism {
 
 using Knots = std::vector<IdealState>;
 
-// RK4 in equal steps.
+// RK4 in equal steps: not the Integrator's loop, because the bodies are brought back into their joints after each.
 std::optional<Knots> follow_explicit(const Task& task, int steps, Failure& failure) {
   ClosedMechanism closed(task);
   VecX y = closed.start();

@@ -23,9 +23,7 @@
 #include "boresight/math/cross_matrix.hpp"
 #include "boresight/mechanism/constraint_system.hpp"
 #include "boresight/mechanism/error.hpp"
-#include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/offset_layout.hpp"
-#include "boresight/mechanism/rank_analysis.hpp"
 
 namespace boresight {
 namespace {
@@ -42,7 +40,7 @@ class PaperFormulation final : public Formulation {
         options_(options),
         mass_(mechanism.mass_properties(parameters)),
         gravity_(parameters.gravity),
-        constraints_(mechanism, {.clearance = options.with_clearance ? ClearanceRows::open : ClearanceRows::closed}),
+        constraints_(mechanism, {.clearance = clearance_rows()}),
         laws_(mechanism.joints()),
         bodies_(mechanism.bodies()),
         inverse_mass_(mechanism.bodies(), Mat6::Zero()),
@@ -62,10 +60,7 @@ class PaperFormulation final : public Formulation {
   void start(const IdealState& ideal, VecX& y) override {
     place_bodies(ideal.bodies, y);
     unpack(y);
-    update_laws(ideal.t);
-    constraints_.evaluate(bodies_, laws_);
-    const RankAnalysis rank = analyse_rank(mechanism_, constraints_, false);
-    if (rank.rank < rank.rows) tell_redundant_from_singular(rank.rank, ideal.t);
+    constraints_.set_redundant(rows_are_redundant(mechanism_, drives_, clearance_rows(), ideal));
   }
 
   void place_bodies(const std::vector<BodyMotion>& bodies, VecX& y) override {
@@ -180,20 +175,7 @@ class PaperFormulation final : public Formulation {
     }
   }
 
-  // Rows that depend on each other here: everywhere along the motion (redundant, and harmless), or here only (singular)?
-  void tell_redundant_from_singular(int rank_here, double t) {
-    if (drives_) {
-      IdealState elsewhere;
-      drives_->state(generic_instant(t, drives_->duration()), elsewhere);
-      drives_->drive_laws(elsewhere.t, laws_);
-      constraints_.evaluate(elsewhere.bodies, laws_);
-      const int rank_there = analyse_rank(mechanism_, constraints_, false).rank;
-      update_laws(t);
-      constraints_.evaluate(bodies_, laws_);
-      if (rank_there > rank_here) throw_singular(t);
-    }
-    constraints_.set_redundant(true);
-  }
+  ClearanceRows clearance_rows() const { return options_.with_clearance ? ClearanceRows::open : ClearanceRows::closed; }
 
   void factor(double t, const VecX& y) {
     if (constraints_.factor(inverse_mass_)) return;

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 
 namespace boresight {
@@ -21,5 +22,28 @@ std::string message(const Mechanism& mechanism, const ConstraintSystem& rows, do
 
 SingularPose::SingularPose(const Mechanism& mechanism, const ConstraintSystem& rows, double when)
     : ComputationError(message(mechanism, rows, when)), t(when) {}
+
+bool rows_are_redundant(const Mechanism& mechanism, const IdealMotion* drives, ClearanceRows clearance,
+                        const IdealState& here) {
+  ConstraintSystem rows(mechanism, {.clearance = clearance});
+  std::vector<TimeValue> laws(mechanism.joints());
+  const auto evaluate = [&](const IdealState& at) {
+    if (drives) drives->drive_laws(at.t, laws);
+    rows.evaluate(at.bodies, laws);
+  };
+  evaluate(here);
+  const RankAnalysis rank = analyse_rank(mechanism, rows, false);
+  if (rank.rank == rank.rows) return false;
+  if (drives) {
+    IdealState elsewhere;
+    drives->state(generic_instant(here.t, drives->duration()), elsewhere);
+    evaluate(elsewhere);
+    if (analyse_rank(mechanism, rows, false).rank > rank.rank) {
+      evaluate(here);
+      throw SingularPose(mechanism, rows, here.t);
+    }
+  }
+  return true;
+}
 
 }  // namespace boresight

@@ -31,9 +31,7 @@
 #include "boresight/formulations/tree_inertia.hpp"
 #include "boresight/formulations/tree_loops.hpp"
 #include "boresight/mechanism/error.hpp"
-#include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/offset_layout.hpp"
-#include "boresight/mechanism/rank_analysis.hpp"
 
 namespace boresight {
 namespace {
@@ -87,7 +85,8 @@ class TreeFormulation final : public Formulation {
     kinematics_.read(ideal.bodies, y);
     placed_time_ = kNever;
     factored_at_ = nowhere();
-    loops_.set_redundant(depends(ideal));
+    // The tree's own rows are independent of each other: what the whole mechanism's lack in rank its loops lack.
+    loops_.set_redundant(rows_are_redundant(mechanism_, drives_, clearance_rows(), ideal));
   }
 
   void place_bodies(const std::vector<BodyMotion>& bodies, VecX& y) override {
@@ -203,31 +202,12 @@ class TreeFormulation final : public Formulation {
       kinematics_.displace(motion_, y);
   }
 
-  // All constraint rows of the mechanism, for rank and words only: the tree's own are independent of each other, so what
-  // the whole lacks in rank its loops lack.
-  ConstraintSystem all_rows(const std::vector<BodyMotion>& bodies) const {
-    ConstraintSystem rows(mechanism_,
-                          {.clearance = options_.with_clearance ? ClearanceRows::open : ClearanceRows::closed});
-    rows.evaluate(bodies, laws_);
-    return rows;
-  }
-
-  // Whether rows depend on each other. They may everywhere (redundant, and harmless); if they do at this state only, the
-  // pose is singular.
-  bool depends(const IdealState& here) const {
-    const RankAnalysis rank = analyse_rank(mechanism_, all_rows(here.bodies), false);
-    if (rank.rank == rank.rows) return false;
-    if (drives_) {
-      IdealState elsewhere;
-      drives_->state(generic_instant(here.t, drives_->duration()), elsewhere);
-      if (analyse_rank(mechanism_, all_rows(elsewhere.bodies), false).rank > rank.rank)
-        throw_singular(here.t, here.bodies);
-    }
-    return true;
-  }
+  ClearanceRows clearance_rows() const { return options_.with_clearance ? ClearanceRows::open : ClearanceRows::closed; }
 
   [[noreturn]] void throw_singular(double t, const std::vector<BodyMotion>& bodies) const {
-    throw SingularPose(mechanism_, all_rows(bodies), t);
+    ConstraintSystem rows(mechanism_, {.clearance = clearance_rows()});
+    rows.evaluate(bodies, laws_);
+    throw SingularPose(mechanism_, rows, t);
   }
 
   const Mechanism& mechanism_;

@@ -1,5 +1,10 @@
 // One explicit Runge-Kutta step of given size: the method as data (explicit_tables.hpp), one step function
 // for all of them.
+//
+// `Integrator` takes its steps through ExplicitMethod. Loops of their own around step() stand where its events, dense output
+// and error control would be another computation: the rungs' rk4, which is the paper's method (equal steps to multiples of h,
+// contacts that begin inside a step placed afterwards by ContactTracker), and its ideal motion; and the stability analyses,
+// which measure what the bare method does.
 #pragma once
 
 #include <vector>

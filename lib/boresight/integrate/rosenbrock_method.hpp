@@ -1,6 +1,9 @@
 // Rosenbrock methods for the Integrator: any table of rosenbrock_tables.hpp. One Jacobian an accepted step, one
 // decomposition an attempt, no iteration that could fail. Meant for contacts that rest: their vibration is stepped over
 // once it is below the tolerance, where an explicit method goes on following it.
+//
+// lanes/lane_rosenbrock.hpp takes the same tables through another elimination: for zddot = f(t, z, zdot) the system of 2n folds
+// into n, without pivots, in the lanes' own precision. The folding is what makes a lane's step cheap; here y' = f(t, y) may be any.
 #pragma once
 
 #include <Eigen/LU>

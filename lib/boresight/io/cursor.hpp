@@ -27,8 +27,8 @@
 #include <vector>
 
 #include "boresight/io/document.hpp"
-#include "boresight/io/key.hpp"
-#include "boresight/io/units.hpp"
+#include "boresight/keys/key.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight/math/types.hpp"
 
 namespace boresight {

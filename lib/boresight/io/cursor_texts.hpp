@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 
 namespace boresight::cursor {
 

@@ -5,7 +5,7 @@
 
 #include "boresight/io/cursor.hpp"
 #include "boresight/io/cursor_texts.hpp"
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

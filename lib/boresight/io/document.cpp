@@ -5,7 +5,7 @@
 
 #include "boresight/io/content_hash.hpp"
 #include "boresight/io/toml_tree.hpp"
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

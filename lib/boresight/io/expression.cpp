@@ -9,8 +9,8 @@
 
 #include "boresight/io/expression_parser.hpp"
 #include "boresight/io/tape.hpp"
-#include "boresight/io/units.hpp"
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/units.hpp"
+#include "boresight/keys/value_fault.hpp"
 
 namespace boresight {
 namespace {

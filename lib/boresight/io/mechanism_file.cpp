@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "boresight/io/mechanism_keys.hpp"
 #include "boresight/io/mechanism_sections.hpp"
+#include "boresight/keys/mechanism_keys.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

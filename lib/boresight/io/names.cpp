@@ -4,8 +4,8 @@
 
 #include "boresight/io/mechanism_sections.hpp"
 #include "boresight/io/names_of.hpp"
-#include "boresight/io/physical_ranges.hpp"
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/physical_ranges.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

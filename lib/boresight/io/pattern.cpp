@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "boresight/io/mechanism_keys.hpp"
 #include "boresight/io/mechanism_sections.hpp"
+#include "boresight/keys/mechanism_keys.hpp"
 
 namespace boresight {
 namespace {

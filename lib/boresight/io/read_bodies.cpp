@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "boresight/io/mechanism_keys.hpp"
 #include "boresight/io/mechanism_sections.hpp"
-#include "boresight/io/physical_ranges.hpp"
+#include "boresight/keys/mechanism_keys.hpp"
+#include "boresight/keys/physical_ranges.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

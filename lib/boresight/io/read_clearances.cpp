@@ -3,8 +3,8 @@
 
 #include "boresight/contact/friction_law.hpp"
 #include "boresight/contact/normal_law.hpp"
-#include "boresight/io/mechanism_keys.hpp"
 #include "boresight/io/mechanism_sections.hpp"
+#include "boresight/keys/mechanism_keys.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

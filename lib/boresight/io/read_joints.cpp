@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "boresight/io/mechanism_keys.hpp"
 #include "boresight/io/mechanism_sections.hpp"
+#include "boresight/keys/mechanism_keys.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

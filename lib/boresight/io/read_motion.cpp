@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "boresight/io/mechanism_keys.hpp"
 #include "boresight/io/mechanism_sections.hpp"
-#include "boresight/io/physical_ranges.hpp"
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/mechanism_keys.hpp"
+#include "boresight/keys/physical_ranges.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

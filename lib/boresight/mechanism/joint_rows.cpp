@@ -15,6 +15,17 @@ const BodyMotion& motion_of(const std::vector<BodyMotion>& bodies, int body) {
 // Turn of R about its y axis, from the rotation that takes components in B's joint frame to A's.
 double twist_about_y(const Mat3& R) { return std::atan2(R(0, 2) - R(2, 0), R(0, 0) + R(2, 2)); }
 
+// m of the header, by which the relative angular velocity becomes the rate of the twist, and its own rate.
+struct TwistAxis {
+  Vec3 m, m_dot;
+};
+TwistAxis axis_of_twist(const Vec3& yA, const Vec3& yB, const Vec3& wA, const Vec3& wB) {
+  const double s = 1.0 + yA.dot(yB);
+  const Vec3 m = (yA + yB) / s;
+  const Vec3 yA_dot = wA.cross(yA), yB_dot = wB.cross(yB);
+  return {m, (yA_dot + yB_dot - m * (yA_dot.dot(yB) + yA.dot(yB_dot))) / s};
+}
+
 double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
 bool has_points(JointType t) {
@@ -116,11 +127,7 @@ void JointConstraint::evaluate(const std::vector<BodyMotion>& bodies, const Time
         break;
       }
       case Kind::twist: {
-        const Vec3 yA = XA.col(1), yB = XB.col(1);
-        const double s = 1.0 + yA.dot(yB);
-        const Vec3 m = (yA + yB) / s;
-        const Vec3 yA_dot = A.w.cross(yA), yB_dot = B.w.cross(yB);
-        const Vec3 m_dot = (yA_dot + yB_dot - m * (yA_dot.dot(yB) + yA.dot(yB_dot))) / s;
+        const auto [m, m_dot] = axis_of_twist(XA.col(1), XB.col(1), A.w, B.w);
         rows.reference.row(i) << Vec3::Zero().transpose(), -m.transpose();
         rows.other.row(i) << Vec3::Zero().transpose(), m.transpose();
         rows.value[i] = twist_about_y(XA.transpose() * XB);
@@ -161,12 +168,8 @@ TimeValue joint_coordinate(const Mechanism& mechanism, int joint, const std::vec
     result.rate = a.dot(d_dot) + a_dot.dot(d);
     result.acceleration = a.dot(d_ddot) + 2.0 * a_dot.dot(d_dot) + a_ddot.dot(d);
   } else {
-    const Vec3 yA = XA.col(1), yB = XB.col(1);
     const Vec3 w_rel = B.w - A.w;
-    const double s = 1.0 + yA.dot(yB);
-    const Vec3 m = (yA + yB) / s;
-    const Vec3 yA_dot = A.w.cross(yA), yB_dot = B.w.cross(yB);
-    const Vec3 m_dot = (yA_dot + yB_dot - m * (yA_dot.dot(yB) + yA.dot(yB_dot))) / s;
+    const auto [m, m_dot] = axis_of_twist(XA.col(1), XB.col(1), A.w, B.w);
     result.value = twist_about_y(XA.transpose() * XB);
     result.rate = w_rel.dot(m);
     result.acceleration = (aB - aA).tail<3>().dot(m) + w_rel.dot(m_dot);

@@ -20,15 +20,15 @@ namespace {
 // Into how many a failed step is divided, to see whether it was too long.
 constexpr int kShorter = 64;
 
-// Whether a contact is deeper than solids are pressed into each other: a tenth of the bore's radius.
-bool sunk(const std::vector<JointPlay>& joints, const std::vector<PlayMotion<double>>& motion) {
+// The joint in which a contact is deeper than solids are pressed into each other, a tenth of the seat's radius; null: none.
+const JointPlay* sunk(const std::vector<JointPlay>& joints, const std::vector<PlayMotion<double>>& motion) {
   std::array<ContactState<double>, kContactPlaces> contact;
   for (std::size_t c = 0; c < joints.size(); ++c) {
     joints[c].penetrations(motion[c], contact);
     for (const ContactState<double>& place : contact)
-      if (place.penetration > 0.1 * joints[c].size()) return true;
+      if (place.penetration > 0.1 * joints[c].size()) return &joints[c];
   }
-  return false;
+  return nullptr;
 }
 
 void accept_contacts(const std::vector<BodyMotion>& bodies, double t, const ForceElements& forces,
@@ -123,6 +123,8 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
   // The compliance changes with the pose only: fifty times along the motion is often enough.
   const long compliance_every = std::max(1L, steps / 50);
   bool interrupted = false;
+  // Not the Integrator's loop (explicit_runge_kutta.hpp): between the accepted state and its first slope stand the contacts'
+  // memory and the look at their stability, and a step that fails is taken anew in shorter ones to say why.
   for (long i = 0;; ++i) {
     const double t = static_cast<double>(i) * h;
     if (!y.allFinite()) throw UnstableStep("the state is not finite", t, h);
@@ -155,7 +157,8 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
     } catch (const ComputationError&) {
       // A pose that short steps from the same state pass as well, or one that is met with journals deep in their sleeves,
       // comes of the step.
-      if (sunk(joints, motion)) throw UnstableStep("a journal deep in its sleeve", t, h);
+      if (const JointPlay* joint = sunk(joints, motion))
+        throw UnstableStep(std::string("a ") + joint->words().insert + " deep in its " + joint->words().seat, t, h);
       for (int k = 0; k < kShorter; ++k) {
         const double within = t + k * h / kShorter;
         derivative(within, before, method.first_slope());

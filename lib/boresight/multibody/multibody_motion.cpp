@@ -39,7 +39,7 @@ void MultibodyMotion::complete(RunResult& result, std::vector<ContactTracker>& t
   std::stable_sort(result.events.begin(), result.events.end(),
                    [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
   warn(result);
-  note_start_up(result);
+  note_start_up(mechanism, result);
 }
 
 std::unique_ptr<Formulation> MultibodyMotion::make_formulation() const {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/play/play_words.hpp"
 #include "boresight/scene/clearance_scene.hpp"
 #include "boresight/scene/rest_search.hpp"
 #include "boresight/scene/resting_start.hpp"
@@ -221,9 +222,9 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
     }
   }
   if (!(length <= kAcceptableRest)) {
-    resting.refusal =
-        "no position was found in which the journals' contacts carry the loads of t = 0 on the mechanism's own "
-        "geometry, which bends within the clearances";
+    resting.refusal = "no position was found in which the " + parts_in_play(mechanism.description()).inserts +
+                      "' contacts carry the loads of t = 0 on the mechanism's own geometry, which bends within the "
+                      "clearances";
     return resting;
   }
   exact.place(z, y);
@@ -240,12 +241,12 @@ VecX multibody_start(const Mechanism& mechanism, const Parameters& parameters, c
   if (formulation.forces().clearances() == 0 || mechanism.description().journals == JournalStart::centred) return y;
   try {
     const RestingBodies resting = resting_bodies(mechanism, parameters, ideal);
-    if (!resting.refusal.empty()) warning = centred_for_want_of(resting.refusal);
+    if (!resting.refusal.empty()) warning = centred_for_want_of(mechanism, resting.refusal);
     if (resting.exact.empty()) return y;
     formulation.place_bodies(resting.exact, y);
     formulation.close_joints(0.0, y);
   } catch (const ComputationError& failure) {
-    warning = centred_for_want_of(failure.what());
+    warning = centred_for_want_of(mechanism, failure.what());
     formulation.start(start, y);
   }
   return y;

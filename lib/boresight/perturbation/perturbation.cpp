@@ -10,6 +10,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/perturbation/perturbation_system.hpp"
 #include "boresight/perturbation/second_order.hpp"
+#include "boresight/play/play_words.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/rungs/option_check.hpp"
 #include "boresight/rungs/start_up.hpp"
@@ -24,10 +25,11 @@
 namespace boresight {
 namespace {
 
-constexpr const char* kBasis =
-    "the largest deviations made exactly, by closing the joints around them: how their pose, and what pushes the "
-    "journals there, "
-    "differ from the linear ones";
+std::string basis(const Mechanism& mechanism) {
+  return "the largest deviations made exactly, by closing the joints around them: how their pose, and what pushes "
+         "the " +
+         parts_in_play(mechanism.description()).inserts + " there, differ from the linear ones";
+}
 
 class Perturbation final : public SceneRung {
  public:
@@ -78,6 +80,7 @@ class Perturbation final : public SceneRung {
     DampingWatch damping(mechanism, h, limit);
     const long damping_every = std::max(1L, steps / 50);
     LargestDeviations largest(duration);
+    // Not the Integrator's loop, as in multibody/fixed_steps.cpp; that one closes joints and balances energy besides.
     for (long i = 0;; ++i) {
       const double t = static_cast<double>(i) * h;
       if (!y.allFinite()) throw UnstableStep("the deviation is not finite", t, h);
@@ -113,7 +116,8 @@ class Perturbation final : public SceneRung {
     result.damped_beyond_steps = damping.beyond();
     finish_contacts(system, result);
     result.interrupted = interrupted;
-    result.error = {second_order_share(this->mechanism(), prepared, parameters, largest), kNotMeasured, kBasis};
+    result.error = {second_order_share(this->mechanism(), prepared, parameters, largest), kNotMeasured,
+                    basis(this->mechanism())};
     result.cost.steps = steps;
     result.cost.evaluations = 4 * steps + 1;
     return result;
@@ -147,16 +151,17 @@ class Perturbation final : public SceneRung {
     if (!start_warning.empty()) result.warnings.push_back(start_warning);
     finish_contacts(system, result);
     result.interrupted = interrupted;
-    result.error = {second_order_share(this->mechanism(), prepared, parameters, largest), kNotMeasured, kBasis};
+    result.error = {second_order_share(this->mechanism(), prepared, parameters, largest), kNotMeasured,
+                    basis(this->mechanism())};
     return result;
   }
 
-  static void finish_contacts(PerturbationSystem& system, RunResult& result) {
+  void finish_contacts(PerturbationSystem& system, RunResult& result) const {
     for (ContactTracker& tracker : system.trackers())
       result.contact.push_back(tracker.finish(result.end_time, result.events));
     std::stable_sort(result.events.begin(), result.events.end(),
                      [](const ContactEvent& a, const ContactEvent& b) { return a.start < b.start; });
-    note_start_up(result);
+    note_start_up(mechanism(), result);
   }
 
   // Coordinates are offsets, or slopes of journals: these are held to the tolerance at the sleeve's ends.

@@ -26,20 +26,23 @@ VecX lengths(const Mechanism& mechanism, const Parameters& parameters, const Sce
   return unit;
 }
 
-// Coordinates whose forces decide together where a journal rests: across its axis, tilts included; along it;
-// and every coordinate that is no offset.
-std::vector<std::vector<int>> pushed_together(const SceneLayout& at) {
+// Coordinates whose forces decide together where a journal or a ball rests: what the seat's shape does not tell apart, tilts with
+// what is across the axis; and every coordinate that is no offset.
+std::vector<std::vector<int>> pushed_together(const SceneLayout& at, const ForceElements& forces) {
   std::vector<std::vector<int>> groups;
   std::vector<bool> taken(at.n, false);
-  for (const SceneLayout::Joint& joint : at.joints) {
-    std::vector<int> across, along;
-    for (int k = 0; k < joint.offsets; ++k) {
-      if (joint.source[k] < 0) continue;
-      (k == 1 ? along : across).push_back(joint.source[k]);
-      taken[joint.source[k]] = true;
+  for (std::size_t c = 0; c < at.joints.size(); ++c) {
+    const SceneLayout::Joint& joint = at.joints[c];
+    const std::size_t first = groups.size();
+    for (const std::vector<int>& group : forces.joint(static_cast<int>(c)).pushed_together()) {
+      if (group.front() < 3) groups.emplace_back();
+      std::vector<int>& into = group.front() < 3 ? groups.back() : groups[first];
+      for (int k : group) {
+        if (k >= joint.offsets || joint.source[k] < 0) continue;
+        into.push_back(joint.source[k]);
+        taken[joint.source[k]] = true;
+      }
     }
-    groups.push_back(across);
-    groups.push_back(along);
   }
   for (int i = 0; i < at.n; ++i)
     if (!taken[i]) groups.push_back({i});
@@ -101,23 +104,31 @@ class Share {
   int instants_ = 0;
 };
 
-// Displacement, turn, turn of the boresight, of the line of sight.
-enum { moved, turned, aimed, sighted, kKinds };
+// One a PointingQuantity.
+constexpr int kKinds = 4;
+constexpr int kMoved = int(PointingQuantity::position_error), kTurned = int(PointingQuantity::orientation_error),
+              kAimed = int(PointingQuantity::boresight_error), kSighted = int(PointingQuantity::line_of_sight_error);
 
 // How much of each kind a displacement is of the body that carries the boresight.
 class Sizes {
  public:
-  Sizes(const Mechanism& mechanism, const BodyMotion& body) : axis_(body.R * mechanism.pointing().boresight_B) {
-    if (const auto& line_of_sight = mechanism.pointing().line_of_sight)
-      sight_ = line_of_sight->gain({body.p, Quat(body.R)});
+  Sizes(const Mechanism& mechanism, const BodyMotion& body) {
+    const auto& line = mechanism.pointing().line_of_sight;
+    for (int k = 0; k < kKinds; ++k) {
+      gain_[k].setZero();
+      if (k == kSighted && !line) continue;
+      gain_[k] =
+          error_gain(PointingQuantity(k), {body.p, Quat(body.R)}, body.R * mechanism.pointing().boresight_B, line);
+    }
   }
   std::array<double, kKinds> operator()(const Vec6& x) const {
-    return {x.head<3>().norm(), x.tail<3>().norm(), axis_.cross(x.tail<3>()).norm(), (sight_ * x).norm()};
+    std::array<double, kKinds> size = {};
+    for (int k = 0; k < kKinds; ++k) size[k] = (gain_[k] * x).norm();
+    return size;
   }
 
  private:
-  Vec3 axis_;
-  Eigen::Matrix<double, 3, 6> sight_ = Eigen::Matrix<double, 3, 6>::Zero();
+  std::array<Eigen::Matrix<double, 3, 6>, kKinds> gain_;
 };
 
 Vec6 displacement(const BodyMotion& from, const BodyMotion& to) {
@@ -154,7 +165,7 @@ class LeftOut {
         coordinates_(prepared.scene().coordinates()),
         formulation_(make_tree_formulation(mechanism, parameters, &prepared.ideal(), {})),
         unit_(lengths(mechanism, parameters, at_)),
-        groups_(pushed_together(at_)),
+        groups_(pushed_together(at_, formulation_->forces())),
         memory_(at_.joints.size()),
         row_(tables_->dynamics.width()),
         part_(groups_.size()),
@@ -215,11 +226,11 @@ class LeftOut {
     // other way round. The line of sight counts against itself: how small an angle a displacement is depends on the target's distance.
     constexpr double kNextToNothing = 1e-4;
     const double length = mechanism_.characteristic_length();
-    const double next_to_nothing =
-        kNextToNothing * std::max({miss_[moved].size(), length * miss_[turned].size(), length * miss_[aimed].size()});
+    const double next_to_nothing = kNextToNothing * std::max({miss_[kMoved].size(), length * miss_[kTurned].size(),
+                                                              length * miss_[kAimed].size()});
     double share = 0.0;
     for (int k = 0; k < kKinds; ++k) {
-      const double least = k == moved ? next_to_nothing : k == sighted ? 0.0 : next_to_nothing / length;
+      const double least = k == kMoved ? next_to_nothing : k == kSighted ? 0.0 : next_to_nothing / length;
       const double size = std::max(miss_[k].size(), least);
       double of_kind = miss_[k].value(least);
       for (std::size_t g = 0; g < groups_.size(); ++g) of_kind += part_[g][k].value(least) * pushed_off_[g];

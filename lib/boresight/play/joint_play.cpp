@@ -8,6 +8,10 @@
 namespace boresight {
 namespace {
 
+[[noreturn]] void refuse(JointType joint) {
+  throw std::invalid_argument(std::string("no kind of play for a joint of type ") + to_string(joint));
+}
+
 // The first kind that serves the type of joint.
 template <std::size_t K = 0>
 PlayKinds<double> made(const ClearanceDescription& description, JointType joint, const ClearanceParameters& p) {
@@ -16,7 +20,17 @@ PlayKinds<double> made(const ClearanceDescription& description, JointType joint,
     if (Kind::serves(joint)) return Kind(description, joint, p);
     return made<K + 1>(description, joint, p);
   } else {
-    throw std::invalid_argument(std::string("no kind of play for a joint of type ") + to_string(joint));
+    refuse(joint);
+  }
+}
+
+template <std::size_t K = 0>
+PlayWords words_for(JointType joint) {
+  if constexpr (K < std::variant_size_v<PlayKinds<double>>) {
+    using Kind = std::variant_alternative_t<K, PlayKinds<double>>;
+    return Kind::serves(joint) ? Kind::words() : words_for<K + 1>(joint);
+  } else {
+    refuse(joint);
   }
 }
 
@@ -41,6 +55,10 @@ JointPlay::JointPlay(const ClearanceDescription& description, JointType joint, c
 }
 
 bool JointPlay::serves(JointType joint) { return any_serves(joint); }
+PlayWords JointPlay::words(JointType joint) { return words_for(joint); }
+PlayWords JointPlay::words() const {
+  return std::visit([](const auto& k) { return k.words(); }, kind);
+}
 
 std::vector<ContactPlace> JointPlay::places() const {
   return std::visit([](const auto& k) { return k.places(); }, kind);
@@ -79,6 +97,9 @@ double JointPlay::narrowest() const {
 }
 PlayOffsets JointPlay::widths(double other) const {
   return std::visit([&](const auto& k) { return k.widths(other); }, kind);
+}
+OffsetGroups JointPlay::pushed_together() const {
+  return std::visit([](const auto& k) { return k.pushed_together(); }, kind);
 }
 double JointPlay::lever() const {
   return std::visit([](const auto& k) { return k.lever(); }, kind);

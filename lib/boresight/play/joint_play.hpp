@@ -62,6 +62,9 @@ struct JointPlay : JointPlayT<double> {
 
   // Whether there is a kind of play for this type of joint.
   static bool serves(JointType joint);
+  // What the parts of such a joint's play are called. Throws std::invalid_argument where no kind serves it.
+  static PlayWords words(JointType joint);
+  PlayWords words() const;
 
   // The contacts it can have.
   std::vector<ContactPlace> places() const;
@@ -83,6 +86,7 @@ struct JointPlay : JointPlayT<double> {
   double narrowest() const;
   // Of each offset, the clearance that it crosses; `other` where that is zero [m, -].
   PlayOffsets widths(double other) const;
+  OffsetGroups pushed_together() const;
   double lever() const;                 // a slope times it is a displacement [m]
   double size() const;                  // radius of the seat [m]
   const NormalLaw& normal_law() const;  // of the contact that carries the loads across its axis

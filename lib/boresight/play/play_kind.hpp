@@ -2,6 +2,7 @@
 //
 // KT<T>, the contacts as templates on the scalar T of what a sample varies (double, lanes, jets):
 //   static bool serves(JointType)                    whether this kind is the play of such a joint
+//   static words()                                   PlayWords: what its parts are called
 //   penetrations(motion, contact)                    how deep each place is, without its force
 //   wrench(motion, impact_speed, traction, out)      traction: the friction of contact_friction.hpp
 //   keep_only(touching)                              what does not touch is out of reach: it gives no force even in a trial step
@@ -25,6 +26,7 @@
 //   size()                          radius of the seat: a penetration of its order is none [m]
 //   normal_law()                    of the contact that carries the loads across its axis
 //   axial_stiffness()               of the contact that carries them along it [N/m]; 0 where there is none
+//   pushed_together()               OffsetGroups: which offsets no shape of the seat tells apart
 //   root_stiffness(load)            per offset, the root of the tangent stiffness under twice the load [N]
 #pragma once
 
@@ -33,6 +35,7 @@
 #include "boresight/mechanism/description.hpp"
 #include "boresight/play/contact_tangent.hpp"
 #include "boresight/play/gap_part.hpp"
+#include "boresight/play/play_words.hpp"
 #include "boresight/play/resting_play.hpp"
 
 namespace boresight {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "boresight/contact/contact_memory.hpp"
 #include "boresight/math/types.hpp"
@@ -25,6 +26,11 @@ inline constexpr int kMotionNumbers = 13;
 // leaves the rest zero. With forces in their place: the loads on them [N], couples on the slopes [N m].
 inline constexpr int kMostOffsets = 5;
 using PlayOffsets = Eigen::Matrix<double, kMostOffsets, 1>;
+
+// Offsets by their numbers, in groups that the seat's shape does not tell apart: however its frame lies, what is said of one of a
+// group (free, pushed by next to nothing) is said of all. A group is of lengths or of slopes. The first one carries the joint: a
+// load on it, however small, presses the insert against its seat.
+using OffsetGroups = std::vector<std::vector<int>>;
 
 inline PlayMotion<double> at_rest_at(const PlayOffsets& offsets) {
   PlayMotion<double> motion{offsets.head<3>(), Vec3::Zero(), Vec3::Zero()};

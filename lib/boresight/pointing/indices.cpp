@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
+
+#include "boresight/math/cross_matrix.hpp"
 
 namespace boresight {
 namespace {
@@ -39,16 +42,11 @@ double turn_of_line(const Vec3& line, const Vec3& d) {
 
 Eigen::Matrix<double, 3, 6> LineOfSight::gain(const Pose& ideal) const {
   // d = dp + turn x r, turn of the line = d x s / |s|^2.
-  const auto cross = [](const Vec3& v) {
-    Mat3 m;
-    m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-    return m;
-  };
   const Vec3 s = line(ideal);
   Eigen::Matrix<double, 3, 6> gain = Eigen::Matrix<double, 3, 6>::Zero();
   if (!(s.squaredNorm() > 0.0)) return gain;
-  gain.leftCols<3>() = -cross(s) / s.squaredNorm();
-  gain.rightCols<3>() = cross(s) * cross(ideal.q * from_B) / s.squaredNorm();
+  gain.leftCols<3>() = -cross_matrix(s) / s.squaredNorm();
+  gain.rightCols<3>() = cross_matrix(s) * cross_matrix(ideal.q * from_B) / s.squaredNorm();
   return gain;
 }
 
@@ -84,6 +82,26 @@ Vec3 error_vector(PointingQuantity quantity, const Pose& truth, const Pose& idea
     }
   }
   return Vec3::Zero();
+}
+
+Eigen::Matrix<double, 3, 6> error_gain(PointingQuantity quantity, const Pose& ideal, const Vec3& axis,
+                                       const std::optional<LineOfSight>& line_of_sight) {
+  Eigen::Matrix<double, 3, 6> gain = Eigen::Matrix<double, 3, 6>::Zero();
+  switch (quantity) {
+    case PointingQuantity::position_error:
+      gain.leftCols<3>().setIdentity();
+      break;
+    case PointingQuantity::orientation_error:
+      gain.rightCols<3>().setIdentity();
+      break;
+    case PointingQuantity::boresight_error:
+      gain.rightCols<3>() = -cross_matrix(axis);
+      break;
+    case PointingQuantity::line_of_sight_error:
+      if (!line_of_sight) throw std::logic_error("no line of sight: the mechanism names no target");
+      return line_of_sight->gain(ideal);
+  }
+  return gain;
 }
 
 void StatisticsOverTime::reserve(std::size_t steps) {

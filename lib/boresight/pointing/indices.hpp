@@ -36,6 +36,12 @@ PoseError pose_error(const Pose& truth, const Pose& ideal, const Pointing& point
 //   line_of_sight_error  the same of the line of sight (LineOfSight::reversed), with the world's axes for the body's [rad];
 //                        zero where nothing is sighted
 Vec3 error_vector(PointingQuantity quantity, const Pose& truth, const Pose& ideal, const Pointing& pointing);
+// To first order, all of it in world axes: for a displacement of the centre of mass and a rotation of the body (six numbers)
+// the displacement, the rotation, the change of the pointing axis (a unit vector) or the turn of the line of sight. Its length
+// is the index [m or rad for m and rad]. axis: the ideal pointing axis, world axes. Throws std::logic_error for a line of
+// sight where nothing is sighted.
+Eigen::Matrix<double, 3, 6> error_gain(PointingQuantity quantity, const Pose& ideal, const Vec3& axis,
+                                       const std::optional<LineOfSight>& line_of_sight);
 
 struct Statistics {
   double max = 0.0, rms = 0.0, mean = 0.0, p9973 = 0.0;  // p9973: the value not exceeded for 99.73 % of the time

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "boresight/play/play_words.hpp"
+
 namespace boresight {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr double kNothing = 1e-12;  // [m] or [rad]: an index that is rounding h
 
 }  // namespace
 
-void note_start_up(RunResult& result) {
+void note_start_up(const Mechanism& mechanism, RunResult& result) {
   result.settled_from = 0.0;
   for (const ContactSummary& joint : result.contact)
     result.settled_from = std::max(result.settled_from, joint.settled_from);
@@ -29,10 +31,12 @@ void note_start_up(RunResult& result) {
       latest = std::max(latest, statistics->time_of_max);
     }
   if (names.empty()) return;
-  char text[120];
-  std::snprintf(text, sizeof text, " falls into the start (%s %.3g s), before the journals have settled at %.3g s; ",
-                names.find(',') == std::string::npos ? "at" : "by", latest, result.settled_from);
-  result.warnings.push_back("the maximum of the " + names + text +
+  char when[40], settled[60];
+  std::snprintf(when, sizeof when, " falls into the start (%s %.3g s)",
+                names.find(',') == std::string::npos ? "at" : "by", latest);
+  std::snprintf(settled, sizeof settled, " have settled at %.3g s; ", result.settled_from);
+  result.warnings.push_back("the maximum of the " + names + when + ", before the " +
+                            parts_in_play(mechanism.description()).inserts + settled +
                             "--start, or [index] start in a study, leaves it out");
 }
 

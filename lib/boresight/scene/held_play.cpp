@@ -20,7 +20,7 @@ RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ide
                               const RunOptions& options) {
   const double duration = mechanism.duration();
   const ForceElements forces(mechanism, parameters, true);
-  const double wanted = step_on_grid(std::min(kPaperStep, duration / 100.0), options.sample_spacing);
+  const double wanted = step_on_grid(longest_step(duration), options.sample_spacing);
   const long steps = std::max(1L, static_cast<long>(std::ceil(duration / wanted - 1e-9)));
   MotionRecorder recorder(mechanism, ideal, options, static_cast<double>(steps));
   std::array<ContactState<double>, kContactPlaces> contact;

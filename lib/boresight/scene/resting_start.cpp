@@ -7,6 +7,7 @@
 
 #include "boresight/contact_events/contact_jacobian.hpp"
 #include "boresight/play/joint_play.hpp"
+#include "boresight/play/play_words.hpp"
 #include "boresight/scene/rest_search.hpp"
 
 namespace boresight {
@@ -218,15 +219,17 @@ RestingStart RestingBalance::solve() const {
       }
     }
     rest.z.setZero();
-    rest.refusal = "no position was found in which the journals' contacts carry the loads of t = 0";
+    rest.refusal =
+        "no position was found in which the " + parts_in_play(joints_).inserts + "' contacts carry the loads of t = 0";
     return rest;
   }
   rest.z = completed(z);
   return rest;
 }
 
-std::string centred_for_want_of(const std::string& refusal) {
-  return "journals start in the middle of their sleeves: " + refusal;
+std::string centred_for_want_of(const Mechanism& mechanism, const std::string& refusal) {
+  const PartsInPlay parts = parts_in_play(mechanism.description());
+  return parts.inserts + " start in the middle of their " + parts.seats + ": " + refusal;
 }
 
 VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const SceneStart& start,
@@ -235,7 +238,7 @@ VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, co
   if (mechanism.description().journals == JournalStart::centred) return state;
   const RestingStart rest = RestingBalance(layout, start.row.data(), joints).solve();
   if (!rest.refusal.empty()) {
-    warning = centred_for_want_of(rest.refusal);
+    warning = centred_for_want_of(mechanism, rest.refusal);
     return state;
   }
   state << rest.z, start.rates * rest.z;

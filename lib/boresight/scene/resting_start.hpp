@@ -75,6 +75,6 @@ class RestingBalance {
 // else their balance. warning: a sentence where that was wanted and not found; else left alone.
 VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, const SceneStart& start,
                        const std::vector<JointPlay>& joints, std::string& warning);
-std::string centred_for_want_of(const std::string& refusal);
+std::string centred_for_want_of(const Mechanism& mechanism, const std::string& refusal);
 
 }  // namespace boresight

@@ -24,7 +24,7 @@ StartingJournals starting_journals(const Mechanism& mechanism, const Parameters&
       if (m.clearances[c].axes == JournalAxes::free) start.journals[c].slope = {motion.slope[0], 0.0, motion.slope[1]};
     }
   } catch (const ComputationError& failure) {
-    start.warning = centred_for_want_of(failure.what());
+    start.warning = centred_for_want_of(mechanism, failure.what());
   }
   return start;
 }

@@ -73,11 +73,13 @@ class Envelope final : public SceneRung {
                     !options.progress({now.t, mechanism().duration(), recorder.position_error_max()});
       BodyAcceleration acceleration;
       const BodyMotion ideal = prepared.ideal().body(now.t, mechanism().boresight_body(), &acceleration);
-      const Vec3 axis = ideal.R * mechanism().boresight_B();
+      const auto& line = mechanism().pointing().line_of_sight;
+      const auto gain_of = [&](PointingQuantity quantity) {
+        return error_gain(quantity, {ideal.p, Quat(ideal.R)}, ideal.R * mechanism().boresight_B(), line);
+      };
       Eigen::Matrix<double, 3, 6> sight = Eigen::Matrix<double, 3, 6>::Zero();
-      if (const auto& line = mechanism().pointing().line_of_sight) sight = line->gain({ideal.p, Quat(ideal.R)});
-      Mat3 across;
-      across << 0.0, axis.z(), -axis.y(), -axis.z(), 0.0, axis.x(), axis.y(), -axis.x(), 0.0;  // turn -> change of axis
+      if (line) sight = gain_of(PointingQuantity::line_of_sight_error);
+      const Mat3 across = gain_of(PointingQuantity::boresight_error).rightCols<3>();  // turn -> change of axis
 
       PoseError bound;
       for (std::size_t c = 0; c < joints.size(); ++c) {

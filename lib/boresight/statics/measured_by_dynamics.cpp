@@ -11,6 +11,7 @@
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/perturbation/perturbation.hpp"
+#include "boresight/play/play_words.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 
 namespace boresight {
@@ -120,12 +121,11 @@ class MeasuredByDynamics final : public Rung {
       result.warnings.push_back(text);
     }
     if (bounds_ && measured.of_linearity > kBent) {
-      char text[160];
-      std::snprintf(
-          text, sizeof text,
-          "the bound is linear in the journals' offsets, and the pose is not: errors may exceed it by %.2g %%",
-          100.0 * measured.of_linearity);
-      result.warnings.push_back(text);
+      char text[80];
+      std::snprintf(text, sizeof text, "' offsets, and the pose is not: errors may exceed it by %.2g %%",
+                    100.0 * measured.of_linearity);
+      result.warnings.push_back("the bound is linear in the " + parts_in_play(mechanism_->description()).inserts +
+                                text);
     }
     return result;
   }

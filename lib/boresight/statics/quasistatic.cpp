@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "boresight/play/play_words.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/scene/scene_rung.hpp"
 #include "boresight/statics/measured_by_dynamics.hpp"
@@ -21,9 +22,9 @@ class Quasistatic final : public SceneRung {
 
   std::string name() const override { return "quasistatic"; }
   std::string leaves_out() const override {
-    return "Impacts and vibration: the journal rests where the ideal joint's reaction pushes it, so maxima that "
-           "impacts set "
-           "come out low. Velocities and accelerations shown are those of the ideal motion.";
+    return "Impacts and vibration: the " + parts_in_play(mechanism().description()).insert +
+           " rests where the ideal joint's reaction pushes it, so maxima that impacts set come out low. Velocities and "
+           "accelerations shown are those of the ideal motion.";
   }
 
  private:

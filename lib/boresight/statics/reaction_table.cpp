@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
+#include "boresight/play/play_words.hpp"
 
 namespace boresight {
 namespace {
@@ -35,8 +35,8 @@ double size(const PlayOffsets& load, const JointPlay& joint) {
 ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& scene, const Parameters& parameters)
     : mechanism_(mechanism), layout_(scene.layout()) {
   if (scene.coordinates().leftover() > 0)
-    throw ComputationError(
-        "journals come to rest only where every freedom of the ideal mechanism is driven; use perturbation");
+    throw ComputationError(parts_in_play(mechanism.description()).inserts +
+                           " come to rest only where every freedom of the ideal mechanism is driven; use perturbation");
   // A motion of hours moves more slowly: its own table says how fast.
   const double wanted = std::max<double>(
       kFewestInstants,
@@ -46,13 +46,18 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& s
   spacing_ = scene.spacing() / per_knot;
   const SceneTables tables = scene.tables(parameters);
   const int n = layout_.n, width = 7 * n + mechanism.clearances();
-  // Across its axis, or in tilt, a journal that is free in one direction alone is tied in most others: which of them are offsets is a matter
-  // of how the mechanism lies in space.
-  for (const SceneLayout::Joint& joint : layout_.joints)
-    for (const auto& [one, other] : {std::pair{0, 2}, std::pair{3, 4}})
-      if (other < joint.offsets && (joint.source[one] == DeviationCoordinates::kDependent) !=
-                                       (joint.source[other] == DeviationCoordinates::kDependent))
-        throw ComputationError(kTied);
+  joints_ = joint_plays(mechanism.description(), parameters);
+  for (const JointPlay& joint : joints_) groups_.push_back(joint.pushed_together());
+  // Across its axis, or in tilt, a journal that is free in one direction alone is tied in most others, and so is a ball: which of them are
+  // offsets is a matter of how the mechanism lies in space.
+  for (std::size_t c = 0; c < joints_.size(); ++c)
+    for (const std::vector<int>& group : groups_[c]) {
+      const SceneLayout::Joint& joint = layout_.joints[c];
+      if (group.front() >= joint.offsets) continue;
+      const auto tied = [&](int k) { return joint.source[k] == DeviationCoordinates::kDependent; };
+      const auto count = std::count_if(group.begin(), group.end(), tied);
+      if (count > 0 && count < static_cast<long>(group.size())) throw ComputationError(kTied);
+    }
   std::vector<double> values, row(layout_.width);
   MatX M, C;
   VecX r;
@@ -73,7 +78,6 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& s
     for (const SceneLayout::Joint& j : layout_.joints) values.push_back(j.slides ? row[j.slide] : 0.0);
   }
   table_ = TimeTable(scene.spacing(), width, values);
-  joints_ = joint_plays(mechanism.description(), parameters);
   largest_load_.assign(joints_.size(), 0.0);
   for (int i = 0; i < instants_; ++i) {
     const Instant now = at(i);
@@ -99,10 +103,12 @@ ReactionTable::Instant ReactionTable::at_time(double t) const {
     Load load{PlayOffsets::Zero(), row[7 * n + c]};
     for (int k = 0; k < layout_.joints[c].offsets; ++k)
       if (const int source = layout_.joints[c].source[k]; source >= 0) load.force[k] = now.reaction[source];
-    // Along the axis and in tilt next to nothing would push a journal all the way that its play leaves.
-    const double least = kRounding * largest_of_all_;
-    if (std::abs(load.force[1]) < least) load.force[1] = 0.0;
-    if (load.force.tail<2>().norm() < least * joints_[c].lever()) load.force.tail<2>().setZero();
+    // Beside what carries it, along its axis and in tilt, next to nothing would push a journal all the way that its play leaves.
+    for (std::size_t g = 1; g < groups_[c].size(); ++g) {
+      const std::vector<int>& group = groups_[c][g];
+      const double least = kRounding * largest_of_all_ * (group.front() < 3 ? 1.0 : joints_[c].lever());
+      if (load.force(group).norm() < least) load.force(group).setZero();
+    }
     now.load.push_back(load);
   }
   return now;

@@ -50,6 +50,7 @@ class ReactionTable {
   double spacing_;
   TimeTable table_;  // r (n), E (6 x n), slides (one per clearance)
   std::vector<JointPlay> joints_;
+  std::vector<OffsetGroups> groups_;  // of each
   std::vector<double> largest_load_;  // per clearance [N]
   double largest_of_all_ = 0.0;       // the largest of these [N]
 };

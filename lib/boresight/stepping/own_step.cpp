@@ -9,7 +9,7 @@
 namespace boresight {
 
 double own_step(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
-  double step = std::min(kPaperStep, mechanism.duration() / 100.0);
+  double step = longest_step(mechanism.duration());
   // The joints' contacts taken together, at twice the largest ideal reaction: what a load suddenly applied to an elastic
   // contact reaches.
   for (const ContactFrequency& c : analyse_contacts(mechanism, parameters, ideal))

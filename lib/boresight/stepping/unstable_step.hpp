@@ -1,6 +1,7 @@
 // A step too large for the motion: the error that says so, and what a rung does about it where the step was its own choice.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "boresight/contact_events/stiffest_contact.hpp"
@@ -18,8 +19,9 @@ class UnstableStep : public ComputationError {
   double largest_step = 0.0;  // that would have been stable there [s]; 0: not known
 };
 
-// The step that the paper uses, and the most that a rung takes on its own [s].
+// The step that the paper uses [s], and the most that a rung takes on its own.
 inline constexpr double kPaperStep = 1e-4;
+inline double longest_step(double duration) { return std::min(kPaperStep, duration / 100.0); }
 // Share of RK4's stable step taken when a rung chooses: 2.785 x 0.36 = 1 radian of the stiffest contact a step, about three
 // steps in a half wave of contact, and room for contacts that turn out twice as deep as foreseen.
 inline constexpr double kShareOfStableStep = 0.36;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight_analyses/random/fit_clearance.hpp"
 #include "validation/printed.hpp"
 

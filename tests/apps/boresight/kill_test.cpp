@@ -13,45 +13,18 @@
 #include <fstream>
 #include <functional>
 #include <random>
-#include <set>
 
-#include "program.hpp"
+#include "killed_program.hpp"
 
 namespace boresight::app {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 int kills_of_each() {
   const char* asked = std::getenv("BORESIGHT_KILLS");
   return asked != nullptr ? std::atoi(asked) : 3;
 }
 
-struct Case {
-  std::string verb = {}, study = {};        // study: its text after the head; "" where the verb takes the mechanism
-  std::string what = {};                    // where a verb has several kinds of study
-  std::vector<std::string> options = {};    // beside --out
-  bool resumes = false;                     // with --resume
-  std::set<std::string> not_compared = {};  // tables with times in them
-  std::set<int> statuses = {0};
-  std::string mechanism = BORESIGHT_EXAMPLES "/3-rrcpr/3-rrcpr.toml", duration = "100ms";  // "": as the file says
-  std::set<std::string> measured = {};  // keys of the summary that hang on times without saying so
-  std::string name() const { return what.empty() ? verb : what; }
-};
-
-const char* const kScatter = R"(
-[index]
-quantity = "position_error"
-statistic = "max"
-[[random]]
-parameter = "clearance.F1.radial"
-distribution = { normal = { mean = "0.1 mm", sd = "0.01 mm" }, truncate = ["0.05 mm", "0.15 mm"] }
-[[random]]
-parameter = "clearance.F1.contact.restitution"
-distribution = { uniform = { min = 0.7, max = 0.95 } }
-)";
-
-std::vector<Case> cases() {
+std::vector<StudyToKill> cases() {
   const std::string scatter = kScatter;
   return {
       {.verb = "check"},
@@ -137,71 +110,10 @@ std::vector<Case> cases() {
   };
 }
 
-// What may differ between two starts of one study: times, and what is told of where the results are.
-nlohmann::json without_times(nlohmann::json summary, const std::set<std::string>& measured) {
-  std::function<void(nlohmann::json&)> clean = [&](nlohmann::json& node) {
-    if (node.is_object())
-      for (auto it = node.begin(); it != node.end();)
-        if (it.key().find("seconds") != std::string::npos || it.key() == "machine" || measured.contains(it.key())) {
-          it = node.erase(it);
-        } else {
-          clean(it.value());
-          ++it;
-        }
-    else if (node.is_array())
-      for (auto& item : node) clean(item);
-  };
-  clean(summary);
-  return summary;
-}
-
-class KillTest : public Program, public testing::WithParamInterface<Case> {
- protected:
-  std::vector<std::string> arguments(const std::string& out) const {
-    const Case& c = GetParam();
-    std::vector<std::string> words = {
-        c.verb, c.study.empty() ? c.mechanism : "study.toml", "--jobs", "1", "--quiet", "--out", out};
-    if (!c.duration.empty()) words.insert(words.end(), {"--set", "motion.duration=" + c.duration});
-    words.insert(words.end(), c.options.begin(), c.options.end());
-    if (c.resumes) words.push_back("--resume");
-    return words;
-  }
-
-  // A folder after a kill: no summary, one of a study that has begun, or a whole result.
-  void expect_whole_or_none(const std::string& out) const {
-    if (!std::filesystem::exists(folder_ / out / "summary.json")) return;
-    nlohmann::json summary;
-    ASSERT_NO_THROW(summary = json(out + "/summary.json"));
-    if (!summary.contains("files")) return;
-    for (const auto& name : summary["files"])
-      EXPECT_TRUE(std::filesystem::exists(folder_ / out / name.get<std::string>())) << name;
-  }
-
-  // What is in killed/ against what is in whole/, but for times.
-  void expect_as_uninterrupted() const {
-    const Case& c = GetParam();
-    EXPECT_EQ(files("killed"), files("whole")) << "no litter";
-    for (const std::string& name : files("whole"))
-      if (name.ends_with(".csv") && !c.not_compared.contains(name)) {
-        EXPECT_EQ(text("killed/" + name), text("whole/" + name)) << name;
-      }
-    auto mine = without_times(json("killed/summary.json"), c.measured),
-         theirs = without_times(json("whole/summary.json"), c.measured);
-    if (c.verb != "chart") {
-      for (const char* key : {"evaluations", "evaluations_reused", "reused"})
-        mine.erase(key), theirs.erase(key);  // what was known already is not computed again
-      EXPECT_EQ(mine, theirs) << nlohmann::json::diff(theirs, mine).dump(1);
-    }
-    if (c.name() == "montecarlo") {
-      for (const char* out : {"killed", "whole"}) ASSERT_EQ(call({"export", out, "--quiet"}).status, 0);
-      EXPECT_EQ(text("killed/samples.csv"), text("whole/samples.csv"));
-      for (const char* out : {"killed", "whole"}) std::filesystem::remove(folder_ / out / "samples.csv");
-    }
-  }
-};
+class KillTest : public KilledProgram {};
 
 TEST_P(KillTest, LeavesAWholeResultOrNoneAndTheEndIsThatOfAnUninterruptedOne) {
-  const Case& c = GetParam();
+  const StudyToKill& c = GetParam();
   if (!c.study.empty())
     std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << c.mechanism << "\"\n" << c.study;
   const auto begin = Clock::now();
@@ -248,72 +160,6 @@ TEST_P(KillTest, LeavesAWholeResultOrNoneAndTheEndIsThatOfAnUninterruptedOne) {
       "%s: %d kills; %d times two at once, one refused %d times; %d ends as an uninterrupted one; %.2f s a run\n",
       c.name().c_str(), killed, pairs, refused, ends + 1, seconds);
 }
-
-// Verbs that keep what they have while they are not whole: each start is killed after a part of what a whole one takes, so that the
-// study ends only if a start goes on from the ones before it.
-class GoingOnTest : public KillTest {
- protected:
-  static bool has_ended(pid_t child) {
-    siginfo_t found = {};
-    return ::waitid(P_PID, static_cast<id_t>(child), &found, WEXITED | WNOHANG | WNOWAIT) == 0 && found.si_pid == child;
-  }
-};
-
-TEST_P(GoingOnTest, EndsThoughNoStartLastsLongEnough) {
-  const Case& c = GetParam();
-  if (!c.study.empty())
-    std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << c.mechanism << "\"\n" << c.study;
-  const auto begin = Clock::now();
-  const Ended whole = call(arguments("whole"));
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  ASSERT_TRUE(c.statuses.contains(whole.status)) << whole.status << whole.err;
-
-  constexpr int kMostStarts = 20;
-  constexpr double kShare = 0.4;
-  int starts = 0, status = 128 + SIGKILL;
-  for (; starts < kMostStarts && status == 128 + SIGKILL; ++starts) {
-    const pid_t child = start(arguments("killed"));
-    const auto begun = Clock::now();
-    while (std::chrono::duration<double>(Clock::now() - begun).count() < kShare * seconds && !has_ended(child))
-      ::usleep(10'000);
-    ::kill(child, SIGKILL);
-    status = wait_for(child).status;
-    if (status == 128 + SIGKILL && starts == 0) {
-      EXPECT_FALSE(files("killed").empty()) << "nothing was kept";
-    }
-  }
-  EXPECT_EQ(status, whole.status) << text("stderr");
-  expect_as_uninterrupted();
-  std::printf("%s: %d starts of %.2f s each, %.2f s a run\n", c.name().c_str(), starts, kShare * seconds, seconds);
-}
-
-std::vector<Case> cases_that_go_on() {
-  const std::string rig = BORESIGHT_EXAMPLES "/calibration/rig.toml";
-  return {
-      {.verb = "sweep",
-       .study = "[[sweep.axis]]\nparameter = \"payload.mass\"\nfrom = \"0 kg\"\nto = \"100 kg\"\ncount = 24\n",
-       .options = {"--rung", "multibody"}},
-      {.verb = "montecarlo",
-       .study =
-           kScatter + std::string("[montecarlo]\nseed = 1\nrequirement = { limit = \"0.25 mm\", probability = 0.9, "
-                                  "confidence = 0.9 }\n"
-                                  "tail = { cheap = \"quasistatic\", exact = \"perturbation\", budget = \"1 s\", "
-                                  "pilot = 50 }\n"),
-       .what = "tail",
-       .statuses = {0, 1}},
-      {.verb = "calibrate",
-       .study = "[calibrate]\nstarts = 4\ncorrections = 2\nprofile = true\nlaws = [\"flores\", "
-                "\"hertz\"]\n[[calibrate.parameter]]\npath = \"clearance.D.radial\"\nstart = \"0.24 mm\"\n"
-                "[[calibrate.run]]\ndata = \"" BORESIGHT_EXAMPLES
-                "/calibration/slow.csv\"\nset = [\"motion.drives.A=2*pi*2*t\"]\n",
-       .mechanism = rig,
-       .duration = ""},
-      {.verb = "chart", .options = {"--time", "4 s"}, .not_compared = {"chart.csv", "flight.csv"}},
-  };
-}
-
-INSTANTIATE_TEST_SUITE_P(Long, GoingOnTest, testing::ValuesIn(cases_that_go_on()),
-                         [](const auto& one) { return one.param.name(); });
 
 // Verbs that read or make folders instead: the same, with folders of their own.
 class ShortKillTest : public Program {

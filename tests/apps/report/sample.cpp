@@ -268,7 +268,11 @@ Section moving() {
   ideal.joints.erase(ideal.joints.begin() + 1);
   ideal.time = {0};
   for (ViewPoint& point : ideal.points) point.x.resize(1), point.y.resize(1), point.z.resize(1);
-  return {.id = "moving", .title = "The mechanism", .items = {crank("The mechanism in motion"), ideal}};
+  // A ball with play, which has no axis.
+  View ball = crank("With a ball");
+  ball.joints.erase(ball.joints.begin() + 1);
+  ball.joints.back().clearance = ViewClearance{0.1, 0.0};
+  return {.id = "moving", .title = "The mechanism", .items = {crank("The mechanism in motion"), ideal, ball}};
 }
 
 }  // namespace

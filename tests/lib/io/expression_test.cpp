@@ -9,7 +9,7 @@
 #include <numbers>
 #include <thread>
 
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/value_fault.hpp"
 
 namespace boresight {
 namespace {

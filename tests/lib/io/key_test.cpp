@@ -1,5 +1,5 @@
 // A reader that asks for what its table of keys does not have is at fault itself.
-#include "boresight/io/key.hpp"
+#include "boresight/keys/key.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // Numbers that nothing built can have are refused where they are read, wherever they come from.
-#include "boresight/io/physical_ranges.hpp"
+#include "boresight/keys/physical_ranges.hpp"
 
 #include <gtest/gtest.h>
 

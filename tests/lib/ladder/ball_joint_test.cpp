@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
 #include "scenes.hpp"
 #include "stepper.hpp"
 #include "tree_formulation_scenes.hpp"
@@ -127,6 +128,64 @@ TEST(BallJoints, WithoutPlayAreIdealJoints) {
       EXPECT_LT(error, before);
     }
     before = error;
+  }
+}
+
+// A heavy crank, in whose bearing everything else is next to nothing, and a light rod with a ball at the slider. The socket's frame, of
+// which a file says nothing, is drawn with its y along `socket`.
+MechanismDescription light_slider_crank(const Vec3& socket) {
+  MechanismDescription m;
+  m.name = "light slider on a heavy crank";
+  m.gravity = Vec3(0.0, 0.0, -9.81);
+  const int crank = scenes::add_body(m, "crank", 1000.0, {0.0, 0.0, 0.0}, Vec3::Zero());
+  const int rod = scenes::add_body(m, "rod", 1e-4, {0.3, 0.0, 0.05}, Vec3::Zero());
+  const int slider = scenes::add_body(m, "slider", 1e-3, {0.5, 0.0, 0.0}, Vec3::Zero());
+  for (BodyDescription& b : m.bodies) b.boresight.reset();
+  m.bodies[slider].boresight = Vec3::UnitZ();
+  scenes::add_joint(m, JointType::revolute, kGround, crank, {0.0, 0.0, 0.0}, Vec3::UnitY());
+  scenes::add_joint(m, JointType::universal, crank, rod, {0.1, 0.0, 0.1}, Vec3::UnitY());
+  m.joints.back().second_axis = Vec3(1.0, 0.0, 4.0).normalized();
+  scenes::add_joint(m, JointType::spherical, rod, slider, {0.5, 0.0, 0.0}, socket);
+  scenes::add_joint(m, JointType::prismatic, slider, kGround, {0.5, 0.0, 0.0}, Vec3::UnitX());
+  m.joints[0].driven = true;
+  m.motion.drives[0] = scenes::sine(0.2, 6.0);
+  m.motion.duration = 0.1;
+  scenes::add_clearance(m, 0, false);
+  scenes::add_clearance(m, 2, false);
+  ClearanceParameters& ball = m.clearances.back().parameters;
+  ball.axial = ball.cap_radius = ball.sleeve_length = 0.0;
+  return m;
+}
+
+// Of the ball's load the part along y was taken for nothing where it is next to nothing beside the loads of other joints.
+TEST(BallJoints, RestWhereverTheirSocketsFrameLies) {
+  for (const char* rung : {"quasistatic", "envelope"}) {
+    double first = 0.0;
+    for (const Vec3& socket : {Vec3(Vec3::UnitZ()), Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(1.0, 2.0, -0.5)}) {
+      const auto mechanism = scenes::build(light_slider_crank(socket));
+      const double error = make_rung(rung, mechanism)->run(mechanism->parameters(), {}).index.position_error.rms;
+      ASSERT_GT(error, 1e-5);
+      if (first == 0.0) first = error;
+      EXPECT_NEAR(error / first, 1.0, 1e-5) << rung << ", y of the socket along " << socket.transpose();
+    }
+  }
+}
+
+// What holds a ball in one direction ties it in most drawings; which of its offsets that concerns is the drawing's choice.
+TEST(BallJoints, AreRefusedAlikeWhereTheyAreHeldInOneDirection) {
+  for (const Vec3& socket : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ())}) {
+    MechanismDescription m = scenes::planar_four_bar();
+    m.joints[0].driven = true;
+    m.motion.drives[0] = scenes::sine(0.3, 6.0);
+    m.motion.duration = 0.1;
+    m.joints[2].type = JointType::spherical;
+    m.joints[2].axis = socket;
+    scenes::add_clearance(m, 2, false);
+    ClearanceParameters& ball = m.clearances.back().parameters;
+    ball.axial = ball.cap_radius = ball.sleeve_length = 0.0;
+    const auto mechanism = scenes::build(m);
+    EXPECT_THROW(make_rung("quasistatic", mechanism)->run(mechanism->parameters(), {}), ComputationError)
+        << socket.transpose();
   }
 }
 

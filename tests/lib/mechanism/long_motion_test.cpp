@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight/mechanism/ideal_motion.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/kinematic_report.hpp"

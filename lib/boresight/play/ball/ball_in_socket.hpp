@@ -22,6 +22,7 @@ struct BallInSocketT {
   FrictionLawT<T> friction;
 
   static bool serves(JointType type) { return type == JointType::spherical; }
+  static PlayWords words() { return {"ball", "socket"}; }
 
   template <typename M>
   void penetrations(const PlayMotion<M>& motion, ContactStates<M>& contact) const {
@@ -121,6 +122,7 @@ struct BallInSocket : BallInSocketT<double> {
   std::vector<GapPart> gap_parts(const RestingPlay& rest, double slide) const;
   std::vector<double> clearances() const { return {clearance}; }
   PlayOffsets widths(double other) const;
+  OffsetGroups pushed_together() const { return {{0, 1, 2}}; }
   double lever() const { return socket_radius; }
   double size() const { return socket_radius; }
   const NormalLaw& normal_law() const { return law; }

@@ -33,6 +33,7 @@ struct JournalInSleeveT {
   TiltedJournalT<T> tilted;
 
   static bool serves(JointType type) { return type == JointType::revolute || type == JointType::cylindrical; }
+  static PlayWords words() { return {"journal", "sleeve"}; }
 
   // impact_speed: by ContactPlace [m/s]. M: the scalar of the motion, T itself or one that carries derivatives besides.
   // Out: PlayWrench<M>, or PlayLoad<M> where what each contact carries is not asked for.
@@ -105,6 +106,7 @@ struct JournalInSleeve : JournalInSleeveT<double> {
   std::vector<GapPart> gap_parts(const RestingPlay& rest, double slide) const;
   std::vector<double> clearances() const;
   PlayOffsets widths(double other) const;
+  OffsetGroups pushed_together() const { return {{0, 2}, {1}, {3, 4}}; }  // across its axis, along it, in tilt
   double lever() const { return half_length; }
   double size() const { return bore_radius; }
   const NormalLaw& normal_law() const { return radial_law; }

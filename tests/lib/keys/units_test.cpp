@@ -1,5 +1,5 @@
 // Every unit a mechanism or study file needs, and what must not pass for it.
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/value_fault.hpp"
 
 namespace boresight {
 namespace {

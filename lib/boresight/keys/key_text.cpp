@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "boresight/io/key.hpp"
+#include "boresight/keys/key.hpp"
 
 namespace boresight {
 namespace {

@@ -1,6 +1,6 @@
 // What a user may write in one table of a file: every key with its kind, unit, default and range, and a sentence for people.
 //
-// This is the one source. The reader (`Cursor`) takes a key's unit, default and range from here and refuses to be asked for a key
+// This is the one source. The reader (`Cursor`, in `io`) takes a key's unit, default and range from here and refuses to be asked for a key
 // that is not here; the messages about unknown keys, `boresight help`, the JSON schemas and the reference page are made of the same.
 //
 //   const KeyTable& spring_keys() {
@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "boresight/io/physical_ranges.hpp"
+#include "boresight/keys/physical_ranges.hpp"
 
 namespace boresight {
 

@@ -1,6 +1,6 @@
 #include "boresight/contact/friction_law.hpp"
 #include "boresight/contact/normal_law.hpp"
-#include "boresight/io/mechanism_keys.hpp"
+#include "boresight/keys/mechanism_keys.hpp"
 #include "boresight/mechanism/description.hpp"
 
 namespace boresight {

@@ -1,4 +1,4 @@
-#include "boresight/io/key.hpp"
+#include "boresight/keys/key.hpp"
 
 #include <cstdio>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "boresight/io/mechanism_keys.hpp"
+#include "boresight/keys/mechanism_keys.hpp"
 #include "boresight/mechanism/parameters.hpp"
 
 namespace boresight {

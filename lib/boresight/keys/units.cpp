@@ -1,4 +1,4 @@
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 
 #include <udunits2.h>
 
@@ -10,7 +10,7 @@
 #include <mutex>
 #include <vector>
 
-#include "boresight/io/value_fault.hpp"
+#include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

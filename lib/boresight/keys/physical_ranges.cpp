@@ -1,4 +1,4 @@
-#include "boresight/io/physical_ranges.hpp"
+#include "boresight/keys/physical_ranges.hpp"
 
 #include <cmath>
 

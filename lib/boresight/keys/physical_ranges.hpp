@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "boresight/io/units.hpp"
+#include "boresight/keys/units.hpp"
 
 namespace boresight {
 

@@ -1,7 +1,7 @@
-// What a mechanism file may hold: one table of keys a section, each in a file beside its reader.
+// What a mechanism file may hold: one table of keys a section; its reader is in `io`.
 #pragma once
 
-#include "boresight/io/key.hpp"
+#include "boresight/keys/key.hpp"
 
 namespace boresight {
 

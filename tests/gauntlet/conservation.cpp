@@ -1,0 +1,55 @@
+#include "conservation.hpp"
+
+#include <fmt/format.h>
+
+#include "measure.hpp"
+#include "sandbox.hpp"
+
+namespace boresight::gauntlet {
+namespace {
+
+constexpr double kMomentumTolerance = 1e-5;  // of the sum of the parts, at the rung's own step
+constexpr double kEnergyTolerance = 1e-6;    // of the kinetic energy, at a two-thousandth of the motion
+
+}  // namespace
+
+// Nothing holds it and nothing pulls at it from outside: its momentum is what it was, contacts and all.
+void check_momentum(const std::shared_ptr<const Mechanism>& mechanism, const Limits& limits, Verdict& verdict) {
+  const MechanismDescription& m = mechanism->description();
+  if (m.gravity.norm() > 0.0 || !m.loads.empty()) return;
+  for (const JointDescription& j : m.joints)
+    if (j.first == kGround || j.second == kGround) return;
+  for (const SpringDescription& s : m.springs)
+    if (s.first == kGround || s.second == kGround) return;
+  for (const char* formulation : {"tree", "paper"}) {
+    const Outcome outcome = in_sandbox(
+        limits, [&] { return momentum_change(mechanism, {.rung = "multibody", .formulation = formulation}); });
+    verdict.cpu_seconds += outcome.cpu_seconds;
+    if (outcome.end != Outcome::End::answered) continue;  // the comparison of rungs has met it
+    const double change = outcome.answer["change"];
+    if (change > kMomentumTolerance)
+      verdict.fault("momentum", std::string("multibody ") + formulation,
+                    fmt::format("changes by {:.2g} of its parts", change));
+  }
+}
+
+// Nothing drives or loads it: without play its energy stays, or with dampers only falls.
+void check_energy(const std::shared_ptr<const Mechanism>& mechanism, const Limits& limits, Verdict& verdict) {
+  const MechanismDescription& m = mechanism->description();
+  if (!m.loads.empty() || m.motion.pose || !m.motion.drives.empty()) return;
+  bool damped = false;
+  for (const SpringDescription& s : m.springs) damped = damped || s.parameters.damping > 0.0;
+  const Outcome outcome = in_sandbox(limits, [&] { return energy_change(mechanism); });
+  verdict.cpu_seconds += outcome.cpu_seconds;
+  if (outcome.end == Outcome::End::refused) verdict.refusals.push_back({"energy", outcome.reason});
+  if (outcome.end != Outcome::End::answered) return;
+  for (const auto& [formulation, energy] : outcome.answer.items()) {
+    const double change =
+        energy[damped ? "rise" : "change"].is_null() ? 1e300 : energy[damped ? "rise" : "change"].get<double>();
+    if (change > kEnergyTolerance)
+      verdict.fault("energy", formulation,
+                    fmt::format("{} by {:.2g} of the kinetic energy", damped ? "rises" : "changes", change));
+  }
+}
+
+}  // namespace boresight::gauntlet
