@@ -54,6 +54,9 @@ void LaneSampleModel::take(const LaneOutcome& found, const Parameters& parameter
   outcome.value = index_.statistic == "max"   ? found.max
                   : index_.statistic == "rms" ? std::sqrt(found.mean_square)
                                               : found.mean;
+  const double counted = mechanism_->duration() - index_.start;
+  outcome.motion.free_flight_share = found.free_flight_share;
+  if (counted > 0.0) outcome.motion.impacts_per_second = static_cast<double>(found.impacts) / counted;
   outcome.model_error = nonlinearity(parameters, found);
   outcome.discretisation_error = kNotMeasured;
   outcome.status = Outcome::Status::done;

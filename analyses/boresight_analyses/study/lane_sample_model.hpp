@@ -1,5 +1,6 @@
 // Samples of the perturbation rung, several a SIMD register (PerturbationLanes): for indices that are a statistic of one
-// quantity over the whole motion. Error control chooses the steps, so there is no step for all samples to share.
+// quantity over the whole motion, and for how steadily joints hold; peak accelerations they do not give. Error control chooses the
+// steps, so there is no step for all samples to share.
 #pragma once
 
 #include "boresight/lanes/perturbation_lanes.hpp"

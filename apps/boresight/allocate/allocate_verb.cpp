@@ -8,7 +8,7 @@
 #include "allocate/allocate_report.hpp"
 #include "boresight_analyses/allocation/allocation_keys.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
-#include "boresight_analyses/study/rung_sample_model.hpp"
+#include "boresight_analyses/study/design_model.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
 #include "report/report.hpp"
@@ -134,7 +134,7 @@ class AllocateVerb : public Verb {
                         identity_of_study(command, *mechanism, plan.sample_text(study), motion_.identity()));
     const OutputDirectory& out = own.out();
 
-    const RungChoice choice = rung_for(command);
+    RungChoice choice = rung_for(command);
     const std::vector<std::vector<double>> gaps = corner_gaps(plan);
     std::vector<std::vector<ParameterPath>> places;
     for (const AllocationJoint& joint : plan.joints) places.push_back(joint.places);
@@ -147,11 +147,16 @@ class AllocateVerb : public Verb {
         for (const RandomParameter& p : plan.inputs->parameters) values.push_back(p.distribution->quantile(0.5));
       corners.push_back(plan.parameters_with(*mechanism, values));
     }
-    const RunOptions run = options_on(choice.name, mechanism, corners, asked);
-    const RungSampleModel model(
-        choice.name, mechanism,
-        [mechanism, &plan](std::span<const double> values) { return plan.parameters_with(*mechanism, values); },
-        study.index, run, plan.inputs && scene_varies(*plan.inputs));
+    const DesignModel designs = design_model(choice, {.mechanism = mechanism,
+                                                      .parameters_of =
+                                                          [mechanism, &plan](std::span<const double> values) {
+                                                            return plan.parameters_with(*mechanism, values);
+                                                          },
+                                                      .index = study.index,
+                                                      .run = asked,
+                                                      .corners = corners,
+                                                      .scene_varies = plan.inputs && scene_varies(*plan.inputs)});
+    const SampleModel& model = *designs.samples;
     std::vector<std::string> names;
     for (const AllocationJoint& joint : plan.joints) names.push_back(joint.name());
     if (plan.inputs)

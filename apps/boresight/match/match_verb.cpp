@@ -9,7 +9,7 @@
 #include "boresight_analyses/matching/design_slopes.hpp"
 #include "boresight_analyses/matching/matching_keys.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
-#include "boresight_analyses/study/rung_sample_model.hpp"
+#include "boresight_analyses/study/design_model.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
 #include "match/match_report.hpp"
@@ -30,6 +30,12 @@ Json design_json(const MatchingPlan& plan, const std::vector<double>& design) {
   for (std::size_t i = 0; i < design.size(); ++i)
     for (const std::string& path : plan.variables[i].paths) json[path] = design[i];
   return json;
+}
+
+bool asks_peak_acceleration(const MatchingPlan& plan) {
+  bool asks = plan.objective.measure == Measure::peak_acceleration;
+  for (const MatchingConstraint& c : plan.constraints) asks = asks || c.measure.measure == Measure::peak_acceleration;
+  return asks;
 }
 
 bool is_contact_only(const std::vector<std::string>& paths) {
@@ -98,15 +104,21 @@ class MatchVerb : public Verb {
     const OutputDirectory& out = own.out();
 
     const std::vector<Parameters> corners = corners_of(plan, *mechanism);
-    const RungChoice choice = own.run().rung_of_corners(corners, "evaluations.db");
+    RungChoice choice = own.run().rung_of_corners(corners, "evaluations.db");
     const std::string upper = next_rung_up(choice.name);
     const auto parameters_of = [mechanism, &plan](std::span<const double> values) {
       return plan.parameters_with(*mechanism, values);
     };
-    RunOptions run = asked;
-    apply(choice, run);
-    run = options_on(choice.name, mechanism, corners, run);
-    const RungSampleModel model(choice.name, mechanism, parameters_of, study.index, run, any_scene_varies(plan));
+    DesignsAsked designs_asked{.mechanism = mechanism,
+                               .parameters_of = parameters_of,
+                               .index = study.index,
+                               .run = asked,
+                               .corners = corners,
+                               .scene_varies = any_scene_varies(plan),
+                               .samples = plan.inputs && plan.objective.over != Over::nominal,
+                               .peak_acceleration = asks_peak_acceleration(plan)};
+    const DesignModel designs_model = design_model(choice, designs_asked);
+    const SampleModel& model = *designs_model.samples;
     std::vector<std::string> names;
     for (const DesignVariable& v : plan.variables) names.push_back(v.name());
     const auto store = own.run().open_evaluations("evaluations.db", names, model.rung(), model.step());
@@ -119,13 +131,12 @@ class MatchVerb : public Verb {
 
     // On the same rung only other random numbers confirm; where nothing scatters there is nothing to confirm
     // with.
-    std::unique_ptr<RungSampleModel> upper_model;
+    std::unique_ptr<SampleModel> upper_model;
     std::unique_ptr<EvaluationStore> upper_store;
     std::unique_ptr<DesignEvaluator> upper_evaluator;
     if (upper != choice.name || plan.inputs) {
-      const RunOptions upper_run = options_on(upper, mechanism, corners, asked);
-      upper_model = std::make_unique<RungSampleModel>(upper, mechanism, parameters_of, study.index, upper_run,
-                                                      any_scene_varies(plan));
+      RungChoice upper_choice{upper, "confirms"};
+      upper_model = std::move(design_model(upper_choice, designs_asked).samples);
       upper_store = own.run().open_evaluations("confirmation.db", names, upper, upper_model->step());
       upper_evaluator =
           std::make_unique<DesignEvaluator>(*upper_model, inputs, upper_store.get(),
@@ -160,7 +171,7 @@ class MatchVerb : public Verb {
     };
     how.no_slopes = choice.name == "perturbation" ? why_no_slopes(plan) : "slopes are those of the perturbation rung";
     if (how.no_slopes.empty())
-      how.slopes = [slopes = DesignSlopes(mechanism, plan, study.index, run)](
+      how.slopes = [slopes = DesignSlopes(mechanism, plan, study.index, designs_model.run)](
                        const std::vector<double>& design, std::string& why) { return slopes.at(design, why); };
     const MatchingResult result = run_matching(plan, evaluator, upper_evaluator.get(), upper, how);
     stage->clear();

@@ -56,10 +56,11 @@ struct LaneOutcome {
   double t = 0.0;  // reached [s]
   // Of the index over time, from LaneSettings::start on.
   double max = 0.0, time_of_max = 0.0, mean = 0.0, mean_square = 0.0;
-  double touching_time = 0.0;    // with any contact [s]
-  double max_penetration = 0.0;  // [m]
-  long impacts = 0;              // contacts begun
-  long steps = 0, rejected = 0;  // rejected: by the error, or cut at the start of a contact
+  double free_flight_share = 0.0;  // of that time, of the joint least in contact
+  long impacts = 0;                // contacts begun in it
+  double touching_time = 0.0;      // with any contact [s]
+  double max_penetration = 0.0;    // [m]
+  long steps = 0, rejected = 0;    // rejected: by the error, or cut at the start of a contact
 };
 
 struct LaneSettings {

@@ -55,8 +55,7 @@ class LaneBlockSolver {
       for (; i < n; ++i) {
         T* x = row(i);
         const T x0 = -x[first], x1 = -x[first + 1], x2 = -x[first + 2], x3 = -x[first + 3];
-        for (int j = last; j < n; ++j)
-          x[j] = fused(x3, d[j], fused(x2, c[j], fused(x1, b[j], fused(x0, a[j], x[j]))));
+        for (int j = last; j < n; ++j) x[j] = fused(x3, d[j], fused(x2, c[j], fused(x1, b[j], fused(x0, a[j], x[j]))));
       }
     }
   }

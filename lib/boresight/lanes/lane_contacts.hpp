@@ -79,10 +79,14 @@ class LaneContacts {
     }
   }
 
+  Mask touching(std::size_t joint) const {
+    Mask some = Mask::all(false);
+    for (ContactPlace place : places_[joint]) some = some | touching_[joint][static_cast<int>(place)];
+    return some;
+  }
   Mask touching() const {
     Mask some = Mask::all(false);
-    for (std::size_t c = 0; c < touching_.size(); ++c)
-      for (ContactPlace place : places_[c]) some = some | touching_[c][static_cast<int>(place)];
+    for (std::size_t c = 0; c < touching_.size(); ++c) some = some | touching(c);
     return some;
   }
 

@@ -25,7 +25,10 @@ class LaneForces : public LanePlay<T, AnyLayout> {
   using Base::impact_speed;
 
   LaneForces(const SceneLayout& layout, const JointPlay* first_sample)
-      : Base(layout, first_sample), loads_(layout.joints.size()), motions_(layout.joints.size()), wrenches_(layout.joints.size()) {
+      : Base(layout, first_sample),
+        loads_(layout.joints.size()),
+        motions_(layout.joints.size()),
+        wrenches_(layout.joints.size()) {
     std::size_t most = 1;
     for (const Joint& joint : layout.joints) most += 3 + joint.spins;
     along_.assign(most * layout.n, T(0.0));
@@ -42,8 +45,7 @@ class LaneForces : public LanePlay<T, AnyLayout> {
     const std::size_t joints = at.joints.size();
     for (std::size_t c = 0; c < joints; ++c) motions_[c] = play_motion(at, at.joints[c], row, z, v);
     for (std::size_t c = 0; c < joints; ++c) Base::load_of(c, motions_[c], wrenches_[c]);
-    for (std::size_t c = 0; c < joints; ++c)
-      add_generalised_force(at, at.joints[c], row, motions_[c], wrenches_[c], g);
+    for (std::size_t c = 0; c < joints; ++c) add_generalised_force(at, at.joints[c], row, motions_[c], wrenches_[c], g);
   }
 
   // g; W = sigma M - dg/dv - (dg/dz) / sigma, n x n, row by row; and g's rate of change with the scene alone, at the rates `change`.

@@ -32,7 +32,8 @@ class LaneIntegrator {
         middle_z_(z_),
         slowest_(z_),
         error_(step_.pairs()),
-        tolerance_(error_) {
+        tolerance_(error_),
+        held_(first.scene->layout->joints.size(), T(0.0)) {
     jobs_of_.fill(nullptr);
   }
 
@@ -96,6 +97,7 @@ class LaneIntegrator {
     for (std::size_t c = 0; c < step_.play.at.joints.size(); ++c) {
       set_lane(step_.play.laws[c], l, journal_of(job.joints[c]));
       set_lane(step_.play.acting[c], l, journal_of(job.joints[c]));
+      held_[c].set(l, 0.0);
       contacts_.tolerance[c].set(l, job.gap_tolerance[c]);
       contacts_.slowest[c].set(l, job.joints[c].minimum_impact_speed);
     }
@@ -161,7 +163,9 @@ class LaneIntegrator {
 
     observe(accepted, h);
     const Mask was_open = !contacts_.touching();
-    const Mask began = contacts_.accept(accepted, step_.play.impact_speed, impacts_);
+    T impacts = impacts_;
+    const Mask began = contacts_.accept(accepted, step_.play.impact_speed, impacts);
+    impacts_ = settings_.start > 0.0 ? select(clock_.now() + h < T(settings_.start), impacts_, impacts) : impacts;
     // The first step into a contact is much shorter than the flight's: remember how long the last one was.
     entry_ = select(accepted & entering_, h, entry_);
     next = select(began, smaller(next, T(kEntryFactor) * entry_), next);
@@ -192,6 +196,9 @@ class LaneIntegrator {
     else
       statistics_.add(accepted, clock_.now(), h, middle, end);
     touching_time_ = select(accepted & contacts_.touching(), touching_time_ + h, touching_time_);
+    const T counted = settings_.start > 0.0 ? larger(T(0.0), smaller(h, clock_.now() + h - T(settings_.start))) : h;
+    for (std::size_t c = 0; c < held_.size(); ++c)
+      held_[c] = select(accepted & contacts_.touching(c), held_[c] + counted, held_[c]);
     deepest_ = select(accepted, larger(deepest_, contacts_.deepest(h)), deepest_);
   }
 
@@ -207,6 +214,9 @@ class LaneIntegrator {
     const double counted = t - settings_.start;
     out.mean = counted > 0.0 ? statistics_.integral.lane(l) / counted : 0.0;
     out.mean_square = counted > 0.0 ? statistics_.square.lane(l) / counted : 0.0;
+    out.free_flight_share = 0.0;
+    for (const T& held : held_)
+      if (counted > 0.0) out.free_flight_share = std::max(out.free_flight_share, 1.0 - held.lane(l) / counted);
     out.touching_time = touching_time_.lane(l);
     out.max_penetration = deepest_.lane(l);
     out.impacts = static_cast<long>(impacts_.lane(l));
@@ -222,6 +232,7 @@ class LaneIntegrator {
   typename Step::Numbers z_, v_, new_z_, new_v_, middle_z_;
   typename Step::Numbers slowest_;          // rates' tolerances over offsets' [1/s]
   typename Step::Pairs error_, tolerance_;  // of offsets, then of rates
+  std::vector<T> held_;                     // how long each joint touched, from the start of the statistics on [s]
   LaneStatistics<T> statistics_;
   LaneClock<T> clock_;
   T h_{1.0}, entry_{1.0};

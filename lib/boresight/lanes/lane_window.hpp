@@ -23,7 +23,10 @@ class LaneWindow {
 
   // gain: first column of the index's gain; length: of a window [s].
   LaneWindow(const SceneLayout& at, int gain, double length)
-      : length_(length), row_(static_cast<std::size_t>(gain + 3 * at.n), T(0.0)), first_(row_.size()), last_(row_.size()) {
+      : length_(length),
+        row_(static_cast<std::size_t>(gain + 3 * at.n), T(0.0)),
+        first_(row_.size()),
+        last_(row_.size()) {
     const auto line = [this](int first, int count) {
       if (count > 0) lines_.push_back({first, first + count});
     };

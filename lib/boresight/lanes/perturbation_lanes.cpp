@@ -30,17 +30,10 @@ MatX index_gain(const Mechanism& mechanism, const PreparedScene& prepared, Point
   table.at(t, row.data());
   const Eigen::Index n = table.width() / 6;
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> E(row.data(), 6, n);
-  if (quantity == PointingQuantity::position_error) return E.topRows(3);
-  if (quantity == PointingQuantity::orientation_error) return E.bottomRows(3);
-  const auto across = [](const Vec3& d, const MatX& rows) {
-    MatX crossed(3, rows.cols());
-    for (Eigen::Index j = 0; j < rows.cols(); ++j) crossed.col(j) = d.cross(Vec3(rows.col(j)));
-    return crossed;
-  };
   const BodyMotion ideal = prepared.ideal().body(t, mechanism.boresight_body());
-  if (quantity == PointingQuantity::boresight_error) return across(ideal.R * mechanism.boresight_B(), E.bottomRows(3));
-  if (!mechanism.pointing().line_of_sight) throw std::logic_error("no line of sight: the mechanism names no target");
-  return mechanism.pointing().line_of_sight->gain({ideal.p, Quat(ideal.R)}) * E;
+  return error_gain(quantity, {ideal.p, Quat(ideal.R)}, ideal.R * mechanism.boresight_B(),
+                    mechanism.pointing().line_of_sight) *
+         E;
 }
 
 // The ideal reactions' accelerations of the coordinates, from one row.

@@ -14,9 +14,9 @@ namespace {
 
 bool operator==(const LaneOutcome& a, const LaneOutcome& b) {
   return a.status == b.status && a.t == b.t && a.max == b.max && a.time_of_max == b.time_of_max && a.mean == b.mean &&
-         a.mean_square == b.mean_square && a.touching_time == b.touching_time &&
-         a.max_penetration == b.max_penetration && a.impacts == b.impacts && a.steps == b.steps &&
-         a.rejected == b.rejected;
+         a.mean_square == b.mean_square && a.free_flight_share == b.free_flight_share &&
+         a.touching_time == b.touching_time && a.max_penetration == b.max_penetration && a.impacts == b.impacts &&
+         a.steps == b.steps && a.rejected == b.rejected;
 }
 
 std::shared_ptr<const Mechanism> scene(const char* duration, JournalAxes axes = JournalAxes::parallel) {
@@ -261,14 +261,21 @@ TEST(Lanes, LeaveOutWhatTheRungLeavesOut) {
 
 TEST(Lanes, CountContactsAsTheRungDoes) {
   const auto mechanism = scene("0.1 s");
-  RunOptions options;
-  options.step = 5e-6;
-  const RunResult run = make_rung("perturbation", mechanism)->run(mechanism->parameters(), options);
-  LaneOutcome out;
-  PerturbationLanes(mechanism, PointingQuantity::position_error).run({&mechanism->parameters(), 1}, {&out, 1}, 2e-4);
-  EXPECT_NEAR(out.touching_time / out.t, run.contact[0].contact_fraction, 0.01);
-  EXPECT_NEAR(out.max_penetration, run.contact[0].max_penetration, 0.02 * run.contact[0].max_penetration);
-  EXPECT_NEAR(static_cast<double>(out.impacts), static_cast<double>(run.contact[0].impacts), 2.0);
+  for (const double start : {0.0, 0.03}) {
+    RunOptions options;
+    options.step = 5e-6;
+    options.start = start;
+    const RunResult run = make_rung("perturbation", mechanism)->run(mechanism->parameters(), options);
+    LaneOutcome out;
+    PerturbationLanes(mechanism, PointingQuantity::position_error, start)
+        .run({&mechanism->parameters(), 1}, {&out, 1}, 2e-4);
+    EXPECT_NEAR(1.0 - out.free_flight_share, run.contact[0].contact_fraction, 0.01) << start;
+    EXPECT_NEAR(static_cast<double>(out.impacts), static_cast<double>(run.contact[0].impacts), 2.0) << start;
+    if (start == 0.0) {
+      EXPECT_NEAR(out.touching_time / out.t, run.contact[0].contact_fraction, 0.01);
+      EXPECT_NEAR(out.max_penetration, run.contact[0].max_penetration, 0.02 * run.contact[0].max_penetration);
+    }
+  }
 }
 
 // A scene with dependent offsets and more coordinates than there are kernels of fixed size for.

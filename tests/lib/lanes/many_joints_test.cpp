@@ -27,8 +27,8 @@ LaneOutcome on_lanes(const std::shared_ptr<const Mechanism>& mechanism, double t
 
 // Twelve joints: 33 coordinates, three of them along the axes of cylindrical joints.
 TEST(ManyJoints, FollowTheRungWithPlayInAllJoints) {
-  const auto mechanism = scenes::build(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/twelve-joints.toml",
-                                                      {{"motion.duration", "0.01 s"}}));
+  const auto mechanism = scenes::build(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/twelve-joints.toml", {{"motion.duration", "0.01 s"}}));
   ASSERT_EQ(mechanism->clearances(), 12);
   const Statistics expected = of_the_rung(mechanism, 1e-6);
   const LaneOutcome out = on_lanes(mechanism, 1e-6);
@@ -44,7 +44,8 @@ TEST(ManyJoints, FollowTheRungOnTheGauntletsArchetypes) {
     if (file.path().extension() != ".toml") continue;
     const std::string name = file.path().filename();
     try {
-      const auto mechanism = scenes::build(read_mechanism(file.path(), {{"motion.duration", "0.02 s"}, {"initial.journals", "centred"}}));
+      const auto mechanism =
+          scenes::build(read_mechanism(file.path(), {{"motion.duration", "0.02 s"}, {"initial.journals", "centred"}}));
       if (!PerturbationLanes::serve(*mechanism)) continue;
       const Statistics expected = of_the_rung(mechanism, 2e-6);
       const LaneOutcome out = on_lanes(mechanism, 1e-6);
@@ -59,6 +60,23 @@ TEST(ManyJoints, FollowTheRungOnTheGauntletsArchetypes) {
     }
   }
   EXPECT_GT(followed, 20);
+}
+
+// What one joint does tells nothing of the others: the share is that of the joint least in contact.
+TEST(ManyJoints, TellTheFreeFlightOfTheJointThatFliesMost) {
+  const auto mechanism = scenes::build(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/twelve-joints.toml", {{"motion.duration", "0.01 s"}}));
+  RunOptions options;
+  options.step = 1e-6;
+  const RunResult run = make_rung("perturbation", mechanism)->run(mechanism->parameters(), options);
+  double least = 1.0, impacts = 0.0;
+  for (const ContactSummary& joint : run.contact) {
+    least = std::min(least, joint.contact_fraction);
+    impacts += static_cast<double>(joint.impacts);
+  }
+  const LaneOutcome out = on_lanes(mechanism, 1e-6);
+  EXPECT_NEAR(1.0 - out.free_flight_share, least, 0.01);
+  EXPECT_NEAR(static_cast<double>(out.impacts), impacts, 3.0);
 }
 
 }  // namespace

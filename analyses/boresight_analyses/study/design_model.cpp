@@ -1,0 +1,26 @@
+#include "boresight_analyses/study/design_model.hpp"
+
+namespace boresight {
+
+DesignModel design_model(RungChoice& choice, const DesignsAsked& asked) {
+  DesignModel model;
+  model.run = asked.run;
+  const bool lanes = asked.samples && !asked.peak_acceleration && choice.name == "perturbation" &&
+                     LaneSampleModel::serve(*asked.mechanism, asked.index, asked.run);
+  if (lanes) {
+    choice.step = 0.0;
+    choice.integrator.clear();
+    choice.tolerance = asked.run.tolerance > 0.0 ? asked.run.tolerance : kLaneTolerance;
+    model.run.tolerance = choice.tolerance;
+    model.samples = sample_model(choice.name, asked.mechanism, asked.parameters_of, asked.index, model.run,
+                                 asked.scene_varies);
+    return model;
+  }
+  apply(choice, model.run);
+  model.run = options_on(choice.name, asked.mechanism, asked.corners, model.run);
+  model.samples = std::make_unique<RungSampleModel>(choice.name, asked.mechanism, asked.parameters_of, asked.index,
+                                                    model.run, asked.scene_varies);
+  return model;
+}
+
+}  // namespace boresight
