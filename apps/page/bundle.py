@@ -67,7 +67,7 @@ def notice():
     terms = [one for one in paragraphs if one.startswith("License:")]
     if not of_plotly or not terms:
         refuse(f"{plotly_copyright} has no terms of plotly.js")
-    return "\n\n".join(["The charts of this page are drawn by plotly.js 2.6.3, https://github.com/plotly/plotly.js", *of_plotly, *terms])
+    return "\n\n".join(["The charts of the reports are drawn by plotly.js, https://github.com/plotly/plotly.js", *of_plotly, *terms])
 
 
 unpack(os.path.join(output, "plotly"))

@@ -1,14 +1,18 @@
 // What the program says of keys, paths and schemas.
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 #include "program.hpp"
 
 namespace boresight::app {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 using ReferenceProgram = Program;
 
@@ -82,6 +86,23 @@ TEST_F(ReferenceProgram, EveryNumberListedMayBeSetToItsOwnValue) {
   const Ended ended = call(arguments);
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(ended.out, call({"paths", mechanism_}).out);
+}
+
+TEST_F(ReferenceProgram, TheManualPageHasEveryVerbAndTopic) {
+  const Ended ended = call({"help", "--man"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, StartsWith(".TH BORESIGHT 1"));
+  for (const char* verb : {"new", "check", "run", "montecarlo", "budget", "paths"})
+    EXPECT_THAT(ended.out, HasSubstr(std::string(".SS boresight ") + verb + "\n"));
+  EXPECT_THAT(ended.out, AllOf(HasSubstr(".SH VALUES AND THEIR UNITS"), HasSubstr("\\-\\-accuracy")));
+  std::istringstream lines(ended.out);
+  const std::vector<std::string> requests = {".TH", ".SH", ".SS", ".B",  ".I",  ".RI",
+                                             ".br", ".nf", ".fi", ".PP", ".RS", ".RE"};
+  for (std::string line; std::getline(lines, line);) {  // no text that roff takes for a request
+    if (!line.starts_with('.')) continue;
+    EXPECT_THAT(requests, Contains(line.substr(0, line.find(' ')))) << line;
+  }
+  EXPECT_EQ(call({"help", "--man", "--page"}).status, 2);
 }
 
 TEST_F(ReferenceProgram, ThePageIsOneFileThatWorksOffline) {
