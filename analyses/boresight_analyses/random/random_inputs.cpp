@@ -53,6 +53,9 @@ RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechan
   if (!radial) journals.clear();
   Cursor distribution = entry.table("distribution");
   random.distribution = read_distribution(distribution, unit_called(random.si_unit), journals);
+  static const std::set<std::string> kOfTheParameter = {"mean", "median", "mode", "min", "scale", "values"};
+  for (const std::string& key : distribution.keys())
+    if (random.unit.empty() && kOfTheParameter.contains(key)) random.unit = distribution.unit_as_written(key);
   check_ends(entry, random, accepts);
   entry.finish();
   return random;

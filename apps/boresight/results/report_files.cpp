@@ -50,7 +50,8 @@ void rebuild_report(const fs::path& folder) {
   try {
     report::check(document);
   } catch (const std::exception&) {
-    refuse(folder, "whose report.json is damaged", "it as the verb wrote it: give the command again that made the results");
+    refuse(folder, "whose report.json is damaged",
+           "it as the verb wrote it: give the command again that made the results");
   }
   std::ostringstream page;
   report::write_page(page, document);

@@ -10,6 +10,7 @@ namespace {
 
 using testing::AllOf;
 using testing::Contains;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -85,7 +86,17 @@ TEST_F(ReferenceProgram, EveryNumberListedMayBeSetToItsOwnValue) {
   }
   const Ended ended = call(arguments);
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_EQ(ended.out, call({"paths", mechanism_}).out);
+  arguments.push_back("--json");
+  const nlohmann::json set = nlohmann::json::parse(call(arguments).out);
+  ASSERT_EQ(set["numbers"].size(), paths["numbers"].size());
+  for (std::size_t k = 0; k < set["numbers"].size(); ++k)
+    for (const char* key : {"path", "value", "unit"}) EXPECT_EQ(set["numbers"][k][key], paths["numbers"][k][key]);
+}
+
+TEST_F(ReferenceProgram, PathsShowWhatWasTyped) {
+  const std::string out = call({"paths", mechanism_, "--set", "clearance.F1.contact.young=72 GPa"}).out;
+  EXPECT_THAT(out, AllOf(ContainsRegex("clearance.F1.radial +0.1 mm\n"), ContainsRegex("contact.young +72 GPa\n")));
+  EXPECT_THAT(out, ContainsRegex("body.rod3.mass +1.5 kg\n"));
 }
 
 TEST_F(ReferenceProgram, TheManualPageHasEveryVerbAndTopic) {
