@@ -1,8 +1,10 @@
-"""Bundles the page: python3 bundle.py PAGE_FOLDER PLOTLY_JS PLOTLY_COPYRIGHT ESBUILD OUTPUT_FOLDER -> OUTPUT_FOLDER/report.js and report.css
+"""Bundles the page into OUTPUT_FOLDER/report.js and report.css, with Plotly's notice beside them in plotly-notice.txt:
 
-PLOTLY_JS is the library in one file with all its kinds of charts (8.7 MB), as Debian's python3-plotly has it. A bundler has put its modules
-there, numbered, each with the numbers of those that it asks for. Here they become files again, so that esbuild takes into the page what
-the page asks for and nothing else: an eighth of it.
+    python3 bundle.py PAGE_FOLDER PLOTLY_JS PLOTLY_COPYRIGHT ESBUILD OUTPUT_FOLDER
+
+PLOTLY_JS is the library in one file with all its kinds of charts (8.7 MB), as Debian's python3-plotly has it. A bundler
+has put its modules there, numbered, each with the numbers of those that it asks for. Here they become files again, so
+that esbuild takes into the page what the page asks for and nothing else.
 """
 import json
 import os
@@ -40,7 +42,7 @@ def modules_of(text):
 
 
 def unpack(folder):
-    """Writes each module as NUMBER.js, and NAME.js for each part that the whole library is put together from: core.js, bar.js ..."""
+    """Writes each module as NUMBER.js, and each part that the library is put together from as NAME.js: core.js, bar.js."""
     with open(plotly, encoding="utf-8") as file:
         modules, whole = modules_of(file.read())
     os.makedirs(folder, exist_ok=True)
@@ -67,16 +69,18 @@ def notice():
     terms = [one for one in paragraphs if one.startswith("License:")]
     if not of_plotly or not terms:
         refuse(f"{plotly_copyright} has no terms of plotly.js")
-    return "\n\n".join(["The charts of the reports are drawn by plotly.js, https://github.com/plotly/plotly.js", *of_plotly, *terms])
+    head = "The charts of the reports are drawn by plotly.js, https://github.com/plotly/plotly.js"
+    return "\n\n".join([head, *of_plotly, *terms])
 
 
 unpack(os.path.join(output, "plotly"))
 with open(os.path.join(output, "plotly-notice.txt"), "w", encoding="utf-8") as file:
     file.write(notice() + "\n")
 subprocess.run([
-    esbuild, "report=" + os.path.join(page, "main.js"), "--outdir=" + output, "--bundle", "--minify", "--format=iife", "--platform=browser",
+    esbuild, "report=" + os.path.join(page, "main.js"), "--outdir=" + output,
+    "--bundle", "--minify", "--format=iife", "--platform=browser",
     "--target=es2020", "--alias:plotly=" + os.path.join(output, "plotly"),
     "--charset=ascii",  # the page may be served or opened with any guess of its encoding
-    "--banner:js=/*!\n" + notice().replace("*/", "* /").replace("©", "(c)").replace("‘", "'").replace("’", "'").replace("§", "paragraph ") + "\n*/",
+    "--banner:js=/*!\n" + notice().replace("*/", "* /").encode("ascii", "replace").decode() + "\n*/",
     "--legal-comments=inline", "--log-level=warning",
 ], check=True)
