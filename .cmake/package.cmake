@@ -11,7 +11,7 @@ foreach(part IN LISTS installed_parts)
   install(EXPORT ${part} FILE boresight-${part}.cmake NAMESPACE boresight:: DESTINATION ${folder} COMPONENT ${part})
 endforeach()
 configure_package_config_file(.cmake/boresightConfig.cmake.in ${CMAKE_BINARY_DIR}/boresightConfig.cmake INSTALL_DESTINATION ${folder})
-write_basic_package_version_file(${CMAKE_BINARY_DIR}/boresightConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/boresightConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/boresightConfig.cmake ${CMAKE_BINARY_DIR}/boresightConfigVersion.cmake DESTINATION ${folder} COMPONENT lib)
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lib)
 

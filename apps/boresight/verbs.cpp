@@ -16,6 +16,7 @@ namespace boresight::app {
   VERB(allocate)              \
   VERB(calibrate)             \
   VERB(budget)                \
+  VERB(report)                \
   VERB(export)                \
   VERB(laws)                  \
   VERB(paths)                 \

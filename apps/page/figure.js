@@ -93,13 +93,12 @@ function heatmapTraces(map, themeName, narrow) {
   const logs = (value) => (value > 0 ? Math.log10(value) : null);
   const z = map.log ? map.z.map((row) => row.map(logs)) : map.z;
   const flat = z.flat().filter((value) => value !== null);
-  const colorbar = {
-    thickness: 12, outlinewidth: 0, tickfont: { size: 11 }, exponentformat: "power",
-    title: { text: plain(shortened(withUnit(map.label, map.unit), 60)), side: narrow ? "bottom" : "right", font: { size: 12 } },
-    ...(narrow ? { orientation: "h", yref: "container", y: 0, yanchor: "bottom", x: 0.5, xref: "paper", len: 1 } : { len: 1, ypad: 0 }),
+  const key = {
+    least: flat.reduce((a, b) => Math.min(a, b), Infinity), most: flat.reduce((a, b) => Math.max(a, b), -Infinity),
+    title: plain(shortened(withUnit(map.label, map.unit), 60)), colorscale: map.diverging ? [[0, "#0072B2"], [0.5, "#f4f4f2"], [1, "#D55E00"]] : "Viridis", ticks: {},
   };
   if (map.log && flat.length) {
-    const least = Math.min(...flat), most = Math.max(...flat);
+    const { least, most } = key;
     const steps = most - least > 3 ? [1] : most - least > 1 ? [1, 3] : [1, 2, 3, 5, 7];
     const ticks = [];
     for (let power = Math.floor(least); power <= Math.ceil(most); ++power) {
@@ -108,13 +107,12 @@ function heatmapTraces(map, themeName, narrow) {
         if (at >= least - 1e-9 && at <= most + 1e-9) ticks.push([at, number(step * 10 ** power)]);
       }
     }
-    colorbar.tickvals = ticks.map(([at]) => at);
-    colorbar.ticktext = ticks.map(([, text]) => text);
+    key.ticks = { tickvals: ticks.map(([at]) => at), ticktext: ticks.map(([, text]) => text) };
   }
+  const colorbar = { thickness: 12, outlinewidth: 0, tickfont: { size: 11 }, exponentformat: "power", title: { text: key.title, side: "right", font: { size: 12 } }, len: 1, ypad: 0, ...key.ticks };
   const unit = map.unit ? ` ${plain(map.unit)}` : "";
   const traces = [{
-    type: "heatmap", x: map.x, y: map.y, z, customdata: map.z, colorbar, hoverongaps: false, meta: "\u0000heatmap",
-    colorscale: map.diverging ? [[0, "#0072B2"], [0.5, "#f4f4f2"], [1, "#D55E00"]] : "Viridis",
+    type: "heatmap", x: map.x, y: map.y, z, customdata: map.z, colorbar, showscale: !narrow, hoverongaps: false, meta: "\u0000heatmap", colorscale: key.colorscale,
     ...(map.diverging ? { zmid: 0 } : {}),
     hovertemplate: `%{x}, %{y}<br>${plain(map.label)}: %{customdata:.4~g}${unit}<extra></extra>`,
   }];
@@ -125,7 +123,21 @@ function heatmapTraces(map, themeName, narrow) {
       line: { color: "#ffffff", width: 2.2, dash: contourDashes[i % 4] },
     });
   }
-  return traces;
+  return { traces, key: flat.length ? key : null };
+}
+
+// Where a map is too narrow for a bar of its colours beside it: the bar above it, a map of one row. It is 14 pixels high, with 28 below for
+// its numbers, and yTitle for the title of the map's own y axis.
+function colorsAbove(layout, data, { least, most, title, colorscale, ticks }, diverging, yTitle, colors) {
+  const [from, to] = diverging ? [-Math.max(-least, most), Math.max(-least, most)] : [least, most];
+  if (!(to > from)) return;
+  const inner = layout.height - layout.margin.t - layout.margin.b;
+  const steps = Array.from({ length: 64 }, (_, i) => from + (to - from) * (i + 0.5) / 64);
+  data.push({ type: "heatmap", xaxis: "x2", yaxis: "y2", x: steps, y: [0], z: [steps], zmin: from, zmax: to, colorscale, showscale: false, hoverinfo: "skip", meta: "\u0000key" });
+  layout.yaxis.domain = [0, 1 - (14 + 28 + yTitle) / inner];
+  layout.xaxis2 = { anchor: "y2", range: [from, to], fixedrange: true, showgrid: false, zeroline: false, ticks: "", tickfont: { size: 11, color: colors.soft }, exponentformat: "power", nticks: 6, ...ticks };
+  layout.yaxis2 = { anchor: "x2", domain: [1 - 14 / inner, 1], fixedrange: true, visible: false };
+  layout.annotations.push({ xref: "x2 domain", yref: "y2 domain", x: 0, y: 1, xanchor: "left", yanchor: "bottom", xshift: -6, yshift: 3, align: "left", showarrow: false, text: title, font: { size: 12, color: colors.soft } });
 }
 export const contourDashes = ["solid", "dash", "dot", "dashdot"];
 
@@ -192,6 +204,10 @@ function named(chart, axis, room) {
   return { categoryorder: "array", categoryarray: names, tickmode: "array", tickvals: names, ticktext: names.map((name) => plain(shortened(String(name), Math.max(8, Math.floor(room / 6.2))))) };
 }
 
+// What heads the values of several curves has no place for a unit but a currency's: $ in a number's format, and the currency of a locale.
+const unitFormat = "$.5~g";
+export const locale = (unit) => ({ locale: "unit", locales: { unit: { moduleType: "locale", name: "unit", format: { currency: ["", unit ? ` ${plain(unit)}` : ""] } } } });
+
 // Decades alone would leave an axis that spans less than two of them without numbers.
 function axisLayout(axis, colors, isCategory, title, values) {
   const layout = {
@@ -204,7 +220,6 @@ function axisLayout(axis, colors, isCategory, title, values) {
     const positive = values.filter((value) => value > 0);
     const decades = positive.length ? Math.log10(values.reduce((a, b) => Math.max(a, b), 0) / positive.reduce((a, b) => Math.min(a, b), Infinity)) : 0;
     if (axis.range ? Math.log10(axis.range[1] / axis.range[0]) >= 2 : decades >= 2) layout.dtick = 1;
-    layout.minor = { ticks: "outside", ticklen: 2, tickcolor: colors.axis, showgrid: false };
   }
   if (!axis.range) layout.autorange = true;
   else layout.range = axis.log ? axis.range.map(Math.log10) : axis.range;
@@ -217,7 +232,7 @@ export function figure(chart, entries, { width, panel = false, themeName = theme
   const names = categories(chart);
   const narrow = width < 520;
   const map = chart.heatmap;
-  const data = map ? heatmapTraces(map, themeName, narrow) : [];
+  const { traces: data, key } = map ? heatmapTraces(map, themeName, narrow) : { traces: [], key: null };
   // Areas lie under the lines.
   const areasFirst = [...(chart.series ?? [])].sort((a, b) => (b.style === "area") - (a.style === "area"));
   for (const series of areasFirst) {
@@ -257,7 +272,7 @@ export function figure(chart, entries, { width, panel = false, themeName = theme
     colorway: [hue(0, themeName)],
   };
   if (lines) for (const trace of data) if (trace.hovertemplate) trace.hovertemplate = trace.hovertemplate.replace(/^%\{x[^}]*\}[^,]*, /, "");
-  if (lines) layout.xaxis.unifiedhovertitle = { text: `%{x:.5~g}${chart.x.unit ? ` ${plain(chart.x.unit)}` : ""}` };
+  if (lines) layout.xaxis.hoverformat = unitFormat;
   if (map) { layout.xaxis.showgrid = false; layout.yaxis.showgrid = false; layout.xaxis.constrain = "domain"; }
   if (names.y) Object.assign(layout.yaxis, { autorange: "reversed", showgrid: false, ticklen: 6, tickcolor: "rgba(0,0,0,0)" }, named(chart, "y", width * 0.42));
   if (names.x) {
@@ -269,9 +284,10 @@ export function figure(chart, entries, { width, panel = false, themeName = theme
       layout.height += chart.height ? 0 : Math.max(0, Math.round(6.2 * longest) - 22);
     } else layout.xaxis.tickangle = 0;
   }
-  if (map && narrow) {
-    layout.margin.b += 62;
-    layout.height += chart.height ? 0 : 62;
+  if (key && narrow) {
+    layout.height += chart.height ? 0 : 92 - top;
+    layout.margin.t = 30;
+    colorsAbove(layout, data, key, map.diverging, top, colors);
   }
   if (chart.equal_axes) {
     layout.yaxis.scaleanchor = "x";
@@ -291,5 +307,5 @@ export function figure(chart, entries, { width, panel = false, themeName = theme
       if (trace.showlegend) seen.add(trace.meta);
     }
   }
-  return { data, layout };
+  return { data, layout, unit: chart.x.unit };
 }

@@ -1,14 +1,15 @@
 // One plot in the page: draws a figure, keeps the reader's zoom, answers to the keyboard.
-import Plotly from "plotly.js-cartesian-dist-min";
+import Plotly from "./plotly.js";
 import { addPlot } from "./drawing.js";
 import { element } from "./dom.js";
+import { locale } from "./figure.js";
 
 let drawings = 0;
 
 // make(width) -> {data, layout}; zoomed(axes, plot): called when the reader zooms or pans.
 export function plot(label, make, zoomed = () => {}) {
   const area = element("div", { class: "plot-area" });
-  const holder = element("div", { class: "plot", tabindex: "0", role: "group", "aria-label": `${label}. Arrow keys move along x, plus and minus zoom, 0 shows everything.` }, area);
+  const holder = element("div", { class: "plot-holder", tabindex: "0", role: "group", "aria-label": `${label}. Arrow keys move along x, plus and minus zoom, 0 shows everything.` }, area);
   const one = { holder, area, zoom: null, quiet: false };
   const drawing = addPlot(holder, (width) => {
     const made = make(width);
@@ -16,7 +17,7 @@ export function plot(label, make, zoomed = () => {}) {
     holder.style.minHeight = `${made.layout.height}px`;
     made.layout.datarevision = ++drawings; // the arrays are the same, and what they are measured against is not
     const first = !area.classList.contains("js-plotly-plot");
-    Plotly.react(area, made.data, made.layout, { displayModeBar: false, displaylogo: false, responsive: false, doubleClick: "reset+autosize", showTips: false, scrollZoom: false });
+    Plotly.react(area, made.data, made.layout, { displayModeBar: false, displaylogo: false, responsive: false, doubleClick: "reset+autosize", showTips: false, scrollZoom: false, ...locale(made.unit) });
     if (first) listen();
   });
   one.redraw = () => { if (drawing.drawn) drawing.draw(); };

@@ -152,7 +152,7 @@ void table(const Place& place) {
   text_where_given(place, {"caption"});
   each(place, "columns", [](const Place& column) {
     object(column, {"label"}, {"unit", "align"});
-    text(column.at("label"));
+    text(column.at("label"), false);
     text_where_given(column, {"unit"});
     if (column.has("align")) one_of(column.at("align"), {"left", "right", "center"});
   });

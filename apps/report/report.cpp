@@ -43,7 +43,7 @@ std::string escaped(std::string_view text) {
 // JSON into a script element. In JSON text '<' and '>' occur only inside strings, where \u003c means the
 // same; with them escaped neither "</script>" nor "<!--" can occur. All that is not ASCII is escaped too.
 std::string script_data(const json& document) {
-  const std::string text = document.dump(-1, ' ', true, json::error_handler_t::replace);
+  const std::string text = document_text(document);
   std::string result;
   result.reserve(text.size() + text.size() / 64);
   for (const char c : text) {
@@ -72,8 +72,16 @@ std::string mended(const json& text) {
 
 }  // namespace
 
-void write_html(std::ostream& out, const json& document) {
+json prepared(const json& document) {
   check(document);
+  return rounded(document);
+}
+
+std::string document_text(const json& prepared) { return prepared.dump(-1, ' ', true, json::error_handler_t::replace); }
+
+void write_html(std::ostream& out, const json& document) { write_page(out, prepared(document)); }
+
+void write_page(std::ostream& out, const json& document) {
   const std::string title = escaped(mended(document.at("title")));
   const std::string verdict =
       document.contains("verdict") ? escaped(mended(document.at("verdict").at("text"))) : std::string();
@@ -92,7 +100,7 @@ void write_html(std::ostream& out, const json& document) {
       << "</p><p>The charts and tables of this report are drawn by a script inside the file. Allow scripts "
          "to see "
          "them.</p></noscript>\n<script type=\"application/json\" id=\"document\">"
-      << script_data(rounded(document)) << "</script>\n<script>" << bundled_script() << "</script>\n</body>\n</html>\n";
+      << script_data(document) << "</script>\n<script>" << bundled_script() << "</script>\n</body>\n</html>\n";
 }
 
 std::string html(const json& document) {

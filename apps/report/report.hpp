@@ -20,6 +20,12 @@ namespace boresight::report {
 // not UTF-8 is mended, not refused.
 void write_html(std::ostream& out, const nlohmann::json& document);
 
+// The same in two steps: the document as a report keeps it, checked and rounded; and the page of one that is.
+nlohmann::json prepared(const nlohmann::json& document);
+void write_page(std::ostream& out, const nlohmann::json& prepared);
+// A prepared document as text, from which parsing makes it again to the last bit.
+std::string document_text(const nlohmann::json& prepared);
+
 std::string html(const nlohmann::json& document);
 
 }  // namespace boresight::report

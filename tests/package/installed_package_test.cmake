@@ -11,11 +11,17 @@ endfunction()
 
 call(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/prefix)
 if(EXISTS ${work}/prefix/bin/boresight)
-  foreach(file share/doc/boresight/reference.html share/boresight/mechanism.schema.json share/boresight/study.schema.json)
+  foreach(file share/doc/boresight/reference.html share/doc/boresight/copyright share/doc/boresight/examples/3-rrcpr/3-rrcpr.toml share/man/man1/boresight.1
+               share/boresight/mechanism.schema.json share/boresight/study.schema.json)
     if(NOT EXISTS ${work}/prefix/${file})
       message(FATAL_ERROR "the program is installed without ${file}")
     endif()
   endforeach()
+  file(READ ${work}/prefix/share/doc/boresight/copyright copyright)
+  if(NOT copyright MATCHES "GNU General Public License" OR NOT copyright MATCHES "Plotly, Inc\\." OR NOT copyright MATCHES "Permission is hereby granted")
+    message(FATAL_ERROR "copyright says neither whose the program is nor whose Plotly")
+  endif()
+  call(${work}/prefix/bin/boresight check ${work}/prefix/share/doc/boresight/examples/crank-slider/crank-slider.toml --out ${work}/checked)
 endif()
 call(${CMAKE_COMMAND} -G ${GENERATOR} -DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM} -S ${SOURCE}/examples/library -B ${work}/build
      -DCMAKE_PREFIX_PATH=${work}/prefix -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS}")

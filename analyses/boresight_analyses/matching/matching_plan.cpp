@@ -70,6 +70,7 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
     c.measure = read_measure(entry, "measure");
     const std::string unit = c.measure.si_unit(study.index);
     c.at_most = entry.value("at_most", unit_called(unit));
+    c.unit = entry.unit_as_written("at_most");
     if ((c.measure.over == Over::nominal) != (plan.objective.over == Over::nominal))
       entry.fail("over", "nominal for the objective and all constraints, or for none of them");
     scatters = scatters || c.measure.over != Over::nominal;

@@ -31,7 +31,8 @@ namespace boresight {
 
 struct MatchingConstraint {
   MeasureChoice measure;
-  double at_most = 0.0;  // SI
+  double at_most = 0.0;   // SI
+  std::string unit = {};  // in which at_most is written: "arcsec"; "" for a pure number
 };
 
 struct MatchingPlan {

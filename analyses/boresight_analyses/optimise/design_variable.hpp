@@ -22,6 +22,7 @@ namespace boresight {
 struct DesignVariable {
   std::vector<std::string> paths;
   std::string si_unit;
+  std::string unit;  // in which `from` is written: "mm"; "" for a pure number
   double from = 0.0, to = 0.0;
   bool log = false;
   std::vector<double> starts;

@@ -31,6 +31,18 @@ void check_ends(Cursor& entry, const RandomParameter& random, const std::functio
   }
 }
 
+// In which unit the values of a distribution are written: { normal = { mean = "0.1 mm", ... } }.
+std::string unit_of(Cursor& distribution) {
+  static const std::set<std::string> kValues = {"mean", "median", "mode", "min", "scale", "values"};
+  for (const std::string& name : distribution.keys()) {
+    if (!distribution.is_table(name)) continue;
+    Cursor kind = distribution.table(name);
+    for (const std::string& key : kind.keys())
+      if (kValues.contains(key)) return kind.unit_as_written(key);
+  }
+  return "";
+}
+
 RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechanism,
                                const std::function<void(const Setting&)>& accepts) {
   entry.only(random_keys());
@@ -53,6 +65,7 @@ RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechan
   if (!radial) journals.clear();
   Cursor distribution = entry.table("distribution");
   random.distribution = read_distribution(distribution, unit_called(random.si_unit), journals);
+  random.unit = unit_of(distribution);
   check_ends(entry, random, accepts);
   entry.finish();
   return random;

@@ -38,6 +38,7 @@ namespace boresight {
 struct RandomParameter {
   std::vector<std::string> paths;
   std::string si_unit;
+  std::string unit;  // in which the distribution is written: "mm"; "" where it has none
   DistributionPtr distribution;
   std::vector<ParameterPath> places;
 

@@ -18,6 +18,7 @@ LocalSensitivity described(const RandomParameter& parameter) {
   LocalSensitivity s;
   s.name = parameter.name();
   s.si_unit = parameter.si_unit;
+  s.unit = parameter.unit;
   s.median = d.quantile(0.5);
   s.sd = d.sd();
   s.low = d.quantile(0.05);

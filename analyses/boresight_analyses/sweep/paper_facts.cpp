@@ -2,11 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "boresight/contact_events/contact_report.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
+
+bool is_3_rrcpr(const MechanismDescription& mechanism) {
+  std::map<std::pair<JointType, bool>, int> joints;  // by type, and whether driven
+  for (const JointDescription& joint : mechanism.joints) ++joints[{joint.type, joint.driven}];
+  const std::map<std::pair<JointType, bool>, int> legs = {{{JointType::revolute, true}, 3},
+                                                          {{JointType::revolute, false}, 6},
+                                                          {{JointType::cylindrical, false}, 3},
+                                                          {{JointType::prismatic, true}, 3}};
+  return joints == legs;
+}
 
 bool names_clearance(const SweepAxis& axis) {
   return std::any_of(axis.parameters.begin(), axis.parameters.end(), [](const std::string& path) {

@@ -12,6 +12,9 @@
 
 namespace boresight {
 
+// Whether this is a mechanism of the paper's kind: three legs of R, R, C, P and R, whose first and fourth joints are driven.
+bool is_3_rrcpr(const MechanismDescription& mechanism);
+
 // Which axes the paper speaks of: one over clearance.*.radial or .axial, one over payload.mass.
 bool names_clearance(const SweepAxis& axis);
 bool names_load(const SweepAxis& axis);

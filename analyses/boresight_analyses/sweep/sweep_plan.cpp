@@ -6,6 +6,7 @@
 #include <set>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/sweep/paper_facts.hpp"
 #include "boresight_analyses/sweep/sweep_keys.hpp"
 
 namespace boresight {
@@ -70,6 +71,7 @@ SweepAxis read_axis(Cursor& axis, const MechanismDescription& mechanism,
   } else {
     axis.fail("values", "values = [...], or from, to and count");
   }
+  result.unit = axis.unit_as_written(axis.has("values") ? "values" : "from");
   // The same value twice would be the same point twice.
   if (std::set<double>(result.values.begin(), result.values.end()).size() != result.values.size())
     axis.fail(axis.has("values") ? "values" : "to", "values that differ from one another");
@@ -108,6 +110,9 @@ SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism,
   sweep.only(sweep_keys());
   SweepPlan plan;
   if (sweep.has("findings")) plan.findings = sweep.choice("findings");
+  if (!plan.findings.empty() && !is_3_rrcpr(mechanism))
+    sweep.fail("findings",
+               "a mechanism of three legs of R, R, C, P and R, as that paper's; leave findings out for others");
   std::set<std::string> swept;
   std::size_t points = 1;
   for (Cursor& axis : sweep.tables("axis")) {

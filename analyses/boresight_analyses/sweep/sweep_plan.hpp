@@ -27,6 +27,7 @@ struct SweepAxis {
   std::vector<std::string> parameters;  // paths, all set to the same value
   std::string si_unit;                  // "m", "kg", "1", ...
   std::vector<double> values;           // SI
+  std::string unit = {};                // in which they are written: "mm"; "" for pure numbers
 
   const std::string& name() const { return parameters.front(); }
 };

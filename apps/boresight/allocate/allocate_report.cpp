@@ -32,7 +32,7 @@ report::Table comparison_table(const AllocateStudy& s) {
                              "the confirming rung; least limit: kept with the room that a confirmation "
                              "needs.",
                              index_text(s, s.plan.requirement.limit), s.plan.samples),
-      .columns = {{"judged by"}, {"price"}, {"share within the limit"}, {"least limit kept"}, {""}}};
+      .columns = {{"judged by"}, {"price"}, {"share within the limit"}, {"least limit kept"}, {"verdict"}}};
   for (const Allocation* a : all_of(s)) {
     const bool none = !a->feasible && a != &s.result.chosen;
     table.rows.push_back({a->judged_by, none ? nlohmann::json("no set") : nlohmann::json(a->price),

@@ -11,7 +11,7 @@
 #include "boresight_analyses/study/design_model.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
-#include "report/report.hpp"
+#include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
@@ -196,7 +196,7 @@ class AllocateVerb : public Verb {
     add_first_failure(summary, confirming.failures, "run");
     write_json(out, "summary.json", summary);
     out.write("allocation.csv", [&](std::ostream& s) { write_allocation(s, allocated); });
-    out.write("report.html", [&](std::ostream& s) { report::write_html(s, allocate_report(allocated)); });
+    write_report(out, allocate_report(allocated));
     out.publish();
     if (!command.quiet) print(allocated, out);
     if (result.interrupted) return kInterrupted;
@@ -310,7 +310,7 @@ class AllocateVerb : public Verb {
                                        {"met", c.met},
                                        {"agrees", c.agrees},
                                        {"sentence", c.sentence}});
-    json["files"] = {"summary.json", "allocation.csv", "confirmation.db", "report.html"};
+    json["files"] = {"summary.json", "allocation.csv", "confirmation.db", "report.html", "report.json"};
     return json;
   }
 

@@ -182,7 +182,7 @@ report::Table contributor_table(const BudgetStudy& s) {
     for (const int i : s.plan.groups.members[g]) {
       const RandomParameter& p = s.plan.inputs.parameters[static_cast<std::size_t>(i)];
       spread += (spread.empty() ? "" : "; ") + (p.name() == s.plan.groups.names[g] ? "" : p.name() + ": ") +
-                spread_text(*p.distribution, [&](double v) { return readable(v, p.si_unit); });
+                spread_text(*p.distribution, [&](double v) { return readable_as(v, p.si_unit, p.unit); });
     }
     table.rows.push_back({s.plan.groups.names[g], kScatterKind, "fixed in a member", spread, "all",
                           s.plan.posterior.empty() ? kFromAttribution : kFromCalibration});

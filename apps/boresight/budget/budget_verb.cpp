@@ -12,7 +12,7 @@
 #include "budget/budget_report.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
-#include "report/report.hpp"
+#include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
@@ -325,7 +325,7 @@ class BudgetVerb : public Verb {
                        {"revisit", s.plan.windows.revisit},
                        {"sampling", s.plan.sampling},
                        {"start", s.plan.start}};
-    std::vector<std::string> files = {"summary.json", "samples.db", "report.html"};
+    std::vector<std::string> files = {"summary.json", "samples.db", "report.html", "report.json"};
     add_first_failure(json, seen.failures, "run");
     if (s.budget) {
       json.update(budget_json(s, *s.budget));
@@ -340,7 +340,7 @@ class BudgetVerb : public Verb {
     json["sources"] = sources_json(s);
     json["files"] = files;
     write_json(out, "summary.json", json);
-    out.write("report.html", [&](std::ostream& stream) { report::write_html(stream, budget_report(s)); });
+    write_report(out, budget_report(s));
     out.publish();
   }
 

@@ -20,7 +20,7 @@
 #include "calibrate/calibrate_report.hpp"
 #include "command_line/declared_option.hpp"
 #include "command_line/verb.hpp"
-#include "report/report.hpp"
+#include "results/report_files.hpp"
 #include "results/summary.hpp"
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
@@ -123,7 +123,7 @@ class CalibrateVerb : public Verb {
                "interrupted = true\n\n";
         s << posterior_toml(problem, result.inference);
       });
-      out.write("report.html", [&](std::ostream& s) { report::write_html(s, calibrate_report(whole)); });
+      write_report(out, calibrate_report(whole));
     }
     out.publish();
     begun.results.reset();
@@ -232,7 +232,8 @@ class CalibrateVerb : public Verb {
     for (const NextTest& t : r.next_tests)
       json["next_tests"].push_back(
           {{"name", t.name}, {"d_gain", number(t.d_gain)}, {"a_ratio", number(t.a_ratio)}, {"refusal", t.refusal}});
-    json["files"] = parameters.empty() ? Json{"summary.json"} : Json{"summary.json", "posterior.toml", "report.html"};
+    json["files"] = parameters.empty() ? Json{"summary.json"}
+                                       : Json{"summary.json", "posterior.toml", "report.html", "report.json"};
     return json;
   }
 

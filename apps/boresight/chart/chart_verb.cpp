@@ -14,7 +14,7 @@
 #include "command_line/declared_option.hpp"
 #include "command_line/option_range.hpp"
 #include "command_line/verb.hpp"
-#include "report/report.hpp"
+#include "results/report_files.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
@@ -100,7 +100,7 @@ Json summary_of(const VerbStudy& own, const ChartResult& result, std::optional<d
   json["flight"] = {{"first_contact", result.flight.first_contact},
                     {"end", result.flight.end},
                     {"points", result.flight.points.size()}};
-  json["files"] = {"summary.json", "chart.csv", "flight.csv", "report.html"};
+  json["files"] = {"summary.json", "chart.csv", "flight.csv", "report.html", "report.json"};
   return json;
 }
 
@@ -199,8 +199,7 @@ class ChartVerb : public Verb {
     write_json(out, "summary.json", summary_of(own, result, accuracy, watch, begun.results->earlier()));
     out.write("chart.csv", [&](std::ostream& s) { write_points(s, result); });
     out.write("flight.csv", [&](std::ostream& s) { write_flight(s, result.flight); });
-    out.write("report.html",
-              [&](std::ostream& s) { report::write_html(s, chart_report(command, *mechanism, result, accuracy)); });
+    write_report(out, chart_report(command, *mechanism, result, accuracy));
     out.publish();
     begun.results.reset();
     if (!result.interrupted) own.run().forget(kUnfinished);

@@ -8,8 +8,8 @@
 #include "boresight/io/mechanism_file.hpp"
 #include "check/check_report.hpp"
 #include "command_line/verb.hpp"
-#include "report/report.hpp"
 #include "results/assumed.hpp"
+#include "results/report_files.hpp"
 #include "results/summary.hpp"
 #include "results/tables.hpp"
 #include "terminal/exit_status.hpp"
@@ -102,7 +102,7 @@ class CheckVerb : public Verb {
     json["kinematics"] = kinematics_json(result.kinematics);
     json["contacts"] = contacts_json(result.contacts);
     if (!result.start.journals.empty()) json["start"] = start_json(result);
-    json["files"] = {"summary.json", "conditioning.csv", "report.html"};
+    json["files"] = {"summary.json", "conditioning.csv", "report.html", "report.json"};
     write_json(out, "summary.json", json);
     out.write("conditioning.csv", [&](std::ostream& s) {
       s << "t,smallest_singular_value,orientation,position\n";
@@ -110,7 +110,7 @@ class CheckVerb : public Verb {
         s << exact(c.t) << ',' << exact(c.smallest_singular_value) << ',' << exact(c.orientation) << ','
           << exact(c.position) << '\n';
     });
-    out.write("report.html", [&](std::ostream& s) { report::write_html(s, check_report(command, mechanism, result)); });
+    write_report(out, check_report(command, mechanism, result));
     out.publish();
     if (!command.quiet) print(mechanism, result, out);
     if (interrupted()) return kInterrupted;

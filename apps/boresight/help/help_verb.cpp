@@ -8,6 +8,7 @@
 #include "command_line/program_help.hpp"
 #include "command_line/verb.hpp"
 #include "reference/key_help.hpp"
+#include "reference/manual_page.hpp"
 #include "reference/reference_page.hpp"
 #include "reference/topics.hpp"
 #include "terminal/exit_status.hpp"
@@ -24,10 +25,10 @@ std::string overview() {
   return text;
 }
 
-std::string page() {
+std::vector<std::pair<std::string, std::string>> helps_of_verbs() {
   std::vector<std::pair<std::string, std::string>> helps;
   for (const std::string& verb : verb_names()) helps.emplace_back(verb, help_of_verb(verb));
-  return reference_page(helps);
+  return helps;
 }
 
 [[noreturn]] void refuse(const std::string& word) {
@@ -54,13 +55,19 @@ class HelpVerb : public Verb {
   }
   void declare_options(CLI::App& app) override {
     declare_flag(app, "--page", page_, "the whole reference as a page of HTML, to standard output");
+    declare_flag(app, "--man", man_, "verbs and topics as a manual page, to standard output");
   }
 
   int execute(const Command& command) override {
     const std::string& word = command.file;
-    if (page_) {
-      if (!word.empty()) throw InputError({"command line", 0}, "WORD", "\"" + word + "\" and --page", "one of the two");
-      std::cout << page();
+    if (page_ || man_) {
+      const std::string option = page_ ? "--page" : "--man";
+      if (page_ && man_) throw InputError({"command line", 0}, "--page", "--page and --man", "one of the two");
+      if (!word.empty())
+        throw InputError({"command line", 0}, "WORD", "\"" + word + "\" and " + option, "one of the two");
+      std::cout << (page_
+                        ? reference_page(helps_of_verbs())
+                        : manual_page("accuracy of pointing mechanisms whose joints have clearance", helps_of_verbs()));
       return kDone;
     }
     if (word.empty()) {
@@ -74,7 +81,7 @@ class HelpVerb : public Verb {
   }
 
  private:
-  bool page_ = false;
+  bool page_ = false, man_ = false;
 };
 
 }  // namespace

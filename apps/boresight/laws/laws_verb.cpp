@@ -13,7 +13,7 @@
 #include "command_line/option_range.hpp"
 #include "command_line/verb.hpp"
 #include "laws/laws_report.hpp"
-#include "report/report.hpp"
+#include "results/report_files.hpp"
 #include "results/summary.hpp"
 #include "results/tables.hpp"
 #include "terminal/exit_status.hpp"
@@ -105,8 +105,7 @@ class LawsVerb : public Verb {
         for (std::size_t k = 0; k < row.speed.size(); ++k)
           s << row.entry->name << ',' << exact(row.speed[k]) << ',' << exact(row.force[k]) << '\n';
     });
-    out.write("report.html",
-              [&](std::ostream& s) { report::write_html(s, laws_report(command, subject, normal, friction)); });
+    write_report(out, laws_report(command, subject, normal, friction));
     out.publish();
     if (!command.quiet) print(subject, normal, friction, out);
     return kDone;
@@ -181,7 +180,7 @@ class LawsVerb : public Verb {
                                                 {"source", row.entry->source},
                                                 {"static_peak", row.entry->peak},
                                                 {"sticks", row.entry->sticks}};
-    json["files"] = {"summary.json", "restitution.csv", "force.csv", "friction.csv", "report.html"};
+    json["files"] = {"summary.json", "restitution.csv", "force.csv", "friction.csv", "report.html", "report.json"};
     json["identity"] = Json::parse(out.identity().dump());
     return json;
   }

@@ -27,7 +27,7 @@ DisplayUnit objective_unit(const MatchStudy& s) {
 }
 
 DisplayUnit variable_unit(const DesignVariable& v) {
-  return display_unit(v.si_unit, std::max(std::abs(v.from), std::abs(v.to)));
+  return display_unit_as(v.si_unit, std::max(std::abs(v.from), std::abs(v.to)), v.unit);
 }
 
 report::Axis axis_of(const DesignVariable& v) { return {v.name(), variable_unit(v).name, v.log}; }
@@ -43,9 +43,10 @@ report::Table optimum_table(const MatchStudy& s) {
     const DesignVariable& v = s.plan.variables[i];
     std::string as_good = "";
     if (i < s.result.as_good_from.size())
-      as_good = readable(s.result.as_good_from[i], v.si_unit) + " to " + readable(s.result.as_good_to[i], v.si_unit);
-    table.rows.push_back({v.name(), readable(s.result.design[i], v.si_unit), as_good,
-                          readable(v.from, v.si_unit) + " to " + readable(v.to, v.si_unit),
+      as_good = readable_as(s.result.as_good_from[i], v.si_unit, v.unit) + " to " +
+                readable_as(s.result.as_good_to[i], v.si_unit, v.unit);
+    table.rows.push_back({v.name(), readable_as(s.result.design[i], v.si_unit, v.unit), as_good,
+                          readable_as(v.from, v.si_unit, v.unit) + " to " + readable_as(v.to, v.si_unit, v.unit),
                           s.result.at_bound[i] ? "yes" : "no"});
   }
   return table;
@@ -58,8 +59,9 @@ report::Table constraint_table(const MatchStudy& s) {
     const MatchingConstraint& c = s.plan.constraints[k];
     const std::string unit = c.measure.si_unit(s.study.index);
     const double value = s.result.constraint_values[k];
-    table.rows.push_back({c.measure.title(s.study.index), readable(value, unit), readable(c.at_most, unit),
-                          value <= c.at_most * (1 + 1e-6) ? "yes" : "no", s.result.active[k] ? "yes" : "no"});
+    table.rows.push_back({c.measure.title(s.study.index), readable_as(value, unit, c.unit),
+                          readable_as(c.at_most, unit, c.unit), value <= c.at_most * (1 + 1e-6) ? "yes" : "no",
+                          s.result.active[k] ? "yes" : "no"});
   }
   return table;
 }
@@ -201,7 +203,8 @@ report::Table front_table(const MatchStudy& s) {
 std::string design_text(const MatchingPlan& plan, const std::vector<double>& design) {
   std::string text;
   for (std::size_t i = 0; i < design.size(); ++i)
-    text += (i == 0 ? "" : ", ") + plan.variables[i].name() + " = " + readable(design[i], plan.variables[i].si_unit);
+    text += (i == 0 ? "" : ", ") + plan.variables[i].name() + " = " +
+            readable_as(design[i], plan.variables[i].si_unit, plan.variables[i].unit);
   return text;
 }
 
@@ -243,7 +246,8 @@ report::Document match_report(const MatchStudy& s) {
       {.label = "Samples per design", .value = s.plan.samples}};
   for (std::size_t i = 0; i < s.plan.variables.size(); ++i)
     document.facts.push_back(
-        {.label = s.plan.variables[i].name(), .value = readable(s.result.design[i], s.plan.variables[i].si_unit)});
+        {.label = s.plan.variables[i].name(),
+         .value = readable_as(s.result.design[i], s.plan.variables[i].si_unit, s.plan.variables[i].unit)});
 
   report::Section optimum{.id = "optimum", .title = "What to choose", .items = {optimum_table(s)}};
   if (!s.plan.constraints.empty()) optimum.items.emplace_back(constraint_table(s));

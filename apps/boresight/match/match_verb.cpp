@@ -13,7 +13,7 @@
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
 #include "match/match_report.hpp"
-#include "report/report.hpp"
+#include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
@@ -196,7 +196,7 @@ class MatchVerb : public Verb {
     add_first_failure(summary, evaluator.failures(), "run");
     write_json(out, "summary.json", summary);
     out.write("evaluations.csv", [&](std::ostream& s) { write_evaluations(s, plan, result); });
-    out.write("report.html", [&](std::ostream& s) { report::write_html(s, match_report(matched)); });
+    write_report(out, match_report(matched));
     out.publish();
     if (!command.quiet) print(matched, out);
     if (result.interrupted) return kInterrupted;
@@ -279,7 +279,7 @@ class MatchVerb : public Verb {
                               {"went_on", c.went_on},
                               {"sentence", c.sentence}};
     }
-    json["files"] = {"summary.json", "evaluations.csv", "evaluations.db", "report.html"};
+    json["files"] = {"summary.json", "evaluations.csv", "evaluations.db", "report.html", "report.json"};
     return json;
   }
 

@@ -8,7 +8,7 @@
 
 #include "boresight_analyses/fidelities/fidelity_study.hpp"
 #include "montecarlo/several_rungs.hpp"
-#include "report/report.hpp"
+#include "results/report_files.hpp"
 #include "results/tables.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/readable.hpp"
@@ -155,7 +155,7 @@ int run_fidelities(const SeveralRungs& s) {
   f["gain"] = {
       {"forecast", o.plan.gain}, {"low", o.plan.gain_low}, {"high", o.plan.gain_high}, {"measured", o.measured_gain()}};
   f["standard_error"] = o.mean.standard_error;
-  json["files"] = {"summary.json", "report.html", "rungs.csv"};
+  json["files"] = {"summary.json", "report.html", "report.json", "rungs.csv"};
   for (const std::string& rung : asked.models) json["files"].push_back(store_of_rung(rung));
   write_json(s.own.out(), "summary.json", json);
   s.own.out().write("rungs.csv", [&](std::ostream& out) { write_levels(out, s, o); });
@@ -182,7 +182,7 @@ int run_fidelities(const SeveralRungs& s) {
                       .title = "How the budget was spent",
                       .intro = "Made before anything but the pilot was spent: " + forecast_sentence(o.plan, top) + ".",
                       .items = {levels_table(s, o), agreement_chart(s, o)}});
-  s.own.out().write("report.html", [&](std::ostream& out) { report::write_html(out, document); });
+  write_report(s.own.out(), document);
   s.own.out().publish();
   if (!s.command.quiet) {
     tell("  {}\n", sentence);

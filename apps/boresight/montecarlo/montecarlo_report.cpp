@@ -190,7 +190,7 @@ report::Panels scatter(const MonteCarloStudy& s, const std::vector<double>& sort
     const RandomParameter& random = s.plan.inputs.parameters[p];
     double largest = 0.0;
     for (const SampleRecord& r : s.shown.done) largest = std::max(largest, std::abs(r.inputs[p]));
-    const DisplayUnit x_unit = display_unit(random.si_unit, largest);
+    const DisplayUnit x_unit = display_unit_as(random.si_unit, largest, random.unit);
     report::Chart chart{.title = random.name(), .x = {random.name(), x_unit.name}, .y = {"index", unit.name}};
     const auto add = [&](const std::string& name, const std::vector<SampleRecord>& records, bool failed) {
       report::Series series{.name = name, .style = report::Style::markers};
@@ -237,7 +237,7 @@ report::Table input_table(const MonteCarloStudy& s) {
   for (const RandomParameter& p : s.plan.inputs.parameters) {
     std::string paths;
     for (const std::string& path : p.paths) paths += (paths.empty() ? "" : " = ") + path;
-    const auto text = [&](double v) { return readable(v, p.si_unit); };
+    const auto text = [&](double v) { return readable_as(v, p.si_unit, p.unit); };
     table.rows.push_back({paths, short_text(*p.distribution) + (p.si_unit == "1" ? "" : ", in " + p.si_unit),
                           text(p.distribution->mean()), text(p.distribution->sd()),
                           text(p.distribution->quantile(0.001)), text(p.distribution->upper_quantile(0.001))});
@@ -256,7 +256,7 @@ report::Table failed_table(const MonteCarloStudy& s) {
   for (const SampleRecord& r : s.shown.failed) {
     std::vector<nlohmann::json> row = {r.number};
     for (std::size_t p = 0; p < r.inputs.size(); ++p)
-      row.push_back(readable(r.inputs[p], s.plan.inputs.parameters[p].si_unit));
+      row.push_back(readable_as(r.inputs[p], s.plan.inputs.parameters[p].si_unit, s.plan.inputs.parameters[p].unit));
     row.push_back(r.outcome.message);
     table.rows.push_back(std::move(row));
   }

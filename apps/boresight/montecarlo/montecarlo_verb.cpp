@@ -14,7 +14,7 @@
 #include "montecarlo/montecarlo_report.hpp"
 #include "montecarlo/montecarlo_terminal.hpp"
 #include "montecarlo/several_rungs.hpp"
-#include "report/report.hpp"
+#include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/summary.hpp"
 #include "results/verb_study.hpp"
@@ -234,7 +234,7 @@ class MonteCarloVerb : public Verb {
     if (!stuck.empty()) study.warnings.push_back(stuck);
     if (!store.damage().empty()) study.warnings.push_back(store.damage());
     write_json(out, "summary.json", summary_of(study, watch, own, store));
-    out.write("report.html", [&](std::ostream& s) { report::write_html(s, montecarlo_report(study)); });
+    write_report(out, montecarlo_report(study));
     out.publish();
     if (!command.quiet) print(study, out);
     if (result.ended == Ended::interrupted) return kInterrupted;
@@ -354,7 +354,7 @@ class MonteCarloVerb : public Verb {
                                 {"mean", number_json(p.distribution->mean())},
                                 {"sd", number_json(p.distribution->sd())}});
     json["replay"] = s.replay + " NUMBER";
-    json["files"] = {"summary.json", "samples.db", "report.html"};
+    json["files"] = {"summary.json", "samples.db", "report.html", "report.json"};
     return json;
   }
 

@@ -8,7 +8,7 @@
 #include <ostream>
 
 #include "montecarlo/several_rungs.hpp"
-#include "report/report.hpp"
+#include "results/report_files.hpp"
 #include "results/tables.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/readable.hpp"
@@ -138,7 +138,7 @@ int run_tail(const SeveralRungs& s) {
   json["tail"]["exceedance"]["bounds"] = "one-sided, each at this confidence";
   json["tail"]["exceedance"]["central_limit"] = {{"low", central.low}, {"high", central.high}, {"why", central.basis}};
   json["tail"]["pilot_saw_excess"] = pilot.informed;
-  json["files"] = {"summary.json", "report.html", "levels.csv"};
+  json["files"] = {"summary.json", "report.html", "report.json", "levels.csv"};
   write_json(s.own.out(), "summary.json", json);
   s.own.out().write("levels.csv", [&](std::ostream& out) {
     out << "level,threshold,conditional_probability,coefficient_of_variation\n";
@@ -175,7 +175,7 @@ int run_tail(const SeveralRungs& s) {
   document.sections.insert(
       document.sections.begin(),
       report::Section{.id = "tail", .title = "The tail", .items = {levels_chart(s, pilot.proposal.subset), table}});
-  s.own.out().write("report.html", [&](std::ostream& out) { report::write_html(out, document); });
+  write_report(s.own.out(), document);
   s.own.out().publish();
   for (const std::string& store : stores_of_tail(asked)) s.own.run().forget(store);
   if (!s.command.quiet) {

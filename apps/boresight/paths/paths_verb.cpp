@@ -2,11 +2,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <iostream>
+#include <map>
 
 #include "boresight/io/cursor.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/io/referred_file.hpp"
+#include "boresight/io/units.hpp"
+#include "boresight/io/value_fault.hpp"
 #include "boresight/mechanism/parameter_path.hpp"
 #include "boresight_analyses/study/study.hpp"
 #include "command_line/declared_option.hpp"
@@ -22,7 +27,8 @@ namespace {
 // A number of the mechanism: --set, [[random]] and their like take it.
 struct NumberPath {
   std::string path, unit;
-  double value = 0.0;  // SI
+  double value = 0.0;   // SI
+  std::string written;  // "0.1 mm"; "" where nobody gave it
 };
 
 struct Paths {
@@ -37,15 +43,29 @@ std::string mechanism_of(const std::string& file) {
   return root.has("mechanism") ? read_study(root, document.content_hash()).mechanism_file : file;
 }
 
+// Whether a number is what this text says: not where a copy of a pattern is turned, or another key decides the value.
+bool says(const std::string& written, const NumberPath& n) {
+  try {
+    const double value =
+        n.unit == "1" ? std::strtod(written.c_str(), nullptr) : parse_quantity(written, unit_called(n.unit));
+    return std::abs(value - n.value) <= 1e-12 * std::abs(n.value);
+  } catch (const ValueFault&) {
+    return false;
+  }
+}
+
 Paths paths_of(const std::string& file, const std::vector<Setting>& settings) {
   const MechanismDescription mechanism = read_mechanism(file, settings);
   std::set<std::string> settable = settable_paths(file, settings);
   const Parameters parameters = nominal_parameters(mechanism);
+  const std::map<std::string, std::string> written = written_values(file, settings);
   Paths paths;
   for (const std::string& path : parameter_paths(mechanism)) {
     if (settable.erase(path) == 0) continue;  // of another law
     const ParameterPath place(mechanism, path);
-    paths.numbers.push_back({path, place.unit(), place.get(parameters)});
+    NumberPath& number = paths.numbers.emplace_back(NumberPath{path, place.unit(), place.get(parameters), ""});
+    if (const auto found = written.find(path); found != written.end() && says(found->second, number))
+      number.written = found->second;
   }
   for (const std::string& path : settable)  // "body[2].name": of a table whose name is not read yet
     if (path.find('[') == std::string::npos && path != "format") paths.others.push_back(path);
@@ -54,7 +74,10 @@ Paths paths_of(const std::string& file, const std::vector<Setting>& settings) {
 
 Json json_of(const Paths& paths) {
   Json numbers = Json::array();
-  for (const NumberPath& n : paths.numbers) numbers.push_back({{"path", n.path}, {"value", n.value}, {"unit", n.unit}});
+  for (const NumberPath& n : paths.numbers) {
+    numbers.push_back({{"path", n.path}, {"value", n.value}, {"unit", n.unit}});
+    if (!n.written.empty()) numbers.back()["written"] = n.written;
+  }
   return {{"numbers", numbers}, {"others", paths.others}};
 }
 
@@ -65,7 +88,8 @@ void print(const Paths& paths) {
       "--set and the [[random]], [[sweep.axis]] ... of studies take these numbers (a * stands for any name: "
       "clearance.*.radial):\n");
   for (const NumberPath& n : paths.numbers)
-    tell("  {:{}}  {:.6g}{}\n", n.path, widest, n.value, n.unit == "1" ? "" : " " + n.unit);
+    tell("  {:{}}  {}\n", n.path, widest,
+         !n.written.empty() ? n.written : fmt::format("{:.6g}{}", n.value, n.unit == "1" ? "" : " " + n.unit));
 }
 
 void print_others(const Paths& paths) {

@@ -44,9 +44,10 @@ const std::vector<Topic>& topics() {
        "Results and exit status",
        {"Every verb that computes writes a folder: results/FILE-VERB, or the one that --out names. It holds "
         "report.html, one "
-        "file for a browser, which needs no network; summary.json; and tables as CSV. Files are in SI with all digits, "
-        "the "
-        "terminal and the report in the units that people read.",
+        "file for a browser, which needs no network; report.json, what that shows; summary.json; and tables as CSV. "
+        "Files are in SI with all digits, the terminal and the report in the units that people read.",
+        "`boresight report DIR` makes report.html again from report.json: with the page of a newer version, or where "
+        "only the small files were brought from a cluster.",
         "A folder that holds another study's results is never overwritten. A study that was stopped goes on where it "
         "was "
         "when the same command is given again.",

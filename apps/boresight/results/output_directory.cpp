@@ -22,7 +22,7 @@ const std::vector<std::string> kResultFiles = {
     "report.html",    "timeseries.csv",  "events.csv",      "poincare.csv",     "sweep.csv",      "restitution.csv",
     "samples.db",     "sobol.csv",       "local.csv",       "posterior.toml",   "limits.csv",     "growth.csv",
     "allocation.csv", "evaluations.csv", "levels.csv",      "rungs.csv",        "evaluations.db", "chart.csv",
-    "flight.csv",     "unfinished.db",   "confirmation.db", "conditioning.csv", "classical.csv"};
+    "flight.csv",     "unfinished.db",   "confirmation.db", "conditioning.csv", "classical.csv",  "report.json"};
 
 enum class Owner { nobody, this_study, another_study, unknown };
 

@@ -262,7 +262,7 @@ report::Document run_report(const Command& command, const Mechanism& mechanism, 
     if (!result.frames.empty()) motion.items.push_back(mechanism_view(mechanism, result));
     motion.items.push_back(motion_panels(mechanism, overlay,
                                          "Displacement of the centre of mass, Z-Y-X Euler angles from home, and "
-                                         "accelerations in world axes: the panels of Sun et al., Fig. 6."));
+                                         "accelerations in world axes."));
     document.sections.push_back(std::move(motion));
   }
   if (mechanism.clearances() > 0) {

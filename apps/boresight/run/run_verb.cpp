@@ -17,10 +17,10 @@
 #include "command_line/montecarlo_study.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
-#include "report/report.hpp"
 #include "report_parts/mechanism_view.hpp"
 #include "report_parts/step_error_parts.hpp"
 #include "results/assumed.hpp"
+#include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
@@ -106,7 +106,7 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const RungCh
   json["steps"] = result.cost.steps;
   json["rejected_steps"] = result.cost.rejected_steps;
   json["evaluations"] = result.cost.evaluations;
-  json["files"] = {"summary.json", "timeseries.csv", "events.csv", "report.html"};
+  json["files"] = {"summary.json", "timeseries.csv", "events.csv", "report.html", "report.json"};
   return json;
 }
 
@@ -231,7 +231,7 @@ class RunVerb : public Verb {
     write_json(out, "summary.json", summary);
     out.write("timeseries.csv", [&](std::ostream& s) { write_timeseries(s, *mechanism, result, finer); });
     out.write("events.csv", [&](std::ostream& s) { write_events(s, *mechanism, result); });
-    out.write("report.html", [&](std::ostream& s) { report::write_html(s, document); });
+    write_report(out, document);
     out.publish();
     progress.clear();
     if (!command.quiet)

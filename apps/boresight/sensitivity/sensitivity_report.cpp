@@ -147,7 +147,7 @@ report::Section local_section(const SensitivityStudy& s) {
   for (const LocalSensitivity& p : s.local.parameters) {
     const double slope = p.derivative.back();
     table.rows.push_back(
-        {p.name, readable(p.median, p.si_unit), readable(p.at_low, unit), readable(p.at_high, unit),
+        {p.name, readable_as(p.median, p.si_unit, p.unit), readable(p.at_low, unit), readable(p.at_high, unit),
          p.meaningful ? nlohmann::json(fmt::format("{:.4g} {}", slope, per(unit, p.si_unit))) : nlohmann::json("none"),
          p.meaningful ? nlohmann::json(readable(slope * p.sd, unit)) : nlohmann::json(""),
          p.meaningful ? "yes" : "no: " + p.why_not,
@@ -172,7 +172,7 @@ report::Section scatter_section(const SensitivityStudy& s) {
     const RandomParameter& p = s.plan.inputs.parameters[i];
     double largest = 0.0;
     for (const SampleRecord& r : s.shown) largest = std::max(largest, std::abs(r.inputs[i]));
-    const DisplayUnit x_unit = display_unit(p.si_unit, largest);
+    const DisplayUnit x_unit = display_unit_as(p.si_unit, largest, p.unit);
     report::Numbers x, y;
     for (const SampleRecord& r : s.shown) {
       x.push_back(r.inputs[i] * x_unit.per_si);

@@ -9,7 +9,7 @@
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
-#include "report/report.hpp"
+#include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
@@ -192,7 +192,7 @@ class SensitivityVerb : public Verb {
                      {"statistic", s.study.index.statistic},
                      {"unit", s.study.index.si_unit()}};
     add_first_failure(json, s.failures, "run");
-    std::vector<std::string> files = {"summary.json", "samples.db", "report.html"};
+    std::vector<std::string> files = {"summary.json", "samples.db", "report.html", "report.json"};
     if (s.global) {
       json["index"]["mean"] = s.global->mean;
       json["index"]["sd"] = s.global->sd;
@@ -240,7 +240,7 @@ class SensitivityVerb : public Verb {
     }
     json["files"] = files;
     write_json(out, "summary.json", json);
-    out.write("report.html", [&](std::ostream& stream) { report::write_html(stream, sensitivity_report(s)); });
+    write_report(out, sensitivity_report(s));
     out.publish();
   }
 

@@ -9,7 +9,7 @@
 #include "boresight_analyses/stability/stability.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
-#include "report/report.hpp"
+#include "results/report_files.hpp"
 #include "results/summary.hpp"
 #include "results/tables.hpp"
 #include "stability/stability_report.hpp"
@@ -128,8 +128,8 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const Stabil
                              {"program", c.program},
                              {"standing", to_string(c.standing)},
                              {"measured", c.measured}});
-  json["files"] = {"summary.json",  "limits.csv",  "growth.csv", "steps.csv",
-                   "baumgarte.csv", "horizon.csv", "cases.csv",  "report.html"};
+  json["files"] = {"summary.json", "limits.csv", "growth.csv",  "steps.csv",  "baumgarte.csv",
+                   "horizon.csv",  "cases.csv",  "report.html", "report.json"};
   return json;
 }
 
@@ -181,8 +181,7 @@ class StabilityVerb : public Verb {
     out.write("baumgarte.csv", [&](std::ostream& s) { write_baumgarte(s, result.baumgarte); });
     out.write("horizon.csv", [&](std::ostream& s) { write_horizon(s, result); });
     out.write("cases.csv", [&](std::ostream& s) { write_cases(s, result); });
-    out.write("report.html",
-              [&](std::ostream& s) { report::write_html(s, stability_report(command, *mechanism, result)); });
+    write_report(out, stability_report(command, *mechanism, result));
     out.publish();
     progress.clear();
     if (!command.quiet) print(*mechanism, result, out);

@@ -28,7 +28,7 @@ std::string listed(const SweepLine& line, const std::vector<double>& values,
                    const std::function<std::string(double)>& text) {
   std::string list;
   for (std::size_t i = 0; i < line.size(); ++i)
-    list += (i ? ", " : "") + readable(line.values[i], line.axis->si_unit) + ": " + text(values[i]);
+    list += (i ? ", " : "") + readable_as(line.values[i], line.axis->si_unit, line.axis->unit) + ": " + text(values[i]);
   return list;
 }
 std::string listed(const SweepLine& line, const std::vector<double>& values, const std::string& si_unit) {
@@ -84,7 +84,7 @@ PublishedFinding strongest_direction(const SweepLine& line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     const Vec3& a = found.disturbance[i];
     axes += fmt::format("{}{}: x {:.0f}, y {:.0f}, z {:.0f} m/s²", i ? "; " : "",
-                        readable(line.values[i], line.axis->si_unit), a.x(), a.y(), a.z());
+                        readable_as(line.values[i], line.axis->si_unit, line.axis->unit), a.x(), a.y(), a.z());
   }
   return {"Especially the acceleration changes in the Y direction are more severe.",
           agrees_if(2 * found.strongest_is_y > static_cast<int>(line.size())),
@@ -171,8 +171,9 @@ PublishedFinding directions_under_load(const SweepLine& line) {
       agrees_if(growth.x() < growth.y() && growth.x() < growth.z() && std::abs(time_of_z - 0.25) < 0.1),
       fmt::format("From {} to {} the largest error grows by {} in x, {} in y, {} in z; the largest in z "
                   "stands at {:.2f} s.",
-                  readable(line.values.front(), line.axis->si_unit), readable(line.values.back(), line.axis->si_unit),
-                  readable(growth.x(), "m"), readable(growth.y(), "m"), readable(growth.z(), "m"), time_of_z),
+                  readable_as(line.values.front(), line.axis->si_unit, line.axis->unit),
+                  readable_as(line.values.back(), line.axis->si_unit, line.axis->unit), readable(growth.x(), "m"),
+                  readable(growth.y(), "m"), readable(growth.z(), "m"), time_of_z),
       "Direction and time of the largest error follow from the joint reaction in the legs, hence from "
       "dimensions that the paper does not give."};
 }
@@ -192,9 +193,9 @@ PublishedFinding peaks_against_load(const SweepLine& line) {
   measured += rising    ? "The peak rises with load, as section 4 has it."
               : falling ? "The peak falls with load, as section 5 would have it and against section 4."
                         : "The peak neither rises nor falls throughout: neither sentence holds as it stands.";
-  measured +=
-      fmt::format(" The journal is away from the bore least at {}, {} of this sweep.",
-                  readable(line.values[least], line.axis->si_unit), interior ? "inside the range" : "at an end");
+  measured += fmt::format(" The journal is away from the bore least at {}, {} of this sweep.",
+                          readable_as(line.values[least], line.axis->si_unit, line.axis->unit),
+                          interior ? "inside the range" : "at an end");
   std::string why =
       "A load adds mass to what an impact has to move, and it adds to the joint reaction that presses the "
       "journal on. ";
@@ -223,7 +224,8 @@ std::optional<PublishedFinding> intervals_of_impacts(const SweepLine& line) {
       "0.09 s.",
       agrees_if(std::abs(early / 0.02 - 1.0) < 0.5 && std::abs(late / 0.09 - 1.0) < 0.5),
       fmt::format("At {}, among the {} fastest impacts, the first five are {} apart on average, the last five {}.",
-                  readable(line.values.back(), line.axis->si_unit), n, readable(early, "s"), readable(late, "s")),
+                  readable_as(line.values.back(), line.axis->si_unit, line.axis->unit), n, readable(early, "s"),
+                  readable(late, "s")),
       "The gap between impacts is the time of flight across the clearance under the joint reaction of that "
       "moment; where the reaction is small, flights are "
       "long. The reaction depends on dimensions and masses that the paper does not give, so its figures "
@@ -258,9 +260,9 @@ std::optional<PublishedFinding> matching(const SweepPlan& plan, const SweepResul
     interior = interior || best.interior;
     least_load_is_best = least_load_is_best && best.least_load;
     text += fmt::format("{}At {}: smallest error at {}, least free flight at {}.", text.empty() ? "" : " ",
-                        readable(best.clearance, plan.axes[clearance].si_unit),
-                        readable(best.smallest_error, plan.axes[load].si_unit),
-                        readable(best.least_flight, plan.axes[load].si_unit));
+                        readable_as(best.clearance, plan.axes[clearance].si_unit, plan.axes[clearance].unit),
+                        readable_as(best.smallest_error, plan.axes[load].si_unit, plan.axes[load].unit),
+                        readable_as(best.least_flight, plan.axes[load].si_unit, plan.axes[load].unit));
   }
   if (text.empty()) return std::nullopt;
   return PublishedFinding{

@@ -42,7 +42,8 @@ report::Chart against_parameter(const std::string& title, const std::string& lab
                                 const SweepPlan& plan, const SweepResult& result,
                                 const std::vector<Measure>& measures) {
   const SweepAxis& axis = plan.axes.front();
-  const DisplayUnit x_unit = display_unit(axis.si_unit, *std::max_element(axis.values.begin(), axis.values.end()));
+  const DisplayUnit x_unit =
+      display_unit_as(axis.si_unit, *std::max_element(axis.values.begin(), axis.values.end()), axis.unit);
   double most = 0.0;
   for (const SweepPoint& p : result.points)
     if (p.status == SweepPoint::Status::done)
@@ -68,7 +69,8 @@ report::Chart against_parameter(const std::string& title, const std::string& lab
       if (runs > 1) {
         const SweepPoint& p = result.points[r];
         for (std::size_t k = 1; k < plan.axes.size(); ++k)
-          name += ", " + plan.axes[k].name() + " = " + readable(p.values[k], plan.axes[k].si_unit);
+          name +=
+              ", " + plan.axes[k].name() + " = " + readable_as(p.values[k], plan.axes[k].si_unit, plan.axes[k].unit);
       }
       chart.series.push_back({.name = name, .x = x, .y = y, .style = report::Style::line_markers});
     }
@@ -195,7 +197,7 @@ std::string point_name(const SweepPlan& plan, const SweepPoint& point, bool with
   for (std::size_t i = 0; i < plan.axes.size(); ++i) {
     name += i ? ", " : "";
     if (with_parameters) name += plan.axes[i].name() + " = ";
-    name += readable(point.values[i], plan.axes[i].si_unit);
+    name += readable_as(point.values[i], plan.axes[i].si_unit, plan.axes[i].unit);
   }
   return name;
 }
@@ -203,6 +205,7 @@ std::string point_name(const SweepPlan& plan, const SweepPoint& point, bool with
 report::Document sweep_report(const Command& command, const Study& study, const Mechanism& mechanism,
                               const RungChoice& rung, const std::string& leaves_out, const SweepPlan& plan,
                               const SweepResult& result) {
+  const bool papers = plan.findings == "sun-3-rrcpr";
   std::string swept;
   for (const SweepAxis& axis : plan.axes) swept += (swept.empty() ? "" : " by ") + axis_label(axis);
   report::Document document{.title = mechanism.name(), .subtitle = "Sweep over " + swept, .verb = "sweep"};
@@ -228,12 +231,12 @@ report::Document sweep_report(const Command& command, const Study& study, const 
           {.id = "motion",
            .title = "Motion, point over point",
            .items = {motion_panels(mechanism, drawn,
-                                   "Displacement of the centre of mass, Z-Y-X Euler angles from home, "
-                                   "accelerations in world axes: "
-                                   "the twelve panels of Sun et al., Fig. 6 and Fig. 7."),
+                                   std::string("Displacement of the centre of mass, Z-Y-X Euler angles from home, "
+                                               "accelerations in world axes") +
+                                       (papers ? ": the twelve panels of Sun et al., Fig. 6 and Fig. 7." : ".")),
                      difference_panels(drawn), error_panels(drawn)}});
     document.sections.push_back(contact_section(mechanism, plan, result, overlays));
-    if (plan.findings == "sun-3-rrcpr") {
+    if (papers) {
       const std::vector<PublishedFinding> published = published_findings(mechanism, plan, result);
       if (!published.empty()) document.sections.push_back(findings_section(published));
     }

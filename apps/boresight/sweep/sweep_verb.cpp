@@ -10,7 +10,7 @@
 #include "boresight_analyses/sweep/sweep_keys.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
-#include "report/report.hpp"
+#include "results/report_files.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
 #include "sweep/sweep_report.hpp"
@@ -155,9 +155,7 @@ class SweepVerb : public Verb {
 
     write_json(out, "summary.json", summary_of(own, study, choice, plan, result, watch, begun.results->earlier()));
     out.write("sweep.csv", [&](std::ostream& s) { write_sweep(s, plan, *mechanism, result); });
-    out.write("report.html", [&](std::ostream& s) {
-      report::write_html(s, sweep_report(command, study, *mechanism, choice, rung->leaves_out(), plan, result));
-    });
+    write_report(out, sweep_report(command, study, *mechanism, choice, rung->leaves_out(), plan, result));
     out.publish();
     begun.results.reset();
     if (!result.interrupted) own.run().forget(kUnfinished);
@@ -187,7 +185,7 @@ class SweepVerb : public Verb {
                                                                              : Json());
     }
     json["failed"] = result.failed;
-    json["files"] = {"summary.json", "sweep.csv", "report.html"};
+    json["files"] = {"summary.json", "sweep.csv", "report.html", "report.json"};
     return json;
   }
 

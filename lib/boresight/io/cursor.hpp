@@ -52,8 +52,9 @@ class Cursor {
   double quantity(const std::string& key, const PhysicalRange& range);
   double quantity(const std::string& key, const SiUnit& unit);
   double value(const std::string& key, const SiUnit& unit);
-  // In which unit a quantity that was read is written: "arcsec". What is shown of it is shown in that one.
-  std::string unit_as_written(const std::string& key) { return boresight::unit_as_written(word(key)); }
+  // In which unit a quantity that was read is written, or the first of a list of them: "arcsec"; "" for a pure number. What is shown of it
+  // is shown in that one.
+  std::string unit_as_written(const std::string& key);
   // Where a word may stand in place of the quantity: none for the word.
   std::optional<double> quantity_or_word(const std::string& key);
   double number(const std::string& key);

@@ -13,6 +13,7 @@ namespace boresight {
 using namespace cursor;
 
 double Cursor::set_value(const Setting& set, const std::string& where, const SiUnit* unit) const {
+  document_->record_written(where, set.value);
   try {
     if (unit != nullptr) return parse_quantity(set.value, *unit);
     double value = 0.0;
@@ -26,6 +27,7 @@ double Cursor::set_value(const Setting& set, const std::string& where, const SiU
 // One number out of a node; `unit` null: a pure number.
 double Cursor::element(const Node& node, const std::string& where, const SiUnit* unit) const {
   const Origin here{document_->filename(), node.line};
+  document_->record_written(where, node.text);
   const bool is_number = node.kind == Node::Kind::integer || node.kind == Node::Kind::number;
   if (unit == nullptr) {
     if (!is_number || !std::isfinite(node.number)) throw InputError(here, where, shown(node), "a number");
@@ -159,6 +161,13 @@ std::string Cursor::word(const std::string& key) {
   if (node == nullptr) throw InputError(origin(), path(key), "nothing", "a text in quotation marks");
   require(node->kind == Node::Kind::string, key, "a text in quotation marks");
   return replaced(node->text);
+}
+
+std::string Cursor::unit_as_written(const std::string& key) {
+  if (const Setting* set = setting(path(key))) return boresight::unit_as_written(set->value);
+  const Node* node = member(key);
+  if (node != nullptr && node->kind == Node::Kind::array) node = node->items.empty() ? nullptr : &node->items.front();
+  return node != nullptr && node->kind == Node::Kind::string ? boresight::unit_as_written(replaced(node->text)) : "";
 }
 
 std::string Cursor::text(const std::string& name) {

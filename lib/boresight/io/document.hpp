@@ -5,6 +5,7 @@
 // paths were asked for, so that a setting that meets none can be refused with the nearest path that exists.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -60,6 +61,11 @@ class Document {
   // From here on every path that is asked for is remembered, even where there are no settings.
   void record_paths() { records_paths_ = true; }
   const std::set<std::string>& asked_paths() const { return asked_; }
+  // And so is how each number that is read is written, in the file or in a setting: "0.1 mm", by its path.
+  void record_written(const std::string& path, const std::string& text) {
+    if (records_paths_) written_[path] = text;
+  }
+  const std::map<std::string, std::string>& written() const { return written_; }
 
   // Throws InputError for the first setting whose path nothing asked for.
   void refuse_unused_settings() const;
@@ -70,6 +76,7 @@ class Document {
   std::vector<Setting> settings_;
   std::vector<bool> used_;
   std::set<std::string> asked_;
+  std::map<std::string, std::string> written_;
   bool records_paths_ = false;
 };
 

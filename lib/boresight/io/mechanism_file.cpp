@@ -69,6 +69,13 @@ std::set<std::string> settable_paths(const std::string& path, const std::vector<
   return document.asked_paths();
 }
 
+std::map<std::string, std::string> written_values(const std::string& path, const std::vector<Setting>& settings) {
+  Document document = Document::from_file(path, settings);
+  document.record_paths();
+  read(document);
+  return document.written();
+}
+
 std::vector<AssumedValue> assumed_values(const std::string& path, const std::vector<Setting>& settings) {
   Document document = Document::from_file(path, settings);
   std::vector<AssumedValue> assumed;

@@ -6,6 +6,7 @@
 // file, line, key, what was found, what was expected, and the nearest known name.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -24,5 +25,8 @@ MechanismDescription read_mechanism_text(std::string_view text, const std::strin
 
 // Every path of the file that a setting may name, sorted: "clearance.F1.radial", "motion.duration". Throws what read_mechanism throws.
 std::set<std::string> settable_paths(const std::string& path, const std::vector<Setting>& settings = {});
+
+// How every number that the file or a setting gives is written there, by its path: {"clearance.F1.radial", "0.1 mm"}. Throws as the above.
+std::map<std::string, std::string> written_values(const std::string& path, const std::vector<Setting>& settings = {});
 
 }  // namespace boresight

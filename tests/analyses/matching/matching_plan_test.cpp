@@ -47,5 +47,17 @@ TEST(MatchingPlan, VariablesStartAnywhereBetweenTheirEndsTheseIncluded) {
   EXPECT_THAT(fault("", "0.51 mm"), testing::HasSubstr("values between from and to"));
 }
 
+TEST(MatchingPlan, KeepsTheUnitsThatAreWritten) {
+  EXPECT_EQ(read("").variables[0].unit, "mm");
+  Document document = Document::from_text(
+      "[match]\nminimise = \"free_flight_share\"\n[[match.constraint]]\nmeasure = \"index\"\nat_most = \"20 arcsec\"\n"
+      "[[match.variable]]\nparameter = \"clearance.A.axial\"\nfrom = \"0.05 mm\"\nto = \"0.5 mm\"\n",
+      "study.toml");
+  Cursor root(document);
+  Study study;
+  study.index = {"boresight_error", "max"};
+  EXPECT_EQ(read_matching_plan(root, study, mechanism(), [](const Setting&) {}).constraints[0].unit, "arcsec");
+}
+
 }  // namespace
 }  // namespace boresight

@@ -62,6 +62,15 @@ TEST_F(RandomInputsTest, ReadsTheStudyOfTheInterface) {
   EXPECT_EQ(p.clearance[0].friction.coefficient, 0.05);
 }
 
+TEST_F(RandomInputsTest, KeepTheUnitThatIsWritten) {
+  const auto unit = [&](const std::string& text) { return read(radial(text)).parameters[0].unit; };
+  EXPECT_EQ(unit("{ normal = { mean = \"100 um\", sd = \"0.01 mm\" }, truncate = [\"0.05 mm\", \"0.15 mm\"] }"), "um");
+  EXPECT_EQ(unit("{ discrete = { values = [\"0.1 mm\", \"200 um\"] } }"), "mm");
+  EXPECT_EQ(unit("{ fit = \"20 H7/g6\" }"), "");
+  EXPECT_EQ(read(one("clearance.F1.contact.restitution", "{ uniform = { min = 0.7, max = 0.95 } }")).parameters[0].unit,
+            "");
+}
+
 TEST_F(RandomInputsTest, ReadsEveryDistribution) {
   const std::string csv = (std::filesystem::path(testing::TempDir()) / "gaps.csv").string();
   std::ofstream(csv) << "part, \"gap\"\n1, 90\n2, 110\n3, 130\n";

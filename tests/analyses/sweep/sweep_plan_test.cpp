@@ -78,6 +78,17 @@ TEST_F(SweepPlanTest, FaultsNameLineKeyAndWhatIsExpected) {
   EXPECT_THAT(fault(""), HasSubstr("at least one"));
 }
 
+TEST_F(SweepPlanTest, KeepsTheUnitThatIsWritten) {
+  EXPECT_EQ(
+      plan("[[sweep.axis]]\nparameter = \"clearance.F1.radial\"\nvalues = [\"50 um\", \"0.1 mm\"]\n").axes[0].unit,
+      "um");
+  EXPECT_EQ(
+      plan("[[sweep.axis]]\nparameter = \"payload.mass\"\nfrom = \"0 g\"\nto = \"1 kg\"\ncount = 3\n").axes[0].unit,
+      "g");
+  EXPECT_EQ(plan("[[sweep.axis]]\nparameter = \"clearance.F1.contact.restitution\"\nvalues = [0.7]\n").axes[0].unit,
+            "");
+}
+
 TEST_F(SweepPlanTest, TakesNoValueThatAMechanismFileMayNotHold) {
   EXPECT_THAT(fault("[[sweep.axis]]\nparameter = \"payload.mass\"\nvalues = [\"1 kg\", \"-1 kg\"]\n"),
               AllOf(HasSubstr("study.toml:4"), HasSubstr("payload.mass")));

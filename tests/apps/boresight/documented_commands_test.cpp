@@ -146,6 +146,23 @@ TEST(Documents, NameFilesOfTheLibraryThatAreThere) {
   EXPECT_GT(found, 30);
 }
 
+// As they stand: what holds for a shortened one need not hold for the whole.
+TEST_F(Program, LongTheFirstCommandsExamplesRunUnshortened) {
+  std::filesystem::copy(BORESIGHT_EXAMPLES, folder_ / "examples", std::filesystem::copy_options::recursive);
+  int run = 0;
+  for (const DocumentedCommand& c : documented_commands()) {
+    if (c.document != ".ci/start") continue;
+    std::vector<std::string> words = shell_words(c.text);
+    words.erase(words.begin());
+    const Ended ended = call(words);
+    EXPECT_EQ(ended.status, 0) << c.text << "\n" << ended.out << ended.err;
+    ++run;
+  }
+  EXPECT_EQ(run, 4);
+  for (const char* folder : {"3-rrcpr-run", "clearance-sweep", "load-sweep", "montecarlo"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "results" / folder / "report.html")) << folder;
+}
+
 TEST(Examples, EveryFileIsRunByADocumentedCommand) {
   std::string all;
   for (const Command& c : commands()) all += c.text + "\n";

@@ -2,6 +2,8 @@
 // or refused.
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -17,7 +19,7 @@ using testing::Not;
 
 const std::vector<std::string> kVerbs = {"new",        "check",       "run",   "sweep",    "chart",     "stability",
                                          "montecarlo", "sensitivity", "match", "allocate", "calibrate", "budget",
-                                         "export",     "laws",        "paths", "help",     "schema"};
+                                         "report",     "export",      "laws",  "paths",    "help",      "schema"};
 
 class HelpExamples : public Program, public testing::WithParamInterface<std::string> {
  protected:
@@ -34,6 +36,13 @@ class HelpExamples : public Program, public testing::WithParamInterface<std::str
       begun = begun || line.starts_with("Example");
     }
     return commands;
+  }
+  std::vector<std::string> folders_of_results() const {
+    std::vector<std::string> folders;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
+      if (entry.path().filename() == "summary.json")
+        folders.push_back(std::filesystem::relative(entry.path().parent_path(), folder_).string());
+    return folders;
   }
 };
 
@@ -61,12 +70,40 @@ TEST_P(HelpExamples, RunFromAnywhere) {
       EXPECT_TRUE(nlohmann::json::accept(json.out)) << words.front() << ": " << json.out << json.err;
     }
   }
+  // The report of what was computed can be made again from its folder, and is the same.
+  for (const std::string& folder : folders_of_results()) {
+    const std::string report = text(folder + "/report.html");
+    std::filesystem::remove(folder_ / folder / "report.html");
+    const Ended again = call({"report", folder});
+    EXPECT_EQ(again.status, 0) << again.err;
+    EXPECT_FALSE(report.empty()) << folder;
+    EXPECT_TRUE(text(folder + "/report.html") == report) << folder;
+  }
   // What computes says what to do next, in one line.
   const bool computes = help.find("--out DIR") != std::string::npos && GetParam() != "export";
   EXPECT_EQ(std::regex_search(ended.out, std::regex("\n  next: [^\n]+\n$")), computes) << ended.out;
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, HelpExamples, testing::ValuesIn(kVerbs), [](const auto& one) { return one.param; });
+
+TEST_F(Program, ReportRefusesInOneLineWhatIsNoWholeResult) {
+  std::filesystem::create_directories(folder_ / "empty");
+  const auto refused = [&](const std::string& folder, const std::string& why) {
+    const Ended ended = call({"report", folder});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr(why));
+  };
+  refused("nowhere", "which is no folder");
+  refused("empty", "no summary.json");
+  ASSERT_EQ(call({"check", mechanism_, "--out", "checked"}).status, 0);
+  std::ofstream(folder_ / "checked" / "report.json") << "{\"title\": ";
+  refused("checked", "report.json is damaged");
+  std::ofstream(folder_ / "checked" / "report.json") << "{\"title\": \"T\", \"sections\": 3}";
+  refused("checked", "report.json is damaged");
+  std::filesystem::remove(folder_ / "checked" / "report.json");
+  refused("checked", "no report.json");
+}
 
 TEST_F(Program, TheVerbsWhoseExamplesRunAreAllThatHelpLists) {
   std::set<std::string> listed;

@@ -29,7 +29,8 @@ class InterruptionTest : public Program {
 TEST_F(InterruptionTest, CtrlCLeavesWholeFilesOfWhatWasReached) {
   const Ended ended = interrupted({"run", mechanism_, "--step", "0.2 us", "--out", "out"}, SIGINT);
   EXPECT_EQ(ended.status, 130) << ended.err;
-  EXPECT_THAT(files("out"), testing::ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
+  EXPECT_THAT(files("out"),
+              testing::ElementsAre("events.csv", "report.html", "report.json", "summary.json", "timeseries.csv"));
   const auto summary = json("out/summary.json");
   EXPECT_TRUE(summary["interrupted"].get<bool>());
   EXPECT_GT(summary["end_time"].get<double>(), 0.0);
@@ -98,11 +99,12 @@ TEST_F(InterruptionTest, ASweepGoesOnWithThePointsThatWereDone) {
                                     "10 us", "--out",      out,      "--jobs",       "2"};
   };
   ASSERT_EQ(interrupted(sweep("out"), SIGINT).status, 130);
-  EXPECT_THAT(files("out"), testing::UnorderedElementsAre("report.html", "summary.json", "sweep.csv", "unfinished.db"));
+  EXPECT_THAT(files("out"), testing::UnorderedElementsAre("report.html", "report.json", "summary.json", "sweep.csv",
+                                                          "unfinished.db"));
   const auto before = json("out/summary.json")["points"];
   const Ended ended = call(sweep("out"));
   ASSERT_EQ(ended.status, 0) << ended.err;
-  EXPECT_THAT(files("out"), testing::UnorderedElementsAre("report.html", "summary.json", "sweep.csv"));
+  EXPECT_THAT(files("out"), testing::UnorderedElementsAre("report.html", "report.json", "summary.json", "sweep.csv"));
   const auto after = json("out/summary.json")["points"];
   int done = 0;
   for (std::size_t k = 0; k < before.size(); ++k) {

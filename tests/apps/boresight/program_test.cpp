@@ -90,7 +90,7 @@ TEST_F(ProgramTest, ARunLeavesWhatTheInterfacePromises) {
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(ended.err, "");
   EXPECT_THAT(ended.out, AllOf(HasSubstr("position error"), HasSubstr("out/report.html")));
-  EXPECT_THAT(files("out"), ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
+  EXPECT_THAT(files("out"), ElementsAre("events.csv", "report.html", "report.json", "summary.json", "timeseries.csv"));
   EXPECT_THAT(text("out/report.html"), AllOf(HasSubstr("\"kind\":\"view\""), HasSubstr("boresight of ")));
   const auto summary = json("out/summary.json");
   for (const char* key : {"verb", "mechanism", "version", "rung", "seed", "cpu_seconds", "wall_seconds", "warnings",
@@ -181,8 +181,8 @@ TEST_F(ProgramTest, LawsPrintsTheTableWithAndWithoutAMechanism) {
   const Ended plain = call({"laws", "--out", "plain"});
   EXPECT_EQ(plain.status, 0) << plain.err;
   EXPECT_THAT(plain.out, AllOf(HasSubstr("lankarani-nikravesh"), HasSubstr("0.91318"), HasSubstr("lugre")));
-  EXPECT_THAT(files("plain"),
-              ElementsAre("force.csv", "friction.csv", "report.html", "restitution.csv", "summary.json"));
+  EXPECT_THAT(files("plain"), ElementsAre("force.csv", "friction.csv", "report.html", "report.json", "restitution.csv",
+                                          "summary.json"));
   const Ended of_joint = call({"laws", mechanism_, "--out", "joint"});
   EXPECT_EQ(of_joint.status, 0) << of_joint.err;
   const auto summary = json("joint/summary.json");
@@ -229,7 +229,7 @@ TEST_F(ProgramTest, ASweepHasARowPerPointWhateverTheJobs) {
                           "mm\", \"0.2 mm\", \"0.3 mm\"]\n");
   const Ended ended = call({"sweep", "study.toml", "--set", "motion.duration=50ms", "--jobs", "2"});
   ASSERT_EQ(ended.status, 0) << ended.err;
-  EXPECT_THAT(files("results/study-sweep"), ElementsAre("report.html", "summary.json", "sweep.csv"));
+  EXPECT_THAT(files("results/study-sweep"), ElementsAre("report.html", "report.json", "summary.json", "sweep.csv"));
   std::istringstream table(text("results/study-sweep/sweep.csv"));
   std::vector<std::string> rows;
   for (std::string row; std::getline(table, row);) rows.push_back(row);
@@ -248,7 +248,7 @@ TEST_F(ProgramTest, StabilityLeavesMapsAndCasesWithTheLimitsOfTheory) {
   EXPECT_THAT(ended.out, AllOf(HasSubstr("step limit 2.8284 measured"), HasSubstr("Grazing and chatter"),
                                HasSubstr("out/report.html")));
   EXPECT_THAT(files("out"), ElementsAre("baumgarte.csv", "cases.csv", "growth.csv", "horizon.csv", "limits.csv",
-                                        "report.html", "steps.csv", "summary.json"));
+                                        "report.html", "report.json", "steps.csv", "summary.json"));
   const auto summary = json("out/summary.json");
   EXPECT_EQ(summary["cases"].size(), 11u);
   EXPECT_LT(summary["largest_difference_from_theory"].get<double>(), 0.02);
@@ -265,7 +265,7 @@ TEST_F(ProgramTest, AChartOfAStudyTakesItsIndexAndItsAccuracy) {
   ASSERT_EQ(ended.status, 0) << ended.err << ended.out;
   EXPECT_THAT(ended.out, AllOf(HasSubstr("position error, RMS"), HasSubstr("Pareto front"),
                                HasSubstr("the setting of Sun, Song and Wang"), HasSubstr("cheapest within 20 %")));
-  EXPECT_THAT(files("out"), ElementsAre("chart.csv", "flight.csv", "report.html", "summary.json"));
+  EXPECT_THAT(files("out"), ElementsAre("chart.csv", "flight.csv", "report.html", "report.json", "summary.json"));
   const auto summary = json("out/summary.json");
   EXPECT_EQ(summary["papers"]["way"], "multibody, paper, baumgarte, rk4");
   EXPECT_GT(summary["reference"]["uncertainty"].get<double>(), 0.0);

@@ -1,14 +1,19 @@
 // What the program says of keys, paths and schemas.
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 #include "program.hpp"
 
 namespace boresight::app {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 using ReferenceProgram = Program;
 
@@ -81,7 +86,34 @@ TEST_F(ReferenceProgram, EveryNumberListedMayBeSetToItsOwnValue) {
   }
   const Ended ended = call(arguments);
   EXPECT_EQ(ended.status, 0) << ended.err;
-  EXPECT_EQ(ended.out, call({"paths", mechanism_}).out);
+  arguments.push_back("--json");
+  const nlohmann::json set = nlohmann::json::parse(call(arguments).out);
+  ASSERT_EQ(set["numbers"].size(), paths["numbers"].size());
+  for (std::size_t k = 0; k < set["numbers"].size(); ++k)
+    for (const char* key : {"path", "value", "unit"}) EXPECT_EQ(set["numbers"][k][key], paths["numbers"][k][key]);
+}
+
+TEST_F(ReferenceProgram, PathsShowWhatWasTyped) {
+  const std::string out = call({"paths", mechanism_, "--set", "clearance.F1.contact.young=72 GPa"}).out;
+  EXPECT_THAT(out, AllOf(ContainsRegex("clearance.F1.radial +0.1 mm\n"), ContainsRegex("contact.young +72 GPa\n")));
+  EXPECT_THAT(out, ContainsRegex("body.rod3.mass +1.5 kg\n"));
+}
+
+TEST_F(ReferenceProgram, TheManualPageHasEveryVerbAndTopic) {
+  const Ended ended = call({"help", "--man"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, StartsWith(".TH BORESIGHT 1"));
+  for (const char* verb : {"new", "check", "run", "montecarlo", "budget", "paths"})
+    EXPECT_THAT(ended.out, HasSubstr(std::string(".SS boresight ") + verb + "\n"));
+  EXPECT_THAT(ended.out, AllOf(HasSubstr(".SH VALUES AND THEIR UNITS"), HasSubstr("\\-\\-accuracy")));
+  std::istringstream lines(ended.out);
+  const std::vector<std::string> requests = {".TH", ".SH", ".SS", ".B",  ".I",  ".RI",
+                                             ".br", ".nf", ".fi", ".PP", ".RS", ".RE"};
+  for (std::string line; std::getline(lines, line);) {  // no text that roff takes for a request
+    if (!line.starts_with('.')) continue;
+    EXPECT_THAT(requests, Contains(line.substr(0, line.find(' ')))) << line;
+  }
+  EXPECT_EQ(call({"help", "--man", "--page"}).status, 2);
 }
 
 TEST_F(ReferenceProgram, ThePageIsOneFileThatWorksOffline) {

@@ -50,7 +50,8 @@ TEST_F(TwoAtOnceTest, TheSecondInOneFolderIsToldAndTheFirstIsWhole) {
   std::sort(statuses.begin(), statuses.end());
   EXPECT_THAT(statuses, testing::ElementsAre(0, testing::AnyOf(0, 2)))
       << "0 where one had ended before the other began";
-  EXPECT_THAT(files("out"), testing::ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
+  EXPECT_THAT(files("out"),
+              testing::ElementsAre("events.csv", "report.html", "report.json", "summary.json", "timeseries.csv"));
 }
 
 TEST_F(TwoAtOnceTest, AStudyWithStoredSamplesIsNotBegunTwice) {

@@ -27,7 +27,8 @@ TEST_F(WriteErrorTest, AFullDiskIsOneLineAndLeavesTheResultBefore) {
                                         "--sample", "10 ms",    "--out", "disk/out"};
   ASSERT_EQ(call(run).status, 0);
   std::filesystem::copy(folder_ / "disk/out", folder_ / "before");
-  ASSERT_THAT(files("before"), ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
+  ASSERT_THAT(files("before"),
+              ElementsAre("events.csv", "report.html", "report.json", "summary.json", "timeseries.csv"));
   std::uintmax_t result = 0;
   for (const std::string& name : files("before")) result += std::filesystem::file_size(folder_ / "before" / name);
   for (const std::uintmax_t room :
@@ -65,7 +66,8 @@ TEST_F(WriteErrorTest, AFullFileSystemIsOneLineAndLeavesTheResultBefore) {
   EXPECT_EQ(text("status"), "3\n");
   EXPECT_TRUE(is_one_line(text("err"))) << text("err");
   EXPECT_THAT(text("err"), HasSubstr("No space left on device"));
-  EXPECT_THAT(files("after"), ElementsAre("events.csv", "report.html", "summary.json", "timeseries.csv"));
+  EXPECT_THAT(files("after"),
+              ElementsAre("events.csv", "report.html", "report.json", "summary.json", "timeseries.csv"));
   for (const std::string& name : files("after")) EXPECT_EQ(text("after/" + name), text("before/" + name)) << name;
 }
 

@@ -78,7 +78,7 @@ async function looksWhole(page, label) {
       if (!lines.length) problems.push("a view without bodies");
       if (lines.some((at) => at.left < box.left || at.right > box.right || at.top < box.top || at.bottom > box.bottom)) problems.push("a view's bodies leave its picture");
     }
-    const plots = [...document.querySelectorAll(".plot")];
+    const plots = [...document.querySelectorAll(".plot-holder")];
     if (!plots.length) problems.push("no plot at all");
     for (const plot of plots) {
       const name = plot.getAttribute("aria-label").slice(0, 50);
@@ -93,6 +93,11 @@ async function looksWhole(page, label) {
         if (at.width && (at.left < box.left - 1.5 || at.right > box.right + 1.5 || at.top < box.top - 1.5 || at.bottom > box.bottom + 1.5)) {
           problems.push(`text cut off: '${text.textContent.slice(0, 40)}' in ${name}`);
         }
+      }
+      const key = plot.querySelector(".colorbar, .subplot.x2y2");
+      if (plot.querySelector(".heatmaplayer .hm")) {
+        const a = key?.getBoundingClientRect(), b = plot.querySelector(".nsewdrag").getBoundingClientRect();
+        if (!a || (a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1)) problems.push(`a map without a key to its colours, or with the key on it: ${name}`);
       }
       const labels = [...plot.querySelectorAll(".xaxislayer-above .xtick, .ytick, .g-xtitle, .annotation .annotation-text-g")].map((one) => [one.textContent, one.getBoundingClientRect()]).filter(([, at]) => at.width);
       labels.forEach(([text, a], i) => labels.slice(i + 1).forEach(([other, b]) => {
@@ -149,7 +154,7 @@ async function interaction() {
   // Zooming by keyboard: one panel takes its neighbours with it, and the whole range comes back.
   const ranges = () => page.evaluate((name) => [...document.querySelectorAll(`figure[aria-label="${name}"] .plot-area`)].map((one) => one._fullLayout.xaxis.range.map((v) => v.toFixed(3)).join()), shared);
   const whole = await ranges();
-  await page.locator(`figure[aria-label="${shared}"] .plot`).first().focus();
+  await page.locator(`figure[aria-label="${shared}"] .plot-holder`).first().focus();
   await page.keyboard.press("+");
   const zoomed = await ranges();
   expect(zoomed[0] !== whole[0] && new Set(zoomed).size === 1, `${label}: panels zoom together: ${zoomed}`);
@@ -186,7 +191,7 @@ async function interaction() {
   }
   expect(stops[0].name === "skip", `${label}: the first stop skips to the report`);
   expect(stops.every((stop) => stop.seen), `${label}: focus is visible at each stop, not at ${stops.filter((stop) => !stop.seen).map((stop) => stop.name)}`);
-  expect(stops.some((stop) => stop.name === "key") && stops.some((stop) => stop.name === "plot"), `${label}: the tab key reaches legends and plots`);
+  expect(stops.some((stop) => stop.name === "key") && stops.some((stop) => stop.name === "plot-holder"), `${label}: the tab key reaches legends and plots`);
 
   // Tables sort, and show the rest when asked.
   const cells = (figure, column) => page.locator(`figure[aria-label="${figure}"] tbody tr td:nth-child(${column})`).allTextContents();
@@ -323,7 +328,7 @@ async function moving() {
 async function printing() {
   const { page, label, close } = await open("every-kind", { width: 1440, dark: true });
   await page.pdf({ path: path.join(pictures, "print.pdf"), format: "A4", preferCSSPageSize: false });
-  const after = await page.evaluate(() => ({ drawn: document.querySelectorAll('.plot[data-drawn="true"]').length, theme: document.documentElement.dataset.theme, printing: document.documentElement.className }));
+  const after = await page.evaluate(() => ({ drawn: document.querySelectorAll('.plot-holder[data-drawn="true"]').length, theme: document.documentElement.dataset.theme, printing: document.documentElement.className }));
   expect(after.drawn === 19, `${label}: everything is drawn before printing, found ${after.drawn}`);
   expect(after.theme === "dark" && !after.printing, `${label}: the page is as before after printing`);
   await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
@@ -355,7 +360,7 @@ async function manyCharts() {
   expect(first >= 2 && first <= 8, `${label}: opening draws what is near the window only, found ${first} of 30`);
   expect(opened < 8000, `${label}: opens in a moment, found ${opened} ms`);
   await page.evaluate(() => scrollTo({ top: document.documentElement.scrollHeight, behavior: "instant" }));
-  await page.waitForFunction(() => [...document.querySelectorAll(".plot")].pop().dataset.drawn === "true", null, { timeout: 8000 });
+  await page.waitForFunction(() => [...document.querySelectorAll(".plot-holder")].pop().dataset.drawn === "true", null, { timeout: 8000 });
   expect(await page.evaluate(() => window.__boresight.drawn()) < 30, `${label}: what was jumped over stays undrawn`);
   expect(await page.locator(".contents a[aria-current]").textContent() === "Part 3", `${label}: the contents follow the reader`);
   console.log(`30 charts of 3 x 4000 points: ${(fs.statSync(files.many).size / 1e6).toFixed(1)} MB, ready after ${opened} ms`);

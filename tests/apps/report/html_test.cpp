@@ -47,6 +47,12 @@ TEST(Html, AsksForNothingOutsideItself) {
   EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
 }
 
+TEST(Html, CarriesThePlotlyNoticeAndItsTerms) {
+  const std::string page = html(sample::every_kind());
+  EXPECT_EQ(count(page, "Copyright: 2012-2021, Plotly, Inc."), 1u);
+  EXPECT_EQ(count(page, "Permission is hereby granted, free of charge, to any person obtaining"), 1u);
+}
+
 TEST(Html, MendsTextThatIsNotUtf8) {
   const std::string page = html({{"title", "broken \xC3( text"}, {"sections", json::array()}});
   EXPECT_NE(page.find("<title>broken \xEF\xBF\xBD( text</title>"), std::string::npos);
