@@ -12,8 +12,8 @@ DesignModel design_model(RungChoice& choice, const DesignsAsked& asked) {
     choice.integrator.clear();
     choice.tolerance = asked.run.tolerance > 0.0 ? asked.run.tolerance : kLaneTolerance;
     model.run.tolerance = choice.tolerance;
-    model.samples = sample_model(choice.name, asked.mechanism, asked.parameters_of, asked.index, model.run,
-                                 asked.scene_varies);
+    model.samples =
+        sample_model(choice.name, asked.mechanism, asked.parameters_of, asked.index, model.run, asked.scene_varies);
     return model;
   }
   apply(choice, model.run);

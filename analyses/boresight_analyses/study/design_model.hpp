@@ -11,11 +11,11 @@ struct DesignsAsked {
   std::shared_ptr<const Mechanism> mechanism;
   RungSampleModel::ParametersOf parameters_of;
   IndexChoice index;
-  RunOptions run;                    // the user's own
-  std::vector<Parameters> corners;   // designs whose motions find the common step
-  bool scene_varies = true;          // from design to design, or over the scatter
-  bool samples = true;               // each design is judged by many samples
-  bool peak_acceleration = false;    // is asked, which lanes do not say
+  RunOptions run;                   // the user's own
+  std::vector<Parameters> corners;  // designs whose motions find the common step
+  bool scene_varies = true;         // from design to design, or over the scatter
+  bool samples = true;              // each design is judged by many samples
+  bool peak_acceleration = false;   // is asked, which lanes do not say
 };
 
 struct DesignModel {

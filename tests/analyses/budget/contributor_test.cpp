@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "boresight_analyses/budget/classical.hpp"
+#include "validation/printed.hpp"
 
 namespace boresight {
 namespace {
@@ -53,8 +54,9 @@ TEST(Contributor, HasInItsCoursesTheMomentsOfItsClass) {
 TEST(Contributor, OfNoiseEntersTheEnsembleWithThreeDeviations) {
   const Contributor noise{.name = "n", .kind = ContributorClass::random, .parameter = {make_normal(2.0, 0.1)}};
   const Moments m = moments(noise, 0, ErrorIndex::ape, Interpretation::ensemble, {}, 1.0);
-  EXPECT_NEAR(m.mean, 6.0, 1e-9);
-  EXPECT_NEAR(m.sd, 0.3, 1e-9);
+  validation::PrintedTable table("ECSS-E-ST-60-10C, Table B-1", "moments of noise in the ensemble", 1e-9);
+  table.expect("mean of noise", 6.0, m.mean);
+  table.expect("deviation of noise", 0.3, m.sd);
 }
 
 // Table B-1: the worst of a distribution without ends is three deviations off its mean, on the side that is farther from zero.

@@ -163,16 +163,18 @@ TEST(EcssAnnexB, TheTablesOfShortAndLongPeriodsAreLimitsOfTheFilters) {
     const Contributor c{.name = "", .kind = ContributorClass::periodic, .parameter = {a}, .period = period};
     return moments(c, 0, index, i, windows, 1e9);
   };
+  validation::PrintedTable table_9("ECSS-E-ST-60-10C, Tables B-1 to B-7", "moments of a long sinusoid's indices", 1e-9),
+      table_5("ECSS-E-ST-60-10C, Tables B-1 to B-7", "moments that vanish, and of short sinusoids", 1e-5);
   // Long, a separation of half the period: the index is twice the sinusoid.
-  EXPECT_NEAR(of(1e6, ErrorIndex::pde, Interpretation::ensemble).mean, 2.0 * 1.5, 1e-9);
-  EXPECT_NEAR(of(1e6, ErrorIndex::pde, Interpretation::ensemble).sd, 2.0 * std::sqrt(0.75), 1e-9);
-  EXPECT_NEAR(of(1e6, ErrorIndex::pde, Interpretation::temporal).sd, std::sqrt(2.0) * 3.0, 1e-9);
-  EXPECT_NEAR(of(1e6, ErrorIndex::pde, Interpretation::mixed).sd, std::sqrt(2.0) * std::sqrt(3.0), 1e-9);
-  EXPECT_NEAR(of(1e6, ErrorIndex::rpe, Interpretation::mixed).sd, 0.0, 1e-5);
-  EXPECT_NEAR(of(1e6, ErrorIndex::mpe, Interpretation::mixed).sd, std::sqrt(1.5), 1e-9);
+  table_9.expect("mean", 2.0 * 1.5, of(1e6, ErrorIndex::pde, Interpretation::ensemble).mean);
+  table_9.expect("sd", 2.0 * std::sqrt(0.75), of(1e6, ErrorIndex::pde, Interpretation::ensemble).sd);
+  table_9.expect("sd", std::sqrt(2.0) * 3.0, of(1e6, ErrorIndex::pde, Interpretation::temporal).sd);
+  table_9.expect("sd", std::sqrt(2.0) * std::sqrt(3.0), of(1e6, ErrorIndex::pde, Interpretation::mixed).sd);
+  table_5.expect("sd", 0.0, of(1e6, ErrorIndex::rpe, Interpretation::mixed).sd);
+  table_9.expect("sd", std::sqrt(1.5), of(1e6, ErrorIndex::mpe, Interpretation::mixed).sd);
   // Short.
-  EXPECT_NEAR(of(1e-5, ErrorIndex::rpe, Interpretation::mixed).sd, std::sqrt(1.5), 1e-5);
-  EXPECT_NEAR(of(1e-5, ErrorIndex::mpe, Interpretation::mixed).sd, 0.0, 1e-5);
+  table_5.expect("sd", std::sqrt(1.5), of(1e-5, ErrorIndex::rpe, Interpretation::mixed).sd);
+  table_5.expect("sd", 0.0, of(1e-5, ErrorIndex::mpe, Interpretation::mixed).sd);
 }
 
 }  // namespace

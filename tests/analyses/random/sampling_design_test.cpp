@@ -11,6 +11,7 @@
 
 #include "boresight_analyses/random/counter_stream.hpp"
 #include "boresight_analyses/random/permutation.hpp"
+#include "validation/printed.hpp"
 
 namespace boresight {
 namespace {
@@ -25,11 +26,19 @@ std::vector<double> point(const SamplingDesign& design, std::uint64_t k) {
 TEST(CounterStream, IsPhiloxAsPublished) {
   const r123::Philox4x64 philox;
   const auto zero = philox({{0, 0, 0, 0}}, {{0, 0}});
-  EXPECT_EQ(zero[0], 0x16554d9eca36314cULL);
-  EXPECT_EQ(zero[3], 0x7e68b68aec7ba23bULL);
+  validation::PrintedTable table("Salmon and others 2011, Random123, kat_vectors",
+                                 "philox4x64, 10 rounds, halves of words", 1e-9);
+  const auto expect = [&table](const char* where, std::uint64_t printed, std::uint64_t ours) {
+    EXPECT_EQ(printed, ours) << where;
+    for (const int half : {0, 32})  // a double holds each
+      table.expect(where, static_cast<double>(printed >> half & 0xffffffffu),
+                   static_cast<double>(ours >> half & 0xffffffffu));
+  };
+  expect("zeros, first word", 0x16554d9eca36314cULL, zero[0]);
+  expect("zeros, last word", 0x7e68b68aec7ba23bULL, zero[3]);
   const auto pi = philox({{0x243f6a8885a308d3ULL, 0x13198a2e03707344ULL, 0xa4093822299f31d0ULL, 0x082efa98ec4e6c89ULL}},
                          {{0x452821e638d01377ULL, 0xbe5466cf34e90c6cULL}});
-  EXPECT_EQ(pi[0], 0xa528f45403e61d95ULL);
+  expect("digits of pi, first word", 0xa528f45403e61d95ULL, pi[0]);
 }
 
 TEST(CounterStream, NeverReachesZeroOrOne) {
@@ -90,6 +99,10 @@ TEST(SobolNet, BeginsAsPublished) {
     of_theirs.insert({expected[k][0], expected[k][1], expected[k][2]});
   }
   EXPECT_EQ(of_ours, of_theirs);
+  validation::PrintedTable table("Joe and Kuo 2008, new-joe-kuo-6.21201",
+                                 "first points of the Sobol' net in three dimensions, in any order", 1e-12);
+  for (auto ours = of_ours.begin(), theirs = of_theirs.begin(); ours != of_ours.end(); ++ours, ++theirs)
+    for (std::size_t d = 0; d < 3; ++d) table.expect("a coordinate", (*theirs)[d], (*ours)[d]);
   std::set<std::array<double, 3>> next;
   for (std::uint64_t k = 4; k < 8; ++k) next.insert(at(k));
   for (const auto& p : fifth_set) EXPECT_TRUE(next.contains({p[0], p[1], p[2]})) << p[0];

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "boresight/contact/contact_friction.hpp"
+#include "validation/printed.hpp"
 
 namespace boresight {
 namespace {
@@ -23,14 +24,16 @@ TEST(Threlfall, RisesTo95PercentWithoutAJump) {
   const FrictionLaw law = make_friction_law("threlfall", parameters());
   EXPECT_EQ(over_normal(law, 0.0), 0.0);
   EXPECT_NEAR(over_normal(law, 0.5e-3), 0.3 * (1.0 - std::exp(-1.5)), 1e-15);
-  EXPECT_NEAR(over_normal(law, 1e-3), 0.95 * 0.3, 0.0003 * 0.3);
+  validation::expect_printed("Threlfall 1978", "share of mu from v_d on; the printed value jumps by 0.0002", "0.95",
+                             over_normal(law, 1e-3) / 0.3, 0.0003);
   EXPECT_NEAR(over_normal(law, 1e-3), over_normal(law, 1.0001e-3), 1e-15);
 }
 
 TEST(BengisuAkay, PeaksAtTheStaticCoefficientAndDecaysToTheKineticOne) {
   const FrictionLaw law = make_friction_law("bengisu-akay", parameters());
   EXPECT_EQ(over_normal(law, 0.0), 0.0);
-  EXPECT_NEAR(over_normal(law, 1e-3), 0.45, 1e-15);
+  validation::expect_printed("Bengisu, Akay 1994", "friction over normal force at the static peak, 0.45 given", "0.45",
+                             over_normal(law, 1e-3), 1e-15);
   EXPECT_NEAR(over_normal(law, 11e-3), 0.3 + 0.15 * std::exp(-1.0), 1e-15);
   EXPECT_NEAR(over_normal(law, 1.0), 0.3, 1e-12);
   // Slopes meet at the peak only where both vanish or the decay begins: continuous.
@@ -39,7 +42,8 @@ TEST(BengisuAkay, PeaksAtTheStaticCoefficientAndDecaysToTheKineticOne) {
 
 TEST(BrownMcPhee, HasItsPrintedValueAtTheTransitionSpeed) {
   const FrictionLaw law = make_friction_law("brown-mcphee", parameters());
-  EXPECT_NEAR(over_normal(law, 1e-3), 0.999329299739067 * 0.3 + 0.15, 1e-12);
+  validation::expect_printed("Brown, McPhee 2016, tanh 4", "share of the kinetic friction at the transition speed",
+                             "0.999329299739067", (over_normal(law, 1e-3) - 0.15) / 0.3, 1e-11);
   EXPECT_NEAR(over_normal(law, 1.0), 0.3, 1e-6);
   double highest = 0.0;
   for (double v = 1e-5; v < 1e-2; v += 1e-6) highest = std::max(highest, over_normal(law, v));
