@@ -257,6 +257,10 @@ inline Lanes<W, Target, Real> smaller(const Lanes<W, Target, Real>& a, const Lan
 
 template <int W, typename Target>
 struct TinyLength<Lanes<W, Target, float>> : TinyLength<float> {};
+template <int W, typename Target, typename Real>
+struct PartsOfSum<Lanes<W, Target, Real>> {
+  static constexpr int count = 4;
+};
 
 }  // namespace boresight
 

@@ -21,15 +21,25 @@ inline T fused(const T& a, const T& b, const T& c) {
   return a * b + c;
 }
 
-// start + the sum of `count` products; in four parts, which wait for nothing but themselves. S: the scalar of a, T of b.
+// In how many parts a long sum is formed: lanes wait for nothing else in between.
+template <typename T>
+struct PartsOfSum {
+  static constexpr int count = 1;
+};
+
+// start + the sum of `count` products. S: the scalar of a, T of b.
 template <typename S, typename T>
 inline T sum_of_products(int count, const S* a, const T* b, const T& start = T(0.0)) {
-  T part[4] = {start, T(0.0), T(0.0), T(0.0)};
+  constexpr int kParts = PartsOfSum<T>::count;
+  T part[kParts] = {start};
+  for (int r = 1; r < kParts; ++r) part[r] = T(0.0);
   int k = 0;
-  for (; k + 4 <= count; k += 4)
-    for (int r = 0; r < 4; ++r) part[r] = fused(T(a[k + r]), b[k + r], part[r]);
+  for (; k + kParts <= count; k += kParts)
+    for (int r = 0; r < kParts; ++r) part[r] = fused(T(a[k + r]), b[k + r], part[r]);
   for (; k < count; ++k) part[0] = fused(T(a[k]), b[k], part[0]);
-  return (part[0] + part[1]) + (part[2] + part[3]);
+  T sum = part[0];
+  for (int r = 1; r < kParts; ++r) sum = sum + part[r];
+  return sum;
 }
 
 // max(x, 0) by value; the derivative of an inactive branch is zero.
