@@ -1,11 +1,11 @@
 #include "boresight_analyses/calibration/inference.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdio>
 
+#include "boresight/math/eigenvalues.hpp"
 #include "boresight_analyses/statistics/effective_samples.hpp"
 
 namespace boresight {

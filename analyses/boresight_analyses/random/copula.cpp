@@ -1,7 +1,6 @@
 #include "boresight_analyses/random/copula.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
@@ -9,6 +8,8 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+
+#include "boresight/math/eigenvalues.hpp"
 
 namespace boresight {
 

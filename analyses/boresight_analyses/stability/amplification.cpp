@@ -1,9 +1,10 @@
 #include "boresight_analyses/stability/amplification.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <complex>
 #include <limits>
+
+#include "boresight/math/orthogonal_factors.hpp"
 
 namespace boresight {
 namespace {

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "boresight/math/singular_values.hpp"
 
 namespace boresight::app {
 namespace {
@@ -123,11 +124,11 @@ class ViewBuilder {
     if (corners.size() == 1 && body != kGround && corners[0].second.norm() > kSamePlace * size_)
       drawn.points.push_back(add({body, Vec3::Zero()}));
     if (corners.size() > 2) {
-      Eigen::Matrix3Xd centred(3, corners.size());
+      MatX centred(3, corners.size());
       for (std::size_t i = 0; i < corners.size(); ++i) centred.col(static_cast<Eigen::Index>(i)) = corners[i].second;
       centred.colwise() -= Vec3(centred.rowwise().mean());
-      const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(centred, Eigen::ComputeThinU);
-      const Eigen::Matrix3Xd along = svd.matrixU().transpose() * centred;
+      const Eigen::JacobiSVD<MatX> svd(centred, Eigen::ComputeThinU);
+      const MatX along = svd.matrixU().transpose() * centred;
       drawn.closed = svd.singularValues()[1] > 1e-6 * svd.singularValues()[0];
       std::map<int, double> turn;
       for (std::size_t i = 0; i < corners.size(); ++i) {

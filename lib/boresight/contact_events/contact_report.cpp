@@ -1,6 +1,5 @@
 #include "boresight/contact_events/contact_report.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +7,7 @@
 #include "boresight/formulations/formulation.hpp"
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/integrate/explicit_runge_kutta.hpp"
+#include "boresight/math/eigenvalues.hpp"
 #include "boresight/mechanism/ideal_motion.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/offset_layout.hpp"

@@ -1,9 +1,9 @@
 #include "boresight/contact_events/damped_contact.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cstdio>
 
 #include "boresight/contact_events/contact_jacobian.hpp"
+#include "boresight/math/eigenvalues.hpp"
 
 namespace boresight {
 namespace {

@@ -1,8 +1,8 @@
 #include "boresight/contact_events/stiffest_contact.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "boresight/math/eigenvalues.hpp"
 #include "boresight/play/joint_play.hpp"
 
 namespace boresight {

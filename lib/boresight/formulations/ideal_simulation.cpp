@@ -1,6 +1,5 @@
 #include "boresight/formulations/ideal_simulation.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/integrate/integrator.hpp"
 #include "boresight/integrate/rosenbrock_method.hpp"
+#include "boresight/math/orthogonal_factors.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"

@@ -1,8 +1,9 @@
 #include "boresight/formulations/own_modes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "boresight/math/eigenvalues.hpp"
 
 namespace boresight {
 namespace {

@@ -1,6 +1,6 @@
 #include "boresight/formulations/shared_reactions.hpp"
 
-#include <Eigen/QR>
+#include "boresight/math/orthogonal_factors.hpp"
 
 namespace boresight {
 

@@ -1,10 +1,9 @@
 #include "boresight/scene/deviation_coordinates.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/math/singular_values.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"

@@ -13,10 +13,10 @@
 // Default scene: one revolute joint, three coordinates, its offsets.
 #pragma once
 
-#include <Eigen/QR>
 #include <string>
 #include <vector>
 
+#include "boresight/math/orthogonal_factors.hpp"
 #include "boresight/mechanism/ideal_motion.hpp"
 #include "boresight/mechanism/offset_layout.hpp"
 

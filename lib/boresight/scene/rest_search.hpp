@@ -4,12 +4,12 @@
 #pragma once
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
 
+#include "boresight/math/orthogonal_factors.hpp"
 #include "boresight/math/types.hpp"
 
 namespace boresight {

@@ -1,11 +1,11 @@
 #include "boresight/scene/resting_start.hpp"
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "boresight/contact_events/contact_jacobian.hpp"
+#include "boresight/math/orthogonal_factors.hpp"
 #include "boresight/play/joint_play.hpp"
 #include "boresight/play/play_words.hpp"
 #include "boresight/scene/rest_search.hpp"
