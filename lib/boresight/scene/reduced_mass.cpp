@@ -105,10 +105,10 @@ void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, 
     throw ComputationError("the reduced mass is not positive at t = " + std::to_string(knot.state.t) + " s");
   const bool forces = form == SceneForm::forces;
   const MatX mass = forces ? M : MatX(cholesky.solve(MatX::Identity(n, n)));
-  const auto divided = [&](const MatX& load) { return forces ? load : MatX(cholesky.solve(load)); };
+  const auto divided = [&](const MatX& gain) { return forces ? gain : MatX(cholesky.solve(gain)); };
   for (int i = 0; i < n; ++i)
     for (int j = i; j < n; ++j) row.push_back(mass(i, j));
-  append(row, divided(r));
+  append(row, forces ? r : VecX(cholesky.solve(r)));
   append(row, divided(C));
   if (coordinates_.leftover() > 0) {
     // Differences know what T'' takes.
