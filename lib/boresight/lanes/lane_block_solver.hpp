@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "boresight/math/scalar.hpp"
+#include "boresight/lanes/lane_numbers.hpp"
 
 namespace boresight {
 
@@ -64,13 +64,13 @@ class LaneBlockSolver {
     const int n = n_, whole = n - n % kBlock;
     for (int first = 0; first < n; first += kBlock) {
       const int last = first + kBlock < n ? first + kBlock : n;
-      subtract_products(first, last, 0, first, x);
+      subtract_product(last - first, first, row(first), n, x, x + first);
       for (int i = first + 1; i < last; ++i)
         for (int j = first; j < i; ++j) x[i] = fused(-row(i)[j], x[j], x[i]);
     }
     for (int first = whole < n ? whole : whole - kBlock; first >= 0; first -= kBlock) {
       const int last = first + kBlock < n ? first + kBlock : n;
-      subtract_products(first, last, last, n, x);
+      subtract_product(last - first, n - last, row(first) + last, n, x + last, x + first);
       for (int i = last - 1; i >= first; --i) {
         for (int j = i + 1; j < last; ++j) x[i] = fused(-row(i)[j], x[j], x[i]);
         x[i] = x[i] * row(i)[i];
@@ -80,23 +80,6 @@ class LaneBlockSolver {
 
  private:
   static constexpr int kBlock = 4;
-  // x of some rows less what some columns take from them: the rows' sums wait for nothing but themselves.
-  void subtract_products(int first, int last, int from, int to, T* x) const {
-    if (last - first < kBlock) {
-      for (int i = first; i < last; ++i) x[i] = x[i] - sum_of_products(to - from, row(i) + from, x + from);
-      return;
-    }
-    const T *a = row(first), *b = row(first + 1), *c = row(first + 2), *d = row(first + 3);
-    T s0 = x[first], s1 = x[first + 1], s2 = x[first + 2], s3 = x[first + 3];
-    for (int j = from; j < to; ++j) {
-      const T minus = -x[j];
-      s0 = fused(a[j], minus, s0);
-      s1 = fused(b[j], minus, s1);
-      s2 = fused(c[j], minus, s2);
-      s3 = fused(d[j], minus, s3);
-    }
-    x[first] = s0, x[first + 1] = s1, x[first + 2] = s2, x[first + 3] = s3;
-  }
   const T* row(int i) const { return lu_.data() + static_cast<std::size_t>(i) * n_; }
   T* row(int i) { return lu_.data() + static_cast<std::size_t>(i) * n_; }
 

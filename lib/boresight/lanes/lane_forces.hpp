@@ -48,21 +48,25 @@ class LaneForces : public LanePlay<T, AnyLayout> {
     for (std::size_t c = 0; c < joints; ++c) add_generalised_force(at, at.joints[c], row, motions_[c], wrenches_[c], g);
   }
 
-  // g; W = sigma M - dg/dv - (dg/dz) / sigma, n x n, row by row; and g's rate of change with the scene alone, at the rates `change`.
-  BORESIGHT_FLATTEN void linearise(const T* row, const T* change, const T* z, const T* v, const T& sigma, T* g, T* g_t,
-                                   T* W) {
-    const int n = at.n;
-    const T inverse = T(1.0) / sigma;
+  // g, its derivatives, which are kept, and its rate of change with the scene alone, at the rates `change`.
+  BORESIGHT_FLATTEN void linearise(const T* row, const T* change, const T* z, const T* v, T* g, T* g_t) {
     between_contacts(row, z, v, g);
-    for (int i = 0; i < n; ++i) g_t[i] = change[at.Ar + i];
-    for (int k = 0; k < n * n; ++k) W[k] = T(0.0);
-    dense_ = 0;
+    for (int i = 0; i < at.n; ++i) g_t[i] = change[at.Ar + i];
     for (std::size_t c = 0; c < at.joints.size(); ++c) {
       if (at.joints[c].tilts)
-        add_joint<true>(c, row, change, z, v, inverse, g, g_t, W);
+        keep_joint<true>(c, row, change, z, v, g, g_t);
       else
-        add_joint<false>(c, row, change, z, v, inverse, g, g_t, W);
+        keep_joint<false>(c, row, change, z, v, g, g_t);
     }
+  }
+
+  // W = M sigma - dg/dv - inverse dg/dz at the last linearise(), n x n, row by row. sigma: per coordinate, M's columns are multiplied by it.
+  BORESIGHT_FLATTEN void system(const T* row, const T* sigma, const T& inverse, T* W) {
+    const int n = at.n;
+    for (int k = 0; k < n * n; ++k) W[k] = T(0.0);
+    dense_ = 0;
+    for (std::size_t c = 0; c < at.joints.size(); ++c)
+      if (loads_[c].any) add_joint(c, row, inverse, W);
     // What is dense, in one pass: two rows at a time share what they read.
     for (int i = 0; i < n; i += 2) {
       const int other = i + 1 < n ? i + 1 : i;
@@ -73,8 +77,8 @@ class LaneForces : public LanePlay<T, AnyLayout> {
         constexpr int kWidth = decltype(width)::value;
         T a[kWidth], b[kWidth];
         each_index<kWidth>(kWidth, [&](auto r) {
-          a[r] = x[j + r] + fused(sigma, row[at.inverse_mass(i, j + r)], C_x[j + r]);
-          b[r] = y[j + r] + fused(sigma, row[at.inverse_mass(other, j + r)], C_y[j + r]);
+          a[r] = x[j + r] + fused(sigma[j + r], row[at.inverse_mass(i, j + r)], C_x[j + r]);
+          b[r] = y[j + r] + fused(sigma[j + r], row[at.inverse_mass(other, j + r)], C_y[j + r]);
         });
         for (int d = 0; d < dense_; ++d) {
           const T *along = &along_[d * n + j], gain = pair_[2 * d], other_gain = pair_[2 * d + 1];
@@ -99,8 +103,7 @@ class LaneForces : public LanePlay<T, AnyLayout> {
   // out += (dg/dz) x, at the last linearise().
   BORESIGHT_FLATTEN void add_stiffness_times(const T* row, const T* x, T* out) const {
     const int n = at.n;
-    if (at.stiff)
-      for (int i = 0; i < n; ++i) out[i] -= sum_of_products(n, row + at.AK + i * n, x);
+    if (at.stiff) subtract_product(n, n, row + at.AK, n, x, out);
     for (std::size_t c = 0; c < at.joints.size(); ++c) {
       const JointLoads& loads = loads_[c];
       if (!loads.any) continue;
@@ -163,28 +166,12 @@ class LaneForces : public LanePlay<T, AnyLayout> {
     T by[kMostLoads][kMostNumbers];
   };
 
-  // r - C v - K z, four rows at a time: their sums wait for nothing but themselves.
+  // r - C v - K z.
   void between_contacts(const T* row, const T* z, const T* v, T* g) const {
     const int n = at.n;
     for (int i = 0; i < n; ++i) g[i] = row[at.Ar + i];
-    subtract_product(n, row + at.AC, v, g);
-    if (at.stiff) subtract_product(n, row + at.AK, z, g);
-  }
-  static void subtract_product(int n, const T* matrix, const T* x, T* out) {
-    int i = 0;
-    for (; i + 4 <= n; i += 4) {
-      const T *a = matrix + i * n, *b = a + n, *c = b + n, *d = c + n;
-      T s0 = out[i], s1 = out[i + 1], s2 = out[i + 2], s3 = out[i + 3];
-      for (int j = 0; j < n; ++j) {
-        const T minus = -x[j];
-        s0 = fused(a[j], minus, s0);
-        s1 = fused(b[j], minus, s1);
-        s2 = fused(c[j], minus, s2);
-        s3 = fused(d[j], minus, s3);
-      }
-      out[i] = s0, out[i + 1] = s1, out[i + 2] = s2, out[i + 3] = s3;
-    }
-    for (; i < n; ++i) out[i] -= sum_of_products(n, matrix + i * n, x);
+    subtract_product(n, n, row + at.AC, n, v, g);
+    if (at.stiff) subtract_product(n, n, row + at.AK, n, z, g);
   }
 
   // The l-th load of a joint onto the coordinates.
@@ -203,8 +190,7 @@ class LaneForces : public LanePlay<T, AnyLayout> {
   }
 
   template <bool tilts>
-  void add_joint(std::size_t c, const T* row, const T* change, const T* z, const T* v, const T& inverse, T* g, T* g_t,
-                 T* W) {
+  void keep_joint(std::size_t c, const T* row, const T* change, const T* z, const T* v, T* g, T* g_t) {
     constexpr int offsets = Base::offsets_of(tilts), spins = Base::spins_of(tilts), K = Base::numbers_of(tilts),
                   L = 3 + spins;
     using D = Dual<T, K>;
@@ -235,6 +221,14 @@ class LaneForces : public LanePlay<T, AnyLayout> {
       add_load(joint, row, l, rate_with_scene<offsets, spins>(joint, change, z, v, loads.by[l]), g_t);
       if (l < 3 && joint.source[l] == DeviationCoordinates::kDependent)
         for (int j = 0; j < n; ++j) g_t[j] = fused(change[joint.dependent + l * n + j], value[l], g_t[j]);
+    }
+  }
+
+  void add_joint(std::size_t c, const T* row, const T& inverse, T* W) {
+    const Joint& joint = at.joints[c];
+    const JointLoads& loads = loads_[c];
+    const int n = at.n, offsets = joint.offsets, spins = joint.spins;
+    for (int l = 0; l < 3 + spins; ++l) {
       // How the load follows the coordinates: n numbers, led back to them by what the load works on.
       T* along = &along_[static_cast<std::size_t>(dense_) * n];
       for (int j = 0; j < n; ++j) along[j] = T(0.0);

@@ -7,6 +7,8 @@
 // Hairer and Wanner (1996), section IV.7, "implicit differential equations".
 #pragma once
 
+#include <algorithm>
+
 #include "boresight/lanes/lane_block_solver.hpp"
 #include "boresight/lanes/lane_forces.hpp"
 #include "boresight/lanes/lane_table.hpp"
@@ -20,7 +22,8 @@ class LaneMassRosenbrock {
       : table_(table), n_(layout.n), solver_(layout.n) {
     for (const SceneLayout::Joint& joint : layout.joints) ties_move_ = ties_move_ || joint.has_dependent;
     const auto n = static_cast<std::size_t>(n_);
-    for (auto* numbers : {&g_, &g_t_, &stage_z_, &stage_v_, &r_z_, &by_v_, &scaled_}) numbers->assign(n, T(0.0));
+    for (auto* numbers : {&g_, &g_t_, &stage_z_, &stage_v_, &r_z_, &by_v_, &scaled_, &sigma_})
+      numbers->assign(n, T(0.0));
     for (int i = 0; i < table.stages; ++i) {
       u_z_[i].assign(n, T(0.0));
       u_v_[i].assign(n, T(0.0));
@@ -33,9 +36,11 @@ class LaneMassRosenbrock {
             T* new_v, T* error) {
     const int n = n_;
     const RosenbrockTable& of = table_.of;
-    const T per_h = T(1.0) / h, sigma = per_h * T(1.0 / of.gamma), inverse = h * T(of.gamma);
+    const T per_h = T(1.0) / h, inverse = h * T(of.gamma);
     const T* row = window.motion_at(since);
-    forces.linearise(row, window.rates(), z, v, sigma, g_.data(), g_t_.data(), solver_.matrix());
+    forces.linearise(row, window.rates(), z, v, g_.data(), g_t_.data());
+    std::fill(sigma_.begin(), sigma_.end(), per_h * T(1.0 / of.gamma));
+    forces.system(row, sigma_.data(), inverse, solver_.matrix());
     solver_.decompose();
     const T* rate = v;
     for (int i = 0; i < of.stages; ++i) {
@@ -72,13 +77,35 @@ class LaneMassRosenbrock {
     table_.finish(n, v, u_v_, new_v, error + n);
   }
 
+  // As LaneRosenbrock's: what an error of the rates does to the offsets, x in (M s - g_v - g_z / w) x = M error, at the derivatives of
+  // the last step. w: the stiffest of -g_z's diagonal over M's, no less than s.
+  T offsets_of_rate_errors(LaneForces<T>& forces, const T* row, const T* s, T* error) {
+    const int n = n_;
+    T stiffest = s[0] * s[0];
+    std::fill(scaled_.begin(), scaled_.end(), T(0.0));
+    for (int i = 0; i < n; ++i) {
+      scaled_[i] = T(1.0);
+      std::fill(by_v_.begin(), by_v_.end(), T(0.0));
+      forces.add_stiffness_times(row, scaled_.data(), by_v_.data());
+      scaled_[i] = T(0.0);
+      stiffest = larger(stiffest, -by_v_[i] / row[forces.at.inverse_mass(i, i)]);
+    }
+    stiffest = sqrt(stiffest);
+    forces.system(row, s, T(1.0) / stiffest, solver_.matrix());
+    solver_.decompose();
+    forces.mass_times(row, error, by_v_.data());
+    solver_.substitute(by_v_.data());
+    std::copy(by_v_.begin(), by_v_.end(), error);
+    return stiffest;
+  }
+
  private:
   using Number = typename T::Number;
 
   const LaneTable<Number> table_;
   int n_;
   bool ties_move_ = false;  // whether derivatives depend on lines of the window
-  std::vector<T> g_, g_t_, stage_z_, stage_v_, r_z_, by_v_, scaled_;
+  std::vector<T> g_, g_t_, stage_z_, stage_v_, r_z_, by_v_, scaled_, sigma_;
   std::array<std::vector<T>, LaneTable<Number>::kMostStages> u_z_, u_v_;
   LaneBlockSolver<T> solver_;
 };

@@ -18,8 +18,8 @@ class LaneRowStep {
   using Scenes = std::array<const LaneScene*, T::kWidth>;
 
   LaneRowStep(const LaneJob& first, const LaneSettings& settings)
-      : longest_(settings.longest_step),
-        play(*first.scene->layout, first.joints),
+      : play(*first.scene->layout, first.joints),
+        longest_(settings.longest_step),
         width_(first.scene->width),
         gain_(first.scene->gain),
         method_(*settings.method, width_),
@@ -58,35 +58,18 @@ class LaneRowStep {
     for (int k = 0; k < used(); ++k) row_[k] = select(accepted, new_row_[k], row_[k]);
   }
 
-  // While a contact begins and ends, an error of a rate lives on in the flight that follows. One that has lasted for tens of its
-  // own periods only vibrates: there a rate's error counts by the offset that it leads to. The index sees offsets; what the
-  // vibration is worth when the contact ends later on is what kSettledShare stands for.
-  // slowest: rates' tolerances over offsets' [1/s]; lasting: how long something has touched [s].
-  void weigh_rates_of_settled_contacts(const Mask& touching, const T& lasting, const T* slowest, T* error) {
-    for (int k = 0; k < N; ++k) settled_[k] = error[N + k];
-    const T stiffest = method_.offsets_of_rate_errors(slowest, settled_.data());
-    const Mask settled = touching & (lasting * stiffest > T(kSettledAngle));
-    for (int k = 0; k < N; ++k)
-      error[N + k] = select(settled, T(1.0 / kSettledShare) * settled_[k] * slowest[k], error[N + k]);
-  }
+  static constexpr bool weighs_rates() { return true; }
+  T offsets_of_rate_errors(const T* slowest, T* error) { return method_.offsets_of_rate_errors(slowest, error); }
 
- private:
-  // Measured over the default scene's nine combinations of clearance and load and eight tolerances around kLaneTolerance: steps
-  // fall by a fifth and no maximum leaves 1 %; from an angle of 60 or a share of 1 on some do (two peaks of nearly one height).
-  static constexpr double kSettledAngle = 200.0, kSettledShare = 1.0 / 3.0;
-
-  int used() const { return play.at.width + 3 * N; }  // of a row's columns
-
-  double longest_;
-
- public:
   LaneDynamics<T, Layout> play;
 
  private:
+  int used() const { return play.at.width + 3 * N; }  // of a row's columns
+
+  double longest_;
   int width_, gain_;
   LaneRosenbrock<T, Layout> method_;
   std::vector<T> row_, new_row_, change_;
-  Numbers settled_;
 };
 
 }  // namespace boresight

@@ -53,10 +53,12 @@ class LaneWindowStep {
     middle = index_value(n_, window_.gain_at(fused(T(0.5), h, start_)) + gain_, middle_z);
   }
   void accept(const Mask&) {}
-  // Where several joints have play some contact begins all the time: errors of rates count as they are.
-  void weigh_rates_of_settled_contacts(const Mask&, const T&, const T*, T*) {}
+  // Where several joints have play some contact begins all the time, and none is settled: not asked then.
+  bool weighs_rates() const { return play.at.joints.size() == 1; }
+  T offsets_of_rate_errors(const T* slowest, T* error) {
+    return method_.offsets_of_rate_errors(play, window_.motion_at(start_), slowest, error);
+  }
 
- public:
   LaneForces<T> play;
 
  private:

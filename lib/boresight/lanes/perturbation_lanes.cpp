@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "boresight/formulations/ideal_simulation.hpp"
-#include "boresight/lanes/lane_layouts.hpp"
+#include "boresight/lanes/scene_for_lanes.hpp"
 #include "boresight/scene/resting_start.hpp"
 
 namespace boresight {
@@ -19,6 +19,10 @@ constexpr int kPad = 16;  // lanes of the widest register
 constexpr double kGapShare = 0.1;
 // A coordinate that the scene hardly loads is asked for no less than this share of the quickest one's rate.
 constexpr double kSlowestCrossing = 0.03;
+// The longest step that holds the scene's matrices still, as a share of that over which they are lines, at kLaneTolerance. It leaves out
+// h^2 M' / (6 M T) of a flight of T: 3e-4 where the scene turns once in a hundred longest steps and T is a tenth of that. Its square goes
+// with the tolerance.
+constexpr double kHeldShare = 0.5;
 // Of scenes of different masses: kept for samples to come, and held by the samples of one call.
 constexpr std::size_t kScenesKept = 64;
 constexpr double kMostBytesKept = 2.5e8, kMostBytesHeld = 1e9;
@@ -86,18 +90,17 @@ PerturbationLanes::PerturbationLanes(std::shared_ptr<const Mechanism> mechanism,
 }
 PerturbationLanes::~PerturbationLanes() = default;
 
-std::shared_ptr<const TimeTable> PerturbationLanes::gain_over_time(const PreparedScene& scene,
-                                                                   const Parameters& parameters) const {
-  const TimeTable& dynamics = scene.tables(parameters)->dynamics;
+std::shared_ptr<const TimeTable> PerturbationLanes::gain_over_time(const PreparedScene& scene) const {
+  const double spacing = scene.scene().spacing();
   std::vector<double> gains;
   int width = 0;
-  for (int k = 0; k <= dynamics.cells(); ++k) {
-    const MatX G = index_gain(*mechanism_, scene, quantity_, std::min(k * dynamics.spacing(), mechanism_->duration()));
+  for (int k = 0; k < scene.scene().knots(); ++k) {
+    const MatX G = index_gain(*mechanism_, scene, quantity_, std::min(k * spacing, mechanism_->duration()));
     for (int i = 0; i < 3; ++i)
       for (Eigen::Index j = 0; j < G.cols(); ++j) gains.push_back(G(i, j));
     width = static_cast<int>(G.size());
   }
-  return std::make_shared<const TimeTable>(dynamics.spacing(), width, gains);
+  return std::make_shared<const TimeTable>(spacing, width, gains);
 }
 
 // Looks the scene up, or computes it with nobody waiting: threads with other masses do so side by side.
@@ -113,16 +116,15 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
         return cache_->prepared.front();
       }
     if (!cache_->scene || (!is_kinematic(*mechanism_) && !same_scene(cache_->scene_parameters, parameters))) {
-      cache_->scene =
-          std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
+      cache_->scene = scene_for_lanes(*mechanism_, parameters);
       cache_->scene_parameters = parameters;
-      if (cache_->scene->scene().layout().n > 0) cache_->gain = gain_over_time(*cache_->scene, parameters);
+      if (cache_->scene->scene().layout().n > 0) cache_->gain = gain_over_time(*cache_->scene);
     }
     p->scene = cache_->scene;
     gain_table = cache_->gain;
   }
   LaneScene& lane = p->lane;
-  if (!SingleRevoluteLayout::describes(p->scene->scene().layout())) lane.form = SceneForm::forces;
+  lane.form = lane_form(p->scene->scene().layout());
   p->tables = std::make_shared<const SceneTables>(p->scene->scene().tables(parameters, lane.form));
   const TimeTable &dynamics = p->tables->dynamics, &gain = *gain_table;
   const int n = p->tables->layout.n;
@@ -207,7 +209,8 @@ void PerturbationLanes::add(const Parameters& sample, double tolerance, Batch& t
   // Of a rate: what leads to that error of the offset in the time in which the scene throws the coordinate across its clearance. Where
   // several joints strike no flight is left alone for longer than the quickest one's.
   const VecX crossing = (p.acceleration.array() / scale.array()).sqrt();
-  const double quickest = crossing.maxCoeff() * (mechanism_->clearances() > 1 ? 1.0 : kSlowestCrossing);
+  const double quickest = std::max(crossing.maxCoeff() * (mechanism_->clearances() > 1 ? 1.0 : kSlowestCrossing),
+                                   1.0 / mechanism_->duration());  // where nothing loads them
   for (int k = 0; k < at.n; ++k) errors.push_back(tolerance * scale[k] * std::max(crossing[k], quickest));
   errors.insert(errors.end(), gap.begin(), gap.end());
   std::string warning;  // the rung itself says it
@@ -231,9 +234,8 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
   settings.start = start_;
   // Across a step the scene's numbers are straight lines: a hundredth of the time in which they turn.
   settings.longest_step = std::min(settings.longest_step, mechanism_->duration() / 100.0);
-  // What a step holds still leaves out a twelfth of its square, of what turns the scene: it goes with the tolerance.
   settings.longest_held_step =
-      std::min(settings.longest_step, 0.25 * settings.longest_step * std::sqrt(tolerance / kLaneTolerance));
+      std::min(settings.longest_step, kHeldShare * settings.longest_step * std::sqrt(tolerance / kLaneTolerance));
   settings.stop = watch.stop;
   settings.listener = &listener;
   settings.ended = [](void* to, long job, double attempts) {

@@ -49,8 +49,9 @@ class PerturbationLanes {
   PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity, double start = 0.0);
   ~PerturbationLanes();
 
-  // tolerance: largest error of one step in an offset, relative to its clearance c, and in its rate, relative to c sqrt(a / c)
-  // with the largest ratio of the scene's accelerations a to the clearances: an offset's error in the quickest free flight.
+  // tolerance: largest error of one step in an offset, relative to its clearance c, and in its rate, relative to the speed
+  // sqrt(c a) that a free flight across the clearance reaches under the scene's accelerations a; where several joints have play,
+  // the quickest of their flights counts for all.
   // outcomes: as many as samples.
   void run(std::span<const Parameters> samples, std::span<LaneOutcome> outcomes, double tolerance = kLaneTolerance,
            const LaneWatch& watch = {}) const;
@@ -63,7 +64,7 @@ class PerturbationLanes {
   struct Batch;
   void add(const Parameters& sample, double tolerance, Batch& to) const;
   std::shared_ptr<const Prepared> prepared_for(const Parameters& parameters) const;
-  std::shared_ptr<const TimeTable> gain_over_time(const PreparedScene& scene, const Parameters& parameters) const;
+  std::shared_ptr<const TimeTable> gain_over_time(const PreparedScene& scene) const;
 
   std::shared_ptr<const Mechanism> mechanism_;
   PointingQuantity quantity_;

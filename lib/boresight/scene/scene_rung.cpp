@@ -33,9 +33,10 @@ bool same_scene(const Parameters& a, const Parameters& b) {
   return true;
 }
 
-PreparedScene::PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motion, const Parameters& parameters)
+PreparedScene::PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motion, const Parameters& parameters,
+                             double accuracy)
     : ideal_(std::move(ideal_motion)),
-      scene_(mechanism, ideal_, parameters),
+      scene_(mechanism, ideal_, parameters, accuracy),
       own_time_(boresight::own_time(ideal_, mechanism.bodies(), mechanism.characteristic_length())) {
   if (scene_.coordinates().has_dependent()) held_ = held_plays(mechanism, ideal_);
 }

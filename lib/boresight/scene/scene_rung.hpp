@@ -17,7 +17,9 @@ bool same_scene(const Parameters& a, const Parameters& b);
 // A mechanism's ideal motion and scene, and what is read off them again and again. Safe to share between threads.
 class PreparedScene {
  public:
-  PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motion, const Parameters& parameters);
+  // accuracy: ClearanceScene's.
+  PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motion, const Parameters& parameters,
+                double accuracy = ClearanceScene::kAccuracy);
 
   const IdealMotion& ideal() const { return ideal_; }
   const ClearanceScene& scene() const { return scene_; }

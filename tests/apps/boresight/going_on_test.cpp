@@ -22,12 +22,8 @@ class GoingOnTest : public KilledProgram {
 
 TEST_P(GoingOnTest, EndsThoughNoStartLastsLongEnough) {
   const StudyToKill& c = GetParam();
-  if (!c.study.empty())
-    std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << c.mechanism << "\"\n" << c.study;
-  const auto begin = Clock::now();
-  const Ended whole = call(arguments("whole"));
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  ASSERT_TRUE(c.statuses.contains(whole.status)) << whole.status << whole.err;
+  const auto [whole, seconds] = run_whole();
+  if (HasFailure()) return;
 
   constexpr int kMostStarts = 20;
   constexpr double kShare = 0.4;

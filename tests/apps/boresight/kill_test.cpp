@@ -114,12 +114,8 @@ class KillTest : public KilledProgram {};
 
 TEST_P(KillTest, LeavesAWholeResultOrNoneAndTheEndIsThatOfAnUninterruptedOne) {
   const StudyToKill& c = GetParam();
-  if (!c.study.empty())
-    std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << c.mechanism << "\"\n" << c.study;
-  const auto begin = Clock::now();
-  const Ended whole = call(arguments("whole"));
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  ASSERT_TRUE(c.statuses.contains(whole.status)) << whole.status << whole.err;
+  const auto [whole, seconds] = run_whole();
+  if (HasFailure()) return;
 
   std::mt19937_64 random(std::hash<std::string>{}(c.name()));
   const auto a_while = [&] {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <fstream>
 #include <functional>
 #include <set>
 #include <string>
@@ -67,6 +68,22 @@ class KilledProgram : public Program, public testing::WithParamInterface<StudyTo
     words.insert(words.end(), c.options.begin(), c.options.end());
     if (c.resumes) words.push_back("--resume");
     return words;
+  }
+
+  struct WholeRun {
+    Ended ended;
+    double seconds = 0.0;
+  };
+  // The study without a kill, into whole/: how it ends, and how long it takes.
+  WholeRun run_whole() {
+    const StudyToKill& c = GetParam();
+    if (!c.study.empty())
+      std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" << c.mechanism << "\"\n" << c.study;
+    const auto begin = Clock::now();
+    WholeRun whole{call(arguments("whole"))};
+    whole.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    EXPECT_TRUE(c.statuses.contains(whole.ended.status)) << whole.ended.status << whole.ended.err;
+    return whole;
   }
 
   // A folder after a kill: no summary, one of a study that has begun, or a whole result.
