@@ -1,6 +1,14 @@
 #include "boresight_analyses/study/design_model.hpp"
 
+#include <algorithm>
+
 namespace boresight {
+namespace {
+
+// kLaneTolerance is what converges an index to 1 %.
+constexpr double kAccuracyOfLaneTolerance = 0.01;
+
+}  // namespace
 
 DesignModel design_model(RungChoice& choice, const DesignsAsked& asked) {
   DesignModel model;
@@ -10,7 +18,9 @@ DesignModel design_model(RungChoice& choice, const DesignsAsked& asked) {
   if (lanes) {
     choice.step = 0.0;
     choice.integrator.clear();
-    choice.tolerance = asked.run.tolerance > 0.0 ? asked.run.tolerance : kLaneTolerance;
+    choice.tolerance = asked.run.tolerance > 0.0
+                           ? asked.run.tolerance
+                           : kLaneTolerance * std::min(1.0, asked.accuracy / kAccuracyOfLaneTolerance);
     model.run.tolerance = choice.tolerance;
     model.samples =
         sample_model(choice.name, asked.mechanism, asked.parameters_of, asked.index, model.run, asked.scene_varies);

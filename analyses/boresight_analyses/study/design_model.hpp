@@ -14,6 +14,7 @@ struct DesignsAsked {
   RunOptions run;                   // the user's own
   std::vector<Parameters> corners;  // designs whose motions find the common step
   bool scene_varies = true;         // from design to design, or over the scatter
+  double accuracy = 0.01;           // of the index, relative
   bool samples = true;              // each design is judged by many samples
   bool peak_acceleration = false;   // is asked, which lanes do not say
 };

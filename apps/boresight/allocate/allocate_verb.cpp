@@ -147,6 +147,7 @@ class AllocateVerb : public Verb {
         for (const RandomParameter& p : plan.inputs->parameters) values.push_back(p.distribution->quantile(0.5));
       corners.push_back(plan.parameters_with(*mechanism, values));
     }
+    const double accuracy = own.run().options().accuracy.value_or(0.05);
     const DesignModel designs = design_model(choice, {.mechanism = mechanism,
                                                       .parameters_of =
                                                           [mechanism, &plan](std::span<const double> values) {
@@ -155,7 +156,8 @@ class AllocateVerb : public Verb {
                                                       .index = study.index,
                                                       .run = asked,
                                                       .corners = corners,
-                                                      .scene_varies = plan.inputs && scene_varies(*plan.inputs)});
+                                                      .scene_varies = plan.inputs && scene_varies(*plan.inputs),
+                                                      .accuracy = accuracy});
     const SampleModel& model = *designs.samples;
     std::vector<std::string> names;
     for (const AllocationJoint& joint : plan.joints) names.push_back(joint.name());
@@ -172,7 +174,7 @@ class AllocateVerb : public Verb {
     const std::unique_ptr<Stage> stage = own.run().stage(1.0, "of the allocation");
     AllocationResult result =
         run_allocation(plan, deviation, misfit, std::ref(confirming), choice.name,
-                       {.accuracy = own.run().options().accuracy.value_or(0.05),
+                       {.accuracy = accuracy,
                         .interrupted = [] { return interrupted(); },
                         .progress = [&](const std::string& of, double share) { stage->update(share, of); }});
     stage->clear();

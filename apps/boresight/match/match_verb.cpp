@@ -109,12 +109,14 @@ class MatchVerb : public Verb {
     const auto parameters_of = [mechanism, &plan](std::span<const double> values) {
       return plan.parameters_with(*mechanism, values);
     };
+    const double accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.01);
     DesignsAsked designs_asked{.mechanism = mechanism,
                                .parameters_of = parameters_of,
                                .index = study.index,
                                .run = asked,
                                .corners = corners,
                                .scene_varies = any_scene_varies(plan),
+                               .accuracy = accuracy,
                                .samples = plan.inputs && plan.objective.over != Over::nominal,
                                .peak_acceleration = asks_peak_acceleration(plan)};
     const DesignModel designs_model = design_model(choice, designs_asked);
@@ -160,7 +162,7 @@ class MatchVerb : public Verb {
                            12.0 * plan.front;
     const std::unique_ptr<Stage> stage = own.run().stage(designs, "designs");
     MatchingOptions how;
-    how.accuracy = command.accuracy ? *command.accuracy : study.accuracy.value_or(0.01);
+    how.accuracy = accuracy;
     how.interrupted = [] { return interrupted(); };
     how.progress = [&](const MatchingResult& r) {
       std::string estimate = r.visits.back().stage;
