@@ -9,11 +9,12 @@
 namespace boresight {
 namespace {
 
-PoseError error_of(const Mechanism& mechanism, const PreparedScene& prepared, double t, const VecX& z) {
+PoseError error_of(const Mechanism& mechanism, const PreparedScene& prepared, const StandingDisplacement& standing,
+                   double t, const VecX& z) {
   BodyAcceleration unused;
   const int body = mechanism.boresight_body();
   const BodyMotion ideal = prepared.ideal().body(t, body);
-  const BodyMotion truth = DisplacedBodies(prepared, t, z).at_rest(body, unused);
+  const BodyMotion truth = DisplacedBodies(prepared, standing, t, z).at_rest(body, unused);
   return pose_error({truth.p, Quat(truth.R)}, {ideal.p, Quat(ideal.R)}, mechanism.pointing());
 }
 
@@ -24,6 +25,7 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
                          const std::vector<double>& values, const IndexChoice& index, const SlopeOptions& options) {
   const Parameters parameters = parameters_at(values);
   const auto tables = prepared.tables(parameters);
+  const StandingDisplacement standing = prepared.standing(parameters);
   const Eigen::Index n = tables->layout.n;
   MotionRequest request;
   request.end = options.end > 0.0 ? options.end : mechanism.duration();
@@ -50,7 +52,7 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
     const double t = request.times[k];
     const auto column = static_cast<Eigen::Index>(k);
     const VecX z = motion.state.col(column).head(n);
-    const PoseError error = error_of(mechanism, prepared, t, z);
+    const PoseError error = error_of(mechanism, prepared, standing, t, z);
     indices.add(t, error);
     e[k] = index.of(error);
     const double h = 1e-3 * z.lpNorm<Eigen::Infinity>();
@@ -60,7 +62,7 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
       const auto at = [&](double steps) {
         VecX moved = z;
         moved[i] += steps * h;
-        return index.of(error_of(mechanism, prepared, t, moved));
+        return index.of(error_of(mechanism, prepared, standing, t, moved));
       };
       gradient[i] = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h);
     }

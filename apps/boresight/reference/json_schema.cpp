@@ -73,6 +73,7 @@ Json of_kind(const Key& key) {
     case KeyKind::numbers:
       return list(number(key, "number"), key.counts);
     case KeyKind::direction:
+      if (!key.text_form.empty()) return {{"anyOf", {list({{"type", "number"}}, {3}), text}}};
       return list({{"type", "number"}}, {3});
     case KeyKind::integer:
       return number(key, "integer");

@@ -10,6 +10,7 @@
 #include "boresight/integrate/integrator.hpp"
 #include "boresight/integrate/rosenbrock_method.hpp"
 #include "boresight/math/orthogonal_factors.hpp"
+#include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
@@ -42,6 +43,26 @@ Eigen::RowVectorXd freedom_row(const Mechanism& mechanism, const InitialRateDesc
       row.segment<6>(6 * body) << sign * joint.axis.transpose(), sign * r.cross(joint.axis).transpose();
   }
   return row;
+}
+
+// Brings a built mechanism's joints together at home, its bodies moved as little as that takes; a drawn one's are.
+void close_joints(const Mechanism& mechanism, const std::vector<TimeValue>& laws, IdealState& state) {
+  constexpr int kMostSteps = 20;
+  constexpr double kClosed = 1e-14;  // of the characteristic length, or rad
+  ConstraintSystem system(mechanism, {.clearance = ClearanceRows::closed});
+  const std::vector<Mat6> weight = kinematic_weight(mechanism);
+  std::vector<Vec6> rows = system.block_vector(), motion = system.body_vector();
+  for (int step = 0; step < kMostSteps; ++step) {
+    system.evaluate(state.bodies, laws);
+    if (system.violation(mechanism.characteristic_length()) < kClosed) return;
+    if (!system.factor(weight)) {
+      system.set_redundant(true);
+      system.factor(weight);
+    }
+    for (int k = 0; k < system.blocks(); ++k) rows[k] = -system.rows(k).value;
+    system.least_motion(rows, motion);
+    for (int b = 0; b < mechanism.bodies(); ++b) displace(state.bodies[b], motion[b]);
+  }
 }
 
 // Velocities at home: constraints and starting rates satisfied, everything else as slow as they allow.
@@ -278,6 +299,15 @@ bool is_kinematic(const Mechanism& mechanism) {
   return mechanism.description().initial_rates.empty() && undriven_freedoms(mechanism) == 0;
 }
 
+BuiltMotion built_motion(std::shared_ptr<const Mechanism> drawn, std::shared_ptr<const IdealMotion> commanded,
+                         const Parameters& parameters) {
+  if (!has_errors(parameters)) return {std::move(drawn), std::move(commanded)};
+  BuiltMotion built;
+  built.mechanism = built_mechanism(*drawn, parameters, std::move(commanded));
+  built.motion = std::make_shared<const IdealMotion>(ideal_motion(*built.mechanism, parameters));
+  return built;
+}
+
 IdealMotion ideal_motion(const Mechanism& mechanism, const Parameters& parameters) {
   if (is_kinematic(mechanism)) return IdealMotion::kinematic(mechanism);
   // Explicit steps beyond which an implicit method takes less time; and the most that are held in memory.
@@ -291,6 +321,7 @@ IdealMotion ideal_motion(const Mechanism& mechanism, const Parameters& parameter
                                           }()});
   std::vector<TimeValue> laws(mechanism.joints());
   laws_only.drive_laws(0.0, laws);
+  if (mechanism.built()) close_joints(mechanism, laws, start);
   set_starting_rates(mechanism, laws, start);
   const Task task{mechanism, parameters, laws_only, start};
   ClosedMechanism closed(task);

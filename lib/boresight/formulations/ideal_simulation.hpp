@@ -4,6 +4,8 @@
 // in the end is the motion's error().
 #pragma once
 
+#include <memory>
+
 #include "boresight/mechanism/ideal_motion.hpp"
 
 namespace boresight {
@@ -16,5 +18,16 @@ bool is_kinematic(const Mechanism& mechanism);
 
 // Throws ComputationError where the motion cannot be followed.
 IdealMotion ideal_motion(const Mechanism& mechanism, const Parameters& parameters);
+
+// A sample's mechanism as it is built, and its motion without clearance.
+struct BuiltMotion {
+  std::shared_ptr<const Mechanism> mechanism;
+  std::shared_ptr<const IdealMotion> motion;
+};
+
+// The drawn mechanism and its commanded motion themselves where the sample has no errors. Throws ComputationError where the built
+// mechanism's joints do not close.
+BuiltMotion built_motion(std::shared_ptr<const Mechanism> drawn, std::shared_ptr<const IdealMotion> commanded,
+                         const Parameters& parameters);
 
 }  // namespace boresight

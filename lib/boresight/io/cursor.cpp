@@ -37,7 +37,9 @@ Cursor Cursor::copy(int number, const Mat3& turn) const {
 
 // --- keys, paths and faults ------------------------------------------------------------------------------------------
 
-std::string Cursor::path(const std::string& key) const { return joined(path_, key); }
+std::string Cursor::path(const std::string& key) const {
+  return !own_key_.empty() && key == own_key_ ? path_ : joined(path_, key);
+}
 
 // The setting that is to blame for this value: on its path, or on an element of it where it is a list.
 const Setting* Cursor::blamed_setting(const std::string& key) const {
@@ -148,6 +150,20 @@ bool Cursor::is_table(const std::string& key) const {
 bool Cursor::is_list(const std::string& key) const {
   const Node* node = node_->member(key);
   return node != nullptr && node->kind == Node::Kind::array;
+}
+
+bool Cursor::is_text(const std::string& key) const {
+  const Node* node = node_->member(key);
+  return node != nullptr && node->kind == Node::Kind::string;
+}
+
+bool Cursor::is_number(const std::string& key) const {
+  if (const Setting* set = setting(path(key))) {
+    double number = 0.0;
+    return parse_number(set->value, number);
+  }
+  const Node* node = node_->member(key);
+  return node != nullptr && (node->kind == Node::Kind::number || node->kind == Node::Kind::integer);
 }
 
 Cursor Cursor::table(const std::string& key) {

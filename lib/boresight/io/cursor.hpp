@@ -86,6 +86,8 @@ class Cursor {
 
   bool is_table(const std::string& key) const;
   bool is_list(const std::string& key) const;
+  bool is_text(const std::string& key) const;
+  bool is_number(const std::string& key) const;        // without a unit, a setting included
   Cursor table(const std::string& key);                // must be there
   Cursor table_or_empty(const std::string& key);       // an empty one if it is not there
   std::vector<Cursor> tables(const std::string& key);  // [[key]]: any number of them
@@ -96,6 +98,8 @@ class Cursor {
   std::string path(const std::string& key) const;
   const std::string& path() const { return path_; }
   void rename(std::string path) { path_ = std::move(path); }  // "body[2]" becomes "body.rod1" once the name is known
+  // The value of this key goes by the table's own path: "error.F1.squareness", not "error.F1.squareness.value".
+  void stands_for_table(std::string key) { own_key_ = std::move(key); }
 
   // The value as found, for error texts.
   std::string found(const std::string& key) const;
@@ -133,7 +137,7 @@ class Cursor {
   Document* document_;
   const Node* node_;
   int line_;
-  std::string path_;
+  std::string path_, own_key_;
   const KeyTable* keys_ = nullptr;  // null: not said yet
   mutable std::set<std::string> asked_;
   int copy_ = 0;  // 0: not in a pattern

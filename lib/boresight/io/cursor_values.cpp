@@ -171,6 +171,9 @@ std::string Cursor::unit_as_written(const std::string& key) {
 }
 
 std::string Cursor::text(const std::string& name) {
+  if (const Key* direction = keys_ != nullptr ? keys_->find(name) : nullptr;
+      direction != nullptr && !direction->text_form.empty())
+    return word(name);
   const Key& key = known(name, {KeyKind::text, KeyKind::expression, KeyKind::texts, KeyKind::expressions});
   if ((key.kind == KeyKind::texts || key.kind == KeyKind::expressions) && !key.or_one)
     throw std::logic_error(keys_->name + ", " + name + " is a list only");

@@ -27,7 +27,7 @@ struct TooLong {};
 // Writes expressions onto one tape, each distinct sub-expression once.
 class Compiler {
  public:
-  explicit Compiler(const ex& time) : time_(time) {}
+  explicit Compiler(const ex& time, const ex& coordinate = ex()) : time_(time), coordinate_(coordinate) {}
 
   int slot_of(const ex& e) {
     if (const auto it = slots_.find(e); it != slots_.end()) return it->second;
@@ -48,6 +48,7 @@ class Compiler {
  private:
   int compile(const ex& e) {
     if (e.is_equal(time_)) return push(Operation::time, 0);
+    if (is_a<GiNaC::symbol>(e) && e.is_equal(coordinate_)) return push(Operation::coordinate, 0);
     if (is_a<numeric>(e) || is_a<GiNaC::constant>(e)) {
       const ex value = e.evalf();
       if (!is_a<numeric>(value) || !GiNaC::ex_to<numeric>(value).is_real()) {
@@ -143,7 +144,7 @@ class Compiler {
     return push(it->second, x);
   }
 
-  ex time_;
+  ex time_, coordinate_;
   std::map<ex, int, GiNaC::ex_is_less> slots_;
   std::map<ex, std::uint64_t, GiNaC::ex_is_less> ranks_;
 };
@@ -197,20 +198,44 @@ TimeFunctionPtr compile(const std::string& text, const NamedExpressions& named, 
   return std::make_shared<Tape>(std::move(compiler.entries), results);
 }
 
-}  // namespace
+CoordinateFunctionPtr compile_of_coordinate(const std::string& text) {
+  constexpr std::size_t kMostNodes = 100000;
+  const GiNaC::realsymbol t("t"), q("q");
+  const ex value = parse_to_ginac(text, {{"t", t}, {"q", q}});
+  const ex by_q = value.diff(q), by_t = value.diff(t);
+  if (nodes(by_q, kMostNodes) + nodes(by_t, kMostNodes) >= kMostNodes) throw TooLong();
+  const std::array<ex, 6> wanted = {value, by_q, by_t, by_q.diff(q), by_q.diff(t), by_t.diff(t)};
+  Compiler compiler(t, q);
+  std::array<int, 6> results{};
+  for (std::size_t k = 0; k < wanted.size(); ++k) results[k] = compiler.slot_of(wanted[k]);
+  return std::make_shared<CoordinateTape>(std::move(compiler.entries), results);
+}
 
-TimeFunctionPtr parse_expression(const std::string& text, const NamedExpressions& named, double scale) {
+// What compiles, with its faults as those of the text.
+template <typename Compile>
+auto compiled(const std::string& text, const char* expected, const Compile& compile) {
   const std::lock_guard<std::mutex> guard(ginac_lock());
   try {
-    return compile(text, named, scale);
+    return compile();
   } catch (const ValueFault&) {
     throw;
   } catch (const TooLong&) {
     throw ValueFault(in_quotes(text) + ", which is too long when differentiated", "a shorter expression");
   } catch (const std::exception& error) {
-    throw ValueFault(in_quotes(text) + " (" + error.what() + ")",
-                     "an expression of t that can be differentiated twice");
+    throw ValueFault(in_quotes(text) + " (" + error.what() + ")", expected);
   }
+}
+
+}  // namespace
+
+TimeFunctionPtr parse_expression(const std::string& text, const NamedExpressions& named, double scale) {
+  return compiled(text, "an expression of t that can be differentiated twice",
+                  [&] { return compile(text, named, scale); });
+}
+
+CoordinateFunctionPtr parse_coordinate_function(const std::string& text) {
+  return compiled(text, "an expression of q and t that can be differentiated twice",
+                  [&] { return compile_of_coordinate(text); });
 }
 
 double first_time_not_finite(const TimeFunction& function, double duration, int samples) {

@@ -27,6 +27,9 @@ using NamedExpressions = std::vector<std::pair<std::string, std::string>>;
 // The function `scale` times the expression. Throws ValueFault with what was found, what was expected and the nearest name.
 TimeFunctionPtr parse_expression(const std::string& text, const NamedExpressions& named = {}, double scale = 1.0);
 
+// A function of q, a coordinate, and of t. Throws ValueFault likewise.
+CoordinateFunctionPtr parse_coordinate_function(const std::string& text);
+
 // The first of `samples` + 1 even times in [0, duration] at which value or a derivative is not finite; -1 if there is none.
 double first_time_not_finite(const TimeFunction& function, double duration, int samples = 400);
 

@@ -38,6 +38,7 @@ MechanismDescription read(Document& document, std::vector<AssumedValue>* assumed
   mechanism.motion = read_motion(motion, mechanism);
   for (Cursor& spring : sections.springs) mechanism.springs.push_back(read_spring(spring, mechanism));
   for (Cursor& load : sections.loads) mechanism.loads.push_back(read_load(load, mechanism));
+  for (Cursor& error : sections.errors) mechanism.errors.push_back(read_error(error, mechanism));
   Cursor initial = root.table_or_empty("initial");
   read_initial(initial, mechanism);
   if (root.has("pointing")) {

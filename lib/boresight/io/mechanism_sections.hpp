@@ -14,7 +14,7 @@ namespace boresight {
 
 // The tables of a file with all patterns copied out, in file order.
 struct Sections {
-  std::vector<Cursor> bodies, joints, clearances, springs, loads;
+  std::vector<Cursor> bodies, joints, clearances, springs, loads, errors;
 };
 Sections gather_sections(Cursor& root);
 
@@ -26,6 +26,7 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
                                     std::vector<AssumedValue>* assumed);
 SpringDescription read_spring(Cursor& cursor, const MechanismDescription& so_far);
 LoadDescription read_load(Cursor& cursor, const MechanismDescription& so_far);
+ErrorDescription read_error(Cursor& cursor, const MechanismDescription& so_far);
 MotionDescription read_motion(Cursor& cursor, const MechanismDescription& so_far);
 // Into `mechanism`: starting rates, and where journals start.
 void read_initial(Cursor& cursor, MechanismDescription& mechanism);
@@ -33,6 +34,8 @@ LineOfSightDescription read_pointing(Cursor& cursor, const MechanismDescription&
 
 // The name under `key`, checked to be usable in paths: not empty, none of . * = , { } or quotes, no control characters.
 std::string read_name(Cursor& cursor, const std::string& key);
+// The same with dots: "rod1.length".
+std::string read_dotted_name(Cursor& cursor, const std::string& key);
 
 // The index of the body or joint of this name; otherwise a fault at `key` with the nearest name.
 int body_index(const MechanismDescription& mechanism, const Cursor& cursor, const std::string& key,

@@ -30,16 +30,31 @@ int place(const std::vector<std::string>& names, const std::string& name) {
 
 }  // namespace
 
-std::string read_name(Cursor& cursor, const std::string& key) {
+namespace {
+
+std::string read_name_without(const char* forbidden, const char* expected, Cursor& cursor, const std::string& key) {
   const std::string name = cursor.text(key);
   bool good = !name.empty() && name.size() <= 100 && name.front() != ' ' && name.back() != ' ';
   for (const char c : name) {
     good = good && static_cast<unsigned char>(c) >= 0x20 && c != 0x7f &&
-           std::string_view(".*=,{}\"'[]").find(c) == std::string_view::npos;
+           std::string_view(forbidden).find(c) == std::string_view::npos;
   }
-  if (!good)
-    cursor.fail_found(key, in_quotes(name),
-                      "a name of up to 100 characters without . * = , { } [ ] and quotation marks");
+  if (!good) cursor.fail_found(key, in_quotes(name), expected);
+  return name;
+}
+
+}  // namespace
+
+std::string read_name(Cursor& cursor, const std::string& key) {
+  return read_name_without(".*=,{}\"'[]", "a name of up to 100 characters without . * = , { } [ ] and quotation marks",
+                           cursor, key);
+}
+
+std::string read_dotted_name(Cursor& cursor, const std::string& key) {
+  const std::string name = read_name_without(
+      "*=,{}\"'[]", "a name of up to 100 characters without * = , { } [ ] and quotation marks", cursor, key);
+  if (name.front() == '.' || name.back() == '.' || name.find("..") != std::string::npos)
+    cursor.fail_found(key, in_quotes(name), "a name with something before, between and after its dots");
   return name;
 }
 

@@ -29,13 +29,14 @@ Sections gather_sections(Cursor& root) {
   append(sections.clearances, root.tables("clearance"));
   append(sections.springs, root.tables("spring"));
   append(sections.loads, root.tables("load"));
+  append(sections.errors, root.tables("error"));
   for (Cursor& pattern : root.tables("pattern")) {
     pattern.only(pattern_keys());
     const long long count = pattern.integer("count");
     const std::string axis = pattern.choice("axis");
     const auto bodies = pattern.tables("body"), joints = pattern.tables("joint"),
                clearances = pattern.tables("clearance"), springs = pattern.tables("spring"),
-               loads = pattern.tables("load");
+               loads = pattern.tables("load"), errors = pattern.tables("error");
     for (int i = 1; i <= count; ++i) {
       const double angle = 2.0 * std::numbers::pi * (i - 1) / static_cast<double>(count);
       const Mat3 turn =
@@ -45,6 +46,7 @@ Sections gather_sections(Cursor& root) {
       append_copies(sections.clearances, clearances, i, turn);
       append_copies(sections.springs, springs, i, turn);
       append_copies(sections.loads, loads, i, turn);
+      append_copies(sections.errors, errors, i, turn);
     }
     pattern.finish();
   }

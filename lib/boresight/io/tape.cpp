@@ -4,7 +4,7 @@
 
 namespace boresight {
 
-void Tape::run(double t, double* slots) const {
+void TapeProgram::run(double t, double q, double* slots) const {
   double* result = slots;
   for (const TapeEntry& entry : entries_) {
     const double a = slots[entry.first], b = slots[entry.second];
@@ -14,6 +14,9 @@ void Tape::run(double t, double* slots) const {
         break;
       case Operation::time:
         *result = t;
+        break;
+      case Operation::coordinate:
+        *result = q;
         break;
       case Operation::add:
         *result = a + b;
@@ -81,17 +84,13 @@ void Tape::run(double t, double* slots) const {
 }
 
 TimeValue Tape::at(double t) const {
-  constexpr std::size_t kOnStack = 256;
-  if (entries_.size() <= kOnStack) {
-    double slots[kOnStack];
-    slots[0] = 0.0;  // read, though not used, by the first operation
-    run(t, slots);
-    return {slots[results_[0]], slots[results_[1]], slots[results_[2]]};
-  }
-  thread_local std::vector<double> buffer;
-  if (buffer.size() < entries_.size()) buffer.resize(entries_.size());
-  run(t, buffer.data());
-  return {buffer[results_[0]], buffer[results_[1]], buffer[results_[2]]};
+  const auto [value, rate, acceleration] = program_.at(t, 0.0, results_);
+  return {value, rate, acceleration};
+}
+
+TimeValue CoordinateTape::at(const TimeValue& q, double t) const {
+  const auto [f, by_q, by_t, by_qq, by_qt, by_tt] = program_.at(t, q.value, results_);
+  return {f, by_q * q.rate + by_t, by_q * q.acceleration + (by_qq * q.rate + 2.0 * by_qt) * q.rate + by_tt};
 }
 
 }  // namespace boresight

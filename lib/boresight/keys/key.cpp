@@ -52,6 +52,10 @@ Key Key::sometimes(const std::string& words) && {
   when = words;
   return std::move(*this);
 }
+Key Key::or_text(const std::string& form) && {
+  text_form = form;
+  return std::move(*this);
+}
 Key Key::or_word(const std::string& text) && {
   presence = Presence::has_default;
   word = text_otherwise = text;

@@ -81,6 +81,7 @@ struct Key {
   std::vector<double> list_otherwise;
   std::string text_otherwise;  // of booleans "true" or "false"
   std::string shown_in;        // unit in which people see the default; "": the SI unit
+  std::string text_form;       // of a direction: what text may stand in its place, in words; "": none
   std::string word;            // a word that may stand in place of a quantity, and is the default
   std::vector<KeyChoice> choices;
   std::vector<std::string> elements;      // names of a list's elements, by which settings address them
@@ -98,6 +99,7 @@ struct Key {
   Key usually(const std::string& words) &&;  // computed
   Key sometimes(const std::string& words) &&;
   Key or_word(const std::string& text) &&;
+  Key or_text(const std::string& form) &&;
   Key above(double least, const std::string& expected) &&;
   Key at_least(double least, const std::string& expected) &&;
   Key at_most(double most, const std::string& expected) &&;

@@ -100,7 +100,8 @@ std::string kind_text(const Key& key) {
     case KeyKind::numbers:
       return many + " numbers";
     case KeyKind::direction:
-      return "direction: three numbers, not all zero, of any length";
+      return "direction: three numbers, not all zero, of any length" +
+             (key.text_form.empty() ? "" : "; or " + key.text_form);
     case KeyKind::integer:
       return "whole number";
     case KeyKind::value:

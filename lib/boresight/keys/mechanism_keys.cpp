@@ -35,6 +35,9 @@ const KeyTable& mechanism_keys() {
           tables("load", load_keys)
               .sometimes("left out, only gravity acts")
               .says("Forces and torques that act from outside, one table each."),
+          tables("error", error_keys)
+              .sometimes("left out, the mechanism is built as it is drawn")
+              .says("Standing errors of lengths, axes, drives and temperature, one table each."),
           table("pointing", pointing_keys)
               .sometimes("left out, there is no line-of-sight error")
               .says("The line of sight whose error is computed.")}};
@@ -58,7 +61,10 @@ const KeyTable& pattern_keys() {
           tables("spring", spring_keys).sometimes("left out, none is copied").says("Springs to be copied."),
           tables("load", load_keys)
               .sometimes("left out, none is copied")
-              .says("Loads to be copied; a force is turned with its body.")}};
+              .says("Loads to be copied; a force is turned with its body."),
+          tables("error", error_keys)
+              .sometimes("left out, none is copied")
+              .says("Errors to be copied; a direction is turned with its joint.")}};
   return table_of_keys;
 }
 

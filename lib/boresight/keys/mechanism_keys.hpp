@@ -22,6 +22,7 @@ const KeyTable& rates_keys();
 const KeyTable& freedom_rates_keys();  // of one joint
 const KeyTable& spring_keys();
 const KeyTable& load_keys();
+const KeyTable& error_keys();
 const KeyTable& pointing_keys();
 const KeyTable& body_axes_keys();
 

@@ -35,6 +35,11 @@ inline constexpr PhysicalRange kDampingRange{kDamping, "1e-12 N s/m", "1e15 N s/
 inline constexpr PhysicalRange kBristleStiffnessRange{kPerLength, "1e-3 m^-1", "1e12 m^-1"};
 inline constexpr PhysicalRange kBristleDampingRange{kPerSpeed, "1e-9 s/m", "1e9 s/m"};
 
+// Of standing errors: small beside what they stand in; what an angle is beyond a radian is another mechanism.
+inline constexpr PhysicalRange kFrameTurnRange{kAngle, "", "1 rad"};
+inline constexpr PhysicalRange kWarmingRange{kTemperature, "", "1e4 K"};
+inline constexpr PhysicalRange kExpansionRange{kExpansion, "", "0.01 K^-1"};
+
 // Pure numbers.
 inline constexpr double kLargestFrictionCoefficient = 100.0;
 inline constexpr double kStiffnessScaleRange[2] = {1e-6, 1e6};

@@ -37,6 +37,8 @@ inline constexpr SiUnit kDensity{"a density", "kg/m^3", "2700 kg/m^3"};
 inline constexpr SiUnit kFrequency{"a frequency", "Hz", "50 Hz"};
 inline constexpr SiUnit kPerLength{"a stiffness per normal force", "1/m", "1e5 m^-1"};
 inline constexpr SiUnit kPerSpeed{"a damping per normal force", "s/m", "10 s/m"};
+inline constexpr SiUnit kTemperature{"a difference of temperatures", "K", "5 K"};
+inline constexpr SiUnit kExpansion{"a coefficient of expansion", "1/K", "23.6e-6 1/K"};
 inline constexpr SiUnit kRatio{"a ratio", "1", "1 %"};
 
 // The one whose SI unit this is ("m", "kg", "m/s^2", ...), for values of a parameter. The result may point into `si_unit`.

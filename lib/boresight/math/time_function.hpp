@@ -21,6 +21,16 @@ class TimeFunction {
 
 using TimeFunctionPtr = std::shared_ptr<const TimeFunction>;
 
+// A scalar function of a coordinate and of time, such as the error of a drive: a screw's ripple hangs on where the drive stands.
+class CoordinateFunction {
+ public:
+  virtual ~CoordinateFunction() = default;
+  // At time t [s], along a motion whose coordinate, with its derivatives, is q there. Reentrant.
+  virtual TimeValue at(const TimeValue& q, double t) const = 0;
+};
+
+using CoordinateFunctionPtr = std::shared_ptr<const CoordinateFunction>;
+
 // A function that does not change: value everywhere, derivatives zero.
 class ConstantFunction final : public TimeFunction {
  public:

@@ -51,6 +51,31 @@ class TimeTable {
   // Of one cell: the factors of s^0, s^1, s^2, s^3 with s from 0 to 1 across the cell, `width` numbers each.
   const double* cell(int k) const { return &coefficients_[static_cast<std::size_t>(k) * 4 * width_]; }
 
+  // The sums over blocks of weights.size() functions that lie side by side, each times its weight: as many functions as there are blocks.
+  TimeTable contracted(const std::vector<double>& weights) const {
+    TimeTable sums;
+    sums.spacing_ = spacing_;
+    sums.cells_ = cells_;
+    const std::size_t block = weights.size();
+    sums.width_ = static_cast<int>(width_ / block);
+    sums.coefficients_.assign(static_cast<std::size_t>(cells_) * 4 * sums.width_, 0.0);
+    const double* from = coefficients_.data();
+    for (double& sum : sums.coefficients_) {
+      for (std::size_t e = 0; e < block; ++e) sum += weights[e] * from[e];
+      from += block;
+    }
+    return sums;
+  }
+
+  // out: `width` rates of change at t.
+  void slopes(double t, double* out) const {
+    const double x = t / spacing_;
+    const int k = std::clamp(static_cast<int>(x), 0, cells_ - 1);
+    const double s = x - k, *c = cell(k) + width_;
+    for (int j = 0; j < width_; ++j)
+      out[j] = (c[j] + s * (2.0 * c[width_ + j] + s * 3.0 * c[2 * width_ + j])) / spacing_;
+  }
+
   // out: `width` values at t.
   void at(double t, double* out) const {
     const double x = t / spacing_;

@@ -22,4 +22,18 @@ const char* to_string(JointType type) {
   return "unknown";
 }
 
+const char* unit_of(const ErrorDescription& error, const std::vector<JointDescription>& joints) {
+  switch (error.kind) {
+    case ErrorDescription::Kind::translation:
+      return "m";
+    case ErrorDescription::Kind::rotation:
+      return "rad";
+    case ErrorDescription::Kind::drive:
+      return joints[error.joint].type == JointType::prismatic ? "m" : "rad";
+    case ErrorDescription::Kind::expansion:
+      return "K";
+  }
+  return "1";
+}
+
 }  // namespace boresight

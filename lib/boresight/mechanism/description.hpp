@@ -138,6 +138,28 @@ struct LineOfSightDescription {
   Origin origin;
 };
 
+// One standing error: a scalar with a name, zero in the drawing. What it multiplies is what the built mechanism differs by.
+struct ErrorDescription {
+  enum class Kind {
+    translation,  // of a joint's frame within a body, along `direction` [m]
+    rotation,     // of a joint's frame within a body, about `direction` through the joint's point [rad]
+    drive,        // of a drive, times `law` of its coordinate and time [m or rad]
+    expansion     // of a body, whose joint frames move apart by `coefficient` times this of their distances [K]
+  };
+  std::string name;
+  Kind kind = Kind::translation;
+  int joint = 0;                   // of translation, rotation, drive
+  int body = kGround;              // of translation, rotation: one of the joint's two bodies; of expansion
+  Vec3 direction = Vec3::UnitX();  // unit, world axes at home
+  CoordinateFunctionPtr law;       // of a drive: of its coordinate (second body seen from first, from home) and of t
+  double coefficient = 0.0;        // of expansion [1/K]
+  double value = 0.0;              // [m, rad or K]
+  Origin origin;
+};
+
+// "m", "rad" or "K": what the error's value is measured in.
+const char* unit_of(const ErrorDescription& error, const std::vector<JointDescription>& joints);
+
 struct MechanismDescription {
   std::string name;
   Vec3 gravity = Vec3::Zero();  // [m/s^2]
@@ -147,6 +169,7 @@ struct MechanismDescription {
   std::vector<ClearanceDescription> clearances;
   std::vector<SpringDescription> springs;
   std::vector<LoadDescription> loads;
+  std::vector<ErrorDescription> errors;
   std::vector<InitialRateDescription> initial_rates;
   JournalStart journals = JournalStart::rest;
   std::optional<LineOfSightDescription> line_of_sight;

@@ -19,6 +19,26 @@ constexpr double kConverged = 1e-12;  // of the characteristic length, or rad
 constexpr double kExact = 1e-15;
 constexpr double kLargestCorrection = 0.3;  // [characteristic length or rad]: beyond it the branch could change
 
+// Why joints do not close at home, by the joint that stays open most.
+std::string left_open(const Mechanism& mechanism, const ConstraintSystem& system) {
+  const double length = mechanism.characteristic_length();
+  double most = -1.0;
+  int worst = 0;
+  for (int k = 0; k < static_cast<int>(system.joints().size()); ++k)
+    for (int i = 0; i < system.joints()[k].count(); ++i) {
+      const double open = std::abs(system.rows(k).value[i]) / (system.joints()[k].is_distance(i) ? length : 1.0);
+      if (open > most) {
+        most = open;
+        worst = system.joints()[k].joint();
+      }
+    }
+  const std::string joint = '"' + mechanism.description().joints[worst].name + '"';
+  return mechanism.built()
+             ? "the built mechanism's joints do not close, " + joint +
+                   " stays open most: it cannot take up its errors without straining"
+             : "the joints do not close at home, " + joint + " stays open most: the drawing's points and axes disagree";
+}
+
 }  // namespace
 
 PrescribedPose prescribed_pose(const MechanismDescription& mechanism, double t) {
@@ -161,7 +181,7 @@ void IdealSolver::start(IdealState& state) {
   system_.set_redundant(rank.rank < rank.rows);
 
   double done = 0.0, step = 1.0;
-  if (!newton(state)) throw ComputationError("the joints do not close at home: the drawing's points and axes disagree");
+  if (!newton(state)) throw ComputationError(left_open(mechanism_, system_));
   while (done < 1.0) {
     IdealState trial = state;
     const double next = std::min(1.0, done + step);

@@ -46,6 +46,8 @@ class JointConstraint {
   int other_body() const { return other_.body; }
   int count() const { return static_cast<int>(rows_.size()); }
   bool has_drive() const { return drive_row_ >= 0; }
+  int drive_row() const { return drive_row_; }
+  double drive_sign() const { return drive_sign_; }  // -1 where its law counts the other way
   // Whether a row's value is a length [m] and not an angle or a slope.
   bool is_distance(int row) const { return rows_[row].kind == Kind::distance; }
 

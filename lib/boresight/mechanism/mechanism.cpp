@@ -131,6 +131,14 @@ Mechanism::Mechanism(MechanismDescription description) : description_(std::move(
   if (characteristic_length_ <= 0.0) characteristic_length_ = 1.0;
 }
 
+Mechanism::Mechanism(const Mechanism& drawn, std::vector<JointGeometry> geometry, std::map<int, TimeFunctionPtr> drives)
+    : Mechanism(drawn) {
+  description_.motion.pose.reset();
+  description_.motion.drives = std::move(drives);
+  geometry_ = std::move(geometry);
+  built_ = true;
+}
+
 int Mechanism::body_index(const std::string& name) const {
   for (int b = 0; b < bodies(); ++b)
     if (description_.bodies[b].name == name) return b;
@@ -139,18 +147,22 @@ int Mechanism::body_index(const std::string& name) const {
 
 std::vector<MassProperties> Mechanism::mass_properties(const Parameters& parameters) const {
   std::vector<MassProperties> result(bodies());
-  for (int b = 0; b < bodies(); ++b)
-    result[b] = {parameters.body_mass[b], Vec3::Zero(), description_.bodies[b].inertia};
+  for (int b = 0; b < bodies(); ++b) {
+    const BodyDescription& body = description_.bodies[b];
+    result[b] = {parameters.body_mass[b], body.axes.transpose() * (parameters.body_center[b] - body.center_of_mass),
+                 body.inertia};
+  }
   if (description_.payload && parameters.payload_mass > 0.0) {
     const PayloadDescription& payload = *description_.payload;
     const BodyDescription& carrier = description_.bodies[payload.body];
     MassProperties& body = result[payload.body];
-    const Vec3 c = carrier.axes.transpose() * (payload.center_of_mass - carrier.center_of_mass);
+    const Vec3 c0 = body.c;
+    const Vec3 c = carrier.axes.transpose() * (parameters.payload_center - carrier.center_of_mass) - c0;
     const double m0 = body.mass, m1 = parameters.payload_mass, total = m0 + m1;
     // Two masses about their common centre: the reduced mass at the distance between them (Huygens, Steiner).
     body.inertia += m1 * Mat3(payload.gyration.array().square().matrix().asDiagonal());
     body.inertia += m0 * m1 / total * (c.squaredNorm() * Mat3::Identity() - c * c.transpose());
-    body.c = m1 / total * c;
+    body.c = c0 + m1 / total * c;
     body.mass = total;
   }
   return result;

@@ -5,6 +5,7 @@
 // In a joint with clearance the frame of the body that carries the sleeve is "the sleeve frame".
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -38,6 +39,8 @@ class Mechanism {
  public:
   // Throws InputError, with the origin of the thing at fault, where the description contradicts itself.
   explicit Mechanism(MechanismDescription description);
+  // The drawn mechanism with other joint frames, and with its drives on these laws: built_mechanism.hpp.
+  Mechanism(const Mechanism& drawn, std::vector<JointGeometry> geometry, std::map<int, TimeFunctionPtr> drives);
 
   const MechanismDescription& description() const { return description_; }
   const std::string& name() const { return description_.name; }
@@ -50,6 +53,8 @@ class Mechanism {
   int joints() const { return static_cast<int>(description_.joints.size()); }
   int clearances() const { return static_cast<int>(description_.clearances.size()); }
   const JointGeometry& geometry(int joint) const { return geometry_[joint]; }
+  // Whether this is a drawn mechanism with errors: its frames need not coincide at home.
+  bool built() const { return built_; }
 
   int boresight_body() const { return boresight_body_; }
   const Vec3& boresight_B() const { return pointing_.boresight_B; }  // pointing axis in that body's axes
@@ -71,6 +76,7 @@ class Mechanism {
   std::vector<JointGeometry> geometry_;
   std::vector<int> clearance_of_;
   int boresight_body_ = 0;
+  bool built_ = false;
   Pointing pointing_;
   double characteristic_length_ = 1.0;
 };

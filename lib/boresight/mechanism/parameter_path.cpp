@@ -60,9 +60,19 @@ std::vector<Entry> all_entries(const MechanismDescription& m) {
   const char* axis[] = {"x", "y", "z"};
   for (int k = 0; k < 3; ++k)
     entries.push_back({std::string("gravity.") + axis[k], "m/s^2", {[k](Parameters& p) { return &p.gravity[k]; }}});
-  if (m.payload) entries.push_back({"payload.mass", "kg", {[](Parameters& p) { return &p.payload_mass; }}});
-  for (std::size_t b = 0; b < m.bodies.size(); ++b)
+  const auto add_center = [&](const std::string& owner, const auto& place) {
+    for (int k = 0; k < 3; ++k)
+      entries.push_back(
+          {owner + ".center_of_mass." + axis[k], "m", {[k, place](Parameters& p) { return &place(p)[k]; }}});
+  };
+  if (m.payload) {
+    entries.push_back({"payload.mass", "kg", {[](Parameters& p) { return &p.payload_mass; }}});
+    add_center("payload", [](Parameters& p) -> Vec3& { return p.payload_center; });
+  }
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
     entries.push_back({"body." + m.bodies[b].name + ".mass", "kg", {[b](Parameters& p) { return &p.body_mass[b]; }}});
+    add_center("body." + m.bodies[b].name, [b](Parameters& p) -> Vec3& { return p.body_center[b]; });
+  }
   for (std::size_t c = 0; c < m.clearances.size(); ++c) {
     for (const Field<C>& f : kClearanceFields) {
       Entry e{"clearance." + m.joints[m.clearances[c].joint].name + "." + f.name, f.unit, {}};
@@ -76,11 +86,15 @@ std::vector<Entry> all_entries(const MechanismDescription& m) {
       entries.push_back({"spring." + std::to_string(s + 1) + "." + f.name,
                          f.unit,
                          {[s, place = f.place](Parameters& p) { return place(p.spring[s]); }}});
+  for (std::size_t e = 0; e < m.errors.size(); ++e)
+    entries.push_back(
+        {"error." + m.errors[e].name, unit_of(m.errors[e], m.joints), {[e](Parameters& p) { return &p.error[e]; }}});
   return entries;
 }
 
 // "clearance.*.radial" against "clearance.F1.radial": the middle part may be *. Names may themselves contain dots.
 bool matches(const std::string& pattern, const std::string& path) {
+  if (pattern == "error.*") return path.starts_with("error.");
   const std::size_t star = pattern.find(".*.");
   if (star == std::string::npos) return pattern == path;
   const std::string head = pattern.substr(0, star + 1), tail = pattern.substr(star + 2);
@@ -96,6 +110,8 @@ ParameterPath::ParameterPath(const MechanismDescription& mechanism, const std::s
   const std::vector<Entry> entries = all_entries(mechanism);
   for (const Entry& e : entries) {
     if (!matches(path, e.path)) continue;
+    if (!unit_.empty() && unit_ != e.unit)
+      throw InputError(origin, path, "parameters in " + unit_ + " and in " + e.unit, "parameters of one unit");
     unit_ = e.unit;
     numbers_.insert(numbers_.end(), e.numbers.begin(), e.numbers.end());
   }
@@ -126,9 +142,14 @@ Parameters nominal_parameters(const MechanismDescription& mechanism) {
   Parameters p;
   p.gravity = mechanism.gravity;
   p.payload_mass = mechanism.payload ? mechanism.payload->mass : 0.0;
-  for (const BodyDescription& b : mechanism.bodies) p.body_mass.push_back(b.mass);
+  if (mechanism.payload) p.payload_center = mechanism.payload->center_of_mass;
+  for (const BodyDescription& b : mechanism.bodies) {
+    p.body_mass.push_back(b.mass);
+    p.body_center.push_back(b.center_of_mass);
+  }
   for (const ClearanceDescription& c : mechanism.clearances) p.clearance.push_back(c.parameters);
   for (const SpringDescription& s : mechanism.springs) p.spring.push_back(s.parameters);
+  for (const ErrorDescription& e : mechanism.errors) p.error.push_back(e.value);
   return p;
 }
 

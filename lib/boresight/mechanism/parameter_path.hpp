@@ -1,14 +1,16 @@
 // Parameter paths: the names by which `--set`, studies and results address a number of a `Parameters` value.
 //
-//   gravity.x|y|z, payload.mass, body.NAME.mass,
+//   gravity.x|y|z, payload.mass, payload.center_of_mass.x|y|z, body.NAME.mass, body.NAME.center_of_mass.x|y|z,
 //   clearance.JOINT.{radial, axial, journal_radius, cap_radius, sleeve_length},
 //   clearance.JOINT.contact.{restitution, young, poisson, density, minimum_impact_speed, stiffness_scale,
 //       stiffness, damping},                                    (the last two: of the Kelvin-Voigt law)
 //   clearance.JOINT.friction.{coefficient, static_speed, dynamic_speed, static_coefficient, stribeck_speed,
 //       bristle_stiffness, bristle_damping, viscosity},
 //   spring.NUMBER.{stiffness, damping, free_length}            (NUMBER from 1, in file order)
+//   error.NAME                                                 (a standing error)
 //
-// JOINT or NAME may be *: all of them, one value. young and poisson set both parts.
+// JOINT or NAME may be *: all of them, one value, where these have the same unit. young and poisson set both parts. A centre of mass that
+// is varied moves the mass alone: the body's frame, whose pose is told, stays where the drawing has its centre of mass.
 #pragma once
 
 #include <functional>

@@ -2,7 +2,7 @@
 //
 // A mechanism is immutable and shared by all threads; a sample is a `Parameters` value (a copy of the mechanism's own
 // with some numbers changed). A number is named by its path, the same in `--set`, studies and results:
-//   clearance.F1.radial   clearance.*.contact.restitution   payload.mass   body.rod1.mass   gravity.z
+//   clearance.F1.radial   clearance.*.contact.restitution   payload.mass   body.rod1.mass   gravity.z   error.rod1.length
 #pragma once
 
 #include <array>
@@ -55,9 +55,12 @@ struct SpringParameters {
 struct Parameters {
   Vec3 gravity = Vec3::Zero();                 // world axes [m/s^2]
   double payload_mass = 0.0;                   // [kg]
+  Vec3 payload_center = Vec3::Zero();          // of mass, at home, world axes [m]
   std::vector<double> body_mass;               // per body, without the payload [kg]
+  std::vector<Vec3> body_center;               // of mass, without the payload, at home, world axes [m]
   std::vector<ClearanceParameters> clearance;  // in the order of the description
   std::vector<SpringParameters> spring;        // in the order of the description
+  std::vector<double> error;                   // standing errors, in the order of the description [m, rad or K]
 };
 
 }  // namespace boresight

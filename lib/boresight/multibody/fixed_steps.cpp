@@ -69,7 +69,7 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
   std::vector<ContactTracker> trackers = run.make_trackers(forces);
   std::vector<ContactMemory> memory(trackers.size());
   std::vector<PlayMotion<double>> motion(trackers.size());
-  MotionRecorder recorder(mechanism, ideal, options, static_cast<double>(steps));
+  MotionRecorder recorder(mechanism, run.commanded, options, static_cast<double>(steps));
 
   std::string start_warning;
   VecX y = multibody_start(mechanism, parameters, ideal, *formulation, start_warning);

@@ -63,7 +63,7 @@ RunResult follow_locating_contacts(const MultibodyMotion& run, const std::string
   const double duration = mechanism.duration();
   const auto formulation = run.make_formulation();
   std::vector<ContactTracker> trackers = run.make_trackers(formulation->forces());
-  MotionRecorder recorder(mechanism, ideal, options, 2.0 * duration / kPaperStep);
+  MotionRecorder recorder(mechanism, run.commanded, options, 2.0 * duration / kPaperStep);
   std::string start_warning;
   VecX y = multibody_start(mechanism, parameters, ideal, *formulation, start_warning);
   MultibodySystem system(*formulation, trackers, mechanism.characteristic_length());

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/multibody/multibody_motion.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
@@ -31,30 +32,32 @@ class Multibody final : public Rung {
     check_options(options, name(), *mechanism_, parameters);
     const auto wall = std::chrono::steady_clock::now();
     const double cpu = thread_cpu_seconds();
-    const std::shared_ptr<const IdealMotion> held_ideal = ideal_for(parameters);
-    const IdealMotion& ideal = *held_ideal;
+    const std::shared_ptr<const IdealMotion> commanded = ideal_for(parameters);
+    const BuiltMotion built = built_for(parameters, commanded);
+    const Mechanism& mechanism = *built.mechanism;
+    const IdealMotion& ideal = *built.motion;
 
     const std::string integrator = integrator_of(options);
     RunResult result;
-    if (MultibodyMotion{*mechanism_, parameters, options, ideal}.make_formulation()->state_size() == 0) {
-      result = motion_without_play(*mechanism_, ideal, parameters, options);
+    if (MultibodyMotion{mechanism, parameters, options, ideal, *commanded}.make_formulation()->state_size() == 0) {
+      result = motion_without_play(mechanism, ideal, *commanded, parameters, options);
       result.rung = name();
       result.formulation = "tree";
     } else if (integrator != "rk4") {
-      result = follow_locating_contacts({*mechanism_, parameters, options, ideal}, integrator);
+      result = follow_locating_contacts({mechanism, parameters, options, ideal, *commanded}, integrator);
     } else {
-      const double own = options.step > 0.0 ? options.step : own_step(*mechanism_, parameters, ideal);
+      const double own = options.step > 0.0 ? options.step : own_step(mechanism, parameters, ideal);
       result = follow_by_default(
           options, own,
           [&](const RunOptions& by_steps, double step) {
-            return follow_in_fixed_steps({*mechanism_, parameters, by_steps, ideal}, step);
+            return follow_in_fixed_steps({mechanism, parameters, by_steps, ideal, *commanded}, step);
           },
           [&](const RunOptions& located) {
-            check_options(located, name(), *mechanism_, parameters);
-            return follow_locating_contacts({*mechanism_, parameters, located, ideal}, located.integrator);
+            check_options(located, name(), mechanism, parameters);
+            return follow_locating_contacts({mechanism, parameters, located, ideal, *commanded}, located.integrator);
           });
     }
-    const std::vector<std::string>& held = held_by_others(ideal);
+    const std::vector<std::string>& held = held_by_others(*commanded);
     result.warnings.insert(result.warnings.begin(), held.begin(), held.end());
     result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
     result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
@@ -77,6 +80,21 @@ class Multibody final : public Rung {
     return simulated;
   }
 
+  // The last one is kept likewise.
+  BuiltMotion built_for(const Parameters& parameters, const std::shared_ptr<const IdealMotion>& commanded) const {
+    if (!has_errors(parameters)) return {mechanism_, commanded};
+    {
+      const std::lock_guard lock(ideal_mutex_);
+      if (built_.mechanism && built_parameters_.error == parameters.error &&
+          (kinematic_ || same_scene(built_parameters_, parameters)))
+        return built_;
+    }
+    const BuiltMotion built = built_motion(mechanism_, commanded, parameters);
+    const std::lock_guard lock(ideal_mutex_);
+    built_parameters_ = parameters;
+    return built_ = built;
+  }
+
   // Sentences on plays that cannot move: of the mechanism, whatever the parameters.
   const std::vector<std::string>& held_by_others(const IdealMotion& ideal) const {
     std::call_once(held_once_, [&] { held_ = held_plays(*mechanism_, ideal); });
@@ -89,7 +107,8 @@ class Multibody final : public Rung {
   mutable bool kinematic_ = false;
   mutable std::mutex ideal_mutex_;
   mutable std::shared_ptr<const IdealMotion> ideal_;
-  mutable Parameters ideal_parameters_;
+  mutable BuiltMotion built_;
+  mutable Parameters ideal_parameters_, built_parameters_;
 };
 
 }  // namespace

@@ -17,7 +17,8 @@ struct MultibodyMotion {
   const Mechanism& mechanism;
   const Parameters& parameters;
   const RunOptions& options;
-  const IdealMotion& ideal;
+  const IdealMotion& ideal;      // of this mechanism: its drives, and where it starts
+  const IdealMotion& commanded;  // of the drawn mechanism: what poses are held against
 
   std::unique_ptr<Formulation> make_formulation() const;
   std::vector<ContactTracker> make_trackers(const ForceElements& forces) const;

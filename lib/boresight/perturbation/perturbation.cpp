@@ -44,22 +44,24 @@ class Perturbation final : public SceneRung {
   }
 
  private:
-  RunResult follow(const PreparedScene& prepared, const Parameters& parameters,
+  RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
     const std::string integrator = integrator_of(options);
-    if (integrator != "rk4") return integrate_located(prepared, parameters, options, integrator);
+    if (integrator != "rk4") return integrate_located(prepared, standing, parameters, options, integrator);
     const double own = options.step > 0.0 ? options.step : own_step(mechanism(), parameters, prepared.ideal());
     return follow_by_default(
         options, own,
-        [&](const RunOptions& by_steps, double step) { return integrate(prepared, parameters, by_steps, step); },
+        [&](const RunOptions& by_steps, double step) {
+          return integrate(prepared, standing, parameters, by_steps, step);
+        },
         [&](const RunOptions& located) {
           check_options(located, name(), mechanism(), parameters);
-          return integrate_located(prepared, parameters, located, located.integrator);
+          return integrate_located(prepared, standing, parameters, located, located.integrator);
         });
   }
 
-  RunResult integrate(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options,
-                      double wanted) const {
+  RunResult integrate(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
+                      const RunOptions& options, double wanted) const {
     const Mechanism& mechanism = this->mechanism();
     PerturbationSystem system(mechanism, parameters, prepared.tables(parameters), options.events, options.start);
     const OffsetLayout& offsets = prepared.scene().offsets();
@@ -98,7 +100,7 @@ class Perturbation final : public SceneRung {
         if (i % damping_every == 0)
           damping.look(t, offsets, system.joints(), system.motion(), system.trackers(), compliance);
       }
-      record(prepared, t, y, method.first_slope(), system, recorder, largest);
+      record(prepared, standing, t, y, method.first_slope(), system, recorder, largest);
       if (i == steps) break;
       if (options.progress && i % 4096 == 0 && !options.progress({t, duration, recorder.position_error_max()})) {
         interrupted = true;
@@ -123,7 +125,8 @@ class Perturbation final : public SceneRung {
     return result;
   }
 
-  RunResult integrate_located(const PreparedScene& prepared, const Parameters& parameters, const RunOptions& options,
+  RunResult integrate_located(const PreparedScene& prepared, const StandingDisplacement& standing,
+                              const Parameters& parameters, const RunOptions& options,
                               const std::string& integrator) const {
     const double duration = mechanism().duration();
     PerturbationSystem system(mechanism(), parameters, prepared.tables(parameters), options.events, options.start);
@@ -140,7 +143,7 @@ class Perturbation final : public SceneRung {
         [&](double t, const VecX& state, bool) {
           system.derivative(t, state, slope);
           system.observe(t);
-          record(prepared, t, state, slope, system, recorder, largest);
+          record(prepared, standing, t, state, slope, system, recorder, largest);
           interrupted = ++points % 4096 == 0 && options.progress &&
                         !options.progress({t, duration, recorder.position_error_max()});
           return !interrupted;
@@ -245,10 +248,11 @@ class Perturbation final : public SceneRung {
     compliance = B * A * B.transpose();
   }
 
-  void record(const PreparedScene& prepared, double t, const VecX& y, const VecX& slope,
-              const PerturbationSystem& system, MotionRecorder& recorder, LargestDeviations& largest) const {
+  void record(const PreparedScene& prepared, const StandingDisplacement& standing, double t, const VecX& y,
+              const VecX& slope, const PerturbationSystem& system, MotionRecorder& recorder,
+              LargestDeviations& largest) const {
     const Eigen::Index n = system.layout().n;
-    const DisplacedBodies displaced(prepared, t, y.head(n));
+    const DisplacedBodies displaced(prepared, standing, t, y.head(n));
     BodyAcceleration a;
     BodyMotion body = displaced.moving(mechanism().boresight_body(), y.segment(n, n), slope.segment(n, n), a);
     const PoseError& error = recorder.accept(t, body, a);

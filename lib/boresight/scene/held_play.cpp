@@ -16,8 +16,19 @@ std::vector<std::string> held_plays(const Mechanism& mechanism, const IdealMotio
   return held_plays(mechanism, analyse_play(mechanism, state.bodies));
 }
 
-RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
-                              const RunOptions& options) {
+RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ideal, const IdealMotion& commanded,
+                              const Parameters& parameters, const RunOptions& options) {
+  RunResult result = motion_without_play(
+      mechanism, [&](double t, IdealState& state) { ideal.state(t, state); }, commanded, parameters, options);
+  result.error = {0.0, 0.0,
+                  mechanism.built()
+                      ? "no play can move: the motion is that of the built mechanism's joints, closed exactly"
+                      : "no play can move: the motion is the ideal one"};
+  return result;
+}
+
+RunResult motion_without_play(const Mechanism& mechanism, const std::function<void(double, IdealState&)>& state_at,
+                              const IdealMotion& ideal, const Parameters& parameters, const RunOptions& options) {
   const double duration = mechanism.duration();
   const ForceElements forces(mechanism, parameters, true);
   const double wanted = step_on_grid(longest_step(duration), options.sample_spacing);
@@ -26,7 +37,7 @@ RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ide
   std::array<ContactState<double>, kContactPlaces> contact;
   IdealState state;
   for (long i = 0; i <= steps; ++i) {
-    ideal.state(duration * static_cast<double>(i) / static_cast<double>(steps), state);
+    state_at(duration * static_cast<double>(i) / static_cast<double>(steps), state);
     const int boresight = mechanism.boresight_body();
     recorder.accept(state.t, state.bodies[boresight], state.acceleration[boresight]);
     if (!recorder.sampling()) continue;
@@ -48,7 +59,6 @@ RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ide
     result.contact.push_back(summary);
   }
   result.integrator = "none: no play can move";
-  result.error = {0.0, 0.0, "no play can move: the motion is the ideal one"};
   result.cost.steps = result.cost.evaluations = steps;
   return result;
 }

@@ -2,6 +2,7 @@
 // where no play can move at all: the ideal one, without a deviation.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,12 @@ namespace boresight {
 // One sentence for each play that cannot move; see play_mobility.hpp.
 std::vector<std::string> held_plays(const Mechanism& mechanism, const IdealMotion& ideal);
 
-// The caller fills in the rung's name and its warnings.
-RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
-                              const RunOptions& options);
+// How far the bodies are off where no play moves: `state` gives them over time, `commanded` where they should be. The caller fills in the
+// rung's name, its warnings and its error estimate.
+RunResult motion_without_play(const Mechanism& mechanism, const std::function<void(double, IdealState&)>& state,
+                              const IdealMotion& commanded, const Parameters& parameters, const RunOptions& options);
+// The mechanism's own motion without clearance.
+RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ideal, const IdealMotion& commanded,
+                              const Parameters& parameters, const RunOptions& options);
 
 }  // namespace boresight

@@ -8,23 +8,23 @@
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/option_check.hpp"
 #include "boresight/scene/held_play.hpp"
+#include "boresight/scene/standing_model_error.hpp"
 #include "boresight/stepping/motion_scales.hpp"
 
 namespace boresight {
 namespace {
 
-// Rates of change of a table's functions.
-void slopes_at(const TimeTable& table, double t, double* out) {
-  const double x = t / table.spacing();
-  const int k = std::clamp(static_cast<int>(x), 0, table.cells() - 1), width = table.width();
-  const double s = x - k, *c = table.cell(k) + width;
-  for (int j = 0; j < width; ++j)
-    out[j] = (c[j] + s * (2.0 * c[width + j] + s * 3.0 * c[2 * width + j])) / table.spacing();
-}
+constexpr char kBasisOfErrors[] =
+    "standing errors made exactly at some instants, by closing the built mechanism's joints";
 
 }  // namespace
 
+bool same_centers(const Parameters& a, const Parameters& b) {
+  return a.body_center == b.body_center && a.payload_center == b.payload_center;
+}
+
 bool same_scene(const Parameters& a, const Parameters& b) {
+  if (!same_centers(a, b)) return false;
   if (a.gravity != b.gravity || a.payload_mass != b.payload_mass || a.body_mass != b.body_mass) return false;
   for (std::size_t s = 0; s < a.spring.size(); ++s)
     if (a.spring[s].stiffness != b.spring[s].stiffness || a.spring[s].damping != b.spring[s].damping ||
@@ -35,7 +35,8 @@ bool same_scene(const Parameters& a, const Parameters& b) {
 
 PreparedScene::PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motion, const Parameters& parameters,
                              double accuracy)
-    : ideal_(std::move(ideal_motion)),
+    : mechanism_(mechanism),
+      ideal_(std::move(ideal_motion)),
       scene_(mechanism, ideal_, parameters, accuracy),
       own_time_(boresight::own_time(ideal_, mechanism.bodies(), mechanism.characteristic_length())) {
   if (scene_.coordinates().has_dependent()) held_ = held_plays(mechanism, ideal_);
@@ -59,9 +60,22 @@ const TimeTable& PreparedScene::pose_gain(int body) const {
 
 const TimeTable& PreparedScene::pose_gain_rate(int body) const {
   const std::lock_guard lock(mutex_);
+  if (scene_.layout().n == 0) return pose_gain_rate_[body];
   const auto found = pose_gain_rate_.find(body);
   return found != pose_gain_rate_.end() ? found->second
                                         : pose_gain_rate_.emplace(body, scene_.pose_gain_rate(body)).first->second;
+}
+
+StandingDisplacement PreparedScene::standing(const Parameters& parameters) const {
+  if (!has_errors(parameters)) return {};
+  const std::lock_guard lock(mutex_);
+  if (!errors_ || !errors_->covers(parameters.error)) {
+    std::vector<bool> wanted(parameters.error.size());
+    for (std::size_t e = 0; e < wanted.size(); ++e)
+      wanted[e] = parameters.error[e] != 0.0 || (errors_ && errors_->wants(e));
+    errors_ = std::make_shared<const StandingErrors>(mechanism_, ideal_, std::move(wanted));
+  }
+  return {errors_, parameters.error};
 }
 
 DisplacedBodies::PoseGain DisplacedBodies::gain(const TimeTable& table) const {
@@ -72,7 +86,7 @@ DisplacedBodies::PoseGain DisplacedBodies::gain(const TimeTable& table) const {
 
 BodyMotion DisplacedBodies::at_rest(int body, BodyAcceleration& acceleration) const {
   BodyMotion motion = prepared_.ideal().body(t_, body, &acceleration);
-  displace(motion, gain(prepared_.pose_gain(body)) * z_);
+  displace(motion, gain(prepared_.pose_gain(body)) * z_ + standing_.at(t_, body));
   return motion;
 }
 
@@ -81,27 +95,46 @@ BodyMotion DisplacedBodies::moving(int body, const Eigen::Ref<const VecX>& z_dot
   const TimeTable& rates = prepared_.pose_gain_rate(body);
   const PoseGain E = gain(prepared_.pose_gain(body)), E_dot = gain(rates);
   PoseGain E_ddot(6, z_.size());
-  slopes_at(rates, t_, E_ddot.data());
+  if (z_.size() > 0) rates.slopes(t_, E_ddot.data());
+  const StandingDisplacement::Motion standing = standing_.motion(t_, body);
   BodyMotion motion = prepared_.ideal().body(t_, body, &acceleration);
   const Vec3 w = motion.w, alpha = acceleration.tail<3>();
-  const Vec6 x = E * z_, rate = E * z_dot + E_dot * z_;
+  const Vec6 x = E * z_ + standing.value, rate = E * z_dot + E_dot * z_ + standing.rate;
   displace(motion, x);
   motion.v += rate.head<3>();
   motion.w += rate.tail<3>() + x.tail<3>().cross(w);
-  acceleration += E * z_ddot + 2.0 * E_dot * z_dot + E_ddot * z_;
+  acceleration += E * z_ddot + 2.0 * E_dot * z_dot + E_ddot * z_ + standing.acceleration;
   acceleration.tail<3>() += rate.tail<3>().cross(w) + x.tail<3>().cross(alpha);
   return motion;
 }
 
 std::shared_ptr<const PreparedScene> SceneRung::prepared_for(const Parameters& parameters) const {
-  if (mechanism_->clearances() == 0)
-    throw ComputationError("no joint has clearance, so nothing deviates from the ideal motion; multibody follows that");
+  if (mechanism_->clearances() == 0 && !has_errors(parameters))
+    throw ComputationError(
+        "no joint has clearance and no error is other than zero, so nothing deviates from the ideal motion; multibody "
+        "follows that");
   const std::lock_guard lock(mutex_);
-  if (!prepared_ || (!is_kinematic(*mechanism_) && !same_scene(prepared_parameters_, parameters))) {
+  if (!prepared_ || !same_centers(prepared_parameters_, parameters) ||
+      (!is_kinematic(*mechanism_) && !same_scene(prepared_parameters_, parameters))) {
     prepared_ = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
     prepared_parameters_ = parameters;
   }
   return prepared_;
+}
+
+RunResult SceneRung::without_play(const PreparedScene& prepared, const StandingDisplacement& standing,
+                                  const Parameters& parameters, const RunOptions& options) const {
+  if (!standing) return motion_without_play(*mechanism_, prepared.ideal(), prepared.ideal(), parameters, options);
+  const VecX none;
+  return motion_without_play(
+      *mechanism_,
+      [&](double t, IdealState& state) {
+        prepared.ideal().state(t, state);
+        const DisplacedBodies displaced(prepared, standing, t, none);
+        for (int b = 0; b < mechanism_->bodies(); ++b)
+          state.bodies[b] = displaced.moving(b, none, none, state.acceleration[b]);
+      },
+      prepared.ideal(), parameters, options);
 }
 
 RunResult SceneRung::run(const Parameters& parameters, const RunOptions& options) const {
@@ -109,9 +142,14 @@ RunResult SceneRung::run(const Parameters& parameters, const RunOptions& options
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = thread_cpu_seconds();
   const std::shared_ptr<const PreparedScene> prepared = prepared_for(parameters);
-  RunResult result = prepared->scene().layout().n == 0
-                         ? motion_without_play(*mechanism_, prepared->ideal(), parameters, options)
-                         : follow(*prepared, parameters, options);
+  const StandingDisplacement standing = prepared->standing(parameters);
+  RunResult result = prepared->scene().layout().n == 0 ? without_play(*prepared, standing, parameters, options)
+                                                       : follow(*prepared, standing, parameters, options);
+  if (standing && !result.interrupted) {
+    result.error.model = std::min(
+        1.0, result.error.model + standing_model_error(*mechanism_, *prepared, standing, parameters, result.index));
+    result.error.basis += (result.error.basis.empty() ? "" : "; ") + std::string(kBasisOfErrors);
+  }
   result.warnings.insert(result.warnings.begin(), prepared->held().begin(), prepared->held().end());
   result.rung = name();
   result.cost.cpu_seconds = thread_cpu_seconds() - cpu;

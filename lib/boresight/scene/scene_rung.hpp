@@ -7,11 +7,13 @@
 
 #include "boresight/rungs/rung.hpp"
 #include "boresight/scene/clearance_scene.hpp"
+#include "boresight/scene/standing_errors.hpp"
 
 namespace boresight {
 
-// Whether two sets of parameters share what the scene's tables hang on, and the ideal motion where it is simulated: masses,
-// gravity, springs.
+// Whether two sets of parameters share what the whole scene hangs on: where masses have their centres.
+bool same_centers(const Parameters& a, const Parameters& b);
+// Whether they share what the scene's tables hang on, and the ideal motion where it is simulated: these, masses, gravity, springs.
 bool same_scene(const Parameters& a, const Parameters& b);
 
 // A mechanism's ideal motion and scene, and what is read off them again and again. Safe to share between threads.
@@ -33,8 +35,11 @@ class PreparedScene {
   const TimeTable& pose_gain(int body) const;
   // Its rate of change, likewise.
   const TimeTable& pose_gain_rate(int body) const;
+  // What this sample's standing errors displace bodies by. Throws what StandingErrors throws.
+  StandingDisplacement standing(const Parameters& parameters) const;
 
  private:
+  const Mechanism& mechanism_;
   IdealMotion ideal_;
   ClearanceScene scene_;
   std::vector<std::string> held_;
@@ -43,17 +48,19 @@ class PreparedScene {
   mutable Parameters tabled_;
   mutable std::shared_ptr<const SceneTables> tables_;
   mutable std::map<int, TimeTable> pose_gain_, pose_gain_rate_;
+  mutable std::shared_ptr<const StandingErrors> errors_;
 };
 
-// Bodies of the ideal motion displaced by the deviation E z, at one instant: x = E z moves the body, its turning part theta
+// Bodies of the ideal motion displaced by the deviation x = E z + G eps, at one instant: x moves the body, its turning part theta
 // makes R = exp(theta) R_ideal. To first order in theta
 //   v = v_ideal + x'       w = w_ideal + theta' + theta x w_ideal
 //   a = a_ideal + x''  alpha = alpha_ideal + theta'' + theta' x w_ideal + theta x alpha_ideal
-// with x' = E z' + E' z and x'' = E z'' + 2 E' z' + E'' z.
+// with x' = E z' + E' z + G' eps and x'' = E z'' + 2 E' z' + E'' z + G'' eps.
 class DisplacedBodies {
  public:
-  DisplacedBodies(const PreparedScene& prepared, double t, const Eigen::Ref<const VecX>& z)
-      : prepared_(prepared), t_(t), z_(z) {}
+  DisplacedBodies(const PreparedScene& prepared, const StandingDisplacement& standing, double t,
+                  const Eigen::Ref<const VecX>& z)
+      : prepared_(prepared), standing_(standing), t_(t), z_(z) {}
 
   // With the velocities and the acceleration of the ideal motion.
   BodyMotion at_rest(int body, BodyAcceleration& acceleration) const;
@@ -66,6 +73,7 @@ class DisplacedBodies {
   PoseGain gain(const TimeTable& table) const;
 
   const PreparedScene& prepared_;
+  const StandingDisplacement& standing_;
   double t_;
   Eigen::Ref<const VecX> z_;
 };
@@ -77,12 +85,14 @@ class SceneRung : public Rung {
 
  protected:
   explicit SceneRung(std::shared_ptr<const Mechanism> mechanism) : mechanism_(std::move(mechanism)) {}
-  virtual RunResult follow(const PreparedScene& prepared, const Parameters& parameters,
-                           const RunOptions& options) const = 0;
+  virtual RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing,
+                           const Parameters& parameters, const RunOptions& options) const = 0;
   const Mechanism& mechanism() const { return *mechanism_; }
 
  private:
   std::shared_ptr<const PreparedScene> prepared_for(const Parameters& parameters) const;
+  RunResult without_play(const PreparedScene& prepared, const StandingDisplacement& standing,
+                         const Parameters& parameters, const RunOptions& options) const;
 
   std::shared_ptr<const Mechanism> mechanism_;
   mutable std::mutex mutex_;

@@ -59,7 +59,7 @@ class Envelope final : public SceneRung {
   }
 
  private:
-  RunResult follow(const PreparedScene& prepared, const Parameters& parameters,
+  RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
     const ReactionTable reactions(mechanism(), prepared.scene(), parameters);
     const std::vector<JointPlay>& joints = reactions.joints();
@@ -105,10 +105,18 @@ class Envelope final : public SceneRung {
         worst_rest[c].motion = at_rest_at(offset);
         joints[c].penetrations(worst_rest[c].motion, worst_rest[c].contact);
       }
+      // What the errors displace is known, and not bounded: the play adds to it in the worst way.
+      const Vec6 errors = standing.at(now.t, mechanism().boresight_body());
+      if (standing) {
+        bound.position += errors.head<3>().norm();
+        bound.orientation += errors.tail<3>().norm();
+        bound.boresight += (across * errors.tail<3>()).norm();
+        bound.line_of_sight += (sight * errors).norm();
+      }
       const VecX z = reactions.coordinates(worst_rest);
-      const DisplacedBodies displaced(prepared, now.t, z);
-      bound.displacement = now.pose_gain.topRows<3>() * z;
-      bound.rotation = now.pose_gain.bottomRows<3>() * z;
+      const DisplacedBodies displaced(prepared, standing, now.t, z);
+      bound.displacement = now.pose_gain.topRows<3>() * z + errors.head<3>();
+      bound.rotation = now.pose_gain.bottomRows<3>() * z + errors.tail<3>();
       recorder.accept(now.t, displaced.at_rest(mechanism().boresight_body(), acceleration), acceleration, &bound);
       if (!recorder.sampling()) continue;
       for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {

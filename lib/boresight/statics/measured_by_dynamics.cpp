@@ -62,6 +62,8 @@ ClearanceParameters standing_for(const ClearanceParameters& b, const ClearancePa
 Parameters standing_for(const Parameters& b, const Parameters& a) {
   Parameters p = a;
   if ((b.gravity - a.gravity).norm() > 0.5 * a.gravity.norm()) p.gravity = b.gravity;
+  // What is measured is the model of the play; of standing errors the rung states its own.
+  std::fill(p.error.begin(), p.error.end(), 0.0);
   p.payload_mass = standing_for(b.payload_mass, a.payload_mass);
   for (std::size_t k = 0; k < a.body_mass.size(); ++k) p.body_mass[k] = standing_for(b.body_mass[k], a.body_mass[k]);
   for (std::size_t k = 0; k < a.clearance.size(); ++k) p.clearance[k] = standing_for(b.clearance[k], a.clearance[k]);
@@ -105,10 +107,14 @@ class MeasuredByDynamics final : public Rung {
 
   RunResult run(const Parameters& parameters, const RunOptions& options) const override {
     RunResult result = rung_->run(parameters, options);
-    if (result.interrupted) return result;
+    // Without play there are no dynamics that it could miss.
+    if (result.interrupted || mechanism_->clearances() == 0) return result;
     RunCost cost;
     const Measured measured = measure(parameters, options, cost);
+    const ErrorEstimate of_errors = result.error;
     result.error = measured.error;
+    result.error.model = std::min(1.0, result.error.model + of_errors.model);
+    if (!of_errors.basis.empty()) result.error.basis += "; " + of_errors.basis;
     result.cost.cpu_seconds += cost.cpu_seconds;
     result.cost.wall_seconds += cost.wall_seconds;
     if (bounds_ && measured.exceeded > 0.0) {

@@ -28,7 +28,7 @@ class Quasistatic final : public SceneRung {
   }
 
  private:
-  RunResult follow(const PreparedScene& prepared, const Parameters& parameters,
+  RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
     const ReactionTable reactions(mechanism(), prepared.scene(), parameters);
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
@@ -37,7 +37,7 @@ class Quasistatic final : public SceneRung {
     double largest = 0.0;  // position error [m]
     long instants = 1;
     Balance before = balance_at(reactions, 0.0, nullptr);
-    record(prepared, before, summary, recorder, reactions);
+    record(prepared, standing, before, summary, recorder, reactions);
     for (int i = 1; i < reactions.instants() && !interrupted; ++i) {
       interrupted = i % kInstantsBetweenLooks == 0 && options.progress &&
                     !options.progress({before.now.t, mechanism().duration(), recorder.position_error_max()});
@@ -52,7 +52,7 @@ class Quasistatic final : public SceneRung {
         }
         ahead.pop_back();
         before = std::move(balance);
-        record(prepared, before, summary, recorder, reactions);
+        record(prepared, standing, before, summary, recorder, reactions);
         largest = std::max(largest, before.moved.norm());
         ++instants;
       }
@@ -88,10 +88,10 @@ class Quasistatic final : public SceneRung {
     return balance;
   }
 
-  void record(const PreparedScene& prepared, const Balance& balance, std::vector<ContactSummary>& summary,
-              MotionRecorder& recorder, const ReactionTable& reactions) const {
+  void record(const PreparedScene& prepared, const StandingDisplacement& standing, const Balance& balance,
+              std::vector<ContactSummary>& summary, MotionRecorder& recorder, const ReactionTable& reactions) const {
     for (std::size_t c = 0; c < summary.size(); ++c) reactions.note(balance.rest[c], summary[c]);
-    const DisplacedBodies displaced(prepared, balance.now.t, balance.z);
+    const DisplacedBodies displaced(prepared, standing, balance.now.t, balance.z);
     BodyAcceleration acceleration;
     BodyMotion body = displaced.at_rest(mechanism().boresight_body(), acceleration);
     recorder.accept(balance.now.t, body, acceleration);

@@ -1,0 +1,141 @@
+#include <algorithm>
+
+#include "boresight/io/mechanism_sections.hpp"
+#include "boresight/io/names_of.hpp"
+#include "boresight/keys/mechanism_keys.hpp"
+#include "boresight/keys/value_fault.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+using Kind = ErrorDescription::Kind;
+
+struct KindKey {
+  const char* key;
+  Kind kind;
+};
+constexpr KindKey kKinds[] = {{"translation", Kind::translation},
+                              {"rotation", Kind::rotation},
+                              {"drive", Kind::drive},
+                              {"expansion", Kind::expansion}};
+
+Kind read_kind(const Cursor& cursor) {
+  const KindKey* found = nullptr;
+  for (const KindKey& k : kKinds) {
+    if (!cursor.has(k.key)) continue;
+    if (found)
+      cursor.fail_found(k.key, std::string("both ") + found->key + " and " + k.key,
+                        "one of the two: a table is one error");
+    found = &k;
+  }
+  if (!found)
+    cursor.fail_found("translation", "none of translation, rotation, drive and expansion", "exactly one of them");
+  return found->kind;
+}
+
+// What belongs to other kinds of errors is refused by its name.
+void refuse_foreign_keys(const Cursor& cursor, Kind kind) {
+  const auto refuse = [&](const char* key, const char* expected) {
+    if (cursor.has(key)) cursor.fail_found(key, "a key that has no meaning here", expected);
+  };
+  if (kind == Kind::drive) {
+    refuse("joint", "drive alone, which names the joint");
+    refuse("body", "no body: a drive turns or moves both of its bodies against each other");
+  } else {
+    refuse("law", "no law: only a drive has one");
+  }
+  if (kind == Kind::expansion) refuse("joint", "no joint: the whole part grows");
+}
+
+// A direction in words: towards another joint, or along the joint's own axis.
+Vec3 direction_in_words(Cursor& cursor, const std::string& key, const MechanismDescription& so_far,
+                        const JointDescription& joint) {
+  const std::string words = cursor.text(key), towards = "towards ";
+  if (words == "axis") {
+    if (joint.type == JointType::spherical || joint.type == JointType::fixed)
+      cursor.fail_found(key, "\"axis\" on a " + std::string(to_string(joint.type)) + " joint, which has none",
+                        "three numbers, or \"towards JOINT\"");
+    return joint.axis;
+  }
+  if (!words.starts_with(towards))
+    cursor.fail_found(key, in_quotes(words), "three numbers, \"towards JOINT\", or \"axis\"");
+  const JointDescription& other = so_far.joints[joint_index(so_far, cursor, key, words.substr(towards.size()))];
+  const Vec3 way = other.point - joint.point;
+  if (!(way.norm() > 1e-12 * (1.0 + joint.point.norm())))
+    cursor.fail_found(key, in_quotes(words) + ", which is at the same point as " + in_quotes(joint.name),
+                      "a joint elsewhere, or three numbers");
+  return way.normalized();
+}
+
+CoordinateFunctionPtr read_law(Cursor& cursor) {
+  const std::string text = cursor.text("law");
+  try {
+    return parse_coordinate_function(text);
+  } catch (const ValueFault& fault) {
+    cursor.fail_found("law", fault.found, fault.expected, fault.nearest);
+  }
+}
+
+void check_name(const Cursor& cursor, const MechanismDescription& so_far, const std::string& name) {
+  for (const ErrorDescription& other : so_far.errors) {
+    if (other.name == name)
+      cursor.fail_found("name",
+                        in_quotes(name) + " a second time (first in line " + std::to_string(other.origin.line) + ")",
+                        "a name of its own");
+    if (name.starts_with(other.name + ".") || other.name.starts_with(name + "."))
+      cursor.fail_found("name", in_quotes(name) + " beside " + in_quotes(other.name),
+                        "names of which none begins with another and a dot, as paths must tell them apart");
+  }
+}
+
+}  // namespace
+
+ErrorDescription read_error(Cursor& cursor, const MechanismDescription& so_far) {
+  cursor.only(error_keys());
+  ErrorDescription error;
+  error.origin = cursor.origin();
+  error.name = read_dotted_name(cursor, "name");
+  check_name(cursor, so_far, error.name);
+  cursor.rename("error." + error.name);
+  cursor.stands_for_table("value");
+  error.kind = read_kind(cursor);
+  refuse_foreign_keys(cursor, error.kind);
+  PhysicalRange range = kCoordinateRange;
+  switch (error.kind) {
+    case Kind::translation:
+    case Kind::rotation: {
+      const std::string key = error.kind == Kind::translation ? "translation" : "rotation";
+      error.joint = joint_index(so_far, cursor, "joint", cursor.text("joint"));
+      const JointDescription& joint = so_far.joints[error.joint];
+      error.body = body_index(so_far, cursor, "body", cursor.text("body"), true);
+      if (error.body != joint.first && error.body != joint.second)
+        cursor.fail("body", "one of the two bodies that " + in_quotes(joint.name) + " connects");
+      error.direction = cursor.is_text(key) ? direction_in_words(cursor, key, so_far, joint) : cursor.direction(key);
+      if (error.kind == Kind::rotation) range = kFrameTurnRange;
+      break;
+    }
+    case Kind::drive: {
+      error.joint = joint_index(so_far, cursor, "drive", cursor.text("drive"));
+      const JointDescription& joint = so_far.joints[error.joint];
+      if (!joint.driven)
+        cursor.fail_found("drive", in_quotes(joint.name) + ", which is not driven", "the name of a driven joint");
+      error.law = read_law(cursor);
+      if (joint.type != JointType::prismatic) range = kFrameTurnRange;
+      break;
+    }
+    case Kind::expansion:
+      error.body = body_index(so_far, cursor, "body", cursor.text("body"), true);
+      error.coefficient = cursor.quantity("expansion");
+      range = kWarmingRange;
+      break;
+  }
+  if (cursor.has("value")) {
+    const bool number = error.kind == Kind::drive && cursor.is_number("value");
+    error.value = number ? cursor.value("value", kRatio) : cursor.quantity("value", range);
+  }
+  cursor.finish();
+  return error;
+}
+
+}  // namespace boresight

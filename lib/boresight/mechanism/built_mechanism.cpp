@@ -1,0 +1,124 @@
+#include "boresight/mechanism/built_mechanism.hpp"
+
+#include <algorithm>
+
+namespace boresight {
+namespace {
+
+using Kind = ErrorDescription::Kind;
+
+// Where a body that grows stays: its centre of mass; on the ground the middle of the joints there, which does not hang on where the
+// drawing lies.
+Vec3 centre_of_growth(const MechanismDescription& m, int body) {
+  if (body != kGround) return m.bodies[body].center_of_mass;
+  Vec3 sum = Vec3::Zero();
+  int count = 0;
+  for (const JointDescription& j : m.joints)
+    if (j.first == kGround || j.second == kGround) {
+      sum += j.point;
+      ++count;
+    }
+  return count > 0 ? Vec3(sum / count) : sum;
+}
+
+void displace_frame(const MechanismDescription& m, const Vec3& translation, const Vec3& rotation, JointFrame& frame,
+                    Vec3* second_axis) {
+  const Mat3 axes = frame.body == kGround ? Mat3(Mat3::Identity()) : m.bodies[frame.body].axes;
+  frame.p += axes.transpose() * translation;
+  const double angle = rotation.norm();
+  if (!(angle > 0.0)) return;
+  const Mat3 turn = Eigen::AngleAxisd(angle, axes.transpose() * rotation / angle).toRotationMatrix();
+  frame.R = turn * frame.R;
+  if (second_axis) *second_axis = turn * *second_axis;
+}
+
+// A drive that is told where the drawn mechanism's stands, and errs.
+class ErringDrive final : public TimeFunction {
+ public:
+  ErringDrive(const Mechanism& drawn, const Parameters& parameters, int joint,
+              std::shared_ptr<const IdealMotion> commanded)
+      : joints_(drawn.joints()), joint_(joint), commanded_(std::move(commanded)) {
+    const std::vector<ErrorDescription>& errors = drawn.description().errors;
+    for (std::size_t e = 0; e < errors.size(); ++e)
+      if (errors[e].kind == Kind::drive && errors[e].joint == joint && parameters.error[e] != 0.0)
+        errors_.emplace_back(parameters.error[e], errors[e].law);
+  }
+
+  TimeValue at(double t) const override {
+    thread_local std::vector<TimeValue> laws;
+    laws.resize(joints_);
+    commanded_->drive_laws(t, laws);
+    const TimeValue told = laws[joint_];
+    TimeValue does = told;
+    for (const auto& [value, law] : errors_) {
+      const TimeValue error = law->at(told, t);
+      does.value += value * error.value;
+      does.rate += value * error.rate;
+      does.acceleration += value * error.acceleration;
+    }
+    return does;
+  }
+
+ private:
+  int joints_, joint_;
+  std::shared_ptr<const IdealMotion> commanded_;
+  std::vector<std::pair<double, CoordinateFunctionPtr>> errors_;
+};
+
+}  // namespace
+
+std::vector<FrameError> frame_errors(const MechanismDescription& m, const ErrorDescription& error) {
+  std::vector<FrameError> frames;
+  switch (error.kind) {
+    case Kind::translation:
+    case Kind::rotation: {
+      FrameError frame{.joint = error.joint, .second = m.joints[error.joint].second == error.body};
+      (error.kind == Kind::translation ? frame.translation : frame.rotation) = error.direction;
+      frames.push_back(frame);
+      break;
+    }
+    case Kind::drive:
+      break;
+    case Kind::expansion: {
+      const Vec3 centre = centre_of_growth(m, error.body);
+      for (std::size_t j = 0; j < m.joints.size(); ++j)
+        if (const JointDescription& joint = m.joints[j]; joint.first == error.body || joint.second == error.body)
+          frames.push_back({.joint = static_cast<int>(j),
+                            .second = joint.second == error.body,
+                            .translation = error.coefficient * (joint.point - centre)});
+      break;
+    }
+  }
+  return frames;
+}
+
+bool has_errors(const Parameters& parameters) {
+  return std::any_of(parameters.error.begin(), parameters.error.end(), [](double value) { return value != 0.0; });
+}
+
+std::shared_ptr<const Mechanism> built_mechanism(const Mechanism& drawn, const Parameters& parameters,
+                                                 std::shared_ptr<const IdealMotion> commanded) {
+  const MechanismDescription& m = drawn.description();
+  struct Displacement {
+    Vec3 translation = Vec3::Zero(), rotation = Vec3::Zero();
+  };
+  std::vector<std::array<Displacement, 2>> displaced(m.joints.size());  // in the first body, in the second
+  for (std::size_t e = 0; e < m.errors.size(); ++e)
+    for (const FrameError& frame : frame_errors(m, m.errors[e])) {
+      Displacement& d = displaced[frame.joint][frame.second ? 1 : 0];
+      d.translation += parameters.error[e] * frame.translation;
+      d.rotation += parameters.error[e] * frame.rotation;
+    }
+  std::vector<JointGeometry> geometry;
+  std::map<int, TimeFunctionPtr> drives;
+  for (int j = 0; j < drawn.joints(); ++j) {
+    JointGeometry g = drawn.geometry(j);
+    displace_frame(m, displaced[j][0].translation, displaced[j][0].rotation, g.first, nullptr);
+    displace_frame(m, displaced[j][1].translation, displaced[j][1].rotation, g.second, &g.second_axis);
+    geometry.push_back(g);
+    if (m.joints[j].driven) drives[j] = std::make_shared<ErringDrive>(drawn, parameters, j, commanded);
+  }
+  return std::make_shared<const Mechanism>(drawn, std::move(geometry), std::move(drives));
+}
+
+}  // namespace boresight

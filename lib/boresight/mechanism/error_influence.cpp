@@ -1,0 +1,123 @@
+#include "boresight/mechanism/error_influence.hpp"
+
+#include <cmath>
+
+#include "boresight/math/orthogonal_factors.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/rank_analysis.hpp"
+
+namespace boresight {
+namespace {
+
+// What redundant rows may disagree by, of what an error asks for: the commanded motion closes its joints to 1e-12.
+constexpr double kContradiction = 1e-8;
+
+}  // namespace
+
+ErrorInfluence::ErrorInfluence(const Mechanism& mechanism, const IdealMotion& commanded)
+    : mechanism_(mechanism),
+      commanded_(commanded),
+      closed_(mechanism, {.clearance = ClearanceRows::closed, .drives = true}),
+      weight_(kinematic_weight(mechanism)),
+      scale_(6 * mechanism.bodies()),
+      block_of_(mechanism.joints(), -1),
+      laws_(mechanism.joints()),
+      right_(closed_.block_vector()),
+      goal_(right_),
+      motion_(closed_.body_vector()),
+      residual_(right_),
+      more_(motion_) {
+  for (int b = 0; b < mechanism.bodies(); ++b) scale_.segment<6>(6 * b) = weight_[b].diagonal().cwiseSqrt();
+  for (const ErrorDescription& error : mechanism.description().errors)
+    frames_.push_back(frame_errors(mechanism.description(), error));
+  for (int k = 0; k < closed_.blocks(); ++k) block_of_[closed_.joints()[k].joint()] = k;
+}
+
+// What the rows have to change by for one error, at the pose that the system was evaluated at.
+void ErrorInfluence::right_side(std::size_t e, double t) {
+  for (Vec6& rows : right_) rows.setZero();
+  const MechanismDescription& m = mechanism_.description();
+  for (const FrameError& frame : frames_[e]) {
+    const int k = block_of_[frame.joint];
+    if (k < 0) continue;
+    const JointDescription& joint = m.joints[frame.joint];
+    const JointGeometry& geometry = mechanism_.geometry(frame.joint);
+    const int body = frame.second ? joint.second : joint.first;
+    const bool ground = body == kGround;
+    const Mat3 R = ground ? Mat3(Mat3::Identity()) : state_.bodies[body].R;
+    // The frame has turned with its body since home.
+    const Mat3 turn = ground ? R : Mat3(R * m.bodies[body].axes.transpose());
+    const Vec3 r = R * (frame.second ? geometry.second : geometry.first).p;
+    const Vec3 translation = turn * frame.translation, rotation = turn * frame.rotation;
+    Vec6 moved;
+    moved << translation - rotation.cross(r), rotation;
+    const bool other = body == closed_.joints()[k].other_body();
+    right_[k] -= (other ? closed_.rows(k).other : closed_.rows(k).reference) * moved;
+  }
+  const ErrorDescription& error = m.errors[e];
+  if (error.kind != ErrorDescription::Kind::drive) return;
+  const int k = block_of_[error.joint];
+  right_[k][closed_.joints()[k].drive_row()] +=
+      closed_.joints()[k].drive_sign() * error.law->at(laws_[error.joint], t).value;
+}
+
+void ErrorInfluence::at(double t, const std::vector<bool>& wanted, MatX& G) {
+  commanded_.state(t, state_);
+  commanded_.drive_laws(t, laws_);
+  G.setZero(6 * mechanism_.bodies(), count());
+  closed_.evaluate(state_.bodies, laws_);
+  if (closed_.row_count() != 6 * mechanism_.bodies() || !closed_.factor(weight_)) return solve_dense(wanted, t, G);
+  for (int e = 0; e < count(); ++e) {
+    if (!wanted.empty() && !wanted[e]) continue;
+    right_side(static_cast<std::size_t>(e), t);
+    goal_ = right_;
+    closed_.least_motion(right_, motion_);
+    // One refinement: J W J^T squares the condition number.
+    closed_.multiply(motion_, residual_);
+    for (std::size_t k = 0; k < goal_.size(); ++k) residual_[k] = goal_[k] - residual_[k];
+    closed_.least_motion(residual_, more_);
+    for (int b = 0; b < mechanism_.bodies(); ++b) G.block<6, 1>(6 * b, e) = motion_[b] + more_[b];
+  }
+}
+
+void ErrorInfluence::solve_dense(const std::vector<bool>& wanted, double t, MatX& G) {
+  const double length = mechanism_.characteristic_length();
+  const MatX J = closed_.dense_jacobian() * scale_.asDiagonal();
+  // Rows of lengths and of angles alike in size.
+  VecX unit = VecX::Ones(J.rows());
+  std::vector<int> joint_of(static_cast<std::size_t>(J.rows()));
+  Eigen::Index row = 0;
+  for (int k = 0; k < closed_.blocks(); ++k)
+    for (int i = 0; i < closed_.joints()[k].count(); ++i, ++row) {
+      if (closed_.joints()[k].is_distance(i)) unit[row] = 1.0 / length;
+      joint_of[static_cast<std::size_t>(row)] = closed_.joints()[k].joint();
+    }
+  Eigen::ColPivHouseholderQR<MatX> qr;
+  qr.setThreshold(kRankTolerance);
+  qr.compute(unit.asDiagonal() * J);
+  if (qr.rank() < J.cols())
+    throw ComputationError(
+        "freedoms are left that nothing drives, or the pose is singular: what standing errors do to the pose then "
+        "hangs on the "
+        "whole motion, which the multibody rung follows");
+  const std::vector<ErrorDescription>& errors = mechanism_.description().errors;
+  for (int e = 0; e < count(); ++e) {
+    if (!wanted.empty() && !wanted[e]) continue;
+    right_side(static_cast<std::size_t>(e), t);
+    VecX right(J.rows());
+    row = 0;
+    for (int k = 0; k < closed_.blocks(); ++k)
+      for (int i = 0; i < closed_.joints()[k].count(); ++i, ++row) right[row] = unit[row] * right_[k][i];
+    VecX x = qr.solve(right);
+    x += qr.solve(VecX(right - unit.asDiagonal() * (J * x)));
+    const VecX left = right - unit.asDiagonal() * (J * x);
+    Eigen::Index worst = 0;
+    if (left.cwiseAbs().maxCoeff(&worst) > kContradiction * right.cwiseAbs().maxCoeff())
+      throw ComputationError("error." + errors[e].name + " strains the mechanism, which holds \"" +
+                             mechanism_.description().joints[joint_of[static_cast<std::size_t>(worst)]].name +
+                             "\" more than once: without play or something that gives its joints do not close");
+    G.col(e) = scale_.asDiagonal() * x;
+  }
+}
+
+}  // namespace boresight

@@ -1,0 +1,144 @@
+#include "boresight/scene/standing_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/mechanism/motion_density.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr const char* kFollowing = "following the influence of errors";
+
+// First grid, and how often it is halved at most: a thousandth of the first spacing shows the ripple of ten thousand turns of a screw.
+constexpr int kFewestCells = 16, kMostHalvings = 12;
+// What is left of the columns between the knots where the grid is finest must not be more.
+constexpr double kLargestMiss = 1e-3;
+
+}  // namespace
+
+StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& commanded, std::vector<bool> wanted)
+    : bodies_(mechanism.bodies()), wanted_(std::move(wanted)) {
+  ErrorInfluence influence(mechanism, commanded);
+  const double duration = mechanism.duration(), length = mechanism.characteristic_length();
+  // A sixteenth of what the commanded motion is tabled with: no turn of it is overlooked.
+  int cells = std::max(kFewestCells, commanded.knots() / 16);
+  const auto refuse_unless_held = [&](double knots) {
+    // Knots, and two tables of four coefficients a function.
+    const double bytes = knots * 9.0 * 8.0 * 6.0 * bodies_ * count();
+    if (bytes > kMostTableBytes)
+      throw MotionTooDense(
+          "what standing errors do to the pose would take too much memory as a table over so long a motion; shorten "
+          "motion.duration to what has to be seen, or use the multibody rung, which needs no table");
+  };
+  const auto at = [&](double t) {
+    MatX G;
+    influence.at(t, wanted_, G);
+    return G;
+  };
+  refuse_unless_held(2.0 * cells);
+  spacing_ = duration / cells;
+  for (int k = 0; k <= cells; ++k) {
+    work_reached(kFollowing, 0.5 * k / cells);
+    knots_.push_back(at(std::min(duration, k * spacing_)));
+  }
+  // Lengths in units of the mechanism's own.
+  VecX scale = VecX::Constant(6 * bodies_, 1.0);
+  for (int b = 0; b < bodies_; ++b) scale.segment<3>(6 * b).setConstant(1.0 / length);
+  for (int halving = 0;; ++halving) {
+    refuse_unless_held(2.0 * cells);
+    std::vector<MatX> middles;
+    Eigen::RowVectorXd largest = Eigen::RowVectorXd::Zero(count()), missed = largest;
+    for (int k = 0; k < cells; ++k) {
+      work_reached(kFollowing, 0.5 + 0.5 * k / cells);
+      middles.push_back(at((k + 0.5) * spacing_));
+      const MatX& middle = middles.back();
+      // The cubic through the four knots around the middle, one-sided at the ends.
+      const int first = std::clamp(k - 1, 0, cells - 3);
+      MatX cubic = MatX::Zero(middle.rows(), middle.cols());
+      for (int i = 0; i < 4; ++i) {
+        double weight = 1.0;
+        for (int j = 0; j < 4; ++j)
+          if (j != i) weight *= (k + 0.5 - (first + j)) / static_cast<double>(i - j);
+        cubic += weight * knots_[static_cast<std::size_t>(first + i)];
+      }
+      missed = missed.cwiseMax((scale.asDiagonal() * (middle - cubic)).cwiseAbs().colwise().maxCoeff());
+      largest = largest.cwiseMax((scale.asDiagonal() * middle).cwiseAbs().colwise().maxCoeff());
+    }
+    std::vector<MatX> finer;
+    finer.reserve(static_cast<std::size_t>(2 * cells) + 1);
+    for (std::size_t k = 0; k < middles.size(); ++k) {
+      finer.push_back(std::move(knots_[k]));
+      finer.push_back(std::move(middles[k]));
+    }
+    finer.push_back(std::move(knots_.back()));
+    knots_ = std::move(finer);
+    cells *= 2;
+    spacing_ *= 0.5;
+    double error = 0.0;
+    for (int e = 0; e < count(); ++e)
+      if (largest[e] > 0.0) error = std::max(error, missed[e] / largest[e]);
+    // The finer grid's own error is a sixteenth of what the coarser one missed.
+    if (error <= 16.0 * kAccuracy) return;
+    if (halving == kMostHalvings) {
+      if (error <= kLargestMiss) return;
+      throw ComputationError("what standing errors do to the pose changes within " + std::to_string(spacing_) +
+                             " s: a singular pose is near, or a drive's error ripples far faster than the motion; the "
+                             "multibody rung needs no table of it");
+    }
+  }
+}
+
+bool StandingErrors::covers(const std::vector<double>& errors) const {
+  for (std::size_t e = 0; e < errors.size(); ++e)
+    if (errors[e] != 0.0 && !wanted_[e]) return false;
+  return true;
+}
+
+const TimeTable& StandingErrors::kept(std::map<int, TimeTable>& tables, int body, bool rate) const {
+  const std::lock_guard lock(mutex_);
+  if (const auto found = tables.find(body); found != tables.end()) return found->second;
+  const int width = 6 * count();
+  std::vector<double> values;
+  values.reserve(knots_.size() * static_cast<std::size_t>(width));
+  for (const MatX& knot : knots_)
+    for (int row = 0; row < 6; ++row)
+      for (int e = 0; e < count(); ++e) values.push_back(knot(6 * body + row, e));
+  const TimeTable table(spacing_, width, values);
+  if (!rate) return tables.emplace(body, table).first->second;
+  std::vector<double> slopes(values.size());
+  for (std::size_t k = 0; k < knots_.size(); ++k)
+    table.slopes(static_cast<double>(k) * spacing_, slopes.data() + k * static_cast<std::size_t>(width));
+  return tables.emplace(body, TimeTable(spacing_, width, slopes)).first->second;
+}
+
+const TimeTable& StandingErrors::gain(int body) const { return kept(gain_, body, false); }
+const TimeTable& StandingErrors::gain_rate(int body) const { return kept(gain_rate_, body, true); }
+
+const StandingDisplacement::Tables& StandingDisplacement::tables(int body) const {
+  const auto found = tables_.find(body);
+  if (found != tables_.end()) return found->second;
+  return tables_
+      .emplace(body,
+               Tables{influence_->gain(body).contracted(errors_), influence_->gain_rate(body).contracted(errors_)})
+      .first->second;
+}
+
+Vec6 StandingDisplacement::at(double t, int body) const {
+  Vec6 value = Vec6::Zero();
+  if (influence_) tables(body).value.at(t, value.data());
+  return value;
+}
+
+StandingDisplacement::Motion StandingDisplacement::motion(double t, int body) const {
+  Motion motion;
+  if (!influence_) return motion;
+  const Tables& of_body = tables(body);
+  of_body.value.at(t, motion.value.data());
+  of_body.rate.at(t, motion.rate.data());
+  of_body.rate.slopes(t, motion.acceleration.data());
+  return motion;
+}
+
+}  // namespace boresight

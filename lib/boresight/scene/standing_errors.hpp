@@ -1,0 +1,69 @@
+// What standing errors displace the bodies by over time, to first order: G(t) eps, beside the deviation E(t) z of the play.
+//
+// G are the columns of ErrorInfluence as functions of time; they hang on the drawn mechanism and its commanded motion alone, and all samples
+// share them. What the errors change of the dynamics (masses elsewhere, other gaps) is of second order.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "boresight/math/time_table.hpp"
+#include "boresight/mechanism/error_influence.hpp"
+
+namespace boresight {
+
+class StandingErrors {
+ public:
+  // wanted: of which errors; the others count as zero. The grid is refined until its cubics meet the columns to kAccuracy of the largest
+  // value of each. Throws ComputationError as ErrorInfluence::at does; MotionTooDense where a table would need too much memory.
+  StandingErrors(const Mechanism& mechanism, const IdealMotion& commanded, std::vector<bool> wanted);
+  static constexpr double kAccuracy = 1e-7;
+
+  int count() const { return static_cast<int>(wanted_.size()); }
+  bool wants(std::size_t error) const { return wanted_[error]; }
+  bool covers(const std::vector<double>& errors) const;
+  // Of one body: 6 x errors, row by row, over time; and its rate of change. Safe to share between threads.
+  const TimeTable& gain(int body) const;
+  const TimeTable& gain_rate(int body) const;
+  int cells() const { return static_cast<int>(knots_.size()) - 1; }
+  double spacing() const { return spacing_; }
+
+ private:
+  const TimeTable& kept(std::map<int, TimeTable>& tables, int body, bool rate) const;
+
+  int bodies_;
+  std::vector<bool> wanted_;
+  double spacing_ = 0.0;
+  std::vector<MatX> knots_;  // 6 bodies x errors
+  mutable std::mutex mutex_;
+  mutable std::map<int, TimeTable> gain_, gain_rate_;
+};
+
+// One sample's errors: what they displace a body by, with its rates of change, world axes [m, rad]. Serves one thread.
+class StandingDisplacement {
+ public:
+  StandingDisplacement() = default;  // no errors
+  StandingDisplacement(std::shared_ptr<const StandingErrors> influence, std::vector<double> errors)
+      : influence_(std::move(influence)), errors_(std::move(errors)) {}
+
+  explicit operator bool() const { return influence_ != nullptr; }
+  Vec6 at(double t, int body) const;
+  struct Motion {
+    Vec6 value = Vec6::Zero(), rate = Vec6::Zero(), acceleration = Vec6::Zero();
+  };
+  Motion motion(double t, int body) const;
+
+ private:
+  struct Tables {
+    TimeTable value, rate;
+  };
+  const Tables& tables(int body) const;
+
+  std::shared_ptr<const StandingErrors> influence_;
+  std::vector<double> errors_;
+  mutable std::map<int, Tables> tables_;
+};
+
+}  // namespace boresight

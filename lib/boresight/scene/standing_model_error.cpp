@@ -1,0 +1,61 @@
+#include "boresight/scene/standing_model_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/ideal_solver.hpp"
+
+namespace boresight {
+namespace {
+
+// Instants that are looked at, both ends among them: no two of them lie alike in a period of the motion, as their number is prime.
+constexpr int kInstants = 13;
+// Below this share of the others an index counts as next to nothing.
+constexpr double kNextToNothing = 1e-4;
+
+}  // namespace
+
+double standing_model_error(const Mechanism& mechanism, const PreparedScene& prepared,
+                            const StandingDisplacement& standing, const Parameters& parameters,
+                            const PointingIndices& index) {
+  if (!standing) return 0.0;
+  const int boresight = mechanism.boresight_body();
+  const double length = mechanism.characteristic_length();
+  PoseError missed;
+  try {
+    // The solver asks for drives' laws alone of what was commanded, which outlives it here.
+    const std::shared_ptr<const IdealMotion> commanded(std::shared_ptr<const IdealMotion>(), &prepared.ideal());
+    const auto built = built_mechanism(mechanism, parameters, commanded);
+    IdealSolver solver(*built);
+    for (int i = 0; i < kInstants; ++i) {
+      const double t = mechanism.duration() * i / (kInstants - 1);
+      IdealState state;
+      prepared.ideal().state(t, state);
+      for (int b = 0; b < mechanism.bodies(); ++b) displace(state.bodies[b], standing.at(t, b));
+      const BodyMotion linear = state.bodies[boresight];
+      if (!solver.solve(t, state)) return 1.0;
+      const BodyMotion& exact = state.bodies[boresight];
+      const PoseError off = pose_error({exact.p, Quat(exact.R)}, {linear.p, Quat(linear.R)}, mechanism.pointing());
+      missed.position = std::max(missed.position, off.position);
+      missed.orientation = std::max(missed.orientation, off.orientation);
+      missed.boresight = std::max(missed.boresight, off.boresight);
+      missed.line_of_sight = std::max(missed.line_of_sight, off.line_of_sight);
+    }
+  } catch (const ComputationError&) {
+    return 1.0;
+  }
+  const double largest =
+      std::max({index.position_error.max, length * index.orientation_error.max, length * index.boresight_error.max});
+  double share = 0.0;
+  const auto count = [&](double miss, double size, double least) {
+    if (const double against = std::max(size, least); against > 0.0) share = std::max(share, miss / against);
+  };
+  count(missed.position, index.position_error.max, kNextToNothing * largest);
+  count(missed.orientation, index.orientation_error.max, kNextToNothing * largest / length);
+  count(missed.boresight, index.boresight_error.max, kNextToNothing * largest / length);
+  if (index.has_line_of_sight) count(missed.line_of_sight, index.line_of_sight_error.max, 0.0);
+  return std::min(share, 1.0);
+}
+
+}  // namespace boresight

@@ -1,0 +1,15 @@
+// What the columns of influence leave out of standing errors: the built mechanism's joints are closed exactly at some instants of the motion.
+#pragma once
+
+#include "boresight/pointing/indices.hpp"
+#include "boresight/scene/scene_rung.hpp"
+
+namespace boresight {
+
+// Largest difference of the exact pose and the linear one, relative to the largest value of each index; what is next to nothing counts
+// against a little of the largest of the others, on the mechanism's size. 1 where the joints do not close. 0 without errors.
+double standing_model_error(const Mechanism& mechanism, const PreparedScene& prepared,
+                            const StandingDisplacement& standing, const Parameters& parameters,
+                            const PointingIndices& index);
+
+}  // namespace boresight
