@@ -20,7 +20,8 @@ class WindowCost final : public ceres::CostFunction {
     set_num_residuals(residuals);
   }
 
-  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+  // Follows the window's motion at these blocks, for the Evaluate() that comes next.
+  void prepare(const std::vector<double*>& blocks, bool derivatives) {
     const int P = problem_.parameter_count(), size = problem_.state_size(window_);
     const int last = static_cast<int>(parameter_block_sizes().size()) - 1;
     Globals globals;
@@ -32,13 +33,20 @@ class WindowCost final : public ceres::CostFunction {
       globals.bias = Eigen::Map<const VecX>(blocks[block], parameter_block_sizes()[block]);
       globals.bias = globals.bias.cwiseProduct(problem_.sigma);
     }
-    const VecX state = Eigen::Map<const VecX>(blocks[last], size), prior = problem_.prior_deviation(window_);
-    WindowResiduals at;
     try {
-      problem_.evaluate(window_, globals, state, jacobians != nullptr, at);
+      problem_.evaluate(window_, globals, Eigen::Map<const VecX>(blocks[last], size), derivatives, at_);
+      followed_ = true;
     } catch (const ComputationError&) {
-      return false;
+      followed_ = false;
     }
+  }
+
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    if (!followed_) return false;
+    const WindowResiduals& at = at_;
+    const int P = problem_.parameter_count(), size = problem_.state_size(window_);
+    const int last = static_cast<int>(parameter_block_sizes().size()) - 1;
+    const VecX state = Eigen::Map<const VecX>(blocks[last], size), prior = problem_.prior_deviation(window_);
     for (int i = 0; i < values_; ++i) residuals[i] = problem_.loss.residual(at.r[i]);
     for (int i = 0; i < size; ++i) residuals[values_ + i] = state[i] / prior[i];
     if (!jacobians) return true;
@@ -74,6 +82,28 @@ class WindowCost final : public ceres::CostFunction {
   const CalibrationProblem& problem_;
   const Window& window_;
   int values_;
+  WindowResiduals at_;
+  bool followed_ = false;
+};
+
+// All windows at once, each on the thread that is free, before the solver adds them up in their order on one: sums of several threads hang
+// on which of them was faster, and a fit among narrow optima on the last bit of a sum.
+class AllWindows final : public ceres::EvaluationCallback {
+ public:
+  explicit AllWindows(int jobs) : jobs_(jobs) {}
+  void add(WindowCost* cost, std::vector<double*> blocks) { windows_.push_back({cost, std::move(blocks)}); }
+  void PrepareForEvaluation(bool evaluate_jacobians, bool) override {
+    for_each_on_threads(static_cast<int>(windows_.size()), jobs_,
+                        [&](int k) { windows_[k].cost->prepare(windows_[k].blocks, evaluate_jacobians); });
+  }
+
+ private:
+  struct Window {
+    WindowCost* cost;
+    std::vector<double*> blocks;
+  };
+  int jobs_;
+  std::vector<Window> windows_;
 };
 
 class Watch final : public ceres::IterationCallback {
@@ -136,10 +166,26 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
   if (states.empty()) states = guess_states(problem, result.windows, start, options.jobs);
 
   const int P = problem.parameter_count();
-  VecX u = start.u;
-  double offset = 1e3 * start.time_offset;
-  VecX bias = problem.fit_bias ? VecX(start.bias.cwiseQuotient(problem.sigma)) : VecX();
-  ceres::Problem ceres_problem;
+  // The solver orders blocks by where they lie in memory: one after the other, so that no fit hangs on what the heap had room for.
+  Eigen::Index numbers = P + 1 + (problem.fit_bias ? problem.sigma.size() : 0);
+  for (const VecX& state : states) numbers += state.size();
+  VecX packed(numbers);
+  Eigen::Map<VecX> u(packed.data(), P);
+  double& offset = packed[P];
+  Eigen::Map<VecX> bias(packed.data() + P + 1, problem.fit_bias ? problem.sigma.size() : 0);
+  u = start.u;
+  offset = 1e3 * start.time_offset;
+  if (problem.fit_bias) bias = start.bias.cwiseQuotient(problem.sigma);
+  std::vector<Eigen::Map<VecX>> state_of;
+  for (Eigen::Index k = 0, at = P + 1 + bias.size(); k < static_cast<Eigen::Index>(states.size()); ++k) {
+    state_of.emplace_back(packed.data() + at, states[k].size());
+    state_of.back() = states[k];
+    at += states[k].size();
+  }
+  AllWindows all(options.jobs);
+  ceres::Problem::Options of_problem;
+  of_problem.evaluation_callback = &all;
+  ceres::Problem ceres_problem(of_problem);
   bool free_states = false;
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (std::size_t k = 0; k < result.windows.size(); ++k) {
@@ -148,12 +194,13 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
     for (int p = 0; p < P; ++p) blocks.push_back(&u[p]);
     if (problem.fit_time_offset) blocks.push_back(&offset);
     if (problem.fit_bias) blocks.push_back(bias.data());
-    blocks.push_back(states[k].data());
-    ceres_problem.AddResidualBlock(new WindowCost(problem, w, value_count(problem, w) + problem.state_size(w)), nullptr,
-                                   blocks);
-    ordering->AddElementToGroup(states[k].data(), 0);
+    blocks.push_back(state_of[k].data());
+    auto cost = std::make_unique<WindowCost>(problem, w, value_count(problem, w) + problem.state_size(w));
+    all.add(cost.get(), blocks);
+    ceres_problem.AddResidualBlock(cost.release(), nullptr, blocks);
+    ordering->AddElementToGroup(state_of[k].data(), 0);
     if (w.from_rest) {
-      ceres_problem.SetParameterBlockConstant(states[k].data());
+      ceres_problem.SetParameterBlockConstant(state_of[k].data());
     } else {
       free_states = true;
     }
@@ -193,7 +240,7 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
     solver.linear_solver_type = ceres::DENSE_QR;
     solver.linear_solver_ordering.reset();
   }
-  solver.num_threads = options.jobs;
+  solver.num_threads = 1;
   solver.max_num_iterations = options.most_iterations;
   solver.function_tolerance = options.cost_tolerance;
   solver.parameter_tolerance = options.parameter_tolerance;
@@ -214,9 +261,13 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
     if (round + 1 == rounds || result.interrupted || !summary.IsSolutionUsable()) break;
     for_each_on_threads(static_cast<int>(states.size()), options.jobs, [&](int k) {
       const Window& w = problem.windows[result.windows[k]];
-      if (!w.from_rest) problem.refine_state(w, result.globals, states[k], 6);
+      if (w.from_rest) return;
+      VecX state = state_of[k];
+      problem.refine_state(w, result.globals, state, 6);
+      state_of[k] = state;
     });
   }
+  for (std::size_t k = 0; k < states.size(); ++k) states[k] = state_of[k];
   result.states = std::move(states);
   result.cost = 2.0 * summary.final_cost;
   result.converged = summary.termination_type == ceres::CONVERGENCE;
