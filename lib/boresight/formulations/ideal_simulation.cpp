@@ -304,12 +304,17 @@ BuiltMotion built_motion(std::shared_ptr<const Mechanism> drawn, std::shared_ptr
   if (!has_errors(parameters)) return {std::move(drawn), std::move(commanded)};
   BuiltMotion built;
   built.mechanism = built_mechanism(*drawn, parameters, std::move(commanded));
-  built.motion = std::make_shared<const IdealMotion>(ideal_motion(*built.mechanism, parameters));
+  // Whether all is driven is asked of the drawing: in the built mechanism redundant joints do not quite agree.
+  built.motion = std::make_shared<const IdealMotion>(
+      is_kinematic(*drawn) ? IdealMotion::kinematic(*built.mechanism) : simulated_motion(*built.mechanism, parameters));
   return built;
 }
 
 IdealMotion ideal_motion(const Mechanism& mechanism, const Parameters& parameters) {
-  if (is_kinematic(mechanism)) return IdealMotion::kinematic(mechanism);
+  return is_kinematic(mechanism) ? IdealMotion::kinematic(mechanism) : simulated_motion(mechanism, parameters);
+}
+
+IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& parameters) {
   // Explicit steps beyond which an implicit method takes less time; and the most that are held in memory.
   constexpr int kFewestSteps = 1000, kManySteps = 16000, kMostSteps = 1 << 19;
   IdealState start = home_state(mechanism);

@@ -19,6 +19,9 @@ bool is_kinematic(const Mechanism& mechanism);
 // Throws ComputationError where the motion cannot be followed.
 IdealMotion ideal_motion(const Mechanism& mechanism, const Parameters& parameters);
 
+// The same where freedoms are left that nothing drives.
+IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& parameters);
+
 // A sample's mechanism as it is built, and its motion without clearance.
 struct BuiltMotion {
   std::shared_ptr<const Mechanism> mechanism;

@@ -67,6 +67,14 @@ class TimeTable {
     return sums;
   }
 
+  // The functions from `first` on become those of another table on the same grid.
+  void replace(int first, const TimeTable& by) {
+    for (int k = 0; k < cells_; ++k)
+      for (int power = 0; power < 4; ++power)
+        std::copy_n(by.cell(k) + static_cast<std::size_t>(power) * by.width_, by.width_,
+                    &coefficients_[(static_cast<std::size_t>(k) * 4 + power) * width_ + first]);
+  }
+
   // out: `width` rates of change at t.
   void slopes(double t, double* out) const {
     const double x = t / spacing_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "boresight/mechanism/offset_choice.hpp"
+
 namespace boresight {
 namespace {
 
@@ -118,7 +120,12 @@ std::shared_ptr<const Mechanism> built_mechanism(const Mechanism& drawn, const P
     geometry.push_back(g);
     if (m.joints[j].driven) drives[j] = std::make_shared<ErringDrive>(drawn, parameters, j, commanded);
   }
-  return std::make_shared<const Mechanism>(drawn, std::move(geometry), std::move(drives));
+  std::shared_ptr<const OffsetChoice> choice;
+  if (drawn.clearances() > 0) {
+    auto chosen = std::make_shared<OffsetChoice>(choose_offsets(drawn, *commanded));
+    if (chosen->has_dependent) choice = std::move(chosen);
+  }
+  return std::make_shared<const Mechanism>(drawn, std::move(geometry), std::move(drives), std::move(choice));
 }
 
 }  // namespace boresight

@@ -1,5 +1,6 @@
 #include "boresight/mechanism/error_influence.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "boresight/math/orthogonal_factors.hpp"
@@ -12,14 +13,24 @@ namespace {
 // What redundant rows may disagree by, of what an error asks for: the commanded motion closes its joints to 1e-12.
 constexpr double kContradiction = 1e-8;
 
+std::shared_ptr<const Mechanism> without_errors(const Mechanism& drawn, const IdealMotion& commanded) {
+  Parameters none = drawn.parameters();
+  std::fill(none.error.begin(), none.error.end(), 0.0);
+  // Refers to what outlives it.
+  return built_mechanism(drawn, none,
+                         std::shared_ptr<const IdealMotion>(std::shared_ptr<const IdealMotion>(), &commanded));
+}
+
 }  // namespace
 
 ErrorInfluence::ErrorInfluence(const Mechanism& mechanism, const IdealMotion& commanded)
-    : mechanism_(mechanism),
+    : held_(without_errors(mechanism, commanded)),
+      mechanism_(*held_),
       commanded_(commanded),
-      closed_(mechanism, {.clearance = ClearanceRows::closed, .drives = true}),
+      closed_(mechanism_, {.clearance = ClearanceRows::held, .drives = true}),
       weight_(kinematic_weight(mechanism)),
       scale_(6 * mechanism.bodies()),
+      offsets_(mechanism_),
       block_of_(mechanism.joints(), -1),
       laws_(mechanism.joints()),
       right_(closed_.block_vector()),
@@ -30,16 +41,17 @@ ErrorInfluence::ErrorInfluence(const Mechanism& mechanism, const IdealMotion& co
   for (int b = 0; b < mechanism.bodies(); ++b) scale_.segment<6>(6 * b) = weight_[b].diagonal().cwiseSqrt();
   for (const ErrorDescription& error : mechanism.description().errors)
     frames_.push_back(frame_errors(mechanism.description(), error));
+  for (int c = 0; shifts() && c < mechanism.clearances(); ++c)
+    released_.emplace_back(mechanism_, mechanism.description().clearances[c].joint, ClearanceRows::released, false);
+  released_rows_.resize(released_.size());
   for (int k = 0; k < closed_.blocks(); ++k) block_of_[closed_.joints()[k].joint()] = k;
 }
 
-// What the rows have to change by for one error, at the pose that the system was evaluated at.
-void ErrorInfluence::right_side(std::size_t e, double t) {
-  for (Vec6& rows : right_) rows.setZero();
+Vec6 ErrorInfluence::seen(const JointConstraint& constraint, const JointRows& rows, std::size_t e) const {
   const MechanismDescription& m = mechanism_.description();
+  Vec6 change = Vec6::Zero();
   for (const FrameError& frame : frames_[e]) {
-    const int k = block_of_[frame.joint];
-    if (k < 0) continue;
+    if (frame.joint != constraint.joint()) continue;
     const JointDescription& joint = m.joints[frame.joint];
     const JointGeometry& geometry = mechanism_.geometry(frame.joint);
     const int body = frame.second ? joint.second : joint.first;
@@ -51,9 +63,17 @@ void ErrorInfluence::right_side(std::size_t e, double t) {
     const Vec3 translation = turn * frame.translation, rotation = turn * frame.rotation;
     Vec6 moved;
     moved << translation - rotation.cross(r), rotation;
-    const bool other = body == closed_.joints()[k].other_body();
-    right_[k] -= (other ? closed_.rows(k).other : closed_.rows(k).reference) * moved;
+    change += (body == constraint.other_body() ? rows.other : rows.reference) * moved;
   }
+  return change;
+}
+
+// What the rows have to change by for one error, at the pose that the system was evaluated at.
+void ErrorInfluence::right_side(std::size_t e, double t) {
+  for (Vec6& rows : right_) rows.setZero();
+  const MechanismDescription& m = mechanism_.description();
+  for (const FrameError& frame : frames_[e])
+    if (const int k = block_of_[frame.joint]; k >= 0) right_[k] = -seen(closed_.joints()[k], closed_.rows(k), e);
   const ErrorDescription& error = m.errors[e];
   if (error.kind != ErrorDescription::Kind::drive) return;
   const int k = block_of_[error.joint];
@@ -65,6 +85,8 @@ void ErrorInfluence::at(double t, const std::vector<bool>& wanted, MatX& G) {
   commanded_.state(t, state_);
   commanded_.drive_laws(t, laws_);
   G.setZero(6 * mechanism_.bodies(), count());
+  shift_.setZero(shifts() ? offsets_.size() : 0, count());
+  for (std::size_t c = 0; c < released_.size(); ++c) released_[c].evaluate(state_.bodies, {}, released_rows_[c]);
   closed_.evaluate(state_.bodies, laws_);
   if (closed_.row_count() != 6 * mechanism_.bodies() || !closed_.factor(weight_)) return solve_dense(wanted, t, G);
   for (int e = 0; e < count(); ++e) {
@@ -77,6 +99,24 @@ void ErrorInfluence::at(double t, const std::vector<bool>& wanted, MatX& G) {
     for (std::size_t k = 0; k < goal_.size(); ++k) residual_[k] = goal_[k] - residual_[k];
     closed_.least_motion(residual_, more_);
     for (int b = 0; b < mechanism_.bodies(); ++b) G.block<6, 1>(6 * b, e) = motion_[b] + more_[b];
+    add_shift(static_cast<std::size_t>(e), G);
+  }
+}
+
+// Where an error leaves the offsets that are no coordinates.
+void ErrorInfluence::add_shift(std::size_t e, const MatX& G) {
+  const OffsetChoice* choice = mechanism_.offset_choice();
+  for (std::size_t c = 0; c < released_.size(); ++c) {
+    const JointConstraint& joint = released_[c];
+    Vec6 moved = seen(joint, released_rows_[c], e);
+    if (const int b = joint.reference_body(); b != kGround)
+      moved += released_rows_[c].reference * G.block<6, 1>(6 * b, static_cast<Eigen::Index>(e));
+    if (const int b = joint.other_body(); b != kGround)
+      moved += released_rows_[c].other * G.block<6, 1>(6 * b, static_cast<Eigen::Index>(e));
+    const OffsetLayout::Joint& layout = offsets_.joint(static_cast<int>(c));
+    for (int k = 0; k < layout.count(); ++k)
+      if (choice->source[layout.first + k] == OffsetChoice::kDependent)
+        shift_(layout.first + k, static_cast<Eigen::Index>(e)) = moved[layout.released_row(k)];
   }
 }
 
@@ -117,6 +157,7 @@ void ErrorInfluence::solve_dense(const std::vector<bool>& wanted, double t, MatX
                              mechanism_.description().joints[joint_of[static_cast<std::size_t>(worst)]].name +
                              "\" more than once: without play or something that gives its joints do not close");
     G.col(e) = scale_.asDiagonal() * x;
+    add_shift(static_cast<std::size_t>(e), G);
   }
 }
 

@@ -73,7 +73,7 @@ std::vector<Mat6> kinematic_weight(const Mechanism& mechanism) {
 IdealSolver::IdealSolver(const Mechanism& mechanism)
     : mechanism_(mechanism),
       system_(mechanism,
-              {.clearance = ClearanceRows::closed,
+              {.clearance = mechanism.built() ? ClearanceRows::held : ClearanceRows::closed,
                .drives = !mechanism.description().motion.pose,
                .prescribed_body =
                    mechanism.description().motion.pose ? mechanism.description().motion.pose->body : kGround}),
@@ -97,6 +97,15 @@ void IdealSolver::laws_at(double t, double scale) {
   system_.pose() = pose;
 }
 
+// Where rows turn out to depend on each other they are told to; false where that is not why there are no factors.
+bool IdealSolver::factor() {
+  if (system_.factor(weight_)) return true;
+  if (system_.redundant()) return false;
+  if (analyse_rank(mechanism_, system_, false).rank == system_.row_count()) return false;
+  system_.set_redundant(true);
+  return system_.factor(weight_);
+}
+
 bool IdealSolver::newton(IdealState& state) {
   const double length = mechanism_.characteristic_length();
   // A drawing far from the world's origin keeps fewer digits of its lengths.
@@ -111,11 +120,7 @@ bool IdealSolver::newton(IdealState& state) {
     if (!std::isfinite(violation)) return false;
     // Converged; one more step is still worth its cost while it gains digits.
     if (violation < exact || (violation < converged && violation > 0.3 * previous)) return true;
-    if (!system_.factor(weight_) && !system_.redundant()) {
-      if (analyse_rank(mechanism_, system_, false).rank == system_.row_count()) return false;
-      system_.set_redundant(true);
-      if (!system_.factor(weight_)) return false;
-    }
+    if (!factor()) return false;
     for (int k = 0; k < system_.blocks(); ++k) blocks_[k] = -system_.rows(k).value;
     system_.least_motion(blocks_, motion_);
     for (int b = 0; b < mechanism_.bodies(); ++b) {
@@ -133,7 +138,7 @@ bool IdealSolver::differentiate(IdealState& state) {
   // Velocities: J u = law's rate, which is minus the rate the rows have with all bodies at rest.
   for (BodyMotion& b : state.bodies) b.v = b.w = Vec3::Zero();
   system_.evaluate(state.bodies, laws_);
-  if (!system_.factor(weight_)) return false;
+  if (!factor()) return false;
   for (int k = 0; k < system_.blocks(); ++k) blocks_[k] = -system_.rows(k).rate;
   system_.least_motion(blocks_, motion_);
   for (int b = 0; b < bodies; ++b) {

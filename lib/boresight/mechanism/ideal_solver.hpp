@@ -37,6 +37,7 @@ class IdealSolver {
 
  private:
   void laws_at(double t, double scale);
+  bool factor();
   bool newton(IdealState& state);
   bool differentiate(IdealState& state);
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "boresight/mechanism/offset_choice.hpp"
+
 namespace boresight {
 namespace {
 
@@ -50,8 +52,14 @@ JointConstraint::JointConstraint(const Mechanism& mechanism, int joint, Clearanc
   const bool loose = clearance >= 0 && clearance_rows != ClearanceRows::closed;
   const bool tilts = loose && mechanism.description().clearances[clearance].axes == JournalAxes::free;
   const bool want_released = clearance_rows == ClearanceRows::released;
+  std::vector<bool> yields;
+  if (clearance_rows == ClearanceRows::held && loose && mechanism.offset_choice())
+    yields = mechanism.offset_choice()->dependent_rows(OffsetLayout(mechanism), clearance);
+  std::size_t released_rows = 0;
   const auto add = [&](bool released, Row row) {
-    if (released == want_released) rows_.push_back(row);
+    const bool yielding = released && released_rows < yields.size() && yields[released_rows];
+    if (released) ++released_rows;
+    if (clearance_rows == ClearanceRows::held ? !yielding : released == want_released) rows_.push_back(row);
   };
 
   const JointType type = description.type;

@@ -30,7 +30,8 @@ struct JointRows {
 // Which rows of a clearance joint are written out.
 enum class ClearanceRows {
   closed,  // as if the joint were ideal
-  open,    // only those that clearance leaves in force
+  held,  // as closed, of a built mechanism less the offsets that follow from others: redundant joints' play takes up errors
+  open,      // only those that clearance leaves in force
   released,  // only those that clearance releases, in the order x, y, z of the sleeve frame, then the two tilts (free axes)
   free       // what the joint leaves free even without clearance: its turns and slides, as rows that would hold them
 };

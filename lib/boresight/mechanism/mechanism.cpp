@@ -131,12 +131,14 @@ Mechanism::Mechanism(MechanismDescription description) : description_(std::move(
   if (characteristic_length_ <= 0.0) characteristic_length_ = 1.0;
 }
 
-Mechanism::Mechanism(const Mechanism& drawn, std::vector<JointGeometry> geometry, std::map<int, TimeFunctionPtr> drives)
+Mechanism::Mechanism(const Mechanism& drawn, std::vector<JointGeometry> geometry, std::map<int, TimeFunctionPtr> drives,
+                     std::shared_ptr<const OffsetChoice> choice)
     : Mechanism(drawn) {
   description_.motion.pose.reset();
   description_.motion.drives = std::move(drives);
   geometry_ = std::move(geometry);
   built_ = true;
+  offset_choice_ = std::move(choice);
 }
 
 int Mechanism::body_index(const std::string& name) const {

@@ -35,12 +35,15 @@ struct MassProperties {
   Mat3 inertia = Mat3::Zero();  // about the combined centre of mass, body axes [kg m^2]
 };
 
+struct OffsetChoice;
+
 class Mechanism {
  public:
   // Throws InputError, with the origin of the thing at fault, where the description contradicts itself.
   explicit Mechanism(MechanismDescription description);
   // The drawn mechanism with other joint frames, and with its drives on these laws: built_mechanism.hpp.
-  Mechanism(const Mechanism& drawn, std::vector<JointGeometry> geometry, std::map<int, TimeFunctionPtr> drives);
+  Mechanism(const Mechanism& drawn, std::vector<JointGeometry> geometry, std::map<int, TimeFunctionPtr> drives,
+            std::shared_ptr<const OffsetChoice> choice);
 
   const MechanismDescription& description() const { return description_; }
   const std::string& name() const { return description_.name; }
@@ -55,6 +58,9 @@ class Mechanism {
   const JointGeometry& geometry(int joint) const { return geometry_[joint]; }
   // Whether this is a drawn mechanism with errors: its frames need not coincide at home.
   bool built() const { return built_; }
+  // Of a built mechanism: which offsets of the drawn one are coordinates; null where all are (offset_choice.hpp). The others follow where
+  // errors leave redundant joints with play to go.
+  const OffsetChoice* offset_choice() const { return offset_choice_.get(); }
 
   int boresight_body() const { return boresight_body_; }
   const Vec3& boresight_B() const { return pointing_.boresight_B; }  // pointing axis in that body's axes
@@ -77,6 +83,7 @@ class Mechanism {
   std::vector<int> clearance_of_;
   int boresight_body_ = 0;
   bool built_ = false;
+  std::shared_ptr<const OffsetChoice> offset_choice_;
   Pointing pointing_;
   double characteristic_length_ = 1.0;
 };

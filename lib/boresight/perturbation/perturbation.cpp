@@ -63,7 +63,8 @@ class Perturbation final : public SceneRung {
   RunResult integrate(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                       const RunOptions& options, double wanted) const {
     const Mechanism& mechanism = this->mechanism();
-    PerturbationSystem system(mechanism, parameters, prepared.tables(parameters), options.events, options.start);
+    PerturbationSystem system(mechanism, parameters, prepared.tables(parameters, standing), options.events,
+                              options.start);
     const OffsetLayout& offsets = prepared.scene().offsets();
     const SceneLayout& at = system.layout();
     const double duration = mechanism.duration();
@@ -129,7 +130,8 @@ class Perturbation final : public SceneRung {
                               const Parameters& parameters, const RunOptions& options,
                               const std::string& integrator) const {
     const double duration = mechanism().duration();
-    PerturbationSystem system(mechanism(), parameters, prepared.tables(parameters), options.events, options.start);
+    PerturbationSystem system(mechanism(), parameters, prepared.tables(parameters, standing), options.events,
+                              options.start);
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, 2.0 * duration / kPaperStep);
     std::string start_warning;
     VecX y = system.start_state(mechanism(), options.start_offset, start_warning), slope = y;

@@ -158,7 +158,8 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows, cons
   const TimeTable table(2.0 * spacing_, width, coarse);
   std::vector<int> ends = {layout_.Ar, layout_.AC, layout_.AK, layout_.joints_at};
   for (const SceneLayout::Joint& j : layout_.joints)
-    for (int end : {j.spin_gain, j.spin_drift, j.slide, j.slide_gain, j.slide_drift, j.dependent}) ends.push_back(end);
+    for (int end : {j.spin_gain, j.spin_drift, j.slide, j.slide_gain, j.slide_drift, j.dependent, j.shift})
+      ends.push_back(end);
   ends.push_back(width);
   std::vector<double> miss(ends.size(), 0.0), size(ends.size(), 0.0);
   for (std::size_t k = 0; k < knots_.size(); ++k) {
@@ -267,6 +268,14 @@ void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
     if (at.has_dependent) {
       append(knot.joints, knot.B.middleRows(offsets_.joint(c).first, at.offsets));
       append(knot.joints, B_rate.middleRows(offsets_.joint(c).first, at.offsets));
+      // Of the drawn mechanism zero; of a built one, whose play has taken up errors, where its dependent offsets stand.
+      JointRows rows;
+      if (mechanism_.built())
+        JointConstraint(mechanism_, d.joint, ClearanceRows::released, false).evaluate(knot.state.bodies, {}, rows);
+      for (const Vec6* part : {&rows.value, &rows.rate})
+        for (int k = 0; k < at.offsets; ++k)
+          knot.joints.push_back(
+              at.source[k] == DeviationCoordinates::kDependent ? (*part)[offsets_.joint(c).released_row(k)] : 0.0);
     }
   }
 }

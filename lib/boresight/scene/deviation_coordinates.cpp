@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "boresight/math/singular_values.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
@@ -11,9 +10,6 @@
 namespace boresight {
 namespace {
 
-// Share of a row in motions that no row chosen before sees, from which on a joint's own offsets are coordinates before those
-// of other joints.
-constexpr double kPlainlyIndependent = 0.1;
 // What redundant rows may disagree by, scaled: the ideal motion closes its joints to 1e-12.
 constexpr double kContradiction = 1e-9;
 // Offsets of a ten-thousandth of the lengths, multiplied by more than this, are no small deviation any more.
@@ -37,113 +33,37 @@ constexpr double kMiddleOfSecond = -30.0 / 12.0;
 }  // namespace
 
 DeviationCoordinates::DeviationCoordinates(const Mechanism& mechanism, const IdealMotion& ideal)
+    : DeviationCoordinates(mechanism, ideal, choose_offsets(mechanism, ideal)) {}
+
+DeviationCoordinates::DeviationCoordinates(const Mechanism& mechanism, const IdealMotion& ideal, OffsetChoice choice)
     : mechanism_(mechanism),
       ideal_(ideal),
       layout_(mechanism),
       closed_(mechanism, {.clearance = ClearanceRows::closed, .drives = true}),
       open_(mechanism, {.clearance = ClearanceRows::open, .drives = true}),
       moved_(closed_),
+      sparse_(choice.all),
       weight_(kinematic_weight(mechanism)),
       length_(mechanism.characteristic_length()),
       scale_(6 * mechanism.bodies()),
+      rows_(rows_that_may_be_chosen(mechanism)),
+      chosen_(std::move(choice.chosen)),
+      source_(std::move(choice.source)),
+      has_dependent_(choice.has_dependent),
+      count_(static_cast<int>(chosen_.size())),
+      leftover_(choice.leftover),
       laws_(mechanism.joints()),
       b_(closed_.block_vector()),
       u_(closed_.body_vector()),
       residual_(b_),
       du_(u_) {
   for (int b = 0; b < mechanism.bodies(); ++b) scale_.segment<6>(6 * b) = weight_[b].diagonal().cwiseSqrt();
-  for (int c = 0; c < mechanism.clearances(); ++c)
-    rows_.emplace_back(mechanism, mechanism.description().clearances[c].joint, ClearanceRows::released, false);
-  for (int j = 0; j < mechanism.joints(); ++j) rows_.emplace_back(mechanism, j, ClearanceRows::free, false);
-
-  // At an instant of no symmetry.
   ideal_.state(generic_instant(0.0, ideal_.duration()), state_);
-  ideal_.drive_laws(state_.t, laws_);
-  closed_.evaluate(state_.bodies, laws_);
-  sparse_ = closed_.row_count() == 6 * mechanism.bodies() && closed_.factor(weight_);
-  source_.assign(layout_.size(), kDependent);
-  if (sparse_) {
-    for (int c = 0; c < layout_.clearances(); ++c)
-      for (int k = 0; k < layout_.joint(c).count(); ++k)
-        if (layout_.joint(c).released(k)) {
-          source_[layout_.joint(c).first + k] = static_cast<int>(chosen_.size());
-          chosen_.push_back({c, layout_.joint(c).released_row(k)});
-        }
-  } else {
-    open_.evaluate(state_.bodies, laws_);
-    const MatX kept = scaled_rows(open_.dense_jacobian(), length_);
-    std::vector<MatX> rows;
-    for (const JointConstraint& c : rows_) rows.push_back(scaled_rows(stacked_rows(c, state_.bodies), length_));
-    if (kept.rows() == 0) {
-      choose(rows, MatX::Identity(kept.cols(), kept.cols()));
-    } else {
-      const Eigen::BDCSVD<MatX> svd(kept, Eigen::ComputeFullV);
-      const Eigen::Index rank = (svd.singularValues().array() > kRankTolerance * svd.singularValues()[0]).count();
-      choose(rows, svd.matrixV().rightCols(kept.cols() - rank));
-    }
-  }
-  count_ = static_cast<int>(chosen_.size());
   unit_ = VecX::Ones(count_);
   for (int z = 0; z < count_; ++z) {
     const MatX row = stacked_rows(rows_[chosen_[z].constraint], state_.bodies).row(chosen_[z].row);
     for (int b = 0; b < mechanism.bodies(); ++b)
       if (row.middleCols<3>(6 * b).cwiseAbs().maxCoeff() > 0.0) unit_[z] = length_;
-  }
-  for (int c = 0; c < layout_.clearances(); ++c)
-    if (layout_.joint(c).slides) source_[layout_.joint(c).first + 1] = kSlides;
-  for (int s : source_) has_dependent_ = has_dependent_ || s == kDependent;
-}
-
-// Rows that tell the motions of the null space apart, the one that sees most of what is left first; offsets before joints.
-void DeviationCoordinates::choose(const std::vector<MatX>& rows, const MatX& null_space) {
-  struct Candidate {
-    int constraint, row;
-    VecX seen;  // the row's share in each motion left, less what chosen rows see already
-  };
-  const int freedoms = static_cast<int>(null_space.cols());
-  const auto take = [&](int first, int last) {
-    std::vector<Candidate> candidates;
-    for (int k = first; k < last; ++k)
-      for (Eigen::Index i = 0; i < rows[k].rows(); ++i)
-        candidates.push_back(
-            {k, static_cast<int>(i), null_space.transpose() * rows[k].row(i).transpose().normalized()});
-    return candidates;
-  };
-  MatX basis(freedoms, 0);
-  const int clearances = layout_.clearances();
-  // Adds rows that see something which those chosen before do not, the one that sees most of it first.
-  const auto add = [&](std::vector<Candidate> candidates, double least) {
-    while (basis.cols() < freedoms) {
-      const Candidate* best = nullptr;
-      double largest = least;
-      for (Candidate& c : candidates) {
-        const VecX rest = c.seen - basis * (basis.transpose() * c.seen);
-        if (rest.norm() > largest) largest = rest.norm(), best = &c;
-      }
-      if (!best) break;
-      VecX rest = best->seen - basis * (basis.transpose() * best->seen);
-      rest -= basis * (basis.transpose() * rest);
-      basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
-      basis.rightCols(1) = rest.normalized();
-      chosen_.push_back({best->constraint, best->row});
-    }
-  };
-  for (int c = 0; c < clearances; ++c) add(take(c, c + 1), kPlainlyIndependent);
-  add(take(0, clearances), kRankTolerance);
-  const std::size_t offsets = chosen_.size();
-  add(take(clearances, static_cast<int>(rows.size())), kRankTolerance);
-  leftover_ = static_cast<int>(chosen_.size() - offsets);
-  if (basis.cols() < freedoms)
-    throw ComputationError("the mechanism can move in " + std::to_string(freedoms - basis.cols()) +
-                           " way(s) that no coordinate of a joint describes; use the multibody rung");
-  // Offsets in the order of the layout.
-  std::stable_sort(chosen_.begin(), chosen_.end() - leftover_, [](const Chosen& a, const Chosen& b) {
-    return a.constraint != b.constraint ? a.constraint < b.constraint : a.row < b.row;
-  });
-  for (std::size_t z = 0; z + leftover_ < chosen_.size(); ++z) {
-    const OffsetLayout::Joint& joint = layout_.joint(chosen_[z].constraint);
-    for (int k = 0; k < joint.count(); ++k)
-      if (joint.released(k) && joint.released_row(k) == chosen_[z].row) source_[joint.first + k] = static_cast<int>(z);
   }
 }
 

@@ -2,14 +2,9 @@
 //
 // With K the rows that stay in force (drives included) and S as many rows as there are freedoms left, [K; S] is square and
 //     T = [K; S]^-1 restricted to S
-// holds the velocities of all bodies per unit rate of the coordinates z, the deviation of the bodies being T z. The rows of
-// S are, in this order of preference:
-//   the released rows of the clearance joints: z are then the joints' offsets themselves (OffsetLayout);
-//   coordinates of other joints (turns, slides), where the ideal mechanism has freedoms that nothing drives.
-// Where redundant joints hold an offset that its clearance would release (a planar loop in space, the other bearing of a
-// shaft), the offset is no coordinate: it is zero or follows the others, xi = B z with B = R T, R the released rows. Of joints
-// that hang together the first gives its offsets, as many as are independent: that choice is good in every pose. There may be
-// no coordinate at all, where no play can move.
+// holds the velocities of all bodies per unit rate of the coordinates z, the deviation of the bodies being T z. The rows of S are those
+// of offset_choice.hpp: the joints' offsets themselves, and freedoms that nothing drives. An offset that is no coordinate is zero or
+// follows the others, xi = B z with B = R T, R the released rows. There may be no coordinate at all, where no play can move.
 // Default scene: one revolute joint, three coordinates, its offsets.
 #pragma once
 
@@ -17,8 +12,7 @@
 #include <vector>
 
 #include "boresight/math/orthogonal_factors.hpp"
-#include "boresight/mechanism/ideal_motion.hpp"
-#include "boresight/mechanism/offset_layout.hpp"
+#include "boresight/mechanism/offset_choice.hpp"
 
 namespace boresight {
 
@@ -32,8 +26,8 @@ class DeviationCoordinates {
   int leftover() const { return leftover_; }
 
   // Where an offset of OffsetLayout comes from: its coordinate, or one of these.
-  static constexpr int kSlides = -1;     // it is no offset
-  static constexpr int kDependent = -2;  // B z
+  static constexpr int kSlides = OffsetChoice::kSlides;        // it is no offset
+  static constexpr int kDependent = OffsetChoice::kDependent;  // B z
   const std::vector<int>& source() const { return source_; }
   bool has_dependent() const { return has_dependent_; }
 
@@ -50,11 +44,7 @@ class DeviationCoordinates {
   void coordinate_rates(const std::vector<BodyMotion>& bodies, VecX& z_dot, VecX& z) const;
 
  private:
-  struct Chosen {
-    int constraint;  // among rows_
-    int row;
-  };
-  void choose(const std::vector<MatX>& rows, const MatX& null_space);
+  DeviationCoordinates(const Mechanism& mechanism, const IdealMotion& ideal, OffsetChoice choice);
   void sparse_gain(MatX& T);
   void dense_gain(double t, MatX& T);
   void solve_closed(Eigen::Ref<VecX> motion);
@@ -65,16 +55,16 @@ class DeviationCoordinates {
   const IdealMotion& ideal_;
   OffsetLayout layout_;
   ConstraintSystem closed_, open_, moved_;
-  bool sparse_ = false;  // all rows, released ones included, are as many as the bodies' freedoms, and independent
+  bool sparse_;  // OffsetChoice::all
   std::vector<Mat6> weight_;
   double length_;
   VecX scale_;  // kinematic weight of the stacked velocities
   VecX unit_;   // of each coordinate: the characteristic length of a distance, 1 of a turn or a slope
-  std::vector<JointConstraint> rows_;  // released rows per clearance, then free rows per joint
-  std::vector<Chosen> chosen_;
+  std::vector<JointConstraint> rows_;  // that may be chosen
+  std::vector<OffsetChoice::Chosen> chosen_;
   std::vector<int> source_;
-  bool has_dependent_ = false;
-  int count_ = 0, leftover_ = 0;
+  bool has_dependent_;
+  int count_, leftover_;
   IdealState state_;
   std::vector<TimeValue> laws_;
   std::vector<Vec6> b_, goal_, u_, residual_, du_;

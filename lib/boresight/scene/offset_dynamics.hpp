@@ -21,7 +21,8 @@ PlayMotion<T> play_motion(const Layout& at, const Joint& joint, const S* scene, 
       offset_rate[k] = rate[source];
     } else if (source == DeviationCoordinates::kDependent) {
       const S *B = scene + joint.dependent + k * at.n, *B_rate = B + joint.offsets * at.n;
-      offset[k] = offset_rate[k] = T(0.0);
+      offset[k] = T(scene[joint.shift + k]);
+      offset_rate[k] = T(scene[joint.shift + joint.offsets + k]);
       for (int j = 0; j < at.n; ++j) {
         offset[k] += T(B[j]) * z[j];
         offset_rate[k] += T(B[j]) * rate[j] + T(B_rate[j]) * z[j];

@@ -62,6 +62,7 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
     MatX& G = offsets_of_.emplace_back(MatX::Zero(kMostOffsets, n));
     MatX& V = works_on_.emplace_back(MatX::Zero(6, n));
     slide_.push_back(joint.slides ? row[joint.slide] : 0.0);
+    PlayOffsets& shift = shift_.emplace_back(PlayOffsets::Zero());
     const PlayOffsets& width = widths_.emplace_back(law.widths(widest));
     for (int k = 0; k < joint.offsets; ++k) {
       const int source = joint.source[k];
@@ -71,6 +72,7 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
         scale[source] = width[k];
       } else if (source == DeviationCoordinates::kDependent) {
         G.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.dependent + k * n, n);
+        shift[k] = row[joint.shift + k];
       } else if (k < 3) {
         V.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.slide_gain, n);
       }
@@ -99,7 +101,7 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
 }
 
 PlayMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z) const {
-  PlayMotion<double> m = at_rest_at(offsets_of_[joint] * z);
+  PlayMotion<double> m = at_rest_at(offsets_of_[joint] * z + shift_[joint]);
   if (at_.joints[joint].slides) m.e.y() = slide_[joint];
   return m;
 }

@@ -68,7 +68,8 @@ class RestingBalance {
   std::vector<MatX> over_widths_;    // the same over the widths, of coordinates that the balance may move
   std::vector<MatX> works_on_;       // per joint: 6 x n, the rates that force and moment work on
   std::vector<double> slide_;
-  double load_ = 0.0;  // size() of the reactions [N m]
+  std::vector<PlayOffsets> shift_;  // what standing errors leave of the offsets with all coordinates zero
+  double load_ = 0.0;               // size() of the reactions [N m]
 };
 
 // The coordinates, and then their rates, that motions of this mechanism start with: zero where the file has the journals centred,

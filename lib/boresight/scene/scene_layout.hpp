@@ -32,6 +32,7 @@ struct SceneLayout {
     int slide_gain = 0;   // 1 x n
     int slide_drift = 0;  // 1 x n, as spin_drift
     int dependent = 0;    // B and then Bdot, offsets x n each (where an offset is dependent)
+    int shift = 0;  // what standing errors leave of the offsets with all coordinates zero, and its rate (likewise)
     bool has_dependent = false;
     // Where redundant joints tie offsets together, which of them are coordinates is the drawing's choice. It does not matter only if what the
     // coordinates' gains change by as the mechanism moves is kept.
@@ -70,6 +71,7 @@ struct SceneLayout {
       j.slide_gain = take(j.slides ? n : 0);
       j.slide_drift = take(j.gains_move && j.slides ? n : 0);
       j.dependent = take(j.has_dependent ? 2 * j.offsets * n : 0);
+      j.shift = take(j.has_dependent ? 2 * j.offsets : 0);
       joints.push_back(j);
     }
   }

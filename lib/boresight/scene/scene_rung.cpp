@@ -51,6 +51,29 @@ std::shared_ptr<const SceneTables> PreparedScene::tables(const Parameters& param
   return tables_;
 }
 
+std::shared_ptr<const SceneTables> PreparedScene::tables(const Parameters& parameters,
+                                                         const StandingDisplacement& standing) const {
+  std::shared_ptr<const SceneTables> shared = tables(parameters);
+  if (!standing.shifts()) return shared;
+  auto own = std::make_shared<SceneTables>(*shared);
+  const double spacing = own->dynamics.spacing();
+  for (std::size_t c = 0; c < own->layout.joints.size(); ++c) {
+    const SceneLayout::Joint& joint = own->layout.joints[c];
+    if (!joint.has_dependent) continue;
+    const int first = scene_.offsets().joint(static_cast<int>(c)).first;
+    std::vector<double> values;
+    for (int k = 0; k <= own->dynamics.cells(); ++k) {
+      const StandingDisplacement::Shift shift = standing.shift(k * spacing);
+      for (const VecX* part : {&shift.value, &shift.rate})
+        for (int i = 0; i < joint.offsets; ++i) values.push_back((*part)[first + i]);
+    }
+    const int width = 2 * joint.offsets;
+    own->dynamics.replace(joint.shift, TimeTable(spacing, width, values));
+    std::copy_n(values.begin(), width, own->start.row.begin() + joint.shift);
+  }
+  return own;
+}
+
 const TimeTable& PreparedScene::pose_gain(int body) const {
   const std::lock_guard lock(mutex_);
   if (scene_.layout().n == 0) return pose_gain_[body];  // an empty table: nothing deviates

@@ -31,6 +31,8 @@ class PreparedScene {
   double own_time() const { return own_time_; }
   // Tables of these masses, gravity, springs; the last ones asked for are kept.
   std::shared_ptr<const SceneTables> tables(const Parameters& parameters) const;
+  // The same with where this sample's errors leave the offsets that redundant joints tie to others.
+  std::shared_ptr<const SceneTables> tables(const Parameters& parameters, const StandingDisplacement& standing) const;
   // E of a body over time: 6 x n, row by row.
   const TimeTable& pose_gain(int body) const;
   // Its rate of change, likewise.

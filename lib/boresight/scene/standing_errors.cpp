@@ -80,14 +80,30 @@ StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& co
     for (int e = 0; e < count(); ++e)
       if (largest[e] > 0.0) error = std::max(error, missed[e] / largest[e]);
     // The finer grid's own error is a sixteenth of what the coarser one missed.
-    if (error <= 16.0 * kAccuracy) return;
+    if (error <= 16.0 * kAccuracy) break;
     if (halving == kMostHalvings) {
-      if (error <= kLargestMiss) return;
+      if (error <= kLargestMiss) break;
       throw ComputationError("what standing errors do to the pose changes within " + std::to_string(spacing_) +
                              " s: a singular pose is near, or a drive's error ripples far faster than the motion; the "
                              "multibody rung needs no table of it");
     }
   }
+  table_shifts(influence);
+}
+
+// Of the knots there are now.
+void StandingErrors::table_shifts(ErrorInfluence& influence) {
+  if (!influence.shifts()) return;
+  std::vector<double> values;
+  MatX G;
+  for (std::size_t k = 0; k < knots_.size(); ++k) {
+    influence.at(static_cast<double>(k) * spacing_, wanted_, G);
+    const MatX& shift = influence.shift();
+    for (Eigen::Index row = 0; row < shift.rows(); ++row)
+      for (Eigen::Index e = 0; e < shift.cols(); ++e) values.push_back(shift(row, e));
+  }
+  shift_ = TimeTable(spacing_, influence.offsets().size() * count(), values);
+  shifts_ = true;
 }
 
 bool StandingErrors::covers(const std::vector<double>& errors) const {
@@ -123,6 +139,30 @@ const StandingDisplacement::Tables& StandingDisplacement::tables(int body) const
       .emplace(body,
                Tables{influence_->gain(body).contracted(errors_), influence_->gain_rate(body).contracted(errors_)})
       .first->second;
+}
+
+bool StandingDisplacement::shifts() const {
+  if (!influence_ || !influence_->shifts()) return false;
+  if (shift_) return shifts_;
+  shift_ = influence_->shift().contracted(errors_);
+  std::vector<double> values(static_cast<std::size_t>(shift_->width()));
+  // Below a picometre in a metre it is rounding.
+  constexpr double kRounding = 1e-12;
+  for (int k = 0; k < shift_->cells(); ++k) {
+    shift_->at(k * shift_->spacing(), values.data());
+    for (const double value : values) shifts_ = shifts_ || std::abs(value) > kRounding;
+  }
+  return shifts_;
+}
+
+StandingDisplacement::Shift StandingDisplacement::shift(double t) const {
+  Shift shift;
+  if (!shifts()) return shift;
+  shift.value.resize(shift_->width());
+  shift.rate.resize(shift_->width());
+  shift_->at(t, shift.value.data());
+  shift_->slopes(t, shift.rate.data());
+  return shift;
 }
 
 Vec6 StandingDisplacement::at(double t, int body) const {

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "boresight/math/time_table.hpp"
@@ -27,16 +28,23 @@ class StandingErrors {
   // Of one body: 6 x errors, row by row, over time; and its rate of change. Safe to share between threads.
   const TimeTable& gain(int body) const;
   const TimeTable& gain_rate(int body) const;
+  // Whether redundant joints with play may take up errors; then what the offsets that follow from others are shifted by: OffsetLayout x
+  // errors, row by row, over time.
+  bool shifts() const { return shifts_; }
+  const TimeTable& shift() const { return shift_; }
   int cells() const { return static_cast<int>(knots_.size()) - 1; }
   double spacing() const { return spacing_; }
 
  private:
+  void table_shifts(ErrorInfluence& influence);
   const TimeTable& kept(std::map<int, TimeTable>& tables, int body, bool rate) const;
 
   int bodies_;
   std::vector<bool> wanted_;
   double spacing_ = 0.0;
   std::vector<MatX> knots_;  // 6 bodies x errors
+  bool shifts_ = false;
+  TimeTable shift_;
   mutable std::mutex mutex_;
   mutable std::map<int, TimeTable> gain_, gain_rate_;
 };
@@ -49,6 +57,12 @@ class StandingDisplacement {
       : influence_(std::move(influence)), errors_(std::move(errors)) {}
 
   explicit operator bool() const { return influence_ != nullptr; }
+  // Whether these errors leave offsets of redundant joints somewhere that no coordinate says; and where, at t: in the order of OffsetLayout.
+  bool shifts() const;
+  struct Shift {
+    VecX value, rate;
+  };
+  Shift shift(double t) const;
   Vec6 at(double t, int body) const;
   struct Motion {
     Vec6 value = Vec6::Zero(), rate = Vec6::Zero(), acceleration = Vec6::Zero();
@@ -64,6 +78,8 @@ class StandingDisplacement {
   std::shared_ptr<const StandingErrors> influence_;
   std::vector<double> errors_;
   mutable std::map<int, Tables> tables_;
+  mutable std::optional<TimeTable> shift_;
+  mutable bool shifts_ = false;
 };
 
 }  // namespace boresight

@@ -61,6 +61,7 @@ class Envelope final : public SceneRung {
  private:
   RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
+    refuse_shifts(standing);
     const ReactionTable reactions(mechanism(), prepared.scene(), parameters);
     const std::vector<JointPlay>& joints = reactions.joints();
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());

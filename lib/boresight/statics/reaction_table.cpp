@@ -32,6 +32,14 @@ double size(const PlayOffsets& load, const JointPlay& joint) {
 
 }  // namespace
 
+void refuse_shifts(const StandingDisplacement& standing) {
+  if (standing.shifts())
+    throw ComputationError(
+        "standing errors use up play of joints that hold each other; how they rest then is a matter of all of them "
+        "together, which the "
+        "perturbation and multibody rungs follow");
+}
+
 ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& scene, const Parameters& parameters)
     : mechanism_(mechanism), layout_(scene.layout()) {
   if (scene.coordinates().leftover() > 0)

@@ -7,8 +7,13 @@
 #include "boresight/play/joint_play.hpp"
 #include "boresight/rungs/run_result.hpp"
 #include "boresight/scene/clearance_scene.hpp"
+#include "boresight/scene/standing_errors.hpp"
 
 namespace boresight {
+
+// Throws ComputationError where standing errors displace journals that redundant joints tie to others: they then rest on several places at
+// once, which a balance joint by joint does not find.
+void refuse_shifts(const StandingDisplacement& standing);
 
 class ReactionTable {
  public:
