@@ -12,6 +12,7 @@
 #include <sstream>
 #include <thread>
 
+#include "errors.hpp"
 #include "generator.hpp"
 #include "table.hpp"
 #include "trial.hpp"
@@ -103,7 +104,7 @@ int run(int argc, char** argv) {
   std::vector<std::string> files, write;
   std::vector<std::uint64_t> seeds;
   std::string save, known_file;
-  bool corpus = false;
+  bool corpus = false, errors = false;
   TrialOptions options;
   options.program = BORESIGHT_PROGRAM;
   app.add_option("--from", from, "first seed");
@@ -112,6 +113,7 @@ int run(int argc, char** argv) {
   app.add_option("--jobs", jobs, "scenes at once");
   app.add_option("--scene", files, "mechanism files")->check(CLI::ExistingFile);
   app.add_flag("--corpus", corpus, "the archetypes of tests/gauntlet/corpus");
+  app.add_flag("--errors", errors, "standing errors of lengths, axes and drives in each scene");
   app.add_option("--write", write, "SEED FILE: writes the mechanism file of a seed")->expected(2);
   app.add_option("--save", save, "folder for the mechanism files of scenes with faults");
   app.add_option("--known", known_file, "file of known faults, which are printed and do not count")
@@ -126,7 +128,8 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   if (!write.empty()) {
-    std::ofstream(write[1]) << generate(std::stoull(write[0])).toml();
+    const std::string text = generate(std::stoull(write[0])).toml();
+    std::ofstream(write[1]) << (errors ? with_errors(text) : text);
     return 0;
   }
   std::vector<std::function<Entry()>> scenes;
@@ -134,12 +137,16 @@ int run(int argc, char** argv) {
     for (const auto& entry : std::filesystem::directory_iterator(GAUNTLET_CORPUS))
       if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
-  for (const std::string& file : files) scenes.push_back([file] { return Entry{file, "file", text_of(file)}; });
+  for (const std::string& file : files)
+    scenes.push_back([file, errors] {
+      const std::string text = text_of(file);
+      return Entry{file, "file", errors ? with_errors(text) : text};
+    });
   for (std::uint64_t seed = from; seed < from + count; ++seed) seeds.push_back(seed);
   for (std::uint64_t seed : seeds)
-    scenes.push_back([seed] {
+    scenes.push_back([seed, errors] {
       const Scene scene = generate(seed);
-      return Entry{fmt::format("seed {}", seed), scene.family, scene.toml()};
+      return Entry{fmt::format("seed {}", seed), scene.family, errors ? with_errors(scene.toml()) : scene.toml()};
     });
   KnownFaults known = known_file.empty() ? KnownFaults() : KnownFaults(known_file);
   const std::vector<Verdict> verdicts = try_all(scenes, options, jobs, known);

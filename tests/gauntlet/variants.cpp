@@ -63,6 +63,7 @@ MechanismDescription drawn_elsewhere(MechanismDescription m, const Mat3& R, cons
     for (int k = 0; k < 3; ++k)
       m.motion.pose->position[k] = std::make_shared<Combination>(
           std::vector<std::pair<double, TimeFunctionPtr>>{{1.0, m.motion.pose->position[k]}}, p[k]);
+  for (ErrorDescription& e : m.errors) turn(e.direction);
   if (m.line_of_sight) {
     place(m.line_of_sight->from);
     place(m.line_of_sight->target);
@@ -108,6 +109,10 @@ MechanismDescription reordered(MechanismDescription m) {
       body(l.body);
   }
   for (InitialRateDescription& r : m.initial_rates) joint(r.joint);
+  for (ErrorDescription& e : m.errors) {
+    if (e.kind != ErrorDescription::Kind::expansion) joint(e.joint);
+    if (e.kind != ErrorDescription::Kind::drive) body(e.body);
+  }
   if (m.payload) body(m.payload->body);
   if (m.motion.pose) body(m.motion.pose->body);
   std::map<int, TimeFunctionPtr> drives;
@@ -118,6 +123,7 @@ MechanismDescription reordered(MechanismDescription m) {
   turn_around(m.clearances);
   turn_around(m.springs);
   turn_around(m.loads);
+  turn_around(m.errors);
   return m;
 }
 

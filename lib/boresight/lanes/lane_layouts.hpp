@@ -20,7 +20,7 @@ struct SingleRevoluteLayout {
   struct Joint {
     static constexpr bool tilts = false, slides = false, gains_move = false;
     static constexpr int offsets = 3, spins = 1, spin = 18, spin_gain = 19, spin_drift = 22, slide = 22,
-                         slide_gain = 22, slide_drift = 22, dependent = 22;
+                         slide_gain = 22, slide_drift = 22, dependent = 22, shift = 22;
     static constexpr std::array<int, 3> source = {0, 1, 2};
   };
   static constexpr int n = 3;
