@@ -3,7 +3,7 @@
 //   groups = { contact = ["clearance.F1.contact.restitution", "clearance.F1.friction.coefficient"] }
 //
 // A parameter in no group is a group by itself; parameters that are correlated belong in one group, as what they do
-// cannot be told apart.
+// cannot be told apart. The two parameters of a cylinder are one group without being told.
 #pragma once
 
 #include <string>
