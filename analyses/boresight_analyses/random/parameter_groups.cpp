@@ -19,7 +19,7 @@ bool depends(const RandomInputs& inputs, std::size_t from, std::size_t to) {
 
 }  // namespace
 
-NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs) {
+NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs, const GroupRules& rules) {
   const std::size_t d = inputs.size();
   NamedGroups out;
   std::vector<std::string> known;
@@ -65,11 +65,12 @@ NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs) {
     if (group_of[zone.first] != group_of[zone.first + 1])
       table.fail_found("groups", known[zone.first] + " and " + known[zone.first + 1] + " apart",
                        "both in one group, as one cylinder holds them");
+  if (rules.correlated_apart) return out;
   for (std::size_t i = 0; i < d; ++i)
     for (std::size_t j = 0; j < d; ++j)
       if (group_of[i] != group_of[j] && depends(inputs, i, j))
         table.fail_found("groups", known[i] + " and " + known[j] + ", which are correlated, apart",
-                         "correlated parameters in one group");
+                         "correlated parameters in one group" + rules.instead);
   return out;
 }
 

@@ -21,7 +21,12 @@ struct NamedGroups {
   std::vector<std::string> names;
 };
 
+struct GroupRules {
+  bool correlated_apart = false;  // allowed
+  std::string instead;            // where that is not allowed, what else may be done; after what is expected
+};
+
 // Throws InputError.
-NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs);
+NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs, const GroupRules& rules = {});
 
 }  // namespace boresight

@@ -187,6 +187,12 @@ void RandomInputs::values(std::span<double> coordinates) const {
   apply_quantiles(coordinates);
 }
 
+void RandomInputs::renewed_values(std::span<const double> a, std::span<const double> b,
+                                  const std::vector<bool>& renewed, std::span<double> values) const {
+  copula.renew(a, b, renewed, values);
+  apply_quantiles(values);
+}
+
 std::vector<double> RandomInputs::values_at(double level) const {
   std::vector<double> values(size(), level);
   apply_quantiles(values);

@@ -70,6 +70,9 @@ struct RandomInputs {
   std::vector<std::string> names() const;  // of the parameters
   // Coordinates in the unit cube become values (SI), in place.
   void values(std::span<double> coordinates) const;
+  // The values of point a, of which the parameters `renewed` are drawn anew, given the others, by the independent point b.
+  void renewed_values(std::span<const double> a, std::span<const double> b, const std::vector<bool>& renewed,
+                      std::span<double> values) const;
   // The values with every coordinate at `level`, as if nothing were correlated.
   std::vector<double> values_at(double level) const;
   // The zone that parameter i is of; null: of none.

@@ -31,14 +31,16 @@ LocalSensitivity described(const RandomParameter& parameter) {
   return s;
 }
 
-void assess_linearity(LocalSensitivity& s, bool discrete) {
+// index: at the medians. What differences are by its rounding is no slope.
+void assess_linearity(LocalSensitivity& s, double index, bool discrete) {
+  constexpr double kRounding = 1e-12;  // relative, of the index of a motion
   const auto [least, largest] = std::minmax_element(s.derivative.begin(), s.derivative.end());
   const double size = std::max(std::abs(*least), std::abs(*largest));
   if (discrete) {
     s.why_not = "the parameter is discrete";
   } else if (!std::all_of(s.derivative.begin(), s.derivative.end(), [](double v) { return std::isfinite(v); })) {
     s.why_not = "a run near the medians failed";
-  } else if (size == 0.0) {
+  } else if (size * s.step.front() <= kRounding * std::abs(index)) {
     s.meaningful = true;
   } else {
     s.spread = (*largest - *least) / size;
@@ -98,7 +100,7 @@ LocalResult local_sensitivity(const SampleModel& model, const RandomInputs& inpu
     s.at_high = values[at++];
     for (std::size_t k = 0; k < s.step.size(); ++k, at += 2)
       s.derivative[k] = (values[at + 1] - values[at]) / (2.0 * s.step[k]);
-    assess_linearity(s, inputs.parameters[i].distribution->is_discrete());
+    assess_linearity(s, result.at_medians, inputs.parameters[i].distribution->is_discrete());
   }
   return result;
 }
