@@ -115,7 +115,7 @@ class ScreeningResult final : public MethodResult {
                                100.0 * plan_.confidence),
         .x = {"mu*", unit.name},
         .y = {"parameter or group", ""},
-        .height = static_cast<int>(140 + 26 * order_.size())};
+        .height = report::height_of_bars(order_.size(), 26)};
     report::Series series{.name = "mu*", .style = report::Style::bars};
     report::Names names;
     report::Numbers sizes;

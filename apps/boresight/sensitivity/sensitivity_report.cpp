@@ -29,7 +29,7 @@ report::Chart tornado(const SensitivityStudy& s, const DisplayUnit& unit) {
           "moves. Each bar is one motion.",
       .x = {"change of the index", unit.name},
       .y = {"parameter", ""},
-      .height = static_cast<int>(140 + 80 * order.size())};
+      .height = report::height_of_bars(order.size(), 80)};
   report::Names names;
   report::Numbers low, high;
   for (const std::size_t i : order) {

@@ -149,6 +149,21 @@ class SensitivityVerb : public Verb {
     return choice;
   }
 
+  // Each by itself where they are few. Where the index turns there is no slope to warn of; the table says so.
+  static void add_slope_warnings(const LocalResult& local, std::vector<std::string>& warnings) {
+    constexpr std::size_t kFew = 5;
+    std::vector<std::string> rough;
+    for (const LocalSensitivity& p : local.parameters) {
+      if (!p.meaningful && !p.turns) rough.push_back(p.name + ": " + p.why_not);
+      if (std::isfinite(p.exact) && !p.exact_agrees) warnings.push_back(p.name + ": " + p.exact_note);
+    }
+    if (rough.size() > kFew)
+      warnings.push_back(fmt::format("no slope for {} of {} parameters; the first is {}", rough.size(),
+                                     local.parameters.size(), rough.front()));
+    else
+      for (const std::string& one : rough) warnings.push_back("no slope for " + one);
+  }
+
   static std::vector<std::string> warnings_of(const SensitivityStudy& s) {
     std::vector<std::string> warnings;
     if (s.result != nullptr) {
@@ -165,10 +180,7 @@ class SensitivityVerb : public Verb {
           fmt::format("{} of {} runs failed: too many to tell what matters", s.failures.count, s.plan.runs()) +
           first_failure_text(s.failures, "run"));
     }
-    for (const LocalSensitivity& p : s.local.parameters) {
-      if (!p.meaningful) warnings.push_back("no slope for " + p.name + ": " + p.why_not);
-      if (std::isfinite(p.exact) && !p.exact_agrees) warnings.push_back(p.name + ": " + p.exact_note);
-    }
+    add_slope_warnings(s.local, warnings);
     return warnings;
   }
 

@@ -101,7 +101,7 @@ class ShapleyResult final : public MethodResult {
                                                100.0 * plan_.confidence),
                         .x = {"share of the variance", ""},
                         .y = {"parameter or group", ""},
-                        .height = static_cast<int>(140 + 40 * order_.size())};
+                        .height = report::height_of_bars(order_.size(), 40)};
     report::Series series{.name = "Shapley effect", .style = report::Style::bars};
     report::Names names;
     report::Numbers shares;
