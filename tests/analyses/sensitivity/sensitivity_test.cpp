@@ -56,6 +56,29 @@ TEST_F(SensitivityTest, CountsFailedRunsAndLeavesOutTheirRows) {
   EXPECT_EQ(result->failed_rows, 2);
 }
 
+// y = 5 |c| + 0.3 sin(40 c): no slope at c = 0, and yet nothing rough, as with an error of either sign about zero.
+class Turning final : public SampleModel {
+ public:
+  std::string rung() const override { return "closed form"; }
+  double step() const override { return 0.0; }
+  std::string leaves_out() const override { return ""; }
+  std::size_t batch() const override { return 1; }
+  void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes, const std::atomic<bool>&) const override {
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const double c = (samples[k].values[2] - 0.03) / 0.001;
+      outcomes[k].status = Outcome::Status::done;
+      outcomes[k].value = 5.0 * std::abs(c) + 0.3 * std::sin(40.0 * c);
+    }
+  }
+};
+TEST_F(SensitivityTest, SaysWhereTheIndexTurns) {
+  const SensitivityPlan p = plan("[sensitivity]\nsamples = 64\n");
+  const LocalSensitivity c = local_sensitivity(Turning{}, p.inputs, 1, [] { return false; }).parameters[2];
+  EXPECT_FALSE(c.meaningful);
+  EXPECT_TRUE(c.turns);
+  EXPECT_THAT(c.why_not, testing::HasSubstr("turns here"));
+}
+
 // Slopes of the smooth parameters are exact; |z| has none at its middle.
 TEST_F(SensitivityTest, GivesSlopesWhereThereAreSome) {
   const SensitivityPlan p = plan("[sensitivity]\nsamples = 64\n");
