@@ -271,4 +271,9 @@ std::pair<Numbers, Numbers> thinned(const Numbers& x, const Numbers& y, std::siz
   return kept;
 }
 
+int height_of_bars(std::size_t bars, int each) {
+  constexpr std::size_t kAround = 140, kMost = 2000;  // title, axis and legend; what the contract allows
+  return static_cast<int>(std::min(kMost, kAround + bars * static_cast<std::size_t>(each)));
+}
+
 }  // namespace boresight::report

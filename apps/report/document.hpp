@@ -265,6 +265,9 @@ void to_json(nlohmann::json& json, const Verdict& verdict);
 void to_json(nlohmann::json& json, const Provenance& provenance);
 void to_json(nlohmann::json& json, const Document& document);
 
+// Height [pixels] of a chart with so many lying bars, `each` so high; as high as a chart may be where they are many.
+int height_of_bars(std::size_t bars, int each);
+
 // At most about `most` points that draw the same curve: the first, last, least and greatest point of each
 // stretch, so that no spike (an impact) is lost. x must not decrease. Gaps (NaN) end stretches and stay.
 std::pair<Numbers, Numbers> thinned(const Numbers& x, const Numbers& y, std::size_t most = 4000);

@@ -25,6 +25,16 @@ class GaussianCopula {
   bool independent() const { return factor_.size() == 0; }
   // In place. A coordinate that correlates with none before it keeps its bits.
   void apply(std::span<double> coordinates) const;
+  // Of two independent points a and b, uniform each: `out` becomes a's dependent coordinates, of which those `renewed` are drawn
+  // anew, given the others, by b. With y_a = L z_a and y_b = L z_b, J the renewed ones and K the others,
+  //
+  //   y_K = y_a,K,    y_J = y_b,J + R_JK R_KK^-1 (y_a,K - y_b,K)
+  //
+  // has the law of y_J given y_K (Journel, Huijbregts 1978: conditioning by kriging).
+  void renew(std::span<const double> a, std::span<const double> b, const std::vector<bool>& renewed,
+             std::span<double> out) const;
+  // Whether coordinate i depends on any other.
+  bool correlated(std::size_t i) const;
 
  private:
   Eigen::MatrixXd factor_;     // L

@@ -94,4 +94,40 @@ const KeyTable& empirical_keys() {
   return table_of_keys;
 }
 
+namespace {
+
+// across: "diameter" or "width".
+Key across_zone(const char* across, const char* sentence) {
+  return keys::value(across, "the parameter; with a length, m").above(0.0, "more than 0").says(sentence);
+}
+Key along_zone(const char* sentence) {
+  return keys::quantity("length", kSizeRange)
+      .above(0.0, "more than 0")
+      .sometimes("for rotations whose zone is given as a length")
+      .says(sentence);
+}
+
+}  // namespace
+
+const KeyTable& planes_keys() {
+  static const KeyTable table_of_keys{
+      .name = "distribution.planes",
+      .says = "A tolerance zone between two parallel planes (ISO 1101), around the mechanism file's value.",
+      .keys = {across_zone("width", "Their distance: the parameter is off by at most half of it."),
+               along_zone("Length of the feature between the planes: it leans by at most width / length to either "
+                          "side.")}};
+  return table_of_keys;
+}
+
+const KeyTable& cylinder_keys() {
+  static const KeyTable table_of_keys{
+      .name = "distribution.cylinder",
+      .says =
+          "A cylindrical tolerance zone (ISO 1101), around the mechanism file's values of two parameters: a "
+          "position in two directions across the cylinder, or with a length the tilt about them.",
+      .keys = {across_zone("diameter", "Its diameter: the point of the two parameters lies in a disc of it."),
+               along_zone("Length of the axis in the cylinder: it leans by at most diameter / length to any side.")}};
+  return table_of_keys;
+}
+
 }  // namespace boresight

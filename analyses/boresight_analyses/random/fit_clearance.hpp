@@ -3,18 +3,14 @@
 //
 //   c = (H - S) / 2,    H in [EI, ES], S in [ei, es].
 //
-// How deviations lie in their zones the standard leaves open. `normal`: centred, the zone is six standard deviations
-// wide
-// (a process with C_p = 1) and what lies outside is sorted out; `uniform`: any deviation in the zone is as likely as
-// any other, the wider assumption.
+// How deviations lie in their zones: zone_law.hpp.
 #pragma once
 
 #include "boresight_analyses/random/distribution.hpp"
 #include "boresight_analyses/random/iso_286.hpp"
+#include "boresight_analyses/random/zone_law.hpp"
 
 namespace boresight {
-
-enum class ZoneLaw { normal, uniform };
 
 DistributionPtr make_fit_clearance(const Fit& fit, ZoneLaw law);
 

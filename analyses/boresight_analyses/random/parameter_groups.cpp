@@ -19,7 +19,7 @@ bool depends(const RandomInputs& inputs, std::size_t from, std::size_t to) {
 
 }  // namespace
 
-NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs) {
+NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs, const GroupRules& rules) {
   const std::size_t d = inputs.size();
   NamedGroups out;
   std::vector<std::string> known;
@@ -45,19 +45,32 @@ NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs) {
     }
     groups.finish();
   }
-  for (std::size_t i = 0; i < d; ++i)
-    if (!taken[i]) {
-      out.members.push_back({static_cast<int>(i)});
-      out.names.push_back(known[i]);
-    }
+  for (const DrawnTogether& zone : inputs.zones)
+    if (taken[zone.first] != taken[zone.first + 1])
+      table.fail_found("groups", "only one of " + known[zone.first] + " and " + known[zone.first + 1] + " in a group",
+                       "both in it, as one cylinder holds them");
+  for (std::size_t i = 0; i < d; ++i) {
+    if (taken[i]) continue;
+    out.members.push_back({static_cast<int>(i)});
+    out.names.push_back(known[i]);
+    if (inputs.zone_of(i) == nullptr) continue;
+    ++i;
+    out.members.back().push_back(static_cast<int>(i));
+    out.names.back() += ", " + known[i];
+  }
   std::vector<std::size_t> group_of(d);
   for (std::size_t g = 0; g < out.members.size(); ++g)
     for (const int i : out.members[g]) group_of[static_cast<std::size_t>(i)] = g;
+  for (const DrawnTogether& zone : inputs.zones)
+    if (group_of[zone.first] != group_of[zone.first + 1])
+      table.fail_found("groups", known[zone.first] + " and " + known[zone.first + 1] + " apart",
+                       "both in one group, as one cylinder holds them");
+  if (rules.correlated_apart) return out;
   for (std::size_t i = 0; i < d; ++i)
     for (std::size_t j = 0; j < d; ++j)
       if (group_of[i] != group_of[j] && depends(inputs, i, j))
         table.fail_found("groups", known[i] + " and " + known[j] + ", which are correlated, apart",
-                         "correlated parameters in one group");
+                         "correlated parameters in one group" + rules.instead);
   return out;
 }
 

@@ -3,7 +3,7 @@
 //   groups = { contact = ["clearance.F1.contact.restitution", "clearance.F1.friction.coefficient"] }
 //
 // A parameter in no group is a group by itself; parameters that are correlated belong in one group, as what they do
-// cannot be told apart.
+// cannot be told apart. The two parameters of a cylinder are one group without being told.
 #pragma once
 
 #include <string>
@@ -21,7 +21,12 @@ struct NamedGroups {
   std::vector<std::string> names;
 };
 
+struct GroupRules {
+  bool correlated_apart = false;  // allowed
+  std::string instead;            // where that is not allowed, what else may be done; after what is expected
+};
+
 // Throws InputError.
-NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs);
+NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs, const GroupRules& rules = {});
 
 }  // namespace boresight

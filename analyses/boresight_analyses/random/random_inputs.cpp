@@ -1,5 +1,6 @@
 #include "boresight_analyses/random/random_inputs.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -11,6 +12,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/random/random_keys.hpp"
 #include "boresight_analyses/random/read_distribution.hpp"
+#include "boresight_analyses/random/read_zone.hpp"
 
 namespace boresight {
 namespace {
@@ -33,10 +35,12 @@ void check_ends(Cursor& entry, const RandomParameter& random, const std::functio
 
 // In which unit the values of a distribution are written: { normal = { mean = "0.1 mm", ... } }.
 std::string unit_of(Cursor& distribution) {
-  static const std::set<std::string> kValues = {"mean", "median", "mode", "min", "scale", "values"};
+  static const std::set<std::string> kValues = {"mean",  "median", "mode",     "min",
+                                                "scale", "values", "diameter", "width"};
   for (const std::string& name : distribution.keys()) {
     if (!distribution.is_table(name)) continue;
     Cursor kind = distribution.table(name);
+    if (kind.has("length")) continue;  // the values are angles, what is written is not
     for (const std::string& key : kind.keys())
       if (kValues.contains(key)) return kind.unit_as_written(key);
   }
@@ -45,7 +49,6 @@ std::string unit_of(Cursor& distribution) {
 
 RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechanism,
                                const std::function<void(const Setting&)>& accepts) {
-  entry.only(random_keys());
   RandomParameter random;
   random.paths = entry.one_or_texts("parameter");
   entry.require(!random.paths.empty(), "parameter", "a parameter's path, or a list of them");
@@ -64,11 +67,50 @@ RandomParameter read_parameter(Cursor& entry, const MechanismDescription& mechan
   }
   if (!radial) journals.clear();
   Cursor distribution = entry.table("distribution");
-  random.distribution = read_distribution(distribution, unit_called(random.si_unit), journals);
+  const double nominal = random.places.front().get(nominal_parameters(mechanism));
+  random.distribution = read_distribution(distribution, unit_called(random.si_unit), journals, nominal);
   random.unit = unit_of(distribution);
   check_ends(entry, random, accepts);
-  entry.finish();
   return random;
+}
+
+// Of a cylinder: the two parameters, and the disc that their point is of.
+void read_drawn_together(Cursor& entry, const MechanismDescription& mechanism,
+                         const std::function<void(const Setting&)>& accepts, RandomInputs& inputs) {
+  const std::string key = entry.has("parameters") ? "parameters" : "parameter";
+  const std::vector<std::string> paths = key == "parameter" ? entry.one_or_texts(key) : entry.texts(key);
+  entry.require(paths.size() == 2, key, "two parameters, whose point lies in the cylinder");
+  const Parameters nominal = nominal_parameters(mechanism);
+  std::array<double, 2> centre{};
+  std::vector<RandomParameter> pair(2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    pair[k].paths = {paths[k]};
+    pair[k].places.emplace_back(mechanism, paths[k], entry.origin(key));
+    pair[k].si_unit = pair[k].places[0].unit();
+    centre[k] = pair[k].places[0].get(nominal);
+  }
+  if (pair[1].si_unit != pair[0].si_unit)
+    entry.fail_found(key, "\"" + paths[1] + "\" in " + pair[1].si_unit,
+                     "two parameters of one unit, in " + pair[0].si_unit);
+  Cursor distribution = entry.table("distribution");
+  distribution.only(distribution_keys());
+  for (const std::string& other : distribution.keys())
+    if (other == "truncate" || (other != "cylinder" && other != "zone"))
+      distribution.fail_found(other, "cylinder and " + other, "a cylinder alone, and zone");
+  if (!distribution.is_table("cylinder")) distribution.fail("cylinder", "a table, such as { diameter = .. }");
+  Cursor cylinder = distribution.table("cylinder");
+  cylinder.only(cylinder_keys());
+  const double radius = read_zone_reach(cylinder, "diameter", unit_called(pair[0].si_unit));
+  cylinder.finish();
+  const ToleranceDisc disc(radius, centre, read_zone_law(distribution));
+  for (std::size_t k = 0; k < 2; ++k) {
+    pair[k].distribution = disc.marginal(k);
+    pair[k].unit = unit_of(distribution);
+    check_ends(entry, pair[k], accepts);
+  }
+  distribution.finish();
+  inputs.zones.push_back({inputs.size(), disc});
+  for (RandomParameter& parameter : pair) inputs.parameters.push_back(std::move(parameter));
 }
 
 // The paths that a path with * stands for; of another one, itself.
@@ -110,6 +152,13 @@ void read_correlations(Cursor& root, RandomInputs& inputs) {
                          nearest_name(path, names));
     const Eigen::Index i = index[pair[0]], j = index[pair[1]];
     if (i == j) entry.fail("parameters", "two different parameters");
+    const DrawnTogether* zone = inputs.zone_of(static_cast<std::size_t>(i));
+    const DrawnTogether* other = inputs.zone_of(static_cast<std::size_t>(j));
+    if (zone != nullptr && zone == other)
+      entry.fail_found("parameters", "two parameters of one cylinder",
+                       "parameters whose dependence is not given by their zone already");
+    if ((zone != nullptr || other != nullptr) && entry.choice("measure") != "normal")
+      entry.fail("measure", "\"normal\" for a parameter of a cylinder, of which ranks have no closed form");
     if (correlation(i, j) != 0.0) entry.fail("parameters", "each pair once");
     correlation(i, j) = correlation(j, i) = normal_correlation(entry);
     entry.finish();
@@ -135,8 +184,43 @@ std::vector<std::string> RandomInputs::names() const {
 
 void RandomInputs::values(std::span<double> coordinates) const {
   copula.apply(coordinates);
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    coordinates[i] = parameters[i].distribution->quantile(coordinates[i]);
+  apply_quantiles(coordinates);
+}
+
+void RandomInputs::renewed_values(std::span<const double> a, std::span<const double> b,
+                                  const std::vector<bool>& renewed, std::span<double> values) const {
+  copula.renew(a, b, renewed, values);
+  apply_quantiles(values);
+}
+
+std::vector<double> RandomInputs::values_at(double level) const {
+  std::vector<double> values(size(), level);
+  apply_quantiles(values);
+  return values;
+}
+
+void RandomInputs::apply_quantiles(std::span<double> coordinates) const {
+  auto zone = zones.begin();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (zone != zones.end() && zone->first == i) {
+      zone->disc.place(coordinates.subspan(i).first<2>());
+      ++zone;
+      ++i;
+    } else {
+      coordinates[i] = parameters[i].distribution->quantile(coordinates[i]);
+    }
+  }
+}
+
+const DrawnTogether* RandomInputs::zone_of(std::size_t i) const {
+  for (const DrawnTogether& zone : zones)
+    if (i == zone.first || i == zone.first + 1) return &zone;
+  return nullptr;
+}
+
+std::string RandomInputs::text_of(std::size_t i) const {
+  const DrawnTogether* zone = zone_of(i);
+  return zone == nullptr ? parameters[i].distribution->text() : zone->disc.text();
 }
 
 Parameters RandomInputs::parameters_with(const Mechanism& mechanism, std::span<const double> values) const {
@@ -151,15 +235,28 @@ RandomInputs read_random_inputs(Cursor& root, const MechanismDescription& mechan
   RandomInputs inputs;
   std::set<std::string> taken;  // single paths
   for (Cursor& entry : root.tables("random")) {
-    inputs.parameters.push_back(read_parameter(entry, mechanism, accepts));
-    const RandomParameter& random = inputs.parameters.back();
-    for (const std::string& path : random.paths) {
-      for (const std::string& single : meant_by(mechanism, path))
-        if (!taken.insert(single).second)
-          entry.fail_found("parameter", "\"" + single + "\" a second time", "each parameter once");
-      inputs.text += path + " ";
+    entry.only(random_keys());
+    if (entry.has("parameter") && entry.has("parameters"))
+      entry.fail_found("parameters", "parameter and parameters", "one of the two");
+    const std::size_t before = inputs.size();
+    if (entry.table("distribution").has("cylinder")) {
+      read_drawn_together(entry, mechanism, accepts, inputs);
+    } else {
+      if (entry.has("parameters"))
+        entry.fail("parameters",
+                   "a cylinder, of which two parameters are a point; parameter = [..] gives several one value");
+      inputs.parameters.push_back(read_parameter(entry, mechanism, accepts));
     }
-    inputs.text += "~ " + random.distribution->text() + "\n";
+    entry.finish();
+    for (std::size_t i = before; i < inputs.size(); ++i)
+      for (const std::string& path : inputs.parameters[i].paths) {
+        for (const std::string& single : meant_by(mechanism, path))
+          if (!taken.insert(single).second)
+            entry.fail_found(entry.has("parameters") ? "parameters" : "parameter", "\"" + single + "\" a second time",
+                             "each parameter once");
+        inputs.text += path + " ";
+      }
+    inputs.text += "~ " + inputs.text_of(before) + "\n";
   }
   if (inputs.parameters.empty()) root.fail("random", "at least one [[random]] table: what scatters, and how");
   read_correlations(root, inputs);

@@ -14,7 +14,15 @@
 //     { empirical = { file = "gaps.csv", column = "gap", unit = "mm" } }            resampled
 //     { fit = "20 H7/g6", zone = "normal" }          of a radial clearance, of its journal's size (fit_size.hpp); zone =
 //                                                      "uniform": see fit_clearance.hpp
+//     { planes = { width = .. } }                    a tolerance zone of ISO 1101: read_zone.hpp; zone = as for a fit
 //   and optionally truncate = [low, high]; the distribution between them, renormalised.
+//
+//   [[random]]
+//   parameters = ["gravity.x", "gravity.y"]    # two that are drawn together, as a point of a disc: tolerance_disc.hpp
+//   distribution = { cylinder = { diameter = ".." }, zone = "uniform" }
+//
+// Each of the two is a parameter with its own distribution, that of the disc's coordinate, and takes a coordinate of the unit
+// cube. What they do cannot be told apart, so they are one group wherever parameters are grouped.
 //
 //   [[correlation]]
 //   parameters = ["clearance.F1.radial", "clearance.F1.friction.coefficient"]
@@ -32,6 +40,7 @@
 #include "boresight/mechanism/parameter_path.hpp"
 #include "boresight_analyses/random/copula.hpp"
 #include "boresight_analyses/random/distribution.hpp"
+#include "boresight_analyses/random/tolerance_disc.hpp"
 
 namespace boresight {
 
@@ -45,8 +54,15 @@ struct RandomParameter {
   const std::string& name() const { return paths.front(); }
 };
 
+// Two parameters, `first` and the next one, that are a point of a disc.
+struct DrawnTogether {
+  std::size_t first = 0;
+  ToleranceDisc disc;
+};
+
 struct RandomInputs {
   std::vector<RandomParameter> parameters;
+  std::vector<DrawnTogether> zones;  // by ascending `first`
   GaussianCopula copula;
   std::string text;  // all that decides what coordinates become; equal texts are equal inputs
 
@@ -54,8 +70,20 @@ struct RandomInputs {
   std::vector<std::string> names() const;  // of the parameters
   // Coordinates in the unit cube become values (SI), in place.
   void values(std::span<double> coordinates) const;
+  // The values of point a, of which the parameters `renewed` are drawn anew, given the others, by the independent point b.
+  void renewed_values(std::span<const double> a, std::span<const double> b, const std::vector<bool>& renewed,
+                      std::span<double> values) const;
+  // The values with every coordinate at `level`, as if nothing were correlated.
+  std::vector<double> values_at(double level) const;
+  // The zone that parameter i is of; null: of none.
+  const DrawnTogether* zone_of(std::size_t i) const;
+  // How parameter i scatters: its distribution, or the zone that it is of.
+  std::string text_of(std::size_t i) const;
   // The mechanism's own parameters with these values.
   Parameters parameters_with(const Mechanism& mechanism, std::span<const double> values) const;
+
+ private:
+  void apply_quantiles(std::span<double> coordinates) const;
 };
 
 // Reads [[random]] and [[correlation]]. Throws InputError: beside what is wrong with an entry itself, a distribution

@@ -6,11 +6,17 @@ const KeyTable& random_keys() {
   using namespace keys;
   static const KeyTable table_of_keys{
       .name = "random",
-      .says = "A parameter that scatters, or several that scatter as one.",
+      .says = "A parameter that scatters, several that scatter as one, or two that are drawn as a point of a zone.",
       .keys = {texts("parameter")
                    .or_single()
+                   .sometimes("left out where parameters is given")
                    .says("The parameter's path, or a list of paths that all take the value drawn; `boresight paths` "
                          "lists them."),
+               texts("parameters")
+                   .of_length({2}, "two parameters")
+                   .sometimes("with a cylinder only")
+                   .says("The paths of two parameters that are drawn together, as a point of a cylinder's cross "
+                         "section; parameter = [..] of two paths means the same there."),
                table("distribution", distribution_keys).says("How it scatters: exactly one distribution.")}};
   return table_of_keys;
 }
@@ -68,11 +74,15 @@ const KeyTable& distribution_keys() {
               .says("An ISO 286 fit such as \"20 H7/g6\" (nominal size in mm): hole and shaft lie independently in "
                     "their zones, "
                     "and the radial clearance is half their difference."),
+          family("planes", planes_keys, "A tolerance zone between two parallel planes (ISO 1101)."),
+          table("cylinder", cylinder_keys)
+              .sometimes(one + "; for two parameters that are drawn together")
+              .says("A cylindrical tolerance zone (ISO 1101): a point of a disc."),
           choice("zone",
                  std::vector<KeyChoice>{{"normal", "centred, the zone is six standard deviations wide and cut there"},
-                                        {"uniform", "any size in the zone is as probable as any other"}})
+                                        {"uniform", "any place in the zone is as probable as any other"}})
               .otherwise("normal")
-              .says("How sizes lie in their tolerance zones; with fit only."),
+              .says("How sizes, places and tilts lie in their tolerance zones; with fit, planes and cylinder only."),
           values("truncate", "the parameter")
               .of_length({2}, "[low, high], the second one larger")
               .sometimes("left out, nothing is cut")

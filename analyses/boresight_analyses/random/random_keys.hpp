@@ -18,5 +18,7 @@ const KeyTable& beta_keys();
 const KeyTable& weibull_keys();
 const KeyTable& discrete_keys();
 const KeyTable& empirical_keys();
+const KeyTable& planes_keys();
+const KeyTable& cylinder_keys();
 
 }  // namespace boresight

@@ -9,6 +9,7 @@
 #include "boresight_analyses/random/csv_column.hpp"
 #include "boresight_analyses/random/fit_clearance.hpp"
 #include "boresight_analyses/random/random_keys.hpp"
+#include "boresight_analyses/random/read_zone.hpp"
 
 namespace boresight {
 namespace {
@@ -86,7 +87,7 @@ DistributionPtr empirical(Cursor& table, const SiUnit& unit) {
 
 DistributionPtr fit(Cursor& entry, const std::vector<JournalSize>& journals) {
   if (journals.empty()) entry.fail("fit", "a fit for a radial clearance only (parameter = \"clearance.JOINT.radial\")");
-  const ZoneLaw law = entry.choice("zone") == "normal" ? ZoneLaw::normal : ZoneLaw::uniform;
+  const ZoneLaw law = read_zone_law(entry);
   try {
     const Fit found = parse_fit(entry.text("fit"));
     if (found.least_clearance() < 0.0)
@@ -120,7 +121,8 @@ constexpr Family kFamilies[] = {
 
 }  // namespace
 
-DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::vector<JournalSize>& journals) {
+DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::vector<JournalSize>& journals,
+                                  double nominal) {
   entry.only(distribution_keys());
   DistributionPtr distribution;
   const char* first = nullptr;
@@ -141,9 +143,20 @@ DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::
     one_only("fit");
     distribution = fit(entry, journals);
   }
+  if (entry.has("planes")) {
+    one_only("planes");
+    Cursor table = entry.table("planes");
+    table.only(planes_keys());
+    const double reach = read_zone_reach(table, "width", unit);
+    table.finish();
+    distribution = make_between_planes(nominal, reach, read_zone_law(entry));
+  }
+  if (entry.has("cylinder"))
+    entry.fail_found("cylinder", "a zone that two parameters share", "[[random]] parameters = [..], two of them");
   if (!distribution)
     throw InputError(entry.origin(), entry.path(), "no distribution",
-                     "one of normal, uniform, lognormal, triangular, beta, weibull, discrete, empirical, fit");
+                     "one of normal, uniform, lognormal, triangular, beta, weibull, discrete, empirical, fit, planes, "
+                     "cylinder");
   if (entry.has("truncate")) {
     const std::vector<double> bounds = entry.values("truncate", unit);
     entry.require(bounds[1] > bounds[0], "truncate", "[low, high], the second one larger");

@@ -9,7 +9,9 @@
 namespace boresight {
 
 // `unit`: of the parameter; "1" means pure numbers. `journals`: of a radial clearance, for which a fit of their size may be given;
-// none for other parameters. Throws InputError.
-DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::vector<JournalSize>& journals = {});
+// none for other parameters. `nominal`: the parameter's value in the mechanism file, around which tolerance zones lie. A cylinder,
+// which is of two parameters, is refused (random_inputs.cpp reads it). Throws InputError.
+DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::vector<JournalSize>& journals = {},
+                                  double nominal = 0.0);
 
 }  // namespace boresight

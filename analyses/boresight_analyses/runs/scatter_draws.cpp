@@ -15,11 +15,8 @@ bool scene_varies(const RandomInputs& inputs) {
 
 std::vector<Parameters> pilot_samples(const RandomInputs& inputs, const Mechanism& mechanism) {
   std::vector<Parameters> samples;
-  for (const double level : {0.5, 0.05, 0.95}) {
-    std::vector<double> values;
-    for (const RandomParameter& p : inputs.parameters) values.push_back(p.distribution->quantile(level));
-    samples.push_back(inputs.parameters_with(mechanism, values));
-  }
+  for (const double level : {0.5, 0.05, 0.95})
+    samples.push_back(inputs.parameters_with(mechanism, inputs.values_at(level)));
   return samples;
 }
 

@@ -11,6 +11,7 @@ namespace boresight {
 namespace {
 
 constexpr std::array<double, 3> kSteps = {0.5, 0.25, 0.125};  // of the sd
+const char* const kTurnsHere = "the index turns here: from the median it changes alike to either side";
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 LocalSensitivity described(const RandomParameter& parameter) {
@@ -31,14 +32,17 @@ LocalSensitivity described(const RandomParameter& parameter) {
   return s;
 }
 
-void assess_linearity(LocalSensitivity& s, bool discrete) {
+// index: at the medians. `either_way`: at every step it is larger to both sides, or smaller. What differences are by its
+// rounding is no slope.
+void assess_linearity(LocalSensitivity& s, double index, bool either_way, bool discrete) {
+  constexpr double kRounding = 1e-12;  // relative, of the index of a motion
   const auto [least, largest] = std::minmax_element(s.derivative.begin(), s.derivative.end());
   const double size = std::max(std::abs(*least), std::abs(*largest));
   if (discrete) {
     s.why_not = "the parameter is discrete";
   } else if (!std::all_of(s.derivative.begin(), s.derivative.end(), [](double v) { return std::isfinite(v); })) {
     s.why_not = "a run near the medians failed";
-  } else if (size == 0.0) {
+  } else if (size * s.step.front() <= kRounding * std::abs(index)) {
     s.meaningful = true;
   } else {
     s.spread = (*largest - *least) / size;
@@ -47,7 +51,8 @@ void assess_linearity(LocalSensitivity& s, bool discrete) {
     std::snprintf(text, sizeof text,
                   "three steps give slopes that differ by %.0f %% of the largest: the index is rough here",
                   100.0 * s.spread);
-    if (!s.meaningful) s.why_not = text;
+    if (!s.meaningful) s.why_not = either_way ? kTurnsHere : text;
+    s.turns = !s.meaningful && either_way;
   }
 }
 
@@ -96,9 +101,13 @@ LocalResult local_sensitivity(const SampleModel& model, const RandomInputs& inpu
     LocalSensitivity& s = result.parameters[i];
     s.at_low = values[at++];
     s.at_high = values[at++];
-    for (std::size_t k = 0; k < s.step.size(); ++k, at += 2)
+    bool larger = true, smaller = true;
+    for (std::size_t k = 0; k < s.step.size(); ++k, at += 2) {
       s.derivative[k] = (values[at + 1] - values[at]) / (2.0 * s.step[k]);
-    assess_linearity(s, inputs.parameters[i].distribution->is_discrete());
+      larger = larger && std::min(values[at], values[at + 1]) > result.at_medians;
+      smaller = smaller && std::max(values[at], values[at + 1]) < result.at_medians;
+    }
+    assess_linearity(s, result.at_medians, larger || smaller, inputs.parameters[i].distribution->is_discrete());
   }
   return result;
 }

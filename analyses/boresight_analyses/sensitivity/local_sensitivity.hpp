@@ -25,6 +25,8 @@ struct LocalSensitivity {
   std::array<double, 3> derivative = {};  // of the index by the parameter [SI]; NaN: a run failed
   double spread = 0.0;                    // among them, relative to the largest
   bool meaningful = false;
+  bool turns =
+      false;  // not, as the index changes alike to either side of the median: an error of either sign about zero
   std::string why_not;                                      // in words
   double exact = std::numeric_limits<double>::quiet_NaN();  // slope of the motion at the medians: exact_slopes.hpp
   bool exact_agrees = false;                                // with the smallest difference, within kSettledSlope

@@ -1,5 +1,5 @@
-// Sensitivity of the index: Sobol' indices of the groups over the whole scatter, and around its middle one parameter at a
-// time: derivatives and swings (the tornado).
+// Sensitivity of the index over the whole scatter, by the method of the plan: Sobol' indices, elementary effects or Shapley effects
+// of the groups. (Around the middle, one parameter at a time: local_sensitivity.hpp.)
 #pragma once
 
 #include <functional>
@@ -12,18 +12,48 @@
 
 namespace boresight {
 
+// Of rows with a failed run nothing is taken.
+struct RowCounts {
+  std::int64_t rows = 0, failed_rows = 0;
+  std::uint64_t failed_runs = 0;
+};
+
 struct GroupSensitivity {
   std::string name;
   ReportedInterval first, total;
   bool undersampled = false;
 };
 
-struct GlobalSensitivity {
+struct GlobalSensitivity : RowCounts {
   std::vector<GroupSensitivity> groups;  // in the order of the plan
   ReportedInterval interactions;
   double mean = 0.0, sd = 0.0;  // of the index [SI]
-  std::int64_t rows = 0, failed_rows = 0;
-  std::uint64_t failed_runs = 0;
+};
+
+// Elementary effects, in the unit of the index per whole range of a parameter's probabilities.
+struct ScreenedGroup {
+  std::string name;
+  ReportedInterval mu_star;
+  std::optional<ReportedInterval> mu, sigma;  // none for groups of several parameters, which move each to its own side
+  bool negligible = false;                    // by the plan's share of the largest mu_star
+};
+struct Screening : RowCounts {
+  std::vector<ScreenedGroup> groups;  // in the order of the plan
+  double largest() const;             // mu_star
+  std::size_t negligible() const;     // how many are
+};
+
+struct ShapleyGroup {
+  std::string name;
+  ReportedInterval effect;
+  bool undersampled = false;  // an interval wider than kWideEffect
+};
+struct ShapleyDivision : RowCounts {
+  static constexpr double kWideEffect = 0.2;
+  std::vector<ShapleyGroup> groups;  // in the order of the plan
+  double mean = 0.0, sd = 0.0;       // of the index [SI]
+  // About how many rows make every interval kWideEffect wide: widths go with the square root of their number.
+  double rows_that_settle() const;
 };
 
 struct SensitivityProgress {
@@ -41,7 +71,9 @@ struct SensitivityOptions {
 bool compute_sensitivity_runs(const SampleModel& model, const SensitivityPlan& plan, SampleStore& store,
                               const SensitivityOptions& options);
 
-// From a store that holds all runs. None if too few rows are without a failed run.
+// Of a plan with this method, from a store that holds all runs. None if too few rows are without a failed run.
 std::optional<GlobalSensitivity> global_sensitivity(const SensitivityPlan& plan, const SampleStore& store);
+std::optional<Screening> screening(const SensitivityPlan& plan, const SampleStore& store);
+std::optional<ShapleyDivision> shapley_division(const SensitivityPlan& plan, const SampleStore& store);
 
 }  // namespace boresight

@@ -11,12 +11,36 @@ const KeyTable& sensitivity_keys() {
   static const KeyTable table_of_keys{
       .name = "sensitivity",
       .says =
-          "Which parameter's scatter matters: Sobol' indices of first order (Saltelli 2010) and total (Jansen 1999).",
+          "Which parameter's scatter matters: Sobol' indices of first order (Saltelli 2010) and total (Jansen 1999); "
+          "or "
+          "elementary effects (Morris 1991), or Shapley effects (Song, Nelson, Staum 2016).",
       .keys = {integer("samples")
                    .counting(16.0, kMostRows)
-                   .says("Rows of the design; a row costs as many runs as there are groups, and two. Of sobol "
-                         "replicates times a "
-                         "power of two."),
+                   .says("Rows of the design. A row costs as many runs as there are groups, and two of sobol or one of "
+                         "morris; of shapley with all orders two to the power of their number. Where the design is "
+                         "sobol, replicates times a power of two."),
+               choice("method",
+                      std::vector<KeyChoice>{
+                          {"sobol", "shares of the variance, alone and together with all others"},
+                          {"morris", "screening: how far the index moves with each, for more than some ten parameters"},
+                          {"shapley", "shares of the variance that add up to one, where parameters are correlated"}})
+                   .otherwise("sobol")
+                   .says("What is measured of each parameter."),
+               integer("levels")
+                   .between(2.0, 64.0, "an even number from 2 to 64")
+                   .otherwise(4.0)
+                   .says("At how many places of its distribution each parameter is tried; an even number. With method "
+                         "= \"morris\" only."),
+               number("negligible")
+                   .share()
+                   .otherwise(0.05)
+                   .says("A parameter is said to be negligible where its mu*, at the upper end of its interval, is "
+                         "below this share of the largest mu*. With method = \"morris\" only."),
+               choice("orders", std::vector<KeyChoice>{{"all", "every row has all orders of the parameters in it"},
+                                                       {"random", "every row has one random order"}})
+                   .usually("all for up to 4 groups, random for more")
+                   .says("In which orders parameters are taken in; the cheaper one for its accuracy unless given. With "
+                         "method = \"shapley\" only."),
                seed_key(),
                choice("design", std::vector<KeyChoice>{{"sobol", "scrambled Sobol' nets, intervals over replicates"},
                                                        {"random", "independent rows, intervals by bootstrap"}})

@@ -3,9 +3,7 @@
 //   first  V(E(y | x_g)) / V(y)       alone                         Saltelli et al. 2010, Eq. (b) of Table 2
 //   total  E(V(y | x_~g)) / V(y)      alone and with all others     Jansen 1999, Eq. (f) of Table 2
 //
-// For independent parameters (groups). Rows of independent points: bootstrap over rows, percentile interval (Archer,
-// Saltelli, Sobol' 1997). Rows of scrambled nets depend on each other: jackknife over replicate nets, Student's t. Which
-// of the two is the type's word, as in interval.hpp.
+// For independent parameters (groups). Intervals: row_intervals.hpp.
 //
 // A row with a failed evaluation is left out whole, and counted: indices then speak of the parameters' domain without it.
 #pragma once
@@ -13,6 +11,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "boresight_analyses/sensitivity/row_intervals.hpp"
 #include "boresight_analyses/sensitivity/sobol_rows.hpp"
 #include "boresight_analyses/statistics/interval.hpp"
 
@@ -30,12 +29,6 @@ struct SobolIndices {
   std::int64_t rows = 0, failed_rows = 0;
   // 1 - the sum of the first-order indices: what parameters do only together.
   IntervalOf<Sampling> interactions;
-};
-
-struct BootstrapOptions {
-  double confidence = 0.95;
-  int resamples = 1000;
-  std::uint64_t seed = 1;
 };
 
 // Throw std::invalid_argument for fewer than ten rows (two replicates) that did not fail, or rows of unequal width. A

@@ -213,9 +213,8 @@ report::Panels scatter(const MonteCarloStudy& s, const std::vector<double>& sort
 }
 
 // The distribution with its numbers as people read them.
-std::string short_text(const Distribution& distribution) {
+std::string short_text(const std::string& text) {
   static const std::regex number("-?[0-9]+\\.?[0-9]*(e[-+]?[0-9]+)?");
-  const std::string text = distribution.text();
   if (text.starts_with("fit(")) return text;
   std::string out;
   auto at = text.cbegin();
@@ -234,11 +233,12 @@ report::Table input_table(const MonteCarloStudy& s) {
       .title = "What scatters",
       .caption = "The design's coordinates become values by each distribution's quantile function.",
       .columns = {{"Parameter"}, {"Distribution"}, {"Mean"}, {"Standard deviation"}, {"0.1 % below"}, {"0.1 % above"}}};
-  for (const RandomParameter& p : s.plan.inputs.parameters) {
+  for (std::size_t i = 0; i < s.plan.inputs.size(); ++i) {
+    const RandomParameter& p = s.plan.inputs.parameters[i];
     std::string paths;
     for (const std::string& path : p.paths) paths += (paths.empty() ? "" : " = ") + path;
     const auto text = [&](double v) { return readable_as(v, p.si_unit, p.unit); };
-    table.rows.push_back({paths, short_text(*p.distribution) + (p.si_unit == "1" ? "" : ", in " + p.si_unit),
+    table.rows.push_back({paths, short_text(s.plan.inputs.text_of(i)) + (p.si_unit == "1" ? "" : ", in " + p.si_unit),
                           text(p.distribution->mean()), text(p.distribution->sd()),
                           text(p.distribution->quantile(0.001)), text(p.distribution->upper_quantile(0.001))});
   }

@@ -347,12 +347,14 @@ class MonteCarloVerb : public Verb {
       json["errors"][e.of] = error_json(e);
     }
     json["random"] = Json::array();
-    for (const RandomParameter& p : s.plan.inputs.parameters)
+    for (std::size_t i = 0; i < s.plan.inputs.size(); ++i) {
+      const RandomParameter& p = s.plan.inputs.parameters[i];
       json["random"].push_back({{"parameters", p.paths},
                                 {"unit", p.si_unit},
-                                {"distribution", p.distribution->text().substr(0, 400)},
+                                {"distribution", s.plan.inputs.text_of(i).substr(0, 400)},
                                 {"mean", number_json(p.distribution->mean())},
                                 {"sd", number_json(p.distribution->sd())}});
+    }
     json["replay"] = s.replay + " NUMBER";
     json["files"] = {"summary.json", "samples.db", "report.html", "report.json"};
     return json;

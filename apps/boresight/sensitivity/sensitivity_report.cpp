@@ -13,76 +13,6 @@
 namespace boresight::app {
 namespace {
 
-// Groups by what they make, largest first.
-std::vector<std::size_t> by_total(const GlobalSensitivity& global) {
-  std::vector<std::size_t> order(global.groups.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return global.groups[a].total.value > global.groups[b].total.value;
-  });
-  return order;
-}
-
-report::Chart index_chart(const GlobalSensitivity& global, double confidence) {
-  report::Chart chart{
-      .title = "Share of the variance that each makes",
-      .caption = fmt::format("First order: what it makes alone; total: alone and together with all others. Whiskers: "
-                             "{:g} % intervals. A first-order index may come out a little below zero where it is zero.",
-                             100.0 * confidence),
-      .x = {"parameter or group", ""},
-      .y = {"share of the variance", ""},
-      .height = 420};
-  report::Names names;
-  report::Series first{.name = "first order", .style = report::Style::bars},
-      total{.name = "total", .style = report::Style::bars};
-  report::Numbers y1, yt;
-  for (const std::size_t g : by_total(global)) {
-    const GroupSensitivity& s = global.groups[g];
-    names.push_back(s.name);
-    y1.push_back(s.first.value);
-    yt.push_back(s.total.value);
-    first.error_low.push_back(s.first.value - s.first.low);
-    first.error_high.push_back(s.first.high - s.first.value);
-    total.error_low.push_back(s.total.value - s.total.low);
-    total.error_high.push_back(s.total.high - s.total.value);
-  }
-  first.x = total.x = names;
-  first.y = y1;
-  total.y = yt;
-  chart.series = {first, total};
-  return chart;
-}
-
-report::Table index_table_of(const GlobalSensitivity& global) {
-  report::Table table{
-      .title = "Sobol' indices",
-      .caption = global.groups.front().first.basis +
-                 "; estimators of Saltelli et al. 2010 (first) and Jansen "
-                 "1999 (total).",
-      .columns = {{"parameter or group"}, {"first"}, {"from"}, {"to"}, {"total"}, {"from"}, {"to"}, {"settled"}}};
-  for (const std::size_t g : by_total(global)) {
-    const GroupSensitivity& s = global.groups[g];
-    table.rows.push_back({s.name, s.first.value, s.first.low, s.first.high, s.total.value, s.total.low, s.total.high,
-                          s.undersampled ? "no: more samples" : "yes"});
-  }
-  const ReportedInterval& i = global.interactions;
-  table.rows.push_back({"only together (1 - sum of first)", i.value, i.low, i.high, nullptr, nullptr, nullptr, ""});
-  return table;
-}
-
-report::Section global_section(const SensitivityStudy& s) {
-  report::Section section{
-      .id = "indices",
-      .title = "Whose scatter matters",
-      .intro = fmt::format("The index is the {}. Over the whole scatter it has the mean {} and the standard "
-                           "deviation {}; its variance is divided among the parameters here.",
-                           s.study.index.title(), readable(s.global->mean, s.study.index.si_unit()),
-                           readable(s.global->sd, s.study.index.si_unit()))};
-  section.items.push_back(index_chart(*s.global, s.plan.confidence));
-  section.items.push_back(index_table_of(*s.global));
-  return section;
-}
-
 report::Chart tornado(const SensitivityStudy& s, const DisplayUnit& unit) {
   std::vector<std::size_t> order(s.local.parameters.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -99,7 +29,7 @@ report::Chart tornado(const SensitivityStudy& s, const DisplayUnit& unit) {
           "moves. Each bar is one motion.",
       .x = {"change of the index", unit.name},
       .y = {"parameter", ""},
-      .height = static_cast<int>(140 + 80 * order.size())};
+      .height = report::height_of_bars(order.size(), 80)};
   report::Names names;
   report::Numbers low, high;
   for (const std::size_t i : order) {
@@ -187,36 +117,21 @@ report::Section scatter_section(const SensitivityStudy& s) {
 
 }  // namespace
 
-std::string sensitivity_sentence(const SensitivityStudy& s) {
-  if (!s.global) return "";
-  if (s.global->sd <= 1e-9 * std::abs(s.global->mean)) return "The index does not depend on what scatters.";
-  const GroupSensitivity& first = s.global->groups[by_total(*s.global).front()];
-  // Estimates of what lies between 0 and 1 may lie beyond; a sentence need not say so, the table does.
-  const auto share = [](double value) { return readable_share(std::clamp(value, 0.0, 1.0)); };
-  return fmt::format(
-      "{} matters most: {} of the variance alone ({} to {}), {} with all it does together with others ({} to {})",
-      first.name, share(first.first.value), share(first.first.low), share(first.first.high), share(first.total.value),
-      share(first.total.low), share(first.total.high));
-}
-
 report::Document sensitivity_report(const SensitivityStudy& s) {
   report::Document document{.title = s.mechanism.name(),
                             .subtitle = "Which parameter's scatter matters for the " + s.study.index.title(),
                             .verb = "sensitivity"};
   if (s.interrupted)
     document.verdict = report::Verdict{report::Standing::bad, "Interrupted: the same command goes on."};
-  else if (s.global)
-    document.verdict = report::Verdict{report::Standing::neutral, sensitivity_sentence(s)};
+  else if (s.result != nullptr)
+    document.verdict = report::Verdict{report::Standing::neutral, s.result->sentence()};
   else
-    document.verdict = report::Verdict{report::Standing::bad, "Too many runs failed: no indices."};
-  if (s.global) {
-    document.facts = {{"mean of the index", readable(s.global->mean, s.study.index.si_unit()), "", ""},
-                      {"standard deviation", readable(s.global->sd, s.study.index.si_unit()), "", ""},
-                      {"only together", readable_share(std::max(0.0, s.global->interactions.value)), "",
-                       "of the variance, by no parameter alone"},
-                      {"runs", static_cast<double>(s.plan.runs()), "",
-                       fmt::format("{} rows of {}", s.plan.rows, s.plan.runs_per_row())}};
-    document.sections.push_back(global_section(s));
+    document.verdict = report::Verdict{report::Standing::bad, "Too many runs failed to tell what matters."};
+  if (s.result != nullptr) {
+    document.facts = s.result->facts();
+    document.facts.push_back({"runs", static_cast<double>(s.plan.runs()), "",
+                              fmt::format("{} rows of {}", s.plan.rows, s.plan.runs_per_row())});
+    document.sections.push_back(s.result->section());
   }
   if (!s.local.interrupted && std::isfinite(s.local.at_medians)) document.sections.push_back(local_section(s));
   if (!s.shown.empty()) document.sections.push_back(scatter_section(s));
@@ -228,6 +143,7 @@ report::Document sensitivity_report(const SensitivityStudy& s) {
   document.provenance.push_back({"Study hash", s.study.content_hash});
   document.provenance.push_back({"Seed", static_cast<double>(s.plan.design.seed)});
   document.provenance.push_back({"Design", s.plan.design.text()});
+  document.provenance.push_back({"Method", to_string(s.plan.method)});
   return document;
 }
 

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "boresight_analyses/sensitivity/local_sensitivity.hpp"
-#include "boresight_analyses/sensitivity/sensitivity.hpp"
 #include "boresight_analyses/study/failures.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 #include "boresight_analyses/study/study.hpp"
 #include "command_line/command.hpp"
 #include "report/document.hpp"
+#include "sensitivity/method_result.hpp"
 
 namespace boresight::app {
 
@@ -18,17 +18,14 @@ struct SensitivityStudy {
   const Mechanism& mechanism;
   const RungChoice& rung;
   const SensitivityPlan& plan;
-  const std::optional<GlobalSensitivity>& global;  // none: interrupted, or too few runs that did not fail
+  const MethodResult* result;  // none: interrupted, or too few runs that did not fail
   const LocalResult& local;
-  std::vector<SampleRecord> shown;  // some independent runs (points a), for the scatter plots
+  std::vector<SampleRecord> shown;  // some independent runs (the first of their rows), for the scatter plots
   bool interrupted = false;
   std::vector<std::string> warnings;
   std::string leaves_out;
   Failures failures = {};
 };
-
-// "radial clearance of F1 makes 71 % of the variance"; for the terminal and the report's head.
-std::string sensitivity_sentence(const SensitivityStudy& study);
 
 report::Document sensitivity_report(const SensitivityStudy& study);
 

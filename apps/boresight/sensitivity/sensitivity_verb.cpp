@@ -24,16 +24,6 @@ namespace {
 
 constexpr std::size_t kMostShown = 2000;  // points of a scatter plot
 
-void write_indices(std::ostream& out, const GlobalSensitivity& global) {
-  out << "group,first,first_low,first_high,total,total_low,total_high,undersampled\n";
-  for (const GroupSensitivity& g : global.groups) {
-    out << csv_field(g.name);
-    for (const ReportedInterval& i : {g.first, g.total})
-      out << ',' << exact(i.value) << ',' << exact(i.low) << ',' << exact(i.high);
-    out << ',' << (g.undersampled ? "true" : "false") << '\n';
-  }
-}
-
 void write_local(std::ostream& out, const LocalResult& local) {
   out << "parameter,unit,median,sd,low,high,index_at_low,index_at_high";
   for (const char* name : {"half", "quarter", "eighth"}) out << ",step_" << name << ",derivative_" << name;
@@ -52,7 +42,9 @@ class SensitivityVerb : public Verb {
   std::string name() const override { return "sensitivity"; }
   std::string file_kind() const override { return "study"; }
   const KeyTable* study_table() const override { return &sensitivity_keys(); }
-  std::string summary() const override { return "which parameter's scatter matters: Sobol' indices, slopes, tornado"; }
+  std::string summary() const override {
+    return "which parameter's scatter matters: Sobol' indices, screening, Shapley effects, tornado";
+  }
   std::string example() const override { return "boresight sensitivity antenna/sensitivity.toml"; }
   std::string next(const Command&, bool) const override {
     return "boresight help allocate: which fits meet a requirement at least cost";
@@ -86,6 +78,9 @@ class SensitivityVerb : public Verb {
     if (!command.quiet) {
       tell("{}: {} runs ({} rows of {}; {})\n", mechanism->name(), plan.runs(), plan.rows, plan.runs_per_row(),
            plan.design.text());
+      if (plan.method == SensitivityMethod::sobol && plan.groups.size() > kManyGroups)
+        tell("  {} parameters or groups: method = \"morris\" finds those that matter with some 32 samples of {} runs\n",
+             plan.groups.size(), plan.groups.size() + 1);
       std::fflush(stdout);
     }
     const std::unique_ptr<Stage> stage = own.run().stage(static_cast<double>(plan.runs()), "runs");
@@ -100,11 +95,11 @@ class SensitivityVerb : public Verb {
     const Stopwatch computing;
     const bool whole = compute_sensitivity_runs(model, plan, store, options_of_runs);
     const std::string stuck = no_run_done(!whole, begun_with, store.count(), computing.wall_seconds());
-    std::optional<GlobalSensitivity> global;
+    std::unique_ptr<MethodResult> found;
     LocalResult local;
     local.interrupted = true;
     if (whole) {
-      global = global_sensitivity(plan, store);
+      found = method_result(study, plan, store);
       local = local_sensitivity(model, plan.inputs, command.jobs, [] { return interrupted(); });
       if (!local.interrupted && choice.name == "perturbation")
         add_exact_slopes(mechanism, plan.inputs, study.index, run, local);
@@ -116,7 +111,7 @@ class SensitivityVerb : public Verb {
                             .mechanism = *mechanism,
                             .rung = choice,
                             .plan = plan,
-                            .global = global,
+                            .result = found.get(),
                             .local = local,
                             .shown = {},
                             .interrupted = !whole || local.interrupted,
@@ -134,8 +129,8 @@ class SensitivityVerb : public Verb {
     write(result, own, watch, store.earlier());
     if (!command.quiet) print(result, own.out());
     if (result.interrupted) return kInterrupted;
-    if (!global)
-      return failed(command, "too many runs failed for indices" + first_failure_text(result.failures, "run"));
+    if (found == nullptr)
+      return failed(command, "too many runs failed to tell what matters" + first_failure_text(result.failures, "run"));
     return status_with_accuracy(choice, kDone);
   }
 
@@ -154,29 +149,38 @@ class SensitivityVerb : public Verb {
     return choice;
   }
 
-  static std::vector<std::string> warnings_of(const SensitivityStudy& s) {
-    std::vector<std::string> warnings;
-    if (s.global) {
-      std::string unsettled;
-      for (const GroupSensitivity& g : s.global->groups)
-        if (g.undersampled) unsettled += (unsettled.empty() ? "" : ", ") + g.name;
-      if (!unsettled.empty())
-        warnings.push_back("under-sampled (a negative index, or an interval wider than 0.2): " + unsettled +
-                           "; more samples settle it");
-      if (s.global->failed_runs > 0)
-        warnings.push_back(
-            fmt::format("{} of {} runs failed; the {} rows that they belong to are left out, so the indices speak of "
-                        "the parameters' range without them",
-                        s.global->failed_runs, s.plan.runs(), s.global->failed_rows) +
-            first_failure_text(s.failures, "run"));
-    }
-    if (!s.global && s.failures.count > 0)
-      warnings.push_back(fmt::format("{} of {} runs failed: too many for indices", s.failures.count, s.plan.runs()) +
-                         first_failure_text(s.failures, "run"));
-    for (const LocalSensitivity& p : s.local.parameters) {
-      if (!p.meaningful) warnings.push_back("no slope for " + p.name + ": " + p.why_not);
+  // Each by itself where they are few. Where the index turns there is no slope to warn of; the table says so.
+  static void add_slope_warnings(const LocalResult& local, std::vector<std::string>& warnings) {
+    constexpr std::size_t kFew = 5;
+    std::vector<std::string> rough;
+    for (const LocalSensitivity& p : local.parameters) {
+      if (!p.meaningful && !p.turns) rough.push_back(p.name + ": " + p.why_not);
       if (std::isfinite(p.exact) && !p.exact_agrees) warnings.push_back(p.name + ": " + p.exact_note);
     }
+    if (rough.size() > kFew)
+      warnings.push_back(fmt::format("no slope for {} of {} parameters; the first is {}", rough.size(),
+                                     local.parameters.size(), rough.front()));
+    else
+      for (const std::string& one : rough) warnings.push_back("no slope for " + one);
+  }
+
+  static std::vector<std::string> warnings_of(const SensitivityStudy& s) {
+    std::vector<std::string> warnings;
+    if (s.result != nullptr) {
+      warnings = s.result->warnings();
+      const RowCounts counts = s.result->counts();
+      if (counts.failed_runs > 0)
+        warnings.push_back(
+            fmt::format("{} of {} runs failed; the {} rows that they belong to are left out, so the results speak of "
+                        "the parameters' range without them",
+                        counts.failed_runs, s.plan.runs(), counts.failed_rows) +
+            first_failure_text(s.failures, "run"));
+    } else if (s.failures.count > 0) {
+      warnings.push_back(
+          fmt::format("{} of {} runs failed: too many to tell what matters", s.failures.count, s.plan.runs()) +
+          first_failure_text(s.failures, "run"));
+    }
+    add_slope_warnings(s.local, warnings);
     return warnings;
   }
 
@@ -185,6 +189,7 @@ class SensitivityVerb : public Verb {
     const OutputDirectory& out = own.out();
     Json json = own.head(s.study, s.rung, watch, s.warnings, s.interrupted, earlier);
     json["seed"] = s.plan.design.seed;
+    json["method"] = to_string(s.plan.method);
     json["design"] = s.plan.design.text();
     json["samples"] = s.plan.rows;
     json["runs"] = s.plan.runs();
@@ -193,25 +198,12 @@ class SensitivityVerb : public Verb {
                      {"unit", s.study.index.si_unit()}};
     add_first_failure(json, s.failures, "run");
     std::vector<std::string> files = {"summary.json", "samples.db", "report.html", "report.json"};
-    if (s.global) {
-      json["index"]["mean"] = s.global->mean;
-      json["index"]["sd"] = s.global->sd;
-      json["failed"] = s.global->failed_runs;
-      json["failed_rows"] = s.global->failed_rows;
-      for (std::size_t g = 0; g < s.plan.groups.size(); ++g) {
-        const GroupSensitivity& group = s.global->groups[g];
-        Json parameters = Json::array();
-        for (const int i : s.plan.groups[g])
-          parameters.push_back(s.plan.inputs.parameters[static_cast<std::size_t>(i)].name());
-        json["sobol"][group.name] = {{"parameters", parameters},
-                                     {"first", interval_json(group.first)},
-                                     {"total", interval_json(group.total)},
-                                     {"undersampled", group.undersampled}};
-      }
-      json["interactions"] = interval_json(s.global->interactions);
-      json["basis"] = s.global->interactions.basis;
-      out.write("sobol.csv", [&](std::ostream& stream) { write_indices(stream, *s.global); });
-      files.emplace_back("sobol.csv");
+    if (s.result != nullptr) {
+      s.result->add_to(json);
+      json["failed"] = s.result->counts().failed_runs;
+      json["failed_rows"] = s.result->counts().failed_rows;
+      out.write(s.result->table_name(), [&](std::ostream& stream) { s.result->write_table(stream); });
+      files.push_back(s.result->table_name());
     }
     if (!s.local.interrupted) {
       json["local"]["at_medians"] = number_json(s.local.at_medians);
@@ -246,16 +238,7 @@ class SensitivityVerb : public Verb {
 
   static void print(const SensitivityStudy& s, const OutputDirectory& out) {
     if (s.interrupted) tell("  interrupted; the same command goes on\n");
-    if (s.global) {
-      tell("  index: {}; mean {}, standard deviation {}; {} rung\n", s.study.index.title(),
-           readable(s.global->mean, s.study.index.si_unit()), readable(s.global->sd, s.study.index.si_unit()),
-           s.rung.name);
-      std::size_t widest = 0;
-      for (const GroupSensitivity& g : s.global->groups) widest = std::max(widest, g.name.size());
-      for (const GroupSensitivity& g : s.global->groups)
-        tell("  {:<{}}  first {:>6.3f} ({:.3f} to {:.3f})   total {:>6.3f} ({:.3f} to {:.3f})\n", g.name, widest,
-             g.first.value, g.first.low, g.first.high, g.total.value, g.total.low, g.total.high);
-    }
+    if (s.result != nullptr) s.result->print(s.rung.name);
     for (const std::string& warning : s.warnings) tell("  warning: {}\n", warning);
     tell("  report: {}\n", (out.path() / "report.html").string());
   }

@@ -74,6 +74,7 @@ struct PerturbationLanes::Cache {
 };
 
 bool PerturbationLanes::serve(const Mechanism& mechanism) {
+  if (!mechanism.description().errors.empty()) return false;  // the pose of the mechanism as built is the rung's own
   for (const JointPlay& law : joint_plays(mechanism.description(), mechanism.parameters())) {
     const auto* journal = std::get_if<JournalInSleeve>(&law.kind);
     if (journal == nullptr || journal->radial_law.curve != ElasticCurve::point || law.sticks) return false;

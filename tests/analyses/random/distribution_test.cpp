@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "boresight_analyses/random/disc_coordinate.hpp"
 #include "boresight_analyses/random/fit_clearance.hpp"
 
 namespace boresight {
@@ -22,7 +23,9 @@ std::vector<DistributionPtr> all_continuous() {
           make_triangular(1.0, 2.0, 4.0)->truncated(1.5, 3.0),
           make_normal(0.0, 1.0)->truncated(6.0, 9.0),
           make_fit_clearance(parse_fit("20 H7/g6"), ZoneLaw::normal),
-          make_fit_clearance(parse_fit("20 H7/g6"), ZoneLaw::uniform)};
+          make_fit_clearance(parse_fit("20 H7/g6"), ZoneLaw::uniform),
+          make_disc_coordinate(2.0, 0.3, 0.1),
+          make_disc_coordinate(0.0, 1.0, 2.0)};
 }
 
 TEST(Distribution, QuantileCdfAndSurvivalAreInversesOfOneAnother) {

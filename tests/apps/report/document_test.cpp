@@ -49,6 +49,11 @@ TEST(Thinned, KeepsGaps) {
   EXPECT_TRUE(std::any_of(kept.begin(), kept.end(), [](double one) { return std::isnan(one); }));
 }
 
+TEST(HeightOfBars, GrowsWithThemAsFarAsAChartMay) {
+  EXPECT_EQ(height_of_bars(5, 80), 540);
+  EXPECT_EQ(height_of_bars(40, 80), 2000);
+}
+
 TEST(Thinned, LeavesShortSeriesAlone) { EXPECT_EQ(thinned({1, 2, 3}, {4, 5, 6}, 100).second, (Numbers{4, 5, 6})); }
 
 }  // namespace

@@ -309,6 +309,16 @@ TEST(Lanes, RefuseLawsThatTheyDoNotHave) {
   EXPECT_FALSE(PerturbationLanes::serve(*scenes::build(std::move(d))));
 }
 
+TEST(Lanes, LeaveMechanismsWithStandingErrorsToTheRung) {
+  MechanismDescription d = scenes::rrcpr();
+  ErrorDescription length;
+  length.name = "length";
+  length.joint = d.clearances[0].joint;
+  length.body = d.clearances[0].journal;
+  d.errors.push_back(length);
+  EXPECT_FALSE(PerturbationLanes::serve(*scenes::build(std::move(d))));
+}
+
 // The index at the default tolerance against its converged value: RK4 at 2 us, medians over three neighbouring steps.
 TEST(LanesLong, MeetOnePercentOverClearancesAndLoads) {
   for (const double c : {1e-4, 2e-4, 3e-4})

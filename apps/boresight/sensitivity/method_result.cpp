@@ -1,0 +1,23 @@
+#include "sensitivity/method_result.hpp"
+
+namespace boresight::app {
+
+std::unique_ptr<MethodResult> method_result(const Study& study, const SensitivityPlan& plan, const SampleStore& store) {
+  switch (plan.method) {
+    case SensitivityMethod::sobol:
+      return sobol_result(study, plan, store);
+    case SensitivityMethod::morris:
+      return screening_result(study, plan, store);
+    case SensitivityMethod::shapley:
+      return shapley_result(study, plan, store);
+  }
+  return nullptr;
+}
+
+Json parameters_of(const SensitivityPlan& plan, std::size_t g) {
+  Json parameters = Json::array();
+  for (const int i : plan.groups[g]) parameters.push_back(plan.inputs.parameters[static_cast<std::size_t>(i)].name());
+  return parameters;
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,166 @@
+// Sobol' indices as the sensitivity verb tells them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <ostream>
+
+#include "results/scatter_parts.hpp"
+#include "results/tables.hpp"
+#include "sensitivity/method_result.hpp"
+#include "terminal/readable.hpp"
+#include "terminal/terminal.hpp"
+
+namespace boresight::app {
+namespace {
+
+// Groups by what they make, largest first.
+std::vector<std::size_t> by_total(const GlobalSensitivity& global) {
+  std::vector<std::size_t> order(global.groups.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return global.groups[a].total.value > global.groups[b].total.value;
+  });
+  return order;
+}
+
+report::Chart index_chart(const GlobalSensitivity& global, double confidence) {
+  report::Chart chart{
+      .title = "Share of the variance that each makes",
+      .caption = fmt::format("First order: what it makes alone; total: alone and together with all others. Whiskers: "
+                             "{:g} % intervals. A first-order index may come out a little below zero where it is zero.",
+                             100.0 * confidence),
+      .x = {"parameter or group", ""},
+      .y = {"share of the variance", ""},
+      .height = 420};
+  report::Names names;
+  report::Series first{.name = "first order", .style = report::Style::bars},
+      total{.name = "total", .style = report::Style::bars};
+  report::Numbers y1, yt;
+  for (const std::size_t g : by_total(global)) {
+    const GroupSensitivity& s = global.groups[g];
+    names.push_back(s.name);
+    y1.push_back(s.first.value);
+    yt.push_back(s.total.value);
+    first.error_low.push_back(s.first.value - s.first.low);
+    first.error_high.push_back(s.first.high - s.first.value);
+    total.error_low.push_back(s.total.value - s.total.low);
+    total.error_high.push_back(s.total.high - s.total.value);
+  }
+  first.x = total.x = names;
+  first.y = y1;
+  total.y = yt;
+  chart.series = {first, total};
+  return chart;
+}
+
+report::Table index_table_of(const GlobalSensitivity& global) {
+  report::Table table{
+      .title = "Sobol' indices",
+      .caption = global.groups.front().first.basis +
+                 "; estimators of Saltelli et al. 2010 (first) and Jansen "
+                 "1999 (total).",
+      .columns = {{"parameter or group"}, {"first"}, {"from"}, {"to"}, {"total"}, {"from"}, {"to"}, {"settled"}}};
+  for (const std::size_t g : by_total(global)) {
+    const GroupSensitivity& s = global.groups[g];
+    table.rows.push_back({s.name, s.first.value, s.first.low, s.first.high, s.total.value, s.total.low, s.total.high,
+                          s.undersampled ? "no: more samples" : "yes"});
+  }
+  const ReportedInterval& i = global.interactions;
+  table.rows.push_back({"only together (1 - sum of first)", i.value, i.low, i.high, nullptr, nullptr, nullptr, ""});
+  return table;
+}
+
+class SobolResult final : public MethodResult {
+ public:
+  SobolResult(const Study& study, const SensitivityPlan& plan, GlobalSensitivity global)
+      : study_(study), plan_(plan), global_(std::move(global)) {}
+
+  RowCounts counts() const override { return global_; }
+  std::string sentence() const override;
+  std::vector<report::Fact> facts() const override {
+    return {{"mean of the index", readable(global_.mean, study_.index.si_unit()), "", ""},
+            {"standard deviation", readable(global_.sd, study_.index.si_unit()), "", ""},
+            {"only together", readable_share(std::max(0.0, global_.interactions.value)), "",
+             "of the variance, by no parameter alone"}};
+  }
+  report::Section section() const override {
+    report::Section section{
+        .id = "indices",
+        .title = "Whose scatter matters",
+        .intro = fmt::format("The index is the {}. Over the whole scatter it has the mean {} and the standard "
+                             "deviation {}; its variance is divided among the parameters here.",
+                             study_.index.title(), readable(global_.mean, study_.index.si_unit()),
+                             readable(global_.sd, study_.index.si_unit()))};
+    section.items.push_back(index_chart(global_, plan_.confidence));
+    section.items.push_back(index_table_of(global_));
+    return section;
+  }
+  std::vector<std::string> warnings() const override {
+    std::string unsettled;
+    for (const GroupSensitivity& g : global_.groups)
+      if (g.undersampled) unsettled += (unsettled.empty() ? "" : ", ") + g.name;
+    if (unsettled.empty()) return {};
+    return {"under-sampled (a negative index, or an interval wider than 0.2): " + unsettled +
+            "; more samples settle it"};
+  }
+  void add_to(Json& json) const override {
+    json["index"]["mean"] = global_.mean;
+    json["index"]["sd"] = global_.sd;
+    for (std::size_t g = 0; g < plan_.groups.size(); ++g) {
+      const GroupSensitivity& group = global_.groups[g];
+      json["sobol"][group.name] = {{"parameters", parameters_of(plan_, g)},
+                                   {"first", interval_json(group.first)},
+                                   {"total", interval_json(group.total)},
+                                   {"undersampled", group.undersampled}};
+    }
+    json["interactions"] = interval_json(global_.interactions);
+    json["basis"] = global_.interactions.basis;
+  }
+  std::string table_name() const override { return "sobol.csv"; }
+  void write_table(std::ostream& out) const override {
+    out << "group,first,first_low,first_high,total,total_low,total_high,undersampled\n";
+    for (const GroupSensitivity& g : global_.groups) {
+      out << csv_field(g.name);
+      for (const ReportedInterval& i : {g.first, g.total})
+        out << ',' << exact(i.value) << ',' << exact(i.low) << ',' << exact(i.high);
+      out << ',' << (g.undersampled ? "true" : "false") << '\n';
+    }
+  }
+  void print(const std::string& rung) const override {
+    tell("  index: {}; mean {}, standard deviation {}; {} rung\n", study_.index.title(),
+         readable(global_.mean, study_.index.si_unit()), readable(global_.sd, study_.index.si_unit()), rung);
+    std::size_t widest = 0;
+    for (const GroupSensitivity& g : global_.groups) widest = std::max(widest, g.name.size());
+    for (const GroupSensitivity& g : global_.groups)
+      tell("  {:<{}}  first {:>6.3f} ({:.3f} to {:.3f})   total {:>6.3f} ({:.3f} to {:.3f})\n", g.name, widest,
+           g.first.value, g.first.low, g.first.high, g.total.value, g.total.low, g.total.high);
+  }
+
+ private:
+  const Study& study_;
+  const SensitivityPlan& plan_;
+  GlobalSensitivity global_;
+};
+
+std::string SobolResult::sentence() const {
+  if (global_.sd <= 1e-9 * std::abs(global_.mean)) return "The index does not depend on what scatters.";
+  const GroupSensitivity& first = global_.groups[by_total(global_).front()];
+  // Estimates of what lies between 0 and 1 may lie beyond; a sentence need not say so, the table does.
+  const auto share = [](double value) { return readable_share(std::clamp(value, 0.0, 1.0)); };
+  return fmt::format(
+      "{} matters most: {} of the variance alone ({} to {}), {} with all it does together with others ({} to {})",
+      first.name, share(first.first.value), share(first.first.low), share(first.first.high), share(first.total.value),
+      share(first.total.low), share(first.total.high));
+}
+
+}  // namespace
+
+std::unique_ptr<MethodResult> sobol_result(const Study& study, const SensitivityPlan& plan, const SampleStore& store) {
+  std::optional<GlobalSensitivity> global = global_sensitivity(plan, store);
+  if (!global) return nullptr;
+  return std::make_unique<SobolResult>(study, plan, std::move(*global));
+}
+
+}  // namespace boresight::app
