@@ -31,13 +31,29 @@ struct Term {
 
 const std::vector<Term>& terms() {
   using std::cos, std::sin, std::tan;
-  static const std::vector<Term> all = {
-      {"IA", [](double, double) { return Direction{1.0, 0.0}; }},
-      {"IE", [](double, double) { return Direction{0.0, 1.0}; }},
-      {"CA", [](double, double E) { return Direction{1.0 / cos(E), 0.0}; }},
-      {"NPAE", [](double, double E) { return Direction{tan(E), 0.0}; }},
-      {"AN", [](double A, double E) { return Direction{sin(A) * tan(E), cos(A)}; }},
-      {"AW", [](double A, double E) { return Direction{-cos(A) * tan(E), sin(A)}; }}};
+  static const std::vector<Term> all = {{"IA",
+                                         [](double, double) {
+                                           return Direction{1.0, 0.0};
+                                         }},
+                                        {"IE",
+                                         [](double, double) {
+                                           return Direction{0.0, 1.0};
+                                         }},
+                                        {"CA",
+                                         [](double, double E) {
+                                           return Direction{1.0 / cos(E), 0.0};
+                                         }},
+                                        {"NPAE",
+                                         [](double, double E) {
+                                           return Direction{tan(E), 0.0};
+                                         }},
+                                        {"AN",
+                                         [](double A, double E) {
+                                           return Direction{sin(A) * tan(E), cos(A)};
+                                         }},
+                                        {"AW", [](double A, double E) {
+                                           return Direction{-cos(A) * tan(E), sin(A)};
+                                         }}};
   return all;
 }
 
