@@ -32,13 +32,17 @@ CalibrationResult Calibrator::run() {
   try {
     for (const OutlyingReading& reading : leave_out_lone_readings(problem_))
       warn_of(reading, "it is left out of the fit");
-    set_noise(noise_from_differences(problem_));
-    search();
-    hold_what_no_impact_shows();
-    set_noise(noise_from_residuals(problem_, result_.fit));
-    refit("noise estimated from the residuals");
-    correct();
-    refit("last");
+    if (problem_.follows_play()) {
+      set_noise(noise_from_differences(problem_));
+      search();
+      hold_what_no_impact_shows();
+      set_noise(noise_from_residuals(problem_, result_.fit));
+      refit("noise estimated from the residuals");
+      correct();
+      refit("last");
+    } else {
+      fit_poses();
+    }
     result_.inference = infer_now();
     name_outliers();
     profile();
@@ -91,7 +95,23 @@ void Calibrator::name_outliers() {
                                " further readings are more than 10 robust standard deviations off");
 }
 
+void Calibrator::fit_poses() {
+  constexpr int kMostRounds = 40;
+  constexpr double kSettled = 0.01;
+  const VecX first = noise_from_sizes(problem_);
+  set_noise(first);
+  note(fit(problem_, problem_.start(), {}, fit_options("errors", 40, options_.jobs)));
+  for (int round = 0; round < kMostRounds; ++round) {
+    const VecX before = problem_.sigma;
+    // Data without any noise would weigh without bound.
+    set_noise(pooled_by_unit(problem_, noise_from_residuals(problem_, result_.fit)).cwiseMax(1e-6 * first));
+    refit("noise estimated from the residuals");
+    if ((problem_.sigma.cwiseQuotient(before).array() - 1.0).abs().maxCoeff() < kSettled) return;
+  }
+}
+
 void Calibrator::judge_fit() {
+  if (!problem_.follows_play()) return judge_poses();
   const VecX rough = noise_from_differences(problem_);
   double worst = 0.0;
   int channel = 0;
@@ -108,6 +128,22 @@ void Calibrator::judge_fit() {
                 "model leaves something out. Its intervals are then too narrow; more starts or shorter "
                 "windows may help.",
                 worst, channel_names()[channel].name);
+  result_.verdict.insert(result_.verdict.begin(), text);
+}
+
+// Poses lie anywhere, and no neighbours say how noisy they are: only where the noise is known can a fit be judged by it.
+void Calibrator::judge_poses() {
+  const double left = std::sqrt(result_.inference.variance_factor);
+  const bool known = options_.noise.size() > 0 && std::all_of(problem_.channels.begin(), problem_.channels.end(),
+                                                              [&](int c) { return std::isfinite(options_.noise[c]); });
+  // Of N values a standard deviation is known to 1 / sqrt(2 N); three of them, and a tenth.
+  if (!known || left < 1.1 + 3.0 / std::sqrt(2.0 * static_cast<double>(result_.inference.values))) return;
+  char text[240];
+  std::snprintf(
+      text, sizeof text,
+      "The fit leaves %.2g times the noise that is given: errors that are not fitted, play, or what gives way. "
+      "Its intervals are widened by as much.",
+      left);
   result_.verdict.insert(result_.verdict.begin(), text);
 }
 

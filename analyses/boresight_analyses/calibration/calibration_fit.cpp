@@ -8,7 +8,7 @@
 namespace boresight {
 namespace {
 
-// Residuals of one window. Parameter blocks: one per parameter, [time offset], [biases], start state.
+// Residuals of one window. Parameter blocks: one per parameter, [time offset], [biases], [start state].
 class WindowCost final : public ceres::CostFunction {
  public:
   WindowCost(const CalibrationProblem& problem, const Window& window, int residuals)
@@ -16,14 +16,14 @@ class WindowCost final : public ceres::CostFunction {
     for (int p = 0; p < problem.parameter_count(); ++p) mutable_parameter_block_sizes()->push_back(1);
     if (problem.fit_time_offset) mutable_parameter_block_sizes()->push_back(1);
     if (problem.fit_bias) mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.channels.size()));
-    mutable_parameter_block_sizes()->push_back(problem.state_size(window));
+    if (problem.state_size(window) > 0) mutable_parameter_block_sizes()->push_back(problem.state_size(window));
     set_num_residuals(residuals);
   }
 
   // Follows the window's motion at these blocks, for the Evaluate() that comes next.
   void prepare(const std::vector<double*>& blocks, bool derivatives) {
     const int P = problem_.parameter_count(), size = problem_.state_size(window_);
-    const int last = static_cast<int>(parameter_block_sizes().size()) - 1;
+    const int count = static_cast<int>(parameter_block_sizes().size()), last = size > 0 ? count - 1 : count;
     Globals globals;
     globals.u.resize(P);
     for (int p = 0; p < P; ++p) globals.u[p] = blocks[p][0];
@@ -33,8 +33,9 @@ class WindowCost final : public ceres::CostFunction {
       globals.bias = Eigen::Map<const VecX>(blocks[block], parameter_block_sizes()[block]);
       globals.bias = globals.bias.cwiseProduct(problem_.sigma);
     }
+    const VecX state = size > 0 ? VecX(Eigen::Map<const VecX>(blocks[last], size)) : VecX();
     try {
-      problem_.evaluate(window_, globals, Eigen::Map<const VecX>(blocks[last], size), derivatives, at_);
+      problem_.evaluate(window_, globals, state, derivatives, at_);
       followed_ = true;
     } catch (const ComputationError&) {
       followed_ = false;
@@ -45,15 +46,16 @@ class WindowCost final : public ceres::CostFunction {
     if (!followed_) return false;
     const WindowResiduals& at = at_;
     const int P = problem_.parameter_count(), size = problem_.state_size(window_);
-    const int last = static_cast<int>(parameter_block_sizes().size()) - 1;
-    const VecX state = Eigen::Map<const VecX>(blocks[last], size), prior = problem_.prior_deviation(window_);
+    const int count = static_cast<int>(parameter_block_sizes().size()), last = size > 0 ? count - 1 : count;
+    const VecX state = size > 0 ? VecX(Eigen::Map<const VecX>(blocks[last], size)) : VecX(),
+               prior = problem_.prior_deviation(window_);
     for (int i = 0; i < values_; ++i) residuals[i] = problem_.loss.residual(at.r[i]);
     for (int i = 0; i < size; ++i) residuals[values_ + i] = state[i] / prior[i];
     if (!jacobians) return true;
     VecX slope(values_);
     for (int i = 0; i < values_; ++i) slope[i] = problem_.loss.slope(at.r[i]);
     using Rows = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-    for (int b = 0, column = 0; b <= last; ++b) {
+    for (int b = 0, column = 0; b < count; ++b) {
       const int width = parameter_block_sizes()[b];
       if (jacobians[b]) {
         Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J = MatX::Zero(num_residuals(), width);
@@ -104,6 +106,20 @@ class AllWindows final : public ceres::EvaluationCallback {
   };
   int jobs_;
   std::vector<Window> windows_;
+};
+
+// What was known of a standing error before: (u - u_start) in standard deviations.
+class PriorCost final : public ceres::SizedCostFunction<1, 1> {
+ public:
+  explicit PriorCost(double expected) : expected_(expected) {}
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    residuals[0] = blocks[0][0] - expected_;
+    if (jacobians && jacobians[0]) jacobians[0][0] = 1.0;
+    return true;
+  }
+
+ private:
+  double expected_;
 };
 
 class Watch final : public ceres::IterationCallback {
@@ -194,10 +210,11 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
     for (int p = 0; p < P; ++p) blocks.push_back(&u[p]);
     if (problem.fit_time_offset) blocks.push_back(&offset);
     if (problem.fit_bias) blocks.push_back(bias.data());
-    blocks.push_back(state_of[k].data());
+    if (states[k].size() > 0) blocks.push_back(state_of[k].data());
     auto cost = std::make_unique<WindowCost>(problem, w, value_count(problem, w) + problem.state_size(w));
     all.add(cost.get(), blocks);
     ceres_problem.AddResidualBlock(cost.release(), nullptr, blocks);
+    if (states[k].size() == 0) continue;
     ordering->AddElementToGroup(state_of[k].data(), 0);
     if (w.from_rest) {
       ceres_problem.SetParameterBlockConstant(state_of[k].data());
@@ -210,6 +227,9 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
     ceres_problem.SetParameterLowerBound(&u[p], 0, problem.parameters[p].lowest_coordinate());
     ceres_problem.SetParameterUpperBound(&u[p], 0, problem.parameters[p].highest_coordinate());
     if (!options.fixed.empty() && options.fixed[p]) ceres_problem.SetParameterBlockConstant(&u[p]);
+    const FittedParameter& parameter = problem.parameters[p];
+    if (parameter.has_prior)
+      ceres_problem.AddResidualBlock(new PriorCost(parameter.coordinate(parameter.start)), nullptr, &u[p]);
   }
   if (problem.fit_time_offset) {
     ordering->AddElementToGroup(&offset, 1);

@@ -11,8 +11,8 @@ Key settings_key(const char* sentence) {
   return keys::texts("set").sometimes("left out, the mechanism file's own values hold").says(sentence);
 }
 
-Key above_zero(const char* name, const char* otherwise, const char* sentence) {
-  return keys::value(name, "the parameter").above(0.0, "more than 0").usually(otherwise).says(sentence);
+Key of_parameter(const char* name, const char* otherwise, const char* sentence) {
+  return keys::value(name, "the parameter").usually(otherwise).says(sentence);
 }
 
 }  // namespace
@@ -22,7 +22,9 @@ const KeyTable& calibrate_keys() {
   static const CalibrationPlan p;
   static const KeyTable table_of_keys{
       .name = "calibrate",
-      .says = "Contact parameters from measured pointing data, by least squares over windows of the runs (Ceres).",
+      .says =
+          "Contact parameters and standing errors from measured pointing data, by least squares over windows of the "
+          "runs (Ceres).",
       .keys = {
           quantity("window", kDuration)
               .or_word("whole")
@@ -105,10 +107,18 @@ const KeyTable& calibrate_parameter_keys() {
   static const KeyTable table_of_keys{
       .name = "calibrate.parameter",
       .says = "A parameter that is fitted.",
-      .keys = {text("path").says("The path of a parameter of a clearance, such as clearance.F1.contact.restitution."),
-               above_zero("start", "the mechanism file's value", "Where the fit starts."),
-               above_zero("lower", "a tenth of start", "Lower bound."),
-               above_zero("upper", "ten times start, where the parameter may be as large", "Upper bound.")}};
+      .keys = {
+          text("path").says("The path of a parameter of a clearance, such as clearance.F1.contact.restitution, or of a "
+                            "standing error, "
+                            "such as error.rod1.length. With errors alone no play is followed."),
+          of_parameter("start", "the mechanism file's value", "Where the fit starts; of a clearance more than 0."),
+          of_parameter("lower", "a tenth of start; of an error a thousand times what it may well be below it",
+                       "Lower bound; of a clearance more than 0."),
+          of_parameter("upper", "ten times start, where the parameter may be as large; of an error likewise",
+                       "Upper bound."),
+          of_parameter("prior", "none: the data alone decide",
+                       "Of an error: what was known of it before, the standard deviation of its distance from start "
+                       "(a tolerance). The fit weighs it like a reading.")}};
   return table_of_keys;
 }
 

@@ -1,5 +1,6 @@
 #include "boresight_analyses/calibration/calibration_plan.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "boresight/io/referred_file.hpp"
@@ -28,16 +29,25 @@ PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechan
   PlannedParameter p;
   p.path = table.text("path");
   p.origin = table.origin("path");
-  if (!p.path.starts_with("clearance."))
-    table.fail("path", "a parameter of a clearance joint; masses and speeds belong to a run's settings");
+  const bool is_error = p.path.starts_with("error.");
+  if (!is_error && !p.path.starts_with("clearance."))
+    table.fail("path",
+               "a parameter of a clearance joint, or a standing error; masses and speeds belong to a run's settings");
   const std::string unit = ParameterPath(mechanism, p.path, p.origin).unit();
   const auto value = [&](const char* key) -> std::optional<double> {
     if (!table.has(key)) return {};
-    return table.value(key, unit_called(unit));
+    if (p.written_unit.empty()) p.written_unit = table.unit_as_written(key);
+    // The scale of a drive has no unit, as in the mechanism file.
+    const double x = is_error && table.is_number(key) ? table.value(key, kRatio) : table.value(key, unit_called(unit));
+    if ((!is_error || key == std::string("prior")) && !(x > 0.0)) table.fail(key, "more than 0");
+    return x;
   };
   p.start = value("start");
   p.lower = value("lower");
   p.upper = value("upper");
+  if (!is_error && table.has("prior"))
+    table.fail_found("prior", "a prior of " + in_quotes(p.path), "none: it is for standing errors");
+  p.prior = value("prior");
   table.finish();
   return p;
 }
@@ -56,6 +66,37 @@ void check_values(const PlannedParameter& p, const Mechanism& mechanism,
       throw InputError(p.origin, p.path, error.found, error.expected, error.nearest);
     }
   }
+}
+
+FittedParameter planned_parameter(const PlannedParameter& p, const Mechanism& mechanism) {
+  const double own = ParameterPath(mechanism.description(), p.path, p.origin).get(mechanism.parameters());
+  FittedParameter fitted = fitted_parameter(mechanism.description(), p.path, p.start.value_or(own), p.origin);
+  if (!fitted.is_error() && !(fitted.start > 0.0))
+    throw InputError(p.origin, p.path, "a start of 0", "start = ..., more than 0");
+  fitted.written_unit = p.written_unit;
+  if (p.prior) {
+    fitted.has_prior = true;
+    fitted.size = *p.prior;
+  }
+  fitted.lower = p.lower.value_or(fitted.lower);
+  fitted.upper = p.upper.value_or(fitted.upper);
+  if (!(fitted.lower < fitted.start && fitted.start < fitted.upper)) {
+    const auto text = [](double x) {
+      char digits[40];
+      std::snprintf(digits, sizeof digits, "%g", x);
+      return std::string(digits);
+    };
+    throw InputError(p.origin, p.path, "a start of " + text(fitted.start),
+                     "one between lower and upper, " + text(fitted.lower) + " and " + text(fitted.upper));
+  }
+  return fitted;
+}
+
+// Without a contact's parameter no motion is followed, and contact laws make no difference.
+void refuse_what_poses_have_not(const CalibrationPlan& plan, const CalibrationProblem& problem) {
+  if (!problem.follows_play() && !plan.laws.empty())
+    throw InputError(plan.parameters.front().origin, "calibrate.laws", "contact laws where errors alone are fitted",
+                     "no laws, or a parameter of a clearance beside the errors");
 }
 
 }  // namespace
@@ -131,24 +172,16 @@ CalibrationProblem calibration_problem(
       if (channel_names()[channel].name == std::string("line_of_sight_error") && !mechanism.pointing().line_of_sight)
         throw InputError({run.data.file, 1}, "line_of_sight_error", "it of a mechanism that names no target",
                          "a [pointing] table with a target or a distance in " + mechanism.description().origin.file);
-  for (int c = 0; c < mechanism.clearances(); ++c) {
+  const bool follows_play = std::any_of(plan.parameters.begin(), plan.parameters.end(),
+                                        [](const auto& p) { return p.path.starts_with("clearance."); });
+  for (int c = 0; follows_play && c < mechanism.clearances(); ++c) {
     const ClearanceDescription& clearance = mechanism.description().clearances[c];
     if (JointPlay(clearance, mechanism.description().joints[clearance.joint].type, clearance.parameters).sticks)
       throw InputError(clearance.origin, "friction.law", in_quotes(clearance.friction_law),
                        "a law without bristles: calibrate does not follow their state");
   }
-  for (const PlannedParameter& p : plan.parameters) {
-    const double own = ParameterPath(mechanism.description(), p.path, p.origin).get(mechanism.parameters());
-    if (!(p.start.value_or(own) > 0.0)) throw InputError(p.origin, p.path, "a start of 0", "start = ..., more than 0");
-    FittedParameter fitted = fitted_parameter(mechanism.description(), p.path, p.start.value_or(own), p.origin);
-    fitted.lower = p.lower.value_or(fitted.lower);
-    fitted.upper = p.upper.value_or(fitted.upper);
-    if (!(fitted.lower < fitted.start && fitted.start < fitted.upper))
-      throw InputError(
-          p.origin, p.path, "a start of " + std::to_string(fitted.start),
-          "one between lower and upper, " + std::to_string(fitted.lower) + " and " + std::to_string(fitted.upper));
-    problem.parameters.push_back(fitted);
-  }
+  for (const PlannedParameter& p : plan.parameters) problem.parameters.push_back(planned_parameter(p, mechanism));
+  refuse_what_poses_have_not(plan, problem);
   problem.loss = plan.loss;
   problem.largest_time_offset = plan.largest_time_offset;
   problem.fit_time_offset = plan.largest_time_offset > 0.0;

@@ -17,6 +17,11 @@
 //   path = "clearance.D.radial"
 //   start = "0.25 mm"                 # left out: the mechanism's own; lower, upper likewise
 //
+//   [[calibrate.parameter]]
+//   path = "error.rod1.length"        # a standing error
+//   start = "0 mm"
+//   prior = "20 um"                   # standard deviation of what was known of it before; left out: nothing was
+//
 //   [[calibrate.run]]
 //   data = "run-1.csv"                # beside the study
 //   set = ["motion.drives.A=2*pi*t"]  # the mechanism's settings in this run
@@ -36,7 +41,8 @@ namespace boresight {
 
 struct PlannedParameter {
   std::string path;
-  std::optional<double> start, lower, upper;
+  std::optional<double> start, lower, upper, prior;
+  std::string written_unit;  // of the first of them that is given
   Origin origin;
 };
 

@@ -12,8 +12,13 @@
 //   alone
 //
 // A weak prior holds the start state within reach of the clearance where the channels do not see all of it.
+//
+// Standing errors displace the boresight body beside its play: with E z what the play does, x(eps) what the errors do (standing_poses.hpp),
+// a channel reads the pose displaced by E z + x(eps). What the errors change of the play's own motion is of second order. Where no
+// parameter of a contact is fitted no play is followed: the readings are then those of poses, at any instants, and no motion is integrated.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +28,7 @@
 #include "boresight/slopes/sensitive_motion.hpp"
 #include "boresight_analyses/calibration/fitted_parameter.hpp"
 #include "boresight_analyses/calibration/measured_data.hpp"
+#include "boresight_analyses/calibration/standing_poses.hpp"
 
 namespace boresight {
 
@@ -32,7 +38,8 @@ struct CalibrationRun {
   std::string name;
   std::shared_ptr<const Mechanism> mechanism;  // with this run's settings
   std::shared_ptr<const PreparedScene> prepared;
-  std::shared_ptr<const SceneTables> tables;
+  std::shared_ptr<const SceneTables> tables;      // where a play can move
+  std::shared_ptr<const StandingPoses> standing;  // where errors are fitted, or other than zero; by prepare()
   MeasuredData data;
 
   CalibrationRun() = default;
@@ -111,15 +118,21 @@ class CalibrationProblem {
   KeptResults* kept = nullptr;
 
   // Collects the channels, cuts the windows. from_rest: a run's first window starts at t = 0 where the model
-  // does, its journals where the mechanism's file has them. Throws InputError where the data reach beyond the motion.
+  // does, its journals where the mechanism's file has them. Throws InputError where the data reach beyond the motion or do not tell an
+  // error's sign; ComputationError where no play can move, or where errors meet a motion that is simulated.
   void prepare(double window_length, bool from_rest);
+  // Whether a contact's parameter is fitted, so that the motion of the play matters.
+  bool follows_play() const;
+  bool fits_errors() const;
+  // Coordinates of the play's deviation that are followed.
+  int freedoms(int run) const { return follows_play() && runs[run].tables ? runs[run].tables->layout.n : 0; }
 
   int parameter_count() const { return static_cast<int>(parameters.size()); }
   int global_count() const {
     return parameter_count() + (fit_time_offset ? 1 : 0) + (fit_bias ? static_cast<int>(channels.size()) : 0);
   }
   std::vector<std::string> global_names() const;
-  int state_size(const Window& window) const { return 2 * runs[window.run].tables->layout.n; }
+  int state_size(const Window& window) const { return 2 * freedoms(window.run); }
   // A start state of one, SI: the clearance, and the clearance in a millisecond.
   VecX state_scale(const Window& window) const;
   // Of the prior on the scaled state.
@@ -137,6 +150,8 @@ class CalibrationProblem {
                 WindowResiduals& out) const;
   // Loss over a window, prior included.
   double cost(const Window& window, const Globals& globals, const VecX& state) const;
+  // What the errors' priors add to the loss.
+  double prior_cost(const Globals& globals) const;
   // A start state that fits the window better, parameters held: Levenberg-Marquardt on the state alone.
   // Returns the loss.
   double refine_state(const Window& window, const Globals& globals, VecX& state, int most_iterations) const;
@@ -151,12 +166,22 @@ class CalibrationProblem {
   // Into request: what a window's motion starts with.
   void set_start(const Window& window, const std::vector<double>& values, const VecX& state, bool derivatives,
                  MotionRequest& request) const;
+  SensitiveMotion follow(const Window& window, const std::vector<double>& values, const VecX& state,
+                         const std::vector<double>& times, bool derivatives) const;
+  Vec6 play_displaces(const CalibrationRun& run, double t, const VecX& z) const;
   void evaluate_tangent(const Window& window, const Globals& globals, bool derivatives, WindowResiduals& out) const;
+  // How a reading follows the body's pose and the coordinates of the play, to first order; one row used, or three of which the size counts.
   struct ChannelRows {
-    Eigen::Matrix<double, 3, Eigen::Dynamic> rows;  // one used, or three of which the size counts
+    Eigen::Matrix<double, 3, 6> by_pose;
+    Eigen::Matrix<double, 3, Eigen::Dynamic> rows;
     bool size = false;
   };
-  void channel_rows(const CalibrationRun& run, int kind, double t, ChannelRows& out) const;
+  void channel_rows(const CalibrationRun& run, int kind, double t, int n, ChannelRows& out) const;
+  void prepare_errors();
+  // The parameters of contacts among all; by_parameters of a motion has a column for each.
+  std::vector<int> contact_parameters() const;
+  std::function<Parameters(const std::vector<double>&)> with_contacts(int run, const std::vector<double>& values) const;
+  std::vector<double> contact_values(const std::vector<double>& values) const;
 };
 
 }  // namespace boresight

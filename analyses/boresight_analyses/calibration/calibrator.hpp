@@ -24,6 +24,10 @@ class Calibrator {
   void warn_of(const OutlyingReading& reading, const std::string& what_becomes_of_it);
   void name_outliers();
 
+  // Standing errors alone, at poses: nearly linear, so that one start is enough. Noise that is not given is estimated until it settles.
+  void fit_poses();
+  void judge_poses();
+
   // A fit that has lost its way leaves more than the noise that neighbouring samples show.
   void judge_fit();
 

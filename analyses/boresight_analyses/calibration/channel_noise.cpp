@@ -41,6 +41,45 @@ VecX noise_from_differences(const CalibrationProblem& problem) {
   return sigma;
 }
 
+namespace {
+
+// Of the problem's channel c.
+bool is_angle(const CalibrationProblem& problem, int c) {
+  const int channel = problem.channels[static_cast<std::size_t>(c)];
+  return std::string(channel_names()[static_cast<std::size_t>(channel)].si_unit) == "rad";
+}
+
+}  // namespace
+
+VecX noise_from_sizes(const CalibrationProblem& problem) {
+  const int count = static_cast<int>(problem.channels.size());
+  std::vector<double> sizes[2];
+  for (int c = 0; c < count; ++c)
+    for (std::size_t r = 0; r < problem.runs.size(); ++r)
+      if (const int column = problem.column(static_cast<int>(r), c); column >= 0)
+        for (const double v : problem.runs[r].data.value.col(column))
+          if (std::isfinite(v)) sizes[is_angle(problem, c)].push_back(std::abs(v));
+  VecX sigma(count);
+  for (int c = 0; c < count; ++c) {
+    std::vector<double>& s = sizes[is_angle(problem, c)];
+    if (!s.empty()) std::nth_element(s.begin(), s.begin() + static_cast<std::ptrdiff_t>(s.size() / 2), s.end());
+    sigma[c] = std::max(s.empty() ? 0.0 : s[s.size() / 2], 1e-15);
+  }
+  return sigma;
+}
+
+VecX pooled_by_unit(const CalibrationProblem& problem, const VecX& sigma) {
+  double sum[2] = {0.0, 0.0};
+  int count[2] = {0, 0};
+  for (int c = 0; c < sigma.size(); ++c) {
+    sum[is_angle(problem, c)] += sigma[c] * sigma[c];
+    ++count[is_angle(problem, c)];
+  }
+  VecX pooled = sigma;
+  for (int c = 0; c < sigma.size(); ++c) pooled[c] = std::sqrt(sum[is_angle(problem, c)] / count[is_angle(problem, c)]);
+  return pooled;
+}
+
 VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fit) {
   std::vector<std::vector<double>> sizes(problem.channels.size());
   int unknowns = problem.global_count();

@@ -9,6 +9,13 @@ namespace boresight {
 // against the few that an impact or an outlier bends: 1.4826 median |d2| / sqrt(6).
 VecX noise_from_differences(const CalibrationProblem& problem);
 
+// A first guess for poses that have no neighbours: the median size of the readings of all channels of the same unit.
+VecX noise_from_sizes(const CalibrationProblem& problem);
+
+// The same of every channel of a unit: root mean square over its channels. Of few readings weights of each channel's own would follow
+// the noise itself, and intervals be too narrow.
+VecX pooled_by_unit(const CalibrationProblem& problem, const VecX& sigma);
+
 // From what a fit leaves, by the median, which outliers do not reach: a channel's sigma times 1.4826 median
 // |r|, and the unknowns made up for; at least half of the problem's own sigma.
 VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fit);

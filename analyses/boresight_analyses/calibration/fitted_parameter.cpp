@@ -4,19 +4,44 @@
 #include <cmath>
 
 namespace boresight {
+namespace {
+
+// What an error of this unit may well be in such a mechanism, where nobody has said it.
+double usual_size(const MechanismDescription& mechanism, const std::string& unit) {
+  if (unit == "K") return 10.0;
+  if (unit != "m") return 1e-3;
+  Vec3 low = mechanism.joints.front().point, high = low;
+  for (const JointDescription& j : mechanism.joints) {
+    low = low.cwiseMin(j.point);
+    high = high.cwiseMax(j.point);
+  }
+  for (const BodyDescription& b : mechanism.bodies) {
+    low = low.cwiseMin(b.center_of_mass);
+    high = high.cwiseMax(b.center_of_mass);
+  }
+  const double length = (high - low).norm();
+  return 1e-3 * (length > 0.0 ? length : 1.0);
+}
+
+constexpr double kMostSizes = 1000.0;
+
+}  // namespace
 
 double FittedParameter::value(double u) const {
+  if (transform == Transform::linear) return size * u;
   if (transform == Transform::log) return std::exp(u);
   return lower + (upper - lower) / (1.0 + std::exp(-u));
 }
 
 double FittedParameter::coordinate(double v) const {
+  if (transform == Transform::linear) return v / size;
   if (transform == Transform::log) return std::log(v);
   const double share = std::clamp((v - lower) / (upper - lower), 1e-6, 1.0 - 1e-6);
   return std::log(share / (1.0 - share));
 }
 
 double FittedParameter::slope(double u) const {
+  if (transform == Transform::linear) return size;
   if (transform == Transform::log) return std::exp(u);
   const double share = 1.0 / (1.0 + std::exp(-u));
   return (upper - lower) * share * (1.0 - share);
@@ -26,7 +51,7 @@ double FittedParameter::lowest_coordinate() const { return coordinate(lower); }
 double FittedParameter::highest_coordinate() const { return coordinate(upper); }
 
 bool FittedParameter::at_bound(double u) const {
-  if (transform == Transform::log) {
+  if (transform != Transform::logit) {
     const double low = lowest_coordinate(), high = highest_coordinate();
     return u < low + 0.01 * (high - low) || u > high - 0.01 * (high - low);
   }
@@ -41,7 +66,12 @@ FittedParameter fitted_parameter(const MechanismDescription& mechanism, const st
   p.place.emplace_back(mechanism, path, origin);
   p.si_unit = p.place.front().unit();
   p.start = start;
-  if (path.ends_with(".restitution")) {
+  if (path.starts_with("error.")) {
+    p.transform = Transform::linear;
+    p.size = usual_size(mechanism, p.si_unit);
+    p.lower = start - kMostSizes * p.size;
+    p.upper = start + kMostSizes * p.size;
+  } else if (path.ends_with(".restitution")) {
     p.transform = Transform::logit;
     p.lower = 0.01;
     p.upper = 1.0;

@@ -11,10 +11,6 @@
 namespace boresight {
 namespace {
 
-// A coordinate's standard deviation beyond which the data are said not to know the parameter: as a logarithm,
-// a factor of two at 95 % confidence.
-constexpr double kUnknown = 0.35;
-
 std::vector<double> autocorrelations_of(const std::vector<ResidualSeries>& series, int lags) {
   std::vector<double> sum(lags + 1, 0.0);
   for (const ResidualSeries& s : series)
@@ -53,7 +49,21 @@ std::string number(const char* format, double value) {
 
 }  // namespace
 
+// Why the data know an error, or not: its standard error beside what it may well be.
+static void assess_error(const FittedParameter& parameter, ParameterEstimate& e) {
+  const double share = e.standard_error / parameter.size;
+  e.identifiable = share < kUnknown && !parameter.at_bound(parameter.coordinate(e.value));
+  if (parameter.at_bound(parameter.coordinate(e.value)))
+    e.reason = "the fit ran into the bound of what is allowed for it";
+  else if (parameter.has_prior)
+    e.reason = "its standard error is " + number("%.2g %%", 100.0 * share) + " of what was known before";
+  else
+    e.reason =
+        (e.identifiable ? "known to " : "its standard error is ") + number("%.2g", e.standard_error) + " " + e.si_unit;
+}
+
 void assess_identifiability(const FittedParameter& parameter, ParameterEstimate& e) {
+  if (parameter.is_error()) return assess_error(parameter, e);
   const double share = e.standard_error / e.value;
   e.identifiable = false;
   if (parameter.at_bound(parameter.coordinate(e.value))) {
@@ -128,6 +138,9 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
       series.model.push_back(measured + r * problem.sigma[channel]);
     }
   }
+  const MatX data_information = out.information;
+  for (int p = 0; p < P; ++p)
+    if (problem.parameters[p].has_prior) out.information(p, p) += 1.0;
   std::vector<int> free;
   for (int g = 0; g < G; ++g)
     if (g >= P || fixed.empty() || !fixed[g]) free.push_back(g);
@@ -186,6 +199,7 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
       const FittedParameter& p = problem.parameters[g];
       const double u = fit.globals.u[g];
       e.si_unit = p.si_unit;
+      e.written_unit = p.written_unit;
       e.value = p.value(u);
       e.standard_error = p.slope(u) * deviation[g];
       e.low = p.value(u - quantile * deviation[g]);
@@ -207,7 +221,28 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
     }
     out.parameters.push_back(e);
   }
+  out.confused = confused_errors(
+      problem, fit.globals,
+      {data_information, out.information, out.variance_factor, out.covariance, out.white_covariance, quantile}, fixed);
+  for (const ConfusedErrors& group : out.confused) {
+    for (const int p : group.parameters) {
+      ParameterEstimate& e = out.parameters[static_cast<std::size_t>(p)];
+      e.identifiable = false;
+      e.reason = group.known.empty() ? "the boresight hardly moves by it in these data"
+                                     : "other errors move the boresight as it does";
+    }
+  }
   return out;
+}
+
+// Whether these two are among errors that cannot be told apart, which has been said.
+static bool confused(const Inference& inference, int a, int b) {
+  return std::any_of(inference.confused.begin(), inference.confused.end(), [&](const ConfusedErrors& group) {
+    const auto has = [&](int p) {
+      return std::find(group.parameters.begin(), group.parameters.end(), p) != group.parameters.end();
+    };
+    return has(a) || has(b);
+  });
 }
 
 std::vector<std::string> verdict(const CalibrationProblem& problem, const Inference& inference) {
@@ -215,15 +250,22 @@ std::vector<std::string> verdict(const CalibrationProblem& problem, const Infere
   const int P = problem.parameter_count();
   for (int p = 0; p < P; ++p) {
     const ParameterEstimate& e = inference.parameters[p];
-    if (!e.identifiable) words.push_back(e.name + " cannot be told from these data: " + e.reason + ".");
+    const bool in_a_group = confused(inference, p, p);
+    if (!e.identifiable && !in_a_group) words.push_back(e.name + " cannot be told from these data: " + e.reason + ".");
   }
+  for (const ConfusedErrors& group : inference.confused) words.push_back(in_words(group, problem.parameters));
   for (int a = 0; a < P; ++a)
     for (int b = a + 1; b < P; ++b) {
       const double rho = inference.correlation(a, b);
-      if (!(std::abs(rho) > 0.9)) continue;
+      if (!(std::abs(rho) > 0.9) || confused(inference, a, b)) continue;
+      const std::string both = inference.parameters[a].name + " and " + inference.parameters[b].name;
+      if (problem.parameters[a].is_error() && problem.parameters[b].is_error()) {
+        words.push_back(both + " are known better together than each alone: their correlation is " +
+                        number("%.3f", rho) + ". Poses farther apart would separate them.");
+        continue;
+      }
       words.push_back(
-          inference.parameters[a].name + " and " + inference.parameters[b].name +
-          (std::abs(rho) > 0.97 ? " cannot be told apart by these data: " : " are hard to tell apart: ") +
+          both + (std::abs(rho) > 0.97 ? " cannot be told apart by these data: " : " are hard to tell apart: ") +
           "their correlation is " + number("%.3f", rho) +
           "; only one combination of them is known. A run under another load or speed would separate them.");
     }

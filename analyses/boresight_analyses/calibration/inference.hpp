@@ -8,7 +8,7 @@
 //                                      with Bartlett weights b_l = 1 - |l| / (L + 1): Newey and West (1987)
 //
 // and L twice the lag behind which the residuals' autocorrelation is lost in its noise. All in the coordinates of the
-// fit, where parameters are logarithms; intervals are mapped back and so stay physical.
+// fit, where contact parameters are logarithms; intervals are mapped back and so stay physical.
 #pragma once
 
 #include <limits>
@@ -17,12 +17,14 @@
 #include <vector>
 
 #include "boresight_analyses/calibration/calibration_fit.hpp"
+#include "boresight_analyses/calibration/confused_errors.hpp"
 
 namespace boresight {
 
 struct ParameterEstimate {
   std::string name;
   std::string si_unit;
+  std::string written_unit;  // FittedParameter::written_unit
   double value = 0.0;
   double standard_error = std::numeric_limits<double>::quiet_NaN();
   double low = std::numeric_limits<double>::quiet_NaN(),
@@ -39,7 +41,7 @@ struct ResidualSeries {
 
 struct Inference {
   std::vector<ParameterEstimate> parameters;  // then time offset and biases
-  MatX information, covariance, correlation;  // in coordinates; of the same
+  MatX information, covariance, correlation;  // in coordinates, priors included; of the same
   MatX white_covariance;                      // inverse information, without s^2
   double variance_factor = 1.0;               // s^2
   double autocorrelation = 0.0;               // of neighbouring residuals
@@ -48,6 +50,7 @@ struct Inference {
   long values = 0;                            // N
   int unknowns = 0;                           // k, start states included
   int rank = 0;                               // directions of the parameters that the data see
+  std::vector<ConfusedErrors> confused;       // standing errors that the data cannot tell apart
   std::vector<int> impacts;                   // per clearance, in the fitted windows
   int grazing = 0;
   std::vector<ResidualSeries> residuals;

@@ -52,7 +52,7 @@ CalibrationProblem searched_up_to(const CalibrationProblem& problem, double shar
 }
 
 double loss_at(const CalibrationProblem& problem, const Globals& at) {
-  double loss = 0.0;
+  double loss = problem.prior_cost(at);
   for (const Window& w : problem.windows)
     if (w.from_rest && !w.held_out) loss += problem.cost(w, at, VecX::Zero(problem.state_size(w)));
   return loss;
@@ -89,7 +89,7 @@ Globals lowest_around(const CalibrationProblem& problem, const std::vector<bool>
   std::vector<Globals> tried = {at};
   for (int p = 0; p < problem.parameter_count(); ++p)
     for (const double step : {-0.2, -0.03, 0.03, 0.2}) {
-      if (fixed[p]) continue;
+      if (fixed[p] || problem.parameters[p].is_error()) continue;
       Globals moved = at;
       moved.u[p] = std::clamp(at.u[p] + step, problem.parameters[p].lowest_coordinate(),
                               problem.parameters[p].highest_coordinate());
@@ -129,7 +129,7 @@ Valleys valleys_beside(const CalibrationProblem& problem, const FitResult& fit, 
   std::vector<double> foretold;
   for (int p = 0; p < problem.parameter_count(); ++p)
     for (const double step : {-24.0, -12.0, -6.0, -3.0, 3.0, 6.0, 12.0, 24.0}) {
-      if (fixed[p]) continue;
+      if (fixed[p] || problem.parameters[p].is_error()) continue;
       const VecX line = inference.covariance.col(p) / std::sqrt(inference.covariance(p, p));
       trials.push_back({moved_along(problem, fit.globals, step * line)});
       foretold.push_back(step * step * inference.variance_factor);

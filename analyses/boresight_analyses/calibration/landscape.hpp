@@ -1,5 +1,5 @@
 // The landscape of the loss: impacts make valleys beside valleys in it. Where a fit should look before it
-// believes that it stands in the lowest.
+// believes that it stands in the lowest. Along contact parameters: by standing errors the loss is a parabola.
 #pragma once
 
 #include "boresight_analyses/calibration/inference.hpp"

@@ -30,7 +30,11 @@ NextTest judge_candidate(const CalibrationProblem& problem, const Inference& inf
   try {
     CalibrationProblem one = problem;
     MeasuredData data;
-    for (double t = 0.0; t <= candidate.mechanism->duration() * (1.0 + 1e-12); t += 1e-3) {
+    double readings = 0.0;
+    for (const CalibrationRun& run : problem.runs) readings += static_cast<double>(run.data.time.size());
+    readings = std::max(2.0, readings / static_cast<double>(problem.runs.size()));
+    const double step = problem.follows_play() ? 1e-3 : candidate.mechanism->duration() / (readings - 1.0);
+    for (double t = 0.0; t <= candidate.mechanism->duration() * (1.0 + 1e-12); t += step) {
       data.time.push_back(std::min(t, candidate.mechanism->duration()));
       data.line.push_back(0);
     }
@@ -54,9 +58,9 @@ NextTest judge_candidate(const CalibrationProblem& problem, const Inference& inf
     for (std::size_t a = 0; a < free.size(); ++a) {
       if (free[a] >= P) continue;
       const auto i = static_cast<Eigen::Index>(a);
-      const double relative = std::pow(
-          problem.parameters[free[a]].slope(globals.u[free[a]]) / problem.parameters[free[a]].value(globals.u[free[a]]),
-          2);
+      const FittedParameter& parameter = problem.parameters[free[a]];
+      const double u = globals.u[free[a]], size = parameter.is_error() ? parameter.size : parameter.value(u);
+      const double relative = std::pow(parameter.slope(u) / size, 2);
       sum_before += relative * before(i, i);
       sum_after += relative * after(i, i);
       test.error_ratio.push_back(std::sqrt(after(i, i) / before(i, i)));

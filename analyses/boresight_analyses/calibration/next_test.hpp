@@ -23,7 +23,8 @@ struct NextTest {
   std::string refusal;              // why it could not be tried
 };
 
-// The candidate followed over its whole motion at 1 kHz on the problem's channels, with their noise.
+// The candidate followed over its whole motion at 1 kHz on the problem's channels, with their noise; where errors alone are fitted, at as
+// many instants as the runs have on average. The variance of an error is relative to what it may well be (FittedParameter::size).
 NextTest judge_candidate(const CalibrationProblem& problem, const Inference& inference, const Globals& globals,
                          const std::vector<bool>& fixed, const Candidate& candidate);
 

@@ -11,7 +11,7 @@ std::string posterior_toml(const CalibrationProblem& problem, const Inference& i
       "# What a calibration knows of the parameters, as random inputs of a study (boresight montecarlo). "
       "Gaussian in the\n"
       "# coordinates of the fit: logarithms, so lognormal; restitution: normal, truncated to where it can "
-      "be.\n";
+      "be; standing errors: normal.\n";
   char text[400];
   const int P = problem.parameter_count();
   const auto quantity = [](double value, const std::string& unit) {
@@ -26,7 +26,16 @@ std::string posterior_toml(const CalibrationProblem& problem, const Inference& i
     const ParameterEstimate& e = inference.parameters[p];
     const FittedParameter& parameter = problem.parameters[p];
     std::string distribution;
-    if (!e.identifiable) {
+    // What was known before bounds what the data do not know.
+    const bool known = e.identifiable || parameter.has_prior;
+    if (parameter.is_error() && !known) {
+      out += "\n# " + e.name + " is not identifiable (" + e.reason + "): it stays what the mechanism file says.\n";
+      continue;
+    }
+    if (parameter.is_error()) {
+      distribution = "{ normal = { mean = " + quantity(e.value, e.si_unit) +
+                     ", sd = " + quantity(e.standard_error, e.si_unit) + " } }";
+    } else if (!e.identifiable) {
       out += "\n# Not identifiable (" + e.reason + "): all that is allowed for it.";
       distribution = "{ uniform = { min = " + quantity(parameter.lower, e.si_unit) +
                      ", max = " + quantity(parameter.upper, e.si_unit) + " } }";
@@ -45,7 +54,9 @@ std::string posterior_toml(const CalibrationProblem& problem, const Inference& i
       const double rho = inference.correlation(a, b);
       const auto& first = inference.parameters[a];
       const auto& second = inference.parameters[b];
-      if (!first.identifiable || !second.identifiable || !std::isfinite(rho)) continue;
+      if (!(first.identifiable || problem.parameters[a].has_prior) ||
+          !(second.identifiable || problem.parameters[b].has_prior) || !std::isfinite(rho))
+        continue;
       std::snprintf(text, sizeof text,
                     "\n[[correlation]]\nparameters = [\"%s\", \"%s\"]\ncoefficient = %.6f\nmeasure = \"normal\"\n",
                     first.name.c_str(), second.name.c_str(), std::clamp(rho, -0.999, 0.999));

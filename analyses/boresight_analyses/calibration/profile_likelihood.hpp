@@ -18,7 +18,7 @@ struct Profile {
   double low = 0.0, high = 0.0;          // where the rise reaches the quantile; NaN: not within reach
 };
 
-// Of every parameter that is not fixed. lower: becomes the lowest place that was come by, if lower than it.
+// Of every contact parameter that is not fixed; by standing errors the loss is a parabola. lower: becomes the lowest place that was come by, if lower than it.
 std::vector<Profile> profile_likelihood(const CalibrationProblem& problem, const FitResult& fit,
                                         const Inference& inference, const std::vector<bool>& fixed, double confidence,
                                         int jobs, FitResult& lower);

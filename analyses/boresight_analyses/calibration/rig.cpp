@@ -44,6 +44,16 @@ MatX multibody_readings(const std::shared_ptr<const Mechanism>& mechanism, const
   return readings;
 }
 
+std::vector<double> sample_times(const SyntheticRig& rig, double duration) {
+  std::vector<double> times;
+  if (rig.samples > 0) {
+    for (int i = 1; i <= rig.samples; ++i) times.push_back(duration * i / rig.samples);
+    return times;
+  }
+  for (int i = 0; i * rig.spacing < duration * (1.0 + 1e-9); ++i) times.push_back(std::min(i * rig.spacing, duration));
+  return times;
+}
+
 MeasuredData with_rig_errors(const SyntheticRig& rig, const std::vector<double>& times, const MatX& clean, int run) {
   MeasuredData data;
   data.channels = rig.channels;
@@ -60,7 +70,7 @@ MeasuredData with_rig_errors(const SyntheticRig& rig, const std::vector<double>&
     largest[kind(c)] =
         std::max(largest[kind(c)], std::sqrt(clean.col(c).squaredNorm() / static_cast<double>(clean.rows())));
   for (Eigen::Index c = 0; c < clean.cols(); ++c) {
-    const double sigma = rig.noise * largest[kind(c)];
+    const double sigma = rig.deviation > 0.0 ? rig.deviation : rig.noise * largest[kind(c)];
     for (Eigen::Index i = 0; i < clean.rows(); ++i) {
       const auto draw = [&](std::uint64_t what) {
         return stream.uniform(static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(c) + 64 * what,

@@ -17,12 +17,16 @@ MatX multibody_readings(const std::shared_ptr<const Mechanism>& mechanism, const
 struct SyntheticRig {
   std::vector<int> channels = {0, 1, 2, 3, 4, 5};
   double spacing = 1e-3;     // of the samples [s]
+  int samples = 0;           // so many instead, at equal times up to the motion's end; 0: spacing
   double noise = 0.01;       // of the channel's kind's largest rms (displacements, rotations), relative
+  double deviation = 0.0;    // instead: the noise's standard deviation, of all channels [SI]; 0: noise
   double time_offset = 0.0;  // the rig's clock is this much early [s]
   VecX bias;                 // per channel; empty: none
   double outliers = 0.0;     // share of the readings that are gross errors of 20 to 50 deviations
   std::uint64_t seed = 1;
 };
+// When such a rig reads a motion of this duration.
+std::vector<double> sample_times(const SyntheticRig& rig, double duration);
 // Readings of `clean` (multibody_readings at the times of `data`) with what a rig adds. run: tells runs'
 // noises apart.
 MeasuredData with_rig_errors(const SyntheticRig& rig, const std::vector<double>& times, const MatX& clean, int run);

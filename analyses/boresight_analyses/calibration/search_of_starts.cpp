@@ -75,6 +75,8 @@ Globals Calibrator::start(int number) const {
   Globals at = problem_.start();
   for (int p = 0; number > 0 && p < problem_.parameter_count(); ++p) {
     const FittedParameter& parameter = problem_.parameters[p];
+    // The loss is a parabola by them: any start is as good.
+    if (parameter.is_error()) continue;
     const double reach = parameter.transform == Transform::log ? std::log(2.0) : 1.0;
     const double draw = stream.uniform(static_cast<std::uint64_t>(number), static_cast<std::uint64_t>(p));
     at.u[p] =

@@ -56,7 +56,7 @@ VecX CalibrationProblem::state_at(const Window& w, const Globals& globals, const
 
 VecX CalibrationProblem::guess_state(const Window& w, const Globals& globals, const VecX& carried) const {
   const CalibrationRun& run = runs[w.run];
-  const int n = run.tables->layout.n, samples = w.last - w.first + 1;
+  const int n = freedoms(w.run), samples = w.last - w.first + 1;
   const VecX scale = state_scale(w), prior = prior_deviation(w);
   if (w.from_rest) return VecX::Zero(2 * n);
   constexpr int kSteps = 8;
@@ -82,7 +82,7 @@ VecX CalibrationProblem::guess_state(const Window& w, const Globals& globals, co
           if (!std::isfinite(measured)) continue;
           const double t = run.data.time[w.first + i] + globals.time_offset, tau = (t - w.start) / kFlightTime;
           ChannelRows at;
-          channel_rows(run, channels[c], t, at);
+          channel_rows(run, channels[c], t, n, at);
           Eigen::RowVectorXd row(unknowns);
           for (int k = 0; k < powers; ++k)
             row.segment(k * n, n) = at.rows.row(0) * scale[0] / sigma[c] * std::pow(tau, k);

@@ -17,22 +17,20 @@ nlohmann::json cell(double value) { return std::isfinite(value) ? nlohmann::json
 
 std::string short_name(const std::string& path) {
   const std::size_t first = path.find('.');
-  return path.starts_with("clearance.") ? path.substr(first + 1) : path;
+  return path.starts_with("clearance.") || path.starts_with("error.") ? path.substr(first + 1) : path;
 }
 
 // With as many decimals as its error gives a meaning to.
-std::string known_to(double value, double error, const std::string& si_unit) {
-  const DisplayUnit unit = display_unit(si_unit, std::abs(value));
-  const double shown_error = error * unit.per_si;
-  if (!(shown_error > 0.0) || !std::isfinite(shown_error)) return readable(value, si_unit);
+std::string known_to(double value, const ParameterEstimate& e) {
+  const DisplayUnit unit = display_unit_as(e.si_unit, std::abs(value), e.written_unit);
+  const double shown_error = e.standard_error * unit.per_si;
+  if (!(shown_error > 0.0) || !std::isfinite(shown_error)) return readable_as(value, e.si_unit, e.written_unit);
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(shown_error))), 0, 12);
-  const std::string name = si_unit == "1" ? "" : " " + unit.name;
+  const std::string name = e.si_unit == "1" ? "" : " " + unit.name;
   return fmt::format("{:.{}f}{}", value * unit.per_si, decimals, name);
 }
 
-std::string interval_of(const ParameterEstimate& e) {
-  return known_to(e.low, e.standard_error, e.si_unit) + " to " + known_to(e.high, e.standard_error, e.si_unit);
-}
+std::string interval_of(const ParameterEstimate& e) { return known_to(e.low, e) + " to " + known_to(e.high, e); }
 
 report::Table estimate_table(const CalibrationStudy& s) {
   report::Table table{
@@ -47,11 +45,28 @@ report::Table estimate_table(const CalibrationStudy& s) {
       return p.parameter == static_cast<int>(k) && std::isfinite(p.low) && std::isfinite(p.high);
     });
     if (e.identifiable)
-      table.rows.push_back({short_name(e.name), readable(e.value, e.si_unit), readable(e.standard_error, e.si_unit),
-                            interval_of(e), profiled ? "profile" : "curvature", e.reason});
+      table.rows.push_back({short_name(e.name), readable_as(e.value, e.si_unit, e.written_unit),
+                            readable_as(e.standard_error, e.si_unit, e.written_unit), interval_of(e),
+                            profiled ? "profile" : "curvature", e.reason});
     else
       table.rows.push_back({short_name(e.name), "none", "", "", "", "not identifiable: " + e.reason});
   }
+  return table;
+}
+
+report::Table combinations_table(const CalibrationStudy& s) {
+  report::Table table{.title = "What is known of errors that cannot be told apart",
+                      .caption =
+                          "Errors that move the boresight alike wherever it was measured; these combinations of "
+                          "them do not change along what the data do not see.",
+                      .columns = {{"Combination"}, {"Value"}, {"Standard error"}, {"Interval"}}};
+  for (const ConfusedErrors& group : s.result.inference.confused)
+    for (const KnownCombination& c : group.known) {
+      const std::string written = written_unit_of(c, s.problem);
+      table.rows.push_back({in_words(c, s.problem.parameters), readable_as(c.value, c.si_unit, written),
+                            readable_as(c.standard_error, c.si_unit, written),
+                            readable_as(c.low, c.si_unit, written) + " to " + readable_as(c.high, c.si_unit, written)});
+    }
   return table;
 }
 
@@ -199,7 +214,8 @@ report::Table starts_table(const CalibrationStudy& s) {
     std::vector<nlohmann::json> row = {static_cast<double>(k + 1)};
     for (std::size_t p = 0; p < start.from.size(); ++p) {
       const std::string& unit = s.problem.parameters[p].si_unit;
-      row.push_back(readable(start.from[p], unit) + " to " + readable(start.to[p], unit));
+      const std::string& written = s.problem.parameters[p].written_unit;
+      row.push_back(readable_as(start.from[p], unit, written) + " to " + readable_as(start.to[p], unit, written));
     }
     row.push_back(cell(start.cost));
     table.rows.push_back(row);
@@ -209,11 +225,23 @@ report::Table starts_table(const CalibrationStudy& s) {
 
 }  // namespace
 
+DisplayUnit unit_of_estimate(const ParameterEstimate& e) {
+  return display_unit_as(e.si_unit, std::abs(e.value), e.written_unit);
+}
+
+std::string written_unit_of(const KnownCombination& c, const CalibrationProblem& problem) {
+  return problem.parameters[static_cast<std::size_t>(c.terms.front().first)].written_unit;
+}
+
 report::Document calibrate_report(const CalibrationStudy& s) {
   const Inference& inference = s.result.inference;
-  report::Document document{.title = s.mechanism.name(),
-                            .subtitle = "calibration of its contacts by measured pointing data",
-                            .verb = "calibrate"};
+  report::Document document{
+      .title = s.mechanism.name(),
+      .subtitle = !s.problem.fits_errors()   ? "calibration of its contacts by measured pointing data"
+                  : s.problem.follows_play() ? "calibration of its contacts and standing errors by measured "
+                                               "pointing data"
+                                             : "calibration of its standing errors by measured pointing data",
+      .verb = "calibrate"};
   document.warnings = s.result.warnings;
   const bool all = std::all_of(inference.parameters.begin(), inference.parameters.end(),
                                [](const auto& e) { return e.identifiable; });
@@ -223,11 +251,10 @@ report::Document calibrate_report(const CalibrationStudy& s) {
                       : s.result.verdict.empty()    ? s.result.fit.reason
                                                     : s.result.verdict.front()};
   for (const ParameterEstimate& e : inference.parameters)
-    if (e.name.starts_with("clearance."))
-      document.facts.push_back(
-          {short_name(e.name),
-           e.identifiable ? known_to(e.value, e.standard_error, e.si_unit) : std::string("not identifiable"), "",
-           e.identifiable ? interval_of(e) : e.reason});
+    if (e.name.starts_with("clearance.") || e.name.starts_with("error."))
+      document.facts.push_back({short_name(e.name),
+                                e.identifiable ? known_to(e.value, e) : std::string("not identifiable"), "",
+                                e.identifiable ? interval_of(e) : e.reason});
   report::Section answer{.id = "answer", .title = "What the data say"};
   std::string words;
   for (const std::string& sentence : s.result.verdict) words += (words.empty() ? "" : "\n\n") + sentence;
@@ -247,7 +274,9 @@ report::Document calibrate_report(const CalibrationStudy& s) {
         "\n\nOn {} values kept out of the fit, residuals are {:.3g} standard deviations (rms); 1 is as good "
         "as the noise allows.",
         s.result.hold_out->values, s.result.hold_out->rms);
-  answer.items = {report::Text{words}, estimate_table(s), correlation_chart(s)};
+  answer.items = {report::Text{words}, estimate_table(s)};
+  if (report::Table known = combinations_table(s); !known.rows.empty()) answer.items.push_back(std::move(known));
+  answer.items.push_back(correlation_chart(s));
   report::Section residuals{.id = "residuals", .title = "Residuals"};
   residuals.items = {residual_panels(s, true), residual_panels(s, false), residual_checks(s)};
   document.sections = {answer, residuals};

@@ -6,6 +6,7 @@
 #include "boresight_analyses/study/rung_choice.hpp"
 #include "command_line/command.hpp"
 #include "report/document.hpp"
+#include "terminal/readable.hpp"
 
 namespace boresight::app {
 
@@ -18,6 +19,10 @@ struct CalibrationStudy {
   const CalibrationProblem& problem;
   const CalibrationResult& result;
 };
+
+// What an estimate is shown in: as the study writes it, else as people read it.
+DisplayUnit unit_of_estimate(const ParameterEstimate& estimate);
+std::string written_unit_of(const KnownCombination& combination, const CalibrationProblem& problem);
 
 report::Document calibrate_report(const CalibrationStudy& study);
 

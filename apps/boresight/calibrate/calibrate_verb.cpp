@@ -1,4 +1,4 @@
-// boresight calibrate STUDY: contact parameters from measured pointing data.
+// boresight calibrate STUDY: contact parameters and standing errors from measured pointing data.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include "boresight_analyses/calibration/calibration_plan.hpp"
 #include "boresight_analyses/calibration/posterior.hpp"
 #include "boresight_analyses/calibration/rig.hpp"
+#include "calibrate/asked_rig.hpp"
 #include "calibrate/calibrate_report.hpp"
 #include "command_line/declared_option.hpp"
 #include "command_line/verb.hpp"
@@ -38,28 +39,36 @@ class CalibrateVerb : public Verb {
   std::string name() const override { return "calibrate"; }
   std::string file_kind() const override { return "study"; }
   const KeyTable* study_table() const override { return &calibrate_keys(); }
-  std::string summary() const override { return "contact parameters from measured pointing data"; }
+  std::string summary() const override { return "contact parameters and standing errors from measured pointing data"; }
   std::string example() const override {
     return "boresight calibrate antenna/calibrate.toml --make-data \"1 %\"\n  boresight calibrate "
            "antenna/calibrate.toml";
   }
   std::string next(const Command& command, bool answer_is_no) const override {
     return answer_is_no ? std::string("boresight help calibrate.candidate: which further test would tell more")
-           : noise_.empty()
+           : asked_.noise.empty()
                ? "in the [budget] table of a study: posterior = \"" +
                      std::filesystem::absolute(last_summary().parent_path() / "posterior.toml").string() + "\""
                : "boresight calibrate " + shell_word(command.file);
   }
   std::vector<std::string> unused_options() const override { return {"--rung", "--accuracy"}; }
   void declare_options(CLI::App& app) override {
-    declare_option(app, "--make-data", noise_,
-                   "write the study's data files anew from the multibody rung, with this noise, such as \"1 %\"; files "
-                   "that it did not write are "
-                   "left as they are, with status 2",
-                   "TEXT");
-    declare_option(app, "--make-offset", offset_,
+    declare_option(
+        app, "--make-data", asked_.noise,
+        "write the study's data files anew from the multibody rung, with this noise: a share of the readings "
+        "(\"1 %\"), or an angle or a length (\"1 arcsec\"); files that it did not write are left as they are, "
+        "with status 2",
+        "TEXT");
+    declare_option(app, "--make-offset", asked_.offset,
                    "of --make-data: a hidden mounting offset on every displacement, such as \"5 um\"", "TEXT");
-    declare_option(app, "--make-seed", seed_, "of --make-data: of the noise", "UINT");
+    declare_option(app, "--make-seed", asked_.seed, "of --make-data: of the noise", "UINT");
+    declare_option(
+        app, "--make-channels", asked_.channels,
+        "of --make-data: which channels, such as \"bx,by,bz\"; left out: dx, dy, dz, rx, ry, rz, or with a noise "
+        "in a unit bx, by, bz or dx, dy, dz",
+        "TEXT");
+    declare_option(app, "--make-samples", asked_.samples,
+                   "of --make-data: how many readings, at equal times; left out: one a millisecond", "UINT");
   }
 
   int execute(const Command& command) override {
@@ -76,7 +85,7 @@ class CalibrateVerb : public Verb {
     };
     const auto mechanism = mechanism_with({});
     const CalibrationPlan plan = read_calibration_plan(root, study, mechanism->description());
-    if (!noise_.empty()) return make_data(command, plan, mechanism_with);
+    if (!asked_.noise.empty()) return make_data(command, plan, mechanism_with);
     CalibrationProblem problem = calibration_problem(plan, mechanism_with);
     CalibrationOptions options;
     options.jobs = command.jobs;
@@ -100,8 +109,9 @@ class CalibrateVerb : public Verb {
       return !interrupted();
     };
     RungChoice rung;
-    rung.name = "perturbation";
-    rung.why = plan.corrections > 0
+    rung.name = problem.follows_play() ? "perturbation" : "multibody";
+    rung.why = !problem.follows_play() ? "no play is followed; the joints of the built mechanism are closed exactly"
+               : plan.corrections > 0
                    ? "the fit needs exact derivatives, which it has; what it leaves out is corrected by multibody"
                    : "the fit needs exact derivatives, which it has";
     Unfinished begun = own.run().go_on([&] { return rung; });
@@ -153,17 +163,11 @@ class CalibrateVerb : public Verb {
 
   template <typename MechanismWith>
   int make_data(const Command& command, const CalibrationPlan& plan, const MechanismWith& mechanism_with) const {
-    SyntheticRig rig;
-    rig.noise = positive_quantity("--make-data", noise_, kRatio);
-    rig.seed = seed_;
-    rig.bias = VecX::Zero(6);
-    if (!offset_.empty()) rig.bias.head(3).setConstant(positive_quantity("--make-offset", offset_, kLength));
+    const SyntheticRig rig = asked_.rig();
     for (const PlannedRun& planned : plan.runs) check_that_it_may_be_written(planned.data);
     for (std::size_t r = 0; r < plan.runs.size(); ++r) {
       const auto mechanism = mechanism_with(plan.runs[r].settings);
-      std::vector<double> times;
-      for (int i = 0; i * rig.spacing < mechanism->duration() * (1.0 + 1e-9); ++i)
-        times.push_back(std::min(i * rig.spacing, mechanism->duration()));
+      const std::vector<double> times = sample_times(rig, mechanism->duration());
       const MatX clean = multibody_readings(mechanism, mechanism->parameters(), times, rig.channels);
       write_atomically(plan.runs[r].data, synthetic_csv_of(with_rig_errors(rig, times, clean, static_cast<int>(r))));
       if (!command.quiet) tell("wrote {}\n", plan.runs[r].data);
@@ -175,8 +179,9 @@ class CalibrateVerb : public Verb {
   Json made_data(const CalibrationPlan& plan, const SyntheticRig& rig) const {
     Json files = Json::array();
     for (const PlannedRun& planned : plan.runs) files.push_back(planned.data);
-    return {{"verb", "calibrate"}, {"version", BORESIGHT_VERSION}, {"made_data", files},
-            {"noise", rig.noise},  {"offset", rig.bias[0]},        {"seed", rig.seed}};
+    return {{"verb", "calibrate"},   {"version", BORESIGHT_VERSION},
+            {"made_data", files},    {"noise", rig.deviation > 0.0 ? rig.deviation : rig.noise},
+            {"offset", rig.bias[0]}, {"seed", rig.seed}};
   }
 
   static Json summary_of(const CalibrationStudy& s, const VerbStudy& own, const Stopwatch& watch,
@@ -208,6 +213,7 @@ class CalibrateVerb : public Verb {
             number(r.inference.correlation(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)));
       json["identifiable"][e.name] = {{"value", e.identifiable}, {"reason", e.reason}};
     }
+    json["combinations"] = combinations_of(s);
     json["verdict"] = r.verdict;
     json["residuals"] = {{"values", r.inference.values},
                          {"unknowns", r.inference.unknowns},
@@ -237,16 +243,47 @@ class CalibrateVerb : public Verb {
     return json;
   }
 
+  // Of standing errors that the data cannot tell apart.
+  static Json combinations_of(const CalibrationStudy& s) {
+    Json groups = Json::array();
+    for (const ConfusedErrors& group : s.result.inference.confused) {
+      Json names = Json::array(), known = Json::array();
+      for (const int p : group.parameters) names.push_back(s.problem.parameters[static_cast<std::size_t>(p)].path);
+      for (const KnownCombination& c : group.known) {
+        Json terms = Json::object();
+        for (const auto& [p, coefficient] : c.terms)
+          terms[s.problem.parameters[static_cast<std::size_t>(p)].path] = number(coefficient);
+        known.push_back({{"terms", terms},
+                         {"unit", c.si_unit},
+                         {"value", number(c.value)},
+                         {"standard_error", number(c.standard_error)},
+                         {"low", number(c.low)},
+                         {"high", number(c.high)}});
+      }
+      groups.push_back({{"errors", names},
+                        {"known", known},
+                        {"hidden", group.hidden},
+                        {"says", in_words(group, s.problem.parameters)}});
+    }
+    return groups;
+  }
+
   static void print(const CalibrationStudy& s, const OutputDirectory& out) {
     tell("{}: {} runs, {} values; {}\n", s.mechanism.name(), s.problem.runs.size(), s.result.inference.values,
          s.result.fit.reason);
     for (const ParameterEstimate& e : s.result.inference.parameters)
-      if (const DisplayUnit unit = display_unit(e.si_unit, e.value); e.identifiable)
-        tell("  {}: {} +- {} ({:.5g} to {:.5g}{}{})\n", e.name, readable(e.value, e.si_unit),
-             readable(e.standard_error, e.si_unit), e.low * unit.per_si, e.high * unit.per_si,
+      if (const DisplayUnit unit = unit_of_estimate(e); e.identifiable)
+        tell("  {}: {} +- {} ({:.5g} to {:.5g}{}{})\n", e.name, readable_as(e.value, e.si_unit, e.written_unit),
+             readable_as(e.standard_error, e.si_unit, e.written_unit), e.low * unit.per_si, e.high * unit.per_si,
              unit.name.empty() ? "" : " ", unit.name);
       else
         tell("  {}: not identifiable: {}\n", e.name, e.reason);
+    for (const ConfusedErrors& group : s.result.inference.confused)
+      for (const KnownCombination& c : group.known) {
+        const std::string written = written_unit_of(c, s.problem);
+        tell("  {}: {} +- {}\n", in_words(c, s.problem.parameters), readable_as(c.value, c.si_unit, written),
+             readable_as(c.standard_error, c.si_unit, written));
+      }
     for (const std::string& sentence : s.result.verdict) tell("  {}\n", sentence);
     if (!s.result.next_tests.empty()) tell("  next test: {}\n", s.result.next_tests.front().name);
     for (const std::string& warning : s.result.warnings) tell("  warning: {}\n", warning);
@@ -257,8 +294,7 @@ class CalibrateVerb : public Verb {
          (out.path() / "report.html").string());
   }
 
-  std::string noise_, offset_;
-  std::uint64_t seed_ = 1;
+  AskedRig asked_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -159,6 +160,114 @@ TEST_F(CalibrateProgram, SyntheticDataAreWrittenForAllRunsOrForNone) {
   std::ofstream(folder_ / "fast.csv") << "t [s], dx [um]\n0, 1\n0.001, 2\n";
   EXPECT_EQ(call({"calibrate", "calibrate.toml", "--make-data", "1 %", "--make-seed", "3"}).status, 2);
   EXPECT_EQ(text("slow.csv"), slow);
+}
+
+// The altitude-azimuth mount of the examples.
+class CalibrateErrorsProgram : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    for (const char* file : {"altaz-gimbal.toml", "calibrate.toml", "stars.csv"})
+      std::filesystem::copy_file(std::string(BORESIGHT_EXAMPLES "/altaz-gimbal/") + file, folder_ / file);
+  }
+  // The study with other words in it.
+  void change(const std::string& from, const std::string& to) {
+    std::string study = text("calibrate.toml");
+    const std::size_t at = study.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    std::ofstream(folder_ / "calibrate.toml") << study.replace(at, from.size(), to);
+  }
+};
+
+TEST_F(CalibrateErrorsProgram, FindsTheExamplesErrorsAndShowsThemAsTyped) {
+  const Ended ended = call({"calibrate", "calibrate.toml", "--out", "out"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const nlohmann::json summary = json("out/summary.json");
+  const double arcsec = M_PI / 648000.0;
+  const std::pair<const char*, double> made[] = {{"IA", 60.0},
+                                                 {"IE", -40.0},
+                                                 {"CA", 25.0},
+                                                 {"NPAE", -15.0},
+                                                 {"AN", 20.0},
+                                                 {"AW", -30.0},
+                                                 {"azimuth.eccentricity_sine", 4.0},
+                                                 {"azimuth.eccentricity_cosine", -2.0}};
+  for (const auto& [name, value] : made) {
+    const std::string path = std::string("error.") + name;
+    const double error = summary["standard_error"][path].get<double>();
+    EXPECT_NEAR(summary["optimum"][path].get<double>(), value * arcsec, 3.0 * error) << path;
+    EXPECT_LT(error, 3.0 * arcsec) << path;
+  }
+  EXPECT_EQ(summary["rung"], "multibody");
+  EXPECT_EQ(summary["combinations"].size(), 0u);
+  EXPECT_NE(ended.out.find("error.IE: -40.2 arcsec +- 0.15"), std::string::npos) << ended.out;
+  EXPECT_EQ(summary["next_tests"].size(), 2u);
+  std::ofstream(folder_ / "scatter.toml") << "format = 1\nmechanism = \"altaz-gimbal.toml\"\n"
+                                          << text("out/posterior.toml") << "\n[montecarlo]\nsamples = 5\n";
+  EXPECT_EQ(call({"montecarlo", "scatter.toml", "--rung", "quasistatic", "--out", "mc", "--quiet"}).status, 0);
+}
+
+TEST_F(CalibrateErrorsProgram, NamesCombinationsThatTheDataKnow) {
+  const std::vector<std::string> level = {"--set", "motion.drives.elevation=pi/4"};
+  std::vector<std::string> make = {"calibrate", "calibrate.toml", "--make-data", "1 arcsec", "--make-samples", "40"};
+  make.insert(make.end(), level.begin(), level.end());
+  ASSERT_EQ(call(make).status, 0);
+  std::vector<std::string> fit = {"calibrate", "calibrate.toml", "--out", "out"};
+  fit.insert(fit.end(), level.begin(), level.end());
+  const Ended ended = call(fit);
+  EXPECT_EQ(ended.status, 1) << ended.err;
+  const nlohmann::json summary = json("out/summary.json");
+  ASSERT_GE(summary["combinations"].size(), 1u) << ended.out;
+  const nlohmann::json group = summary["combinations"][0];
+  EXPECT_GE(group["errors"].size(), 3u);
+  EXPECT_EQ(group["known"][0]["unit"], "rad");
+  EXPECT_NE(ended.out.find("move the boresight alike in these data"), std::string::npos) << ended.out;
+  EXPECT_TRUE(summary["optimum"]["error.IA"].is_null());
+  EXPECT_FALSE(summary["optimum"]["error.IE"].is_null());
+  EXPECT_NE(text("out/report.html").find("What is known of errors that cannot be told apart"), std::string::npos);
+}
+
+TEST_F(CalibrateErrorsProgram, MakesTheExamplesDataAnew) {
+  const std::string stars = text("stars.csv");
+  const auto made = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"calibrate", "calibrate.toml", "--make-data", "1 arcsec", "--make-seed", "3"};
+    words.insert(words.end(), more.begin(), more.end());
+    return call(words);
+  };
+  ASSERT_EQ(made({"--make-samples", "50"}).status, 0);
+  EXPECT_EQ(text("stars.csv"), stars);
+  ASSERT_EQ(made({"--make-samples", "50", "--make-channels", "rx,rz"}).status, 0);
+  EXPECT_EQ(text("stars.csv").substr(0, 30), "t [s], rx [urad], rz [urad]\n0.");
+  for (const auto& [channels, word] : {std::pair{"dx", "--make-data"}, {"bq", "--make-channels"}, {"bx,bx", "twice"}}) {
+    const Ended refused = made({"--make-samples", "50", "--make-channels", channels});
+    EXPECT_EQ(refused.status, 2) << channels;
+    EXPECT_TRUE(is_one_line(refused.err)) << refused.err;
+    EXPECT_NE(refused.err.find(word), std::string::npos) << refused.err;
+  }
+}
+
+TEST_F(CalibrateErrorsProgram, RefusesWhatMakesNoSenseOfErrors) {
+  const auto refused = [&](const std::string& word) {
+    const Ended ended = call({"calibrate", "calibrate.toml", "--out", "out"});
+    EXPECT_EQ(ended.status, 2);
+    EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
+    EXPECT_NE(ended.err.find(word), std::string::npos) << ended.err;
+  };
+  const std::string study = text("calibrate.toml");
+  change("start = \"0 arcsec\"", "start = \"0 arcsec\"\nprior = \"-1 arcsec\"");
+  refused("prior");
+  std::ofstream(folder_ / "calibrate.toml") << study;
+  change("path = \"error.IA\"", "path = \"error.IAA\"");
+  refused("error.IA");
+  std::ofstream(folder_ / "calibrate.toml") << study;
+  change("path = \"error.IA\"", "path = \"body.tube.mass\"");
+  refused("a standing error");
+  std::ofstream(folder_ / "calibrate.toml") << study;
+  change("loss = \"huber\"", "laws = [\"hertz\"]\nloss = \"huber\"");
+  refused("laws");
+  std::ofstream(folder_ / "calibrate.toml") << study;
+  std::ofstream(folder_ / "stars.csv") << "t [s], boresight_error [arcsec]\n1, 60\n2, 61\n3, 70\n";
+  refused("sign");
 }
 
 TEST_F(CalibrateProgram, NamesTheNearestChannel) {

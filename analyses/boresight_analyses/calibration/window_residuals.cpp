@@ -1,0 +1,229 @@
+// What a window's readings are, what is left of the measured ones, and how that follows parameters and start state.
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/slopes/start_slopes.hpp"
+#include "boresight_analyses/calibration/calibration_problem.hpp"
+#include "boresight_analyses/calibration/rig.hpp"
+
+namespace boresight {
+
+void CalibrationProblem::channel_rows(const CalibrationRun& run, int kind, double t, int n, ChannelRows& out) const {
+  const int body = run.mechanism->boresight_body();
+  out.size = kind >= 9;
+  out.by_pose.setZero();
+  if (kind < 6) {
+    out.by_pose(0, kind) = 1.0;
+  } else {
+    const BodyMotion ideal = run.prepared->ideal().body(t, body);
+    const PointingQuantity quantity = out.size ? PointingQuantity(kind - 9) : PointingQuantity::boresight_error;
+    const auto gain = error_gain(quantity, {ideal.p, Quat(ideal.R)}, ideal.R * run.mechanism->boresight_B(),
+                                 run.mechanism->pointing().line_of_sight);
+    if (out.size)
+      out.by_pose = gain;
+    else
+      out.by_pose.row(0) = gain.row(kind - 6);
+  }
+  if (n == 0) {
+    out.rows.resize(3, 0);
+    return;
+  }
+  const TimeTable& gain = run.prepared->pose_gain(body);
+  std::vector<double> row(gain.width());
+  gain.at(t, row.data());
+  out.rows =
+      out.by_pose * Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>>(row.data(), 6, n);
+}
+
+void CalibrationProblem::set_start(const Window& w, const std::vector<double>& values, const VecX& state,
+                                   bool derivatives, MotionRequest& request) const {
+  request.start_state = state.cwiseProduct(state_scale(w));
+  if (!w.from_rest) return;
+  const CalibrationRun& run = runs[w.run];
+  const StartSlopes start =
+      start_slopes(*run.mechanism, *run.tables, with_contacts(w.run, values), contact_values(values), derivatives);
+  request.start_state += start.state;
+  request.start_by_parameters = start.by;
+}
+
+namespace {
+
+// A channel's reading of the boresight body at t, displaced by x from where it is commanded to be; exactly.
+double displaced_reading(const CalibrationRun& run, int channel, double t, const Vec6& x) {
+  const BodyMotion ideal = run.prepared->ideal().body(t, run.mechanism->boresight_body());
+  BodyMotion body = ideal;
+  displace(body, x);
+  PoseSample sample;
+  sample.pose = {body.p, Quat(body.R)};
+  sample.ideal = {ideal.p, Quat(ideal.R)};
+  sample.error = pose_error(sample.pose, sample.ideal, run.mechanism->pointing());
+  return channel_reading(channel, sample, run.mechanism->boresight_B());
+}
+
+}  // namespace
+
+void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const VecX& state, bool derivatives,
+                                  WindowResiduals& out) const {
+  const CalibrationRun& run = runs[w.run];
+  const int n = freedoms(w.run), P = parameter_count();
+  const ModelCorrection* correction = corrections.empty() || !w.from_rest ? nullptr : &corrections[w.run];
+  if (correction && correction->tangent) return evaluate_tangent(w, globals, derivatives, out);
+  const std::vector<double> theta = values(globals);
+  const VecX scale = state_scale(w);
+  const std::vector<int> contacts = contact_parameters();
+  std::vector<double> times;
+  for (int i = w.first; i <= w.last; ++i)
+    times.push_back(std::clamp(run.data.time[i] + globals.time_offset, w.start, w.end));
+  out.motion = n > 0 ? follow(w, theta, state, times, derivatives) : SensitiveMotion{};
+  const Parameters sample_of_fit = parameters_at(w.run, theta);
+  constexpr double kShort = 1e-5;  // [s], against the motion's own time
+  const auto later_than = [&](double t) { return std::min(t + kShort, run.mechanism->duration()); };
+  const auto earlier_than = [&](double t) { return std::max(t - kShort, 0.0); };
+  const std::vector<Vec6> nothing(times.size(), Vec6::Zero());
+  std::vector<Vec6> standing = nothing, standing_later = nothing, standing_earlier = nothing;
+  if (run.standing) {
+    standing = run.standing->displacements(sample_of_fit, times);
+    if (derivatives && fit_time_offset) {
+      std::vector<double> later, earlier;
+      for (const double t : times) {
+        later.push_back(later_than(t));
+        earlier.push_back(earlier_than(t));
+      }
+      standing_later = run.standing->displacements(sample_of_fit, later);
+      standing_earlier = run.standing->displacements(sample_of_fit, earlier);
+    }
+  }
+  const int samples = w.last - w.first + 1, most = samples * static_cast<int>(channels.size());
+  out.r.resize(most);
+  out.sample.clear();
+  out.channel.clear();
+  if (derivatives) {
+    out.by_global.setZero(most, global_count());
+    out.by_state.setZero(most, 2 * n);
+  }
+  int m = 0;
+  ChannelRows at, later, earlier;
+  const VecX at_rest;
+  for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
+    const int column_here = column(w.run, c);
+    if (column_here < 0) continue;
+    for (int i = 0; i < samples; ++i) {
+      const double measured = run.data.value(w.first + i, column_here);
+      if (!std::isfinite(measured)) continue;
+      const double t = times[i];
+      channel_rows(run, channels[c], t, n, at);
+      const VecX z = n > 0 ? VecX(out.motion.state.col(i).head(n)) : at_rest;
+      const Vec3 vector = at.rows * z + at.by_pose * standing[i];
+      const double own = at.size ? vector.norm() : vector[0];
+      double model = own;
+      if (run.standing) model = displaced_reading(run, channels[c], t, play_displaces(run, t, z) + standing[i]);
+      if (correction) model += correction->offset(w.first + i, column_here);
+      const double bias = globals.bias.size() > 0 ? globals.bias[c] : 0.0;
+      out.r[m] = (model + bias - measured) / sigma[c];
+      out.sample.push_back(w.first + i);
+      out.channel.push_back(c);
+      if (derivatives) {
+        const Vec3 along = at.size ? Vec3(vector / std::max(own, 1e-12)) : Vec3::UnitX();
+        const Eigen::RowVectorXd by_z = along.transpose() * at.rows / sigma[c];
+        for (std::size_t k = 0; k < contacts.size(); ++k) {
+          const int p = contacts[k];
+          out.by_global(m, p) =
+              by_z.dot(out.motion.by[i].col(static_cast<Eigen::Index>(k)).head(n)) * parameters[p].slope(globals.u[p]);
+        }
+        if (run.standing) {
+          const Eigen::RowVectorXd by_error =
+              along.transpose() * at.by_pose * run.standing->slopes(w.first + i) / sigma[c];
+          for (int p = 0; p < P; ++p)
+            if (parameters[p].is_error()) out.by_global(m, p) = by_error[p] * parameters[p].slope(globals.u[p]);
+        }
+        if (n > 0 && !w.from_rest)
+          out.by_state.row(m) = by_z * out.motion.by[i].rightCols(2 * n).topRows(n) * scale.asDiagonal();
+        int g = P;
+        if (fit_time_offset) {
+          channel_rows(run, channels[c], later_than(t), n, later);
+          channel_rows(run, channels[c], earlier_than(t), n, earlier);
+          const Vec3 turning = ((later.rows - earlier.rows) * z + later.by_pose * standing_later[i] -
+                                earlier.by_pose * standing_earlier[i]) /
+                               (later_than(t) - earlier_than(t));
+          const double moving = n > 0 ? by_z.dot(out.motion.state.col(i).tail(n)) : 0.0;
+          out.by_global(m, g++) = moving + along.dot(turning) / sigma[c];
+        }
+        if (fit_bias) out.by_global(m, g + c) = 1.0 / sigma[c];
+      }
+      ++m;
+    }
+  }
+  out.r.conservativeResize(m);
+  if (derivatives) {
+    out.by_global.conservativeResize(m, Eigen::NoChange);
+    out.by_state.conservativeResize(m, Eigen::NoChange);
+  }
+}
+
+SensitiveMotion CalibrationProblem::follow(const Window& w, const std::vector<double>& theta, const VecX& state,
+                                           const std::vector<double>& times, bool derivatives) const {
+  const CalibrationRun& run = runs[w.run];
+  MotionRequest request;
+  request.start = w.start;
+  request.end = w.end;
+  set_start(w, theta, state, derivatives, request);
+  request.tolerance = tolerance;
+  request.by_parameters = derivatives;
+  request.by_start_state = derivatives && !w.from_rest;
+  request.derivative_tolerance = derivatives ? derivative_tolerance : 0.0;
+  request.times = times;
+  return follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), run.tables,
+                                 contact_numbers_at(w.run, theta), request);
+}
+
+// E z of the boresight body.
+Vec6 CalibrationProblem::play_displaces(const CalibrationRun& run, double t, const VecX& z) const {
+  if (z.size() == 0) return Vec6::Zero();
+  const TimeTable& gain = run.prepared->pose_gain(run.mechanism->boresight_body());
+  std::vector<double> row(gain.width());
+  gain.at(t, row.data());
+  return Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>>(row.data(), 6, z.size()) * z;
+}
+
+void CalibrationProblem::evaluate_tangent(const Window& w, const Globals& globals, bool derivatives,
+                                          WindowResiduals& out) const {
+  const TangentModel& model = *corrections[w.run].tangent;
+  const VecX away = globals.u - model.at;
+  const double later = globals.time_offset - model.time_offset;
+  const int P = parameter_count(), most = (w.last - w.first + 1) * static_cast<int>(channels.size());
+  out.motion = model.motion;
+  out.r.resize(most);
+  out.sample.clear();
+  out.channel.clear();
+  if (derivatives) {
+    out.by_global.setZero(most, global_count());
+    out.by_state.setZero(most, state_size(w));
+  }
+  int m = 0;
+  for (int c = 0; c < static_cast<int>(channels.size()); ++c) {
+    const int k = column(w.run, c);
+    if (k < 0) continue;
+    for (int i = w.first; i <= w.last; ++i) {
+      const double measured = runs[w.run].data.value(i, k);
+      if (!std::isfinite(measured)) continue;
+      double reading = model.reading(i, k) + model.by_time(i, k) * later;
+      for (int p = 0; p < P; ++p) reading += model.slope[p](i, k) * away[p];
+      if (globals.bias.size() > 0) reading += globals.bias[c];
+      out.r[m] = (reading - measured) / sigma[c];
+      out.sample.push_back(i);
+      out.channel.push_back(c);
+      if (derivatives) {
+        for (int p = 0; p < P; ++p) out.by_global(m, p) = model.slope[p](i, k) / sigma[c];
+        if (fit_time_offset) out.by_global(m, P) = model.by_time(i, k) / sigma[c];
+        if (fit_bias) out.by_global(m, P + (fit_time_offset ? 1 : 0) + c) = 1.0 / sigma[c];
+      }
+      ++m;
+    }
+  }
+  out.r.conservativeResize(m);
+  if (!derivatives) return;
+  out.by_global.conservativeResize(m, Eigen::NoChange);
+  out.by_state.conservativeResize(m, Eigen::NoChange);
+}
+
+}  // namespace boresight
