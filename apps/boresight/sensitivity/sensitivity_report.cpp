@@ -83,6 +83,11 @@ report::Section global_section(const SensitivityStudy& s) {
   return section;
 }
 
+// Of a chart that has a bar for each parameter [pixels]: as tall as a report may have it, bars get thinner, and no thinner than
+// can be told apart.
+constexpr std::size_t kRoomForBar = 80, kLeastRoomForBar = 20, kAroundBars = 140, kTallest = 2000;
+constexpr std::size_t kMostBars = (kTallest - kAroundBars) / kLeastRoomForBar;
+
 report::Chart tornado(const SensitivityStudy& s, const DisplayUnit& unit) {
   std::vector<std::size_t> order(s.local.parameters.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -92,14 +97,18 @@ report::Chart tornado(const SensitivityStudy& s, const DisplayUnit& unit) {
     return std::isfinite(width) ? width : 0.0;
   };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return swing(a) > swing(b); });
+  const std::string left_out =
+      order.size() > kMostBars ? fmt::format(" The {} longest of {} bars.", kMostBars, order.size()) : "";
+  order.resize(std::min(order.size(), kMostBars));
   report::Chart chart{
       .title = "Tornado",
       .caption =
           "One parameter at its 5 % and at its 95 % quantile, all others at their medians: how far the index "
-          "moves. Each bar is one motion.",
+          "moves. Each bar is one motion." +
+          left_out,
       .x = {"change of the index", unit.name},
       .y = {"parameter", ""},
-      .height = static_cast<int>(140 + 80 * order.size())};
+      .height = static_cast<int>(std::min(kTallest, kAroundBars + kRoomForBar * order.size()))};
   report::Names names;
   report::Numbers low, high;
   for (const std::size_t i : order) {
