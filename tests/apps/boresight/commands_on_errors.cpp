@@ -43,6 +43,17 @@ std::vector<Command> commands_on_errors() {
       {.text = "boresight montecarlo examples/3-rrcpr/tolerances-study.toml",
        .shorter = {"--rung", "quasistatic", "--set", "motion.duration=20ms"},
        .claims = [](const Left& left) { EXPECT_TRUE(left.summary["requirement"]["met"].get<bool>()); }},
+      {.text = "boresight allocate examples/3-rrcpr/allocate-tolerances.toml",
+       .shorter = {"--set", "motion.duration=4ms"},
+       .claims =
+           [](const Left& left) {
+             EXPECT_EQ(left.summary["chosen"]["choice"].size(), 57u);
+             EXPECT_LT(left.summary["chosen"]["bound"].get<double>(),
+                       left.summary["chosen"]["price"].get<double>() * (1.0 + 1e-9));
+             EXPECT_THAT(left.file("allocation.csv"), HasSubstr("\nerror.rod1.length,"));
+           },
+       .edits = {{"3-rrcpr/allocate-tolerances.toml", "samples = 1000", "samples = 200"},
+                 {"3-rrcpr/allocate-tolerances.toml", "front = 4", "front = 0"}}},
       {.text = "boresight check examples/hexapod/hexapod.toml", .claims = freedoms(6, 0)},
       // "one leg longer by 20 um moves the platform by 20 um and turns its boresight by 34 urad"
       {.text = "boresight run examples/hexapod/hexapod.toml --set error.leg1a.length=20um",
