@@ -82,8 +82,8 @@ std::string fault_of(const BudgetPlan& plan) {
 }
 
 std::string fault_of(const AllocationPlan& plan) {
-  if (plan.joints.empty() || plan.samples == 0) return "joints";
-  for (const AllocationJoint& joint : plan.joints) {
+  if (plan.entries.empty() || plan.samples == 0) return "joints";
+  for (const AllocationEntry& joint : plan.entries) {
     if (joint.paths.empty() || !(joint.least >= 0.0)) return "joint";
     for (const AllocationOption& option : joint.options) {
       if (!std::isfinite(option.price) || !option.gap) return "option";

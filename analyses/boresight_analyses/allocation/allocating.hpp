@@ -20,10 +20,17 @@ class Allocating {
   void progress(const std::string& stage, double share) const;
   double working_limit(double limit) const { return limit / result_.factor; }
 
+  // Entries with a cost curve, among others that have options, are searched in steps of their tolerance first ...
+  void use_steps(Allocation& a) const;
+  // ... and then let go of them: the tolerances of these entries at least price, the options of the others as they are.
+  void refine(Allocation& a, double limit) const;
+  double price_of_set(const Allocation& a) const;
+
   // The cheapest set by the samples of the search, for a limit on the confirming rung's scale.
   Allocation cheapest(double limit, const std::vector<int>& start = {});
 
-  // Gaps of a set at these coordinates: [sample][joint].
+  DistributionPtr zone_of(const Allocation& a, std::size_t j) const;
+  // Gaps and errors of a set at these coordinates: [sample][entry].
   std::vector<std::vector<double>> gaps_of(const Allocation& a, const UnitSamples& unit, std::size_t count) const;
 
   // By the samples of the search, on the confirming rung's scale.
@@ -70,11 +77,13 @@ class Allocating {
   const AllocationOptions& options_;
   UnitSamples unit_;
   std::int64_t allowed_;
+  // Of each entry's options, or of the steps of its tolerance; empty where all entries have cost curves.
   std::vector<std::vector<double>> price_;
   std::vector<std::vector<DistributionPtr>> gap_;
+  std::vector<std::vector<double>> step_;  // of tolerances; empty where there are options
   std::vector<int> tightest_;
-  std::vector<double> least_;
-  std::vector<ContinuousJoint> curves_;
+  ZonePlaces places_;
+  std::vector<ContinuousTolerance> curves_;
   std::vector<std::vector<double>> z_;
   std::unique_ptr<StatisticalRequirement> statistical_;
   Allocation refuted_;

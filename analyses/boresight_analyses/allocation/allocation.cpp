@@ -13,6 +13,12 @@ namespace {
 
 constexpr std::size_t kTrialSamples = 12;  // that the first factor is taken from
 constexpr double kPower = 0.8;             // the chance that a set which the search accepts is confirmed
+// What a search may take: nodes, each of which asks all samples about all entries, and bounds all entries by all. Twelve
+// joints are proven long before (a tenth of it); fifty are not proven anyway, and what is found late gains little.
+constexpr double kMostWork = 6e9;
+// Of a tolerance with a cost curve, beside entries that have options: each 1.17 times as wide as the one before where the
+// widest is ten times the tightest.
+constexpr std::size_t kSteps = 16;
 
 // How many of the search's samples may exceed the limit: no more than shows the requirement, and so few that
 // `confirm` fresh samples of such a set show it with a chance of kPower. (They are fewer, and leave less
@@ -34,23 +40,31 @@ Allocating::Allocating(const AllocationPlan& plan, const LinearDeviation& deviat
     : plan_(plan),
       deviation_(deviation),
       options_(options),
-      unit_(unit_samples(plan.joints.size() + plan.scattered(), plan.samples, plan.seed)),
+      unit_(unit_samples(plan.entries.size() + plan.scattered(), plan.samples, plan.seed)),
       allowed_(allowed_in_search(plan)) {
-  for (const AllocationJoint& joint : plan.joints) {
+  for (const AllocationEntry& entry : plan.entries) {
     price_.emplace_back();
     gap_.emplace_back();
-    for (const AllocationOption& o : joint.options) {
+    step_.emplace_back();
+    for (const AllocationOption& o : entry.options) {
       price_.back().push_back(o.price);
       gap_.back().push_back(o.gap);
     }
-    least_.push_back(joint.least);
-    curves_.push_back(joint.curve);
-    if (plan.is_continuous()) {
-      const DistributionPtr zone = make_zone(0.0, 1.0, plan.zone);
-      auto& z = z_.emplace_back();
-      for (const double u : unit_[z_.size() - 1]) z.push_back(zone->quantile(u));
+    curves_.push_back(entry.curve);
+    auto& z = z_.emplace_back();
+    if (!entry.is_continuous()) continue;
+    const DistributionPtr zone = make_zone(entry.is_error ? -0.5 : 0.0, 1.0, plan.zone);
+    for (const double u : unit_[z_.size() - 1]) z.push_back(zone->quantile(u));
+    if (plan.is_continuous()) continue;
+    for (std::size_t s = 0; s < kSteps; ++s) {
+      const double share = static_cast<double>(s) / (kSteps - 1);
+      const double t = entry.curve.lower * std::pow(entry.curve.upper / entry.curve.lower, share);
+      step_.back().push_back(t);
+      price_.back().push_back(entry.curve.cost.price(t));
+      gap_.back().push_back(entry.zone(t, plan.zone));
     }
   }
+  places_ = plan.zone_places();
   if (!plan.is_continuous()) {
     tightest_ = tightest_options(gap_);
     statistical_ = std::make_unique<StatisticalRequirement>(deviation_, gap_, unit_, allowed_, plan.requirement.limit);
@@ -78,13 +92,66 @@ void Allocating::progress(const std::string& stage, double share) const {
   if (options_.progress) options_.progress(stage, share);
 }
 
+double Allocating::price_of_set(const Allocation& a) const {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < plan_.entries.size(); ++j)
+    sum += plan_.entries[j].is_continuous() ? curves_[j].cost.price(a.tolerance[j])
+                                            : price_[j][static_cast<std::size_t>(a.choice[j])];
+  return sum;
+}
+
+void Allocating::use_steps(Allocation& a) const {
+  a.tolerance.clear();
+  if (!plan_.has_curves()) return;
+  for (std::size_t j = 0; j < step_.size(); ++j)
+    a.tolerance.push_back(step_[j].empty() ? 0.0 : step_[j][static_cast<std::size_t>(a.choice[j])]);
+}
+
+void Allocating::refine(Allocation& a, double limit) const {
+  // Entries with options: gaps that are what they are, times a tolerance of one.
+  std::vector<double> least(places_.least), whole(a.tolerance);
+  std::vector<std::vector<double>> z(z_);
+  std::vector<std::size_t> open;
+  std::vector<ContinuousTolerance> curves;
+  for (std::size_t j = 0; j < z.size(); ++j) {
+    if (plan_.entries[j].is_continuous()) {
+      open.push_back(j);
+      curves.push_back(curves_[j]);
+      continue;
+    }
+    least[j] = 0.0;
+    whole[j] = 1.0;
+    for (const double u : unit_[j]) z[j].push_back(gap_[j][static_cast<std::size_t>(a.choice[j])]->quantile(u));
+  }
+  const ToleranceRequirement of_all = statistical_tolerances(deviation_, std::move(least), std::move(z), allowed_);
+  std::vector<double> slope(whole.size());
+  const ToleranceRequirement of_open = [&](std::span<const double> t, std::span<double> gradient) {
+    for (std::size_t i = 0; i < open.size(); ++i) whole[open[i]] = t[i];
+    const double value = of_all(whole, gradient.empty() ? std::span<double>() : std::span<double>(slope));
+    for (std::size_t i = 0; i < gradient.size(); ++i) gradient[i] = slope[open[i]];
+    return value;
+  };
+  const ContinuousAllocation c = allocate_continuous(curves, of_open, working_limit(limit));
+  a.finished = a.finished && c.converged;
+  Allocation better = a;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const std::vector<double>& steps = step_[open[i]];
+    better.tolerance[open[i]] = c.tolerance[i];
+    // The widest step within it: where the next search begins.
+    const auto above = std::upper_bound(steps.begin(), steps.end(), c.tolerance[i]);
+    better.choice[open[i]] = std::max(0, static_cast<int>(above - steps.begin()) - 1);
+  }
+  better.price = price_of_set(better);
+  if (c.feasible && better.price < a.price) a = better;
+}
+
 Allocation Allocating::cheapest(double limit, const std::vector<int>& start) {
   const auto began = std::chrono::steady_clock::now();
   Allocation a;
   a.judged_by = "samples";
   if (plan_.is_continuous()) {
-    const ContinuousAllocation c =
-        allocate_continuous(curves_, statistical_tolerances(deviation_, least_, z_, allowed_), working_limit(limit));
+    const ContinuousAllocation c = allocate_continuous(
+        curves_, statistical_tolerances(deviation_, places_.least, z_, allowed_), working_limit(limit));
     a.feasible = c.feasible;
     a.finished = c.converged;
     a.tolerance = c.tolerance;
@@ -93,28 +160,42 @@ Allocation Allocating::cheapest(double limit, const std::vector<int>& start) {
   } else {
     statistical_->set_limit(working_limit(limit));
     DiscreteAllocationOptions o;
+    const auto entries = static_cast<double>(plan_.entries.size());
+    o.most_nodes = static_cast<std::int64_t>(kMostWork / (static_cast<double>(plan_.samples) * entries * entries)) + 1;
     o.start = start;
     o.progress = [this](const DiscreteAllocation&) { return !(options_.interrupted && options_.interrupted()); };
     const DiscreteAllocation d = allocate_discrete(price_, tightest_, *statistical_, o);
     if (options_.interrupted && options_.interrupted()) throw EvaluationInterrupted{};
     a.feasible = d.feasible;
-    a.finished = a.proven = d.proven;
+    a.finished = d.proven;
+    a.proven = d.proven && !plan_.has_curves();
     a.choice = d.feasible ? d.choice : tightest_;
-    a.price = price_of(price_, a.choice);
+    use_steps(a);
+    a.price = price_of_set(a);
     a.nodes = d.nodes;
     a.why = "branch and bound over all sets of options";
+    if (plan_.has_curves()) {
+      a.why += ", tolerances with cost curves in " + std::to_string(kSteps) + " steps; then these by descent";
+      if (d.feasible) refine(a, limit);
+    } else if (d.feasible) {
+      a.bound = d.bound;
+    }
   }
   evaluate(a);
   result_.search_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return a;
 }
 
+DistributionPtr Allocating::zone_of(const Allocation& a, std::size_t j) const {
+  return plan_.entries[j].is_continuous() ? plan_.entries[j].zone(a.tolerance[j], plan_.zone)
+                                          : gap_[j][static_cast<std::size_t>(a.choice[j])];
+}
+
 std::vector<std::vector<double>> Allocating::gaps_of(const Allocation& a, const UnitSamples& unit,
                                                      std::size_t count) const {
-  std::vector<std::vector<double>> gaps(count, std::vector<double>(plan_.joints.size()));
-  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
-    const DistributionPtr d = a.tolerance.empty() ? gap_[j][static_cast<std::size_t>(a.choice[j])]
-                                                  : make_zone(least_[j], a.tolerance[j], plan_.zone);
+  std::vector<std::vector<double>> gaps(count, std::vector<double>(plan_.entries.size()));
+  for (std::size_t j = 0; j < plan_.entries.size(); ++j) {
+    const DistributionPtr d = zone_of(a, j);
     for (std::size_t k = 0; k < count; ++k) gaps[k][j] = d->quantile(unit[j][k]);
   }
   return gaps;
@@ -135,7 +216,7 @@ void Allocating::evaluate(Allocation& a) const {
 std::vector<std::vector<double>> Allocating::others_of(const UnitSamples& unit, std::size_t count) const {
   std::vector<std::vector<double>> others(count, std::vector<double>(plan_.scattered()));
   for (std::size_t k = 0; k < count; ++k)
-    for (std::size_t i = 0; i < others[k].size(); ++i) others[k][i] = unit[plan_.joints.size() + i][k];
+    for (std::size_t i = 0; i < others[k].size(); ++i) others[k][i] = unit[plan_.entries.size() + i][k];
   return others;
 }
 
@@ -143,7 +224,7 @@ AllocationConfirmation Allocating::confirmed(const Allocation& a, const Confirmi
                                              const std::string& rung, double& factor) const {
   const double confidence = confirmation_confidence(plan_.requirement);
   const std::uint64_t seed = confirmation_seed(plan_.seed, result_.confirmations.size());
-  const UnitSamples unit = unit_samples(plan_.joints.size() + plan_.scattered(), plan_.confirm, seed);
+  const UnitSamples unit = unit_samples(plan_.entries.size() + plan_.scattered(), plan_.confirm, seed);
   const auto gaps = gaps_of(a, unit, plan_.confirm);
   AllocationConfirmation c =
       confirmation_of(values_of(confirm(gaps, others_of(unit, plan_.confirm))), plan_.requirement, confidence);
@@ -227,8 +308,11 @@ void Allocating::search_rounds(const ConfirmingModel& confirm, const std::string
 
 bool Allocating::same(const Allocation& a, const Allocation& b) {
   if (a.tolerance.empty()) return a.choice == b.choice;
-  for (std::size_t j = 0; j < a.tolerance.size(); ++j)
+  for (std::size_t j = 0; j < a.tolerance.size(); ++j) {
     if (std::abs(a.tolerance[j] - b.tolerance[j]) > 1e-3 * a.tolerance[j]) return false;
+    const bool is_chosen = a.tolerance[j] == 0.0;  // among options
+    if (is_chosen && a.choice[j] != b.choice[j]) return false;
+  }
   return true;
 }
 

@@ -1,4 +1,4 @@
-// Allocation: the cheapest fits or tolerances with which P(index <= limit) >= p is shown with the stated
+// Allocation: the cheapest fits or tolerances, of joints and of standing errors, with which P(index <= limit) >= p is shown with the stated
 // confidence.
 //
 // The search judges sets of fits by samples of the gaps on the linear deviation (linear_deviation.hpp). What
@@ -31,9 +31,10 @@ struct Allocation {
   bool feasible = false;
   bool proven = false;            // nothing cheaper meets the same requirement by the samples of the search
   bool finished = false;          // the search ended by itself: proven, or (continuous) the descent came to rest
-  std::vector<int> choice;        // of options; empty where continuous
-  std::vector<double> tolerance;  // [m]; empty where discrete
+  std::vector<int> choice;        // of options; empty where all entries have cost curves
+  std::vector<double> tolerance;  // [SI] of the entries with cost curves; empty where none has
   double price = 0.0;
+  double bound = 0.0;         // nothing costs less and meets the requirement by the samples of the search; 0: not known
   double reached = 0.0;       // the least limit that it keeps with the room a confirmation needs, on the
                               // confirming rung's scale
   double share_within = 0.0;  // of the samples, likewise

@@ -48,11 +48,11 @@ Allocation Allocating::tightest_like(const Allocation& a) const {
   tight.feasible = tight.proven = tight.finished = false;
   if (plan_.is_continuous()) {
     for (std::size_t j = 0; j < curves_.size(); ++j) tight.tolerance[j] = curves_[j].lower;
-    tight.price = price_of(curves_, tight.tolerance);
   } else {
     tight.choice = tightest_;
-    tight.price = price_of(price_, tightest_);
+    use_steps(tight);
   }
+  tight.price = price_of_set(tight);
   return tight;
 }
 
@@ -60,8 +60,8 @@ Allocation Allocating::best_like(const Allocation& a) const {
   Allocation best = tightest_like(a);
   if (allowed_ < 0 || deviation_.rises_with_every_gap(lowest_gap(), highest_gap())) return best;
   if (plan_.is_continuous()) {
-    best.tolerance = least_tolerances(curves_, statistical_tolerances(deviation_, least_, z_, allowed_));
-    best.price = price_of(curves_, best.tolerance);
+    best.tolerance = least_tolerances(curves_, statistical_tolerances(deviation_, places_.least, z_, allowed_));
+    best.price = price_of_set(best);
     return best;
   }
   double least = statistical_->reached(best.choice);
@@ -78,18 +78,17 @@ Allocation Allocating::best_like(const Allocation& a) const {
         better = true;
       }
   }
-  best.price = price_of(price_, best.choice);
+  use_steps(best);
+  best.price = price_of_set(best);
   return best;
 }
 
 std::vector<double> Allocating::extreme_gaps(bool highest) const {
   std::vector<double> gaps;
-  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
-    double low = least_[j], high = least_[j] + curves_[j].upper;
-    if (!gap_[j].empty()) {
-      low = gap_[j].front()->lowest();
-      high = gap_[j].front()->highest();
-    }
+  for (std::size_t j = 0; j < plan_.entries.size(); ++j) {
+    const DistributionPtr first =
+        gap_[j].empty() ? plan_.entries[j].zone(curves_[j].upper, plan_.zone) : gap_[j].front();
+    double low = first->lowest(), high = first->highest();
     for (const DistributionPtr& d : gap_[j]) {
       low = std::min(low, d->lowest());
       high = std::max(high, d->highest());
@@ -106,7 +105,8 @@ void Allocating::compare() {
     a.judged_by = name;
     if (a.choice.empty() && a.tolerance.empty()) {
       a.choice = tightest_;
-      if (!plan_.is_continuous()) a.price = price_of(price_, a.choice);
+      use_steps(a);
+      a.price = price_of_set(a);
     }
     evaluate(a);
   };
@@ -119,8 +119,8 @@ void Allocating::compare() {
       a.price = c.price;
       finish(a, name);
     };
-    take(result_.worst_case, worst_case_tolerances(deviation_, least_), "worst case");
-    take(result_.root_sum_square, root_sum_square_tolerances(deviation_, least_, plan_.requirement.probability),
+    take(result_.worst_case, worst_case_tolerances(deviation_, places_), "worst case");
+    take(result_.root_sum_square, root_sum_square_tolerances(deviation_, places_, plan_.requirement.probability),
          "root-sum-square");
     return;
   }
@@ -128,36 +128,43 @@ void Allocating::compare() {
     const DiscreteAllocation d = allocate_discrete(price_, tightest_, requirement, {.most_nodes = 100'000});
     a.feasible = d.feasible;
     a.finished = d.proven;
-    a.proven = d.proven && exact;
+    a.proven = d.proven && exact && !plan_.has_curves();
     a.choice = d.choice;
+    if (d.feasible) use_steps(a);
     a.price = d.feasible ? d.price : 0.0;
     a.nodes = d.nodes;
     finish(a, name);
   };
   take(result_.worst_case, WorstCaseRequirement(deviation_, gap_, limit), "worst case", true);
-  take(result_.root_sum_square, RootSumSquareRequirement(deviation_, gap_, plan_.requirement.probability, limit),
+  take(result_.root_sum_square,
+       RootSumSquareRequirement(deviation_, gap_, plan_.requirement.probability, limit, places_.centred),
        "root-sum-square", false);
 }
 
 void Allocating::share_out() {
   const Allocation& a = result_.chosen;
-  std::vector<double> variance(plan_.joints.size()), mean(plan_.joints.size()), g(plan_.joints.size());
+  std::vector<double> variance(plan_.entries.size()), mean(variance), slope(variance), g(variance);
   const auto gaps = gaps_of(a, unit_, plan_.samples);
   for (std::size_t j = 0; j < mean.size(); ++j) {
     for (const auto& c : gaps) mean[j] += c[j] / static_cast<double>(gaps.size());
     for (const auto& c : gaps) variance[j] += (c[j] - mean[j]) * (c[j] - mean[j]);
   }
-  deviation_.index(mean, g);
+  // Squares of slopes, averaged over the samples: at the middle of all zones errors have none, being as likely to point
+  // better as worse.
+  for (const auto& c : gaps) {
+    deviation_.index(c, g);
+    for (std::size_t j = 0; j < g.size(); ++j) slope[j] += g[j] * g[j];
+  }
   double sum = 0.0;
-  for (std::size_t j = 0; j < mean.size(); ++j) sum += variance[j] *= g[j] * g[j];
-  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
+  for (std::size_t j = 0; j < mean.size(); ++j) sum += variance[j] *= slope[j];
+  for (std::size_t j = 0; j < plan_.entries.size(); ++j) {
     AllocationShare share;
-    share.joint = plan_.joints[j].name();
-    if (plan_.is_continuous()) {
+    share.joint = plan_.entries[j].name();
+    if (plan_.entries[j].is_continuous()) {
       share.price = curves_[j].cost.price(a.tolerance[j]);
     } else {
       const auto o = static_cast<std::size_t>(a.choice[j]);
-      share.option = plan_.joints[j].options[o].name;
+      share.option = plan_.entries[j].options[o].name;
       share.price = price_[j][o];
       // The dearest among the cheaper ones.
       double next = -1.0;
@@ -184,11 +191,9 @@ void Allocating::price_front() {
       tighter.feasible && here.feasible ? tighter.price - here.price : std::numeric_limits<double>::quiet_NaN();
   // From the least reachable to where the cheapest of all meets it.
   Allocation tight = best_like(here), wide = here;
-  for (std::size_t j = 0; j < plan_.joints.size(); ++j) {
-    if (plan_.is_continuous()) {
-      wide.tolerance[j] = curves_[j].upper;
-      continue;
-    }
+  for (std::size_t j = 0; j < plan_.entries.size(); ++j) {
+    if (plan_.entries[j].is_continuous()) wide.tolerance[j] = curves_[j].upper;
+    if (plan_.is_continuous()) continue;
     wide.choice[j] = static_cast<int>(std::min_element(price_[j].begin(), price_[j].end()) - price_[j].begin());
   }
   evaluate(tight);

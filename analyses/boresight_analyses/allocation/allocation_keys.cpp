@@ -27,7 +27,7 @@ const KeyTable& allocate_keys() {
   static const AllocationPlan p;
   static const KeyTable table_of_keys{
       .name = "allocate",
-      .says = "The cheapest fits, processes or tolerances of the joints that meet a requirement.",
+      .says = "The cheapest fits, processes or tolerances, of joints and of standing errors, that meet a requirement.",
       .keys = {
           table("requirement", requirement_keys).says("What the index shall keep, and with which probability."),
           integer("samples")
@@ -51,7 +51,12 @@ const KeyTable& allocate_keys() {
           tables("fits", allocate_fit_keys)
               .sometimes("left out, each joint has its own")
               .says("Fits of all joints that have none of their own, such as [{ fit = \"20 H7/g6\", price = 12 }]."),
-          tables("joint", allocate_joint_keys).says("The joints to be given a fit, one table each; at least one.")}};
+          tables("joint", allocate_joint_keys)
+              .sometimes("this or error, or both")
+              .says("The joints to be given a fit, one table each."),
+          tables("error", allocate_error_keys)
+              .sometimes("this or joint, or both")
+              .says("The standing errors to be given a tolerance.")}};
   return table_of_keys;
 }
 
@@ -67,7 +72,7 @@ const KeyTable& allocate_joint_keys() {
           tables("fits", allocate_fit_keys).sometimes(one).says("ISO 286 fits to choose from, of the joint's size."),
           tables("processes", allocate_process_keys).sometimes(one).says("Manufacturing processes to choose from."),
           table("cost", allocate_cost_keys)
-              .sometimes(one + "; for all joints or for none")
+              .sometimes(one)
               .says("What a tolerance costs, as a curve: it is then chosen continuously."),
           quantities("tolerance", kLength)
               .of_length({2}, "two lengths, the tightest and the widest tolerance")
@@ -75,10 +80,45 @@ const KeyTable& allocate_joint_keys() {
               .says("The tightest and the widest tolerance that may be chosen."),
           quantity("least", kLength)
               .at_least(0.0, "0 or more")
-              .otherwise(AllocationJoint{}.least)
+              .otherwise(AllocationEntry{}.least)
               .says("Radial clearance at tolerance zero, with processes or cost: the gap lies between least and "
                     "least + "
                     "tolerance.")}};
+  return table_of_keys;
+}
+
+const KeyTable& allocate_error_keys() {
+  using namespace keys;
+  static const std::string one = "one of processes and cost";
+  static const KeyTable table_of_keys{
+      .name = "allocate.error",
+      .says =
+          "A standing error of the mechanism whose tolerance is chosen. It lies within half of the tolerance to both "
+          "sides of its value in the mechanism file.",
+      .keys = {
+          parameter_key("The path of an error, error.NAME, or a list of them: each gets a tolerance of its own, from "
+                        "the same processes or the same cost."),
+          tables("processes", allocate_error_process_keys)
+              .sometimes(one)
+              .says("Manufacturing processes, or grades, to choose from."),
+          table("cost", allocate_cost_keys)
+              .sometimes(one)
+              .says("What a tolerance costs, as a curve: it is then chosen continuously."),
+          values("tolerance", "the error's")
+              .of_length({2}, "two values, the tightest and the widest tolerance")
+              .sometimes("needed with cost")
+              .says("The tightest and the widest tolerance that may be chosen.")}};
+  return table_of_keys;
+}
+
+const KeyTable& allocate_error_process_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "allocate.error.processes",
+      .says = "A manufacturing process or a grade, its tolerance and its price.",
+      .keys = {text("name").says("Its name, such as \"ground\"."),
+               value("tolerance", "the error's").says("Width of the zone that the error lies in, more than 0."),
+               price_key()}};
   return table_of_keys;
 }
 
@@ -118,7 +158,9 @@ const KeyTable& allocate_cost_keys() {
                    .above(0.0, "more than 0")
                    .sometimes("needed with law = \"reciprocal-power\" only")
                    .says("Exponent k."),
-               text("unit").otherwise("mm").says("Unit of length in which b is meant.")}};
+               text("unit")
+                   .usually("mm; of errors that are angles mrad, of temperatures K")
+                   .says("Unit in which b is meant.")}};
   return table_of_keys;
 }
 

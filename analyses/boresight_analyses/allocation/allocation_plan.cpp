@@ -37,51 +37,64 @@ std::vector<AllocationOption> read_fits(Cursor& table, ZoneLaw law, const std::v
   return options;
 }
 
-std::vector<AllocationOption> read_processes(Cursor& joint, double least, ZoneLaw law) {
+std::vector<AllocationOption> read_processes(Cursor& table, const AllocationEntry& of, ZoneLaw law) {
   std::vector<AllocationOption> options;
-  for (Cursor& entry : joint.tables("processes")) {
-    entry.only(allocate_process_keys());
-    const double tolerance = entry.quantity("tolerance");
+  for (Cursor& entry : table.tables("processes")) {
+    entry.only(of.is_error ? allocate_error_process_keys() : allocate_process_keys());
+    const double tolerance =
+        of.is_error ? entry.value("tolerance", unit_called(of.unit())) : entry.quantity("tolerance");
+    entry.require(tolerance > 0.0, "tolerance", "more than 0");
     entry.require(!entry.text("name").empty(), "name", "a name");
-    options.push_back({entry.text("name"), entry.number("price"), make_zone(least, tolerance, law)});
+    options.push_back({entry.text("name"), entry.number("price"), of.zone(tolerance, law)});
     entry.finish();
   }
-  if (options.empty()) joint.fail("processes", "at least one { name = .., tolerance = .., price = .. }");
+  if (options.empty()) table.fail("processes", "at least one { name = .., tolerance = .., price = .. }");
   return options;
 }
 
-ContinuousJoint read_curve(Cursor& joint) {
-  Cursor cost = joint.table("cost");
+// In which unit b is meant where the file does not say.
+const char* usual_unit(const std::string& si_unit) {
+  return si_unit == "m" ? "mm" : si_unit == "rad" ? "mrad" : si_unit.c_str();
+}
+
+ContinuousTolerance read_curve(Cursor& table, const AllocationEntry& of) {
+  Cursor cost = table.table("cost");
   cost.only(allocate_cost_keys());
   const std::string law = cost.choice("law");
   const double a = cost.number("a"), b = cost.number("b");
   if (cost.has("k") && law != "reciprocal-power") cost.fail("k", "k with law = \"reciprocal-power\" only");
   const double k = law == "reciprocal-power" ? cost.number("k") : 1.0;
-  const std::string unit = cost.text("unit");
-  double metres = 1e-3;
+  const std::string unit = cost.has("unit") ? cost.text("unit") : usual_unit(of.unit());
+  double si = 1.0;
   try {
-    metres = scale_of_unit(unit, kLength);
+    si = scale_of_unit(unit, unit_called(of.unit()));
   } catch (const ValueFault& fault) {
     cost.fail_found("unit", fault.found, fault.expected, fault.nearest);
   }
   cost.finish();
-  const std::vector<double> bounds = joint.quantities("tolerance");
-  joint.require(bounds[0] > 0.0 && bounds[0] < bounds[1], "tolerance",
-                "two lengths, the tightest and the widest tolerance");
-  return {make_cost_curve(law, a, b, k, metres), bounds[0], bounds[1]};
+  const std::vector<double> bounds =
+      of.is_error ? table.values("tolerance", unit_called(of.unit())) : table.quantities("tolerance");
+  table.require(bounds.size() == 2 && bounds[0] > 0.0 && bounds[0] < bounds[1], "tolerance",
+                of.is_error ? "two values, the tightest and the widest tolerance"
+                            : "two lengths, the tightest and the widest tolerance");
+  return {make_cost_curve(law, a, b, k, si), bounds[0], bounds[1]};
 }
 
-void check_gaps(Cursor& entry, const AllocationJoint& joint, const std::function<void(const Setting&)>& accepts) {
+void check_gaps(Cursor& entry, const AllocationEntry& joint, const std::function<void(const Setting&)>& accepts) {
   std::vector<double> values;
   for (const AllocationOption& o : joint.options) {
     values.push_back(o.gap->lowest());
     values.push_back(o.gap->highest());
   }
-  if (joint.options.empty()) values = {joint.least + joint.curve.lower, joint.least + joint.curve.upper};
+  if (joint.is_continuous())
+    for (const double tolerance : {joint.curve.lower, joint.curve.upper}) {
+      const DistributionPtr zone = joint.zone(tolerance, ZoneLaw::uniform);
+      values.insert(values.end(), {zone->lowest(), zone->highest()});
+    }
   const auto [least, largest] = std::minmax_element(values.begin(), values.end());
-  for (const double value : {std::max(*least, 1e-9), *largest}) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.17g m", value);
+  for (const double value : {joint.is_error ? *least : std::max(*least, 1e-9), *largest}) {
+    char text[60];
+    std::snprintf(text, sizeof text, "%.17g %s", value, joint.unit().c_str());
     for (const std::string& path : joint.paths) {
       try {
         accepts({path, text});
@@ -92,10 +105,10 @@ void check_gaps(Cursor& entry, const AllocationJoint& joint, const std::function
   }
 }
 
-AllocationJoint read_joint(Cursor& entry, const std::vector<AllocationOption>& common, ZoneLaw law,
+AllocationEntry read_joint(Cursor& entry, const std::vector<AllocationOption>& common, ZoneLaw law,
                            const MechanismDescription& mechanism, const std::function<void(const Setting&)>& accepts) {
   entry.only(allocate_joint_keys());
-  AllocationJoint joint;
+  AllocationEntry joint;
   joint.paths = entry.one_or_texts("parameter");
   entry.require(!joint.paths.empty(), "parameter", "the path of a radial clearance, or a list of them");
   std::vector<JournalSize> journals;
@@ -115,9 +128,9 @@ AllocationJoint read_joint(Cursor& entry, const std::vector<AllocationOption>& c
   if (entry.has("fits")) {
     joint.options = read_fits(entry, law, journals);
   } else if (entry.has("processes")) {
-    joint.options = read_processes(entry, joint.least, law);
+    joint.options = read_processes(entry, joint, law);
   } else if (entry.has("cost")) {
-    joint.curve = read_curve(entry);
+    joint.curve = read_curve(entry, joint);
   } else {
     if (common.empty()) entry.fail("fits", "fits, processes or cost; or fits of all joints, in [allocate]");
     joint.options = common;
@@ -132,6 +145,38 @@ AllocationJoint read_joint(Cursor& entry, const std::vector<AllocationOption>& c
   return joint;
 }
 
+// One table, of as many errors as it names.
+std::vector<AllocationEntry> read_errors_of(Cursor& table, ZoneLaw law, const MechanismDescription& mechanism,
+                                            const std::function<void(const Setting&)>& accepts) {
+  table.only(allocate_error_keys());
+  const std::vector<std::string> paths = table.one_or_texts("parameter");
+  table.require(!paths.empty(), "parameter", "the path of an error, error.NAME, or a list of them");
+  if (table.has("processes") == table.has("cost")) table.fail("processes", "one of processes and cost");
+  if (table.has("tolerance") && !table.has("cost")) table.fail("tolerance", "tolerance with cost only");
+  std::vector<AllocationEntry> entries;
+  for (const std::string& path : paths) {
+    AllocationEntry entry;
+    entry.is_error = true;
+    entry.paths = {path};
+    entry.places.emplace_back(mechanism, path, table.origin("parameter"));
+    if (!path.starts_with("error.") || path.find('*') != std::string::npos)
+      table.fail_found("parameter", in_quotes(path), "the path of one error, error.NAME");
+    entry.least = entry.places.front().get(nominal_parameters(mechanism));
+    if (!entries.empty() && entry.unit() != entries.front().unit())
+      table.fail_found(
+          "parameter", in_quotes(path) + ", which is measured in " + entry.unit(),
+          "errors of one kind in a table: " + in_quotes(paths.front()) + " is measured in " + entries.front().unit());
+    if (table.has("processes"))
+      entry.options = read_processes(table, entry, law);
+    else
+      entry.curve = read_curve(table, entry);
+    check_gaps(table, entry, accepts);
+    entries.push_back(std::move(entry));
+  }
+  table.finish();
+  return entries;
+}
+
 }  // namespace
 
 DistributionPtr make_zone(double least, double tolerance, ZoneLaw law) {
@@ -139,17 +184,38 @@ DistributionPtr make_zone(double least, double tolerance, ZoneLaw law) {
   return make_normal(least + 0.5 * tolerance, tolerance / 6.0)->truncated(least, least + tolerance);
 }
 
+DistributionPtr AllocationEntry::zone(double tolerance, ZoneLaw law) const {
+  return make_zone(is_error ? least - 0.5 * tolerance : least, tolerance, law);
+}
+
+bool AllocationPlan::is_continuous() const {
+  return std::all_of(entries.begin(), entries.end(), [](const AllocationEntry& e) { return e.is_continuous(); });
+}
+
+bool AllocationPlan::has_curves() const {
+  return std::any_of(entries.begin(), entries.end(), [](const AllocationEntry& e) { return e.is_continuous(); });
+}
+
+ZonePlaces AllocationPlan::zone_places() const {
+  ZonePlaces places;
+  for (const AllocationEntry& entry : entries) {
+    places.least.push_back(entry.least);
+    places.centred.push_back(entry.is_error);
+  }
+  return places;
+}
+
 Parameters AllocationPlan::parameters_with(const Mechanism& mechanism, std::span<const double> values) const {
-  Parameters p = inputs ? inputs->parameters_with(mechanism, values.subspan(joints.size())) : mechanism.parameters();
-  for (std::size_t j = 0; j < joints.size(); ++j)
-    for (const ParameterPath& place : joints[j].places) place.set(p, values[j]);
+  Parameters p = inputs ? inputs->parameters_with(mechanism, values.subspan(entries.size())) : mechanism.parameters();
+  for (std::size_t j = 0; j < entries.size(); ++j)
+    for (const ParameterPath& place : entries[j].places) place.set(p, values[j]);
   return p;
 }
 
 std::string AllocationPlan::sample_text(const Study& study) const {
   std::string text =
       "index " + study.index.text() + "\nseed " + std::to_string(seed) + " confirm " + std::to_string(confirm) + "\n";
-  for (const AllocationJoint& joint : joints)
+  for (const AllocationEntry& joint : entries)
     for (const std::string& path : joint.paths) text += path + (&path == &joint.paths.back() ? "\n" : " ");
   return inputs ? text + inputs->text : text;
 }
@@ -178,24 +244,25 @@ AllocationPlan read_allocation_plan(Cursor& root, const Study& study, const Mech
   std::vector<AllocationOption> common;
   if (table.has("fits")) common = read_fits(table, plan.zone);
   std::set<std::string> taken;
-  for (Cursor& entry : table.tables("joint")) {
-    plan.joints.push_back(read_joint(entry, common, plan.zone, mechanism, accepts));
-    for (const std::string& path : plan.joints.back().paths)
+  const auto take = [&](const Cursor& table_of, AllocationEntry entry) {
+    for (const std::string& path : entry.paths)
       if (!taken.insert(path).second)
-        entry.fail_found("parameter", "\"" + path + "\" a second time", "each joint once");
-    if (plan.joints.back().options.empty() != plan.joints.front().options.empty())
-      entry.fail("cost",
-                 "cost curves for all joints or for none: fits and processes are chosen, tolerances are continuous");
-  }
-  if (plan.joints.empty()) table.fail("joint", "at least one [[allocate.joint]] table");
+        table_of.fail_found("parameter", in_quotes(path) + " a second time",
+                            entry.is_error ? "each error once" : "each joint once");
+    plan.entries.push_back(std::move(entry));
+  };
+  for (Cursor& entry : table.tables("joint")) take(entry, read_joint(entry, common, plan.zone, mechanism, accepts));
+  for (Cursor& error : table.tables("error"))
+    for (AllocationEntry& entry : read_errors_of(error, plan.zone, mechanism, accepts)) take(error, std::move(entry));
+  if (plan.entries.empty()) table.fail("joint", "at least one [[allocate.joint]] or [[allocate.error]] table");
   table.finish();
   if (root.has("random")) {
     plan.inputs = read_random_inputs(root, mechanism, accepts);
     for (const RandomParameter& p : plan.inputs->parameters)
       for (const std::string& path : p.paths)
         if (taken.contains(path))
-          root.fail_found("random", "\"" + path + "\", which [allocate] gives a fit",
-                          "parameters other than the clearances to be allocated");
+          root.fail_found("random", "\"" + path + "\", which [allocate] gives a fit or a tolerance",
+                          "parameters other than those to be allocated");
   }
   return plan;
 }

@@ -18,6 +18,11 @@
 //   tolerance = ["0.002 mm", "0.1 mm"]                                         # its bounds; the gap lies between
 //                                                                              # `least` and `least` + tolerance
 //   least = "0 mm"
+//   [[allocate.error]]
+//   parameter = "error.rod1.length"    # or a list of them: each gets a tolerance of its own, from the same
+//   processes = [{ name = "ground", tolerance = "0.02 mm", price = 4 }, ...]   # the zone lies to both sides of the
+//                                                                              # error's value in the mechanism file
+//   # or cost and tolerance, as above
 #pragma once
 
 #include <cstdint>
@@ -39,21 +44,27 @@ namespace boresight {
 struct AllocationOption {
   std::string name;
   double price = 0.0;
-  DistributionPtr gap;  // radial clearance [m]
+  DistributionPtr gap;  // radial clearance [m], or the error
 };
 
-struct AllocationJoint {
+// What gets a tolerance: the radial clearance of a joint, or a standing error.
+struct AllocationEntry {
   std::vector<std::string> paths;
   std::vector<ParameterPath> places;
   std::vector<AllocationOption> options;  // empty where a cost curve is given
-  ContinuousJoint curve;
-  double least = 0.0;  // gap at tolerance zero [m]
+  ContinuousTolerance curve;
+  double least = 0.0;     // gap at tolerance zero [m]; of an error its value in the mechanism file
+  bool is_error = false;  // whose zone lies to both sides of `least`
 
   const std::string& name() const { return paths.front(); }
+  const std::string& unit() const { return places.front().unit(); }
+  bool is_continuous() const { return options.empty(); }
+  // How it scatters with this tolerance.
+  DistributionPtr zone(double tolerance, ZoneLaw law) const;
 };
 
 struct AllocationPlan {
-  std::vector<AllocationJoint> joints;
+  std::vector<AllocationEntry> entries;
   Requirement requirement;
   ZoneLaw zone = ZoneLaw::normal;
   std::size_t samples = 1000, confirm = 120;
@@ -61,14 +72,17 @@ struct AllocationPlan {
   int front = 6;
   std::optional<RandomInputs> inputs;  // what else scatters, in the confirmation
 
-  bool is_continuous() const { return joints.front().options.empty(); }
+  // Whether all entries have cost curves; whether any has.
+  bool is_continuous() const;
+  bool has_curves() const;
+  ZonePlaces zone_places() const;
   // The gaps first, then the other random parameters.
   Parameters parameters_with(const Mechanism& mechanism, std::span<const double> gaps_then_random) const;
   std::size_t scattered() const { return inputs ? inputs->size() : 0; }  // other random parameters
   std::string sample_text(const Study& study) const;
 };
 
-// The gap between `least` and `least` + tolerance, as the zone's law has it.
+// Between `least` and `least` + tolerance, as the zone's law has it.
 DistributionPtr make_zone(double least, double tolerance, ZoneLaw law);
 
 // Throws InputError. `accepts`: see read_random_inputs; asked of the least and the largest gap of every

@@ -38,17 +38,17 @@ double last_within(const ToleranceRequirement& requirement, double limit, const 
 
 }  // namespace
 
-double price_of(const std::vector<ContinuousJoint>& joints, std::span<const double> tolerance) {
+double price_of(const std::vector<ContinuousTolerance>& joints, std::span<const double> tolerance) {
   double sum = 0.0;
   for (std::size_t j = 0; j < joints.size(); ++j) sum += joints[j].cost.price(tolerance[j]);
   return sum;
 }
 
-std::vector<double> least_tolerances(const std::vector<ContinuousJoint>& joints,
+std::vector<double> least_tolerances(const std::vector<ContinuousTolerance>& joints,
                                      const ToleranceRequirement& requirement) {
   MinimisationProblem problem;
   std::vector<double> corner;
-  for (const ContinuousJoint& joint : joints) {
+  for (const ContinuousTolerance& joint : joints) {
     problem.lower.push_back(std::log(joint.lower));
     problem.upper.push_back(std::log(joint.upper));
     corner.push_back(joint.lower);
@@ -89,17 +89,17 @@ std::vector<double> least_tolerances(const std::vector<ContinuousJoint>& joints,
     best = t;
   };
   std::vector<double> middle;
-  for (const ContinuousJoint& joint : joints) middle.push_back(std::sqrt(joint.lower * joint.upper));
+  for (const ContinuousTolerance& joint : joints) middle.push_back(std::sqrt(joint.lower * joint.upper));
   descend(corner);
   descend(middle);
   return best;
 }
 
-ContinuousAllocation allocate_continuous(const std::vector<ContinuousJoint>& joints,
+ContinuousAllocation allocate_continuous(const std::vector<ContinuousTolerance>& joints,
                                          const ToleranceRequirement& requirement, double limit) {
   ContinuousAllocation result;
   MinimisationProblem problem;
-  for (const ContinuousJoint& joint : joints) {
+  for (const ContinuousTolerance& joint : joints) {
     problem.lower.push_back(std::log(joint.lower));
     problem.upper.push_back(std::log(joint.upper));
   }
@@ -212,22 +212,29 @@ ToleranceRequirement statistical_tolerances(const LinearDeviation& deviation, st
   };
 }
 
-ToleranceRequirement worst_case_tolerances(const LinearDeviation& deviation, std::vector<double> least) {
-  return [&deviation, least = std::move(least)](std::span<const double> t, std::span<double> gradient) {
-    std::vector<double> c(least);
-    for (std::size_t j = 0; j < c.size(); ++j) c[j] += t[j];
-    return deviation.worst_index(c, gradient);
+ToleranceRequirement worst_case_tolerances(const LinearDeviation& deviation, ZonePlaces places) {
+  return [&deviation, places = std::move(places)](std::span<const double> t, std::span<double> gradient) {
+    std::vector<double> c(t.size());
+    for (std::size_t j = 0; j < c.size(); ++j)
+      c[j] = std::abs(places.least[j]) + (places.is_centred(j) ? 0.5 : 1.0) * t[j];
+    const double value = deviation.worst_index(c, gradient);
+    for (std::size_t j = 0; j < gradient.size(); ++j)
+      if (places.is_centred(j)) gradient[j] *= 0.5;
+    return value;
   };
 }
 
-ToleranceRequirement root_sum_square_tolerances(const LinearDeviation& deviation, std::vector<double> least,
+ToleranceRequirement root_sum_square_tolerances(const LinearDeviation& deviation, ZonePlaces places,
                                                 double probability) {
   const double quantile = boost::math::quantile(boost::math::normal(), probability);
-  return [&deviation, least = std::move(least), quantile](std::span<const double> t, std::span<double> gradient) {
+  return [&deviation, places = std::move(places), quantile](std::span<const double> t, std::span<double> gradient) {
     const auto value = [&](const std::vector<double>& tolerance) {
-      std::vector<double> middle(least), half(tolerance.size());
-      for (std::size_t j = 0; j < half.size(); ++j) middle[j] += half[j] = 0.5 * tolerance[j];
-      return root_sum_square_index(deviation, middle, half, quantile);
+      std::vector<double> middle(places.least), half(tolerance.size());
+      for (std::size_t j = 0; j < half.size(); ++j) {
+        half[j] = 0.5 * tolerance[j];
+        if (!places.is_centred(j)) middle[j] += half[j];
+      }
+      return root_sum_square_index(deviation, middle, half, quantile, places.centred);
     };
     std::vector<double> at(t.begin(), t.end());
     for (std::size_t j = 0; j < gradient.size(); ++j) {

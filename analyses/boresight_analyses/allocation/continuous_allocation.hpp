@@ -16,9 +16,9 @@
 
 namespace boresight {
 
-struct ContinuousJoint {
+struct ContinuousTolerance {
   CostCurve cost;
-  double lower = 0.0, upper = 0.0;  // of its tolerance [m]
+  double lower = 0.0, upper = 0.0;  // of its tolerance [SI unit of what it is of]
 };
 
 // The value that must not exceed the limit, and its gradient where asked for. It may fall as a tolerance widens
@@ -37,23 +37,30 @@ struct ContinuousAllocation {
 
 // The tolerances with the least value found: the tightest where the requirement rises with each, else by descents
 // from the corners that one joint after the other prefers.
-std::vector<double> least_tolerances(const std::vector<ContinuousJoint>& joints,
+std::vector<double> least_tolerances(const std::vector<ContinuousTolerance>& joints,
                                      const ToleranceRequirement& requirement);
 
-ContinuousAllocation allocate_continuous(const std::vector<ContinuousJoint>& joints,
+ContinuousAllocation allocate_continuous(const std::vector<ContinuousTolerance>& joints,
                                          const ToleranceRequirement& requirement, double limit);
 
-double price_of(const std::vector<ContinuousJoint>& joints, std::span<const double> tolerance);
+double price_of(const std::vector<ContinuousTolerance>& joints, std::span<const double> tolerance);
 
-// Gaps c_j = least_j + t_j z_jk, z in [0, 1] from the zone's law: requirements of a linear deviation. The
-// deviation must outlive them.
+// Where zones of width t lie: from `least` to least + t, as gaps do; or, centred, to both sides of it, as errors do.
+struct ZonePlaces {
+  std::vector<double> least;
+  std::vector<bool> centred = {};  // none, if empty
+  bool is_centred(std::size_t j) const { return j < centred.size() && centred[j]; }
+};
+
+// c_j = least_j + t_j z_jk, z in [0, 1] (centred: [-1/2, 1/2]) from the zone's law: requirements of a linear
+// deviation. The deviation must outlive them.
 //
 // The largest index but the `allowed` ones over the samples. Its gradient is averaged over neighbouring
 // ranks, as the order statistic itself has kinks wherever two samples change places.
 ToleranceRequirement statistical_tolerances(const LinearDeviation& deviation, std::vector<double> least,
                                             std::vector<std::vector<double>> z, std::int64_t allowed);
-ToleranceRequirement worst_case_tolerances(const LinearDeviation& deviation, std::vector<double> least);
-ToleranceRequirement root_sum_square_tolerances(const LinearDeviation& deviation, std::vector<double> least,
+ToleranceRequirement worst_case_tolerances(const LinearDeviation& deviation, ZonePlaces places);
+ToleranceRequirement root_sum_square_tolerances(const LinearDeviation& deviation, ZonePlaces places,
                                                 double probability);
 
 }  // namespace boresight

@@ -31,9 +31,17 @@ UnitSamples unit_samples(std::size_t joints, std::size_t samples, std::uint64_t 
 std::vector<int> tightest_options(const std::vector<std::vector<DistributionPtr>>& gap) {
   std::vector<int> tightest;
   for (const auto& options : gap) {
-    std::vector<double> mean;
-    for (const DistributionPtr& d : options) mean.push_back(d->mean());
-    tightest.push_back(static_cast<int>(std::min_element(mean.begin(), mean.end()) - mean.begin()));
+    std::vector<double> mean, width;
+    for (const DistributionPtr& d : options) {
+      mean.push_back(d->mean());
+      width.push_back(d->highest() - d->lowest());
+    }
+    // Means that differ by rounding of the widths alone are one.
+    const auto [least, largest] = std::minmax_element(mean.begin(), mean.end());
+    constexpr double kRounding = 1e-9;
+    const bool one_middle = *largest - *least <= kRounding * *std::max_element(width.begin(), width.end());
+    const std::vector<double>& by = one_middle ? width : mean;
+    tightest.push_back(static_cast<int>(std::min_element(by.begin(), by.end()) - by.begin()));
   }
   return tightest;
 }
@@ -202,7 +210,8 @@ WorstCaseRequirement::WorstCaseRequirement(const LinearDeviation& deviation,
     : deviation_(deviation), limit_(limit) {
   for (const auto& options : gap) {
     largest_.emplace_back();
-    for (const DistributionPtr& d : options) largest_.back().push_back(d->highest());
+    for (const DistributionPtr& d : options)
+      largest_.back().push_back(std::max(std::abs(d->lowest()), std::abs(d->highest())));
   }
 }
 
@@ -216,11 +225,26 @@ bool WorstCaseRequirement::may_be_met(std::span<const int> choice) const {
   return deviation_.worst_index(c) <= limit_;
 }
 
+// Convex in the sizes: it lies above its tangent, which is additive.
+std::vector<AdditiveInequality> WorstCaseRequirement::inequalities_near(std::span<const int> choice) const {
+  if (!deviation_.is_convex()) return {};
+  std::vector<double> c(choice.size()), g(choice.size());
+  for (std::size_t j = 0; j < c.size(); ++j) c[j] = largest_[j][static_cast<std::size_t>(choice[j])];
+  AdditiveInequality tangent{.weight = {}, .budget = limit_ - deviation_.worst_index(c, g)};
+  for (std::size_t j = 0; j < c.size(); ++j) {
+    tangent.budget += g[j] * c[j];
+    std::vector<double>& weight = tangent.weight.emplace_back();
+    for (const double size : largest_[j]) weight.push_back(g[j] * size);
+  }
+  return {tangent};
+}
+
 RootSumSquareRequirement::RootSumSquareRequirement(const LinearDeviation& deviation,
                                                    const std::vector<std::vector<DistributionPtr>>& gap,
-                                                   double probability, double limit)
+                                                   double probability, double limit, std::vector<bool> centred)
     : deviation_(deviation),
       tightest_(tightest_options(gap)),
+      centred_(std::move(centred)),
       z_(boost::math::quantile(boost::math::normal(), probability)),
       limit_(limit) {
   for (const auto& options : gap) {
@@ -231,8 +255,9 @@ RootSumSquareRequirement::RootSumSquareRequirement(const LinearDeviation& deviat
       half_.back().push_back(0.5 * (d->highest() - d->lowest()));
     }
     const auto [low, high] = std::minmax_element(middle_.back().begin(), middle_.back().end());
+    const std::size_t j = least_.size();
     least_.push_back(*low);
-    largest_.push_back(*high);
+    largest_.push_back(j < centred_.size() && centred_[j] ? *low : *high);
   }
   rises_ = deviation.rises_with_every_gap(least_, largest_);
 }
@@ -260,15 +285,18 @@ double RootSumSquareRequirement::index_with_open_at_tightest(std::span<const int
     c[j] = middle_[j][o];
     h[j] = half_[j][o];
   }
-  return root_sum_square_index(deviation_, c, h, z_);
+  return root_sum_square_index(deviation_, c, h, z_, centred_);
 }
 
 double root_sum_square_index(const LinearDeviation& deviation, std::span<const double> middle,
-                             std::span<const double> half, double z) {
+                             std::span<const double> half, double z, const std::vector<bool>& centred) {
   std::vector<double> g(middle.size());
   const double index = deviation.index(middle, g);
   double squares = 0.0;
-  for (std::size_t j = 0; j < g.size(); ++j) squares += std::pow(g[j] * half[j] / 3.0, 2);
+  for (std::size_t j = 0; j < g.size(); ++j) {
+    const double slope = j < centred.size() && centred[j] ? deviation.alone(j) : g[j];
+    squares += std::pow(slope * half[j] / 3.0, 2);
+  }
   return index + z * std::sqrt(squares);
 }
 

@@ -1,11 +1,12 @@
 // What a set of tolerances has to meet, three ways of judging the same linear deviation:
 //
 //   statistical      P(index <= limit) >= p with confidence, over samples of the gaps (common to all sets)
-//   worst case       every gap at its largest and all errors in one direction stay within the limit
-//   root-sum-square  index at the mean gaps + z sqrt(sum (dI/dc_j h_j / 3)^2) <= limit,
-//                    h_j half the zone of the gap taken as three standard deviations, z the normal quantile
-//                    of p (Chase, Greenwood 1988, "Design issues in mechanical tolerance analysis",
-//                    Manufacturing Review 1(1))
+//   worst case       every gap and error at its largest and all in one direction stay within the limit
+//   root-sum-square  index at the middles of all zones + z sqrt(sum (s_j h_j / 3)^2) <= limit,
+//                    h_j half the zone taken as three standard deviations, z the normal quantile of p (Chase,
+//                    Greenwood 1988, "Design issues in mechanical tolerance analysis", Manufacturing Review 1(1)).
+//                    s_j is dI/dc_j of a gap; of an error, which has no direction of its own against the
+//                    others, the index of one unit of it alone, as pointing budgets add them
 #pragma once
 
 #include <cstdint>
@@ -65,7 +66,7 @@ class StatisticalRequirement final : public AllocationRequirement {
   mutable std::vector<std::uint32_t> order_;  // samples, those that failed last first
 };
 
-// The option of each joint whose mean gap is least.
+// The option of each joint whose mean gap is least; of an error, where all zones have one middle, the narrowest.
 std::vector<int> tightest_options(const std::vector<std::vector<DistributionPtr>>& gap);
 
 class WorstCaseRequirement final : public AllocationRequirement {
@@ -74,10 +75,11 @@ class WorstCaseRequirement final : public AllocationRequirement {
                        double limit);
   bool is_met(std::span<const int> choice) const override;
   bool may_be_met(std::span<const int> choice) const override;
+  std::vector<AdditiveInequality> inequalities_near(std::span<const int> choice) const override;
 
  private:
   const LinearDeviation& deviation_;
-  std::vector<std::vector<double>> largest_;
+  std::vector<std::vector<double>> largest_;  // of sizes: an error's to either side
   double limit_;
 };
 
@@ -85,8 +87,9 @@ class WorstCaseRequirement final : public AllocationRequirement {
 // with every gap; elsewhere the index alone, without the root, bounds them from below.
 class RootSumSquareRequirement final : public AllocationRequirement {
  public:
+  // centred[j]: the zones of j lie about one middle, as those of errors do; none, if empty.
   RootSumSquareRequirement(const LinearDeviation& deviation, const std::vector<std::vector<DistributionPtr>>& gap,
-                           double probability, double limit);
+                           double probability, double limit, std::vector<bool> centred = {});
   bool is_met(std::span<const int> choice) const override;
   bool may_be_met(std::span<const int> choice) const override;
 
@@ -97,12 +100,13 @@ class RootSumSquareRequirement final : public AllocationRequirement {
   std::vector<std::vector<double>> middle_, half_;
   std::vector<double> least_, largest_;  // of the middles
   std::vector<int> tightest_;
+  std::vector<bool> centred_;
   double z_, limit_;
   bool rises_ = false;  // with every gap: checked
 };
 
-// index + z sqrt(sum (dI/dc_j half_j / 3)^2) at these gaps.
+// index + z sqrt(sum (s_j half_j / 3)^2) at these gaps and errors; centred[j]: s_j is that of an error.
 double root_sum_square_index(const LinearDeviation& deviation, std::span<const double> middle,
-                             std::span<const double> half, double z);
+                             std::span<const double> half, double z, const std::vector<bool>& centred = {});
 
 }  // namespace boresight

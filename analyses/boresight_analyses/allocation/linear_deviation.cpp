@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/ladder/ladder.hpp"
+#include "boresight/scene/standing_errors.hpp"
 
 namespace boresight {
 namespace {
@@ -11,11 +13,17 @@ namespace {
 double dot(const double* u, const double* v) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; }
 double size_of(const double* v) { return std::sqrt(dot(v, v)); }
 
-// The vector whose length is the quantity, to first order: the form that the deviation is linear in.
-Vec3 error_vector(const PoseSample& sample, PointingQuantity quantity, const Pointing& pointing) {
-  const Eigen::Matrix<double, 3, 6> gain =
-      error_gain(quantity, sample.ideal, sample.ideal.q * pointing.boresight_B, pointing.line_of_sight);
-  return gain.leftCols<3>() * sample.error.displacement + gain.rightCols<3>() * sample.error.rotation;
+// The vector whose length is the quantity, of a displacement and a turn of the boresight body, to first order: the
+// form that the deviation is linear in.
+Eigen::Matrix<double, 3, 6> gain_of(const PoseSample& sample, PointingQuantity quantity, const Pointing& pointing) {
+  return error_gain(quantity, sample.ideal, sample.ideal.q * pointing.boresight_B, pointing.line_of_sight);
+}
+
+// Which error of the description this path names; -1: none.
+int error_named(const MechanismDescription& mechanism, const std::string& path) {
+  for (std::size_t e = 0; e < mechanism.errors.size(); ++e)
+    if (path == "error." + mechanism.errors[e].name) return static_cast<int>(e);
+  return -1;
 }
 
 }  // namespace
@@ -123,10 +131,11 @@ bool LinearDeviation::rises_with_every_gap(std::span<const double> low, std::spa
     for (std::size_t j = 0; j < gaps(); ++j) {
       const double* a = &sensitivity_[j][3 * i];
       double least = dot(&offset_[3 * i], a), scale = std::abs(least);
+      if (low[j] == high[j]) continue;
       for (std::size_t k = 0; k < gaps(); ++k) {
         const double product = dot(&sensitivity_[k][3 * i], a);
         least += std::min(low[k] * product, high[k] * product);
-        scale += high[k] * std::abs(product);
+        scale += std::max(std::abs(low[k]), std::abs(high[k])) * std::abs(product);
       }
       constexpr double kRounding = 1e-12;
       if (least < -kRounding * scale) return false;
@@ -165,6 +174,7 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
   options.sample_spacing = mechanism->duration() / static_cast<double>(instants);
   // Error vectors of a run, all instants in a row.
   std::vector<double> time;
+  std::vector<Eigen::Matrix<double, 3, 6>> gains;
   const auto vectors = [&](const std::vector<double>& gaps, double* value) {
     Parameters parameters = mechanism->parameters();
     for (std::size_t j = 0; j < places.size(); ++j)
@@ -173,8 +183,11 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
     if (value) *value = index.of(result.index);
     time = result.time;
     std::vector<double> out;
+    gains.clear();
     for (const PoseSample& sample : result.boresight.samples) {
-      const Vec3 e = error_vector(sample, quantity, mechanism->pointing());
+      gains.push_back(gain_of(sample, quantity, mechanism->pointing()));
+      const Vec3 e =
+          gains.back().leftCols<3>() * sample.error.displacement + gains.back().rightCols<3>() * sample.error.rotation;
       out.insert(out.end(), {e.x(), e.y(), e.z()});
     }
     return out;
@@ -183,15 +196,35 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
   const std::vector<double> whole = vectors(probe, &truth);
   std::vector<std::vector<double>> sensitivity;
   std::vector<double> offset = whole;
-  for (std::size_t j = 0; j < places.size(); ++j) {
-    std::vector<double> less = probe;
-    less[j] *= 0.5;
-    const std::vector<double> there = vectors(less, nullptr);
-    std::vector<double>& a = sensitivity.emplace_back(whole.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      a[i] = (whole[i] - there[i]) / (probe[j] - less[j]);
-      offset[i] -= a[i] * probe[j];
+  std::vector<int> error_of;
+  std::vector<bool> wanted(mechanism->description().errors.size(), false);
+  for (const auto& place : places) {
+    error_of.push_back(error_named(mechanism->description(), place.front().path()));
+    if (error_of.back() >= 0) wanted[static_cast<std::size_t>(error_of.back())] = true;
+  }
+  MatX columns;  // of all wanted errors: 3 instants x errors
+  if (std::find(wanted.begin(), wanted.end(), true) != wanted.end()) {
+    const IdealMotion commanded = ideal_motion(*mechanism, mechanism->parameters());
+    const StandingErrors standing(*mechanism, commanded, wanted);
+    const TimeTable& table = standing.gain(mechanism->boresight_body());
+    Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> at(6, standing.count());
+    columns.resize(static_cast<Eigen::Index>(whole.size()), standing.count());
+    for (std::size_t i = 0; i < time.size(); ++i) {
+      table.at(time[i], at.data());
+      columns.middleRows<3>(static_cast<Eigen::Index>(3 * i)) = gains[i] * at;
     }
+  }
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    std::vector<double>& a = sensitivity.emplace_back(whole.size());
+    if (error_of[j] >= 0) {
+      Eigen::Map<VecX>(a.data(), columns.rows()) = columns.col(error_of[j]);
+    } else {
+      std::vector<double> less = probe;
+      less[j] *= 0.5;
+      const std::vector<double> there = vectors(less, nullptr);
+      for (std::size_t i = 0; i < a.size(); ++i) a[i] = (whole[i] - there[i]) / (probe[j] - less[j]);
+    }
+    for (std::size_t i = 0; i < a.size(); ++i) offset[i] -= a[i] * probe[j];
   }
   LinearDeviation linear(time, offset, sensitivity, index.statistic);
   // At the probe itself only the instants can differ; far from it the form is tried too.

@@ -1,19 +1,20 @@
-// How the pointing error follows from the gaps where journals rest against their sleeves: linearly, instant
-// by instant,
+// How the pointing error follows from the gaps where journals rest against their sleeves, and from the standing
+// errors of the parts: linearly, instant by instant,
 //
 //   e(t) = e_0(t) + sum_j a_j(t) c_j,        index = statistic over t of |e(t)|
 //
-// with one vector a_j per joint: where its journal lies under the ideal reaction, carried to the boresight
-// body. e_0 holds what does not hang on the gaps (deflections, axial play). Taken from runs of the
+// with one vector a_j per gap: where its journal lies under the ideal reaction, carried to the boresight
+// body; and one per standing error: its column of influence (boresight/scene/standing_errors.hpp), exact to
+// first order. e_0 holds what hangs on neither (deflections, axial play). The gaps' are taken from runs of the
 // quasistatic rung, whose contact directions come from the ideal motion and not from the gaps; so the form is
 // its own, up to the second order of c.
 //
-// The index is a convex function of the gaps for every statistic but p99.73; its gradient then gives lower
+// The index is a convex function of the c for every statistic but p99.73; its gradient then gives lower
 // bounds that hold everywhere, by which the allocation proves that nothing cheaper exists. |e(t)| is convex at
 // each instant whatever the statistic, and no statistic falls where no size does: that bounds p99.73.
 //
-// Gaps may work against each other: a wider one can point better. Nothing here is taken to rise with the gaps
-// unless `rises_with_every_gap` has found it.
+// Gaps may work against each other: a wider one can point better. An error does so whenever its sign is the
+// other one. Nothing here is taken to rise with the c unless `rises_with_every_gap` has found it.
 #pragma once
 
 #include <memory>
@@ -29,13 +30,17 @@ namespace boresight {
 
 class LinearDeviation {
  public:
-  // offset[3 i + d], sensitivity[j][3 i + d]: component d at instant i, [m] or [rad], and per m of gap j;
+  // offset[3 i + d], sensitivity[j][3 i + d]: component d at instant i, [m] or [rad], and per m of gap j or SI
+  // unit of error j;
   // `time`: of the instants, ascending. `statistic` among statistic_names().
   LinearDeviation(std::vector<double> time, std::vector<double> offset, std::vector<std::vector<double>> sensitivity,
                   std::string statistic);
 
   std::size_t gaps() const { return sensitivity_.size(); }
   double most_per_gap(std::size_t j) const;  // the largest |a_j| over time
+  double alone(std::size_t j) const {
+    return statistic_of(size_[j], nullptr);
+  }  // the index of c_j = 1 and nothing else
   bool is_convex() const { return statistic_ != "p99.73"; }
 
   double index(std::span<const double> gaps) const;
@@ -44,10 +49,10 @@ class LinearDeviation {
   // A lower bound of the index over all gaps between `low` and `high`, for every statistic, from the tangents of
   // |e| at `at`, instant by instant.
   double least_index(std::span<const double> at, std::span<const double> low, std::span<const double> high) const;
-  // Whether |e| falls nowhere between `low` and `high` as any gap widens, at no instant: e(t) . a_j(t) >= 0
-  // throughout. Sufficient for the index to rise with every gap.
+  // Whether |e| falls nowhere between `low` and `high` as any c_j that may widen does, at no instant:
+  // e(t) . a_j(t) >= 0 throughout. Sufficient for the index to rise with every one of them.
   bool rises_with_every_gap(std::span<const double> low, std::span<const double> high) const;
-  // With all errors in one direction at every instant: statistic of |e_0| + sum |a_j| c_j.
+  // With all in one direction at every instant: statistic of |e_0| + sum |a_j| c_j, of sizes c_j >= 0.
   double worst_index(std::span<const double> gaps) const;
   double worst_index(std::span<const double> gaps, std::span<double> gradient) const;
 
@@ -61,9 +66,10 @@ class LinearDeviation {
   std::string statistic_;
 };
 
-// `places`: one radial clearance each, or several that share a value. `instants`: kept of the motion. What
-// the linear form misses against the rung itself, relative, is measured with all gaps at `probe` and returned
-// in `misfit`. Throws ComputationError.
+// `places`: one radial clearance each, or several that share a value; or one standing error. `instants`: kept of
+// the motion. What the linear form misses against the rung itself, relative, is measured with all at `probe`,
+// none of them zero, and elsewhere; it is returned in `misfit`. Throws ComputationError, also where an error
+// strains the mechanism.
 LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& mechanism,
                                       const std::vector<std::vector<ParameterPath>>& places,
                                       const std::vector<double>& probe, const IndexChoice& index, std::size_t instants,

@@ -13,7 +13,8 @@ namespace boresight {
 
 bool LaneSampleModel::serve(const Mechanism& mechanism, const IndexChoice& index, const RunOptions& options) {
   const bool statistic = index.statistic == "max" || index.statistic == "rms" || index.statistic == "mean";
-  return statistic && PerturbationLanes::serve(mechanism) && options.step == 0.0 && options.integrator.empty();
+  return statistic && mechanism.description().errors.empty() && PerturbationLanes::serve(mechanism) &&
+         options.step == 0.0 && options.integrator.empty();
 }
 
 LaneSampleModel::LaneSampleModel(std::shared_ptr<const Mechanism> mechanism,

@@ -11,10 +11,16 @@
 namespace boresight::app {
 namespace {
 
-// "F1" of "clearance.F1.radial".
-std::string joint_label(const std::string& path) {
-  constexpr std::size_t kBefore = 10, kAfter = 7;
-  return path.size() > kBefore + kAfter ? path.substr(kBefore, path.size() - kBefore - kAfter) : path;
+// "F1" of "clearance.F1.radial", "rod1.length" of "error.rod1.length".
+std::string label_of(const std::string& path) {
+  constexpr std::string_view kError = "error.", kClearance = "clearance.", kRadial = ".radial";
+  if (path.starts_with(kError)) return path.substr(kError.size());
+  if (!path.starts_with(kClearance) || !path.ends_with(kRadial)) return path;
+  return path.substr(kClearance.size(), path.size() - kClearance.size() - kRadial.size());
+}
+
+bool has_errors(const AllocationPlan& plan) {
+  return std::any_of(plan.entries.begin(), plan.entries.end(), [](const AllocationEntry& e) { return e.is_error; });
 }
 
 std::string index_text(const AllocateStudy& s, double value) {
@@ -44,16 +50,21 @@ report::Table comparison_table(const AllocateStudy& s) {
 
 report::Table option_table(const AllocateStudy& s) {
   report::Table table{
-      .title = "The choice, joint by joint",
+      .title = has_errors(s.plan) ? "The choice, joint by joint and part by part" : "The choice, joint by joint",
       .caption =
-          "Share of the error: of the index' variance, to first order about the mean gaps. Saving: by the "
-          "next cheaper option of this joint alone.",
-      .columns = {{"joint"}, {"chosen"}, {"price"}, {"share of cost", "%"}, {"share of error", "%"}, {"saving"}}};
+          "Share of the error: of the index' variance, to first order, slopes averaged over the samples. Saving: by "
+          "the next cheaper option of this one alone.",
+      .columns = {{has_errors(s.plan) ? "joint or error" : "joint"},
+                  {"chosen"},
+                  {"price"},
+                  {"share of cost", "%"},
+                  {"share of error", "%"},
+                  {"saving"}}};
   if (s.result.worst_case.feasible) table.columns.push_back({"worst case"});
   if (s.result.root_sum_square.feasible) table.columns.push_back({"root-sum-square"});
   for (std::size_t j = 0; j < s.result.shares.size(); ++j) {
     const AllocationShare& share = s.result.shares[j];
-    std::vector<nlohmann::json> row = {joint_label(share.joint),
+    std::vector<nlohmann::json> row = {label_of(share.joint),
                                        option_text(s, s.result.chosen, j),
                                        share.price,
                                        100.0 * share.cost_share,
@@ -67,12 +78,13 @@ report::Table option_table(const AllocateStudy& s) {
 }
 
 report::Chart share_chart(const AllocateStudy& s) {
-  report::Chart chart{
-      .title = "Where the error comes from and where the money goes", .x = {"joint", ""}, .y = {"share", "%"}};
+  report::Chart chart{.title = "Where the error comes from and where the money goes",
+                      .x = {has_errors(s.plan) ? "joint or error" : "joint", ""},
+                      .y = {"share", "%"}};
   report::Names joints;
   report::Numbers error, cost;
   for (const AllocationShare& share : s.result.shares) {
-    joints.push_back(joint_label(share.joint));
+    joints.push_back(label_of(share.joint));
     error.push_back(100.0 * share.error_share);
     cost.push_back(100.0 * share.cost_share);
   }
@@ -142,8 +154,9 @@ std::string requirement_text(const AllocateStudy& s) {
 }
 
 std::string option_text(const AllocateStudy& s, const Allocation& a, std::size_t joint) {
-  if (!a.tolerance.empty()) return readable(a.tolerance[joint], "m");
-  return a.choice.empty() ? "" : s.plan.joints[joint].options[static_cast<std::size_t>(a.choice[joint])].name;
+  const AllocationEntry& entry = s.plan.entries[joint];
+  if (entry.is_continuous()) return a.tolerance.empty() ? "" : readable(a.tolerance[joint], entry.unit());
+  return a.choice.empty() ? "" : entry.options[static_cast<std::size_t>(a.choice[joint])].name;
 }
 
 std::string standing_of(const AllocateStudy& s, const Allocation& a) {
@@ -170,7 +183,12 @@ std::string allocate_sentence(const AllocateStudy& s) {
       "The cheapest choice costs {:.5g} and keeps the {}. {}{}.", s.result.chosen.price, requirement_text(s),
       s.result.chosen.proven     ? "Nothing cheaper keeps the limit with the room that this confirmation needs. "
       : s.result.chosen.finished ? "Nothing cheaper was found near it; that nothing is elsewhere is not proven. "
-                                 : "",
+      : s.result.chosen.bound > 0.0
+          ? fmt::format(
+                "No choice below {:.5g} keeps the limit with the room that this confirmation needs; between the "
+                "two the search ended before it had looked everywhere. ",
+                s.result.chosen.bound)
+          : "",
       s.result.confirmations.back().sentence);
 }
 
@@ -189,7 +207,7 @@ report::Document allocate_report(const AllocateStudy& s) {
   document.facts = {
       {.label = "Price", .value = a.price},
       {.label = "Least limit kept", .value = index_text(s, a.reached), .note = "by the samples of the search"},
-      {.label = "Joints", .value = s.plan.joints.size()}};
+      {.label = has_errors(s.plan) ? "Joints and errors" : "Joints", .value = s.plan.entries.size()}};
   if (s.result.feasible && std::isfinite(s.result.last_micrometre))
     document.facts.push_back({.label = s.study.index.si_unit() == "m" ? "The last micrometre" : "The last microradian",
                               .value = s.result.last_micrometre,
@@ -200,7 +218,7 @@ report::Document allocate_report(const AllocateStudy& s) {
     document.sections.push_back(
         {.id = "rules",
          .title = "Against worst case and root-sum-square",
-         .intro = "The worst case adds all gaps at their largest and all errors in one direction; the "
+         .intro = "The worst case adds all gaps and errors at their largest and all in one direction; the "
                   "root-sum-square takes the index at the mean gaps and the normal law about it.",
          .items = {comparison_table(s)}});
   if (s.result.front.size() > 1)
@@ -212,9 +230,10 @@ report::Document allocate_report(const AllocateStudy& s) {
                                .items = {report::Text{fmt::format(
                                    "The search sums the error linearly over the joints, as journals at rest under the "
                                    "ideal reactions displace the "
-                                   "platform; against its own rung that is off by {:.2g} %. Impacts come in by the "
+                                   "platform{}; against its own rung that is off by {:.2g} %. Impacts come in by the "
                                    "factor {:.4g}, measured on the {} rung "
                                    "and taken as one for all samples; the confirmation does without either.\n\n{}",
+                                   has_errors(s.plan) ? ", and over the parts' own errors" : "",
                                    100.0 * s.result.misfit, s.result.factor, s.rung.name, s.leaves_out)}}});
   return document;
 }

@@ -24,7 +24,7 @@ struct AllocateStudy {
   std::string leaves_out;
 };
 
-// The option of joint j: "20 H7/f7", or its tolerance.
+// The option of a joint or an error: "20 H7/f7", "ground", or its tolerance.
 std::string option_text(const AllocateStudy& study, const Allocation& allocation, std::size_t joint);
 // Whether an allocation is unsafe, wasteful, or neither, against the chosen one.
 std::string standing_of(const AllocateStudy& study, const Allocation& allocation);

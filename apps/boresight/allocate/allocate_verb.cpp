@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <ostream>
 
 #include "allocate/allocate_report.hpp"
@@ -25,24 +26,33 @@ namespace {
 
 constexpr std::size_t kInstants = 125;  // of the motion, that the linear deviation keeps
 
-// All gaps at their least, their middle, their largest.
+// All gaps at their middle, their least, their largest; errors likewise to one side, as in their middle nothing shows.
 std::vector<std::vector<double>> corner_gaps(const AllocationPlan& plan) {
   std::vector<std::vector<double>> corners(3);
-  for (const AllocationJoint& joint : plan.joints) {
-    double least = joint.least + joint.curve.lower, largest = joint.least + joint.curve.upper;
-    if (!joint.options.empty()) {
-      least = joint.options.front().gap->mean();
-      largest = least;
-      for (const AllocationOption& o : joint.options) {
-        least = std::min(least, o.gap->mean());
-        largest = std::max(largest, o.gap->mean());
-      }
+  for (const AllocationEntry& entry : plan.entries) {
+    std::vector<DistributionPtr> zones;
+    for (const AllocationOption& o : entry.options) zones.push_back(o.gap);
+    if (entry.is_continuous())
+      for (const double tolerance : {entry.curve.lower, entry.curve.upper})
+        zones.push_back(entry.zone(tolerance, ZoneLaw::uniform));
+    double least = std::numeric_limits<double>::infinity(), largest = -least;
+    for (const DistributionPtr& zone : zones) {
+      const double at = entry.is_error || entry.is_continuous() ? zone->highest() : zone->mean();
+      least = std::min(least, at);
+      largest = std::max(largest, at);
     }
     corners[0].push_back(0.5 * (least + largest));
     corners[1].push_back(least);
     corners[2].push_back(largest);
   }
   return corners;
+}
+
+// What the entries are: "joints", "errors", "joints and errors".
+std::string entries_text(const AllocationPlan& plan) {
+  const auto errors = std::count_if(plan.entries.begin(), plan.entries.end(), [](const auto& e) { return e.is_error; });
+  if (errors == 0) return "joints";
+  return errors == static_cast<std::ptrdiff_t>(plan.entries.size()) ? "errors" : "joints and errors";
 }
 
 // The confirming rung's outcomes, each sample stored as it lands and never computed twice.
@@ -99,7 +109,7 @@ void write_allocation(std::ostream& out, const AllocateStudy& s) {
   for (std::size_t j = 0; j < s.result.shares.size(); ++j) {
     const AllocationShare& share = s.result.shares[j];
     out << csv_field(share.joint) << ',' << csv_field(share.option) << ','
-        << (s.result.chosen.tolerance.empty() ? "" : exact(s.result.chosen.tolerance[j])) << ',' << exact(share.price)
+        << (s.plan.entries[j].is_continuous() ? exact(s.result.chosen.tolerance[j]) : "") << ',' << exact(share.price)
         << ',' << exact(share.cost_share) << ',' << exact(share.error_share);
     for (const Allocation* a : {&s.result.worst_case, &s.result.root_sum_square})
       out << ',' << (a->feasible ? csv_field(option_text(s, *a, j)) : "");
@@ -137,7 +147,7 @@ class AllocateVerb : public Verb {
     RungChoice choice = rung_for(command);
     const std::vector<std::vector<double>> gaps = corner_gaps(plan);
     std::vector<std::vector<ParameterPath>> places;
-    for (const AllocationJoint& joint : plan.joints) places.push_back(joint.places);
+    for (const AllocationEntry& joint : plan.entries) places.push_back(joint.places);
     double misfit = 0.0;
     const LinearDeviation deviation = find_linear_deviation(mechanism, places, gaps[0], study.index, kInstants, misfit);
 
@@ -160,15 +170,17 @@ class AllocateVerb : public Verb {
                                                       .accuracy = accuracy});
     const SampleModel& model = *designs.samples;
     std::vector<std::string> names;
-    for (const AllocationJoint& joint : plan.joints) names.push_back(joint.name());
+    for (const AllocationEntry& joint : plan.entries) names.push_back(joint.name());
     if (plan.inputs)
       for (const RandomParameter& p : plan.inputs->parameters) names.push_back(p.name());
     const auto store = own.run().open_evaluations("confirmation.db", names, model.rung(), model.step());
     Confirming confirming(model, plan, *store, command.jobs);
 
     if (!command.quiet) {
-      tell("{}: {} joints, {}\n", mechanism->name(), plan.joints.size(),
-           plan.is_continuous() ? "cost curves" : "fits with prices");
+      tell("{}: {} {}, {}\n", mechanism->name(), plan.entries.size(), entries_text(plan),
+           plan.is_continuous() ? "cost curves"
+           : plan.has_curves()  ? "prices and cost curves"
+                                : "fits with prices");
       std::fflush(stdout);
     }
     const std::unique_ptr<Stage> stage = own.run().stage(1.0, "of the allocation");
@@ -240,25 +252,27 @@ class AllocateVerb : public Verb {
                  {"least_limit_shown", number_json(a.reached)},
                  {"meets", a.meets},
                  {"proven", a.proven},
+                 {"bound", number_json(a.bound)},
                  {"nodes", a.nodes},
                  {"standing", standing_of(s, a)}};
     json["choice"] = Json::object();
     if (!a.choice.empty() || !a.tolerance.empty())
-      for (std::size_t j = 0; j < s.plan.joints.size(); ++j)
-        for (const std::string& path : s.plan.joints[j].paths)
-          json["choice"][path] = a.tolerance.empty() ? Json(option_text(s, a, j)) : Json(a.tolerance[j]);
+      for (std::size_t j = 0; j < s.plan.entries.size(); ++j)
+        for (const std::string& path : s.plan.entries[j].paths)
+          json["choice"][path] = s.plan.entries[j].is_continuous() ? Json(a.tolerance[j]) : Json(option_text(s, a, j));
     return json;
   }
 
-  // Of a fit, the mean gap that it gives; of a tolerance, itself.
+  // The mean gap that a fit or a tolerance gives; of an error, its middle.
   static Json optimum_json(const AllocateStudy& s) {
     Json json = Json::object();
     const Allocation& a = s.result.chosen;
     if (a.choice.empty() && a.tolerance.empty()) return json;
-    for (std::size_t j = 0; j < s.plan.joints.size(); ++j)
-      for (const std::string& path : s.plan.joints[j].paths)
-        json[path] = a.tolerance.empty() ? s.plan.joints[j].options[static_cast<std::size_t>(a.choice[j])].gap->mean()
-                                         : make_zone(s.plan.joints[j].least, a.tolerance[j], s.plan.zone)->mean();
+    for (std::size_t j = 0; j < s.plan.entries.size(); ++j)
+      for (const std::string& path : s.plan.entries[j].paths)
+        json[path] = s.plan.entries[j].is_continuous()
+                         ? s.plan.entries[j].zone(a.tolerance[j], s.plan.zone)->mean()
+                         : s.plan.entries[j].options[static_cast<std::size_t>(a.choice[j])].gap->mean();
     return json;
   }
 
@@ -268,7 +282,7 @@ class AllocateVerb : public Verb {
     Json json = own.head(s.study, s.rung, watch, s.warnings, r.interrupted, earlier);
     json["seed"] = s.plan.seed;
     json["optimum"] = optimum_json(s);
-    json["optimum_of"] = "mean radial clearance per joint";
+    json["optimum_of"] = "mean radial clearance per joint, middle of each error's zone";
     json["objective"] = number_json(r.chosen.price);
     json["converged"] = r.converged && r.feasible;
     json["feasible"] = r.feasible;

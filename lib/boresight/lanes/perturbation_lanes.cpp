@@ -9,6 +9,7 @@
 
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/lanes/scene_for_lanes.hpp"
+#include "boresight/mechanism/error.hpp"
 #include "boresight/scene/resting_start.hpp"
 
 namespace boresight {
@@ -116,7 +117,8 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
         cache_->prepared.splice(cache_->prepared.begin(), cache_->prepared, it);
         return cache_->prepared.front();
       }
-    if (!cache_->scene || (!is_kinematic(*mechanism_) && !same_scene(cache_->scene_parameters, parameters))) {
+    if (!cache_->scene || !same_centers(cache_->scene_parameters, parameters) ||
+        (!is_kinematic(*mechanism_) && !same_scene(cache_->scene_parameters, parameters))) {
       cache_->scene = scene_for_lanes(*mechanism_, parameters);
       cache_->scene_parameters = parameters;
       if (cache_->scene->scene().layout().n > 0) cache_->gain = gain_over_time(*cache_->scene);
@@ -182,6 +184,7 @@ struct PerturbationLanes::Batch {
 };
 
 void PerturbationLanes::add(const Parameters& sample, double tolerance, Batch& to) const {
+  if (has_errors(sample)) throw ComputationError("lanes do not have standing errors");
   if (to.prepared.empty() || !same_scene(to.prepared.back()->parameters, sample)) {
     to.prepared.push_back(prepared_for(sample));
     to.bytes += to.prepared.back()->bytes();

@@ -27,7 +27,7 @@ AllocationPlan plan_with(std::uint64_t seed, int options) {
   plan.front = 0;
   plan.requirement = {2.05 * kMilli, kProbability, kConfidence};
   for (int j = 0; j < 2; ++j) {
-    AllocationJoint& joint = plan.joints.emplace_back();
+    AllocationEntry& joint = plan.entries.emplace_back();
     joint.paths = {"joint " + std::to_string(j)};
     for (int o = 0; o < options; ++o) {
       const double least = kMilli * (1.0 + kStep * o);
@@ -222,7 +222,7 @@ TEST(Allocation, TriesTheTightestGapsOnTheConfirmingRungBeforeItSaysThatNothingD
 
 TEST(Allocation, OverCostCurvesClaimsNoProof) {
   AllocationPlan plan = plan_with(9, 1);
-  for (AllocationJoint& joint : plan.joints) {
+  for (AllocationEntry& joint : plan.entries) {
     joint.options.clear();
     joint.curve = {make_cost_curve("reciprocal", 1.0, 0.2, 1.0, 1e-3), 0.002 * kMilli, 0.1 * kMilli};
   }

@@ -18,8 +18,8 @@ namespace {
 const std::vector<double> kSensitivity = {1.0, 1.9, 0.6, 2.4};
 const std::vector<double> kB = {0.5, 0.2, 1.0, 0.35};
 
-std::vector<ContinuousJoint> joints(double exponent) {
-  std::vector<ContinuousJoint> all;
+std::vector<ContinuousTolerance> joints(double exponent) {
+  std::vector<ContinuousTolerance> all;
   for (const double b : kB) all.push_back({make_cost_curve("reciprocal-power", 1.0, b, exponent, 1e-3), 1e-7, 1e-2});
   return all;
 }
@@ -73,7 +73,7 @@ TEST(ContinuousAllocation, IsChasesClosedFormForTheRootSumSquare) {
 }
 
 TEST(ContinuousAllocation, KeepsATightToleranceAtItsBoundAndSharesOutTheRest) {
-  std::vector<ContinuousJoint> all = joints(1.0);
+  std::vector<ContinuousTolerance> all = joints(1.0);
   all[0].upper = 1e-6;
   const ContinuousAllocation found = allocate_continuous(all, worst, 2e-4);
   EXPECT_NEAR(found.tolerance[0], 1e-6, 1e-12);
@@ -120,7 +120,7 @@ TEST(RootSumSquare, AddsTheMiddlesAndAThirdOfEachHalfWidthAsItsDeviation) {
   const std::vector<double> middle = {1e-4, 1e-4}, half = {3e-5, 6e-5};
   EXPECT_NEAR(root_sum_square_index(deviation, middle, half, 2.0), 6e-4 + 2.0 * std::hypot(1e-5, 4e-5), 1e-15);
   // Gaps of at least 70 and 40 um whose tolerances are 60 and 120 um are these.
-  const ToleranceRequirement requirement = root_sum_square_tolerances(deviation, {1e-4 - 3e-5, 1e-4 - 6e-5}, 0.95);
+  const ToleranceRequirement requirement = root_sum_square_tolerances(deviation, {{1e-4 - 3e-5, 1e-4 - 6e-5}}, 0.95);
   std::vector<double> gradient(2);
   const double one_sided = 1.6448536269514722;
   EXPECT_NEAR(requirement(std::vector<double>{6e-5, 1.2e-4}, gradient), 6e-4 + one_sided * std::hypot(1e-5, 4e-5),

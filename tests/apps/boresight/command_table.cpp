@@ -21,7 +21,7 @@ const std::vector<std::string> kOnce = {"--step-error", "off"};
 }  // namespace
 
 std::vector<Command> commands() {
-  return {
+  std::vector<Command> all = {
       {.text = "boresight help clearance.friction",
        .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("static_coefficient")); }},
       {.text = "boresight paths examples/3-rrcpr/3-rrcpr.toml",
@@ -372,6 +372,8 @@ std::vector<Command> commands() {
              EXPECT_THAT(left.file("events.csv"), AllOf(Not(HasSubstr("radial-")), HasSubstr("\nO,radial,")));
            }},
   };
+  for (Command& c : commands_on_errors()) all.push_back(std::move(c));
+  return all;
 }
 
 }  // namespace boresight::app

@@ -32,5 +32,7 @@ struct Command {
 };
 
 std::vector<Command> commands();
+// Those of them that are about standing errors of lengths, axes, drives and temperature.
+std::vector<Command> commands_on_errors();
 
 }  // namespace boresight::app

@@ -1,0 +1,76 @@
+#include <gmock/gmock.h>
+
+#include "command_claims.hpp"
+#include "command_table.hpp"
+
+namespace boresight::app {
+
+std::vector<Command> commands_on_errors() {
+  using testing::HasSubstr;
+  return {
+      {.text = "boresight check examples/3-rrcpr/tolerances.toml", .claims = freedoms(6, 0)},
+      // "a tenth of a milliradian in one of the six drives turns the boresight by 95 urad. The play ... turns it by nothing"
+      {.text = "boresight run examples/3-rrcpr/tolerances.toml --set error.A3.zero=0.1mrad",
+       .shorter = {"--step-error", "off"},
+       .claims =
+           [](const Left& left) {
+             EXPECT_NEAR(largest(left.summary, "boresight_error"), 95e-6, 0.5e-6);
+             EXPECT_LT(largest(left.again({"--set", "error.A3.zero=0mrad"}), "boresight_error"), 1e-10);
+           }},
+      // "the axes of C, P and F not being square to each other, some of it from where the A drives count from. Lengths and temperatures
+      // turn nothing"
+      {.text = "boresight sensitivity examples/3-rrcpr/tolerances-study.toml",
+       .shorter = {"--rung", "quasistatic", "--set", "motion.duration=20ms"},
+       .claims =
+           [](const Left& left) {
+             const auto& sobol = left.summary["sobol"];
+             ASSERT_EQ(sobol.size(), 54u);
+             double square = 0.0, sum = 0.0;
+             for (const auto& [path, index] : sobol.items()) {
+               const double total = index["total"]["value"];
+               sum += total;
+               if (path.ends_with(".squareness") && !path.starts_with("error.B")) square += total;
+               const bool turns_nothing =
+                   path.ends_with(".length") || path.ends_with(".warming") || path.find(".radius") != std::string::npos;
+               EXPECT_LT(turns_nothing ? total : 0.0, 1e-3) << path;
+               const bool counts_from = path.ends_with(".zero") && path.starts_with("error.A");
+               EXPECT_GT(counts_from ? total : 1.0, 5e-3) << path;
+             }
+             EXPECT_GT(square, 0.7 * sum);
+             EXPECT_THAT(left.file("report.html"), HasSubstr("Tornado"));
+           },
+       .edits = {{"3-rrcpr/tolerances-study.toml", "samples = 64", "samples = 32"}}},
+      {.text = "boresight montecarlo examples/3-rrcpr/tolerances-study.toml",
+       .shorter = {"--rung", "quasistatic", "--set", "motion.duration=20ms"},
+       .claims = [](const Left& left) { EXPECT_TRUE(left.summary["requirement"]["met"].get<bool>()); }},
+      {.text = "boresight allocate examples/3-rrcpr/allocate-tolerances.toml",
+       .shorter = {"--set", "motion.duration=4ms"},
+       .claims =
+           [](const Left& left) {
+             EXPECT_EQ(left.summary["chosen"]["choice"].size(), 57u);
+             EXPECT_LT(left.summary["chosen"]["bound"].get<double>(),
+                       left.summary["chosen"]["price"].get<double>() * (1.0 + 1e-9));
+             EXPECT_THAT(left.file("allocation.csv"), HasSubstr("\nerror.rod1.length,"));
+           },
+       .edits = {{"3-rrcpr/allocate-tolerances.toml", "samples = 1000", "samples = 200"},
+                 {"3-rrcpr/allocate-tolerances.toml", "front = 4", "front = 0"}}},
+      {.text = "boresight check examples/hexapod/hexapod.toml", .claims = freedoms(6, 0)},
+      // "one leg longer by 20 um moves the platform by 20 um and turns its boresight by 34 urad"
+      {.text = "boresight run examples/hexapod/hexapod.toml --set error.leg1a.length=20um",
+       .shorter = {"--step-error", "off", "--rung", "perturbation"},
+       .claims =
+           [](const Left& left) {
+             EXPECT_NEAR(largest(left.summary, "position_error"), 20e-6, 0.5e-6);
+             EXPECT_NEAR(largest(left.summary, "boresight_error"), 34e-6, 0.5e-6);
+           }},
+      {.text = "boresight montecarlo examples/hexapod/montecarlo.toml --rung quasistatic",
+       .shorter = {"--set", "motion.duration=0.1s"},
+       .claims =
+           [](const Left& left) {
+             EXPECT_TRUE(left.summary["requirement"]["met"].get<bool>());
+             EXPECT_EQ(left.summary["failed"], 0);
+           }},
+  };
+}
+
+}  // namespace boresight::app
