@@ -15,7 +15,9 @@ namespace boresight {
 namespace {
 
 constexpr char kBasisOfErrors[] =
-    "standing errors made exactly at some instants, by closing the built mechanism's joints";
+    "standing errors made exactly at some instants, by closing the built mechanism's joints; what they change of the "
+    "loads in the joints is "
+    "left out, and not counted";
 
 }  // namespace
 
