@@ -43,6 +43,27 @@ Moments moments_of(const Values& members, Eigen::Index axis, Interpretation inte
   return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
 }
 
+// `with` less `without`, value by value: the part of what adds up.
+Values difference_of(const Values& with, const Values& without) {
+  Values out = with;
+  for (std::size_t m = 0; m < out.size(); ++m)
+    for (std::size_t k = 0; k < out[m].size(); ++k) out[m][k] -= without[m][k];
+  return out;
+}
+
+const char* kind_of(const ErrorDescription& error) {
+  switch (error.kind) {
+    case ErrorDescription::Kind::translation:
+    case ErrorDescription::Kind::rotation:
+      return kGeometryKind;
+    case ErrorDescription::Kind::drive:
+      return kDriveKind;
+    case ErrorDescription::Kind::expansion:
+      return kTemperatureKind;
+  }
+  return kErrorsKind;
+}
+
 double mean_product(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const AxisOf& axis) {
   double sum = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) sum += axis.product(a[k], b[k]);
@@ -56,6 +77,7 @@ class Maker {
       : plan_(plan), runs_(runs), judgements_(judgements), axes_(quantity), ensemble_(plan, runs, store) {
     for (const ClearanceDescription& c : mechanism.description().clearances)
       joints_.push_back(mechanism.description().joints[static_cast<std::size_t>(c.joint)].name);
+    for (std::size_t g = 0; g < runs.groups(); ++g) kinds_.push_back(kind_of_group(plan, g, mechanism.description()));
     nominal_ = stored_history(store, runs.nominal(), plan);
     if (nominal_.error.empty())
       throw ComputationError("the motion with every scattered parameter at its median could not be followed");
@@ -162,9 +184,15 @@ class Maker {
         t.lines.back().axes[static_cast<std::size_t>(a)] = moments_of(values, a, interpretation);
     }
     for (std::size_t g = 0; g < runs_.groups(); ++g) {
-      t.lines.push_back({plan_.groups.names[g], kScatterKind, "", {}});
+      t.lines.push_back({plan_.groups.names[g], kinds_[g], "", {}});
       const auto [drawn, held] = with_and_without({.held = static_cast<int>(g)}, index);
+      const bool adds_up = plan_.is_of_errors(g);
+      const Values part = adds_up ? difference_of(drawn, held) : Values{};
       for (Eigen::Index a = 0; a < axes; ++a) {
+        if (adds_up) {
+          t.lines.back().axes.push_back(moments_of(part, a, interpretation));
+          continue;
+        }
         const Moments with = moments_of(drawn, a, interpretation), without = moments_of(held, a, interpretation);
         t.lines.back().axes.push_back(
             {with.mean - without.mean, std::sqrt(std::max(0.0, with.sd * with.sd - without.sd * without.sd))});
@@ -185,7 +213,9 @@ class Maker {
     std::vector<double> all, own;               // per member that did not fail
     std::vector<std::vector<double>> external;  // [contributor][member]
     std::vector<std::vector<double>> change;    // [group][member of the attribution with both runs]
-    std::vector<double> alone;                  // [joint]: with the nominal motion; NaN where that joint's run failed
+    // [group]: of groups that add up, the mechanism's own mean squares of the same members; empty of others
+    std::vector<std::vector<double>> of_same = {};
+    std::vector<double> alone;  // [joint]: with the nominal motion; NaN where that joint's run failed
   };
 
   MemberProducts products(const Budget& b) const {
@@ -210,6 +240,15 @@ class Maker {
     for (std::size_t g = 0; g < runs_.groups(); ++g) {
       const auto [drawn, held] = with_and_without({.held = static_cast<int>(g)}, index);
       auto& change = p.change.emplace_back();
+      auto& of_same = p.of_same.emplace_back();
+      if (plan_.is_of_errors(g)) {
+        const Values part = difference_of(drawn, held);
+        for (std::size_t k = 0; k < drawn.size(); ++k) {
+          change.push_back(mean_product(part[k], drawn[k], axis));
+          of_same.push_back(mean_product(drawn[k], drawn[k], axis));
+        }
+        continue;
+      }
       for (std::size_t k = 0; k < drawn.size(); ++k)
         change.push_back(mean_product(drawn[k], drawn[k], axis) - mean_product(held[k], held[k], axis));
     }
@@ -234,8 +273,13 @@ class Maker {
       out.push_back(alone / square);
       if (std::isfinite(alone)) together -= out.back();
     }
-    for (const std::vector<double>& change : p.change) {
-      out.push_back(mean(change, times_of_attribution) / square);
+    // Parts that add up: of the mechanism's own mean square of the very members that they are known of, so that they make it
+    // all whichever members these are.
+    const double own = mean(p.own, times) / square;
+    for (std::size_t g = 0; g < p.change.size(); ++g) {
+      const double change = mean(p.change[g], times_of_attribution);
+      const double same = p.of_same[g].empty() ? 0.0 : mean(p.of_same[g], times_of_attribution);
+      out.push_back(same > 0.0 ? own * change / same : change / square);
       together -= out.back();
     }
     for (const std::vector<double>& external : p.external) out.push_back(mean(external, times) / square);
@@ -266,7 +310,7 @@ class Maker {
     for (std::size_t j = 0; j < joints_.size(); ++j, ++at)
       if (std::isfinite(found[at])) add(joints_[j], kClearanceKind, p.all.size());
     for (std::size_t g = 0; g < runs_.groups(); ++g, ++at)
-      add(plan_.groups.names[g], kScatterKind, std::min(p.all.size(), p.change[g].size()));
+      add(plan_.groups.names[g], kinds_[g], std::min(p.all.size(), p.change[g].size()));
     for (std::size_t i = 0; i < plan_.contributors.size(); ++i, ++at)
       add(plan_.contributors[i].name, to_string(plan_.contributors[i].kind), p.all.size());
     if (!joints_.empty())
@@ -304,7 +348,7 @@ class Maker {
     for (std::size_t j = 0; j < joints_.size(); ++j)
       add(joints_[j], "half the clearance", {.halved = static_cast<int>(j)});
     for (std::size_t g = 0; g < runs_.groups(); ++g)
-      add(plan_.groups.names[g], "no scatter", {.held = static_cast<int>(g)});
+      add(plan_.groups.names[g], plan_.is_of_errors(g) ? "as drawn" : "no scatter", {.held = static_cast<int>(g)});
     for (std::size_t i = 0; i < plan_.contributors.size(); ++i)
       add(plan_.contributors[i].name, "half of it", {.external = static_cast<int>(i)});
     std::stable_sort(b.reductions.begin(), b.reductions.end(),
@@ -316,7 +360,7 @@ class Maker {
   const std::vector<Judgement>& judgements_;
   const BudgetAxes axes_;
   const BudgetEnsemble ensemble_;
-  std::vector<std::string> joints_;
+  std::vector<std::string> joints_, kinds_;  // of the joints with clearance; of groups
   PointingHistory nominal_;
   std::vector<PointingHistory> alone_;   // per joint
   std::vector<PointingHistory> totals_;  // of the members that did not fail
@@ -325,6 +369,23 @@ class Maker {
 };
 
 }  // namespace
+
+std::string kind_of_group(const BudgetPlan& plan, std::size_t group, const MechanismDescription& mechanism) {
+  if (!plan.is_of_errors(group)) return kScatterKind;
+  std::string kind;
+  for (const int i : plan.groups.members[group])
+    for (const std::string& path : plan.inputs.parameters[static_cast<std::size_t>(i)].paths)
+      for (const ErrorDescription& error : mechanism.errors) {
+        if (path != "error." + error.name && path != "error.*") continue;
+        kind = kind.empty() || kind == kind_of(error) ? kind_of(error) : kErrorsKind;
+      }
+  return kind;
+}
+
+bool is_of_group(const std::string& kind) {
+  return kind == kScatterKind || kind == kGeometryKind || kind == kDriveKind || kind == kTemperatureKind ||
+         kind == kErrorsKind;
+}
 
 bool Budget::met() const {
   return std::all_of(requirements.begin(), requirements.end(),

@@ -6,8 +6,9 @@
 // external contributor.
 //
 // Shares are of the mean square of the headline's index v over members and time, in the sense of Euler's allocation
-// (Tasche 1999): E[v_i v] / E[v v] of errors that add up in time, which external ones and joints do; of a group what
-// the mean square loses where the group is held. They add up to 1 with what joints and groups only make together. Shares and
+// (Tasche 1999): E[v_i v] / E[v v] of errors that add up in time, which external ones and joints do, and groups of
+// standing errors, whose part is the error with them less that without; of another group what the mean square loses
+// where the group is held. They add up to 1 with what joints and groups only make together. Shares and
 // gains have intervals by the bootstrap over members (member_bootstrap.hpp).
 #pragma once
 
@@ -82,6 +83,16 @@ struct Budget {
 // Which line of the classical table a contributor is: "clearance", "scatter", or its class.
 inline constexpr const char* kClearanceKind = "clearance";
 inline constexpr const char* kScatterKind = "scatter";
+// Of groups of standing errors of the mechanism, by what makes them vary: nothing (they are built in), the drive's own motion,
+// the temperature; or several of these.
+inline constexpr const char* kGeometryKind = "built geometry";
+inline constexpr const char* kDriveKind = "drive";
+inline constexpr const char* kTemperatureKind = "temperature";
+inline constexpr const char* kErrorsKind = "standing errors";
+// Whether a line is a group of parameters, known from the members of the attribution.
+bool is_of_group(const std::string& kind);
+// Which kind this group of the plan's is.
+std::string kind_of_group(const BudgetPlan& plan, std::size_t group, const MechanismDescription& mechanism);
 
 // How each requirement is judged. A first look at it is noted in the store, for those who add members and look again.
 std::vector<Judgement> look_at_requirements(const BudgetPlan& plan, SampleStore& store);

@@ -175,6 +175,13 @@ BudgetRequirement BudgetPlan::headline(const BudgetAxes& axes) const {
   return requirements.empty() ? BudgetRequirement{.axis = axes.count()} : requirements.front();
 }
 
+bool BudgetPlan::is_of_errors(std::size_t group) const {
+  for (const int i : groups.members[group])
+    for (const std::string& path : inputs.parameters[static_cast<std::size_t>(i)].paths)
+      if (!path.starts_with("error.")) return false;
+  return true;
+}
+
 std::vector<ErrorIndex> BudgetPlan::indices() const {
   std::vector<ErrorIndex> out;
   for (const ErrorIndex index : kErrorIndices)

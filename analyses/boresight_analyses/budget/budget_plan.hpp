@@ -89,6 +89,8 @@ struct BudgetPlan {
 
   // What shares and reliefs are about: the first requirement, or the APE of all axes, mixed, 95 %.
   BudgetRequirement headline(const BudgetAxes& axes) const;
+  // Whether a group of parameters holds standing errors of the mechanism and nothing else: these add up in time.
+  bool is_of_errors(std::size_t group) const;
   // In which the first limit is written; "": there is none.
   std::string written_unit() const { return requirements.empty() ? "" : requirements.front().unit; }
   // The indices that windows and motion allow, in the order of kErrorIndices.

@@ -64,7 +64,9 @@ void BudgetRuns::values(std::uint64_t number, std::span<double> values) const {
   if (v.group >= 0)
     for (const int i : plan_.groups.members[static_cast<std::size_t>(v.group)])
       values[static_cast<std::size_t>(i)] =
-          plan_.inputs.parameters[static_cast<std::size_t>(i)].distribution->quantile(kMedian);
+          plan_.is_of_errors(static_cast<std::size_t>(v.group))
+              ? 0.0
+              : plan_.inputs.parameters[static_cast<std::size_t>(i)].distribution->quantile(kMedian);
 }
 
 BudgetModel::BudgetModel(const std::string& rung, std::shared_ptr<const Mechanism> mechanism, const BudgetPlan& plan,

@@ -2,7 +2,8 @@
 //
 //   0                        the mechanism with every scattered parameter at its median
 //   1 .. joints              the same with one clearance alone, the other joints ideal (only where there are several)
-//   then per member          as it is drawn; per group of parameters, the same with the group at its medians; per
+//   then per member          as it is drawn; per group of parameters, the same with the group at its medians (a
+//                            group of standing errors: at zero, as drawn); per
 //                            clearance joint, the same with the clearance halved, radial and axial
 //
 // All members are run as drawn; the first `attribution` of them in all variants. Where nothing scatters the one member

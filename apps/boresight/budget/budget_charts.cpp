@@ -18,7 +18,7 @@ struct WaterfallStep {
 
 int color_of(const std::string& kind) {
   if (kind == kClearanceKind) return 1;
-  if (kind == kScatterKind) return 3;
+  if (is_of_group(kind)) return 3;
   return kind == "joints and scatter" ? 8 : 5;
 }
 

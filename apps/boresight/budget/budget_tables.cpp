@@ -125,7 +125,7 @@ report::Table contribution_table(const BudgetStudy& s, const Budget& b) {
     return std::isfinite(share) ? nlohmann::json(100.0 * share) : nlohmann::json();
   };
   for (const Contribution& c : b.contributions) {
-    const bool nominal = c.kind == kClearanceKind, attribution = c.kind == kScatterKind;
+    const bool nominal = c.kind == kClearanceKind, attribution = is_of_group(c.kind);
     table.rows.push_back({c.name, c.kind, 100.0 * c.share, percent(c.interval.low), percent(c.interval.high),
                           budget_value(s, c.share * level),
                           nominal       ? kFromNominal
@@ -184,7 +184,12 @@ report::Table contributor_table(const BudgetStudy& s) {
       spread += (spread.empty() ? "" : "; ") + (p.name() == s.plan.groups.names[g] ? "" : p.name() + ": ") +
                 spread_text(*p.distribution, [&](double v) { return readable_as(v, p.si_unit, p.unit); });
     }
-    table.rows.push_back({s.plan.groups.names[g], kScatterKind, "fixed in a member", spread, "all",
+    const std::string kind = kind_of_group(s.plan, g, s.mechanism.description());
+    const char* in_time = kind == kScatterKind    ? "fixed in a member"
+                          : kind == kGeometryKind ? "fixed in a member, seen through the pose"
+                          : kind == kDriveKind    ? "by its law of the drive's coordinate"
+                                                  : "fixed in a member, seen through the pose";
+    table.rows.push_back({s.plan.groups.names[g], kind, in_time, spread, "all",
                           s.plan.posterior.empty() ? kFromAttribution : kFromCalibration});
   }
   for (const Contributor& c : s.plan.contributors) {
@@ -231,7 +236,7 @@ report::Table classical_table(const BudgetStudy& s, const ClassicalTable& t) {
   for (const ClassicalLine& line : t.lines)
     row({line.name, line.kind, line.group}, line.axes,
         line.kind == kClearanceKind ? kFromNominal
-        : line.kind == kScatterKind ? kFromAttribution
+        : is_of_group(line.kind)    ? kFromAttribution
                                     : kFromClasses);
   row({"total", "", ""}, t.total.axes, kFromClasses);
   return table;
