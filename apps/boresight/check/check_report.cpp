@@ -215,6 +215,43 @@ void add_cost_note(const std::shared_ptr<const Mechanism>& mechanism, CheckResul
                   joint, steps, time));
 }
 
+// What a standing error does to the pointing, and which of them do nothing or cannot be taken up.
+void add_error_notes(const Mechanism& mechanism, CheckResult& result) {
+  if (mechanism.description().errors.empty()) return;
+  result.errors = error_effects(mechanism, ideal_motion(mechanism, mechanism.parameters()));
+  std::string idle;
+  int count = 0;
+  for (const ErrorEffect& effect : result.errors) {
+    if (!effect.strain.empty()) (effect.value != 0.0 ? result.findings : result.notes).push_back(effect.strain);
+    if (!effect.does_nothing()) continue;
+    idle += (count++ > 0 ? ", " : "") + effect.name;
+  }
+  if (count > 0)
+    result.notes.push_back("to first order " + std::string(count == 1 ? "this error does" : "these errors do") +
+                           " nothing to where the boresight body is or points: " + idle);
+}
+
+report::Table error_table(const std::vector<ErrorEffect>& effects) {
+  report::Table table{
+      .title = "What each error does",
+      .caption =
+          "The largest over the motion, to first order: of one unit of the error, and of the value "
+          "that the file gives it.",
+      .columns = {{"error"}, {"position, per unit"}, {"boresight, per unit"}, {"value"}, {"position"}, {"boresight"}}};
+  for (const ErrorEffect& e : effects) {
+    if (!e.strain.empty()) {
+      table.rows.push_back({e.name, "strains the mechanism", "", readable(e.value, e.unit), "", ""});
+      continue;
+    }
+    const double small = e.unit == "K" ? 1.0 : 1e-6;  // one kelvin; one micrometre, one microradian
+    const char* per = e.unit == "K" ? " per K" : e.unit == "m" ? " per µm" : " per µrad";
+    table.rows.push_back({e.name, readable(e.position * small, "m") + per, readable(e.boresight * small, "rad") + per,
+                          readable(e.value, e.unit), readable(e.position * std::abs(e.value), "m"),
+                          readable(e.boresight * std::abs(e.value), "rad")});
+  }
+  return table;
+}
+
 }  // namespace
 
 CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
@@ -228,6 +265,13 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
     for (const LostMotion& lost : k.lost)
       result.findings.push_back(fmt::format("at t = {:.4g} s: {}", lost.t, lost.description));
     if (!k.feasible) result.findings.emplace_back("the ideal motion cannot be followed to its end");
+  }
+  if (sound) {
+    try {
+      add_error_notes(mechanism, result);
+    } catch (const ComputationError& error) {
+      result.findings.emplace_back(error.what());
+    }
   }
   if (sound && mechanism.clearances() > 0) {
     try {
@@ -300,6 +344,8 @@ report::Document check_report(const Command& command, const Mechanism& mechanism
   document.sections.push_back({.id = "mobility", .title = "Mobility and redundancy", .items = {mobility_table(k)}});
   if (!k.along.empty())
     document.sections.push_back({.id = "conditioning", .title = "Conditioning", .items = {conditioning_panels(k)}});
+  if (!result.errors.empty())
+    document.sections.push_back({.id = "errors", .title = "Standing errors", .items = {error_table(result.errors)}});
   if (!result.contacts.empty())
     document.sections.push_back(
         {.id = "contacts", .title = "Contacts", .items = {contact_frequencies(result.contacts)}});

@@ -9,6 +9,7 @@
 #include "boresight/contact_events/contact_report.hpp"
 #include "boresight/mechanism/kinematic_report.hpp"
 #include "boresight/scene/starting_journals.hpp"
+#include "check/error_effects.hpp"
 #include "command_line/command.hpp"
 #include "report/document.hpp"
 
@@ -19,6 +20,7 @@ struct CheckResult {
   KinematicReport kinematics;
   std::vector<ContactFrequency> contacts;  // empty where the ideal motion cannot be followed
   StartingJournals start;
+  std::vector<ErrorEffect> errors;    // of the standing errors; empty where the ideal motion cannot be followed
   std::vector<std::string> findings;  // what stands in the way, most serious first; empty: nothing
   std::vector<std::string> notes;     // worth knowing, but no obstacle
 };

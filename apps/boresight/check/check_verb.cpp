@@ -53,6 +53,36 @@ Json kinematics_json(const KinematicReport& k) {
           {"lost", lost}};
 }
 
+Json errors_json(const CheckResult& result) {
+  Json json = Json::object();
+  for (const ErrorEffect& e : result.errors)
+    json[e.name] = {{"value", e.value},
+                    {"position", e.position},
+                    {"boresight", e.boresight},
+                    {"does_nothing", e.does_nothing()},
+                    {"strain", e.strain}};
+  return json;
+}
+
+// The ones that turn the boresight most, of the values that the file gives; where it gives none, of one unit.
+void print_errors(const CheckResult& result) {
+  if (result.errors.empty()) return;
+  constexpr std::size_t kShown = 8;
+  std::vector<const ErrorEffect*> order;
+  for (const ErrorEffect& e : result.errors)
+    if (e.strain.empty() && e.value != 0.0) order.push_back(&e);
+  std::stable_sort(order.begin(), order.end(), [](const ErrorEffect* a, const ErrorEffect* b) {
+    return a->boresight * std::abs(a->value) > b->boresight * std::abs(b->value);
+  });
+  for (std::size_t k = 0; k < std::min(kShown, order.size()); ++k) {
+    const ErrorEffect& e = *order[k];
+    tell("  error.{} of {}: boresight off by up to {}, position by {}\n", e.name, readable(e.value, e.unit),
+         readable(e.boresight * std::abs(e.value), "rad"), readable(e.position * std::abs(e.value), "m"));
+  }
+  if (order.size() < result.errors.size() || order.size() > kShown)
+    tell("  {} errors; the report has what one unit of each does\n", result.errors.size());
+}
+
 void print(const Mechanism& mechanism, const CheckResult& result, const OutputDirectory& out) {
   const KinematicReport& k = result.kinematics;
   tell("{}: {} bodies, {} joints, mobility {}, {} drives, {} redundant rows\n", mechanism.name(), k.bodies, k.joints,
@@ -63,6 +93,7 @@ void print(const Mechanism& mechanism, const CheckResult& result, const OutputDi
          c.largest_stable_step > 0.0 ? readable(c.largest_stable_step, "s") : "not known",
          readable(c.typical_penetration, "m"), readable(c.validity_speed, "m/s"));
   }
+  print_errors(result);
   for (const std::string& note : result.notes) tell("  note: {}\n", note);
   for (const std::string& finding : result.findings) tell("  problem: {}\n", finding);
   if (result.findings.empty()) tell("  nothing stands in the way of this motion\n");
@@ -101,6 +132,7 @@ class CheckVerb : public Verb {
     json["notes"] = result.notes;
     json["kinematics"] = kinematics_json(result.kinematics);
     json["contacts"] = contacts_json(result.contacts);
+    if (!result.errors.empty()) json["standing_errors"] = errors_json(result);
     if (!result.start.journals.empty()) json["start"] = start_json(result);
     json["files"] = {"summary.json", "conditioning.csv", "report.html", "report.json"};
     write_json(out, "summary.json", json);

@@ -23,6 +23,13 @@ const Origin kCommandLine{"command line", 0};
 
 std::string in_quotes(const std::string& text) { return "\"" + text + "\""; }
 
+// Where a joint is or points, and where a body has its centre: what the ideal motion is made of.
+bool changes_drawing(const std::string& path) {
+  const auto has = [&](const char* part) { return path.find(part) != std::string::npos; };
+  return (path.starts_with("joint.") && (has(".point") || has(".axis") || has(".second_axis"))) ||
+         (path.starts_with("body.") && has(".center_of_mass"));
+}
+
 }  // namespace
 
 int failed(const Command& command, const std::string& reason) {
@@ -52,8 +59,11 @@ void CommandOptions::declare(CLI::App& app, const Verb& verb) {
   const auto used = [&](const char* name) { return std::find(unused.begin(), unused.end(), name) == unused.end(); };
   app.add_option(verb.operand(), file, verb.operand_is())->required(verb.needs_file())->type_name("");
   if (used("--set"))
-    app.add_option("--set", settings,
-                   "change a value of the mechanism: clearance.F1.radial=0.2mm (any number of times)")
+    app.add_option(
+           "--set", settings,
+           "change a value of the mechanism: clearance.F1.radial=0.2mm (any number of times). A joint's point or "
+           "axis and a body's centre change the drawing, and with it what the drives are told; a part that is "
+           "built otherwise than drawn is an [[error]]: error.NAME=20um")
         ->type_name("PATH=VALUE")
         ->allow_extra_args(false)
         ->take_all();
@@ -78,6 +88,12 @@ Command CommandOptions::command(const std::string& verb) const {
   command.quiet = quiet || json;
   command.json = json;
   for (const std::string& text : settings) command.settings.push_back(parse_setting(text));
+  if (!command.quiet)
+    for (const Setting& setting : command.settings)
+      if (changes_drawing(setting.path))
+        tell(
+            "  {} changes the drawing, ideal and built alike; for a part that is built off, see boresight help error\n",
+            setting.path);
   if (!accuracy.empty()) command.accuracy = quantity_between("--accuracy", accuracy, {kRatio, "0.0001 %", "100 %"});
   if (jobs < 0 || jobs > 4096) throw InputError(kCommandLine, "--jobs", std::to_string(jobs), "1 to 4096 threads");
   command.jobs = jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

@@ -8,7 +8,20 @@ namespace boresight::app {
 std::vector<Command> commands_on_errors() {
   using testing::HasSubstr;
   return {
-      {.text = "boresight check examples/3-rrcpr/tolerances.toml", .claims = freedoms(6, 0)},
+      // An independent program's loop closure: 0.1 mrad in A3 turns the platform by up to 0.104 mrad, and moves it by 0.077 mm.
+      {.text = "boresight check examples/3-rrcpr/tolerances.toml",
+       .claims =
+           [](const Left& left) {
+             freedoms(6, 0)(left);
+             const auto& errors = left.summary["standing_errors"];
+             ASSERT_EQ(errors.size(), 53u);
+             EXPECT_NEAR(errors["A3.zero"]["position"].get<double>(), 7.718742e-5 / 1e-4, 1e-3 * 0.7718742);
+             EXPECT_GT(errors["A3.zero"]["boresight"].get<double>(), 0.9);
+             EXPECT_EQ(errors["rod1.length"]["boresight"].get<double>(), 0.0);
+             EXPECT_NEAR(errors["rod1.length"]["position"].get<double>(), 3.881242e-5 / 20e-6, 0.2);
+             const nlohmann::json valued = left.again({"--set", "error.A3.zero=0.1mrad"});
+             EXPECT_EQ(valued["standing_errors"]["A3.zero"]["value"].get<double>(), 1e-4);
+           }},
       // "a tenth of a milliradian in one of the six drives turns the boresight by 95 urad. The play ... turns it by nothing"
       {.text = "boresight run examples/3-rrcpr/tolerances.toml --set error.A3.zero=0.1mrad",
        .shorter = {"--step-error", "off"},
