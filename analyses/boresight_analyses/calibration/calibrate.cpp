@@ -96,6 +96,7 @@ void Calibrator::name_outliers() {
 }
 
 void Calibrator::fit_poses() {
+  warn_of_play();
   constexpr int kMostRounds = 40;
   constexpr double kSettled = 0.01;
   const VecX first = noise_from_sizes(problem_);
@@ -129,6 +130,17 @@ void Calibrator::judge_fit() {
                 "windows may help.",
                 worst, channel_names()[channel].name);
   result_.verdict.insert(result_.verdict.begin(), text);
+}
+
+void Calibrator::warn_of_play() {
+  const MechanismDescription& m = problem_.runs.front().mechanism->description();
+  std::string joints;
+  for (const ClearanceDescription& c : m.clearances)
+    joints += (joints.empty() ? "" : ", ") + m.joints[static_cast<std::size_t>(c.joint)].name;
+  if (!joints.empty())
+    result_.warnings.push_back(
+        "the play of " + joints +
+        " is not followed, as no parameter of a clearance is fitted: what it moves counts as noise");
 }
 
 // Poses lie anywhere, and no neighbours say how noisy they are: only where the noise is known can a fit be judged by it.

@@ -27,6 +27,7 @@ class Calibrator {
   // Standing errors alone, at poses: nearly linear, so that one start is enough. Noise that is not given is estimated until it settles.
   void fit_poses();
   void judge_poses();
+  void warn_of_play();
 
   // A fit that has lost its way leaves more than the noise that neighbouring samples show.
   void judge_fit();

@@ -1,6 +1,8 @@
 #include "calibrate/asked_rig.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 
 #include "boresight/io/csv_fields.hpp"
 #include "boresight/io/text_lines.hpp"
@@ -8,6 +10,7 @@
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "command_line/command.hpp"
+#include "results/output_directory.hpp"
 
 namespace boresight::app {
 namespace {
@@ -72,6 +75,20 @@ SyntheticRig AskedRig::rig() const {
   for (std::size_t c = 0; c < rig.channels.size(); ++c)
     if (rig.channels[c] < 3) rig.bias[static_cast<Eigen::Index>(c)] = displaced;
   return rig;
+}
+
+void check_that_data_may_be_written(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(file, error))) return;
+  constexpr std::uintmax_t kMostSynthetic = 256u << 20;  // bytes
+  if (std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) <= kMostSynthetic &&
+      !error) {
+    std::ifstream stream(file, std::ios::binary);
+    if (stream && is_synthetic({std::istreambuf_iterator<char>(stream), {}})) return;
+  }
+  throw OutputDirectoryError(
+      file.string() +
+      ": is there already, and not as --make-data wrote it; name another file in the study, or remove it");
 }
 
 }  // namespace boresight::app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "boresight_analyses/calibration/rig.hpp"
@@ -16,5 +17,8 @@ struct AskedRig {
   // Throws InputError naming the option.
   SyntheticRig rig() const;
 };
+
+// Measured data may have taken a year: throws OutputDirectoryError where a file is there that --make-data did not write.
+void check_that_data_may_be_written(const std::filesystem::path& file);
 
 }  // namespace boresight::app

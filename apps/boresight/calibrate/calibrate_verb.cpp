@@ -146,25 +146,10 @@ class CalibrateVerb : public Verb {
   }
 
  private:
-  // Measured data may have taken a year.
-  static void check_that_it_may_be_written(const std::filesystem::path& file) {
-    std::error_code error;
-    if (!std::filesystem::exists(std::filesystem::symlink_status(file, error))) return;
-    constexpr std::uintmax_t kMostSynthetic = 256u << 20;  // bytes
-    if (std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) <= kMostSynthetic &&
-        !error) {
-      std::ifstream stream(file, std::ios::binary);
-      if (stream && is_synthetic({std::istreambuf_iterator<char>(stream), {}})) return;
-    }
-    throw OutputDirectoryError(
-        file.string() +
-        ": is there already, and not as --make-data wrote it; name another file in the study, or remove it");
-  }
-
   template <typename MechanismWith>
   int make_data(const Command& command, const CalibrationPlan& plan, const MechanismWith& mechanism_with) const {
     const SyntheticRig rig = asked_.rig();
-    for (const PlannedRun& planned : plan.runs) check_that_it_may_be_written(planned.data);
+    for (const PlannedRun& planned : plan.runs) check_that_data_may_be_written(planned.data);
     for (std::size_t r = 0; r < plan.runs.size(); ++r) {
       const auto mechanism = mechanism_with(plan.runs[r].settings);
       const std::vector<double> times = sample_times(rig, mechanism->duration());

@@ -40,6 +40,28 @@ std::shared_ptr<const Mechanism> rig_with_errors(const std::string& speed) {
   return std::make_shared<const Mechanism>(std::move(m));
 }
 
+TEST(Calibrate, SaysThatPlayCountsAsNoiseWhereErrorsAloneAreFitted) {
+  SyntheticRig rig;
+  rig.samples = 50;
+  const auto mechanism = rig_with_errors("2");
+  const std::vector<double> times = sample_times(rig, 0.2);
+  CalibrationProblem problem;
+  problem.runs.emplace_back(
+      "poses", mechanism,
+      with_rig_errors(rig, times, multibody_readings(mechanism, mechanism->parameters(), times, rig.channels), 0));
+  problem.parameters.push_back(fitted_parameter(mechanism->description(), "error.crank.zero", 0.0));
+  problem.prepare(10.0, true);
+  EXPECT_EQ(problem.freedoms(0), 0);
+  const CalibrationResult result = calibrate(problem, {});
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_NE(result.warnings.front().find("the play of D is not followed"), std::string::npos)
+      << result.warnings.front();
+  // Play of 0.2 mm stands in the readings: far more than the rig's noise is left, and the interval says so.
+  const ParameterEstimate& zero = result.inference.parameters.front();
+  EXPECT_NEAR(zero.value, 0.3e-3, 4.0 * zero.standard_error);
+  EXPECT_GT(zero.standard_error, 2e-5);
+}
+
 TEST(CalibrateLong, RecoversErrorsAndContactsOfTheExampleRigTogether) {
   const std::vector<std::string> contacts = {"clearance.D.radial", "clearance.D.contact.restitution",
                                              "clearance.D.friction.coefficient", "clearance.D.contact.stiffness_scale"},
