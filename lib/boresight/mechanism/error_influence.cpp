@@ -12,6 +12,7 @@ namespace {
 
 // What redundant rows may disagree by, of what an error asks for: the commanded motion closes its joints to 1e-12.
 constexpr double kContradiction = 1e-8;
+constexpr double kRounding = 1e-12;
 
 std::shared_ptr<const Mechanism> without_errors(const Mechanism& drawn, const IdealMotion& commanded) {
   Parameters none = drawn.parameters();
@@ -152,7 +153,12 @@ void ErrorInfluence::solve_dense(const std::vector<bool>& wanted, double t, MatX
     x += qr.solve(VecX(right - unit.asDiagonal() * (J * x)));
     const VecX left = right - unit.asDiagonal() * (J * x);
     Eigen::Index worst = 0;
-    if (left.cwiseAbs().maxCoeff(&worst) > kContradiction * right.cwiseAbs().maxCoeff())
+    // What an error asks of no row at all (a turn about a bearing's own axis) leaves rounding, which contradicts nothing.
+    double size = 0.0;
+    for (const FrameError& frame : frames_[e])
+      size = std::max({size, frame.translation.norm() / length, frame.rotation.norm()});
+    const double least = std::max(kContradiction * right.cwiseAbs().maxCoeff(), kRounding * size);
+    if (left.cwiseAbs().maxCoeff(&worst) > least)
       throw ComputationError("error." + errors[e].name + " strains the mechanism, which holds \"" +
                              mechanism_.description().joints[joint_of[static_cast<std::size_t>(worst)]].name +
                              "\" more than once: without play or something that gives its joints do not close");

@@ -113,7 +113,7 @@ class MeasuredByDynamics final : public Rung {
     const Measured measured = measure(parameters, options, cost);
     const ErrorEstimate of_errors = result.error;
     result.error = measured.error;
-    result.error.model = std::min(1.0, result.error.model + of_errors.model);
+    result.error.model += of_errors.model;
     if (!of_errors.basis.empty()) result.error.basis += "; " + of_errors.basis;
     result.cost.cpu_seconds += cost.cpu_seconds;
     result.cost.wall_seconds += cost.wall_seconds;

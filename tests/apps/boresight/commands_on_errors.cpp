@@ -67,6 +67,30 @@ std::vector<Command> commands_on_errors() {
            },
        .edits = {{"3-rrcpr/allocate-tolerances.toml", "samples = 1000", "samples = 200"},
                  {"3-rrcpr/allocate-tolerances.toml", "front = 4", "front = 0"}}},
+      {.text = "boresight run examples/altaz-gimbal/altaz-gimbal.toml",
+       .shorter = {"--step-error", "off"},
+       .claims = [](const Left& left) { EXPECT_GT(largest(left.summary, "boresight_error"), 1e-4); }},
+      {.text = "boresight montecarlo examples/altaz-gimbal/montecarlo.toml --rung quasistatic",
+       .shorter = {"--set", "motion.duration=20ms"},
+       .claims = [](const Left& left) { EXPECT_EQ(left.summary["failed"], 0); },
+       .status = 1},  // so short a part of the sky leaves the limit open
+      // "The index of elevation, the tilts and the ripple are found to some tenths of one. The index of azimuth, collimation and the
+      // perpendicularity of the axes are found to some two"
+      {.text = "boresight calibrate examples/altaz-gimbal/calibrate.toml",
+       .claims =
+           [](const Left& left) {
+             const double arcsec = 4.84813681109536e-6;
+             const auto error_of = [&](const char* name) {
+               return left.summary["standard_error"][std::string("error.") + name].get<double>() / arcsec;
+             };
+             for (const char* name : {"IE", "AN", "AW"}) EXPECT_LT(error_of(name), 0.6) << name;
+             for (const char* name : {"IA", "CA", "NPAE"}) {
+               EXPECT_GT(error_of(name), 0.8) << name;
+               EXPECT_LT(error_of(name), 3.5) << name;
+             }
+           }},
+      {.text = "boresight calibrate examples/altaz-gimbal/calibrate.toml --make-data \"1 arcsec\" --make-samples 50 "
+               "--make-seed 3"},
       {.text = "boresight check examples/hexapod/hexapod.toml", .claims = freedoms(6, 0)},
       // "one leg longer by 20 um moves the platform by 20 um and turns its boresight by 34 urad"
       {.text = "boresight run examples/hexapod/hexapod.toml --set error.leg1a.length=20um",
