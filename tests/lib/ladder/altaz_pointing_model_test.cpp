@@ -1,7 +1,7 @@
 // A two-axis mount's standing errors are the geometric terms of the classical pointing model of telescopes.
 //
 // Source: Wallace, TPOINT, a telescope pointing analysis system (version 18.20, 2011), the terms IA, IE, CA, NPAE, AN and AW of an
-// altitude-azimuth mount; the same six terms as Stumpff (1972), Kleinheubacher Berichte 15, 431-437. Signs are ours: of what the
+// altitude-azimuth mount. Signs are ours: of what the
 // boresight does, in azimuth from north over east and in elevation (examples/altaz-gimbal).
 #include <gtest/gtest.h>
 
