@@ -52,13 +52,16 @@ std::uint64_t unit_of(const MonteCarloPlan& plan) {
                                                    : 1;
 }
 
-std::vector<double> leading_values(const SampleStore& store, std::uint64_t end) {
+std::vector<double> leading_values(const SampleStore& store, std::uint64_t end,
+                                   const std::function<void(const SampleRecord&)>& each = {}) {
   std::vector<double> values;
   values.reserve(std::min<std::uint64_t>(end, store.count()));
   bool gap = false;
   store.read(end, [&](const SampleRecord& record) {
     gap = gap || record.number != values.size();
-    if (!gap) values.push_back(record.outcome.value);
+    if (gap) return;
+    values.push_back(record.outcome.value);
+    if (each) each(record);
   });
   return values;
 }
@@ -192,14 +195,14 @@ MonteCarloResult run_montecarlo(const SampleModel& model, const MonteCarloPlan& 
       if (!whole) result.ended = !watcher.stop && time_is_up() ? Ended::time : Ended::interrupted;
       if (whole && target < plan.samples && narrow_enough(*store, plan, target)) result.ended = Ended::width;
       go_on = result.ended == Ended::samples ? "yes" : "no";
-      if (result.ended == Ended::width) result.values = leading_values(*store, target);
+      if (result.ended == Ended::width) result.values = leading_values(*store, target, options.read_back);
     }
     ranks.broadcast(go_on);
     if (go_on == "no") break;
   }
   if (first) {
     result.stored = store->count();
-    if (result.ended != Ended::width) result.values = leading_values(*store, plan.samples);
+    if (result.ended != Ended::width) result.values = leading_values(*store, plan.samples, options.read_back);
     if (result.ended == Ended::samples && result.values.size() != plan.samples)
       throw StoreFailed(store->file().string() + " gives back " + std::to_string(result.values.size()) + " of the " +
                         std::to_string(plan.samples) +

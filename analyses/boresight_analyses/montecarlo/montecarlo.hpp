@@ -31,6 +31,8 @@ struct MonteCarloOptions {
   int jobs = 1;
   std::function<void(const MonteCarloProgress&)> progress;  // on rank 0, one thread at a time, after every batch
   std::function<bool()> interrupted;                        // looked at many times a second
+  // On rank 0, each sample that MonteCarloResult::values tells of, in order, as it is read back from the store at the end.
+  std::function<void(const SampleRecord&)> read_back = {};
 };
 
 enum class Ended { samples, width, time, interrupted };

@@ -8,8 +8,9 @@ namespace boresight {
 
 bool scene_varies(const RandomInputs& inputs) {
   return std::any_of(inputs.parameters.begin(), inputs.parameters.end(), [](const RandomParameter& p) {
-    return std::any_of(p.paths.begin(), p.paths.end(),
-                       [](const std::string& path) { return !path.starts_with("clearance."); });
+    return std::any_of(p.paths.begin(), p.paths.end(), [](const std::string& path) {
+      return !path.starts_with("clearance.") && !path.starts_with("error.");
+    });
   });
 }
 

@@ -7,7 +7,7 @@
 
 namespace boresight {
 
-// Whether some parameter changes more than contacts: the scene (masses, gravity, springs) is then another one each time.
+// Whether some parameter changes more than contacts and standing errors: the scene (masses, gravity, springs) is then another one each time.
 bool scene_varies(const RandomInputs& inputs);
 // The scatter's middle and two corners: where the step that all samples share is looked for.
 std::vector<Parameters> pilot_samples(const RandomInputs& inputs, const Mechanism& mechanism);

@@ -10,9 +10,20 @@
 namespace boresight {
 namespace {
 
-bool of_contacts(const RandomParameter& p) {
+bool all_begin_with(const RandomParameter& p, const char* room) {
   return std::all_of(p.paths.begin(), p.paths.end(),
-                     [](const std::string& path) { return path.rfind("clearance.", 0) == 0; });
+                     [room](const std::string& path) { return path.starts_with(room); });
+}
+
+// What a unit of this parameter changes all errors by.
+std::vector<double> errors_of(const Mechanism& mechanism, const RandomParameter& p) {
+  Parameters without = mechanism.parameters(), with = without;
+  for (const ParameterPath& place : p.places) {
+    place.set(without, 0.0);
+    place.set(with, 1.0);
+  }
+  for (std::size_t e = 0; e < with.error.size(); ++e) with.error[e] -= without.error[e];
+  return with.error;
 }
 
 void compare(const IndexSlopes& slopes, LocalSensitivity& p) {
@@ -33,15 +44,19 @@ void add_exact_slopes(const std::shared_ptr<const Mechanism>& shared, const Rand
                       const IndexChoice& index, const RunOptions& run, LocalResult& local) {
   const Mechanism& mechanism = *shared;
   std::vector<double> medians, values;
-  std::vector<std::size_t> varied;
+  std::vector<std::size_t> varied, of_errors;
+  std::vector<std::vector<double>> errors;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const RandomParameter& p = inputs.parameters[i];
     LocalSensitivity& s = local.parameters[i];
     medians.push_back(s.median);
     if (p.distribution->is_discrete()) {
       s.exact_note = "the parameter is discrete";
-    } else if (!of_contacts(p)) {
-      s.exact_note = "exact slopes are those by numbers of a clearance's contacts";
+    } else if (all_begin_with(p, "error.") && mechanism.clearances() > 0) {
+      of_errors.push_back(i);
+      errors.push_back(errors_of(mechanism, p));
+    } else if (!all_begin_with(p, "clearance.")) {
+      s.exact_note = "exact slopes are those by standing errors beside play, and by numbers of a clearance's contacts";
     } else if (!(s.median > 0.0)) {
       s.exact_note = "the median is not positive";
     } else {
@@ -49,16 +64,18 @@ void add_exact_slopes(const std::shared_ptr<const Mechanism>& shared, const Rand
       values.push_back(s.median);
     }
   }
-  if (varied.empty()) return;
+  if (varied.empty() && of_errors.empty()) return;
   try {
     const auto parameters_at = [&](const std::vector<double>& v) {
       std::vector<double> all = medians;
       for (std::size_t k = 0; k < varied.size(); ++k) all[varied[k]] = v[k];
       return inputs.parameters_with(mechanism, all);
     };
-    const IndexSlopes slopes = predictable_slopes(shared, parameters_at, values, index, run.start_offset);
-    for (std::size_t k = 0; k < varied.size(); ++k) {
-      LocalSensitivity& s = local.parameters[varied[k]];
+    const IndexSlopes slopes = predictable_slopes(shared, parameters_at, values, index, run.start_offset, errors);
+    std::vector<std::size_t> all = varied;
+    all.insert(all.end(), of_errors.begin(), of_errors.end());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      LocalSensitivity& s = local.parameters[all[k]];
       s.exact = slopes.by[k];
       if (std::isfinite(s.exact))
         compare(slopes, s);
@@ -66,7 +83,8 @@ void add_exact_slopes(const std::shared_ptr<const Mechanism>& shared, const Rand
         s.exact_note = "the derivatives of the motion overflow";
     }
   } catch (const ComputationError& failure) {
-    for (const std::size_t i : varied) local.parameters[i].exact_note = failure.what();
+    for (const std::vector<std::size_t>& failed : {varied, of_errors})
+      for (const std::size_t i : failed) local.parameters[i].exact_note = failure.what();
   }
 }
 

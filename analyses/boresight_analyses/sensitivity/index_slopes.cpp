@@ -10,12 +10,24 @@ namespace boresight {
 namespace {
 
 PoseError error_of(const Mechanism& mechanism, const PreparedScene& prepared, const StandingDisplacement& standing,
-                   double t, const VecX& z) {
-  BodyAcceleration unused;
+                   double t, const VecX& z, const Vec6& besides = Vec6::Zero()) {
   const int body = mechanism.boresight_body();
   const BodyMotion ideal = prepared.ideal().body(t, body);
-  const BodyMotion truth = DisplacedBodies(prepared, standing, t, z).at_rest(body, unused);
+  BodyMotion truth = ideal;
+  displace(truth, DisplacedBodies(prepared, standing, t, z).displacement(body) + besides);
   return pose_error({truth.p, Quat(truth.R)}, {ideal.p, Quat(ideal.R)}, mechanism.pointing());
+}
+
+// A central difference of fourth order, its relative truncation some 1e-12 at a thousandth of the size (Fornberg 1988, table 1).
+template <typename At>
+double slope_of(double h, const At& at) {
+  return (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+}
+
+// The step of an error, so that what it displaces is a thousandth of the error there is; 0 where either vanishes.
+double step_of(const Vec6& per_unit, const PoseError& error, double length) {
+  const double moved = per_unit.head<3>().norm() / length + per_unit.tail<3>().norm();
+  return moved > 0.0 ? 1e-3 * (error.position / length + error.orientation) / moved : 0.0;
 }
 
 }  // namespace
@@ -26,6 +38,12 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
   const Parameters parameters = parameters_at(values);
   const auto tables = prepared.tables(parameters);
   const StandingDisplacement standing = prepared.standing(parameters);
+  std::vector<StandingDisplacement> by_error;  // per unit
+  for (const std::vector<double>& unit : options.errors) {
+    Parameters of_unit = parameters;
+    of_unit.error = unit;
+    by_error.push_back(prepared.standing(of_unit));
+  }
   const Eigen::Index n = tables->layout.n;
   MotionRequest request;
   request.end = options.end > 0.0 ? options.end : mechanism.duration();
@@ -33,20 +51,20 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
   const bool own_start = options.start_state.size() == 0;
   request.start_state = own_start ? start.state : options.start_state;
   request.start_state.head(n).array() += options.start_offset;
-  if (own_start) request.start_by_parameters = start.by;
+  if (own_start && !values.empty()) request.start_by_parameters = start.by;
   request.tolerance = options.tolerance;
   request.derivative_tolerance = options.control_derivatives ? options.tolerance : 0.0;
-  request.by_parameters = true;
+  request.by_parameters = !values.empty();
   for (int k = 0; k <= options.points; ++k)
     request.times.push_back(index.start + (request.end - index.start) * k / options.points);
   const SensitiveMotion motion = follow_with_sensitivity(mechanism, parameters, tables,
                                                          contact_numbers(mechanism, parameters_at, values), request);
 
-  // The pose's error is a closed-form function of z: its gradient by central differences of fourth order,
-  // relative truncation some 1e-12 (Fornberg 1988, table 1).
+  // The pose's error is a closed-form function of z and of the standing errors.
   const std::size_t count = request.times.size();
   std::vector<double> e(count);
-  MatX slope = MatX::Zero(static_cast<Eigen::Index>(values.size()), static_cast<Eigen::Index>(count));
+  const auto of_contacts = static_cast<Eigen::Index>(values.size());
+  MatX slope = MatX::Zero(of_contacts + static_cast<Eigen::Index>(by_error.size()), static_cast<Eigen::Index>(count));
   IndicesOverTime indices(mechanism.pointing().line_of_sight.has_value());
   for (std::size_t k = 0; k < count; ++k) {
     const double t = request.times[k];
@@ -55,18 +73,23 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
     const PoseError error = error_of(mechanism, prepared, standing, t, z);
     indices.add(t, error);
     e[k] = index.of(error);
-    const double h = 1e-3 * z.lpNorm<Eigen::Infinity>();
-    if (h == 0.0) continue;  // the error has no slope where it vanishes
-    VecX gradient(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto at = [&](double steps) {
-        VecX moved = z;
-        moved[i] += steps * h;
-        return index.of(error_of(mechanism, prepared, standing, t, moved));
-      };
-      gradient[i] = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h);
+    for (std::size_t i = 0; i < by_error.size(); ++i) {
+      const Vec6 per_unit = by_error[i].at(t, mechanism.boresight_body());
+      const double h = step_of(per_unit, error, mechanism.characteristic_length());
+      if (h == 0.0) continue;
+      slope(of_contacts + static_cast<Eigen::Index>(i), column) = slope_of(
+          h, [&](double step) { return index.of(error_of(mechanism, prepared, standing, t, z, step * per_unit)); });
     }
-    slope.col(column) = motion.by[k].topRows(n).transpose() * gradient;
+    const double h = 1e-3 * z.lpNorm<Eigen::Infinity>();
+    if (h == 0.0 || of_contacts == 0) continue;  // the error has no slope where it vanishes
+    VecX gradient(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      gradient[i] = slope_of(h, [&](double step) {
+        VecX moved = z;
+        moved[i] += step;
+        return index.of(error_of(mechanism, prepared, standing, t, moved));
+      });
+    slope.col(column).head(of_contacts) = motion.by[k].topRows(n).transpose() * gradient;
   }
 
   IndexSlopes out;

@@ -1,4 +1,4 @@
-// Exact slopes of an index by parameters of the contacts, from one motion of the perturbation rung with its
+// Exact slopes of an index by parameters of the contacts and by standing errors, from one motion of the perturbation rung with its
 // derivatives carried through impacts (sensitive_motion.hpp). With e(t) the error at a time and e' = de/dq,
 //
 //   mean = (1/T) int e dt          d mean / dq = (1/T) int e' dt
@@ -7,6 +7,8 @@
 //
 // The integrals are those of the indices themselves (indices.hpp): trapezoids over the points of time.
 // The 99.73 % value is e at one of these, and its slope e' there.
+//
+// A standing error displaces the pose beside the motion's deviation and does not change that, to first order: its e' is closed form.
 //
 // They are slopes of this very motion, in the limit of a vanishing change: over many impacts they grow
 // without bound, as neighbouring motions part, and then say nothing of a finite change. How the maximum moves
@@ -30,11 +32,13 @@ struct SlopeOptions {
   int points = 4000;                 // of time
   double tolerance = 1e-3;           // of a step, over the smallest clearance
   bool control_derivatives = false;  // hold the derivatives to it too
+  // Further slopes, by standing errors: what a unit of each changes all errors by, in the order of the description.
+  std::vector<std::vector<double>> errors = {};
 };
 
 struct IndexSlopes {
   double value = 0.0;            // of the index [SI]
-  std::vector<double> by;        // per parameter [SI]
+  std::vector<double> by;        // per parameter, then per entry of SlopeOptions::errors [SI]
   int impacts = 0, grazing = 0;  // grazing: contacts that a change of the parameters may undo
 };
 

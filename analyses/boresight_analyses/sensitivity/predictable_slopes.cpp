@@ -23,7 +23,8 @@ std::string beyond(const Predictability& horizon, double duration) {
 
 IndexSlopes predictable_slopes(const std::shared_ptr<const Mechanism>& mechanism,
                                const std::function<Parameters(const std::vector<double>&)>& parameters_at,
-                               const std::vector<double>& values, const IndexChoice& index, double start_offset) {
+                               const std::vector<double>& values, const IndexChoice& index, double start_offset,
+                               std::vector<std::vector<double>> errors) {
   const Parameters parameters = parameters_at(values);
   const Predictability horizon = measure_predictability(mechanism, parameters);
   if (!horizon.measured) throw ComputationError(horizon.refusal);
@@ -37,6 +38,7 @@ IndexSlopes predictable_slopes(const std::shared_ptr<const Mechanism>& mechanism
   options.tolerance = 1e-6;
   options.control_derivatives = true;
   options.start_offset = start_offset;
+  options.errors = std::move(errors);
   return index_slopes(*mechanism, prepared, parameters_at, values, index, options);
 }
 

@@ -5,11 +5,12 @@
 
 namespace boresight {
 
-// As index_slopes(), from rest with all offsets at start_offset [m]. Throws ComputationError, which says why there are none:
+// As index_slopes(), by these errors too (SlopeOptions::errors), from rest with all offsets at start_offset [m]. Throws ComputationError, which says why there are none:
 // impacts part the motion's neighbours before its end, or whether they do cannot be measured (predictability.hpp), bristles
 // carry no derivatives, or the motion cannot be followed.
 IndexSlopes predictable_slopes(const std::shared_ptr<const Mechanism>& mechanism,
                                const std::function<Parameters(const std::vector<double>&)>& parameters_at,
-                               const std::vector<double>& values, const IndexChoice& index, double start_offset);
+                               const std::vector<double>& values, const IndexChoice& index, double start_offset,
+                               std::vector<std::vector<double>> errors = {});
 
 }  // namespace boresight

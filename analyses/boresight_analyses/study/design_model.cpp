@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "boresight_analyses/study/geometric_sample_model.hpp"
+
 namespace boresight {
 namespace {
 
@@ -24,6 +26,11 @@ DesignModel design_model(RungChoice& choice, const DesignsAsked& asked) {
     model.run.tolerance = choice.tolerance;
     model.samples =
         sample_model(choice.name, asked.mechanism, asked.parameters_of, asked.index, model.run, asked.scene_varies);
+    return model;
+  }
+  if (asked.samples && !asked.peak_acceleration && GeometricSampleModel::serve(choice.name, *asked.mechanism)) {
+    model.samples =
+        std::make_unique<GeometricSampleModel>(choice.name, asked.mechanism, asked.parameters_of, asked.index);
     return model;
   }
   apply(choice, model.run);

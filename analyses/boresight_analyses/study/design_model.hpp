@@ -1,5 +1,5 @@
-// The model that judges the designs of a search, each by many samples: on lanes where they say what is asked, else run by run with
-// one step for all designs.
+// The model that judges the designs of a search, each by many samples: on lanes, or as pure geometry, where they say what is asked, else
+// run by run with one step for all designs.
 #pragma once
 
 #include "boresight_analyses/study/lane_sample_model.hpp"

@@ -8,13 +8,13 @@
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/stepping/measured_error.hpp"
+#include "boresight_analyses/study/geometric_sample_model.hpp"
 
 namespace boresight {
 
 bool LaneSampleModel::serve(const Mechanism& mechanism, const IndexChoice& index, const RunOptions& options) {
   const bool statistic = index.statistic == "max" || index.statistic == "rms" || index.statistic == "mean";
-  return statistic && mechanism.description().errors.empty() && PerturbationLanes::serve(mechanism) &&
-         options.step == 0.0 && options.integrator.empty();
+  return statistic && PerturbationLanes::serve(mechanism) && options.step == 0.0 && options.integrator.empty();
 }
 
 LaneSampleModel::LaneSampleModel(std::shared_ptr<const Mechanism> mechanism,
@@ -35,7 +35,8 @@ double LaneSampleModel::nonlinearity(const Parameters& parameters, const LaneOut
   double offset = 0.0;
   for (const ClearanceParameters& c : parameters.clearance) offset = std::max({offset, c.radial, c.axial});
   offset += found.max_penetration;
-  return offset > 0.0 ? deviation * std::max(1.0, deviation * length / offset) : 0.0;
+  const double of_play = offset > 0.0 ? deviation * std::max(1.0, deviation * length / offset) : 0.0;
+  return of_play + lanes_.error_of_linearity(parameters, found.max);
 }
 
 std::string LaneSampleModel::leaves_out() const { return make_rung("perturbation", mechanism_)->leaves_out(); }
@@ -83,8 +84,13 @@ void LaneSampleModel::evaluate_each(std::span<const Sample> samples, std::span<O
   try {
     lanes_.run(parameters, found, tolerance_, {.stop = &stop, .ended = ended});
   } catch (const ComputationError& failure) {
-    for (std::size_t k = 0; k < samples.size(); ++k) {
+    // Some sample's scene or errors: the others are none the worse for it.
+    for (std::size_t k = 0; k < samples.size() && !stop; ++k) {
       if (outcomes[k].status != Outcome::Status::not_reached) continue;
+      if (samples.size() > 1) {
+        evaluate_each(samples.subspan(k, 1), outcomes.subspan(k, 1), stop, [&](std::size_t) { reached(k); });
+        continue;
+      }
       outcomes[k].status = Outcome::Status::failed;
       outcomes[k].message = failure.what();
       reached(k);
@@ -96,6 +102,9 @@ void LaneSampleModel::evaluate_each(std::span<const Sample> samples, std::span<O
 std::unique_ptr<SampleModel> sample_model(const std::string& rung, std::shared_ptr<const Mechanism> mechanism,
                                           RungSampleModel::ParametersOf parameters_of, IndexChoice index,
                                           RunOptions options, bool scene_varies) {
+  if (GeometricSampleModel::serve(rung, *mechanism))
+    return std::make_unique<GeometricSampleModel>(rung, std::move(mechanism), std::move(parameters_of),
+                                                  std::move(index));
   if (rung == "perturbation" && LaneSampleModel::serve(*mechanism, index, options))
     return std::make_unique<LaneSampleModel>(std::move(mechanism), std::move(parameters_of), std::move(index),
                                              scene_varies,

@@ -41,8 +41,8 @@ class LaneSampleModel final : public SampleModel {
   double tolerance_;
 };
 
-// The model of a rung's samples: lanes where they serve, at the tolerance of the options if they have one, else runs of the
-// rung one by one.
+// The model of a rung's samples: pure geometry where there is no play, lanes where they serve, at the tolerance of the options if they
+// have one, else runs of the rung one by one.
 // scene_varies: whether masses, gravity or springs scatter.
 std::unique_ptr<SampleModel> sample_model(const std::string& rung, std::shared_ptr<const Mechanism> mechanism,
                                           RungSampleModel::ParametersOf parameters_of, IndexChoice index,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <thread>
 
+#include "boresight_analyses/study/geometric_sample_model.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
 #include "boresight_analyses/threads/on_threads.hpp"
 
@@ -20,6 +21,8 @@ SetupSamples::SetupSamples(std::shared_ptr<const Mechanism> mechanism, const std
   if (setup_.lanes)
     model_ = std::make_unique<LaneSampleModel>(std::move(mechanism), parameters_of, index, scene_varies,
                                                setup_.tolerance > 0.0 ? setup_.tolerance : kLaneTolerance);
+  else if (GeometricSampleModel::serve(setup_.rung, *mechanism))
+    model_ = std::make_unique<GeometricSampleModel>(setup_.rung, std::move(mechanism), parameters_of, index);
   else
     model_ = std::make_unique<RungSampleModel>(setup_.rung, std::move(mechanism), parameters_of, index,
                                                setup_.options(), scene_varies);

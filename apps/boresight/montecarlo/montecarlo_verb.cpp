@@ -38,6 +38,33 @@ Json error_json(const ErrorStatement& e) {
           {"dominant", e.dominant}};
 }
 
+// What the report tells of single samples: failed ones first, the others spread evenly; and what the rung thinks of its own error, on average.
+class SamplesReadBack {
+ public:
+  explicit SamplesReadBack(const SampleStore& store) : store_(store) {}
+
+  void see(const SampleRecord& record) {
+    if (every_ == 0) every_ = store_.count() / kMostShown + 1;
+    shown_.failures.see(record.number, record.outcome);
+    if (record.outcome.status == Outcome::Status::failed) {
+      if (shown_.failed.size() < kMostFailedShown) shown_.failed.push_back(record);
+      return;
+    }
+    done_ += 1.0;
+    model_error_ += record.outcome.model_error;
+    if (record.number % every_ == 0) shown_.done.push_back(record);
+  }
+
+  const ShownSamples& shown() const { return shown_; }
+  double mean_model_error() const { return done_ > 0.0 ? model_error_ / done_ : 0.0; }
+
+ private:
+  const SampleStore& store_;
+  std::uint64_t every_ = 0;
+  ShownSamples shown_;
+  double done_ = 0.0, model_error_ = 0.0;
+};
+
 class MonteCarloVerb : public Verb {
  public:
   std::string name() const override { return "montecarlo"; }
@@ -127,6 +154,8 @@ class MonteCarloVerb : public Verb {
     const std::unique_ptr<Stage> stage = own->run().stage(static_cast<double>(question.plan.samples), "samples");
     options.progress = [&](const MonteCarloProgress& p) { show(*stage, p, question); };
     const std::uint64_t begun_with = store->count();
+    SamplesReadBack read_back(*store);
+    options.read_back = [&](const SampleRecord& record) { read_back.see(record); };
     const Stopwatch sampling;
     MonteCarloResult result = run_montecarlo(model, question.plan, store.get(), *ranks, options);
     stage->clear();
@@ -141,7 +170,7 @@ class MonteCarloVerb : public Verb {
                                            .lanes = true},
                                           model_options, model.rung(), store.get());
     if (steps.interrupted) result.ended = Ended::interrupted;
-    return write_results(command, question, choice, model, *store, steps, result, watch, *own, stuck);
+    return write_results(command, question, choice, model, *store, steps, result, read_back, watch, *own, stuck);
   }
 
  private:
@@ -202,11 +231,13 @@ class MonteCarloVerb : public Verb {
 
   int write_results(const Command& command, const MonteCarloQuestion& question, const RungChoice& choice,
                     const SampleModel& model, SampleStore& store, const StudySteps& steps,
-                    const MonteCarloResult& result, const Stopwatch& watch, const VerbStudy& own,
-                    const std::string& stuck) const {
+                    const MonteCarloResult& result, const SamplesReadBack& read_back, const Stopwatch& watch,
+                    const VerbStudy& own, const std::string& stuck) const {
     const OutputDirectory& out = own.out();
     ModelError error;
-    const ShownSamples shown = shown_samples(store, result, error);
+    const ShownSamples& shown = read_back.shown();
+    error.rung = read_back.mean_model_error();
+    error.rung_why = "the rung's own estimate of what it leaves out, mean over the samples";
     error.discretisation = steps.relative;
     error.discretisation_why = steps.why;
     for (const Headline& h : headlines())
@@ -250,27 +281,6 @@ class MonteCarloVerb : public Verb {
     if (result.ended == Ended::interrupted)
       return Judgement{Judgement::By::nothing, plan.requirement->confidence, "not judged: interrupted"};
     return look(store, question_of(*plan.requirement), asked_share_of(plan), looked_at_of(plan), result.values.size());
-  }
-
-  // Failed ones first, the others spread evenly; and what the rung thinks of its own error, on average.
-  static ShownSamples shown_samples(const SampleStore& store, const MonteCarloResult& result, ModelError& error) {
-    ShownSamples shown;
-    const std::uint64_t n = result.values.size();
-    const std::uint64_t every = n / kMostShown + 1;
-    double done = 0.0;
-    store.read(n, [&](const SampleRecord& record) {
-      shown.failures.see(record.number, record.outcome);
-      if (record.outcome.status == Outcome::Status::failed) {
-        if (shown.failed.size() < kMostFailedShown) shown.failed.push_back(record);
-        return;
-      }
-      done += 1.0;
-      error.rung += record.outcome.model_error;
-      if (record.number % every == 0) shown.done.push_back(record);
-    });
-    if (done > 0.0) error.rung /= done;
-    error.rung_why = "the rung's own estimate of what it leaves out, mean over the samples";
-    return shown;
   }
 
   static std::vector<std::string> warnings_of(const MonteCarloQuestion& question, const MonteCarloResult& result,

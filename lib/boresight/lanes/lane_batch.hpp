@@ -41,12 +41,21 @@ struct LaneScene {
   }
 };
 
+// What one sample's standing errors add to the index over time.
+struct LaneStanding {
+  const double* knots = nullptr;  // [knot][8]: three values, 0, three slopes times the spacing, 0; null: no errors
+  int cells = 0;                  // between the knots
+  double per_spacing = 0.0;       // cells a second
+  double longest_step = 1e300;    // across which a parabola still follows them [s]
+};
+
 struct LaneJob {
   const LaneScene* scene = nullptr;
   const JointPlay* joints = nullptr;      // one per clearance
   const double* tolerance = nullptr;      // 2 n: largest error of one step, of each z, then of each zdot
   const double* start = nullptr;          // 2n: z and zdot at the start; zero where none is given
   const double* gap_tolerance = nullptr;  // one per clearance [m]: a contact begins this close to its located start
+  LaneStanding standing = {};
 };
 
 enum class LaneStatus { done, step_too_small, too_many_steps, not_reached };  // not_reached: stopped before its end

@@ -52,6 +52,10 @@ class LaneClock {
   }
   const double* times() const { return now_.data(); }
   const double* next() const { return next_.data(); }
+  // Halfway between the two.
+  void middles(double* t) const {
+    for (int l = 0; l < W; ++l) t[l] = 0.5 * (now_[l] + next_[l]);
+  }
   double now(int lane) const { return now_[lane]; }
   bool ended(int lane) const { return now_[lane] >= end_[lane]; }
 

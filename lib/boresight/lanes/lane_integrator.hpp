@@ -10,6 +10,7 @@
 
 #include "boresight/lanes/lane_clock.hpp"
 #include "boresight/lanes/lane_contacts.hpp"
+#include "boresight/lanes/lane_standing.hpp"
 #include "boresight/lanes/lane_statistics.hpp"
 
 namespace boresight {
@@ -102,13 +103,15 @@ class LaneIntegrator {
       contacts_.tolerance[c].set(l, job.gap_tolerance[c]);
       contacts_.slowest[c].set(l, job.joints[c].minimum_impact_speed);
     }
+    standing_.set(l, job.standing);
+    longest_.set(l, std::min(step_.longest(), job.standing.longest_step));
     clock_.set(l, 0.0, job.scene->duration);
     contact_since_.set(l, 0.0);
     h_.set(l, settings_.first_step);
     for (T* x : {&statistics_.value, &statistics_.max, &statistics_.time_of_max, &statistics_.integral,
                  &statistics_.square, &touching_time_, &deepest_, &impacts_, &steps_, &rejected_})
       x->set(l, 0.0);
-    entry_.set(l, step_.longest());
+    entry_.set(l, longest_.lane(l));
     running_.set(l, true);
     rejected_before_.set(l, false);
     entering_.set(l, false);
@@ -117,6 +120,7 @@ class LaneIntegrator {
   // A lane with nothing to do goes through the motions at rest.
   void rest(int l) {
     jobs_of_[l] = nullptr;
+    standing_.set(l, {});
     for (int k = 0; k < count(); ++k) {
       z_[k].set(l, 0.0);
       v_[k].set(l, 0.0);
@@ -129,7 +133,9 @@ class LaneIntegrator {
   // Rows and gaps of lanes that stand at the start of their motion.
   void read_starts(const Mask& lanes) {
     step_.open(lanes, scenes_, clock_);
-    statistics_.begin(lanes, step_.index_at_start(z_.data()), settings_.start == 0.0);
+    T standing[3];
+    standing_.at(clock_.times(), standing);
+    statistics_.begin(lanes, step_.index_at_start(z_.data(), standing), settings_.start == 0.0);
     step_.contacts(z_.data(), v_.data(), contacts_.end.data());
     for (int l = 0; l < W; ++l)
       if (lanes.lane(l)) contacts_.restart(l, step_.play.impact_speed);
@@ -158,7 +164,7 @@ class LaneIntegrator {
     factor =
         select(finite, larger(smaller(factor, select(rejected_before_, T(1.0), T(kLargestFactor))), T(kSmallestFactor)),
                T(kSmallestFactor));
-    T next = smaller(h * factor, T(step_.longest()));
+    T next = smaller(h * factor, longest_);
     next = select(lands, h * larger(share, T(1e-3)), next);
 
     observe(accepted, h);
@@ -202,7 +208,12 @@ class LaneIntegrator {
     const int n = count();
     for (int k = 0; k < n; ++k) middle_z_[k] = T(0.5) * (z_[k] + new_z_[k]) + T(0.125) * h * (v_[k] - new_v_[k]);
     T middle, end;
-    step_.index_over_step(h, middle_z_.data(), new_z_.data(), middle, end);
+    alignas(64) std::array<double, W> halfway;
+    clock_.middles(halfway.data());
+    T standing_halfway[3], standing_at_end[3];
+    standing_.at(halfway.data(), standing_halfway);
+    standing_.at(clock_.next(), standing_at_end);
+    step_.index_over_step(h, {middle_z_.data(), standing_halfway}, {new_z_.data(), standing_at_end}, middle, end);
     if (settings_.start > 0.0)
       statistics_.add_from(T(settings_.start), accepted, clock_.now(), h, middle, end);
     else
@@ -250,8 +261,9 @@ class LaneIntegrator {
   typename Step::Pairs error_, tolerance_;    // of offsets, then of rates
   std::vector<T> held_;                       // how long each joint touched, from the start of the statistics on [s]
   LaneStatistics<T> statistics_;
+  LaneStandingErrors<T> standing_;
   LaneClock<T> clock_;
-  T h_{1.0}, entry_{1.0};
+  T h_{1.0}, entry_{1.0}, longest_{1.0};
   T contact_since_{0.0}, touching_time_{0.0}, deepest_{0.0}, impacts_{0.0}, steps_{0.0}, rejected_{0.0};
   Mask running_ = Mask::all(false), rejected_before_ = running_, entering_ = running_, gave_up_ = running_,
        ends_ = running_;

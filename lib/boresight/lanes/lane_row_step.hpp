@@ -37,7 +37,7 @@ class LaneRowStep {
     scene_rows(scenes.data(), clock.times(), width_, new_row_.data());
     for (int k = 0; k < used(); ++k) row_[k] = select(lanes, new_row_[k], row_[k]);
   }
-  T index_at_start(const T* z) const { return index_value(N, &new_row_[gain_], z); }
+  T index_at_start(const T* z, const T* standing) const { return index_value(N, &new_row_[gain_], z, standing); }
 
   void step(const Mask&, const Scenes& scenes, const LaneClock<T>& clock, const T& h, const T* z, const T* v, T* new_z,
             T* new_v, T* error) {
@@ -49,10 +49,10 @@ class LaneRowStep {
   void contacts(const T* z, const T* v, std::array<ContactState<T>, kContactPlaces>* out) const {
     play.contacts(new_row_.data(), z, v, out);
   }
-  void index_over_step(const T&, const T* middle_z, const T* end_z, T& middle, T& end) {
-    end = index_value(N, &new_row_[gain_], end_z);
+  void index_over_step(const T&, const IndexPlace<T>& at_middle, const IndexPlace<T>& at_end, T& middle, T& end) {
+    end = index_value(N, &new_row_[gain_], at_end.z, at_end.standing);
     for (int k = gain_; k < gain_ + 3 * N; ++k) change_[k] = row_[k] + T(0.5) * change_[k];
-    middle = index_value(N, &change_[gain_], middle_z);
+    middle = index_value(N, &change_[gain_], at_middle.z, at_middle.standing);
   }
   void accept(const Mask& accepted) {
     for (int k = 0; k < used(); ++k) row_[k] = select(accepted, new_row_[k], row_[k]);

@@ -1,4 +1,4 @@
-// Maximum, mean and mean square of the index |G z| over time, one sample a lane.
+// Maximum, mean and mean square of the index |G z + x| over time, one sample a lane; x: what standing errors add.
 //
 // A step gives the value at its middle (z by the cubic through both ends' z and zdot) and at its end; the integrals are
 // Simpson's, the maximum that of the parabola through three values. What comes before a start is left out: of a step across it
@@ -55,12 +55,19 @@ struct LaneStatistics {
   }
 };
 
-// |G z| for G = gain, 3 x n row by row.
+// What the index is taken of at one time: the coordinates, and what standing errors add (three numbers).
 template <typename T>
-T index_value(int n, const T* gain, const T* z) {
+struct IndexPlace {
+  const T* z;
+  const T* standing;
+};
+
+// |G z + standing| for G = gain, 3 x n row by row.
+template <typename T>
+T index_value(int n, const T* gain, const T* z, const T* standing) {
   T square(0.0);
   for (int i = 0; i < 3; ++i) {
-    T x(0.0);
+    T x = standing[i];
     for (int j = 0; j < n; ++j) x = fused(gain[i * n + j], z[j], x);
     square = fused(x, x, square);
   }

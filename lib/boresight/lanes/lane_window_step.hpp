@@ -34,7 +34,9 @@ class LaneWindowStep {
     start_ = end_ = window_.since(clock.times());
     window_.hold_at(start_);
   }
-  T index_at_start(const T* z) { return index_value(n_, window_.gain_at(end_) + gain_, z); }
+  T index_at_start(const T* z, const T* standing) {
+    return index_value(n_, window_.gain_at(end_) + gain_, z, standing);
+  }
 
   void step(const Mask& running, const Scenes& scenes, const LaneClock<T>& clock, const T& h, const T* z, const T* v,
             T* new_z, T* new_v, T* error) {
@@ -48,9 +50,10 @@ class LaneWindowStep {
   void contacts(const T* z, const T* v, std::array<ContactState<T>, kContactPlaces>* out) {
     play.contacts(window_.motion_at(end_), z, v, out);
   }
-  void index_over_step(const T& h, const T* middle_z, const T* end_z, T& middle, T& end) {
-    end = index_value(n_, window_.gain_at(end_) + gain_, end_z);
-    middle = index_value(n_, window_.gain_at(fused(T(0.5), h, start_)) + gain_, middle_z);
+  void index_over_step(const T& h, const IndexPlace<T>& at_middle, const IndexPlace<T>& at_end, T& middle, T& end) {
+    end = index_value(n_, window_.gain_at(end_) + gain_, at_end.z, at_end.standing);
+    const T* gain = window_.gain_at(fused(T(0.5), h, start_)) + gain_;
+    middle = index_value(n_, gain, at_middle.z, at_middle.standing);
   }
   void accept(const Mask&) {}
   // Where several joints have play some contact begins all the time, and none is settled: not asked then.

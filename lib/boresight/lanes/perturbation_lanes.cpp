@@ -11,6 +11,8 @@
 #include "boresight/lanes/scene_for_lanes.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/scene/resting_start.hpp"
+#include "boresight/scene/standing_columns.hpp"
+#include "boresight/scene/standing_curvature.hpp"
 
 namespace boresight {
 namespace {
@@ -24,21 +26,39 @@ constexpr double kSlowestCrossing = 0.03;
 // h^2 M' / (6 M T) of a flight of T: 3e-4 where the scene turns once in a hundred longest steps and T is a tenth of that. Its square goes
 // with the tolerance.
 constexpr double kHeldShare = 0.5;
+// The longest step in cells of the errors' table, whose cubics meet them to 1e-7: a parabola across eight of these misses some 1e-3.
+constexpr double kCellsOfErrors = 8.0;
 // Of scenes of different masses: kept for samples to come, and held by the samples of one call.
 constexpr std::size_t kScenesKept = 64;
 constexpr double kMostBytesKept = 2.5e8, kMostBytesHeld = 1e9;
 
-// G at t, 3 x n: the index to first order is |G z|.
+// Of the boresight body's displacement and turn at t: the index to first order is the length of its product with them.
+Eigen::Matrix<double, 3, 6> gain_of_displacement(const Mechanism& mechanism, const IdealMotion& motion,
+                                                 PointingQuantity quantity, double t) {
+  const BodyMotion ideal = motion.body(t, mechanism.boresight_body());
+  return error_gain(quantity, {ideal.p, Quat(ideal.R)}, ideal.R * mechanism.boresight_B(),
+                    mechanism.pointing().line_of_sight);
+}
+
+// G at t, 3 x n: without standing errors the index to first order is |G z|.
 MatX index_gain(const Mechanism& mechanism, const PreparedScene& prepared, PointingQuantity quantity, double t) {
   const TimeTable& table = prepared.pose_gain(mechanism.boresight_body());
   std::vector<double> row(table.width());
   table.at(t, row.data());
   const Eigen::Index n = table.width() / 6;
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> E(row.data(), 6, n);
-  const BodyMotion ideal = prepared.ideal().body(t, mechanism.boresight_body());
-  return error_gain(quantity, {ideal.p, Quat(ideal.R)}, ideal.R * mechanism.boresight_B(),
-                    mechanism.pointing().line_of_sight) *
-         E;
+  return gain_of_displacement(mechanism, prepared.ideal(), quantity, t) * E;
+}
+
+// Whether errors may take up play of redundant joints, and shift offsets that are no coordinates: a scene of each sample's own, which is the
+// rung's. Where freedoms are left that nothing drives the rung refuses errors.
+bool offsets_are_tied(const Mechanism& mechanism) {
+  if (!is_kinematic(mechanism)) return true;
+  try {
+    return choose_offsets(mechanism, ideal_motion(mechanism, mechanism.parameters())).has_dependent;
+  } catch (const ComputationError&) {
+    return true;
+  }
 }
 
 // The ideal reactions' accelerations of the coordinates, from one row.
@@ -66,16 +86,26 @@ struct PerturbationLanes::Prepared {
   double bytes() const { return 12.0 * static_cast<double>(in_double.size()); }
 };
 
+// What standing errors do to the index of one scene.
+struct PerturbationLanes::ErrorsOverTime {
+  std::shared_ptr<const StandingErrors> influence;
+  StandingColumns columns;
+  StandingCurvature curvature;
+};
+
 struct PerturbationLanes::Cache {
   std::mutex mutex;
   std::shared_ptr<const PreparedScene> scene;
   std::shared_ptr<const TimeTable> gain;  // G over time, which no mass changes
+  std::mutex errors_mutex;
+  std::shared_ptr<const PreparedScene> errors_scene;  // whose errors these are
+  std::shared_ptr<const ErrorsOverTime> errors;
   Parameters scene_parameters;
   std::list<std::shared_ptr<const Prepared>> prepared;  // the latest first
 };
 
 bool PerturbationLanes::serve(const Mechanism& mechanism) {
-  if (!mechanism.description().errors.empty()) return false;  // the pose of the mechanism as built is the rung's own
+  if (!mechanism.description().errors.empty() && offsets_are_tied(mechanism)) return false;
   for (const JointPlay& law : joint_plays(mechanism.description(), mechanism.parameters())) {
     const auto* journal = std::get_if<JournalInSleeve>(&law.kind);
     if (journal == nullptr || journal->radial_law.curve != ElasticCurve::point || law.sticks) return false;
@@ -173,18 +203,35 @@ void PerturbationLanes::run(std::span<const Parameters> samples, std::span<LaneO
   run(lane_targets(lane_precision(tolerance)).front(), samples, outcomes, tolerance, watch);
 }
 
+// Of one scene, computed when the first sample with errors comes.
+std::shared_ptr<const PerturbationLanes::ErrorsOverTime> PerturbationLanes::errors_for(
+    const std::shared_ptr<const PreparedScene>& scene) const {
+  const std::lock_guard lock(cache_->errors_mutex);
+  if (cache_->errors && cache_->errors_scene == scene) return cache_->errors;
+  const IdealMotion& ideal = scene->ideal();
+  const std::shared_ptr<const StandingErrors> influence = StandingErrors::of_all(*mechanism_, ideal);
+  StandingColumns columns(*influence, mechanism_->boresight_body(), 3, [&](double t) {
+    return gain_of_displacement(*mechanism_, ideal, quantity_, std::min(t, mechanism_->duration()));
+  });
+  cache_->errors = std::make_shared<const ErrorsOverTime>(
+      ErrorsOverTime{influence, std::move(columns), StandingCurvature(*mechanism_, ideal, *influence, quantity_)});
+  cache_->errors_scene = scene;
+  return cache_->errors;
+}
+
 // The jobs of some samples, and what they point to.
 struct PerturbationLanes::Batch {
   std::vector<std::shared_ptr<const Prepared>> prepared;
   std::list<std::vector<JointPlay>> joints;
   std::list<std::vector<double>> tolerances;
   std::list<VecX> starts;
+  std::list<std::vector<double>> standing;
+  VecX values;  // of the errors at the knots, while they are contracted
   std::vector<LaneJob> jobs;
   double bytes = 0.0;  // of scenes that only this batch needs, at most
 };
 
 void PerturbationLanes::add(const Parameters& sample, double tolerance, Batch& to) const {
-  if (has_errors(sample)) throw ComputationError("lanes do not have standing errors");
   if (to.prepared.empty() || !same_scene(to.prepared.back()->parameters, sample)) {
     to.prepared.push_back(prepared_for(sample));
     to.bytes += to.prepared.back()->bytes();
@@ -223,7 +270,36 @@ void PerturbationLanes::add(const Parameters& sample, double tolerance, Batch& t
                      .joints = own.data(),
                      .tolerance = errors.data(),
                      .start = to.starts.back().data(),
-                     .gap_tolerance = errors.data() + 2 * at.n});
+                     .gap_tolerance = errors.data() + 2 * at.n,
+                     .standing = {}});
+  if (has_errors(sample)) add_errors(sample, p, to);
+}
+
+void PerturbationLanes::add_errors(const Parameters& sample, const Prepared& prepared, Batch& to) const {
+  const std::shared_ptr<const ErrorsOverTime> errors = errors_for(prepared.scene);
+  errors->influence->require(sample.error);
+  if (StandingDisplacement(errors->influence, sample.error).shifts())
+    throw ComputationError(
+        "an error takes up play of redundant joints, which the perturbation rung follows and lanes do not");
+  const StandingColumns& columns = errors->columns;
+  columns.contract(sample.error, to.values);
+  std::vector<double>& knots = to.standing.emplace_back(static_cast<std::size_t>(columns.knots) * 8, 0.0);
+  for (int k = 0; k < columns.knots; ++k)
+    for (int i = 0; i < 3; ++i) {
+      const auto at = static_cast<std::size_t>(8 * k + i);
+      knots[at] = to.values[3 * k + i];
+      knots[at + 4] = TimeTable::slope_at_knot(k, columns.knots, [&](int j) { return to.values[3 * j + i]; });
+    }
+  to.bytes += static_cast<double>(knots.size() * sizeof(double));
+  to.jobs.back().standing = {.knots = knots.data(),
+                             .cells = columns.knots - 1,
+                             .per_spacing = 1.0 / columns.spacing,
+                             .longest_step = kCellsOfErrors * columns.spacing};
+}
+
+double PerturbationLanes::error_of_linearity(const Parameters& sample, double index) const {
+  if (!has_errors(sample)) return 0.0;
+  return errors_for(prepared_for(sample)->scene)->curvature.error(sample.error, index);
 }
 
 void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters> samples,
@@ -261,6 +337,8 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
       return;
     }
     if (k == 0 && prepared_for(samples[0])->tables->layout.n == 0) {  // of one sample as of all: no play can move
+      if (std::any_of(samples.begin(), samples.end(), has_errors))
+        throw ComputationError("no play can move: samples of errors alone are GeometricErrors' to answer");
       std::fill(outcomes.begin(), outcomes.end(), LaneOutcome{.t = mechanism_->duration()});
       for (std::size_t i = 0; watch.ended && i < samples.size(); ++i) watch.ended(i, 0.0);
       return;

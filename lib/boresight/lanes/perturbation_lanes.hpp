@@ -4,7 +4,7 @@
 //   lanes.run(samples, outcomes);            // const: share it between threads
 //
 // Where the rung itself (make_rung("perturbation", ...)) gives a whole pointing history, this gives the statistics of one
-// index and a summary of the contacts. The index is |G(t) z|, first order in the deviation z: against the rung's own, which
+// index and a summary of the contacts. The index is |G(t) (z, eps)|, first order in the deviation z and the standing errors eps: against the rung's own, which
 // displaces the bodies by finite turns, it differs by the deviation squared (1e-6 of the index where that is 1 mrad).
 // A sample's outcome is the same to the last bit whatever runs beside it, on every processor with fused multiply-adds (AVX2 or
 // later; those without agree among each other) and for any split of the
@@ -59,10 +59,16 @@ class PerturbationLanes {
   void run(const LaneTarget& target, std::span<const Parameters> samples, std::span<LaneOutcome> outcomes,
            double tolerance = kLaneTolerance, const LaneWatch& watch = {}) const;
 
+  // What being linear in the sample's standing errors may change of its index (largest value [m or rad]), relative: StandingCurvature.
+  double error_of_linearity(const Parameters& sample, double index) const;
+
  private:
   struct Prepared;
+  struct ErrorsOverTime;
   struct Batch;
   void add(const Parameters& sample, double tolerance, Batch& to) const;
+  void add_errors(const Parameters& sample, const Prepared& prepared, Batch& to) const;
+  std::shared_ptr<const ErrorsOverTime> errors_for(const std::shared_ptr<const PreparedScene>& scene) const;
   std::shared_ptr<const Prepared> prepared_for(const Parameters& parameters) const;
   std::shared_ptr<const TimeTable> gain_over_time(const PreparedScene& scene) const;
 

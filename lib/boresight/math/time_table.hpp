@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 namespace boresight {
@@ -21,17 +22,7 @@ class TimeTable {
     const int knots = static_cast<int>(values.size()) / width;
     cells_ = knots - 1;
     const auto at = [&](int k, int j) { return values[static_cast<std::size_t>(k) * width + j]; };
-    // Slope times spacing at knot k: central where there are neighbours, one-sided of the same order at the ends.
-    const auto slope = [&](int k, int j) {
-      if (k >= 2 && k <= knots - 3)
-        return (at(k - 2, j) - 8.0 * at(k - 1, j) + 8.0 * at(k + 1, j) - at(k + 2, j)) / 12.0;
-      const int first = k < 2 ? 0 : knots - 5, i = k - first;
-      static constexpr double weights[5][5] = {
-          {-25, 48, -36, 16, -3}, {-3, -10, 18, -6, 1}, {1, -8, 0, 8, -1}, {-1, 6, -18, 10, 3}, {3, -16, 36, -48, 25}};
-      double sum = 0.0;
-      for (int n = 0; n < 5; ++n) sum += weights[i][n] * at(first + n, j);
-      return sum / 12.0;
-    };
+    const auto slope = [&](int k, int j) { return slope_at_knot(k, knots, [&](int i) { return at(i, j); }); };
     coefficients_.resize(static_cast<std::size_t>(cells_) * 4 * width);
     for (int k = 0; k < cells_; ++k) {
       double* c = &coefficients_[static_cast<std::size_t>(k) * 4 * width];
@@ -43,6 +34,19 @@ class TimeTable {
         c[3 * width + j] = 2.0 * (f0 - f1) + d0 + d1;
       }
     }
+  }
+
+  // Slope times spacing at knot k of `knots`, from the values at(i) there: central where there are neighbours, one-sided of the same
+  // order at the ends. at() may give numbers or arrays of them.
+  template <typename At, typename Value = std::remove_cvref_t<std::invoke_result_t<At, int>>>
+  static Value slope_at_knot(int k, int knots, const At& at) {
+    if (k >= 2 && k <= knots - 3) return Value((at(k - 2) - 8.0 * at(k - 1) + 8.0 * at(k + 1) - at(k + 2)) / 12.0);
+    const int first = k < 2 ? 0 : knots - 5, i = k - first;
+    static constexpr double weights[5][5] = {
+        {-25, 48, -36, 16, -3}, {-3, -10, 18, -6, 1}, {1, -8, 0, 8, -1}, {-1, 6, -18, 10, 3}, {3, -16, 36, -48, 25}};
+    Value sum = weights[i][0] * at(first);
+    for (int n = 1; n < 5; ++n) sum += weights[i][n] * at(first + n);
+    return Value(sum / 12.0);
   }
 
   int width() const { return width_; }

@@ -10,9 +10,10 @@
 namespace boresight {
 namespace {
 
-// What redundant rows may disagree by, of what an error asks for: the commanded motion closes its joints to 1e-12.
+// A column below this of what the error displaces its joint by is rounding: a journal turned about its own axis moves no body.
+constexpr double kRounding = 1e-11;
+// What redundant rows may disagree by, of what an error asks of them: the commanded motion closes its joints to 1e-12.
 constexpr double kContradiction = 1e-8;
-constexpr double kRounding = 1e-12;
 
 std::shared_ptr<const Mechanism> without_errors(const Mechanism& drawn, const IdealMotion& commanded) {
   Parameters none = drawn.parameters();
@@ -73,13 +74,22 @@ Vec6 ErrorInfluence::seen(const JointConstraint& constraint, const JointRows& ro
 void ErrorInfluence::right_side(std::size_t e, double t) {
   for (Vec6& rows : right_) rows.setZero();
   const MechanismDescription& m = mechanism_.description();
+  const double length = mechanism_.characteristic_length();
+  asked_ = 0.0;
+  for (const FrameError& frame : frames_[e])
+    asked_ = std::max(asked_, frame.translation.norm() / length + frame.rotation.norm());
   for (const FrameError& frame : frames_[e])
     if (const int k = block_of_[frame.joint]; k >= 0) right_[k] = -seen(closed_.joints()[k], closed_.rows(k), e);
   const ErrorDescription& error = m.errors[e];
   if (error.kind != ErrorDescription::Kind::drive) return;
   const int k = block_of_[error.joint];
-  right_[k][closed_.joints()[k].drive_row()] +=
-      closed_.joints()[k].drive_sign() * error.law->at(laws_[error.joint], t).value;
+  const double errs = error.law->at(laws_[error.joint], t).value;
+  right_[k][closed_.joints()[k].drive_row()] += closed_.joints()[k].drive_sign() * errs;
+  asked_ = std::abs(errs) / (closed_.joints()[k].is_distance(closed_.joints()[k].drive_row()) ? length : 1.0);
+}
+
+void ErrorInfluence::drop_rounding(int e, MatX& G) const {
+  if (G.col(e).cwiseQuotient(scale_).lpNorm<Eigen::Infinity>() <= kRounding * asked_) G.col(e).setZero();
 }
 
 void ErrorInfluence::at(double t, const std::vector<bool>& wanted, MatX& G) {
@@ -100,6 +110,7 @@ void ErrorInfluence::at(double t, const std::vector<bool>& wanted, MatX& G) {
     for (std::size_t k = 0; k < goal_.size(); ++k) residual_[k] = goal_[k] - residual_[k];
     closed_.least_motion(residual_, more_);
     for (int b = 0; b < mechanism_.bodies(); ++b) G.block<6, 1>(6 * b, e) = motion_[b] + more_[b];
+    drop_rounding(e, G);
     add_shift(static_cast<std::size_t>(e), G);
   }
 }
@@ -153,16 +164,12 @@ void ErrorInfluence::solve_dense(const std::vector<bool>& wanted, double t, MatX
     x += qr.solve(VecX(right - unit.asDiagonal() * (J * x)));
     const VecX left = right - unit.asDiagonal() * (J * x);
     Eigen::Index worst = 0;
-    // What an error asks of no row at all (a turn about a bearing's own axis) leaves rounding, which contradicts nothing.
-    double size = 0.0;
-    for (const FrameError& frame : frames_[e])
-      size = std::max({size, frame.translation.norm() / length, frame.rotation.norm()});
-    const double least = std::max(kContradiction * right.cwiseAbs().maxCoeff(), kRounding * size);
-    if (left.cwiseAbs().maxCoeff(&worst) > least)
+    if (left.cwiseAbs().maxCoeff(&worst) > std::max(kContradiction * right.cwiseAbs().maxCoeff(), kRounding * asked_))
       throw ComputationError("error." + errors[e].name + " strains the mechanism, which holds \"" +
                              mechanism_.description().joints[joint_of[static_cast<std::size_t>(worst)]].name +
                              "\" more than once: without play or something that gives its joints do not close");
     G.col(e) = scale_.asDiagonal() * x;
+    drop_rounding(e, G);
     add_shift(static_cast<std::size_t>(e), G);
   }
 }

@@ -40,6 +40,7 @@ class ErrorInfluence {
   Vec6 seen(const JointConstraint& constraint, const JointRows& rows, std::size_t error) const;
   void right_side(std::size_t error, double t);
   void add_shift(std::size_t error, const MatX& G);
+  void drop_rounding(int error, MatX& G) const;
   void solve_dense(const std::vector<bool>& wanted, double t, MatX& G);
 
   std::shared_ptr<const Mechanism> held_;  // the drawn mechanism as one that is built, without errors
@@ -56,6 +57,7 @@ class ErrorInfluence {
   std::vector<int> block_of_;                    // of a joint; -1: it has no rows
   IdealState state_;
   std::vector<TimeValue> laws_;
+  double asked_ = 0.0;  // by the right side of joint and drive, in turns or lengths of the mechanism's size
   std::vector<Vec6> right_, goal_, motion_, residual_, more_;
 };
 

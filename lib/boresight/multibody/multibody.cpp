@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "boresight/formulations/ideal_simulation.hpp"
@@ -33,6 +34,12 @@ class Multibody final : public Rung {
     const auto wall = std::chrono::steady_clock::now();
     const double cpu = thread_cpu_seconds();
     const std::shared_ptr<const IdealMotion> commanded = ideal_for(parameters);
+    if (options.sample_spacing == 0.0 && mechanism_->clearances() == 0 && kinematic_ && has_errors(parameters))
+      if (std::optional<RunResult> closed = closed_at_instants(*commanded, parameters, options)) {
+        closed->cost.cpu_seconds = thread_cpu_seconds() - cpu;
+        closed->cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+        return *std::move(closed);
+      }
     const BuiltMotion built = built_for(parameters, commanded);
     const Mechanism& mechanism = *built.mechanism;
     const IdealMotion& ideal = *built.motion;
@@ -78,6 +85,33 @@ class Multibody final : public Rung {
     ideal_ = simulated;
     ideal_parameters_ = parameters;
     return simulated;
+  }
+
+  // Where only indices are asked for: the built mechanism's joints closed at instants, one after the other, in place of a motion fitted to
+  // rounding between them. Nothing where Newton's method does not lead from one to the next.
+  std::optional<RunResult> closed_at_instants(const IdealMotion& commanded, const Parameters& parameters,
+                                              const RunOptions& options) const {
+    struct NotReached {};
+    try {
+      const auto built = built_mechanism(*mechanism_, parameters,
+                                         std::shared_ptr<const IdealMotion>(std::shared_ptr<void>(), &commanded));
+      IdealSolver solver(*built);
+      IdealState at;
+      solver.start(at);
+      RunResult result = motion_without_play(
+          *built,
+          [&](double t, IdealState& state) {
+            if (t > at.t && !solver.solve(t, at)) throw NotReached{};
+            state = at;
+          },
+          commanded, parameters, options, mechanism_->duration() / StandingErrors::kFewestInstants);
+      result.error = {0.0, 0.0, "no play can move: the built mechanism's joints are closed exactly"};
+      result.rung = name();
+      result.formulation = "tree";
+      return result;
+    } catch (const NotReached&) {
+      return {};
+    }
   }
 
   // The last one is kept likewise.

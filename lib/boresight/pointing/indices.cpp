@@ -125,46 +125,69 @@ void StatisticsOverTime::add(double t, double value) {
   value_.push_back(value);
 }
 
-Statistics StatisticsOverTime::result() const {
-  Statistics s;
-  const std::size_t n = value_.size();
-  if (n == 0) return s;
-  std::vector<double> weight(n, 0.0);
+Statistics StatisticsOverTime::result() const { return TimeWeights(time_).of(value_); }
+
+TimeWeights::TimeWeights(std::span<const double> times)
+    : time_(times.begin(), times.end()), weight_(times.size(), 0.0) {
+  const std::size_t n = time_.size();
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double half = 0.5 * (time_[i + 1] - time_[i]);
-    weight[i] += half;
-    weight[i + 1] += half;
+    weight_[i] += half;
+    weight_[i + 1] += half;
   }
-  const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
-  if (total <= 0.0) std::fill(weight.begin(), weight.end(), 1.0 / static_cast<double>(n));
-  const double scale = total > 0.0 ? total : 1.0;
-  double sum = 0.0, sum_of_squares = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    sum += weight[i] * value_[i];
-    sum_of_squares += weight[i] * value_[i] * value_[i];
-    if (value_[i] > s.max) {
-      s.max = value_[i];
-      s.time_of_max = time_[i];
-    }
-  }
-  s.mean = sum / scale;
-  s.rms = std::sqrt(sum_of_squares / scale);
+  const double total = std::accumulate(weight_.begin(), weight_.end(), 0.0);
+  if (total > 0.0)
+    total_ = total;
+  else
+    std::fill(weight_.begin(), weight_.end(), 1.0 / static_cast<double>(n));
+}
 
-  // Only the highest values matter for the quantile: walk down from the top until 0.27 % of the time lies above.
-  std::vector<std::size_t> order(n);
+Statistics TimeWeights::of(std::span<const double> values) const {
+  Statistics s;
+  if (values.empty()) return s;
+  if (const std::size_t place = place_of_max(values); values[place] > s.max) {
+    s.max = values[place];
+    s.time_of_max = time_[place];
+  }
+  s.mean = mean(values);
+  s.rms = rms(values);
+  s.p9973 = p9973(values);
+  return s;
+}
+
+std::size_t TimeWeights::place_of_max(std::span<const double> values) const {
+  return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+}
+
+double TimeWeights::mean(std::span<const double> values) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) sum += weight_[i] * values[i];
+  return sum / total_;
+}
+
+double TimeWeights::rms(std::span<const double> values) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) sum += weight_[i] * values[i] * values[i];
+  return std::sqrt(sum / total_);
+}
+
+// Only the highest values matter: walk down from the top until 0.27 % of the time lies above.
+double TimeWeights::p9973(std::span<const double> values) const {
+  const double above_allowed = (1.0 - 0.9973) * total_;
+  std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return value_[a] > value_[b]; });
-  const double above_allowed = (1.0 - 0.9973) * scale;
+  const auto higher = [&](std::size_t a, std::size_t b) { return values[a] > values[b]; };
   double above = 0.0;
-  s.p9973 = value_[order.back()];
-  for (std::size_t i : order) {
-    above += weight[i];
-    if (above > above_allowed) {
-      s.p9973 = value_[i];
-      break;
+  // Some at a time: where the times are even it ends among the first.
+  for (auto sorted = order.begin(); sorted != order.end();) {
+    const auto some = sorted + std::min<std::ptrdiff_t>(order.end() - sorted, 16 + (order.end() - order.begin()) / 256);
+    std::partial_sort(sorted, some, order.end(), higher);
+    for (; sorted != some; ++sorted) {
+      above += weight_[*sorted];
+      if (above > above_allowed) return values[*sorted];
     }
   }
-  return s;
+  return values[order.back()];
 }
 
 void IndicesOverTime::reserve(std::size_t steps) {

@@ -9,6 +9,7 @@
 // Statistics weigh each accepted step by the time it covers, so that they do not depend on how an integrator steps.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "boresight/pointing/pointing.hpp"
@@ -51,6 +52,22 @@ struct Statistics {
 struct PointingIndices {
   Statistics position_error, orientation_error, boresight_error, line_of_sight_error;
   bool has_line_of_sight = false;  // else line_of_sight_error means nothing
+};
+
+// The times at which a scalar is known, each of which stands for half the gap to either neighbour; and statistics of its values there.
+class TimeWeights {
+ public:
+  explicit TimeWeights(std::span<const double> times);
+
+  Statistics of(std::span<const double> values) const;
+  std::size_t place_of_max(std::span<const double> values) const;
+  double mean(std::span<const double> values) const;
+  double rms(std::span<const double> values) const;
+  double p9973(std::span<const double> values) const;
+
+ private:
+  std::vector<double> time_, weight_;
+  double total_ = 1.0;
 };
 
 // Gathers one scalar over time. add() takes non-decreasing times; each value stands for half the gap to either neighbour.

@@ -36,7 +36,7 @@ const BodyMotion kGroundMotion;
 
 }  // namespace
 
-ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal)
+ClearanceScene::ClearanceScene(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal)
     : mechanism_(mechanism),
       offsets_(mechanism),
       coordinates_(mechanism, ideal),
@@ -46,11 +46,15 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
   std::vector<Element> fixed;
   for (int b = 0; b < mechanism.bodies(); ++b) fixed.push_back({.body = b, .inertia = m.bodies[b].inertia});
   groups_.push_back(std::move(fixed));
-  for (int b = 0; b < mechanism.bodies(); ++b) groups_.push_back({{.body = b, .mass = 1.0}});
+  for (int b = 0; b < mechanism.bodies(); ++b) {
+    const BodyDescription& body = m.bodies[b];
+    groups_.push_back(
+        {{.body = b, .c = body.axes.transpose() * (parameters.body_center[b] - body.center_of_mass), .mass = 1.0}});
+  }
   if (m.payload) {
     const BodyDescription& carrier = m.bodies[m.payload->body];
     groups_.push_back({{.body = m.payload->body,
-                        .c = carrier.axes.transpose() * (m.payload->center_of_mass - carrier.center_of_mass),
+                        .c = carrier.axes.transpose() * (parameters.payload_center - carrier.center_of_mass),
                         .mass = 1.0,
                         .inertia = m.payload->gyration.array().square().matrix().asDiagonal()}});
   }
@@ -64,14 +68,14 @@ SceneStart ClearanceScene::start_of(const Parameters& parameters, const Knot& fi
 
 ClearanceScene::Start ClearanceScene::at_start(const Mechanism& mechanism, const IdealMotion& ideal,
                                                const Parameters& parameters) {
-  ClearanceScene scene(mechanism, ideal);
+  ClearanceScene scene(mechanism, parameters, ideal);
   const Knot knot = scene.knot_at(0.0, ideal, parameters);
   return {scene.layout_, scene.start_of(parameters, knot), knot.state, knot.T, knot.T_rate};
 }
 
 ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
                                double accuracy)
-    : ClearanceScene(mechanism, ideal) {
+    : ClearanceScene(mechanism, parameters, ideal) {
   // Halve the spacing until the coarse grid's cubics meet the new knots: the finer grid's own error is a sixteenth of that.
   const double knot_spacing = spacing_of_knots(ideal);
   const double finest = std::max(kFinestOfKnot * knot_spacing, std::min(kFinestSpacing, knot_spacing));

@@ -86,7 +86,7 @@ class ClearanceScene {
   const MatX& offsets_per_coordinate(int knot) const { return knots_[knot].B; }
 
  private:
-  ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal);  // without knots
+  ClearanceScene(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal);  // without knots
 
   // A mass that rides on a body: what one unit of it adds.
   struct Element {

@@ -19,7 +19,8 @@ std::vector<std::string> held_plays(const Mechanism& mechanism, const IdealMotio
 RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ideal, const IdealMotion& commanded,
                               const Parameters& parameters, const RunOptions& options) {
   RunResult result = motion_without_play(
-      mechanism, [&](double t, IdealState& state) { ideal.state(t, state); }, commanded, parameters, options);
+      mechanism, [&](double t, IdealState& state) { ideal.state(t, state); }, commanded, parameters, options,
+      longest_step(mechanism.duration()));
   result.error = {0.0, 0.0,
                   mechanism.built()
                       ? "no play can move: the motion is that of the built mechanism's joints, closed exactly"
@@ -28,10 +29,11 @@ RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ide
 }
 
 RunResult motion_without_play(const Mechanism& mechanism, const std::function<void(double, IdealState&)>& state_at,
-                              const IdealMotion& ideal, const Parameters& parameters, const RunOptions& options) {
+                              const IdealMotion& ideal, const Parameters& parameters, const RunOptions& options,
+                              double step) {
   const double duration = mechanism.duration();
   const ForceElements forces(mechanism, parameters, true);
-  const double wanted = step_on_grid(longest_step(duration), options.sample_spacing);
+  const double wanted = step_on_grid(step, options.sample_spacing);
   const long steps = std::max(1L, static_cast<long>(std::ceil(duration / wanted - 1e-9)));
   MotionRecorder recorder(mechanism, ideal, options, static_cast<double>(steps));
   std::array<ContactState<double>, kContactPlaces> contact;

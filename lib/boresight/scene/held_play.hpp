@@ -16,8 +16,10 @@ std::vector<std::string> held_plays(const Mechanism& mechanism, const IdealMotio
 
 // How far the bodies are off where no play moves: `state` gives them over time, `commanded` where they should be. The caller fills in the
 // rung's name, its warnings and its error estimate.
+// step: no longer than this from one instant to the next [s].
 RunResult motion_without_play(const Mechanism& mechanism, const std::function<void(double, IdealState&)>& state,
-                              const IdealMotion& commanded, const Parameters& parameters, const RunOptions& options);
+                              const IdealMotion& commanded, const Parameters& parameters, const RunOptions& options,
+                              double step);
 // The mechanism's own motion without clearance.
 RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ideal, const IdealMotion& commanded,
                               const Parameters& parameters, const RunOptions& options);

@@ -93,13 +93,10 @@ const TimeTable& PreparedScene::pose_gain_rate(int body) const {
 
 StandingDisplacement PreparedScene::standing(const Parameters& parameters) const {
   if (!has_errors(parameters)) return {};
+  // Of all errors that there are, so that a sample's table does not hang on which came before it.
   const std::lock_guard lock(mutex_);
-  if (!errors_ || !errors_->covers(parameters.error)) {
-    std::vector<bool> wanted(parameters.error.size());
-    for (std::size_t e = 0; e < wanted.size(); ++e)
-      wanted[e] = parameters.error[e] != 0.0 || (errors_ && errors_->wants(e));
-    errors_ = std::make_shared<const StandingErrors>(mechanism_, ideal_, std::move(wanted));
-  }
+  if (!errors_) errors_ = StandingErrors::of_all(mechanism_, ideal_);
+  errors_->require(parameters.error);
   return {errors_, parameters.error};
 }
 
@@ -109,9 +106,13 @@ DisplacedBodies::PoseGain DisplacedBodies::gain(const TimeTable& table) const {
   return E;
 }
 
+Vec6 DisplacedBodies::displacement(int body) const {
+  return gain(prepared_.pose_gain(body)) * z_ + standing_.at(t_, body);
+}
+
 BodyMotion DisplacedBodies::at_rest(int body, BodyAcceleration& acceleration) const {
   BodyMotion motion = prepared_.ideal().body(t_, body, &acceleration);
-  displace(motion, gain(prepared_.pose_gain(body)) * z_ + standing_.at(t_, body));
+  displace(motion, displacement(body));
   return motion;
 }
 
@@ -159,7 +160,7 @@ RunResult SceneRung::without_play(const PreparedScene& prepared, const StandingD
         for (int b = 0; b < mechanism_->bodies(); ++b)
           state.bodies[b] = displaced.moving(b, none, none, state.acceleration[b]);
       },
-      prepared.ideal(), parameters, options);
+      prepared.ideal(), parameters, options, standing.influence().spacing() / standing.influence().instants_a_cell());
 }
 
 RunResult SceneRung::run(const Parameters& parameters, const RunOptions& options) const {

@@ -64,6 +64,8 @@ class DisplacedBodies {
                   const Eigen::Ref<const VecX>& z)
       : prepared_(prepared), standing_(standing), t_(t), z_(z) {}
 
+  // E z + G eps of a body.
+  Vec6 displacement(int body) const;
   // With the velocities and the acceleration of the ideal motion.
   BodyMotion at_rest(int body, BodyAcceleration& acceleration) const;
   // With those of the deviation added.

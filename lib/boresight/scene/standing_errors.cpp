@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/motion_density.hpp"
 
@@ -106,10 +108,48 @@ void StandingErrors::table_shifts(ErrorInfluence& influence) {
   shifts_ = true;
 }
 
-bool StandingErrors::covers(const std::vector<double>& errors) const {
+std::shared_ptr<const StandingErrors> StandingErrors::of_all(const Mechanism& mechanism, const IdealMotion& commanded) {
+  ErrorInfluence influence(mechanism, commanded);
+  const auto count = static_cast<std::size_t>(influence.count());
+  std::vector<bool> wanted(count, true);
+  std::vector<std::string> refusal(count);
+  const auto leave_out_what_strains_at = [&](double t) {
+    for (std::size_t e = 0; e < count; ++e) {
+      if (!wanted[e]) continue;
+      std::vector<bool> alone(count, false);
+      alone[e] = true;
+      MatX G;
+      try {
+        influence.at(t, alone, G);
+      } catch (const ComputationError& strained) {
+        wanted[e] = false;
+        refusal[e] = strained.what();
+      }
+    }
+  };
+  leave_out_what_strains_at(generic_instant(0.0, mechanism.duration()));
+  const auto table = [&] {
+    const auto all = std::make_shared<StandingErrors>(mechanism, commanded, wanted);
+    all->refusal_ = refusal;
+    return all;
+  };
+  try {
+    return table();
+  } catch (const MotionTooDense&) {
+    throw;
+  } catch (const ComputationError&) {
+    // One that is taken up at one instant may strain at another.
+    const auto before = std::count(wanted.begin(), wanted.end(), true);
+    for (int k = 0; k <= kFewestCells; ++k) leave_out_what_strains_at(mechanism.duration() * k / kFewestCells);
+    if (std::count(wanted.begin(), wanted.end(), true) == before) throw;
+  }
+  return table();
+}
+
+void StandingErrors::require(const std::vector<double>& errors) const {
   for (std::size_t e = 0; e < errors.size(); ++e)
-    if (errors[e] != 0.0 && !wanted_[e]) return false;
-  return true;
+    if (errors[e] != 0.0 && !wanted_[e])
+      throw ComputationError(refusal_.empty() ? "an error that no column was computed for" : refusal_[e]);
 }
 
 const TimeTable& StandingErrors::kept(std::map<int, TimeTable>& tables, int body, bool rate) const {
@@ -132,13 +172,10 @@ const TimeTable& StandingErrors::kept(std::map<int, TimeTable>& tables, int body
 const TimeTable& StandingErrors::gain(int body) const { return kept(gain_, body, false); }
 const TimeTable& StandingErrors::gain_rate(int body) const { return kept(gain_rate_, body, true); }
 
-const StandingDisplacement::Tables& StandingDisplacement::tables(int body) const {
-  const auto found = tables_.find(body);
-  if (found != tables_.end()) return found->second;
-  return tables_
-      .emplace(body,
-               Tables{influence_->gain(body).contracted(errors_), influence_->gain_rate(body).contracted(errors_)})
-      .first->second;
+const TimeTable& StandingDisplacement::table(std::map<int, TimeTable>& kept, int body, bool rate) const {
+  if (const auto found = kept.find(body); found != kept.end()) return found->second;
+  const TimeTable& gain = rate ? influence_->gain_rate(body) : influence_->gain(body);
+  return kept.emplace(body, gain.contracted(errors_)).first->second;
 }
 
 bool StandingDisplacement::shifts() const {
@@ -167,17 +204,17 @@ StandingDisplacement::Shift StandingDisplacement::shift(double t) const {
 
 Vec6 StandingDisplacement::at(double t, int body) const {
   Vec6 value = Vec6::Zero();
-  if (influence_) tables(body).value.at(t, value.data());
+  if (influence_) table(values_, body, false).at(t, value.data());
   return value;
 }
 
 StandingDisplacement::Motion StandingDisplacement::motion(double t, int body) const {
   Motion motion;
   if (!influence_) return motion;
-  const Tables& of_body = tables(body);
-  of_body.value.at(t, motion.value.data());
-  of_body.rate.at(t, motion.rate.data());
-  of_body.rate.slopes(t, motion.acceleration.data());
+  const TimeTable& rates = table(rates_, body, true);
+  table(values_, body, false).at(t, motion.value.data());
+  rates.at(t, motion.rate.data());
+  rates.slopes(t, motion.acceleration.data());
   return motion;
 }
 

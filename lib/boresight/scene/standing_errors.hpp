@@ -4,10 +4,12 @@
 // share them. What the errors change of the dynamics (masses elsewhere, other gaps) is of second order.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "boresight/math/time_table.hpp"
@@ -21,10 +23,14 @@ class StandingErrors {
   // value of each. Throws ComputationError as ErrorInfluence::at does; MotionTooDense where a table would need too much memory.
   StandingErrors(const Mechanism& mechanism, const IdealMotion& commanded, std::vector<bool> wanted);
   static constexpr double kAccuracy = 1e-7;
+  static constexpr int kFewestInstants = 1000;
+
+  // Of all errors that the mechanism takes up: what samples of any errors share, the same whichever comes first.
+  static std::shared_ptr<const StandingErrors> of_all(const Mechanism& mechanism, const IdealMotion& commanded);
 
   int count() const { return static_cast<int>(wanted_.size()); }
-  bool wants(std::size_t error) const { return wanted_[error]; }
-  bool covers(const std::vector<double>& errors) const;
+  // Throws ComputationError where an error that is not zero is none of those wanted, and says what of_all() found wrong with it.
+  void require(const std::vector<double>& errors) const;
   // Of one body: 6 x errors, row by row, over time; and its rate of change. Safe to share between threads.
   const TimeTable& gain(int body) const;
   const TimeTable& gain_rate(int body) const;
@@ -33,7 +39,14 @@ class StandingErrors {
   bool shifts() const { return shifts_; }
   const TimeTable& shift() const { return shift_; }
   int cells() const { return static_cast<int>(knots_.size()) - 1; }
+  // Of one body at knot k: 6 x errors.
+  Eigen::Block<const MatX> at_knot(int k, int body) const {
+    return knots_[static_cast<std::size_t>(k)].block(6 * body, 0, 6, count());
+  }
   double spacing() const { return spacing_; }
+  // Instants a cell at which statistics over time are taken where errors alone deviate: what lies between them is some 1e-4 of a
+  // maximum at most, as a cell is 0.08 of a radian of what is fastest in the columns.
+  int instants_a_cell() const { return std::max(2, (kFewestInstants + cells() - 1) / cells()); }
 
  private:
   void table_shifts(ErrorInfluence& influence);
@@ -41,6 +54,7 @@ class StandingErrors {
 
   int bodies_;
   std::vector<bool> wanted_;
+  std::vector<std::string> refusal_;  // per error; empty: none was asked for
   double spacing_ = 0.0;
   std::vector<MatX> knots_;  // 6 bodies x errors
   bool shifts_ = false;
@@ -63,6 +77,7 @@ class StandingDisplacement {
     VecX value, rate;
   };
   Shift shift(double t) const;
+  const StandingErrors& influence() const { return *influence_; }
   Vec6 at(double t, int body) const;
   struct Motion {
     Vec6 value = Vec6::Zero(), rate = Vec6::Zero(), acceleration = Vec6::Zero();
@@ -70,14 +85,12 @@ class StandingDisplacement {
   Motion motion(double t, int body) const;
 
  private:
-  struct Tables {
-    TimeTable value, rate;
-  };
-  const Tables& tables(int body) const;
+  // Of a body, contracted when first asked for.
+  const TimeTable& table(std::map<int, TimeTable>& kept, int body, bool rate) const;
 
   std::shared_ptr<const StandingErrors> influence_;
   std::vector<double> errors_;
-  mutable std::map<int, Tables> tables_;
+  mutable std::map<int, TimeTable> values_, rates_;
   mutable std::optional<TimeTable> shift_;
   mutable bool shifts_ = false;
 };

@@ -9,32 +9,32 @@
 namespace boresight {
 namespace {
 
-// Instants that are looked at, both ends among them: no two of them lie alike in a period of the motion, as their number is prime.
+// Instants that are looked at, both ends among them, each the knot before it: no two of them lie alike in a period of the motion, as
+// their number is prime.
 constexpr int kInstants = 13;
 // Below this share of the others an index counts as next to nothing.
 constexpr double kNextToNothing = 1e-4;
 
 }  // namespace
 
-double standing_model_error(const Mechanism& mechanism, const PreparedScene& prepared,
-                            const StandingDisplacement& standing, const Parameters& parameters,
-                            const PointingIndices& index) {
-  if (!standing) return 0.0;
+std::optional<PoseError> missed_by_linearity(const Mechanism& mechanism, const IdealMotion& ideal,
+                                             const StandingErrors& influence, const Parameters& parameters) {
   const int boresight = mechanism.boresight_body();
-  const double length = mechanism.characteristic_length();
+  const Eigen::Map<const VecX> errors(parameters.error.data(), static_cast<Eigen::Index>(parameters.error.size()));
   PoseError missed;
   try {
     // The solver asks for drives' laws alone of what was commanded, which outlives it here.
-    const std::shared_ptr<const IdealMotion> commanded(std::shared_ptr<const IdealMotion>(), &prepared.ideal());
+    const std::shared_ptr<const IdealMotion> commanded(std::shared_ptr<const IdealMotion>(), &ideal);
     const auto built = built_mechanism(mechanism, parameters, commanded);
     IdealSolver solver(*built);
     for (int i = 0; i < kInstants; ++i) {
-      const double t = mechanism.duration() * i / (kInstants - 1);
+      const int knot = i * influence.cells() / (kInstants - 1);
+      const double t = std::min(mechanism.duration(), knot * influence.spacing());
       IdealState state;
-      prepared.ideal().state(t, state);
-      for (int b = 0; b < mechanism.bodies(); ++b) displace(state.bodies[b], standing.at(t, b));
+      ideal.state(t, state);
+      for (int b = 0; b < mechanism.bodies(); ++b) displace(state.bodies[b], influence.at_knot(knot, b) * errors);
       const BodyMotion linear = state.bodies[boresight];
-      if (!solver.solve(t, state)) return 1.0;
+      if (!solver.solve(t, state)) return {};
       const BodyMotion& exact = state.bodies[boresight];
       const PoseError off = pose_error({exact.p, Quat(exact.R)}, {linear.p, Quat(linear.R)}, mechanism.pointing());
       missed.position = std::max(missed.position, off.position);
@@ -43,8 +43,20 @@ double standing_model_error(const Mechanism& mechanism, const PreparedScene& pre
       missed.line_of_sight = std::max(missed.line_of_sight, off.line_of_sight);
     }
   } catch (const ComputationError&) {
-    return 1.0;
+    return {};
   }
+  return missed;
+}
+
+double standing_model_error(const Mechanism& mechanism, const PreparedScene& prepared,
+                            const StandingDisplacement& standing, const Parameters& parameters,
+                            const PointingIndices& index) {
+  if (!standing) return 0.0;
+  const std::optional<PoseError> found =
+      missed_by_linearity(mechanism, prepared.ideal(), standing.influence(), parameters);
+  if (!found) return 1.0;
+  const PoseError& missed = *found;
+  const double length = mechanism.characteristic_length();
   const double largest =
       std::max({index.position_error.max, length * index.orientation_error.max, length * index.boresight_error.max});
   double share = 0.0;

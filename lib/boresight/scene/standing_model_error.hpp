@@ -1,10 +1,16 @@
 // What the columns of influence leave out of standing errors: the built mechanism's joints are closed exactly at some instants of the motion.
 #pragma once
 
+#include <optional>
+
 #include "boresight/pointing/indices.hpp"
 #include "boresight/scene/scene_rung.hpp"
 
 namespace boresight {
+
+// Largest differences of the boresight body's exact pose and the linear one over those instants. Nothing where the joints do not close.
+std::optional<PoseError> missed_by_linearity(const Mechanism& mechanism, const IdealMotion& commanded,
+                                             const StandingErrors& influence, const Parameters& parameters);
 
 // Largest difference of the exact pose and the linear one, relative to the largest value of each index; what is next to nothing counts
 // against a little of the largest of the others, on the mechanism's size. 1 where the joints do not close. 0 without errors.

@@ -65,6 +65,61 @@ TEST(ExactSlopes, AgreeWithDifferencesWhereTheMotionIsPredictable) {
   EXPECT_NEAR(radial.exact, radial.derivative.back(), 0.02 * std::abs(radial.exact));
 }
 
+// Beside the play an error displaces the pose: its slope, of either sign, is that of small differences of the rung.
+TEST(ExactSlopes, ByAStandingErrorAreThoseOfDifferences) {
+  MechanismDescription m = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml",
+                                          {{"motion.duration", "20 ms"}});
+  for (const std::string joint : {"A", "B"}) {
+    for (std::size_t j = 0; j < m.joints.size(); ++j) {
+      if (m.joints[j].name != joint) continue;
+      ErrorDescription e;
+      e.name = joint + ".x";
+      e.joint = static_cast<int>(j);
+      e.body = m.joints[j].second;
+      e.direction = Vec3(0.8, 0.0, 0.6);
+      m.errors.push_back(e);
+    }
+  }
+  ASSERT_FALSE(m.errors.empty());
+  const auto mechanism = std::make_shared<const Mechanism>(m);
+  for (const char* statistic : {"mean", "rms", "max"}) {
+    const IndexChoice index{"position_error", statistic};
+    RandomInputs inputs;
+    LocalResult local;
+    for (const ErrorDescription& e : m.errors) {
+      RandomParameter p;
+      p.paths = {"error." + e.name};
+      p.places = {ParameterPath(m, p.paths.front())};
+      p.distribution = make_normal(2e-5, 1e-5);
+      inputs.parameters.push_back(p);
+      LocalSensitivity s;
+      s.median = 2e-5;
+      local.parameters.push_back(s);
+    }
+    RunOptions run;
+    run.integrator = "dopri5";
+    run.tolerance = 1e-7;
+    run.sample_spacing = 1e-5;
+    const std::vector<double> medians(m.errors.size(), 2e-5);
+    for (std::size_t i = 0; i < medians.size(); ++i) {
+      double value[2];
+      for (int side = 0; side < 2; ++side) {
+        std::vector<double> at = medians;
+        at[i] += side == 0 ? 1e-8 : -1e-8;
+        value[side] =
+            index.of(make_rung("perturbation", mechanism)->run(inputs.parameters_with(*mechanism, at), run).index);
+      }
+      local.parameters[i].derivative.back() = (value[0] - value[1]) / 2e-8;
+      local.parameters[i].meaningful = true;
+    }
+    add_exact_slopes(mechanism, inputs, index, run, local);
+    for (const LocalSensitivity& s : local.parameters) {
+      EXPECT_GT(std::abs(s.exact), 0.01) << statistic;
+      EXPECT_NEAR(s.exact, s.derivative.back(), 0.01 * std::abs(s.exact)) << statistic << ": " << s.exact_note;
+    }
+  }
+}
+
 TEST(ExactSlopes, AreThoseByNumbersOfContactsOnly) {
   Study study("20 ms");
   study.take_differences(1e-3);

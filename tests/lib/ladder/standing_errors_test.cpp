@@ -8,36 +8,17 @@
 #include "bearing_pair_scenes.hpp"
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/ladder/ladder.hpp"
-#include "boresight/math/time_function.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/error_influence.hpp"
 #include "boresight/mechanism/ideal_solver.hpp"
+#include "error_scenes.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
 namespace {
 
+using scenes::drive_error, scenes::frame_error, scenes::with_every_error;
 using Kind = ErrorDescription::Kind;
-
-ErrorDescription frame_error(const MechanismDescription& m, Kind kind, const std::string& joint,
-                             const std::string& body, const Vec3& direction) {
-  ErrorDescription e;
-  e.name = joint + "." + body + std::to_string(m.errors.size());
-  e.kind = kind;
-  for (std::size_t j = 0; j < m.joints.size(); ++j)
-    if (m.joints[j].name == joint) e.joint = static_cast<int>(j);
-  e.body = kGround;
-  for (std::size_t b = 0; b < m.bodies.size(); ++b)
-    if (m.bodies[b].name == body) e.body = static_cast<int>(b);
-  e.direction = direction;
-  return e;
-}
-
-ErrorDescription drive_error(const MechanismDescription& m, const std::string& joint, const std::string& law) {
-  ErrorDescription e = frame_error(m, Kind::drive, joint, "", Vec3::Zero());
-  e.law = parse_coordinate_function(law);
-  return e;
-}
 
 std::shared_ptr<const IdealMotion> commanded_of(const Mechanism& mechanism) {
   return std::make_shared<const IdealMotion>(ideal_motion(mechanism, mechanism.parameters()));
@@ -105,30 +86,6 @@ TEST(StandingErrors, ArePrintedByAnIndependentProgramToSevenDigits) {
       EXPECT_LT(result.error.model, 2e-4) << name;
     }
   }
-}
-
-// All errors that a mechanism can have: every joint's frame in both its bodies along and about all axes, every drive by three laws,
-// every body and the ground growing.
-MechanismDescription with_every_error(MechanismDescription m) {
-  const std::vector<JointDescription> joints = m.joints;
-  const auto name_of = [&](int body) { return body == kGround ? std::string("ground") : m.bodies[body].name; };
-  for (const JointDescription& j : joints) {
-    for (const int body : {j.first, j.second})
-      for (const Kind kind : {Kind::translation, Kind::rotation})
-        for (int axis = 0; axis < 3; ++axis)
-          m.errors.push_back(frame_error(m, kind, j.name, name_of(body), Vec3::Unit(axis)));
-    if (!j.driven) continue;
-    for (const char* law : {"1", "q + t", "sin(3*q)"}) m.errors.push_back(drive_error(m, j.name, law));
-  }
-  for (int body = kGround; body < static_cast<int>(m.bodies.size()); ++body) {
-    ErrorDescription e;
-    e.name = "growth of " + name_of(body);
-    e.kind = Kind::expansion;
-    e.body = body;
-    e.coefficient = 1e-5;
-    m.errors.push_back(e);
-  }
-  return m;
 }
 
 // The linear columns against differences of the exact closure (fourth order), at some instants.

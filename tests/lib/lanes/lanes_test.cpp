@@ -4,6 +4,7 @@
 #include <limits>
 #include <random>
 
+#include "bearing_pair_scenes.hpp"
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/lanes/perturbation_lanes.hpp"
@@ -309,13 +310,15 @@ TEST(Lanes, RefuseLawsThatTheyDoNotHave) {
   EXPECT_FALSE(PerturbationLanes::serve(*scenes::build(std::move(d))));
 }
 
-TEST(Lanes, LeaveMechanismsWithStandingErrorsToTheRung) {
-  MechanismDescription d = scenes::rrcpr();
-  ErrorDescription length;
-  length.name = "length";
-  length.joint = d.clearances[0].joint;
-  length.body = d.clearances[0].journal;
-  d.errors.push_back(length);
+// An error of a seat may use up play of the other bearing: a scene of the sample's own.
+TEST(Lanes, LeaveBearingPairsWithStandingErrorsToTheRung) {
+  MechanismDescription d = scenes::gimbal({"E1", "E2"}, JournalAxes::parallel);
+  EXPECT_TRUE(PerturbationLanes::serve(*scenes::build(MechanismDescription(d))));
+  ErrorDescription seat;
+  seat.name = "seat";
+  seat.joint = d.clearances[0].joint;
+  seat.body = d.clearances[0].journal;
+  d.errors.push_back(seat);
   EXPECT_FALSE(PerturbationLanes::serve(*scenes::build(std::move(d))));
 }
 

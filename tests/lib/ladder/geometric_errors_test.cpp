@@ -1,0 +1,173 @@
+// Pure geometry in batches: what the rungs give for the same samples one by one.
+#include "boresight/scene/geometric_errors.hpp"
+
+#include <gtest/gtest.h>
+
+#include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/scene/standing_model_error.hpp"
+#include "error_scenes.hpp"
+
+namespace boresight {
+namespace {
+
+struct Choice {
+  PointingQuantity quantity;
+  Statistics PointingIndices::*of;
+};
+constexpr Choice kQuantities[] = {{PointingQuantity::position_error, &PointingIndices::position_error},
+                                  {PointingQuantity::orientation_error, &PointingIndices::orientation_error},
+                                  {PointingQuantity::boresight_error, &PointingIndices::boresight_error},
+                                  {PointingQuantity::line_of_sight_error, &PointingIndices::line_of_sight_error}};
+struct Kept {
+  TimeStatistic statistic;
+  double Statistics::*of;
+};
+constexpr Kept kStatistics[] = {{TimeStatistic::max, &Statistics::max},
+                                {TimeStatistic::rms, &Statistics::rms},
+                                {TimeStatistic::mean, &Statistics::mean},
+                                {TimeStatistic::p9973, &Statistics::p9973}};
+
+// Only errors that the mechanism takes up.
+Parameters taken_up(const Mechanism& mechanism, Parameters sample) {
+  const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
+  const auto all = StandingErrors::of_all(mechanism, ideal);
+  for (std::size_t e = 0; e < sample.error.size(); ++e) {
+    std::vector<double> alone(sample.error.size(), 0.0);
+    alone[e] = sample.error[e];
+    try {
+      all->require(alone);
+    } catch (const ComputationError&) {
+      sample.error[e] = 0.0;
+    }
+  }
+  return sample;
+}
+
+void expect_the_rungs(const std::shared_ptr<const Mechanism>& mechanism, const std::vector<Parameters>& samples,
+                      double start, const std::string& name) {
+  RunOptions options;
+  options.sample_spacing = 0.0;
+  options.start = start;
+  const auto rung = make_rung("quasistatic", mechanism);
+  std::vector<PointingIndices> expected;
+  for (const Parameters& sample : samples) expected.push_back(rung->run(sample, options).index);
+  for (const Choice& choice : kQuantities) {
+    if (choice.quantity == PointingQuantity::line_of_sight_error && !expected[0].has_line_of_sight) continue;
+    for (const Kept& kept : kStatistics) {
+      std::vector<GeometricOutcome> outcomes(samples.size());
+      const GeometricErrors geometry(mechanism, choice.quantity, kept.statistic, start);
+      EXPECT_EQ(geometry.run(samples, outcomes), samples.size());
+      for (std::size_t k = 0; k < samples.size(); ++k) {
+        const Statistics& one = expected[k].*choice.of;
+        EXPECT_EQ(outcomes[k].refusal, "");
+        EXPECT_NEAR(outcomes[k].value, one.*kept.of, 1e-9 * one.*kept.of + 1e-18)
+            << name << ", quantity " << static_cast<int>(choice.quantity) << ", statistic "
+            << static_cast<int>(kept.statistic) << ", sample " << k << ", from " << start << " s";
+        const bool has_peak = kept.statistic == TimeStatistic::max && one.max > 1e-12;
+        EXPECT_EQ(outcomes[k].time_of_max, has_peak ? one.time_of_max : outcomes[k].time_of_max) << name;
+      }
+    }
+  }
+}
+
+MechanismDescription without_play() {
+  MechanismDescription m = scenes::rrcpr();
+  m.clearances.clear();
+  return m;
+}
+
+// Every fifth of all errors: of all kinds.
+MechanismDescription with_many_errors() {
+  MechanismDescription m = scenes::with_every_error(without_play());
+  std::vector<ErrorDescription> some;
+  for (std::size_t e = 0; e < m.errors.size(); e += 5) some.push_back(m.errors[e]);
+  m.errors = some;
+  return m;
+}
+
+TEST(GeometricErrors, GiveWhatTheRungGivesInEveryStatistic) {
+  const auto mechanism = scenes::build(with_many_errors());
+  ASSERT_TRUE(GeometricErrors::serve(*mechanism));
+  std::vector<Parameters> samples;
+  for (unsigned k = 0; k < 11; ++k) samples.push_back(scenes::with_scattered_errors(*mechanism, k));
+  // Turns so large that no series serves: the linear pose is the same all the same.
+  samples.push_back(scenes::with_scattered_errors(*mechanism, 11, 3e3));
+  expect_the_rungs(mechanism, samples, 0.0, "default");
+  expect_the_rungs(mechanism, samples, 0.30007, "default");
+}
+
+TEST(GeometricErrors, GiveWhatTheRungGivesOnEveryKindOfMechanism) {
+  int compared = 0;
+  for (const char* file : {"hexapod-6-ups", "universal-joint-shaft", "tip-tilt-mirror", "spherical-wrist", "lens-focus",
+                           "two-axis-gimbal", "delta"}) {
+    MechanismDescription m = read_mechanism(std::string(BORESIGHT_CORPUS) + "/" + file + ".toml");
+    m.clearances.clear();
+    const auto mechanism = scenes::build(scenes::with_every_error(m));
+    if (!GeometricErrors::serve(*mechanism)) continue;
+    expect_the_rungs(mechanism, {taken_up(*mechanism, scenes::with_scattered_errors(*mechanism, 1))}, 0.0, file);
+    ++compared;
+  }
+  EXPECT_GE(compared, 4);
+}
+
+TEST(GeometricErrors, AreASamplesOwnToTheLastBit) {
+  const auto mechanism = scenes::build(with_many_errors());
+  const GeometricErrors geometry(mechanism, PointingQuantity::boresight_error, TimeStatistic::rms);
+  std::vector<Parameters> samples;
+  for (unsigned k = 0; k < 19; ++k) samples.push_back(scenes::with_scattered_errors(*mechanism, k));
+  std::vector<GeometricOutcome> together(samples.size()), alone(samples.size());
+  geometry.run(samples, together);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    geometry.run({&samples[k], 1}, {&alone[k], 1});
+    EXPECT_EQ(alone[k].value, together[k].value);
+    EXPECT_EQ(alone[k].model_error, together[k].model_error);
+  }
+}
+
+// What the estimate for many samples says of second order, against each sample's exact closure.
+TEST(GeometricErrors, SayWhatBeingLinearMisses) {
+  const auto mechanism = scenes::build(with_many_errors());
+  const GeometricErrors geometry(mechanism, PointingQuantity::position_error, TimeStatistic::max);
+  const IdealMotion ideal = ideal_motion(*mechanism, mechanism->parameters());
+  const auto influence = StandingErrors::of_all(*mechanism, ideal);
+  int below = 0;
+  for (unsigned k = 0; k < 20; ++k) {
+    const Parameters sample = scenes::with_scattered_errors(*mechanism, 100 + k, 10.0);
+    GeometricOutcome out;
+    geometry.run({&sample, 1}, {&out, 1});
+    const auto missed = missed_by_linearity(*mechanism, ideal, *influence, sample);
+    ASSERT_TRUE(missed);
+    below += out.model_error * out.value < missed->position;
+    EXPECT_LT(out.model_error * out.value, 100.0 * missed->position);
+  }
+  EXPECT_LE(below, 2);
+}
+
+// A part held twice cannot take an error up: that sample is refused by its name, those beside it are computed.
+TEST(GeometricErrors, RefuseTheSampleThatStrainsAndNoOther) {
+  MechanismDescription m = scenes::four_bar({{0, 0, 0}, {0, 0, 0.3}, {0.5, 0, 0.4}, {0.6, 0, 0}}, true, "0.5*sin(t)");
+  m.errors.push_back(
+      scenes::frame_error(m, ErrorDescription::Kind::rotation, m.joints[1].name, m.bodies[0].name, Vec3::UnitX()));
+  m.errors.push_back(
+      scenes::frame_error(m, ErrorDescription::Kind::translation, m.joints[1].name, m.bodies[0].name, Vec3::UnitZ()));
+  const auto mechanism = scenes::build(m);
+  const GeometricErrors geometry(mechanism, PointingQuantity::position_error, TimeStatistic::max);
+  std::vector<Parameters> samples(2, mechanism->parameters());
+  samples[0].error = {1e-4, 1e-4};
+  samples[1].error = {0.0, 1e-4};
+  std::vector<GeometricOutcome> outcomes(2);
+  geometry.run(samples, outcomes);
+  EXPECT_NE(outcomes[0].refusal.find(m.errors[0].name), std::string::npos) << outcomes[0].refusal;
+  EXPECT_EQ(outcomes[1].refusal, "");
+  EXPECT_GT(outcomes[1].value, 1e-5);
+}
+
+TEST(GeometricErrors, ServeWhereNoPlayCanMoveOnly) {
+  EXPECT_FALSE(GeometricErrors::serve(*scenes::build(without_play()))) << "no errors";
+  EXPECT_FALSE(GeometricErrors::serve(*scenes::build(scenes::with_every_error(scenes::rrcpr())))) << "F1 moves";
+}
+
+}  // namespace
+}  // namespace boresight
