@@ -41,12 +41,18 @@ struct LaneScene {
   }
 };
 
-// What one sample's standing errors add to the index over time.
-struct LaneStanding {
-  const double* knots = nullptr;  // [knot][8]: three values, 0, three slopes times the spacing, 0; null: no errors
+// Functions of one sample's own, cubics between knots at equal distances.
+struct LaneCourses {
+  const double* knots = nullptr;  // [knot][2 count]: values, then slopes times the spacing; null: all are zero
   int cells = 0;                  // between the knots
   double per_spacing = 0.0;       // cells a second
-  double longest_step = 1e300;    // across which a parabola still follows them [s]
+};
+
+// What one sample's standing errors add over time.
+struct LaneStanding {
+  LaneCourses index;            // three numbers
+  LaneCourses loads;            // n: to what the scene's rows say of r
+  double longest_step = 1e300;  // across which a parabola still follows them [s]
 };
 
 struct LaneJob {

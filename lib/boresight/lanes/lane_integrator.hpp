@@ -10,7 +10,7 @@
 
 #include "boresight/lanes/lane_clock.hpp"
 #include "boresight/lanes/lane_contacts.hpp"
-#include "boresight/lanes/lane_standing.hpp"
+#include "boresight/lanes/lane_courses.hpp"
 #include "boresight/lanes/lane_statistics.hpp"
 
 namespace boresight {
@@ -103,7 +103,8 @@ class LaneIntegrator {
       contacts_.tolerance[c].set(l, job.gap_tolerance[c]);
       contacts_.slowest[c].set(l, job.joints[c].minimum_impact_speed);
     }
-    standing_.set(l, job.standing);
+    standing_.set(l, job.standing.index);
+    step_.set_loads(l, job.standing.loads, job.standing.longest_step);
     longest_.set(l, std::min(step_.longest(), job.standing.longest_step));
     clock_.set(l, 0.0, job.scene->duration);
     contact_since_.set(l, 0.0);
@@ -121,6 +122,7 @@ class LaneIntegrator {
   void rest(int l) {
     jobs_of_[l] = nullptr;
     standing_.set(l, {});
+    step_.set_loads(l, {}, settings_.longest_step);
     for (int k = 0; k < count(); ++k) {
       z_[k].set(l, 0.0);
       v_[k].set(l, 0.0);
@@ -261,7 +263,7 @@ class LaneIntegrator {
   typename Step::Pairs error_, tolerance_;    // of offsets, then of rates
   std::vector<T> held_;                       // how long each joint touched, from the start of the statistics on [s]
   LaneStatistics<T> statistics_;
-  LaneStandingErrors<T> standing_;
+  LaneOwnCourses<T> standing_{3};
   LaneClock<T> clock_;
   T h_{1.0}, entry_{1.0}, longest_{1.0};
   T contact_since_{0.0}, touching_time_{0.0}, deepest_{0.0}, impacts_{0.0}, steps_{0.0}, rejected_{0.0};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "boresight/lanes/lane_clock.hpp"
+#include "boresight/lanes/lane_courses.hpp"
 #include "boresight/lanes/lane_rosenbrock.hpp"
 #include "boresight/lanes/lane_rows.hpp"
 #include "boresight/lanes/lane_statistics.hpp"
@@ -32,16 +33,18 @@ class LaneRowStep {
   static constexpr Pairs pairs() { return {}; }
   double longest() const { return longest_; }
 
+  // What a lane's sample adds to r.
+  void set_loads(int lane, const LaneCourses& loads, double) { loads_.set(lane, loads); }
   // Lanes that stand at the start of their motion.
   void open(const Mask& lanes, const Scenes& scenes, const LaneClock<T>& clock) {
-    scene_rows(scenes.data(), clock.times(), width_, new_row_.data());
+    read(scenes, clock.times());
     for (int k = 0; k < used(); ++k) row_[k] = select(lanes, new_row_[k], row_[k]);
   }
   T index_at_start(const T* z, const T* standing) const { return index_value(N, &new_row_[gain_], z, standing); }
 
   void step(const Mask&, const Scenes& scenes, const LaneClock<T>& clock, const T& h, const T* z, const T* v, T* new_z,
             T* new_v, T* error) {
-    scene_rows(scenes.data(), clock.next(), width_, new_row_.data());
+    read(scenes, clock.next());
     for (int k = 0; k < used(); ++k) change_[k] = new_row_[k] - row_[k];
     method_.step(play, row_.data(), change_.data(), h, z, v, new_z, new_v, error);
   }
@@ -64,11 +67,19 @@ class LaneRowStep {
   LaneDynamics<T, Layout> play;
 
  private:
+  void read(const Scenes& scenes, const double* t) {
+    scene_rows(scenes.data(), t, width_, new_row_.data());
+    if (!loads_.any()) return;
+    T change[N];
+    loads_.at(t, change);
+    for (int k = 0; k < N; ++k) new_row_[static_cast<std::size_t>(play.at.Ar + k)] += change[k];
+  }
   int used() const { return play.at.width + 3 * N; }  // of a row's columns
 
   double longest_;
   int width_, gain_;
   LaneRosenbrock<T, Layout> method_;
+  LaneOwnCourses<T> loads_{N};
   std::vector<T> row_, new_row_, change_;
 };
 

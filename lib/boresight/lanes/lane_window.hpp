@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "boresight/lanes/lane_batch.hpp"
+#include "boresight/lanes/lane_courses.hpp"
 #include "boresight/lanes/lane_numbers.hpp"
 
 namespace boresight {
@@ -24,6 +25,8 @@ class LaneWindow {
   // gain: first column of the index's gain; length: of a window [s].
   LaneWindow(const SceneLayout& at, int gain, double length)
       : length_(length),
+        first_of_load_(at.Ar),
+        loads_(at.n),
         row_(static_cast<std::size_t>(gain + 3 * at.n), T(0.0)),
         first_(row_.size()),
         last_(row_.size()) {
@@ -45,17 +48,25 @@ class LaneWindow {
     }
     from_ = rate_ = row_;
     start_.fill(0.0);
+    length_of_.fill(length);
   }
 
   double length() const { return length_; }
+  // What a lane's sample adds to r; longest: of its windows [s].
+  void set_loads(int lane, const LaneCourses& loads, double longest) {
+    loads_.set(lane, loads);
+    length_of_[lane] = std::min(length_, longest);
+  }
   // Whether a lane's window goes on to t.
-  bool reaches(int lane, double t) const { return t <= start_[lane] + length_; }
+  bool reaches(int lane, double t) const { return t <= start_[lane] + length_of_[lane]; }
 
   void open(int lane, const LaneScene& scene, double t) {
     start_[lane] = t;
-    const double end = std::min(t + length_, scene.duration), length = end - t;
+    const double end = std::min(t + length_of_[lane], scene.duration), length = end - t;
     read(scene, t, first_.data());
     read(scene, end, last_.data());
+    loads_.add(lane, t, &first_[first_of_load_]);
+    loads_.add(lane, end, &last_[first_of_load_]);
     const Real per_second = static_cast<Real>(length > 0.0 ? 1.0 / length : 0.0);
     for (std::size_t k = 0; k < row_.size(); ++k) {
       from_[k].set(lane, first_[k]);
@@ -107,11 +118,13 @@ class LaneWindow {
   }
 
   double length_;
+  std::size_t first_of_load_;
+  LaneOwnCourses<T> loads_;
   std::vector<T> row_, from_, rate_;
   std::vector<Real> first_, last_;  // of the lane that opens a window
   std::vector<Line> lines_, still_;
   std::size_t motion_lines_ = 0;
-  std::array<double, W> start_;
+  std::array<double, W> start_, length_of_;
 };
 
 }  // namespace boresight

@@ -28,6 +28,8 @@ class LaneWindowStep {
   Pairs pairs() const { return Pairs(static_cast<std::size_t>(2 * n_), T(0.0)); }
   double longest() const { return window_.length(); }
 
+  // What a lane's sample adds to r, and its longest step [s].
+  void set_loads(int lane, const LaneCourses& loads, double longest) { window_.set_loads(lane, loads, longest); }
   void open(const Mask& lanes, const Scenes& scenes, const LaneClock<T>& clock) {
     for (int l = 0; l < W; ++l)
       if (lanes.lane(l)) window_.open(l, *scenes[l], clock.now(l));

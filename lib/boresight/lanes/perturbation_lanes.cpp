@@ -28,6 +28,8 @@ constexpr double kSlowestCrossing = 0.03;
 constexpr double kHeldShare = 0.5;
 // The longest step in cells of the errors' table, whose cubics meet them to 1e-7: a parabola across eight of these misses some 1e-3.
 constexpr double kCellsOfErrors = 8.0;
+// The same of what errors change of the loads: straight lines across a step, of tables of a thousandth.
+constexpr double kCellsOfLoads = 0.5;
 // Of scenes of different masses: kept for samples to come, and held by the samples of one call.
 constexpr std::size_t kScenesKept = 64;
 constexpr double kMostBytesKept = 2.5e8, kMostBytesHeld = 1e9;
@@ -228,7 +230,22 @@ struct PerturbationLanes::Batch {
   std::list<std::vector<double>> standing;
   VecX values;  // of the errors at the knots, while they are contracted
   std::vector<LaneJob> jobs;
-  double bytes = 0.0;  // of scenes that only this batch needs, at most
+  double bytes = 0.0;  // of scenes that only this batch needs, at most, and of courses
+
+  // values: knots x count, row by row.
+  LaneCourses courses(int count, double spacing, const std::vector<double>& values_at) {
+    const int knots_of = static_cast<int>(values_at.size()) / count;
+    std::vector<double>& knots = standing.emplace_back(2 * values_at.size());
+    bytes += static_cast<double>(knots.size() * sizeof(double));
+    for (int k = 0; k < knots_of; ++k)
+      for (int i = 0; i < count; ++i) {
+        const auto value = [&](int j) { return values_at[static_cast<std::size_t>(j * count + i)]; };
+        const auto at = static_cast<std::size_t>(2 * k * count + i);
+        knots[at] = value(k);
+        knots[at + static_cast<std::size_t>(count)] = TimeTable::slope_at_knot(k, knots_of, value);
+      }
+    return {.knots = knots.data(), .cells = knots_of - 1, .per_spacing = 1.0 / spacing};
+  }
 };
 
 void PerturbationLanes::add(const Parameters& sample, double tolerance, Batch& to) const {
@@ -278,23 +295,21 @@ void PerturbationLanes::add(const Parameters& sample, double tolerance, Batch& t
 void PerturbationLanes::add_errors(const Parameters& sample, const Prepared& prepared, Batch& to) const {
   const std::shared_ptr<const ErrorsOverTime> errors = errors_for(prepared.scene);
   errors->influence->require(sample.error);
-  if (StandingDisplacement(errors->influence, sample.error).shifts())
+  const StandingDisplacement standing(errors->influence, sample.error);
+  if (standing.shifts())
     throw ComputationError(
         "an error takes up play of redundant joints, which the perturbation rung follows and lanes do not");
   const StandingColumns& columns = errors->columns;
   columns.contract(sample.error, to.values);
-  std::vector<double>& knots = to.standing.emplace_back(static_cast<std::size_t>(columns.knots) * 8, 0.0);
-  for (int k = 0; k < columns.knots; ++k)
-    for (int i = 0; i < 3; ++i) {
-      const auto at = static_cast<std::size_t>(8 * k + i);
-      knots[at] = to.values[3 * k + i];
-      knots[at + 4] = TimeTable::slope_at_knot(k, columns.knots, [&](int j) { return to.values[3 * j + i]; });
-    }
-  to.bytes += static_cast<double>(knots.size() * sizeof(double));
-  to.jobs.back().standing = {.knots = knots.data(),
-                             .cells = columns.knots - 1,
-                             .per_spacing = 1.0 / columns.spacing,
-                             .longest_step = kCellsOfErrors * columns.spacing};
+  LaneStanding& own = to.jobs.back().standing;
+  own.index = to.courses(3, columns.spacing, {to.values.begin(), to.values.end()});
+  own.longest_step = kCellsOfErrors * columns.spacing;
+  const StandingLoads::Change change = prepared.lane.form == SceneForm::accelerations
+                                           ? prepared.scene->changed_accelerations(sample, standing, *prepared.tables)
+                                           : prepared.scene->changed_loads(sample, standing);
+  if (change.values.empty()) return;
+  own.loads = to.courses(prepared.tables->layout.n, change.spacing, change.values);
+  own.longest_step = std::min(own.longest_step, kCellsOfLoads * change.spacing);
 }
 
 double PerturbationLanes::error_of_linearity(const Parameters& sample, double index) const {

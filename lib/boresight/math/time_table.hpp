@@ -90,15 +90,27 @@ class TimeTable {
 
   // out: `width` values at t.
   void at(double t, double* out) const {
-    const double x = t / spacing_;
-    const int k = std::clamp(static_cast<int>(x), 0, cells_ - 1);
-    const double s = x - k;
-    const double* c = &coefficients_[static_cast<std::size_t>(k) * 4 * width_];
+    const double* c;
+    const double s = share_of_cell(t, c);
     const double *c1 = c + width_, *c2 = c1 + width_, *c3 = c2 + width_;
     for (int j = 0; j < width_; ++j) out[j] = c[j] + s * (c1[j] + s * (c2[j] + s * c3[j]));
   }
+  // The same added to what there is.
+  void add(double t, double* out) const {
+    const double* c;
+    const double s = share_of_cell(t, c);
+    const double *c1 = c + width_, *c2 = c1 + width_, *c3 = c2 + width_;
+    for (int j = 0; j < width_; ++j) out[j] += c[j] + s * (c1[j] + s * (c2[j] + s * c3[j]));
+  }
 
  private:
+  double share_of_cell(double t, const double*& coefficients) const {
+    const double x = t / spacing_;
+    const int k = std::clamp(static_cast<int>(x), 0, cells_ - 1);
+    coefficients = cell(k);
+    return x - k;
+  }
+
   double spacing_ = 1.0;
   int width_ = 0, cells_ = 0;
   std::vector<double> coefficients_;  // [cell][power][function]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/offset_choice.hpp"
 
 namespace boresight {
@@ -122,8 +123,12 @@ std::shared_ptr<const Mechanism> built_mechanism(const Mechanism& drawn, const P
   }
   std::shared_ptr<const OffsetChoice> choice;
   if (drawn.clearances() > 0) {
-    auto chosen = std::make_shared<OffsetChoice>(choose_offsets(drawn, *commanded));
-    if (chosen->has_dependent) choice = std::move(chosen);
+    try {
+      auto chosen = std::make_shared<OffsetChoice>(choose_offsets(drawn, *commanded));
+      if (chosen->has_dependent) choice = std::move(chosen);
+    } catch (const ComputationError&) {
+      // Offsets do not describe all that the mechanism can do. Its joints are closed as drawn, and multibody follows it.
+    }
   }
   return std::make_shared<const Mechanism>(drawn, std::move(geometry), std::move(drives), std::move(choice));
 }

@@ -202,9 +202,9 @@ class Perturbation final : public SceneRung {
     constexpr int kInstants = 41;
     const SceneLayout& at = system.layout();
     const std::size_t n = at.joints.size();
-    std::vector<double> square(n, 0.0), largest(n, 0.0), row(prepared.tables(parameters)->dynamics.width());
+    std::vector<double> square(n, 0.0), largest(n, 0.0), row(system.tables().dynamics.width());
     for (int i = 0; i < kInstants; ++i) {
-      prepared.tables(parameters)->dynamics.at(mechanism().duration() * i / (kInstants - 1), row.data());
+      system.tables().at(mechanism().duration() * i / (kInstants - 1), row.data());
       for (std::size_t c = 0; c < n; ++c) {
         double sum = 0.0;
         for (int k = 0; k < std::min(3, at.joints[c].offsets); ++k)

@@ -84,7 +84,7 @@ bool PerturbationSystem::touching() const {
 // Two stages of a step share their time, and so do a step's end and the next one's start.
 void PerturbationSystem::scene_at(double t) const {
   if (t == row_time_) return;
-  tables_->dynamics.at(t, row_.data());
+  tables_->at(t, row_.data());
   row_time_ = t;
 }
 

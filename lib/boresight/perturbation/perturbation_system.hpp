@@ -41,6 +41,7 @@ class PerturbationSystem {
 
   // The scene's functions of time at the time last asked for.
   const double* row() const { return row_.data(); }
+  const SceneTables& tables() const { return *tables_; }
   const SceneLayout& layout() const { return tables_->layout; }
   const std::vector<JointPlay>& joints() const { return joints_; }
   std::vector<ContactTracker>& trackers() { return trackers_; }

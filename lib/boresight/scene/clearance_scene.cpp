@@ -41,24 +41,8 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const Parameters& par
       offsets_(mechanism),
       coordinates_(mechanism, ideal),
       layout_(offsets_, coordinates_,
-              coordinates_.leftover() > 0 || moving() || !mechanism.description().springs.empty()) {
-  const MechanismDescription& m = mechanism.description();
-  std::vector<Element> fixed;
-  for (int b = 0; b < mechanism.bodies(); ++b) fixed.push_back({.body = b, .inertia = m.bodies[b].inertia});
-  groups_.push_back(std::move(fixed));
-  for (int b = 0; b < mechanism.bodies(); ++b) {
-    const BodyDescription& body = m.bodies[b];
-    groups_.push_back(
-        {{.body = b, .c = body.axes.transpose() * (parameters.body_center[b] - body.center_of_mass), .mass = 1.0}});
-  }
-  if (m.payload) {
-    const BodyDescription& carrier = m.bodies[m.payload->body];
-    groups_.push_back({{.body = m.payload->body,
-                        .c = carrier.axes.transpose() * (parameters.payload_center - carrier.center_of_mass),
-                        .mass = 1.0,
-                        .inertia = m.payload->gyration.array().square().matrix().asDiagonal()}});
-  }
-}
+              coordinates_.leftover() > 0 || moving() || !mechanism.description().springs.empty()),
+      groups_(riding_masses(mechanism, parameters)) {}
 
 SceneStart ClearanceScene::start_of(const Parameters& parameters, const Knot& first) const {
   SceneStart start{{}, start_rates(mechanism_, parameters, first.state, first.T, first.T_rate)};
@@ -201,7 +185,7 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
   if (layout_.n == 0) return knot;  // no play can move
   knot.elements.assign(groups_.size() * element_size(), 0.0);
   for (std::size_t g = 0; g < groups_.size(); ++g)
-    for (const Element& element : groups_[g]) add_element(element, knot, &knot.elements[g * element_size()]);
+    for (const RidingMass& element : groups_[g]) add_element(element, knot, &knot.elements[g * element_size()]);
   for (const SpringDescription& spring : mechanism_.description().springs)
     knot.springs.push_back(spring_gain(mechanism_.description(), spring, knot.state, knot.T, knot.T_rate));
   if (coordinates_.leftover() > 0) {

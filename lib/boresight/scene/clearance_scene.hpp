@@ -28,6 +28,7 @@
 #include <vector>
 
 #include "boresight/math/time_table.hpp"
+#include "boresight/scene/riding_masses.hpp"
 #include "boresight/scene/scene_layout.hpp"
 #include "boresight/scene/spring_gains.hpp"
 
@@ -45,6 +46,11 @@ struct SceneTables {
   // Per time, row by row: A = M_r^-1 (its upper triangle), A r, A C, (A K), then the joints' parts: see SceneLayout. As forces: M_r, r, C, (K).
   TimeTable dynamics;
   SceneStart start;
+  // What one sample's standing errors add to A r, or to r: n functions on a grid of their own; none (width 0) without errors.
+  TimeTable load_change = {};
+
+  // All numbers at t, those of the errors included: a row of dynamics.
+  void at(double t, double* row) const;
 };
 
 class ClearanceScene {
@@ -88,13 +94,6 @@ class ClearanceScene {
  private:
   ClearanceScene(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal);  // without knots
 
-  // A mass that rides on a body: what one unit of it adds.
-  struct Element {
-    int body = 0;
-    Vec3 c = Vec3::Zero();        // from the body's own centre of mass, body axes [m]
-    double mass = 0.0;            // [kg] per unit
-    Mat3 inertia = Mat3::Zero();  // about its own centre, body axes [kg m^2] per unit
-  };
   struct Knot {
     IdealState state;
     MatX T, T_rate, T_second, B;
@@ -106,8 +105,7 @@ class ClearanceScene {
   };
   Knot knot_at(double t, const IdealMotion& ideal, const Parameters& parameters);
   void add_joints(const MatX& B_rate, Knot& knot) const;
-  void add_element(const Element& element, const Knot& knot, double* out) const;
-  double units_of(std::size_t group, const Parameters& parameters) const;
+  void add_element(const RidingMass& element, const Knot& knot, double* out) const;
   void assemble(const Parameters& parameters, const Knot& knot, MatX& M, MatX& C, VecX& r) const;
   MatX spring_stiffness(const Parameters& parameters, const Knot& knot) const;
   // What T'' takes, where offsets depend on others: a load on z of -K z.
@@ -125,7 +123,7 @@ class ClearanceScene {
   OffsetLayout offsets_;
   DeviationCoordinates coordinates_;
   SceneLayout layout_;
-  std::vector<std::vector<Element>> groups_;  // what no parameter scales; one per body's mass; the payload
+  std::vector<std::vector<RidingMass>> groups_;
   SceneStart start_of(const Parameters& parameters, const Knot& first) const;
 
   double spacing_ = 0.0;

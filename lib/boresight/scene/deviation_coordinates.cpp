@@ -74,6 +74,16 @@ void DeviationCoordinates::throw_singular(double t) const {
 
 void DeviationCoordinates::gain(double t, MatX& T) {
   ideal_.state(t, state_);
+  gain_here(T);
+}
+
+void DeviationCoordinates::gain(const IdealState& state, MatX& T) {
+  state_ = state;
+  gain_here(T);
+}
+
+void DeviationCoordinates::gain_here(MatX& T) {
+  const double t = state_.t;
   ideal_.drive_laws(t, laws_);
   T.setZero(6 * mechanism_.bodies(), count_);
   if (sparse_) {

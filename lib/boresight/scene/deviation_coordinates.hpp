@@ -20,6 +20,8 @@ class DeviationCoordinates {
  public:
   // Throws ComputationError where no joint's coordinates describe what the mechanism can do.
   DeviationCoordinates(const Mechanism& mechanism, const IdealMotion& ideal);
+  // Of coordinates that have been chosen, of this mechanism or of one that it was built from.
+  DeviationCoordinates(const Mechanism& mechanism, const IdealMotion& ideal, OffsetChoice choice);
 
   int count() const { return count_; }
   // Coordinates that are no offsets come last: so many.
@@ -33,6 +35,8 @@ class DeviationCoordinates {
 
   // T at t: 6 bodies x count. Throws ComputationError, naming the time, near a singular pose.
   void gain(double t, MatX& T);
+  // The same at a pose of this mechanism, whatever the ideal motion has there.
+  void gain(const IdealState& state, MatX& T);
   // B at the pose of the last gain(): offsets x count. Exactly 0 and 1 where an offset is a coordinate.
   MatX offsets_per_coordinate(const MatX& T) const;
   // How fast T and B change there along the ideal motion; where offsets depend on others also how T_rate changes, else 0 x 0.
@@ -44,7 +48,7 @@ class DeviationCoordinates {
   void coordinate_rates(const std::vector<BodyMotion>& bodies, VecX& z_dot, VecX& z) const;
 
  private:
-  DeviationCoordinates(const Mechanism& mechanism, const IdealMotion& ideal, OffsetChoice choice);
+  void gain_here(MatX& T);
   void sparse_gain(MatX& T);
   void dense_gain(double t, MatX& T);
   void solve_closed(Eigen::Ref<VecX> motion);

@@ -6,7 +6,6 @@
 // and the rows of its tables, in which A = M^-1 has been multiplied through.
 #include <Eigen/Cholesky>
 
-#include "boresight/formulations/force_elements.hpp"
 #include "boresight/math/cross_matrix.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/scene/clearance_scene.hpp"
@@ -14,38 +13,28 @@
 
 namespace boresight {
 
-void ClearanceScene::add_element(const Element& e, const Knot& knot, double* out) const {
+void ClearanceScene::add_element(const RidingMass& e, const Knot& knot, double* out) const {
   const int n = layout_.n;
   const MatX &T = knot.T, &T_rate = knot.T_rate;
   const BodyMotion& body = knot.state.bodies[e.body];
-  const BodyAcceleration& a = knot.state.acceleration[e.body];
-  const Vec3 c = body.R * e.c, c_rate = body.w.cross(c), w = body.w, alpha = a.tail<3>();
-  const auto T_v = T.middleRows<3>(6 * e.body), T_w = T.middleRows<3>(6 * e.body + 3);
+  const Vec3 c = body.R * e.c, c_rate = body.w.cross(c), w = body.w;
+  const auto T_w = T.middleRows<3>(6 * e.body + 3);
   const auto Td_v = T_rate.middleRows<3>(6 * e.body), Td_w = T_rate.middleRows<3>(6 * e.body + 3);
   const Mat3 I = body.R * e.inertia * body.R.transpose();
   using Gain = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-  const Gain T_c = T_v - cross_matrix(c) * T_w;  // of the mass' own centre
+  const Gain T_c = gain_of_centre(e, body, T);
   const Gain Td_c = Td_v - cross_matrix(c_rate) * T_w - cross_matrix(c) * Td_w;
-  const Vec3 a_c = a.head<3>() + alpha.cross(c) + w.cross(c_rate);
   const Mat3 gyroscopic = -I * cross_matrix(w) - cross_matrix(I * w) + cross_matrix(w) * I;
   const Gain turning = 2.0 * I * Td_w + gyroscopic * T_w;
   Eigen::Map<MatX>(out, n, n) += e.mass * T_c.transpose() * T_c + T_w.transpose() * I * T_w;
   Eigen::Map<MatX>(out + n * n, n, n) += 2.0 * e.mass * T_c.transpose() * Td_c + T_w.transpose() * turning;
-  Eigen::Map<VecX>(out + 2 * n * n, n) -=
-      e.mass * T_c.transpose() * a_c + T_w.transpose() * (I * alpha + w.cross(I * w));
-  Eigen::Map<MatX>(out + 2 * n * n + n, n, 3) += e.mass * T_c.transpose();
+  add_load(e, knot.state, T, out + 2 * n * n, out + 2 * n * n + n);
   if (!moving()) return;
   const auto Tdd_v = knot.T_second.middleRows<3>(6 * e.body), Tdd_w = knot.T_second.middleRows<3>(6 * e.body + 3);
-  const Vec3 c_second = alpha.cross(c) + w.cross(c_rate);
+  const Vec3 c_second = knot.state.acceleration[e.body].tail<3>().cross(c) + w.cross(c_rate);
   const Gain Tdd_c = Tdd_v - cross_matrix(c_second) * T_w - 2.0 * cross_matrix(c_rate) * Td_w - cross_matrix(c) * Tdd_w;
   Eigen::Map<MatX>(out + 2 * n * n + 4 * n, n, n) +=
       e.mass * T_c.transpose() * Tdd_c + T_w.transpose() * (I * Tdd_w + gyroscopic * Td_w);
-}
-
-// How much there is of a group of elements: 1, a body's mass, the payload's.
-double ClearanceScene::units_of(std::size_t group, const Parameters& parameters) const {
-  const int body = static_cast<int>(group) - 1;
-  return group == 0 ? 1.0 : body < mechanism_.bodies() ? parameters.body_mass[body] : parameters.payload_mass;
 }
 
 MatX ClearanceScene::moving_stiffness(const Parameters& parameters, const Knot& knot) const {
@@ -53,7 +42,8 @@ MatX ClearanceScene::moving_stiffness(const Parameters& parameters, const Knot& 
   MatX K = MatX::Zero(n, n);
   if (n == 0) return K;
   for (std::size_t g = 0; g < groups_.size(); ++g)
-    K += units_of(g, parameters) * Eigen::Map<const MatX>(&knot.elements[g * element_size()] + 2 * n * n + 4 * n, n, n);
+    K += units_of(g, mechanism_, parameters) *
+         Eigen::Map<const MatX>(&knot.elements[g * element_size()] + 2 * n * n + 4 * n, n, n);
   return K;
 }
 
@@ -64,7 +54,7 @@ void ClearanceScene::assemble(const Parameters& parameters, const Knot& knot, Ma
   r.setZero(n);
   if (n == 0) return;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const double units = units_of(g, parameters);
+    const double units = units_of(g, mechanism_, parameters);
     if (units == 0.0) continue;
     const double* e = &knot.elements[g * element_size()];
     M += units * Eigen::Map<const MatX>(e, n, n);
@@ -73,11 +63,7 @@ void ClearanceScene::assemble(const Parameters& parameters, const Knot& knot, Ma
                   Eigen::Map<const MatX>(e + 2 * n * n + n, n, 3) * parameters.gravity);
   }
   for (std::size_t s = 0; s < knot.springs.size(); ++s) C += knot.springs[s].damping(parameters.spring[s]);
-  if (mechanism_.description().springs.empty() && mechanism_.description().loads.empty()) return;
-  ForceElements forces(mechanism_, parameters, false);
-  std::vector<Vec6> wrench(mechanism_.bodies(), Vec6::Zero());
-  forces.apply(knot.state.t, knot.state.bodies, {}, wrench);
-  for (int b = 0; b < mechanism_.bodies(); ++b) r += knot.T.middleRows<6>(6 * b).transpose() * wrench[b];
+  add_load_of_forces(mechanism_, parameters, knot.state, knot.T, r);
 }
 
 void ClearanceScene::assemble(const Parameters& parameters, int knot, MatX& M, MatX& C, VecX& r) const {
@@ -123,11 +109,18 @@ void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, 
   row.insert(row.end(), knot.joints.begin(), knot.joints.end());
 }
 
+void SceneTables::at(double t, double* row) const {
+  dynamics.at(t, row);
+  if (load_change.width() > 0) load_change.add(t, row + layout.Ar);
+}
+
 SceneTables ClearanceScene::tables(const Parameters& parameters, SceneForm form) const {
   std::vector<double> rows;
   rows.reserve(knots_.size() * layout_.width);
   for (const Knot& knot : knots_) append_row(parameters, knot, rows, false, form);
-  return {layout_, TimeTable(spacing_, layout_.width, rows), start_of(parameters, knots_.front())};
+  return {.layout = layout_,
+          .dynamics = TimeTable(spacing_, layout_.width, rows),
+          .start = start_of(parameters, knots_.front())};
 }
 
 TimeTable ClearanceScene::pose_gain(int body) const {

@@ -15,9 +15,7 @@ namespace boresight {
 namespace {
 
 constexpr char kBasisOfErrors[] =
-    "standing errors made exactly at some instants, by closing the built mechanism's joints; what they change of the "
-    "loads in the joints is "
-    "left out, and not counted";
+    "standing errors made exactly at some instants, by closing the built mechanism's joints";
 
 }  // namespace
 
@@ -56,8 +54,11 @@ std::shared_ptr<const SceneTables> PreparedScene::tables(const Parameters& param
 std::shared_ptr<const SceneTables> PreparedScene::tables(const Parameters& parameters,
                                                          const StandingDisplacement& standing) const {
   std::shared_ptr<const SceneTables> shared = tables(parameters);
-  if (!standing.shifts()) return shared;
+  if (!standing || scene_.layout().n == 0) return shared;
   auto own = std::make_shared<SceneTables>(*shared);
+  own->load_change = changed_accelerations(parameters, standing, *own).table(own->layout.n);
+  if (own->load_change.width() > 0) own->load_change.add(0.0, &own->start.row[own->layout.Ar]);
+  if (!standing.shifts()) return own;
   const double spacing = own->dynamics.spacing();
   for (std::size_t c = 0; c < own->layout.joints.size(); ++c) {
     const SceneLayout::Joint& joint = own->layout.joints[c];
@@ -98,6 +99,34 @@ StandingDisplacement PreparedScene::standing(const Parameters& parameters) const
   if (!errors_) errors_ = StandingErrors::of_all(mechanism_, ideal_);
   errors_->require(parameters.error);
   return {errors_, parameters.error};
+}
+
+StandingLoads::Change PreparedScene::changed_loads(const Parameters& parameters,
+                                                   const StandingDisplacement& standing) const {
+  if (!standing || scene_.layout().n == 0) return {};
+  std::shared_ptr<const StandingLoads> loads;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!loads_) loads_ = std::make_shared<const StandingLoads>(mechanism_, ideal_);
+    loads = loads_;
+  }
+  return loads->change(parameters, standing.influence());
+}
+
+StandingLoads::Change PreparedScene::changed_accelerations(const Parameters& parameters,
+                                                           const StandingDisplacement& standing,
+                                                           const SceneTables& accelerations) const {
+  StandingLoads::Change change = changed_loads(parameters, standing);
+  const SceneLayout& at = accelerations.layout;
+  std::vector<double> row(static_cast<std::size_t>(accelerations.dynamics.width()));
+  MatX A;
+  for (std::size_t k = 0; k * at.n < change.values.size(); ++k) {
+    accelerations.dynamics.at(static_cast<double>(k) * change.spacing, row.data());
+    at.inverse_mass(row.data(), A);
+    Eigen::Map<VecX> load(&change.values[k * at.n], at.n);
+    load = (A * load).eval();
+  }
+  return change;
 }
 
 DisplacedBodies::PoseGain DisplacedBodies::gain(const TimeTable& table) const {

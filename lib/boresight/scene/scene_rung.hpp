@@ -7,7 +7,7 @@
 
 #include "boresight/rungs/rung.hpp"
 #include "boresight/scene/clearance_scene.hpp"
-#include "boresight/scene/standing_errors.hpp"
+#include "boresight/scene/standing_loads.hpp"
 
 namespace boresight {
 
@@ -31,7 +31,7 @@ class PreparedScene {
   double own_time() const { return own_time_; }
   // Tables of these masses, gravity, springs; the last ones asked for are kept.
   std::shared_ptr<const SceneTables> tables(const Parameters& parameters) const;
-  // The same with where this sample's errors leave the offsets that redundant joints tie to others.
+  // The same with what this sample's errors change of the loads, and where they leave the offsets that redundant joints tie to others.
   std::shared_ptr<const SceneTables> tables(const Parameters& parameters, const StandingDisplacement& standing) const;
   // E of a body over time: 6 x n, row by row.
   const TimeTable& pose_gain(int body) const;
@@ -39,6 +39,10 @@ class PreparedScene {
   const TimeTable& pose_gain_rate(int body) const;
   // What this sample's standing errors displace bodies by. Throws what StandingErrors throws.
   StandingDisplacement standing(const Parameters& parameters) const;
+  // What these errors change of the loads on the coordinates: as forces, and as accelerations by the mass of these tables.
+  StandingLoads::Change changed_loads(const Parameters& parameters, const StandingDisplacement& standing) const;
+  StandingLoads::Change changed_accelerations(const Parameters& parameters, const StandingDisplacement& standing,
+                                              const SceneTables& accelerations) const;
 
  private:
   const Mechanism& mechanism_;
@@ -51,6 +55,7 @@ class PreparedScene {
   mutable std::shared_ptr<const SceneTables> tables_;
   mutable std::map<int, TimeTable> pose_gain_, pose_gain_rate_;
   mutable std::shared_ptr<const StandingErrors> errors_;
+  mutable std::shared_ptr<const StandingLoads> loads_;
 };
 
 // Bodies of the ideal motion displaced by the deviation x = E z + G eps, at one instant: x moves the body, its turning part theta

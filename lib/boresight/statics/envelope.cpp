@@ -62,7 +62,7 @@ class Envelope final : public SceneRung {
   RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
     refuse_shifts(standing);
-    const ReactionTable reactions(mechanism(), prepared.scene(), parameters);
+    const ReactionTable reactions(mechanism(), prepared, standing, parameters);
     const std::vector<JointPlay>& joints = reactions.joints();
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<ContactSummary> summary = reactions.summaries();

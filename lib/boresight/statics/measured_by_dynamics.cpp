@@ -58,12 +58,12 @@ ClearanceParameters standing_for(const ClearanceParameters& b, const ClearancePa
   return p;
 }
 
-// The parameters at which the error of a sample b is measured: the mechanism's own, departed from by factors of two.
+// The parameters at which the error of a sample b is measured: the mechanism's own, departed from by factors of two. Standing errors are the
+// sample's: where they add to what the play does, or to a load that is next to nothing, hangs on all of them together.
 Parameters standing_for(const Parameters& b, const Parameters& a) {
   Parameters p = a;
+  p.error = b.error;
   if ((b.gravity - a.gravity).norm() > 0.5 * a.gravity.norm()) p.gravity = b.gravity;
-  // What is measured is the model of the play; of standing errors the rung states its own.
-  std::fill(p.error.begin(), p.error.end(), 0.0);
   p.payload_mass = standing_for(b.payload_mass, a.payload_mass);
   for (std::size_t k = 0; k < a.body_mass.size(); ++k) p.body_mass[k] = standing_for(b.body_mass[k], a.body_mass[k]);
   for (std::size_t k = 0; k < a.clearance.size(); ++k) p.clearance[k] = standing_for(b.clearance[k], a.clearance[k]);
@@ -82,6 +82,7 @@ std::vector<double> numbers_of(const Parameters& p) {
     numbers.insert(numbers.end(), {c.radial, c.axial, c.sleeve_length, c.contact.restitution, c.contact.stiffness_scale,
                                    c.contact.young[0], c.contact.young[1], c.friction.coefficient});
   for (const SpringParameters& s : p.spring) numbers.insert(numbers.end(), {s.stiffness, s.damping});
+  numbers.insert(numbers.end(), p.error.begin(), p.error.end());
   return numbers;
 }
 
@@ -113,7 +114,8 @@ class MeasuredByDynamics final : public Rung {
     const Measured measured = measure(parameters, options, cost);
     const ErrorEstimate of_errors = result.error;
     result.error = measured.error;
-    result.error.model += of_errors.model;
+    // With errors both rungs are linear in them, and the dynamic one's statement has been taken in.
+    if (bounds_) result.error.model += of_errors.model;
     if (!of_errors.basis.empty()) result.error.basis += "; " + of_errors.basis;
     result.cost.cpu_seconds += cost.cpu_seconds;
     result.cost.wall_seconds += cost.wall_seconds;
@@ -138,7 +140,9 @@ class MeasuredByDynamics final : public Rung {
 
  private:
   Measured measure(const Parameters& parameters, const RunOptions& options, RunCost& cost) const {
-    const Parameters at = standing_for(parameters, mechanism_->parameters());
+    Parameters at = standing_for(parameters, mechanism_->parameters());
+    // A bound holds whatever its journals do: one measure without errors serves all samples.
+    if (bounds_) std::fill(at.error.begin(), at.error.end(), 0.0);
     std::vector<double> key = numbers_of(at);
     key.push_back(options.start);
     const std::lock_guard lock(mutex_);

@@ -31,7 +31,7 @@ class Quasistatic final : public SceneRung {
   RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
     refuse_shifts(standing);
-    const ReactionTable reactions(mechanism(), prepared.scene(), parameters);
+    const ReactionTable reactions(mechanism(), prepared, standing, parameters);
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<ContactSummary> summary = reactions.summaries();
     bool interrupted = false;

@@ -40,8 +40,10 @@ void refuse_shifts(const StandingDisplacement& standing) {
         "perturbation and multibody rungs follow");
 }
 
-ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& scene, const Parameters& parameters)
-    : mechanism_(mechanism), layout_(scene.layout()) {
+ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& prepared,
+                             const StandingDisplacement& standing, const Parameters& parameters)
+    : mechanism_(mechanism), layout_(prepared.scene().layout()) {
+  const ClearanceScene& scene = prepared.scene();
   if (scene.coordinates().leftover() > 0)
     throw ComputationError(parts_in_play(mechanism.description()).inserts +
                            " come to rest only where every freedom of the ideal mechanism is driven; use perturbation");
@@ -52,7 +54,8 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& s
   const int per_knot = std::max(1, static_cast<int>(std::ceil(wanted / (scene.knots() - 1))));
   instants_ = (scene.knots() - 1) * per_knot + 1;
   spacing_ = scene.spacing() / per_knot;
-  const SceneTables tables = scene.tables(parameters);
+  const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters);
+  change_ = prepared.changed_loads(parameters, standing).table(layout_.n);
   const int n = layout_.n, width = 7 * n + mechanism.clearances();
   joints_ = joint_plays(mechanism.description(), parameters);
   for (const JointPlay& joint : joints_) groups_.push_back(joint.pushed_together());
@@ -82,7 +85,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const ClearanceScene& s
     const MatX E = scene.pose_gain_at(k);
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < n; ++j) values.push_back(E(i, j));
-    tables.dynamics.at(k * scene.spacing(), row.data());
+    tables->dynamics.at(k * scene.spacing(), row.data());
     for (const SceneLayout::Joint& j : layout_.joints) values.push_back(j.slides ? row[j.slide] : 0.0);
   }
   table_ = TimeTable(scene.spacing(), width, values);
@@ -105,6 +108,7 @@ ReactionTable::Instant ReactionTable::at_time(double t) const {
   Instant now;
   now.t = t;
   table_.at(now.t, row.data());
+  if (change_.width() > 0) change_.add(now.t, row.data());
   now.reaction = Eigen::Map<const VecX>(row.data(), n);
   now.pose_gain = Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>>(row.data() + n, 6, n);
   for (std::size_t c = 0; c < joints_.size(); ++c) {

@@ -6,8 +6,7 @@
 
 #include "boresight/play/joint_play.hpp"
 #include "boresight/rungs/run_result.hpp"
-#include "boresight/scene/clearance_scene.hpp"
-#include "boresight/scene/standing_errors.hpp"
+#include "boresight/scene/scene_rung.hpp"
 
 namespace boresight {
 
@@ -19,7 +18,8 @@ class ReactionTable {
  public:
   // Throws ComputationError where offsets hang on each other (redundant joints), so that no joint rests on its own, or where
   // the mechanism has freedoms that nothing drives, which do not rest at all.
-  ReactionTable(const Mechanism& mechanism, const ClearanceScene& scene, const Parameters& parameters);
+  ReactionTable(const Mechanism& mechanism, const PreparedScene& prepared, const StandingDisplacement& standing,
+                const Parameters& parameters);
 
   struct Load {
     PlayOffsets force;   // on the journal's offsets; zero where an offset is none [N, N m]
@@ -53,7 +53,8 @@ class ReactionTable {
   SceneLayout layout_;
   int instants_;
   double spacing_;
-  TimeTable table_;  // r (n), E (6 x n), slides (one per clearance)
+  TimeTable table_;   // r (n), E (6 x n), slides (one per clearance)
+  TimeTable change_;  // of r by standing errors (n, or no functions)
   std::vector<JointPlay> joints_;
   std::vector<OffsetGroups> groups_;  // of each
   std::vector<double> largest_load_;  // per clearance [N]

@@ -1,0 +1,254 @@
+#include "boresight/scene/standing_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/mechanism/built_mechanism.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/scene/deviation_coordinates.hpp"
+#include "boresight/scene/riding_masses.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr const char* kTabling = "tabling what standing errors change of the loads";
+
+// First grid, how often it is halved at most, and what may then be left between the knots.
+constexpr int kFewestCells = 16, kMostHalvings = 12;
+constexpr double kLargestMiss = 0.05;
+// The little of an error that the mechanism is built with, in turns or lengths of the mechanism's size: joints close to 1e-13, which leaves
+// 1e-8 of a column, and what is of second order another 1e-5.
+constexpr double kLittle = 1e-5;
+// Below this share of the loads a column's rounding is no shape that a grid has to meet.
+constexpr double kNextToNothing = 1e-3;
+
+bool same_springs(const Parameters& a, const Parameters& b) {
+  return std::equal(a.spring.begin(), a.spring.end(), b.spring.begin(), b.spring.end(),
+                    [](const SpringParameters& x, const SpringParameters& y) {
+                      return x.stiffness == y.stiffness && x.damping == y.damping && x.free_length == y.free_length;
+                    });
+}
+
+bool same_loads(const Parameters& a, const Parameters& b) {
+  return a.gravity == b.gravity && a.payload_mass == b.payload_mass && a.body_mass == b.body_mass && same_springs(a, b);
+}
+
+// The cubic through the four knots around the middle of cell k, one-sided at the ends.
+VecX cubic_at_middle(const std::vector<VecX>& knots, int k) {
+  const int first = std::clamp(k - 1, 0, static_cast<int>(knots.size()) - 4);
+  VecX cubic = VecX::Zero(knots[0].size());
+  for (int i = 0; i < 4; ++i) {
+    double weight = 1.0;
+    for (int j = 0; j < 4; ++j)
+      if (j != i) weight *= (k + 0.5 - (first + j)) / static_cast<double>(i - j);
+    cubic += weight * knots[static_cast<std::size_t>(first + i)];
+  }
+  return cubic;
+}
+
+}  // namespace
+
+// r of one mechanism, closed exactly where it is asked for.
+class StandingLoads::Instants {
+ public:
+  Instants(std::shared_ptr<const Mechanism> mechanism, const IdealMotion& commanded, const OffsetChoice& choice,
+           const Parameters& parameters)
+      : mechanism_(std::move(mechanism)),
+        commanded_(commanded),
+        parameters_(parameters),
+        solver_(*mechanism_),
+        coordinates_(*mechanism_, commanded, choice),
+        masses_(riding_masses(*mechanism_, parameters)) {}
+
+  // Of each group n numbers and n x 3 per unit of gravity; then n of springs and loads.
+  VecX parts(double t) {
+    commanded_.state(t, state_);
+    if (!solver_.solve(t, state_))
+      throw ComputationError("the joints of the mechanism as it is built do not close at t = " + std::to_string(t) +
+                             " s: an error is too large, or the pose is singular");
+    coordinates_.gain(state_, T_);
+    const Eigen::Index n = T_.cols(), groups = static_cast<Eigen::Index>(masses_.size());
+    VecX parts = VecX::Zero((4 * groups + 1) * n);
+    for (Eigen::Index g = 0; g < groups; ++g)
+      for (const RidingMass& mass : masses_[static_cast<std::size_t>(g)])
+        add_load(mass, state_, T_, &parts[4 * g * n], &parts[(4 * g + 1) * n]);
+    VecX forces = VecX::Zero(n);
+    add_load_of_forces(*mechanism_, parameters_, state_, T_, forces);
+    parts.tail(n) = forces;
+    return parts;
+  }
+  // Kept: grids of different errors share their instants.
+  const VecX& parts_once(double t) {
+    const auto found = kept_.find(t);
+    return found != kept_.end() ? found->second : kept_.emplace(t, parts(t)).first->second;
+  }
+
+ private:
+  std::shared_ptr<const Mechanism> mechanism_;
+  const IdealMotion& commanded_;
+  const Parameters& parameters_;
+  IdealSolver solver_;
+  DeviationCoordinates coordinates_;
+  std::vector<std::vector<RidingMass>> masses_;
+  IdealState state_;
+  MatX T_;
+  std::map<double, VecX> kept_;
+};
+
+struct StandingLoads::Parts {
+  std::vector<VecX> at_knot;  // per unit of the error
+};
+
+StandingLoads::StandingLoads(const Mechanism& drawn, const IdealMotion& commanded)
+    : mechanism_(drawn), commanded_(std::shared_ptr<const IdealMotion>(), &commanded) {
+  Parameters none = drawn.parameters();
+  std::fill(none.error.begin(), none.error.end(), 0.0);
+  as_drawn_ = built_mechanism(drawn, none, commanded_);
+  choice_ = choose_offsets(drawn, commanded);
+  unit_ = VecX::Ones(static_cast<Eigen::Index>(choice_.chosen.size()));
+  const OffsetLayout offsets(drawn);
+  for (int c = 0; c < offsets.clearances(); ++c)
+    for (int k = 3; k < offsets.joint(c).count(); ++k)
+      if (const int source = choice_.source[offsets.joint(c).first + k]; source >= 0)
+        unit_[source] = drawn.characteristic_length();
+}
+StandingLoads::~StandingLoads() = default;
+
+VecX StandingLoads::assembled(const VecX& parts, const Parameters& parameters) const {
+  const Eigen::Index n = unit_.size(), groups = parts.size() / n / 4;
+  VecX r = parts.tail(n);
+  for (Eigen::Index g = 0; g < groups; ++g)
+    r += units_of(static_cast<std::size_t>(g), mechanism_, parameters) *
+         (parts.segment(4 * g * n, n) + Eigen::Map<const MatX>(&parts[(4 * g + 1) * n], n, 3) * parameters.gravity);
+  return r;
+}
+
+// Of what one unit of an error displaces, in turns or lengths of the mechanism's size.
+double StandingLoads::size_of(std::size_t error, const StandingErrors& influence) const {
+  const MechanismDescription& m = mechanism_.description();
+  const double length = mechanism_.characteristic_length();
+  double size = 0.0;
+  for (const FrameError& frame : frame_errors(m, m.errors[error]))
+    size = std::max(size, frame.translation.norm() / length + frame.rotation.norm());
+  for (int k = 0; k <= influence.cells(); ++k)
+    for (int b = 0; b < mechanism_.bodies(); ++b) {
+      const auto moved = influence.at_knot(k, b).col(static_cast<Eigen::Index>(error));
+      size = std::max({size, moved.head<3>().norm() / length, moved.tail<3>().norm()});
+    }
+  return size;
+}
+
+StandingLoads::Parts StandingLoads::computed(std::size_t error, const Parameters& parameters,
+                                             const StandingErrors& influence) const {
+  const double duration = mechanism_.duration(), size = size_of(error, influence);
+  if (!(size > 0.0)) return {};
+  Parameters with = parts_of_;
+  std::fill(with.error.begin(), with.error.end(), 0.0);
+  with.error[error] = kLittle / size;
+  Instants built(built_mechanism(mechanism_, with, commanded_), *commanded_, choice_, with);
+  const auto at = [&](double t) { return VecX((built.parts(t) - drawn_->parts_once(t)) / with.error[error]); };
+  // As fine as the influence's own first grid: no turn of the motion is overlooked.
+  int cells = std::max(kFewestCells, commanded_->knots() / 16);
+  const auto when = [&](double k) { return std::min(duration, duration * k / cells); };
+  std::vector<VecX> knots;
+  double load = 0.0;  // the largest, in forces, per unit of the error
+  for (int k = 0; k <= cells; ++k) {
+    work_reached(kTabling, 0.5 * k / cells);
+    knots.push_back(at(when(k)));
+    load =
+        std::max(load, assembled(drawn_->parts_once(when(k)), parameters).cwiseQuotient(unit_).cwiseAbs().maxCoeff());
+  }
+  load *= size;
+  for (int halving = 0;; ++halving) {
+    std::vector<VecX> finer, assembled_knots;
+    for (const VecX& knot : knots) assembled_knots.push_back(assembled(knot, parameters).cwiseQuotient(unit_));
+    VecX largest = VecX::Zero(unit_.size()), missed = largest;
+    for (int k = 0; k < cells; ++k) {
+      work_reached(kTabling, 0.5 + 0.5 * k / cells);
+      VecX middle = at(when(k + 0.5));
+      const VecX value = assembled(middle, parameters).cwiseQuotient(unit_);
+      missed = missed.cwiseMax((value - cubic_at_middle(assembled_knots, k)).cwiseAbs());
+      largest = largest.cwiseMax(value.cwiseAbs());
+      finer.push_back(std::move(knots[static_cast<std::size_t>(k)]));
+      finer.push_back(std::move(middle));
+    }
+    finer.push_back(std::move(knots.back()));
+    knots = std::move(finer);
+    cells *= 2;
+    const double floor = kNextToNothing * std::max(load, largest.maxCoeff());
+    double miss = 0.0;
+    for (Eigen::Index i = 0; i < missed.size(); ++i)
+      if (const double scale = std::max(largest[i], floor); scale > 0.0) miss = std::max(miss, missed[i] / scale);
+    // The finer grid's own error is a sixteenth of what the coarser one missed.
+    if (miss <= 16.0 * kAccuracy) break;
+    if (halving < kMostHalvings) continue;
+    if (miss <= kLargestMiss) break;
+    throw ComputationError("what error." + mechanism_.description().errors[error].name +
+                           " changes of the loads in the joints ripples within " + std::to_string(duration / cells) +
+                           " s: too fast for a table; the multibody rung needs none");
+  }
+  return {std::move(knots)};
+}
+
+const StandingLoads::Parts& StandingLoads::parts(std::size_t error, const Parameters& parameters,
+                                                 const StandingErrors& influence) const {
+  if (!drawn_ || !same_springs(parts_of_, parameters)) {
+    parts_.clear();
+    parts_of_ = parameters;
+    drawn_ = std::make_unique<Instants>(as_drawn_, *commanded_, choice_, parts_of_);
+  }
+  const auto found = parts_.find(error);
+  return found != parts_.end() ? found->second
+                               : parts_.emplace(error, computed(error, parameters, influence)).first->second;
+}
+
+std::shared_ptr<const StandingLoads::Columns> StandingLoads::columns(const Parameters& parameters,
+                                                                     const StandingErrors& influence) const {
+  const std::lock_guard lock(mutex_);
+  const bool same = columns_ && same_loads(columns_->of, parameters);
+  const auto missing = [&](std::size_t e) {
+    return parameters.error[e] != 0.0 && !(same && columns_->of_error.contains(e));
+  };
+  bool whole = same;
+  for (std::size_t e = 0; e < parameters.error.size(); ++e) whole = whole && !missing(e);
+  if (whole) return columns_;
+  auto more = same ? std::make_shared<Columns>(*columns_) : std::make_shared<Columns>();
+  more->of = parameters;
+  const Eigen::Index n = unit_.size();
+  for (std::size_t e = 0; e < parameters.error.size(); ++e) {
+    if (!missing(e)) continue;
+    const Parts& of_error = parts(e, parameters, influence);
+    Columns::Column& column = more->of_error[e];
+    column.cells = std::max(0, static_cast<int>(of_error.at_knot.size()) - 1);
+    column.values.resize(n * static_cast<Eigen::Index>(of_error.at_knot.size()));
+    for (std::size_t k = 0; k < of_error.at_knot.size(); ++k)
+      column.values.segment(n * static_cast<Eigen::Index>(k), n) = assembled(of_error.at_knot[k], parameters);
+  }
+  return columns_ = std::move(more);
+}
+
+StandingLoads::Change StandingLoads::change(const Parameters& parameters, const StandingErrors& influence) const {
+  const Eigen::Index n = unit_.size();
+  if (n == 0) return {};
+  const std::shared_ptr<const Columns> all = columns(parameters, influence);
+  std::map<int, VecX> sums;  // by cells
+  for (const auto& [e, column] : all->of_error) {
+    if (parameters.error[e] == 0.0 || column.cells == 0) continue;
+    VecX& sum = sums[column.cells];
+    if (sum.size() == 0) sum = VecX::Zero(column.values.size());
+    sum += parameters.error[e] * column.values;
+  }
+  if (sums.empty()) return {};
+  const int cells = sums.rbegin()->first;
+  VecX values = std::move(sums.rbegin()->second);
+  sums.erase(std::prev(sums.end()));
+  const double spacing = mechanism_.duration() / cells;
+  for (const auto& [coarse, sum] : sums) {
+    const TimeTable table(mechanism_.duration() / coarse, static_cast<int>(n), {sum.begin(), sum.end()});
+    for (int k = 0; k <= cells; ++k) table.add(k * spacing, &values[n * k]);
+  }
+  return {spacing, {values.begin(), values.end()}};
+}
+
+}  // namespace boresight
