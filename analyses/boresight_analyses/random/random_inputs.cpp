@@ -92,6 +92,7 @@ void read_drawn_together(Cursor& entry, const MechanismDescription& mechanism,
   if (pair[1].si_unit != pair[0].si_unit)
     entry.fail_found(key, "\"" + paths[1] + "\" in " + pair[1].si_unit,
                      "two parameters of one unit, in " + pair[0].si_unit);
+  require_perpendicular(entry, key, mechanism, paths);
   Cursor distribution = entry.table("distribution");
   distribution.only(distribution_keys());
   for (const std::string& other : distribution.keys())

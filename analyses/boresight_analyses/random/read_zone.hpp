@@ -18,6 +18,7 @@
 
 #include "boresight/io/cursor.hpp"
 #include "boresight/keys/units.hpp"
+#include "boresight/mechanism/description.hpp"
 #include "boresight_analyses/random/distribution.hpp"
 #include "boresight_analyses/random/zone_law.hpp"
 
@@ -29,6 +30,11 @@ ZoneLaw read_zone_law(Cursor& distribution);
 // How far a parameter of this unit may be off to either side, from the table of a cylinder (across: "diameter") or of planes
 // ("width"). Throws InputError.
 double read_zone_reach(Cursor& zone, const std::string& across, const SiUnit& unit);
+
+// Two errors of one kind of a joint's frame in one body are the coordinates of a point: only along perpendicular directions is it in the
+// disc. `paths`: what a cylinder draws together, as `key` names them. Throws InputError.
+void require_perpendicular(Cursor& entry, const std::string& key, const MechanismDescription& mechanism,
+                           const std::vector<std::string>& paths);
 
 // Of planes, around `centre`.
 DistributionPtr make_between_planes(double centre, double reach, ZoneLaw law);

@@ -13,6 +13,7 @@
 #include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/play_mobility.hpp"
 #include "boresight/play/joint_play.hpp"
+#include "boresight_analyses/study/overrun_play.hpp"
 #include "report_parts/report_parts.hpp"
 #include "results/summary.hpp"
 #include "terminal/interruption.hpp"
@@ -277,6 +278,8 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
     try {
       const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
       add_play_findings(mechanism, ideal, result);
+      for (const std::string& sentence : overrun_plays(mechanism, mechanism.parameters(), ideal))
+        result.findings.push_back(sentence);
       result.contacts = analyse_contacts(mechanism, mechanism.parameters(), ideal);
       add_contact_findings(mechanism, result);
       if (result.findings.empty()) {

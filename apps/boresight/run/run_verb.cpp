@@ -6,13 +6,16 @@
 #include <iostream>
 
 #include "boresight/contact/law_range.hpp"
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/perturbation/predictability.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/stepping/measured_error.hpp"
+#include "boresight_analyses/study/overrun_play.hpp"
 #include "command_line/declared_option.hpp"
 #include "command_line/montecarlo_study.hpp"
 #include "command_line/study_input.hpp"
@@ -25,6 +28,7 @@
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
 #include "run/nonlinear_section.hpp"
+#include "run/parts_section.hpp"
 #include "run/run_report.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/interruption.hpp"
@@ -38,7 +42,8 @@ namespace {
 void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
            const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
            const std::optional<Predictability>& predictability, const MeasuredError& measured,
-           const IndexChoice& wanted, const std::vector<AssumedValue>& assumed, const OutputDirectory& out) {
+           const std::optional<RunParts>& parts, const IndexChoice& wanted, const std::vector<AssumedValue>& assumed,
+           const OutputDirectory& out) {
   tell("{}: {} of motion, {} rung, {}{}\n", mechanism.name(), readable(result.end_time, "s"), result.rung,
        result.integrator, result.interrupted ? " (interrupted)" : "");
   if (choice.pilot) tell("  rung: {}\n", choice.why);
@@ -54,6 +59,8 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
   for (const ContactSummary& c : result.contact)
     tell("  {}: in contact {} of the time, {} impacts, penetration up to {}, force up to {}\n", c.joint,
          readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"), readable(c.max_force, "N"));
+  if (parts)
+    for (const std::string& line : parts_lines(*parts)) tell("  {}\n", line);
   if (!result.interrupted) tell("  {}\n", step_error_sentence(measured, result.index, wanted));
   if (predictability && predictability->parted) tell("  {}\n", predictability_sentence(*predictability));
   for (const Compared& other : others) {
@@ -195,6 +202,10 @@ class RunVerb : public Verb {
     RunResult result = rung->run(mechanism->parameters(), options);
     refuse_infinite(result);
     add_range_warnings(*mechanism, result);
+    if (has_errors(mechanism->parameters()))
+      for (const std::string& warning :
+           overrun_plays(*mechanism, mechanism->parameters(), ideal_motion(*mechanism, mechanism->parameters())))
+        result.warnings.push_back(warning);
     std::vector<Compared> others;
     std::optional<AxesComparison> axes;
     std::optional<Predictability> predictability;
@@ -215,12 +226,19 @@ class RunVerb : public Verb {
       cut_short = interrupted();
     }
 
+    const std::optional<RunParts> parts = run_parts(*mechanism, result);
     Json summary =
         summary_of(command, *mechanism, choice, result, others, axes, predictability, measured, index, watch, out);
     report::Document document = run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes,
                                            predictability, step_error_sentence(measured, result.index, index));
     for (const std::string& warning : material_warnings(assumed_by(command, *mechanism)))
       document.warnings.push_back(warning);
+    if (parts) {
+      summary["parts"] = parts_json(*parts);
+      summary["files"].push_back("parts.csv");
+      out.write("parts.csv", [&](std::ostream& s) { write_parts(s, *parts, result, finer); });
+      document.sections.insert(document.sections.begin() + 1, parts_section(*parts, *mechanism, result));
+    }
     if (period > 0.0) {
       const NonlinearAnalysis nonlinear = analyse_nonlinear(*mechanism, result, period);
       summary["nonlinear"] = nonlinear_json(nonlinear);
@@ -235,8 +253,8 @@ class RunVerb : public Verb {
     out.publish();
     progress.clear();
     if (!command.quiet)
-      print(*mechanism, choice, result, others, axes, predictability, measured, index, assumed_by(command, *mechanism),
-            out);
+      print(*mechanism, choice, result, others, axes, predictability, measured, parts, index,
+            assumed_by(command, *mechanism), out);
     return cut_short ? kInterrupted : status_with_accuracy(choice, kDone);
   }
 

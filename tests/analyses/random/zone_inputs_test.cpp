@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -226,6 +228,36 @@ TEST_F(ZoneInputs, MistakesAreOneLineWithFileLineAndKey) {
   says(zone("{ cylinder = { diameter = \"0.2 m/s^2\" }, zone = \"unifrm\" }"), "did you mean uniform?");
   says(zone("{ planes = { width = \"0 m/s^2\" } }", "parameter", "\"gravity.x\""), "more than 0");
   says("[[random]]\ndistribution = " + good + "\n", "parameter");
+}
+
+// The error along [1, 0, 0] of a joint's frame in one body, and one along [1, 2, 0] of the same.
+TEST_F(ZoneInputs, TwoErrorsOfOneFrameAreAlongPerpendicularDirections) {
+  std::ifstream in(kDefaultMechanism);
+  std::string text(std::istreambuf_iterator<char>(in), {});
+  const auto error = [](const std::string& name, const std::string& kind, const std::string& direction,
+                        const std::string& body = "platform") {
+    return "[[error]]\nname = \"" + name + "\"\njoint = \"F1\"\nbody = \"" + body + "\"\n" + kind + " = " + direction +
+           "\n";
+  };
+  text += error("x", "translation", "[1, 0, 0]") + error("y", "translation", "[0.0004, 1, 0]") +
+          error("askew", "translation", "[1, 2, 0]") + error("turned", "rotation", "[1, 0, 0]") +
+          error("leaning", "rotation", "[-1, 0.5, 0]") + error("of the rod", "translation", "[1, 0, 0]", "rod1");
+  const MechanismDescription mechanism = read_mechanism_text(text, kDefaultMechanism);
+  const auto fault_with = [&](const std::string& a, const std::string& b, const std::string& diameter) {
+    return fault_of([&] {
+      Document study = document(zone("{ cylinder = { diameter = \"" + diameter + "\" } }", "parameters",
+                                     "[\"error." + a + "\", \"error." + b + "\"]"));
+      Cursor root(study);
+      read_random_inputs(root, mechanism, [](const Setting&) {});
+    });
+  };
+  EXPECT_EQ(fault_with("x", "y", "0.1 mm"), "no fault");
+  EXPECT_EQ(fault_with("askew", "of the rod", "0.1 mm"), "no fault");  // no point of one frame
+  const std::string askew = fault_with("x", "askew", "0.1 mm");
+  EXPECT_THAT(askew, AllOf(HasSubstr("study.toml:2: "), HasSubstr("parameters: found"),
+                           HasSubstr(" 63.4 degrees apart"), HasSubstr("expected two along perpendicular directions")));
+  EXPECT_EQ(askew.find('\n'), std::string::npos);
+  EXPECT_THAT(fault_with("turned", "leaning", "0.1 mrad"), HasSubstr(" 26.6 degrees apart"));
 }
 
 }  // namespace
