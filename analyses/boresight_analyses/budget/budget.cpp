@@ -6,6 +6,7 @@
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/budget/ensemble.hpp"
+#include "boresight_analyses/budget/member_shares.hpp"
 #include "boresight_analyses/montecarlo/looks.hpp"
 
 namespace boresight {
@@ -49,19 +50,6 @@ Values difference_of(const Values& with, const Values& without) {
   for (std::size_t m = 0; m < out.size(); ++m)
     for (std::size_t k = 0; k < out[m].size(); ++k) out[m][k] -= without[m][k];
   return out;
-}
-
-const char* kind_of(const ErrorDescription& error) {
-  switch (error.kind) {
-    case ErrorDescription::Kind::translation:
-    case ErrorDescription::Kind::rotation:
-      return kGeometryKind;
-    case ErrorDescription::Kind::drive:
-      return kDriveKind;
-    case ErrorDescription::Kind::expansion:
-      return kTemperatureKind;
-  }
-  return kErrorsKind;
 }
 
 double mean_product(const std::vector<Vec3>& a, const std::vector<Vec3>& b, const AxisOf& axis) {
@@ -198,8 +186,13 @@ class Maker {
             {with.mean - without.mean, std::sqrt(std::max(0.0, with.sd * with.sd - without.sd * without.sd))});
       }
     }
+    for (const KnownError& known : plan_.known) {
+      t.lines.push_back({known.name, kKnownKind, "", {}});
+      const Values part = {index_values(index, known.history, plan_.windows)};
+      for (Eigen::Index a = 0; a < axes; ++a) t.lines.back().axes.push_back(moments_of(part, a, interpretation));
+    }
     for (const Contributor& c : plan_.contributors) {
-      t.lines.push_back({c.name, to_string(c.kind), c.group, {}});
+      t.lines.push_back({c.name, kind_of(c), c.group, {}});
       for (int a = 0; a < static_cast<int>(axes); ++a)
         t.lines.back().axes.push_back(moments(c, a, index, interpretation, plan_.windows, plan_.duration));
     }
@@ -207,16 +200,6 @@ class Maker {
     if (t.total.axes.empty()) t.total.axes.resize(axes_.count());
     return t;
   }
-
-  // Mean squares and products of each member, of the headline's index.
-  struct MemberProducts {
-    std::vector<double> all, own;               // per member that did not fail
-    std::vector<std::vector<double>> external;  // [contributor][member]
-    std::vector<std::vector<double>> change;    // [group][member of the attribution with both runs]
-    // [group]: of groups that add up, the mechanism's own mean squares of the same members; empty of others
-    std::vector<std::vector<double>> of_same = {};
-    std::vector<double> alone;  // [joint]: with the nominal motion; NaN where that joint's run failed
-  };
 
   MemberProducts products(const Budget& b) const {
     const AxisOf axis(b.headline.axis, axes_.count());
@@ -252,39 +235,19 @@ class Maker {
       for (std::size_t k = 0; k < drawn.size(); ++k)
         change.push_back(mean_product(drawn[k], drawn[k], axis) - mean_product(held[k], held[k], axis));
     }
-    return p;
-  }
-
-  // Shares in the order of joints, groups, external contributors, together; `times`: how often each member counts.
-  static std::vector<double> shares(const MemberProducts& p, const std::vector<std::uint32_t>& times,
-                                    const std::vector<std::uint32_t>& times_of_attribution) {
-    const auto mean = [](const std::vector<double>& values, const std::vector<std::uint32_t>& counts) {
-      double sum = 0.0, all = 0.0;
-      for (std::size_t k = 0; k < values.size(); ++k) {
-        sum += counts[k] * values[k];
-        all += counts[k];
+    for (const KnownError& known : plan_.known) {
+      const std::vector<Vec3> part = index_values(index, known.history, plan_.windows);
+      auto& change = p.change.emplace_back();
+      auto& of_same = p.of_same.emplace_back();
+      for (std::uint64_t member = 0; member < runs_.attribution(); ++member) {
+        const PointingHistory* drawn = ensemble_.mechanism(member);
+        if (drawn == nullptr) continue;
+        const std::vector<Vec3> values = index_values(index, *drawn, plan_.windows);
+        change.push_back(mean_product(part, values, axis));
+        of_same.push_back(mean_product(values, values, axis));
       }
-      return all > 0.0 ? sum / all : 0.0;
-    };
-    const double square = mean(p.all, times);
-    double together = mean(p.own, times) / square;
-    std::vector<double> out;
-    for (const double alone : p.alone) {
-      out.push_back(alone / square);
-      if (std::isfinite(alone)) together -= out.back();
     }
-    // Parts that add up: of the mechanism's own mean square of the very members that they are known of, so that they make it
-    // all whichever members these are.
-    const double own = mean(p.own, times) / square;
-    for (std::size_t g = 0; g < p.change.size(); ++g) {
-      const double change = mean(p.change[g], times_of_attribution);
-      const double same = p.of_same[g].empty() ? 0.0 : mean(p.of_same[g], times_of_attribution);
-      out.push_back(same > 0.0 ? own * change / same : change / square);
-      together -= out.back();
-    }
-    for (const std::vector<double>& external : p.external) out.push_back(mean(external, times) / square);
-    out.push_back(together);
-    return out;
+    return p;
   }
 
   void contribute(Budget& b) const {
@@ -311,8 +274,10 @@ class Maker {
       if (std::isfinite(found[at])) add(joints_[j], kClearanceKind, p.all.size());
     for (std::size_t g = 0; g < runs_.groups(); ++g, ++at)
       add(plan_.groups.names[g], kinds_[g], std::min(p.all.size(), p.change[g].size()));
+    for (std::size_t i = 0; i < plan_.known.size(); ++i, ++at)
+      add(plan_.known[i].name, kKnownKind, std::min(p.all.size(), p.change[runs_.groups() + i].size()));
     for (std::size_t i = 0; i < plan_.contributors.size(); ++i, ++at)
-      add(plan_.contributors[i].name, to_string(plan_.contributors[i].kind), p.all.size());
+      add(plan_.contributors[i].name, kind_of(plan_.contributors[i]), p.all.size());
     if (!joints_.empty())
       add("together", "joints and scatter", attributed > 0 ? std::min(p.all.size(), attributed) : p.all.size());
   }
@@ -349,6 +314,8 @@ class Maker {
       add(joints_[j], "half the clearance", {.halved = static_cast<int>(j)});
     for (std::size_t g = 0; g < runs_.groups(); ++g)
       add(plan_.groups.names[g], plan_.is_of_errors(g) ? "as drawn" : "no scatter", {.held = static_cast<int>(g)});
+    for (std::size_t i = 0; i < plan_.known.size(); ++i)
+      add(plan_.known[i].name, "as drawn", {.known = static_cast<int>(i)});
     for (std::size_t i = 0; i < plan_.contributors.size(); ++i)
       add(plan_.contributors[i].name, "half of it", {.external = static_cast<int>(i)});
     std::stable_sort(b.reductions.begin(), b.reductions.end(),
@@ -369,23 +336,6 @@ class Maker {
 };
 
 }  // namespace
-
-std::string kind_of_group(const BudgetPlan& plan, std::size_t group, const MechanismDescription& mechanism) {
-  if (!plan.is_of_errors(group)) return kScatterKind;
-  std::string kind;
-  for (const int i : plan.groups.members[group])
-    for (const std::string& path : plan.inputs.parameters[static_cast<std::size_t>(i)].paths)
-      for (const ErrorDescription& error : mechanism.errors) {
-        if (path != "error." + error.name && path != "error.*") continue;
-        kind = kind.empty() || kind == kind_of(error) ? kind_of(error) : kErrorsKind;
-      }
-  return kind;
-}
-
-bool is_of_group(const std::string& kind) {
-  return kind == kScatterKind || kind == kGeometryKind || kind == kDriveKind || kind == kTemperatureKind ||
-         kind == kErrorsKind;
-}
 
 bool Budget::met() const {
   return std::all_of(requirements.begin(), requirements.end(),

@@ -3,10 +3,11 @@
 // A member is one drawing of what scatters: its motion on a rung, and its external errors added to it in time. The
 // levels are counted from these histories. The classical table has a line per clearance joint (alone, at the medians),
 // per group of random parameters (what the moments of the error lose where the group is held at its medians) and per
-// external contributor.
+// external contributor; and one per standing error that the mechanism file gives a value and nothing scatters, whose part is known.
+// Clearances alone are those of the mechanism as drawn, without any error.
 //
 // Shares are of the mean square of the headline's index v over members and time, in the sense of Euler's allocation
-// (Tasche 1999): E[v_i v] / E[v v] of errors that add up in time, which external ones and joints do, and groups of
+// (Tasche 1999): E[v_i v] / E[v v] of errors that add up in time, which external ones and joints do, known errors, and groups of
 // standing errors, whose part is the error with them less that without; of another group what the mean square loses
 // where the group is held. They add up to 1 with what joints and groups only make together. Shares and
 // gains have intervals by the bootstrap over members (member_bootstrap.hpp).
@@ -19,6 +20,7 @@
 
 #include "boresight_analyses/budget/budget_runs.hpp"
 #include "boresight_analyses/budget/classical.hpp"
+#include "boresight_analyses/budget/line_kinds.hpp"
 #include "boresight_analyses/budget/member_bootstrap.hpp"
 
 namespace boresight {
@@ -71,7 +73,7 @@ struct Budget {
   std::vector<ClassicalTable> tables;
   std::vector<RequirementAnswer> requirements;
   double mean_square = 0.0;                         // of the headline's index
-  std::vector<Contribution> contributions;          // external, joints, groups, together
+  std::vector<Contribution> contributions;          // joints, groups, known errors, external, together
   std::vector<ErrorReduction> reductions;           // largest gain first
   std::vector<PointingHistory> shown;               // of the first members, everything together
   PointingHistory nominal;                          // of the mechanism at its medians, alone
@@ -79,20 +81,6 @@ struct Budget {
 
   bool met() const;  // every requirement
 };
-
-// Which line of the classical table a contributor is: "clearance", "scatter", or its class.
-inline constexpr const char* kClearanceKind = "clearance";
-inline constexpr const char* kScatterKind = "scatter";
-// Of groups of standing errors of the mechanism, by what makes them vary: nothing (they are built in), the drive's own motion,
-// the temperature; or several of these.
-inline constexpr const char* kGeometryKind = "built geometry";
-inline constexpr const char* kDriveKind = "drive";
-inline constexpr const char* kTemperatureKind = "temperature";
-inline constexpr const char* kErrorsKind = "standing errors";
-// Whether a line is a group of parameters, known from the members of the attribution.
-bool is_of_group(const std::string& kind);
-// Which kind this group of the plan's is.
-std::string kind_of_group(const BudgetPlan& plan, std::size_t group, const MechanismDescription& mechanism);
 
 // How each requirement is judged. A first look at it is noted in the store, for those who add members and look again.
 std::vector<Judgement> look_at_requirements(const BudgetPlan& plan, SampleStore& store);

@@ -102,10 +102,14 @@ const KeyTable& budget_requirement_keys() {
 
 const KeyTable& budget_contributor_keys() {
   using namespace keys;
-  static const std::string one = "this, or the other of distribution and value";
+  static const std::string one = "this, or the other of distribution and value; either may be left out beside course";
+  static const std::string of_error = "left out, the contributor has a class";
   static const KeyTable table_of_keys{
       .name = "budget.contributor",
-      .says = "An error from outside of the clearances, by its class (ECSS-E-ST-60-10C, Annex B).",
+      .says =
+          "An error from outside of the clearances, by its class (ECSS-E-ST-60-10C, Annex B); or a standing error of "
+          "the "
+          "mechanism over time: factor times course plus value, by its column of influence at the commanded pose.",
       .keys = {
           text("name").says("Its name."),
           choice("class",
@@ -113,12 +117,25 @@ const KeyTable& budget_contributor_keys() {
                                         {to_string(ContributorClass::random), "noise of first order"},
                                         {to_string(ContributorClass::periodic), "a sinusoid of unknown phase"},
                                         {to_string(ContributorClass::drift), "grows with time"}})
+              .sometimes("needed, or error")
               .says("Its course in time."),
+          text("error").sometimes(of_error).says(
+              "The name of an [[error]] of the mechanism, in place of class. What it does is added to the motion by "
+              "superposition, to first order and quasi-static; [[random]] must not scatter it too, and what the "
+              "mechanism file gives it counts besides."),
+          expression("course", kRatio)
+              .sometimes("with error only; left out, the error is constant in a member")
+              .says("The error over time, an expression of t [s] from the beginning of the motion, in m, rad or K."),
+          table("factor", distribution_keys)
+              .sometimes("with course only; left out, 1")
+              .says("How a factor of the course scatters over the members, in pure numbers."),
           table("distribution", distribution_keys)
               .sometimes(one)
               .says("How it scatters over the members: a bias, a noise's standard deviation, an amplitude, a drift per "
-                    "time."),
-          quantity_of("value", "the index, of a drift per time").sometimes(one).says("The same value in all members."),
+                    "time; of a standing error what is added to its course."),
+          quantity_of("value", "the index, of a drift per time; of a standing error its own")
+              .sometimes(one)
+              .says("The same value in all members."),
           texts("axes")
               .sometimes("left out, all axes")
               .says("The axes that it acts on: \"x\", \"y\", and where there is one \"z\"."),

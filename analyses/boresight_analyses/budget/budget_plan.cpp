@@ -9,7 +9,7 @@
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/budget/budget_keys.hpp"
-#include "boresight_analyses/random/read_distribution.hpp"
+#include "boresight_analyses/budget/read_contributor.hpp"
 
 namespace boresight {
 namespace {
@@ -52,51 +52,6 @@ BudgetRequirement read_requirement(Cursor& table, const BudgetPlan& plan, const 
   r.confidence = table.number("confidence");
   table.finish();
   return r;
-}
-
-Contributor read_contributor(Cursor& table, const BudgetPlan& plan, const BudgetAxes& axes, const SiUnit& unit,
-                             const SiUnit& rate) {
-  table.only(budget_contributor_keys());
-  constexpr ContributorClass kClasses[] = {ContributorClass::bias, ContributorClass::random, ContributorClass::periodic,
-                                           ContributorClass::drift};
-  Contributor c;
-  c.name = table.text("name");
-  table.require(!c.name.empty(), "name", "a name");
-  table.rename("budget.contributor." + c.name);
-  c.kind = chosen(table, "class", kClasses);
-  const bool periodic = c.kind == ContributorClass::periodic, random = c.kind == ContributorClass::random;
-
-  const SiUnit& of = c.kind == ContributorClass::drift ? rate : unit;
-  if (table.has("value") == table.has("distribution"))
-    table.fail("distribution", "a distribution, or a value, and not both");
-  DistributionPtr parameter;
-  if (table.has("value")) {
-    parameter = make_discrete({table.quantity("value", of)}, {1.0});
-  } else {
-    Cursor distribution = table.table("distribution");
-    parameter = read_distribution(distribution, of);
-  }
-  const std::vector<std::string> named = table.has("axes") ? table.texts("axes") : axes.names;
-  table.require(!named.empty(), "axes", "at least one axis");
-  for (const std::string& name : named) {
-    const auto at = std::find(axes.names.begin(), axes.names.end(), name);
-    if (at == axes.names.end())
-      table.fail_found("axes", "\"" + name + "\"", "an axis of the error", nearest_name(name, axes.names));
-    c.parameter[static_cast<std::size_t>(at - axes.names.begin())] = parameter;
-  }
-
-  if (table.has("period") && !periodic) table.fail("period", "a period with class = \"periodic\" only");
-  if (periodic && !table.has("period")) table.fail("period", "a period, which class = \"periodic\" needs");
-  if (table.has("correlation_time") && !random)
-    table.fail("correlation_time", "a correlation time with class = \"random\" only");
-  c.period = table.quantity("period", 0.0);
-  c.correlation_time = table.quantity("correlation_time", plan.sampling);
-  c.recalibrated = table.boolean("recalibrated");
-  if (c.recalibrated && (periodic || random))
-    table.fail("recalibrated", "this with class = \"bias\" or \"drift\" only");
-  c.group = table.text("group", "");
-  table.finish();
-  return c;
 }
 
 void read_times(Cursor& table, BudgetPlan& plan, double index_start, double duration) {
@@ -213,6 +168,11 @@ std::string question_of(const BudgetPlan& plan, const BudgetRequirement& r) {
        {r.limit, r.probability, r.confidence, plan.leave_out, w.window, w.separation, w.observation, w.revisit})
     text += number(value);
   for (const Contributor& c : plan.contributors) {
+    if (const auto& e = c.of_error) {
+      text += "\nerror " + e->error + " course " + e->text + " group " + c.group;
+      for (const DistributionPtr& spread : {e->factor, e->value}) text += "\n" + (spread ? spread->text() : "none");
+      continue;
+    }
     text += std::string("\n") + to_string(c.kind) + number(c.period) + number(c.correlation_time) +
             (c.recalibrated ? " recalibrated " : " ") + c.group;
     for (const DistributionPtr& parameter : c.parameter)
@@ -240,9 +200,9 @@ BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDes
   read_scatter(root, table, plan, study, mechanism, accepts);
   const BudgetAxes axes(study.index.kind());
   const bool angle = study.index.si_unit() == "rad";
-  const SiUnit unit = angle ? kAngle : kLength, rate = angle ? kAngularRate : kSpeed;
+  const SiUnit unit = angle ? kAngle : kLength;
   for (Cursor& entry : table.tables("contributor")) {
-    plan.contributors.push_back(read_contributor(entry, plan, axes, unit, rate));
+    plan.contributors.push_back(read_contributor(entry, plan, study.index.kind(), mechanism));
     const std::string& name = plan.contributors.back().name;
     for (std::size_t i = 0; i + 1 < plan.contributors.size(); ++i)
       if (plan.contributors[i].name == name)

@@ -34,6 +34,13 @@
 //   correlation_time = "1 ms"    # random; left out: the sampling
 //   recalibrated = true          # bias, drift: every observation has another bias, and a drift that begins at zero
 //   group = "thermal"            # contributors of one group vary together
+//
+//   [[budget.contributor]]       # or a standing error of the mechanism over time: factor * course + value
+//   name = "sun on the rod"
+//   error = "rod1.warming"       # in place of class
+//   course = "3*(1 - exp(-t/0.2))"     # of t [s], in m, rad or K
+//   factor = { normal = { mean = 1, sd = 0.1 } }   # over the members; left out: 1
+//   value = "1 K"                # or distribution = { .. }; left out beside a course: 0
 #pragma once
 
 #include <cstdint>
@@ -85,7 +92,8 @@ struct BudgetPlan {
   NamedGroups groups;
   std::vector<BudgetRequirement> requirements;
   std::vector<Contributor> contributors;
-  double duration = 0.0;  // of the histories: the motion from `start` on [s]
+  std::vector<KnownError> known;  // once follow_errors() was called
+  double duration = 0.0;          // of the histories: the motion from `start` on [s]
 
   // What shares and reliefs are about: the first requirement, or the APE of all axes, mixed, 95 %.
   BudgetRequirement headline(const BudgetAxes& axes) const;

@@ -3,14 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 
 namespace boresight {
+
+namespace {
+
+bool has_median_errors(const BudgetPlan& plan, const Mechanism& mechanism) {
+  std::vector<double> medians;
+  for (const RandomParameter& random : plan.inputs.parameters) medians.push_back(random.distribution->quantile(0.5));
+  return has_errors(plan.inputs.parameters_with(mechanism, medians));
+}
+
+}  // namespace
 
 BudgetRuns::BudgetRuns(const BudgetPlan& plan, const Mechanism& mechanism)
     : plan_(plan),
       groups_(plan.groups.members.size()),
       joints_(static_cast<std::size_t>(mechanism.clearances())),
+      alone_(joints_ > 1 || (joints_ == 1 && has_median_errors(plan, mechanism))),
       rows_(plan.inputs.size() > 0 ? plan.members : 1),
       attribution_(std::min(rows_, plan.attribution)) {
   if (plan.inputs.size() > 0)
@@ -71,7 +83,7 @@ void BudgetRuns::values(std::uint64_t number, std::span<double> values) const {
 
 BudgetModel::BudgetModel(const std::string& rung, std::shared_ptr<const Mechanism> mechanism, const BudgetPlan& plan,
                          const BudgetRuns& runs, IndexChoice index, const RunOptions& options, bool scene_varies)
-    : runs_(runs) {
+    : plan_(plan), runs_(runs), mechanism_(mechanism) {
   const auto model = [&](const std::shared_ptr<const Mechanism>& of,
                          const RungSampleModel::ParametersOf& parameters_of) {
     return std::make_unique<RungSampleModel>(
@@ -85,13 +97,14 @@ BudgetModel::BudgetModel(const std::string& rung, std::shared_ptr<const Mechanis
   };
   models_.push_back(model(mechanism, drawn));
   const std::size_t joints = runs.joints();
-  for (std::size_t j = 0; joints > 1 && j < joints; ++j) {
+  for (std::size_t j = 0; runs.has_alone() && j < joints; ++j) {
     MechanismDescription alone = mechanism->description();
     alone.clearances = {alone.clearances[j]};
     models_.push_back(
         model(std::make_shared<const Mechanism>(std::move(alone)), [drawn, j](std::span<const double> values) {
           Parameters p = drawn(values);
           p.clearance = {p.clearance[j]};
+          std::fill(p.error.begin(), p.error.end(), 0.0);
           return p;
         }));
   }
@@ -108,11 +121,20 @@ std::string BudgetModel::rung() const { return models_.front()->rung(); }
 double BudgetModel::step() const { return models_.front()->step(); }
 std::string BudgetModel::leaves_out() const { return models_.front()->leaves_out(); }
 
+bool BudgetModel::deviates(const Sample& sample) const {
+  return runs_.joints() > 0 || has_errors(plan_.inputs.parameters_with(*mechanism_, sample.values));
+}
+
 void BudgetModel::evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
                            const std::atomic<bool>& stop) const {
   for (std::size_t k = 0; k < samples.size() && !stop; ++k) {
     const BudgetRuns::Variant v = runs_.variant(samples[k].number);
-    const std::size_t joints = runs_.joints(), alone = joints > 1 ? joints : 0;
+    const std::size_t alone = runs_.has_alone() ? runs_.joints() : 0;
+    if (!deviates(samples[k])) {
+      outcomes[k] = {.status = Outcome::Status::done, .value = 0.0};
+      outcomes[k].history.assign(3 * samples_of(plan_), 0.0);
+      continue;
+    }
     std::size_t which = 0;
     if (v.alone >= 0) which = 1 + static_cast<std::size_t>(v.alone);
     if (v.halved >= 0) which = 1 + alone + static_cast<std::size_t>(v.halved);
@@ -120,10 +142,14 @@ void BudgetModel::evaluate(std::span<const Sample> samples, std::span<Outcome> o
   }
 }
 
+std::size_t samples_of(const BudgetPlan& plan) {
+  return static_cast<std::size_t>(std::max(1.0, std::round(plan.duration / plan.sampling)));
+}
+
 std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Pointing& pointing,
                                     const BudgetPlan& plan) {
   const std::vector<PoseSample>& samples = run.boresight.samples;
-  const auto size = static_cast<std::size_t>(std::max(1.0, std::round(plan.duration / plan.sampling)));
+  const std::size_t size = samples_of(plan);
   std::vector<double> out;
   out.reserve(3 * size);
   std::size_t at = 0;

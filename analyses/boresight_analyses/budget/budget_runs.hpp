@@ -1,7 +1,8 @@
 // The runs that a budget is made of, each with a number, so that they are kept in a store and gone on with.
 //
 //   0                        the mechanism with every scattered parameter at its median
-//   1 .. joints              the same with one clearance alone, the other joints ideal (only where there are several)
+//   1 .. joints              the same with one clearance alone, the other joints ideal and without standing errors (only where
+//                            there are several joints, or errors)
 //   then per member          as it is drawn; per group of parameters, the same with the group at its medians (a
 //                            group of standing errors: at zero, as drawn); per
 //                            clearance joint, the same with the clearance halved, radial and axial
@@ -29,7 +30,8 @@ class BudgetRuns {
   std::size_t joints() const { return joints_; }
 
   std::uint64_t nominal() const { return 0; }
-  std::uint64_t alone(std::size_t joint) const { return joints_ > 1 ? 1 + joint : 0; }
+  bool has_alone() const { return alone_; }  // else the nominal motion is that of the one joint alone
+  std::uint64_t alone(std::size_t joint) const { return alone_ ? 1 + joint : 0; }
   std::uint64_t drawn(std::uint64_t member) const { return first() + member * slots(); }
   std::uint64_t held(std::uint64_t member, std::size_t group) const { return drawn(member) + 1 + group; }
   std::uint64_t halved(std::uint64_t member, std::size_t joint) const { return drawn(member) + 1 + groups_ + joint; }
@@ -47,11 +49,12 @@ class BudgetRuns {
   Variant variant(std::uint64_t number) const;
 
  private:
-  std::uint64_t first() const { return 1 + (joints_ > 1 ? joints_ : 0); }
+  std::uint64_t first() const { return 1 + (alone_ ? joints_ : 0); }
   std::uint64_t slots() const { return 1 + groups_ + joints_; }
 
   const BudgetPlan& plan_;
   std::size_t groups_, joints_;
+  bool alone_;
   std::uint64_t rows_, attribution_;
   std::unique_ptr<const SamplingDesign> design_;  // none where nothing scatters
 };
@@ -71,11 +74,20 @@ class BudgetModel final : public SampleModel {
                 const std::atomic<bool>& stop) const override;
 
  private:
+  // Not where a sample's mechanism is the drawn one and no joint has play: its history is nothing, and rungs that follow what deviates
+  // refuse it.
+  bool deviates(const Sample& sample) const;
+
+  const BudgetPlan& plan_;
   const BudgetRuns& runs_;
-  std::vector<std::unique_ptr<SampleModel>> models_;  // as it is; per joint alone (if several); per joint halved
+  std::shared_ptr<const Mechanism> mechanism_;
+  std::vector<std::unique_ptr<SampleModel>>
+      models_;  // as it is; per joint alone (if it has such runs); per joint halved
 };
 
 // Error vectors out of a run's samples onto the grid of the plan.
+// How many of them that has.
+std::size_t samples_of(const BudgetPlan& plan);
 std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Pointing& pointing,
                                     const BudgetPlan& plan);
 // What the store holds of a run; empty if it failed.

@@ -72,6 +72,10 @@ const char* to_string(ContributorClass kind) {
 
 Moments moments(const Contributor& c, int axis, ErrorIndex index, Interpretation interpretation, const Windows& windows,
                 double duration) {
+  if (c.of_error) {
+    const std::size_t samples = std::max<std::size_t>(1, c.of_error->by_value.size());
+    return moments(*c.of_error, axis, index, interpretation, windows, duration / static_cast<double>(samples));
+  }
   const DistributionPtr& distribution = c.parameter[static_cast<std::size_t>(axis)];
   if (!distribution) return {};
   const Ensemble e(*distribution);
@@ -106,6 +110,15 @@ std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t
                          double spacing, std::size_t samples, const Windows& windows) {
   constexpr std::uint64_t kAxes = 4;  // places a stream has for an observation
   const CounterStream value(seed, StreamPurpose::budget_value), in_time(seed, StreamPurpose::budget_course);
+  if (c.of_error) {
+    // Contributors of one group draw one and the same value; a factor has a place of its own.
+    constexpr std::uint64_t kPlaceOfValue = 0, kPlaceOfFactor = 3;
+    const auto drawn = [&](const DistributionPtr& of, std::uint64_t place, double fixed) {
+      return of ? of->quantile(value.uniform(member, stream, place)) : fixed;
+    };
+    return course_of(*c.of_error, drawn(c.of_error->factor, kPlaceOfFactor, 1.0),
+                     drawn(c.of_error->value, kPlaceOfValue, 0.0));
+  }
   const double observation = windows.observation_in(spacing * static_cast<double>(samples));
   const auto observed = static_cast<std::size_t>(std::max(1.0, std::round(observation / spacing)));
   std::vector<Vec3> out(samples, Vec3::Zero());

@@ -5,15 +5,19 @@
 //   periodic  a sinusoid of amplitude A and some period, its phase unknown
 //   drift     D t, from the beginning of the motion, whenever the history begins; recalibrated, of each observation
 //
+// or a standing error of the mechanism over time (error_course.hpp), which has no class of these.
+//
 // B, s, A, D are the ensemble parameter: per axis, with a distribution over members. Two faces of one contributor: its
 // moments, for the classical table, and its course in time in one member, for the simulated one.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "boresight_analyses/budget/error_course.hpp"
 #include "boresight_analyses/budget/interpretation.hpp"
 #include "boresight_analyses/budget/window_filter.hpp"
 #include "boresight_analyses/random/distribution.hpp"
@@ -27,15 +31,12 @@ struct Contributor {
   std::string name;
   ContributorClass kind = ContributorClass::bias;
   std::array<DistributionPtr, 3> parameter =
-      {};                         // of the ensemble, per axis; none where it does not act [SI; drift: per s]
-  double period = 0.0;            // periodic [s]
-  double correlation_time = 0.0;  // random [s]
-  bool recalibrated = false;      // with every observation a bias is another one, and a drift begins at zero
-  std::string group = {};         // contributors of one group vary together; "": by itself
-};
-
-struct Moments {
-  double mean = 0.0, sd = 0.0;
+      {};                                    // of the ensemble, per axis; none where it does not act [SI; drift: per s]
+  double period = 0.0;                       // periodic [s]
+  double correlation_time = 0.0;             // random [s]
+  bool recalibrated = false;                 // with every observation a bias is another one, and a drift begins at zero
+  std::string group = {};                    // contributors of one group vary together; "": by itself
+  std::optional<ErrorCourse> of_error = {};  // in place of all but name and group
 };
 
 // Mean and standard deviation to enter in the budget of one index, by interpretation (ECSS-E-ST-60-10C, Tables B-1 to
@@ -44,6 +45,7 @@ struct Moments {
 //   temporal   over time, with the worst case of the ensemble parameter: the end of its distribution, or three deviations
 //   mixed      over both; the variance of the conditional mean is part of it (law of total variance), which the
 //              standard's integral leaves out
+// `duration`: of the histories [s].
 Moments moments(const Contributor& contributor, int axis, ErrorIndex index, Interpretation interpretation,
                 const Windows& windows, double duration);
 

@@ -47,13 +47,23 @@ std::vector<BudgetSource> budget_sources(const BudgetStudy& s) {
       {kFromMembers,
        fmt::format("the {} members: the mechanism as drawn, with each member's external errors", s.plan.members),
        std::to_string(r.drawn(0)) + to + std::to_string(r.drawn(r.rows() - 1)) + every},
-      {kFromNominal, "the mechanism with every scattered parameter at its median; of several clearances each alone",
+      {kFromNominal,
+       "the mechanism with every scattered parameter at its median; of several clearances, or with standing errors, "
+       "each "
+       "clearance alone",
        r.drawn(0) == 1 ? "0" : "0" + to + std::to_string(r.drawn(0) - 1)},
       {kFromAttribution,
        fmt::format("the first {} members in all variants: groups held, clearances halved", r.attribution()),
        std::to_string(r.drawn(0)) + to + std::to_string(r.drawn(r.attribution()) - 1)},
       {kFromClasses,
        "formulas of ECSS-E-ST-60-10C from the study's contributors, and the clearances' and groups' moments", ""}};
+  const bool of_errors = std::any_of(s.plan.contributors.begin(), s.plan.contributors.end(),
+                                     [](const Contributor& c) { return c.of_error.has_value(); });
+  if (of_errors || !s.plan.known.empty())
+    sources.push_back({kFromInfluence,
+                       "columns of influence of the standing errors along the commanded motion: to first order, "
+                       "quasi-static",
+                       ""});
   if (!s.plan.posterior.empty())
     sources.push_back({kFromCalibration, "what scatters: " + posterior_origin(s.plan), ""});
   return sources;

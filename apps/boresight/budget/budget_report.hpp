@@ -44,6 +44,7 @@ inline constexpr const char* kFromMembers = "M";
 inline constexpr const char* kFromNominal = "N";
 inline constexpr const char* kFromAttribution = "A";
 inline constexpr const char* kFromClasses = "C";
+inline constexpr const char* kFromInfluence = "I";
 inline constexpr const char* kFromCalibration = "P";  // what scatters, where it was read from a posterior
 
 // Which calibration a posterior is from, and which data that saw: from the summary beside it. Without one it says so.

@@ -28,6 +28,31 @@ std::string spread_text(const Distribution& d, const std::function<std::string(d
   return out;
 }
 
+bool is_by_influence(const BudgetStudy& s, const ClassicalLine& line) {
+  if (line.kind == kKnownKind) return true;
+  return std::any_of(s.plan.contributors.begin(), s.plan.contributors.end(), [&](const Contributor& c) {
+    return c.of_error && c.name == line.name && kind_of(c) == line.kind;
+  });
+}
+
+// A standing error over time: its course, and what scatters it.
+std::vector<nlohmann::json> of_error_row(const Contributor& c) {
+  const ErrorCourse& e = *c.of_error;
+  const auto in_unit = [&](double v) { return readable(v, e.si_unit); };
+  std::string spread;
+  if (e.course)
+    spread = "factor " + (e.factor ? spread_text(*e.factor, [](double v) { return readable_number(v); }) : "1 in all");
+  if (e.value)
+    spread += (spread.empty() ? "" : "; ") +
+              (e.course ? "plus " + spread_text(*e.value, in_unit) : spread_text(*e.value, in_unit));
+  return {c.name,
+          kind_of(c),
+          "error." + e.error + (e.course ? ": " + e.text + " " + e.si_unit : ", constant") + ", seen through the pose",
+          spread,
+          "all",
+          kFromInfluence};
+}
+
 }  // namespace
 
 std::string percent(double share) { return fmt::format("{:g} %", 100.0 * share); }
@@ -125,7 +150,7 @@ report::Table contribution_table(const BudgetStudy& s, const Budget& b) {
     return std::isfinite(share) ? nlohmann::json(100.0 * share) : nlohmann::json();
   };
   for (const Contribution& c : b.contributions) {
-    const bool nominal = c.kind == kClearanceKind, attribution = is_of_group(c.kind);
+    const bool nominal = c.kind == kClearanceKind, attribution = is_of_group(c.kind) || c.kind == kKnownKind;
     table.rows.push_back({c.name, c.kind, 100.0 * c.share, percent(c.interval.low), percent(c.interval.high),
                           budget_value(s, c.share * level),
                           nominal       ? kFromNominal
@@ -192,7 +217,17 @@ report::Table contributor_table(const BudgetStudy& s) {
     table.rows.push_back({s.plan.groups.names[g], kind, in_time, spread, "all",
                           s.plan.posterior.empty() ? kFromAttribution : kFromCalibration});
   }
+  for (const KnownError& known : s.plan.known) {
+    const auto at = std::find_if(m.errors.begin(), m.errors.end(),
+                                 [&](const ErrorDescription& e) { return known.name == "error." + e.name; });
+    table.rows.push_back({known.name, kKnownKind, "fixed, seen through the pose",
+                          readable(known.value, unit_of(*at, m.joints)) + " in all", "all", kFromInfluence});
+  }
   for (const Contributor& c : s.plan.contributors) {
+    if (c.of_error) {
+      table.rows.push_back(of_error_row(c));
+      continue;
+    }
     std::string axes, spread, in_time = c.kind == ContributorClass::bias ? "constant" : "linear";
     if (c.recalibrated) in_time += ", anew with every observation";
     if (c.kind == ContributorClass::periodic) in_time = "period " + readable(c.period, "s");
@@ -218,7 +253,8 @@ report::Table classical_table(const BudgetStudy& s, const ClassicalTable& t) {
       .caption =
           "Means add linearly, deviations by root sum of squares, linearly within a group. Clearances: the "
           "motion at the medians, one joint open at a time. Scatter: what mean and variance lose with the group "
-          "held at its medians. Others: by their class, with exact window filters.",
+          "held at its medians. Standing errors that are known or have a course: by their columns of influence. "
+          "Others: by their class, with exact window filters.",
       .columns = {{"Contributor"}, {"Class"}, {"Group"}}};
   for (const std::string& name : axes.names) {
     table.columns.push_back({"mean " + name, unit.name});
@@ -237,6 +273,7 @@ report::Table classical_table(const BudgetStudy& s, const ClassicalTable& t) {
     row({line.name, line.kind, line.group}, line.axes,
         line.kind == kClearanceKind ? kFromNominal
         : is_of_group(line.kind)    ? kFromAttribution
+        : is_by_influence(s, line)  ? kFromInfluence
                                     : kFromClasses);
   row({"total", "", ""}, t.total.axes, kFromClasses);
   return table;

@@ -7,6 +7,7 @@
 
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight_analyses/budget/budget_keys.hpp"
+#include "boresight_analyses/budget/follow_errors.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/runs/stored_runs.hpp"
 #include "budget/budget_report.hpp"
@@ -161,10 +162,10 @@ class BudgetVerb : public Verb {
     StudyInput input(command.file, command.settings);
     const Study& study = input.study;
     const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
-    const BudgetPlan plan =
-        read_budget_plan(input.root, study, mechanism->description(), mechanism->duration(), input.trial);
+    BudgetPlan plan = read_budget_plan(input.root, study, mechanism->description(), mechanism->duration(), input.trial);
     check_rung_name(command.rung);
     RunOptions run = motion_.run_options(*mechanism, command.rung);
+    const std::vector<std::string> untold = follow_errors(plan, *mechanism, study.index.kind());
 
     const std::string text = plan.sample_text(study);
     nlohmann::json options = motion_.model_identity();
@@ -213,6 +214,7 @@ class BudgetVerb : public Verb {
     result.model_error = seen.model_error;
     result.steps = steps;
     if (budget) result.warnings = warnings_of(result, seen);
+    result.warnings.insert(result.warnings.end(), untold.begin(), untold.end());
     if (!stuck.empty()) result.warnings.push_back(stuck);
     if (!store.damage().empty()) result.warnings.push_back(store.damage());
     write(result, seen, own, watch, store.earlier());

@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <map>
+#include <string>
+
 #include "command_claims.hpp"
 #include "command_table.hpp"
 
@@ -67,6 +70,19 @@ std::vector<Command> commands_on_errors() {
            },
        .edits = {{"3-rrcpr/allocate-tolerances.toml", "samples = 1000", "samples = 200"},
                  {"3-rrcpr/allocate-tolerances.toml", "front = 4", "front = 0"}}},
+      // "the drift between the two windows (PDE) comes from it and from the play in F1, and hardly from lengths"
+      {.text = "boresight budget examples/3-rrcpr/tolerances-budget.toml --rung quasistatic",
+       .claims =
+           [](const Left& left) {
+             std::map<std::string, double> share;
+             for (const auto& one : left.summary["contributions"]) share[one["name"]] = one["share"].get<double>();
+             EXPECT_GT(share["sun on leg 1"], 0.3);
+             EXPECT_GT(share["F1"], 0.3);
+             EXPECT_LT(share["lengths"], 0.08);
+             EXPECT_TRUE(left.summary["requirements"][0]["met"].get<bool>());
+           },
+       .edits = {{"3-rrcpr/tolerances-budget.toml", "members = 200", "members = 60"},
+                 {"3-rrcpr/tolerances-budget.toml", "attribution = 40", "attribution = 12"}}},
       {.text = "boresight run examples/altaz-gimbal/altaz-gimbal.toml",
        .shorter = {"--step-error", "off"},
        .claims = [](const Left& left) { EXPECT_GT(largest(left.summary, "boresight_error"), 1e-4); }},

@@ -34,9 +34,12 @@ const commands = {
   stability: ["stability", "antenna/mechanism.toml"],
   montecarlo: ["montecarlo", "antenna/montecarlo.toml"],
   sensitivity: ["sensitivity", "antenna/sensitivity.toml"],
+  "sensitivity-morris": ["sensitivity", "antenna/morris.toml"],
+  "sensitivity-shapley": ["sensitivity", "antenna/shapley.toml"],
   match: ["match", "antenna/match.toml"],
   allocate: ["allocate", "antenna/allocate.toml"],
   budget: ["budget", "antenna/budget.toml"],
+  "budget-errors": ["budget", path.join(scene, "tolerances-budget.toml"), "--rung", "quasistatic"],
   calibrate: ["calibrate", "antenna/calibrate.toml"],
   laws: ["laws"],
 };
@@ -54,6 +57,11 @@ const call = (...words) => spawnSync(program, words, { cwd: work, encoding: "utf
 expect(call("new", "antenna").status === 0, "boresight new antenna");
 // The example of --help says what else has to be given first.
 const examplesOf = (verb) => call(verb, "--help").stdout.split("Example")[1].split("\n").filter((line) => line.startsWith("  boresight ")).map((line) => line.match(/"[^"]*"|\S+/g).slice(1).map((word) => word.replaceAll('"', "")));
+// The other ways of sensitivity: the same study with another table.
+const study = fs.readFileSync(path.join(work, "antenna", "sensitivity.toml"), "utf8").split("[sensitivity]")[0];
+const correlation = '[[correlation]]\nparameters = ["clearance.elevation.radial", "payload.mass"]\ncoefficient = 0.4\n';
+fs.writeFileSync(path.join(work, "antenna", "morris.toml"), `${study}[sensitivity]\nmethod = "morris"\nsamples = 16\n`);
+fs.writeFileSync(path.join(work, "antenna", "shapley.toml"), `${study}${correlation}[sensitivity]\nmethod = "shapley"\nsamples = 64\n`);
 const reports = [];
 for (const [name, words] of Object.entries(commands)) {
   for (const before of examplesOf(words[0]).slice(0, -1)) call(...before);

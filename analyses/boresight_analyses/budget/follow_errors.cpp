@@ -1,0 +1,110 @@
+#include "boresight_analyses/budget/follow_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/budget/budget_runs.hpp"
+#include "boresight_analyses/study/error_parts.hpp"
+
+namespace boresight {
+namespace {
+
+// Which errors have a value that no [[random]] table draws.
+std::vector<bool> known_errors(const BudgetPlan& plan, const Mechanism& mechanism) {
+  Parameters marked = mechanism.parameters();
+  for (const RandomParameter& random : plan.inputs.parameters)
+    for (const ParameterPath& place : random.places) place.set(marked, std::numeric_limits<double>::quiet_NaN());
+  std::vector<bool> known;
+  for (const double value : marked.error) known.push_back(std::isfinite(value) && value != 0.0);
+  return known;
+}
+
+std::size_t place_of(const MechanismDescription& mechanism, const std::string& name) {
+  const auto at = std::find_if(mechanism.errors.begin(), mechanism.errors.end(),
+                               [&](const ErrorDescription& error) { return error.name == name; });
+  return static_cast<std::size_t>(at - mechanism.errors.begin());
+}
+
+// The columns on the grid of the histories, as the index counts them.
+class ColumnsOnGrid {
+ public:
+  ColumnsOnGrid(const BudgetPlan& plan, const Mechanism& mechanism, PointingQuantity quantity)
+      : mechanism_(mechanism),
+        quantity_(quantity),
+        commanded_(ideal_motion(mechanism, mechanism.parameters())),
+        columns_(mechanism, commanded_) {
+    for (std::size_t k = 0; k < samples_of(plan); ++k) {
+      time_.push_back(std::min(mechanism.duration(), plan.start + static_cast<double>(k) * plan.sampling));
+      gain_.push_back(columns_.at(time_.back()));
+    }
+  }
+
+  const std::vector<double>& time() const { return time_; }
+  std::string refusal(std::size_t error) const { return columns_.refusal(error); }
+  std::vector<Vec3> of(std::size_t error) const {
+    std::vector<Vec3> history;
+    for (std::size_t k = 0; k < time_.size(); ++k) {
+      const BodyMotion body = commanded_.body(time_[k], mechanism_.boresight_body());
+      history.push_back(linear_error_vector(quantity_, gain_[k].col(static_cast<Eigen::Index>(error)),
+                                            {body.p, Quat(body.R)}, mechanism_.pointing(),
+                                            mechanism_.characteristic_length()));
+    }
+    return history;
+  }
+
+ private:
+  const Mechanism& mechanism_;
+  PointingQuantity quantity_;
+  IdealMotion commanded_;
+  ErrorColumns columns_;
+  std::vector<double> time_;
+  std::vector<MatX> gain_;
+};
+
+}  // namespace
+
+std::vector<std::string> follow_errors(BudgetPlan& plan, const Mechanism& mechanism, PointingQuantity quantity) {
+  std::vector<std::string> untold;
+  const std::vector<bool> known = known_errors(plan, mechanism);
+  const bool contributes = std::any_of(plan.contributors.begin(), plan.contributors.end(),
+                                       [](const Contributor& c) { return c.of_error.has_value(); });
+  const bool any_known = std::find(known.begin(), known.end(), true) != known.end();
+  if (!contributes && !any_known) return untold;
+  std::optional<ColumnsOnGrid> columns;
+  try {
+    columns.emplace(plan, mechanism, quantity);
+  } catch (const ComputationError& refused) {
+    if (contributes) throw;
+    return {"the parts of the known errors cannot be told: " + std::string(refused.what())};
+  }
+  for (Contributor& c : plan.contributors) {
+    if (!c.of_error) continue;
+    const std::size_t error = place_of(mechanism.description(), c.of_error->error);
+    if (const std::string why = columns->refusal(error); !why.empty())
+      throw ComputationError("the contributor \"" + c.name + "\": " + why);
+    c.of_error->by_value = columns->of(error);
+    c.of_error->by_course.assign(c.of_error->by_value.size(), Vec3::Zero());
+    if (!c.of_error->course) continue;
+    for (std::size_t k = 0; k < c.of_error->by_course.size(); ++k)
+      c.of_error->by_course[k] = c.of_error->course->at(columns->time()[k]).value * c.of_error->by_value[k];
+  }
+  plan.known.clear();
+  for (std::size_t e = 0; e < known.size(); ++e) {
+    if (!known[e]) continue;
+    if (std::string why = columns->refusal(e); !why.empty()) {
+      untold.push_back("the part of a known error cannot be told: " + why);
+      continue;
+    }
+    KnownError& part = plan.known.emplace_back();
+    part.name = "error." + mechanism.description().errors[e].name;
+    part.value = mechanism.parameters().error[e];
+    part.history = {plan.sampling, columns->of(e)};
+    for (Vec3& at : part.history.error) at *= part.value;
+  }
+  return untold;
+}
+
+}  // namespace boresight

@@ -1,0 +1,129 @@
+#include "boresight_analyses/budget/read_contributor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "boresight/io/mechanism_sections.hpp"
+#include "boresight/keys/units.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/budget/budget_keys.hpp"
+#include "boresight_analyses/budget/line_kinds.hpp"
+#include "boresight_analyses/random/read_distribution.hpp"
+
+namespace boresight {
+namespace {
+
+ContributorClass read_class(Cursor& table) {
+  const std::string name = table.choice("class");
+  for (const ContributorClass kind : {ContributorClass::random, ContributorClass::periodic, ContributorClass::drift})
+    if (name == to_string(kind)) return kind;
+  return ContributorClass::bias;
+}
+
+// A standing error of the mechanism over time.
+ErrorCourse read_error_course(Cursor& table, const BudgetPlan& plan, const MechanismDescription& mechanism) {
+  for (const char* key : {"class", "axes", "period", "correlation_time", "recalibrated"})
+    if (table.has(key))
+      table.fail_found(key, std::string("error and ") + key,
+                       "error without it: course, factor and value say how a standing error varies");
+  ErrorCourse error;
+  error.error = table.text("error");
+  const auto at = std::find_if(mechanism.errors.begin(), mechanism.errors.end(),
+                               [&](const ErrorDescription& e) { return e.name == error.error; });
+  if (at == mechanism.errors.end()) {
+    std::vector<std::string> names;
+    for (const ErrorDescription& e : mechanism.errors) names.push_back(e.name);
+    table.fail_found("error", "\"" + error.error + "\"", "the name of an [[error]] of the mechanism",
+                     nearest_name(error.error, names));
+  }
+  const ParameterPath place(mechanism, "error." + error.error);
+  Parameters marked = nominal_parameters(mechanism);
+  for (const RandomParameter& random : plan.inputs.parameters)
+    for (const ParameterPath& drawn : random.places) drawn.set(marked, std::numeric_limits<double>::quiet_NaN());
+  if (std::isnan(place.get(marked)))
+    table.fail_found(
+        "error", "\"" + error.error + "\", which [[random]] scatters too",
+        "an error that one of the two scatters: value and distribution say here what [[random]] says there");
+  error.what = kind_of(*at);
+  error.si_unit = unit_of(*at, mechanism.joints);
+  const SiUnit& unit = error.si_unit == "m" ? kLength : error.si_unit == "rad" ? kAngle : kTemperature;
+  if (table.has("course")) {
+    error.text = table.text("course");
+    error.course = read_expression(table, "course", plan.start + plan.duration);
+  }
+  if (table.has("factor")) {
+    if (!error.course) table.fail("course", "a course, which factor multiplies");
+    Cursor factor = table.table("factor");
+    error.factor = read_distribution(factor, kRatio);
+  }
+  if (table.has("value") && table.has("distribution"))
+    table.fail("distribution", "a distribution, or a value, and not both");
+  if (!table.has("value") && !table.has("distribution") && !error.course)
+    table.fail("course", "a course, a distribution or a value");
+  if (table.has("value")) {
+    error.value = make_discrete({table.quantity("value", unit)}, {1.0});
+  } else if (table.has("distribution")) {
+    Cursor distribution = table.table("distribution");
+    error.value = read_distribution(distribution, unit);
+  }
+  return error;
+}
+
+}  // namespace
+
+Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuantity quantity,
+                             const MechanismDescription& mechanism) {
+  const BudgetAxes axes(quantity);
+  table.only(budget_contributor_keys());
+  Contributor c;
+  c.name = table.text("name");
+  table.require(!c.name.empty(), "name", "a name");
+  table.rename("budget.contributor." + c.name);
+  if (table.has("error")) {
+    c.of_error = read_error_course(table, plan, mechanism);
+    c.group = table.text("group", "");
+    table.finish();
+    return c;
+  }
+  for (const char* key : {"course", "factor"})
+    if (table.has(key)) table.fail(key, "this beside error only");
+  if (!table.has("class")) table.fail("class", "a class, or error for a standing error of the mechanism");
+  c.kind = read_class(table);
+  const bool periodic = c.kind == ContributorClass::periodic, random = c.kind == ContributorClass::random;
+
+  const bool angle = quantity != PointingQuantity::position_error, drift = c.kind == ContributorClass::drift;
+  const SiUnit of = angle ? (drift ? kAngularRate : kAngle) : (drift ? kSpeed : kLength);
+  if (table.has("value") == table.has("distribution"))
+    table.fail("distribution", "a distribution, or a value, and not both");
+  DistributionPtr parameter;
+  if (table.has("value")) {
+    parameter = make_discrete({table.quantity("value", of)}, {1.0});
+  } else {
+    Cursor distribution = table.table("distribution");
+    parameter = read_distribution(distribution, of);
+  }
+  const std::vector<std::string> named = table.has("axes") ? table.texts("axes") : axes.names;
+  table.require(!named.empty(), "axes", "at least one axis");
+  for (const std::string& name : named) {
+    const auto at = std::find(axes.names.begin(), axes.names.end(), name);
+    if (at == axes.names.end())
+      table.fail_found("axes", "\"" + name + "\"", "an axis of the error", nearest_name(name, axes.names));
+    c.parameter[static_cast<std::size_t>(at - axes.names.begin())] = parameter;
+  }
+
+  if (table.has("period") && !periodic) table.fail("period", "a period with class = \"periodic\" only");
+  if (periodic && !table.has("period")) table.fail("period", "a period, which class = \"periodic\" needs");
+  if (table.has("correlation_time") && !random)
+    table.fail("correlation_time", "a correlation time with class = \"random\" only");
+  c.period = table.quantity("period", 0.0);
+  c.correlation_time = table.quantity("correlation_time", plan.sampling);
+  c.recalibrated = table.boolean("recalibrated");
+  if (c.recalibrated && (periodic || random))
+    table.fail("recalibrated", "this with class = \"bias\" or \"drift\" only");
+  c.group = table.text("group", "");
+  table.finish();
+  return c;
+}
+
+}  // namespace boresight
