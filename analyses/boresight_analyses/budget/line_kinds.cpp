@@ -1,6 +1,11 @@
 #include "boresight_analyses/budget/line_kinds.hpp"
 
 namespace boresight {
+namespace {
+
+constexpr const char *kOverTime = " over time", *kConstant = ", constant";
+
+}  // namespace
 
 const char* kind_of(const ErrorDescription& error) {
   switch (error.kind) {
@@ -32,9 +37,13 @@ std::string kind_of_group(const BudgetPlan& plan, std::size_t group, const Mecha
   return kind;
 }
 
+bool is_by_influence(const std::string& kind) {
+  return kind == kKnownKind || kind.ends_with(kOverTime) || kind.ends_with(kConstant);
+}
+
 std::string kind_of(const Contributor& contributor) {
   if (!contributor.of_error) return to_string(contributor.kind);
-  return contributor.of_error->what + (contributor.of_error->course ? " over time" : ", constant");
+  return contributor.of_error->what + (contributor.of_error->course ? kOverTime : kConstant);
 }
 
 }  // namespace boresight

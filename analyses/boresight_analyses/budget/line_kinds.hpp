@@ -23,6 +23,8 @@ const char* kind_of(const ErrorDescription& error);
 bool is_of_group(const std::string& kind);
 // Which kind this group of the plan's is.
 std::string kind_of_group(const BudgetPlan& plan, std::size_t group, const MechanismDescription& mechanism);
+// Whether a line is known from a column of influence: a known error, or a contributor that is a standing error.
+bool is_by_influence(const std::string& kind);
 // The class of a contributor; of a standing error's course in time what makes that error vary.
 std::string kind_of(const Contributor& contributor);
 

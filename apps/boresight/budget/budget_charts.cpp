@@ -19,6 +19,7 @@ struct WaterfallStep {
 int color_of(const std::string& kind) {
   if (kind == kClearanceKind) return 1;
   if (is_of_group(kind)) return 3;
+  if (is_by_influence(kind)) return 4;
   return kind == "joints and scatter" ? 8 : 5;
 }
 
@@ -84,7 +85,7 @@ report::Chart waterfall_chart(const BudgetStudy& s, const Budget& b) {
   steps.push_back({"level", 0.0, 1.0, 7});
   double nearest = 0.0, farthest = 1.0;
   for (const auto& [color, name] : std::vector<std::pair<int, std::string>>{
-           {1, "clearances"}, {3, "scatter"}, {8, "together"}, {5, "external"}, {7, "level"}}) {
+           {1, "clearances"}, {3, "scatter"}, {4, "standing errors"}, {8, "together"}, {5, "external"}, {7, "level"}}) {
     report::Series series{.name = name, .style = report::Style::bars, .color = color};
     report::Numbers x;
     report::Names y;

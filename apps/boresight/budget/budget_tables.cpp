@@ -28,13 +28,6 @@ std::string spread_text(const Distribution& d, const std::function<std::string(d
   return out;
 }
 
-bool is_by_influence(const BudgetStudy& s, const ClassicalLine& line) {
-  if (line.kind == kKnownKind) return true;
-  return std::any_of(s.plan.contributors.begin(), s.plan.contributors.end(), [&](const Contributor& c) {
-    return c.of_error && c.name == line.name && kind_of(c) == line.kind;
-  });
-}
-
 // A standing error over time: its course, and what scatters it.
 std::vector<nlohmann::json> of_error_row(const Contributor& c) {
   const ErrorCourse& e = *c.of_error;
@@ -164,11 +157,11 @@ report::Table relief_table(const BudgetStudy& s, const Budget& b) {
   const double level = headline_level(b).level.value;
   report::Table table{
       .title = "What to tighten first",
-      .caption = fmt::format(
-          "The level of {} of the members, and what it becomes if one thing is better; not a linear "
-          "guess but runs of their own. Low and high of the gain: {} confidence, by the bootstrap over these "
-          "members. Margin then: the gain taken off the level of all members.",
-          b.attribution, readable_share(s.plan.confidence)),
+      .caption = fmt::format("The level of {} of the members, and what it becomes if one thing is better; not a linear "
+                             "guess but runs of their own; known errors are taken off by their columns of influence. "
+                             "Low and high of the gain: {} confidence, by the bootstrap over these "
+                             "members. Margin then: the gain taken off the level of all members.",
+                             b.attribution, readable_share(s.plan.confidence)),
       .columns = {{"What"},
                   {"If"},
                   {"Level now"},
@@ -271,10 +264,10 @@ report::Table classical_table(const BudgetStudy& s, const ClassicalTable& t) {
   };
   for (const ClassicalLine& line : t.lines)
     row({line.name, line.kind, line.group}, line.axes,
-        line.kind == kClearanceKind ? kFromNominal
-        : is_of_group(line.kind)    ? kFromAttribution
-        : is_by_influence(s, line)  ? kFromInfluence
-                                    : kFromClasses);
+        line.kind == kClearanceKind  ? kFromNominal
+        : is_of_group(line.kind)     ? kFromAttribution
+        : is_by_influence(line.kind) ? kFromInfluence
+                                     : kFromClasses);
   row({"total", "", ""}, t.total.axes, kFromClasses);
   return table;
 }

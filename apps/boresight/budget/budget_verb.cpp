@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight_analyses/budget/budget_keys.hpp"
 #include "boresight_analyses/budget/follow_errors.hpp"
@@ -176,8 +177,12 @@ class BudgetVerb : public Verb {
     SampleStore& store = *opened;
     const BudgetRuns runs(plan, *mechanism);
     // Levels of a budget are quantiles over the members.
-    const RungChoice choice = own.run().rung_of_scatter(
+    RungChoice choice = own.run().rung_of_scatter(
         {.inputs = plan.inputs, .statistic = {0.95}, .runs = runs.count(), .integrators = true}, store);
+    // Rungs that follow what deviates have nothing to follow.
+    if (mechanism->clearances() == 0 && plan.inputs.size() == 0 && !has_errors(mechanism->parameters()))
+      choice = {.name = "multibody",
+                .why = "the mechanism itself deviates by nothing: the budget is that of its contributors, on any rung"};
     apply(choice, run);
     const bool takes_steps = !integrator_names(choice.name).empty();
     if (takes_steps && run.step == 0.0 && (run.integrator.empty() || run.integrator == "rk4"))

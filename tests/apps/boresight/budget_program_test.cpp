@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
+#include <map>
 #include <thread>
 
 #include "program.hpp"
@@ -218,6 +219,56 @@ TEST_F(BudgetProgram, SaysWhyParallelAxesLeaveNothingToBudget) {
   const Ended ended = call(parallel);
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("axes = \"free\" lets them tilt"));
+}
+
+// Six legs without any play: what is off are lengths, one known, one scattered, one that grows in time.
+TEST_F(BudgetProgram, OfAMechanismWithoutPlayRunsOnTheCheapRungsAlsoWhereNothingDeviates) {
+  const auto study = [&](const std::string& random) {
+    std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" BORESIGHT_EXAMPLES "/hexapod/hexapod.toml\"\n"
+                                          << "[index]\nquantity = \"boresight_error\"\n"
+                                          << random << R"([budget]
+members = 10
+attribution = 6
+sampling = "10 ms"
+[[budget.contributor]]
+name = "growing"
+error = "leg1a.length"
+course = "2e-5*t"
+)";
+  };
+  const std::string random = R"([[random]]
+parameter = "error.leg2a.length"
+distribution = { normal = { mean = "0 um", sd = "20 um" } }
+)";
+  const auto levels = [&](const std::string& rung, const std::vector<std::string>& more, const std::string& out) {
+    std::vector<std::string> arguments = {"budget", "study.toml", "--rung", rung, "--out", out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Ended ended = call(arguments);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return json(out + "/summary.json");
+  };
+  study("");
+  const auto alone = levels("quasistatic", {}, "alone");
+  EXPECT_EQ(alone["contributions"].size(), 1u);
+  EXPECT_EQ(alone["contributions"][0]["kind"], "built geometry over time");
+  EXPECT_THAT(alone["rung_why"].get<std::string>(), HasSubstr("deviates by nothing"));
+
+  study(random);
+  const std::vector<std::string> known = {"--set", "error.leg3a.length=30um"};
+  const auto cheap = levels("perturbation", known, "cheap"), exact = levels("multibody", known, "exact");
+  ASSERT_EQ(cheap["levels"].size(), exact["levels"].size());
+  for (std::size_t k = 0; k < cheap["levels"].size(); ++k)
+    EXPECT_NEAR(cheap["levels"][k]["value"].get<double>(), exact["levels"][k]["value"].get<double>(), 2e-7);
+  std::map<std::string, std::string> kinds;
+  double share = 0.0;
+  for (const auto& one : cheap["contributions"]) {
+    kinds[one["name"]] = one["kind"].get<std::string>();
+    share += one["share"].get<double>();
+  }
+  EXPECT_EQ(kinds, (std::map<std::string, std::string>{{"error.leg2a.length", "built geometry"},
+                                                       {"error.leg3a.length", "known error"},
+                                                       {"growing", "built geometry over time"}}));
+  EXPECT_NEAR(share, 1.0, 1e-6);
 }
 
 }  // namespace
