@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
+#include <set>
 
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -31,14 +34,16 @@ std::size_t place_of(const MechanismDescription& mechanism, const std::string& n
 // The columns on the grid of the histories, as the index counts them.
 class ColumnsOnGrid {
  public:
-  ColumnsOnGrid(const BudgetPlan& plan, const Mechanism& mechanism, PointingQuantity quantity)
+  ColumnsOnGrid(const BudgetPlan& plan, const Mechanism& mechanism, PointingQuantity quantity,
+                const std::set<std::size_t>& errors)
       : mechanism_(mechanism),
         quantity_(quantity),
         commanded_(ideal_motion(mechanism, mechanism.parameters())),
         columns_(mechanism, commanded_) {
     for (std::size_t k = 0; k < samples_of(plan); ++k) {
       time_.push_back(std::min(mechanism.duration(), plan.start + static_cast<double>(k) * plan.sampling));
-      gain_.push_back(columns_.at(time_.back()));
+      const MatX gain = columns_.at(time_.back());
+      for (const std::size_t error : errors) gain_[error].emplace_back(gain.col(static_cast<Eigen::Index>(error)));
     }
   }
 
@@ -48,9 +53,8 @@ class ColumnsOnGrid {
     std::vector<Vec3> history;
     for (std::size_t k = 0; k < time_.size(); ++k) {
       const BodyMotion body = commanded_.body(time_[k], mechanism_.boresight_body());
-      history.push_back(linear_error_vector(quantity_, gain_[k].col(static_cast<Eigen::Index>(error)),
-                                            {body.p, Quat(body.R)}, mechanism_.pointing(),
-                                            mechanism_.characteristic_length()));
+      history.push_back(linear_error_vector(quantity_, gain_.at(error)[k], {body.p, Quat(body.R)},
+                                            mechanism_.pointing(), mechanism_.characteristic_length()));
     }
     return history;
   }
@@ -61,7 +65,7 @@ class ColumnsOnGrid {
   IdealMotion commanded_;
   ErrorColumns columns_;
   std::vector<double> time_;
-  std::vector<MatX> gain_;
+  std::map<std::size_t, std::vector<Vec6>> gain_;  // per error
 };
 
 }  // namespace
@@ -69,13 +73,16 @@ class ColumnsOnGrid {
 std::vector<std::string> follow_errors(BudgetPlan& plan, const Mechanism& mechanism, PointingQuantity quantity) {
   std::vector<std::string> untold;
   const std::vector<bool> known = known_errors(plan, mechanism);
-  const bool contributes = std::any_of(plan.contributors.begin(), plan.contributors.end(),
-                                       [](const Contributor& c) { return c.of_error.has_value(); });
-  const bool any_known = std::find(known.begin(), known.end(), true) != known.end();
-  if (!contributes && !any_known) return untold;
+  std::set<std::size_t> errors;
+  for (const Contributor& c : plan.contributors)
+    if (c.of_error) errors.insert(place_of(mechanism.description(), c.of_error->error));
+  const bool contributes = !errors.empty();
+  for (std::size_t e = 0; e < known.size(); ++e)
+    if (known[e]) errors.insert(e);
+  if (errors.empty()) return untold;
   std::optional<ColumnsOnGrid> columns;
   try {
-    columns.emplace(plan, mechanism, quantity);
+    columns.emplace(plan, mechanism, quantity, errors);
   } catch (const ComputationError& refused) {
     if (contributes) throw;
     return {"the parts of the known errors cannot be told: " + std::string(refused.what())};

@@ -7,7 +7,9 @@
 #include <functional>
 #include <ostream>
 
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/study/overrun_play.hpp"
 #include "report_parts/report_parts.hpp"
 #include "results/tables.hpp"
 #include "terminal/readable.hpp"
@@ -119,7 +121,8 @@ report::Table parts_table(const RunParts& parts, const Mechanism& mechanism, con
                           shown(index.boresight_error.rms, angle), share(part.boresight_share)});
   };
   for (const ErrorPart& part : found.parts) row(short_name(part), readable(part.value, part.unit), part);
-  if (const std::string rest = rest_name(mechanism, result); !rest.empty()) row(rest, "", found.rest);
+  const std::string rest = rest_name(mechanism, result);
+  if (!rest.empty() && !found.rest.poses.empty()) row(rest, "", found.rest);
   return table;
 }
 
@@ -130,6 +133,7 @@ std::optional<RunParts> run_parts(const Mechanism& mechanism, const RunResult& r
   if (std::all_of(errors.begin(), errors.end(), [](double value) { return value == 0.0; })) return {};
   RunParts parts;
   try {
+    parts.overrun = overrun_plays(mechanism, mechanism.parameters(), ideal_motion(mechanism, mechanism.parameters()));
     parts.found = parts_of_errors(mechanism, mechanism.parameters(), result);
   } catch (const ComputationError& failure) {
     parts.refusal = failure.what();

@@ -4,6 +4,7 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight_analyses/study/error_parts.hpp"
@@ -14,7 +15,8 @@ namespace boresight::app {
 
 struct RunParts {
   ErrorParts found;
-  std::string refusal;  // why nothing is known of any; "": it is
+  std::string refusal;               // why nothing is known of any; "": it is
+  std::vector<std::string> overrun;  // sentences on plays that the errors use up (overrun_play.hpp)
 };
 
 // Nothing where no error has a value.

@@ -6,16 +6,13 @@
 #include <iostream>
 
 #include "boresight/contact/law_range.hpp"
-#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
-#include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/perturbation/predictability.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/stepping/measured_error.hpp"
-#include "boresight_analyses/study/overrun_play.hpp"
 #include "command_line/declared_option.hpp"
 #include "command_line/montecarlo_study.hpp"
 #include "command_line/study_input.hpp"
@@ -202,16 +199,15 @@ class RunVerb : public Verb {
     RunResult result = rung->run(mechanism->parameters(), options);
     refuse_infinite(result);
     add_range_warnings(*mechanism, result);
-    if (has_errors(mechanism->parameters()))
-      for (const std::string& warning :
-           overrun_plays(*mechanism, mechanism->parameters(), ideal_motion(*mechanism, mechanism->parameters())))
-        result.warnings.push_back(warning);
     std::vector<Compared> others;
     std::optional<AxesComparison> axes;
     std::optional<Predictability> predictability;
     MeasuredError measured;
+    std::optional<RunParts> parts;
     bool cut_short = result.interrupted;
     try {
+      if (!cut_short) parts = run_parts(*mechanism, result);
+      if (parts) result.warnings.insert(result.warnings.end(), parts->overrun.begin(), parts->overrun.end());
       if (compare_ && !cut_short)
         for (const std::string& name : rung_names())
           if (name != choice.name)
@@ -226,7 +222,6 @@ class RunVerb : public Verb {
       cut_short = interrupted();
     }
 
-    const std::optional<RunParts> parts = run_parts(*mechanism, result);
     Json summary =
         summary_of(command, *mechanism, choice, result, others, axes, predictability, measured, index, watch, out);
     report::Document document = run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes,

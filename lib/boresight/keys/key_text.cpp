@@ -119,7 +119,7 @@ std::string kind_text(const Key& key) {
     case KeyKind::choices:
       return many + " of words";
     case KeyKind::expression:
-      return "expression of t in " + unit;
+      return unit == "1" ? "expression" : "expression of t in " + unit;
     case KeyKind::expressions:
       return many + " expressions of t in " + unit + one_too;
     case KeyKind::table:
