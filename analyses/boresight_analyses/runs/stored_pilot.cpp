@@ -40,7 +40,8 @@ void fields_of_trial(const Field& field, Trial& t) {
 
 template <typename Field, typename Pilot>
 void fields_of_pilot(const Field& field, Pilot& p) {
-  field("accuracy", p.accuracy), field("index", p.index), field("unit", p.unit), field("reference", p.reference);
+  field("accuracy", p.accuracy), field("geometry", p.geometry), field("index", p.index), field("unit", p.unit),
+      field("reference", p.reference);
   field("reference_error", p.reference_error), field("scatter", p.scatter), field("pairs", p.pairs),
       field("chosen", p.chosen);
   field("met", p.met), field("cpu_seconds", p.cpu_seconds), field("why", p.why);

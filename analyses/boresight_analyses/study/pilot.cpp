@@ -1,16 +1,38 @@
 #include "boresight_analyses/study/pilot.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/study/geometric_sample_model.hpp"
 #include "boresight_analyses/study/measurement.hpp"
 #include "boresight_analyses/study/pilot_choice.hpp"
 
 namespace boresight {
+namespace {
+
+// Of what the study's runs would take on multibody, the pilot may take this share where that is long, and no more than the
+// other where it is short.
+constexpr double kShareOfStudy = 0.02, kShareOfShortStudy = 0.5;
+
+}  // namespace
+
+double most_seconds(const PilotOptions& options, double multibody_seconds) {
+  if (options.runs == 0) return options.most_seconds;
+  const double study = static_cast<double>(options.runs) * multibody_seconds;
+  return std::max(kShareOfStudy * study, std::min(options.most_seconds, kShareOfShortStudy * study));
+}
+
+std::vector<double> stated_probabilities(const ScatterStatistic& asked) {
+  return {0.0, 0.5, 0.95, 0.99, 0.9973, asked.probability};
+}
 
 PilotResult run_pilot(std::shared_ptr<const Mechanism> mechanism, const std::vector<Parameters>& samples,
                       const PilotOptions& options) {
+  if (GeometricErrors::serve(*mechanism) && std::any_of(samples.begin(), samples.end(), has_errors))
+    return pilot_of_geometry(std::move(mechanism), samples, options);
   return options.statistic ? pilot_of_scatter(std::move(mechanism), samples, options)
                            : pilot_of_motions(std::move(mechanism), samples, options);
 }

@@ -12,6 +12,9 @@
 //                 samples and are compared pair by pair (scatter_comparison.hpp); pairs are added until the answer is
 //                 clear or the time is spent. error = |difference| + half of its 95 percent interval.
 //
+// Where no joint has play and standing errors alone move the boresight, all of it is geometry. The rungs but multibody are then one way,
+// linear in the errors; multibody closes the joints exactly, and is what that is held against, in the same two questions.
+//
 // A rung that cannot follow the motion (a singular pose, an unstable step) says why and is passed over; one that a large
 // clearance makes inexact fails by its error: the pilot climbs.
 #pragma once
@@ -48,7 +51,8 @@ struct PilotTrial {
 
 struct PilotResult {
   double accuracy = 0.01;
-  std::string index;  // in words
+  bool geometry = false;  // no play: errors added up linearly, held against joints closed exactly
+  std::string index;      // in words
   std::string unit;
   double reference = 0.0;        // as PilotTrial::value
   double reference_error = 0.0;  // relative, with 95 percent confidence; the worst over all motions

@@ -12,13 +12,8 @@
 namespace boresight {
 namespace {
 
-// Pairs after which it is looked whether the answer is clear.
-constexpr std::size_t kPairs[] = {6, 12, 24, 48, 96, 192};
 // What may rank the samples takes no longer than this [s of CPU].
 constexpr double kRankingSeconds = 1.0;
-// Of what the study's runs would take on multibody, the pilot may take this share where that is long, and no more than the
-// other where it is short.
-constexpr double kShareOfStudy = 0.02, kShareOfShortStudy = 0.5;
 // What a step errs by over what half of it errs by, less one: a contact's force has a kink where it begins, which makes RK4 of
 // second order through it. So the reference is good to a third of what multibody's own step is found to be off from it.
 constexpr double kOwnOverReference = 3.0;
@@ -74,7 +69,6 @@ class PilotOfScatter {
 
   // Ranks the samples by the cheapest way there is that takes them all in little time.
   void choose_samples_by_rank() {
-    const std::size_t most = kPairs[std::size(kPairs) - 1];
     std::vector<double> ranked_by;
     RungSetup setup{.rung = lanes_serve() ? "perturbation" : "quasistatic", .lanes = lanes_serve()};
     try {
@@ -89,7 +83,7 @@ class PilotOfScatter {
     } catch (const ComputationError&) {
       ranked_by.clear();  // plain samples then
     }
-    chosen_ = choose_samples(ranked_by, samples_.size(), most, *options_.statistic);
+    chosen_ = choose_samples(ranked_by, samples_.size(), kMostPairs, *options_.statistic);
   }
 
   // Multibody's own step is the smallest that it chooses for the first samples.
@@ -136,10 +130,7 @@ class PilotOfScatter {
   }
 
   bool more_pairs() {
-    const double study = static_cast<double>(options_.runs) * own_->cpu_seconds();
-    const double most =
-        options_.runs > 0 ? std::max(kShareOfStudy * study, std::min(options_.most_seconds, kShareOfShortStudy * study))
-                          : options_.most_seconds;
+    const double most = most_seconds(options_, own_->cpu_seconds());
     for (std::size_t n : kPairs) {
       if (n <= asked_) continue;
       if (asked_ >= chosen_.sample.size()) return false;
@@ -248,8 +239,7 @@ class PilotOfScatter {
 
   // Whether no number of pairs that the pilot may take would show the reference to be good enough.
   bool hopeless() const {
-    const double most = static_cast<double>(kPairs[std::size(kPairs) - 1]);
-    const double at_best = reference_.half_width * std::sqrt(static_cast<double>(pairs_.size()) / most);
+    const double at_best = reference_.half_width * std::sqrt(static_cast<double>(pairs_.size()) / kMostPairs);
     const double enough = kOwnOverReference * options_.accuracy;
     return at_best > enough || std::abs(reference_.difference) - reference_.half_width > enough;
   }
@@ -314,7 +304,7 @@ class PilotOfScatter {
       if (trial.rung != chosen.rung || trial.step != chosen.step || trial.integrator != chosen.integrator ||
           trial.tolerance != chosen.tolerance || trial.lanes != chosen.lanes || setup.get() == fine_)
         continue;
-      for (const double p : {0.0, 0.5, 0.95, 0.99, 0.9973, options_.statistic->probability}) {
+      for (const double p : stated_probabilities(*options_.statistic)) {
         const std::vector<double> reference = fine_->values(pairs_);
         const ScatterDifference d = compare_scatter(setup->values(pairs_), reference, scores_, {p});
         // The reference is off by something itself, as its own step shows.

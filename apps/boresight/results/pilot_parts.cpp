@@ -25,6 +25,7 @@ std::string fineness_of(const PilotTrial& t) {
 nlohmann::ordered_json pilot_json(const PilotResult& pilot) {
   nlohmann::ordered_json json;
   json["accuracy"] = pilot.accuracy;
+  if (pilot.geometry) json["geometry"] = true;
   json["index"] = pilot.index;
   json["reference"] = pilot.reference;
   json["reference_error"] = number_json(pilot.reference_error);
@@ -54,8 +55,48 @@ nlohmann::ordered_json pilot_json(const PilotResult& pilot) {
   return json;
 }
 
+namespace {
+
+report::Table tried_table(const PilotResult& pilot) {
+  report::Table table{
+      .title = "Tried",
+      .caption = pilot.geometry
+                     ? "The error holds with 95 % confidence. A rung's own estimate is of what is not linear in the "
+                       "errors, before anything has checked it."
+                     : "The error holds with 95 % confidence, what impacts scatter included. A rung's own "
+                       "estimate is of what it leaves out, before anything has checked it.",
+      .columns = {{"Rung"}, {"Fineness"}, {"Error", "%"}, {"Own estimate", "%"}, {"CPU", "ms"}, {"Outcome"}}};
+  for (std::size_t k = 0; k < pilot.trials.size(); ++k) {
+    const PilotTrial& t = pilot.trials[k];
+    const bool chosen = static_cast<int>(k) == pilot.chosen;
+    const char* missed = t.reference  ? (pilot.geometry ? "the reference: exact" : "the reference, at its own step")
+                         : t.accepted ? "accurate enough, not cheapest"
+                                      : "not accurate enough";
+    if (!t.refusal.empty()) {
+      table.rows.push_back({way_of(t), fineness_of(t), nullptr, nullptr, nullptr, "refused: " + t.refusal});
+      continue;
+    }
+    table.rows.push_back({way_of(t), fineness_of(t), number_json(100.0 * t.error), 100.0 * t.estimate,
+                          1e3 * t.cpu_seconds, chosen ? (pilot.met ? "taken" : "taken, not shown") : missed});
+  }
+  return table;
+}
+
+}  // namespace
+
 report::Section pilot_section(const PilotResult& pilot) {
   report::Section section{.id = "pilot", .title = "How the rung was chosen", .items = {}};
+  if (pilot.geometry) {
+    section.items.push_back(report::Text{fmt::format(
+        "Asked for: {} within {}. No joint has play, so the mechanism's geometry says all: envelope, quasistatic and "
+        "perturbation add up what each error does to the pose, and multibody closes the joints of the built mechanism "
+        "exactly. The pilot computed {} both ways, in {} of CPU. Of the choice: {}.",
+        pilot.index, readable_share(pilot.accuracy),
+        pilot.pairs > 0 ? fmt::format("{} samples of the scatter", pilot.pairs) : "the motion",
+        readable(pilot.cpu_seconds, "s"), pilot.why)});
+    section.items.push_back(tried_table(pilot));
+    return section;
+  }
   section.items.push_back(report::Text{fmt::format(
       "Asked for: {} within {}. The pilot {}, held them against multibody at half its own step (good to {}, with "
       "95 % confidence), in {} of CPU. Of the choice: {}.",
@@ -91,26 +132,7 @@ report::Section pilot_section(const PilotResult& pilot) {
   if (pilot.reference_error > 0.0) chart.lines.push_back({'y', 100.0 * pilot.reference_error, "the reference's own"});
   section.items.push_back(std::move(chart));
 
-  report::Table table{
-      .title = "Tried",
-      .caption =
-          "The error holds with 95 % confidence, what impacts scatter included. A rung's own estimate is of "
-          "what it leaves out, before anything has checked it.",
-      .columns = {{"Rung"}, {"Fineness"}, {"Error", "%"}, {"Own estimate", "%"}, {"CPU", "ms"}, {"Outcome"}}};
-  for (std::size_t k = 0; k < pilot.trials.size(); ++k) {
-    const PilotTrial& t = pilot.trials[k];
-    const bool chosen = static_cast<int>(k) == pilot.chosen;
-    const char* missed = t.reference  ? "the reference, at its own step"
-                         : t.accepted ? "accurate enough, not cheapest"
-                                      : "not accurate enough";
-    if (!t.refusal.empty()) {
-      table.rows.push_back({way_of(t), fineness_of(t), nullptr, nullptr, nullptr, "refused: " + t.refusal});
-      continue;
-    }
-    table.rows.push_back({way_of(t), fineness_of(t), number_json(100.0 * t.error), 100.0 * t.estimate,
-                          1e3 * t.cpu_seconds, chosen ? (pilot.met ? "taken" : "taken, not shown") : missed});
-  }
-  section.items.push_back(std::move(table));
+  section.items.push_back(tried_table(pilot));
   return section;
 }
 
