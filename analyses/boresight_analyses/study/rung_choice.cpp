@@ -6,6 +6,7 @@
 #include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/scene/geometric_errors.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 
 namespace boresight {
@@ -34,7 +35,9 @@ void apply(const RungChoice& choice, RunOptions& options) {
   if (!choice.integrator.empty()) options.integrator = choice.integrator;
 }
 
-std::string next_rung_up(const std::string& rung) {
+std::string next_rung_up(const std::string& rung, const Mechanism& mechanism) {
+  // Without play the others are all one: linear in the errors.
+  if (GeometricErrors::serve(mechanism)) return rung_names().back();
   // Envelope and quasistatic are both static answers; what confirms either is a motion with impacts.
   if (rung == "envelope" || rung == "quasistatic") return "perturbation";
   return rung_names().back();

@@ -40,7 +40,7 @@ struct RungQuestion {
 void apply(const RungChoice& choice, RunOptions& options);
 
 // The rung that leaves out less than this one, to confirm on; the same where there is none.
-std::string next_rung_up(const std::string& rung);
+std::string next_rung_up(const std::string& rung, const Mechanism& mechanism);
 // The run's options on this rung, with one step for all motions where it takes fixed steps and none was given. An integrator
 // that the rung does not have is left out: the question was put to another rung. Throws OptionRefused, ComputationError.
 RunOptions options_on(const std::string& rung, const std::shared_ptr<const Mechanism>& mechanism,

@@ -144,7 +144,7 @@ class AllocateVerb : public Verb {
                         identity_of_study(command, *mechanism, plan.sample_text(study), motion_.identity()));
     const OutputDirectory& out = own.out();
 
-    RungChoice choice = rung_for(command);
+    RungChoice choice = rung_for(command, *mechanism);
     const std::vector<std::vector<double>> gaps = corner_gaps(plan);
     std::vector<std::vector<ParameterPath>> places;
     for (const AllocationEntry& joint : plan.entries) places.push_back(joint.places);
@@ -218,10 +218,10 @@ class AllocateVerb : public Verb {
   }
 
  private:
-  static RungChoice rung_for(const Command& command) {
+  static RungChoice rung_for(const Command& command, const Mechanism& mechanism) {
     if (command.rung == "perturbation" || command.rung == "multibody")
       return {.name = command.rung, .why = "asked for by name; confirms what the linear deviation at rest finds"};
-    return {.name = "perturbation",
+    return {.name = next_rung_up("quasistatic", mechanism),
             .why =
                 "the next rung above the quasistatic one, whose linear deviation the search uses; it "
                 "confirms the choice"};

@@ -105,7 +105,7 @@ class MatchVerb : public Verb {
 
     const std::vector<Parameters> corners = corners_of(plan, *mechanism);
     RungChoice choice = own.run().rung_of_corners(corners, "evaluations.db");
-    const std::string upper = next_rung_up(choice.name);
+    const std::string upper = next_rung_up(choice.name, *mechanism);
     const auto parameters_of = [mechanism, &plan](std::span<const double> values) {
       return plan.parameters_with(*mechanism, values);
     };
