@@ -101,10 +101,11 @@ class Multibody final : public Rung {
       RunResult result = motion_without_play(
           *built,
           [&](double t, IdealState& state) {
+            if (t < at.t) solver.start(at);
             if (t > at.t && !solver.solve(t, at)) throw NotReached{};
             state = at;
           },
-          commanded, parameters, options, mechanism_->duration() / StandingErrors::kFewestInstants);
+          commanded, parameters, options);
       result.error = {0.0, 0.0, "no play can move: the built mechanism's joints are closed exactly"};
       result.rung = name();
       result.formulation = "tree";

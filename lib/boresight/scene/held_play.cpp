@@ -6,6 +6,7 @@
 #include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/play_mobility.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
+#include "boresight/scene/standing_errors.hpp"
 #include "boresight/stepping/unstable_step.hpp"
 
 namespace boresight {
@@ -16,32 +17,70 @@ std::vector<std::string> held_plays(const Mechanism& mechanism, const IdealMotio
   return held_plays(mechanism, analyse_play(mechanism, state.bodies));
 }
 
-RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ideal, const IdealMotion& commanded,
-                              const Parameters& parameters, const RunOptions& options) {
-  RunResult result = motion_without_play(
-      mechanism, [&](double t, IdealState& state) { ideal.state(t, state); }, commanded, parameters, options,
-      longest_step(mechanism.duration()));
-  result.error = {0.0, 0.0,
-                  mechanism.built()
-                      ? "no play can move: the motion is that of the built mechanism's joints, closed exactly"
-                      : "no play can move: the motion is the ideal one"};
-  return result;
-}
+namespace {
 
-RunResult motion_without_play(const Mechanism& mechanism, const std::function<void(double, IdealState&)>& state_at,
-                              const IdealMotion& ideal, const Parameters& parameters, const RunOptions& options,
-                              double step) {
-  const double duration = mechanism.duration();
+// A peak may be higher than at its instants by this share of the maximum: of every peak, as quantiles over time hang on many.
+constexpr double kMissed = 1e-4;
+// Between two knots of a motion the fastest body turns by some 0.06 of a radian, or moves by that share of the mechanism's size.
+constexpr int kInstantsAKnot = 2;
+// A motion that ripples faster than its knots show is looked at this often, each time at so many times more instants at most.
+constexpr int kMostLooks = 4;
+constexpr double kMostTimesMore = 16.0;
+
+// How much higher than at its instants a number is somewhere between them, by the parabola through a peak and its neighbours.
+class Peak {
+ public:
+  void add(double value) {
+    if (seen_ >= 2 && last_ >= before_ && last_ >= value) {
+      const double bend = 2.0 * last_ - before_ - value;
+      if (bend > 0.0) above_ = std::max(above_, (value - before_) * (value - before_) / (8.0 * bend));
+    }
+    highest_ = std::max(highest_, value);
+    before_ = last_;
+    last_ = value;
+    ++seen_;
+  }
+  // Of any peak, relative to the highest.
+  double missed() const { return highest_ > 0.0 ? above_ / highest_ : 0.0; }
+
+ private:
+  double before_ = 0.0, last_ = 0.0, highest_ = 0.0, above_ = 0.0;
+  long seen_ = 0;
+};
+
+struct Peaks {
+  Peak position, orientation, boresight, line_of_sight;
+  void add(const PoseError& error) {
+    position.add(error.position);
+    orientation.add(error.orientation);
+    boresight.add(error.boresight);
+    line_of_sight.add(error.line_of_sight);
+  }
+  double missed() const {
+    return std::max({position.missed(), orientation.missed(), boresight.missed(), line_of_sight.missed()});
+  }
+};
+
+// step: of the samples a whole share, or they lie closer than it. Without samples instants divide the motion alike.
+RunResult follow(const Mechanism& mechanism, const std::function<void(double, IdealState&)>& state_at,
+                 const IdealMotion& ideal, const Parameters& parameters, const RunOptions& options, double step,
+                 Peaks& peaks) {
+  const double duration = mechanism.duration(), spacing = options.sample_spacing;
   const ForceElements forces(mechanism, parameters, true);
-  const double wanted = step_on_grid(step, options.sample_spacing);
+  const double wanted = spacing > 0.0 && spacing < step ? spacing : step_on_grid(step, spacing);
   const long steps = std::max(1L, static_cast<long>(std::ceil(duration / wanted - 1e-9)));
+  const auto time = [&](long i) {
+    if (i == steps) return duration;
+    return spacing > 0.0 ? wanted * static_cast<double>(i)
+                         : duration * static_cast<double>(i) / static_cast<double>(steps);
+  };
   MotionRecorder recorder(mechanism, ideal, options, static_cast<double>(steps));
   std::array<ContactState<double>, kContactPlaces> contact;
   IdealState state;
   for (long i = 0; i <= steps; ++i) {
-    state_at(duration * static_cast<double>(i) / static_cast<double>(steps), state);
+    state_at(time(i), state);
     const int boresight = mechanism.boresight_body();
-    recorder.accept(state.t, state.bodies[boresight], state.acceleration[boresight]);
+    peaks.add(recorder.accept(state.t, state.bodies[boresight], state.acceleration[boresight]));
     if (!recorder.sampling()) continue;
     for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {
       const int body = recorder.bodies_wanted()[k];
@@ -62,6 +101,39 @@ RunResult motion_without_play(const Mechanism& mechanism, const std::function<vo
   }
   result.integrator = "none: no play can move";
   result.cost.steps = result.cost.evaluations = steps;
+  return result;
+}
+
+}  // namespace
+
+RunResult motion_without_play(const Mechanism& mechanism, const std::function<void(double, IdealState&)>& state,
+                              const IdealMotion& commanded, const Parameters& parameters, const RunOptions& options,
+                              double step) {
+  Peaks peaks;
+  return follow(mechanism, state, commanded, parameters, options, step, peaks);
+}
+
+RunResult motion_without_play(const Mechanism& mechanism, const std::function<void(double, IdealState&)>& state,
+                              const IdealMotion& commanded, const Parameters& parameters, const RunOptions& options) {
+  double step =
+      mechanism.duration() / std::max(StandingErrors::kFewestInstants, kInstantsAKnot * (commanded.knots() - 1));
+  for (int look = 1;; ++look) {
+    Peaks peaks;
+    RunResult result = follow(mechanism, state, commanded, parameters, options, step, peaks);
+    if (peaks.missed() <= kMissed || look == kMostLooks) return result;
+    // What is missed goes with the square of the step.
+    step /= std::clamp(std::ceil(std::sqrt(peaks.missed() / kMissed)), 2.0, kMostTimesMore);
+  }
+}
+
+RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ideal, const IdealMotion& commanded,
+                              const Parameters& parameters, const RunOptions& options) {
+  RunResult result = motion_without_play(
+      mechanism, [&](double t, IdealState& state) { ideal.state(t, state); }, commanded, parameters, options);
+  result.error = {0.0, 0.0,
+                  mechanism.built()
+                      ? "no play can move: the motion is that of the built mechanism's joints, closed exactly"
+                      : "no play can move: the motion is the ideal one"};
   return result;
 }
 

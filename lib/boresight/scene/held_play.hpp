@@ -15,11 +15,15 @@ namespace boresight {
 std::vector<std::string> held_plays(const Mechanism& mechanism, const IdealMotion& ideal);
 
 // How far the bodies are off where no play moves: `state` gives them over time, `commanded` where they should be. The caller fills in the
-// rung's name, its warnings and its error estimate.
+// rung's name, its warnings and its error estimate. Histories have their samples where they were asked for.
 // step: no longer than this from one instant to the next [s].
 RunResult motion_without_play(const Mechanism& mechanism, const std::function<void(double, IdealState&)>& state,
                               const IdealMotion& commanded, const Parameters& parameters, const RunOptions& options,
                               double step);
+// At as many instants as the motion asks for: a thousand, two from one knot of the commanded motion to the next, and more where between
+// two of them an index may be higher than at any, by 1e-4 of its maximum. `state` is asked for increasing times, and again from the start.
+RunResult motion_without_play(const Mechanism& mechanism, const std::function<void(double, IdealState&)>& state,
+                              const IdealMotion& commanded, const Parameters& parameters, const RunOptions& options);
 // The mechanism's own motion without clearance.
 RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ideal, const IdealMotion& commanded,
                               const Parameters& parameters, const RunOptions& options);
