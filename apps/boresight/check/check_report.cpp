@@ -220,16 +220,22 @@ void add_cost_note(const std::shared_ptr<const Mechanism>& mechanism, CheckResul
 void add_error_notes(const Mechanism& mechanism, CheckResult& result) {
   if (mechanism.description().errors.empty()) return;
   result.errors = error_effects(mechanism, ideal_motion(mechanism, mechanism.parameters()));
-  std::string idle;
+  std::string idle, using_play;
   int count = 0;
   for (const ErrorEffect& effect : result.errors) {
     if (!effect.strain.empty()) (effect.value != 0.0 ? result.findings : result.notes).push_back(effect.strain);
+    if (effect.uses_play) using_play += (using_play.empty() ? "" : ", ") + effect.name;
     if (!effect.does_nothing()) continue;
     idle += (count++ > 0 ? ", " : "") + effect.name;
   }
   if (count > 0)
     result.notes.push_back("to first order " + std::string(count == 1 ? "this error does" : "these errors do") +
                            " nothing to where the boresight body is or points: " + idle);
+  if (!using_play.empty())
+    result.notes.push_back(
+        "these errors use up play of joints that hold each other, which then rest elsewhere; what that does "
+        "to the boresight, a run says: " +
+        using_play);
 }
 
 report::Table error_table(const std::vector<ErrorEffect>& effects) {
@@ -237,7 +243,7 @@ report::Table error_table(const std::vector<ErrorEffect>& effects) {
       .title = "What each error does",
       .caption =
           "The largest over the motion, to first order: of one unit of the error, and of the value "
-          "that the file gives it.",
+          "that the file gives it. How journals rest is left out.",
       .columns = {{"error"}, {"position, per unit"}, {"boresight, per unit"}, {"value"}, {"position"}, {"boresight"}}};
   for (const ErrorEffect& e : effects) {
     if (!e.strain.empty()) {

@@ -56,11 +56,9 @@ Json kinematics_json(const KinematicReport& k) {
 Json errors_json(const CheckResult& result) {
   Json json = Json::object();
   for (const ErrorEffect& e : result.errors)
-    json[e.name] = {{"value", e.value},
-                    {"position", e.position},
-                    {"boresight", e.boresight},
-                    {"does_nothing", e.does_nothing()},
-                    {"strain", e.strain}};
+    json[e.name] = {{"value", e.value},         {"position", e.position},
+                    {"boresight", e.boresight}, {"does_nothing", e.does_nothing()},
+                    {"uses_play", e.uses_play}, {"strain", e.strain}};
   return json;
 }
 

@@ -58,6 +58,10 @@ std::vector<ErrorEffect> error_effects(const Mechanism& mechanism, const IdealMo
       const Vec6 column = G.block<6, 1>(6 * body, static_cast<Eigen::Index>(e));
       effects[e].position = std::max(effects[e].position, column.head<3>().norm());
       effects[e].boresight = std::max(effects[e].boresight, column.tail<3>().cross(axis).norm());
+      if (influence.shifts())
+        effects[e].uses_play =
+            effects[e].uses_play ||
+            influence.shift().col(static_cast<Eigen::Index>(e)).cwiseAbs().maxCoeff() > kRounding * length;
     }
   }
   for (std::size_t e = 0; e < effects.size(); ++e) {

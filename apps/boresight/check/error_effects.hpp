@@ -13,9 +13,10 @@ struct ErrorEffect {
   std::string name, unit;                  // unit: of its value, "m", "rad" or "K"
   double value = 0.0;                      // in the file [SI]
   double position = 0.0, boresight = 0.0;  // the largest over the motion, per SI unit of the error [m, rad]
-  std::string strain;                      // why the mechanism cannot take it up; "": it can
+  bool uses_play = false;  // takes up play of joints that hold each other: how these then rest moves more
+  std::string strain;      // why the mechanism cannot take it up; "": it can
 
-  bool does_nothing() const { return strain.empty() && position == 0.0 && boresight == 0.0; }
+  bool does_nothing() const { return strain.empty() && !uses_play && position == 0.0 && boresight == 0.0; }
 };
 
 // To first order, at instants along the commanded motion; influences below rounding are zero. In the order of the file.

@@ -46,7 +46,7 @@ Rows rows_of(const std::string& verb) {
 const std::set<std::string> kByName = {
     "contacts", "start",        "contact",     "compared",        "optimum",      "standard_error",
     "interval", "identifiable", "correlation", "standing_errors", "noise",        "errors",
-    "sobol",    "local",        "sources",     "contact_laws",    "friction_laws"};
+    "sobol",    "morris",       "local",       "sources",         "contact_laws", "friction_laws"};
 // "The same", "a level each".
 const std::map<std::string, std::string> kAsAnother = {{"errors", "error"}, {"requirements", "levels"}};
 const std::set<std::string> kOfAnInterval = {"value", "low", "high", "confidence", "coverage", "basis"};
