@@ -26,6 +26,7 @@ constexpr int kInstantsAKnot = 2;
 // A motion that ripples faster than its knots show is looked at this often, each time at so many times more instants at most.
 constexpr int kMostLooks = 4;
 constexpr double kMostTimesMore = 16.0;
+constexpr long kInstantsBetweenLooks = 256;  // at whether to go on
 
 // How much higher than at its instants a number is somewhere between them, by the parabola through a peak and its neighbours.
 class Peak {
@@ -75,9 +76,12 @@ RunResult follow(const Mechanism& mechanism, const std::function<void(double, Id
                          : duration * static_cast<double>(i) / static_cast<double>(steps);
   };
   MotionRecorder recorder(mechanism, ideal, options, static_cast<double>(steps));
+  bool interrupted = false;
   std::array<ContactState<double>, kContactPlaces> contact;
   IdealState state;
-  for (long i = 0; i <= steps; ++i) {
+  for (long i = 0; i <= steps && !interrupted; ++i) {
+    interrupted = i % kInstantsBetweenLooks == 0 && options.progress &&
+                  !options.progress({time(i), duration, recorder.position_error_max()});
     state_at(time(i), state);
     const int boresight = mechanism.boresight_body();
     peaks.add(recorder.accept(state.t, state.bodies[boresight], state.acceleration[boresight]));
@@ -100,6 +104,7 @@ RunResult follow(const Mechanism& mechanism, const std::function<void(double, Id
     result.contact.push_back(summary);
   }
   result.integrator = "none: no play can move";
+  result.interrupted = interrupted;
   result.cost.steps = result.cost.evaluations = steps;
   return result;
 }
@@ -120,7 +125,7 @@ RunResult motion_without_play(const Mechanism& mechanism, const std::function<vo
   for (int look = 1;; ++look) {
     Peaks peaks;
     RunResult result = follow(mechanism, state, commanded, parameters, options, step, peaks);
-    if (peaks.missed() <= kMissed || look == kMostLooks) return result;
+    if (result.interrupted || peaks.missed() <= kMissed || look == kMostLooks) return result;
     // What is missed goes with the square of the step.
     step /= std::clamp(std::ceil(std::sqrt(peaks.missed() / kMissed)), 2.0, kMostTimesMore);
   }

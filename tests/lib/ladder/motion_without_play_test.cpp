@@ -92,5 +92,19 @@ TEST(MotionWithoutPlay, HasItsSamplesWhereTheyWereAskedFor) {
   }
 }
 
+TEST(MotionWithoutPlay, EndsWhereItIsInterrupted) {
+  const auto mechanism = altaz({});
+  for (const char* name : {"multibody", "quasistatic", "perturbation"})
+    for (const double spacing : {0.0, 1e-3}) {
+      RunOptions options;
+      options.sample_spacing = spacing;
+      options.progress = [](const RunProgress& p) { return p.t < 4.0; };
+      const RunResult result = make_rung(name, mechanism)->run(mechanism->parameters(), options);
+      EXPECT_TRUE(result.interrupted) << name;
+      EXPECT_GE(result.end_time, 4.0) << name;
+      EXPECT_LT(result.end_time, 6.0) << name;
+    }
+}
+
 }  // namespace
 }  // namespace boresight
