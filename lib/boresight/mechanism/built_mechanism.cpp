@@ -1,6 +1,8 @@
 #include "boresight/mechanism/built_mechanism.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/offset_choice.hpp"
@@ -35,12 +37,42 @@ void displace_frame(const MechanismDescription& m, const Vec3& translation, cons
   if (second_axis) *second_axis = turn * *second_axis;
 }
 
+// What all drives are told. They are asked one after the other at one instant, and several times there while joints are closed: each thread
+// keeps the last answer.
+class CommandedLaws {
+ public:
+  CommandedLaws(int joints, std::shared_ptr<const IdealMotion> commanded)
+      : joints_(joints), commanded_(std::move(commanded)), number_(++made_) {}
+
+  const std::vector<TimeValue>& at(double t) const {
+    struct Last {
+      std::uint64_t number = 0;  // of none
+      double t = 0.0;
+      std::vector<TimeValue> laws;
+    };
+    thread_local Last last;
+    if (last.number == number_ && last.t == t) return last.laws;
+    last.number = 0;  // in case there is no answer
+    last.laws.resize(static_cast<std::size_t>(joints_));
+    commanded_->drive_laws(t, last.laws);
+    last.number = number_;
+    last.t = t;
+    return last.laws;
+  }
+
+ private:
+  static inline std::atomic<std::uint64_t> made_{0};
+  int joints_;
+  std::shared_ptr<const IdealMotion> commanded_;
+  std::uint64_t number_;  // unlike an address, no other object's ever
+};
+
 // A drive that is told where the drawn mechanism's stands, and errs.
 class ErringDrive final : public TimeFunction {
  public:
   ErringDrive(const Mechanism& drawn, const Parameters& parameters, int joint,
-              std::shared_ptr<const IdealMotion> commanded)
-      : joints_(drawn.joints()), joint_(joint), commanded_(std::move(commanded)) {
+              std::shared_ptr<const CommandedLaws> commanded)
+      : joint_(joint), commanded_(std::move(commanded)) {
     const std::vector<ErrorDescription>& errors = drawn.description().errors;
     for (std::size_t e = 0; e < errors.size(); ++e)
       if (errors[e].kind == Kind::drive && errors[e].joint == joint && parameters.error[e] != 0.0)
@@ -48,10 +80,7 @@ class ErringDrive final : public TimeFunction {
   }
 
   TimeValue at(double t) const override {
-    thread_local std::vector<TimeValue> laws;
-    laws.resize(joints_);
-    commanded_->drive_laws(t, laws);
-    const TimeValue told = laws[joint_];
+    const TimeValue told = commanded_->at(t)[static_cast<std::size_t>(joint_)];
     TimeValue does = told;
     for (const auto& [value, law] : errors_) {
       const TimeValue error = law->at(told, t);
@@ -63,8 +92,8 @@ class ErringDrive final : public TimeFunction {
   }
 
  private:
-  int joints_, joint_;
-  std::shared_ptr<const IdealMotion> commanded_;
+  int joint_;
+  std::shared_ptr<const CommandedLaws> commanded_;
   std::vector<std::pair<double, CoordinateFunctionPtr>> errors_;
 };
 
@@ -114,12 +143,13 @@ std::shared_ptr<const Mechanism> built_mechanism(const Mechanism& drawn, const P
     }
   std::vector<JointGeometry> geometry;
   std::map<int, TimeFunctionPtr> drives;
+  const auto told = std::make_shared<const CommandedLaws>(drawn.joints(), commanded);
   for (int j = 0; j < drawn.joints(); ++j) {
     JointGeometry g = drawn.geometry(j);
     displace_frame(m, displaced[j][0].translation, displaced[j][0].rotation, g.first, nullptr);
     displace_frame(m, displaced[j][1].translation, displaced[j][1].rotation, g.second, &g.second_axis);
     geometry.push_back(g);
-    if (m.joints[j].driven) drives[j] = std::make_shared<ErringDrive>(drawn, parameters, j, commanded);
+    if (m.joints[j].driven) drives[j] = std::make_shared<ErringDrive>(drawn, parameters, j, told);
   }
   std::shared_ptr<const OffsetChoice> choice;
   if (drawn.clearances() > 0) {
