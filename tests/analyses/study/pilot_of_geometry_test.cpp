@@ -117,6 +117,11 @@ TEST(PilotOfGeometry, LeavesTheChoiceAloneWhereNothingDeviates) {
   EXPECT_NE(choice.why.find("no error is other than zero"), std::string::npos) << choice.why;
 }
 
+TEST(PilotOfGeometry, IsConfirmedOnTheOnlyRungThatIsNotLinearThere) {
+  EXPECT_EQ(next_rung_up("quasistatic", *hexapod()), "multibody");
+  EXPECT_EQ(next_rung_up("quasistatic", *scenes::build(scenes::rrcpr())), "perturbation");
+}
+
 TEST(PilotOfGeometry, NamesTheJointThatErrorsStrain) {
   // Two coaxial bearings without play hold one shaft: the seat of one of them sits beside its place, and nothing gives.
   MechanismDescription gimbal = scenes::gimbal({}, JournalAxes::parallel);
