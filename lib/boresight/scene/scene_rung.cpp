@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -164,9 +165,9 @@ BodyMotion DisplacedBodies::moving(int body, const Eigen::Ref<const VecX>& z_dot
 }
 
 std::shared_ptr<const PreparedScene> SceneRung::prepared_for(const Parameters& parameters) const {
-  if (mechanism_->clearances() == 0 && !has_errors(parameters))
+  if (mechanism_->clearances() == 0 && mechanism_->description().errors.empty())
     throw ComputationError(
-        "no joint has clearance and no error is other than zero, so nothing deviates from the ideal motion; multibody "
+        "no joint has clearance and no [[error]] is declared, so nothing deviates from the ideal motion; multibody "
         "follows that");
   const std::lock_guard lock(mutex_);
   if (!prepared_ || !same_centers(prepared_parameters_, parameters) ||
@@ -181,13 +182,19 @@ RunResult SceneRung::without_play(const PreparedScene& prepared, const StandingD
                                   const Parameters& parameters, const RunOptions& options) const {
   if (!standing) return motion_without_play(*mechanism_, prepared.ideal(), prepared.ideal(), parameters, options);
   const VecX none;
+  // A body's table is contracted when it is first asked for: only those that somebody looks at.
+  std::vector<int> seen = options.pose_bodies;
+  seen.push_back(mechanism_->boresight_body());
+  if (options.sample_spacing > 0.0 && (options.frame_spacing > 0.0 || mechanism_->clearances() > 0)) {
+    seen.resize(static_cast<std::size_t>(mechanism_->bodies()));
+    std::iota(seen.begin(), seen.end(), 0);
+  }
   return motion_without_play(
       *mechanism_,
       [&](double t, IdealState& state) {
         prepared.ideal().state(t, state);
         const DisplacedBodies displaced(prepared, standing, t, none);
-        for (int b = 0; b < mechanism_->bodies(); ++b)
-          state.bodies[b] = displaced.moving(b, none, none, state.acceleration[b]);
+        for (const int b : seen) state.bodies[b] = displaced.moving(b, none, none, state.acceleration[b]);
       },
       prepared.ideal(), parameters, options, standing.influence().spacing() / standing.influence().instants_a_cell());
 }
