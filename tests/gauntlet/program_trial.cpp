@@ -71,6 +71,9 @@ int ProgramTrial::call(const std::string& stage, const std::vector<std::string>&
   }
   if (outcome.status == 2 || outcome.status == 3) {
     if (said.empty()) verdict_.fault("silent", stage, fmt::format("status {} without a word", outcome.status));
+    // A study of the gauntlet's own that is refused for how it is written shows nothing of the program.
+    static const std::regex in_a_study(R"(\b(?!scene\.)[a-z]+\.toml:\d+: )");
+    if (outcome.status == 2 && std::regex_search(said, in_a_study)) verdict_.fault("verb", stage, said);
     verdict_.refusals.push_back({stage, said});
   } else if (outcome.status != 0 && outcome.status != 1) {
     verdict_.fault("crash", stage, fmt::format("status {}: {}", outcome.status, said));

@@ -19,7 +19,7 @@ std::string scatter(const Mechanism& mechanism) {
         "\n[[random]]\nparameter = \"{}.radial\"\ndistribution = {{ uniform = {{ min = \"{:.9g} m\", max = \"{:.9g} "
         "m\" }} }}\n",
         path, 0.8 * c.parameters.radial, 1.2 * c.parameters.radial);
-    if (c.friction_law != "none")
+    if (c.friction_law != "none" && c.parameters.friction.coefficient > 0.0)
       text += fmt::format(
           "\n[[random]]\nparameter = \"{}.friction.coefficient\"\ndistribution = {{ uniform = {{ min = {:.9g}, max = "
           "{:.9g} }} }}\n",
@@ -94,18 +94,18 @@ std::vector<Study> studies(const Mechanism& mechanism, double typical, const std
   }
   all.push_back({"allocate", "allocate", "allocate.toml",
                  head() + fmt::format("\n[allocate]\nrequirement = {{ limit = \"{:.9g} m\", probability = 0.9, "
-                                      "confidence = 0.8 }}\nsamples = 40\nconfirm = 12\nseed = 3\nfront = 0\n"
+                                      "confidence = 0.8 }}\nsamples = 40\nconfirm = 40\nseed = 3\nfront = 0\n"
+                                      "[[allocate.joint]]\nparameter = \"{}\"\nleast = \"{:.9g} m\"\n"
                                       "processes = [{{ name = \"coarse\", tolerance = \"{:.9g} m\", price = 1 }}, {{ "
-                                      "name = \"fine\", tolerance = \"{:.9g} m\", price = 3 }}]\n"
-                                      "[[allocate.joint]]\nparameter = \"{}\"\n",
-                                      1.3 * typical, 0.5 * radial, 0.1 * radial, path),
+                                      "name = \"fine\", tolerance = \"{:.9g} m\", price = 3 }}]\n",
+                                      1.3 * typical, path, 0.5 * radial, 0.5 * radial, 0.1 * radial),
                  cheap});
   const std::string random_budget = random;
   all.push_back(
       {"budget", "budget", "budget.toml",
        "format = 1\nmechanism = \"scene.toml\"\n\n[index]\nquantity = \"orientation_error\"\n" + random_budget +
            fmt::format("\n[budget]\nmembers = 8\nattribution = 4\nseed = 3\nsampling = \"{:.9g} s\"\nwindow = \"{:.9g} "
-                       "s\"\n[[budget.requirement]]\nindex = \"APE\"\naxis = \"half cone\"\n"
+                       "s\"\n[[budget.requirement]]\nindex = \"APE\"\naxis = \"total\"\n"
                        "interpretation = \"mixed\"\nlimit = \"2 mrad\"\nprobability = 0.8\nconfidence = 0.8\n",
                        m.motion.duration / 100, m.motion.duration / 10),
        cheap});

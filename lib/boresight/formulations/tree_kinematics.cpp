@@ -27,6 +27,8 @@ double angle_between(const Vec3& axis, const Vec3& from, const Vec3& to) {
   return std::atan2(axis.dot(from.cross(to)), from.dot(to) - axis.dot(from) * axis.dot(to));
 }
 
+constexpr int kAlong = 1;  // the slide of a prismatic joint
+
 }  // namespace
 
 TreeKinematics::TreeKinematics(const SpanningTree& tree)
@@ -61,7 +63,7 @@ void TreeKinematics::evaluate(const VecX& y, const std::vector<TimeValue>& laws)
     for (int axis = 0; axis < 3; ++axis) {
       if (!t.slides[axis]) continue;
       const Vec3 along = X.col(axis);
-      if (slide_driven) {
+      if (slide_driven && axis == kAlong) {
         r += law.value * along;
         slid += law.rate * along;
         a += law.acceleration * along;
@@ -161,7 +163,7 @@ void TreeKinematics::read(const std::vector<BodyMotion>& bodies, VecX& y) const 
     int position = t.first_position, speed = tree_.positions() + t.first_speed;
     const bool slide_driven = t.driven && t.turns == Turns::none;
     for (int axis = 0; axis < 3; ++axis) {
-      if (!t.slides[axis] || slide_driven) continue;
+      if (!t.slides[axis] || (slide_driven && axis == kAlong)) continue;
       y[position++] = X.col(axis).dot(d);
       y[speed++] = d_dot[axis];
     }

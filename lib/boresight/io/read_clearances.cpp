@@ -171,11 +171,11 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
                         "radial and journal_radius alone: the play of a ball and its radius");
   clearance.axes = cursor.choice("axes") == "free" ? JournalAxes::free : JournalAxes::parallel;
 
-  // A cylindrical joint slides along its axis: no caps, no axial clearance, and no ends unless the journal may tilt.
+  // A cylindrical or prismatic joint slides along its axis: no caps, no axial clearance, and no ends unless the journal may tilt.
   ClearanceParameters& p = clearance.parameters;
   const bool caps = joint.type == JointType::revolute;
-  if (joint.type == JointType::cylindrical && cursor.has("axial"))
-    cursor.fail_found("axial", "it on " + in_quotes(joint.name) + ", a cylindrical joint",
+  if (slides_along_axis(joint.type) && cursor.has("axial"))
+    cursor.fail_found("axial", "it on " + in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint",
                       "no axial clearance: the journal slides through its sleeve and has no end faces");
   p.radial = cursor.quantity("radial");
   p.journal_radius = cursor.quantity("journal_radius");

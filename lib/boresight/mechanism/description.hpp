@@ -48,10 +48,11 @@ enum class JointType { revolute, prismatic, cylindrical, universal, spherical, p
 const char* to_string(JointType type);
 
 // Whether a joint of this type may have play: there is a kind of it in play/kinds.hpp.
+inline bool slides_along_axis(JointType type) { return type == JointType::cylindrical || type == JointType::prismatic; }
 inline bool can_have_play(JointType type) {
-  return type == JointType::revolute || type == JointType::cylindrical || type == JointType::spherical;
+  return type == JointType::revolute || slides_along_axis(type) || type == JointType::spherical;
 }
-inline constexpr char kTypesWithPlay[] = "a revolute, cylindrical or spherical joint";
+inline constexpr char kTypesWithPlay[] = "a revolute, cylindrical, prismatic or spherical joint";
 
 // Whether both bodies share the joint's axis all the time.
 inline bool keeps_axis(JointType type) { return type != JointType::universal && type != JointType::spherical; }

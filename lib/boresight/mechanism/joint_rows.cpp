@@ -33,7 +33,6 @@ double wrapped(double angle) { return std::remainder(angle, 2.0 * std::numbers::
 bool has_points(JointType t) {
   return t == JointType::revolute || t == JointType::universal || t == JointType::spherical || t == JointType::fixed;
 }
-bool slides_along_axis(JointType t) { return t == JointType::prismatic || t == JointType::cylindrical; }
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 // The offsets of all joints with play in one vector, joint after joint: the x y z of the journal's or ball's centre in the axes of its
-// seat [m], then, where a journal may tilt (axes = "free"), the slopes x z of its axis [-]. A cylindrical joint's y keeps its place in the
-// vector, though it slides freely and is no offset.
+// seat [m], then, where a journal may tilt (axes = "free"), the slopes x z of its axis [-]. The y of a joint that
+// slides along its axis keeps its place in the vector, though it is no offset.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ class OffsetLayout {
       joint.first = size_;
       const JointType type = m.joints[c.joint].type;
       joint.tilts = keeps_axis(type) && c.axes == JournalAxes::free;
-      joint.slides = type == JointType::cylindrical;
+      joint.slides = slides_along_axis(type);
       joint.spins = joint.tilts || !keeps_axis(type) ? 3 : 1;
       size_ += joint.count();
       joints_.push_back(joint);

@@ -13,7 +13,8 @@ struct Shape {
   Turns turns = Turns::none;
   bool driven = false;  // by the tree itself
   bool opened = false;
-  bool leaves_drive = false;  // driven, but free to tilt: the drive is then a row of its own
+  bool leaves_rows =
+      false;  // free to tilt, but driven or held against turning about its axis: these are then rows of its own
 
   int speeds() const {
     constexpr std::array<int, 4> kTurning = {0, 1, 2, 3};
@@ -32,10 +33,11 @@ Shape shape_of(const Mechanism& mechanism, int joint, bool with_clearance) {
   if (with_clearance && clearance >= 0) {
     const bool tilts = !keeps_axis(d.type) || mechanism.description().clearances[clearance].axes == JournalAxes::free;
     s.slides = kAnywhere;
-    s.turns = tilts ? Turns::ball : Turns::about_axis;
+    const bool keyed = d.type == JointType::prismatic;
+    s.turns = tilts ? Turns::ball : keyed ? Turns::none : Turns::about_axis;
     s.driven = d.driven && !tilts;
     s.opened = true;
-    s.leaves_drive = d.driven && tilts;
+    s.leaves_rows = tilts && (d.driven || keyed);
     return s;
   }
   s.driven = d.driven;
@@ -135,7 +137,7 @@ void SpanningTree::choose(const Mechanism& mechanism, bool with_clearance) {
     at(joints_.back().body) = at(joints_.back().parent) + 1;
   }
   for (int j = 0; j < mechanism.joints(); ++j)
-    if (!in_tree[j] || shape[j].leaves_drive) cut_.push_back(j);
+    if (!in_tree[j] || shape[j].leaves_rows) cut_.push_back(j);
 }
 
 void SpanningTree::order_by_branch() {

@@ -14,6 +14,7 @@
 //   spherical                    -        a quaternion                  3, and 4 positions
 //   fixed                        -        -                             0
 //   opened, axes parallel        x y z    about y                       4
+//   opened prismatic, parallel   x y z    -                             3
 //   opened, axes free; floating  x y z    a quaternion                  6, and 7 positions
 //
 // "Opened" is a joint whose clearance is modelled: it carries a body only where nothing else does. "Floating" is a body that

@@ -14,7 +14,7 @@ using PlayKind = std::conditional_t<std::is_same_v<T, double>, Own, Lanes<T>>;
 
 template <typename T>
 using PlayKinds = std::variant<                      //
-    PlayKind<T, JournalInSleeveT, JournalInSleeve>,  // revolute, cylindrical
+    PlayKind<T, JournalInSleeveT, JournalInSleeve>,  // revolute, cylindrical, prismatic
     PlayKind<T, BallInSocketT, BallInSocket>         // spherical
     >;
 

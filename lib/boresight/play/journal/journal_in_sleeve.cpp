@@ -23,7 +23,7 @@ JournalInSleeve::JournalInSleeve(const ClearanceDescription& description, JointT
   tilted.half_length = half_length;
   tilted.ring_radius = 0.5 * (bore_radius + p.cap_radius);
   tilted.has_faces = has_faces;
-  tilted.slides = joint == JointType::cylindrical;
+  tilted.slides = slides_along_axis(joint);
   tilted.end_law = radial_law.half();
   tilted.face_stiffness = face_stiffness;
   tilted.friction = friction;

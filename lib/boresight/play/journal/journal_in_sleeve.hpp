@@ -1,4 +1,5 @@
-// Three-dimensional clearance of a revolute or cylindrical joint: the forces between journal and sleeve.
+// Three-dimensional clearance of a revolute or cylindrical joint, or of a prismatic one with a round guide whose key holds the turn about its
+// axis: the forces between journal and sleeve.
 //
 // Everything is expressed in the sleeve frame (origin at the sleeve's centre, y along its axis). With e the journal's
 // centre, edot its rate as seen from the sleeve, w the journal's angular velocity relative to the sleeve:
@@ -25,14 +26,14 @@ struct JournalInSleeveT {
   T axial_clearance{};    // c_a, per side [m]
   T bore_radius{};        // R_b [m]
   T half_length{};        // L_b / 2 [m]
-  bool has_faces = true;  // end faces that limit the axial play (not on a cylindrical joint)
+  bool has_faces = true;  // end faces that limit the axial play (not on a joint that slides)
   NormalLawT<T> radial_law;
   T face_stiffness{};  // K_c [N/m]
   FrictionLawT<T> friction;
   bool tilts = false;  // axes = "free": the contacts are those of `tilted`
   TiltedJournalT<T> tilted;
 
-  static bool serves(JointType type) { return type == JointType::revolute || type == JointType::cylindrical; }
+  static bool serves(JointType type) { return type == JointType::revolute || slides_along_axis(type); }
   static PlayWords words() { return {"journal", "sleeve"}; }
 
   // impact_speed: by ContactPlace [m/s]. M: the scalar of the motion, T itself or one that carries derivatives besides.

@@ -1,0 +1,122 @@
+// Play in prismatic joints: a slider on its round guide, keyed against turning, against closed forms, and the rungs against each other.
+#include <gtest/gtest.h>
+
+#include "boresight/ladder/ladder.hpp"
+#include "scenes.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr double kClearance = 0.2e-3, kGravity = 9.81;
+
+// A slider of 2 kg on a guide along `axis`, driven by `law` along it or free.
+MechanismDescription slider(const Vec3& axis, JournalAxes axes, const char* law, double friction = 0.0) {
+  MechanismDescription m;
+  m.name = "slider on its guide";
+  m.gravity = Vec3(0.0, 0.0, -kGravity);
+  BodyDescription b;
+  b.name = "slider";
+  b.mass = 2.0;
+  b.inertia = Vec3(2e-3, 3e-3, 4e-3).asDiagonal();
+  b.boresight = Vec3::UnitZ();
+  m.bodies.push_back(b);
+  JointDescription j;
+  j.name = "guide";
+  j.type = JointType::prismatic;
+  j.first = kGround;
+  j.second = 0;
+  j.axis = axis;
+  j.driven = law != nullptr;
+  m.joints.push_back(j);
+  if (law) m.motion.drives[0] = parse_expression(law);
+  m.motion.duration = 0.05;
+  ClearanceDescription c;
+  c.journal = kGround;
+  c.axes = axes;
+  c.contact_law = "hertz";
+  c.friction_law = friction > 0.0 ? "modified-coulomb" : "none";
+  c.parameters.radial = kClearance;
+  c.parameters.journal_radius = 8e-3;
+  c.parameters.sleeve_length = 60e-3;
+  c.parameters.contact.young = {207e9, 207e9};
+  c.parameters.contact.poisson = {0.3, 0.3};
+  c.parameters.friction = {.coefficient = friction, .static_speed = 1e-9, .dynamic_speed = 1e-6};
+  m.clearances.push_back(c);
+  return m;
+}
+
+RunResult followed(const char* rung, const MechanismDescription& m, const char* formulation = "tree") {
+  const auto mechanism = scenes::build(m);
+  RunOptions options;
+  options.step = 2e-6;
+  options.sample_spacing = 1e-4;
+  if (std::string(rung) == "multibody") options.formulation = formulation;
+  return make_rung(rung, mechanism)->run(mechanism->parameters(), options);
+}
+
+// From the middle of its guide it falls freely through the clearance, whatever drives it along.
+TEST(SliderOnItsGuide, DropsFreelyThroughItsPlay) {
+  for (const JournalAxes axes : {JournalAxes::parallel, JournalAxes::free}) {
+    MechanismDescription m = slider(Vec3::UnitX(), axes, "0.02*sin(20*t)");
+    m.journals = JournalStart::centred;
+    m.motion.duration = 0.02;
+    for (const char* formulation : {"tree", "paper"}) {
+      const RunResult run = followed("multibody", m, formulation);
+      ASSERT_FALSE(run.events.empty()) << formulation;
+      EXPECT_NEAR(run.events.front().start, std::sqrt(2.0 * kClearance / kGravity), 2e-6) << formulation;
+    }
+    const RunResult linear = followed("perturbation", m);
+    ASSERT_FALSE(linear.events.empty());
+    EXPECT_NEAR(linear.events.front().start, std::sqrt(2.0 * kClearance / kGravity), 2e-6);
+  }
+}
+
+// Resting on an inclined guide that nothing drives it slides down with g (sin a - mu cos a), and so falls behind the ideal motion, which
+// knows no friction, by mu cos a g t^2 / 2.
+TEST(SliderOnItsGuide, SlidesDownAnInclineWithCoulombsFriction) {
+  const double slope = 0.5, mu = 0.2;
+  for (const JournalAxes axes : {JournalAxes::parallel, JournalAxes::free}) {
+    const MechanismDescription m = slider(Vec3(std::cos(slope), 0.0, -std::sin(slope)), axes, nullptr, mu);
+    const auto mechanism = scenes::build(m);
+    RunOptions options;
+    options.sample_spacing = 1e-3;
+    options.step = 2e-6;
+    const RunResult run = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
+    const double t = m.motion.duration;
+    const double expected = 0.5 * kGravity * mu * std::cos(slope) * t * t;
+    EXPECT_NEAR(run.index.position_error.max, std::hypot(expected, kClearance), 0.01 * expected);
+  }
+}
+
+// All fifteen joints of the default mechanism: revolute, cylindrical and prismatic.
+MechanismDescription fifteen_joints(JournalAxes axes) {
+  MechanismDescription m = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/twelve-joints.toml", {});
+  const ClearanceDescription other = m.clearances.front();
+  for (std::size_t j = 0; j < m.joints.size(); ++j) {
+    if (m.joints[j].type != JointType::prismatic) continue;
+    ClearanceDescription c = other;
+    c.joint = static_cast<int>(j);
+    c.journal = m.joints[j].second;
+    c.parameters.axial = c.parameters.cap_radius = 0.0;
+    c.parameters.sleeve_length = 0.08;
+    m.clearances.push_back(c);
+  }
+  for (ClearanceDescription& c : m.clearances) c.axes = axes;
+  m.motion.duration = 0.05;
+  return m;
+}
+
+TEST(SliderOnItsGuide, IsFollowedAlikeWithPlayInAllFifteenJoints) {
+  const MechanismDescription m = fifteen_joints(JournalAxes::parallel);
+  ASSERT_EQ(m.clearances.size(), 15u);
+  const auto mechanism = scenes::build(m);
+  RunOptions options;
+  options.sample_spacing = 0.0;
+  const RunResult exact = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
+  const RunResult linear = make_rung("perturbation", mechanism)->run(mechanism->parameters(), options);
+  EXPECT_NEAR(linear.index.position_error.rms, exact.index.position_error.rms, 0.01 * exact.index.position_error.rms);
+  EXPECT_NEAR(linear.index.position_error.max, exact.index.position_error.max, 0.02 * exact.index.position_error.max);
+}
+
+}  // namespace
+}  // namespace boresight
