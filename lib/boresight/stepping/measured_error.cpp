@@ -145,9 +145,11 @@ bool all_agree(const std::vector<PointingIndices>& runs) {
 MeasuredError measure_discretisation(const Rung& rung, const Parameters& parameters, const RunOptions& options,
                                      const RunResult& result, const MeasureErrorOptions& measure) {
   MeasuredError error;
-  if (integrator_names(rung.name()).empty()) {
+  // A rung that takes steps states nothing of them; it states 0 where no play can move and there are none.
+  const bool stepless = integrator_names(rung.name()).empty();
+  if (stepless || result.error.discretisation == 0.0) {
     error.measured = true;
-    error.basis = "this rung takes no steps";
+    error.basis = stepless ? "this rung takes no steps" : "no play can move, so there are no steps to err";
     error.stated.has_line_of_sight = error.spread.has_line_of_sight = error.shift.has_line_of_sight =
         result.index.has_line_of_sight;
     return error;
