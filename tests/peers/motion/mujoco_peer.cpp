@@ -172,7 +172,7 @@ class Run {
     mj_forward(model_.get(), data_.get());
     mjcb_passive = nullptr;
     out_.cpu_seconds = thread_cpu_seconds() - start;
-    const Statistics error = index_.result();
+    const IndexWatch::Result error = index_.result();
     out_.largest = error.max;
     out_.rms = error.rms;
     out_.steps = steps;

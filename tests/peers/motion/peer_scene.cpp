@@ -6,6 +6,7 @@
 #include "boresight/contact_events/contact_tracker.hpp"
 #include "boresight/formulations/force_elements.hpp"
 #include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/pointing/indices.hpp"
 
 namespace boresight::peers {
 namespace {
@@ -113,6 +114,22 @@ void PeerContact::accept(double t) {
   l.tracker.accept(t, l.contact);
   l.memory[0] = l.tracker.memory();
   if (first_contact_ < 0.0 && l.tracker.touching()) first_contact_ = t;
+}
+
+struct IndexWatch::Gathered {
+  const PeerScene& scene;
+  int body;
+  StatisticsOverTime error = StatisticsOverTime();
+};
+IndexWatch::IndexWatch(const PeerScene& scene)
+    : gathered_(std::make_unique<Gathered>(Gathered{scene, scene.mechanism().boresight_body()})) {}
+IndexWatch::~IndexWatch() = default;
+void IndexWatch::accept(double t, const Vec3& p) {
+  gathered_->error.add(t, (p - gathered_->scene.ideal().body(t, gathered_->body).p).norm());
+}
+IndexWatch::Result IndexWatch::result() const {
+  const Statistics error = gathered_->error.result();
+  return {error.max, error.rms};
 }
 
 }  // namespace boresight::peers

@@ -13,7 +13,6 @@
 
 #include "boresight/mechanism/ideal_motion.hpp"
 #include "boresight/mechanism/mechanism.hpp"
-#include "boresight/pointing/indices.hpp"
 
 namespace boresight::peers {
 
@@ -104,14 +103,18 @@ class PeerContact {
 // The index over the states that a program keeps, weighed as our rungs do.
 class IndexWatch {
  public:
-  explicit IndexWatch(const PeerScene& scene) : scene_(scene), body_(scene.mechanism().boresight_body()) {}
-  void accept(double t, const Vec3& p) { error_.add(t, (p - scene_.ideal().body(t, body_).p).norm()); }
-  Statistics result() const { return error_.result(); }
+  explicit IndexWatch(const PeerScene& scene);
+  ~IndexWatch();
+  void accept(double t, const Vec3& p);
+
+  struct Result {
+    double max = 0.0, rms = 0.0;  // [m]
+  };
+  Result result() const;
 
  private:
-  const PeerScene& scene_;
-  int body_;
-  StatisticsOverTime error_;
+  struct Gathered;
+  std::unique_ptr<Gathered> gathered_;
 };
 
 }  // namespace boresight::peers

@@ -231,7 +231,7 @@ class SimbodyPeer final : public Peer {
       throw PeerFailure(failure.what());
     }
     out.cpu_seconds = thread_cpu_seconds() - start;
-    const Statistics error = index.result();
+    const IndexWatch::Result error = index.result();
     out.largest = error.max;
     out.rms = error.rms;
     out.evaluations = contact.evaluations();

@@ -69,7 +69,7 @@ PeerMotion drive(System& system, const VecX& start, const VecX& tolerance, const
   } catch (const std::runtime_error& failure) {
     throw PeerFailure(failure.what());
   }
-  const Statistics error = index.result();
+  const IndexWatch::Result error = index.result();
   out.largest = error.max;
   out.rms = error.rms;
   return out;
