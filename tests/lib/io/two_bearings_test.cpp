@@ -202,6 +202,24 @@ TEST(UniversalJoint, WithPlayIsSetByThePathsOfItsParts) {
   EXPECT_DOUBLE_EQ(moments.bodies[2].inertia(1, 1), 4e-6);
 }
 
+TEST(UniversalJoint, WithPlayMayStartAtARateOfEitherPart) {
+  const auto m =
+      read(universal() + "[initial]\nrates = { \"R.first\" = \"2 rad/s\", \"R.second.angle\" = \"3 rad/s\" }\n");
+  ASSERT_EQ(m.initial_rates.size(), 2u);
+  for (const InitialRateDescription& rate : m.initial_rates)
+    EXPECT_EQ(rate.rate, m.joints[rate.joint].name == "R.first" ? 2.0 : 3.0);
+}
+
+TEST(BearingPair, LetsErrorsNameEitherBearing) {
+  const auto m = read(pair() +
+                      "[[error]]\nname = \"seat\"\njoint = \"R.floating\"\nbody = \"arm\"\ntranslation = [0, 0, 1]\n"
+                      "[[error]]\nname = \"lean\"\njoint = \"R\"\nbody = \"arm\"\nrotation = \"towards R.floating\"\n");
+  ASSERT_EQ(m.errors.size(), 2u);
+  EXPECT_EQ(m.joints[m.errors[0].joint].name, "R.floating");
+  EXPECT_EQ(m.joints[m.errors[1].joint].name, "R");
+  EXPECT_EQ(m.errors[1].direction, Vec3::UnitX());
+}
+
 struct Refused {
   std::string text, expected;
   std::vector<Setting> settings;
