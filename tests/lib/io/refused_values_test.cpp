@@ -199,7 +199,7 @@ TEST(RefusedValue, RefusesWhatContradictsItself) {
       {"drives = {", "body = \"arm\"\ndrives = {",
        R"~(f.toml:37: motion.drives: found both a body's pose and drives, expected one of the two)~"},
       {"joint = \"R\"\njournal", "joint = \"P\"\njournal",
-       R"~(f.toml:38: clearance[1].joint: found "P", a prismatic joint, expected a revolute, cylindrical or spherical joint)~"},
+       R"~(f.toml:41: clearance.P.axial: found it on "P", a prismatic joint, expected no axial clearance: the journal slides through its sleeve and has no end faces)~"},
       {"journal = \"arm\"", "journal = \"slider\"",
        R"~(f.toml:39: clearance.R.journal: found "slider", expected one of the bodies of joint R: ground or arm)~"},
       {"[initial]", "[[clearance]]\njoint = \"R\"\n[initial]",
