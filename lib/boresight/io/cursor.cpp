@@ -23,8 +23,18 @@ Cursor::Cursor(Document& document, const Node& node, std::string path)
 
 Cursor Cursor::child(const Node& node, std::string path) const {
   Cursor result(*document_, node, std::move(path));
+  result.made_ = made_;
   result.copy_ = copy_;
   result.turn_ = turn_;
+  return result;
+}
+
+Cursor Cursor::standing_for(Node table, std::string path) const {
+  const auto made = std::make_shared<const Node>(std::move(table));
+  Cursor result = child(*made, std::move(path));
+  result.made_ = made;
+  result.line_ = line_;
+  result.turn_ = Mat3::Identity();
   return result;
 }
 

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -113,6 +114,11 @@ class Cursor {
   Cursor copy(int number, const Mat3& turn) const;
   const Mat3& turn() const { return turn_; }
 
+  // What the file says here, as a tree.
+  const Node& node() const { return *node_; }
+  // A table that this one stands for, read at this line under another path. It has the copy's number, but is not turned.
+  Cursor standing_for(Node table, std::string path) const;
+
  private:
   Cursor(Document& document, const Node& node, std::string path);
   const Key& known(const std::string& key, std::initializer_list<KeyKind> kinds) const;  // throws std::logic_error
@@ -136,6 +142,7 @@ class Cursor {
 
   Document* document_;
   const Node* node_;
+  std::shared_ptr<const Node> made_;  // holds node_, or what is around it, where that is not the document's
   int line_;
   std::string path_, own_key_;
   const KeyTable* keys_ = nullptr;  // null: not said yet

@@ -1,5 +1,6 @@
 #include "boresight/io/document.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -13,14 +14,25 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = 16u << 20;  // bytes
 
+// A path taken apart at its dots, but for those within the names of what a bearing pair or a universal joint with play is made of:
+// clearance, pitch.floating, radial.
 std::vector<std::string_view> segments(std::string_view path) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0;;) {
     const std::size_t dot = path.find('.', begin);
     parts.push_back(path.substr(begin, dot - begin));
-    if (dot == std::string_view::npos) return parts;
+    if (dot == std::string_view::npos) break;
     begin = dot + 1;
   }
+  constexpr std::string_view kClearanceOf[] = {"floating", "first", "second"};
+  const bool of_clearance = parts[0] == "clearance", of_body = parts[0] == "body";
+  if (parts.size() > 3 &&
+      ((of_body && parts[2] == "cross") || (of_clearance && std::find(std::begin(kClearanceOf), std::end(kClearanceOf),
+                                                                      parts[2]) != std::end(kClearanceOf)))) {
+    parts[1] = std::string_view(parts[1].data(), parts[1].size() + 1 + parts[2].size());
+    parts.erase(parts.begin() + 2);
+  }
+  return parts;
 }
 
 // Does `pattern` name `path` (whole), or something at or below it (not whole)?

@@ -32,8 +32,8 @@ MechanismDescription read(Document& document, std::vector<AssumedValue>* assumed
     mechanism.payload = read_payload(payload, mechanism);
   }
   for (Cursor& joint : sections.joints) mechanism.joints.push_back(read_joint(joint, mechanism));
-  for (Cursor& clearance : sections.clearances)
-    mechanism.clearances.push_back(read_clearance(clearance, mechanism, assumed));
+  std::vector<Cursor> clearances = expand_clearances(sections.clearances, mechanism);
+  for (Cursor& clearance : clearances) mechanism.clearances.push_back(read_clearance(clearance, mechanism, assumed));
   Cursor motion = root.table("motion");
   mechanism.motion = read_motion(motion, mechanism);
   for (Cursor& spring : sections.springs) mechanism.springs.push_back(read_spring(spring, mechanism));

@@ -19,8 +19,13 @@ struct Sections {
 Sections gather_sections(Cursor& root);
 
 BodyDescription read_body(Cursor& cursor, const MechanismDescription& so_far);
+// All but its name and boresight.
+void read_mass_and_axes(Cursor& cursor, BodyDescription& body);
 PayloadDescription read_payload(Cursor& cursor, const MechanismDescription& so_far);
 JointDescription read_joint(Cursor& cursor, const MechanismDescription& so_far);
+// Tables that stand for more than one bearing (expand_clearances.cpp) are replaced by one table a bearing; joints and bodies that this
+// takes are added to the mechanism, whose joints have all been read.
+std::vector<Cursor> expand_clearances(const std::vector<Cursor>& clearances, MechanismDescription& mechanism);
 // assumed: what the table leaves out and results hang on is added; may be null.
 ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& so_far,
                                     std::vector<AssumedValue>* assumed);

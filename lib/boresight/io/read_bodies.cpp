@@ -83,6 +83,14 @@ void check_gyration(Cursor& cursor, const BodyDescription& body) {
 
 }  // namespace
 
+void read_mass_and_axes(Cursor& cursor, BodyDescription& body) {
+  body.mass = cursor.quantity("mass");
+  body.center_of_mass = cursor.vector("center_of_mass");
+  body.axes = read_axes(cursor);
+  body.inertia = read_inertia(cursor);
+  check_gyration(cursor, body);
+}
+
 BodyDescription read_body(Cursor& cursor, const MechanismDescription& so_far) {
   cursor.only(body_keys());
   BodyDescription body;
@@ -97,11 +105,7 @@ BodyDescription read_body(Cursor& cursor, const MechanismDescription& so_far) {
     }
   }
   cursor.rename("body." + body.name);
-  body.mass = cursor.quantity("mass");
-  body.center_of_mass = cursor.vector("center_of_mass");
-  body.axes = read_axes(cursor);
-  body.inertia = read_inertia(cursor);
-  check_gyration(cursor, body);
+  read_mass_and_axes(cursor, body);
   if (cursor.has("boresight")) {
     body.boresight = cursor.direction("boresight");
     for (const BodyDescription& other : so_far.bodies) {

@@ -156,6 +156,7 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
   }
   cursor.rename("clearance." + joint.name);
 
+  cursor.choice("bearing");  // one by now
   const std::string journal = cursor.text("journal");
   clearance.journal = body_index(so_far, cursor, "journal", journal, true);
   if (clearance.journal != joint.first && clearance.journal != joint.second) {
@@ -169,7 +170,8 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
     if (ball && cursor.has(key))
       cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", a spherical joint",
                         "radial and journal_radius alone: the play of a ball and its radius");
-  clearance.axes = cursor.choice("axes") == "free" ? JournalAxes::free : JournalAxes::parallel;
+  clearance.axes =
+      cursor.choice("axes", {"parallel", "free"}, "parallel") == "free" ? JournalAxes::free : JournalAxes::parallel;
 
   // A cylindrical or prismatic joint slides along its axis: no caps, no axial clearance, and no ends unless the journal may tilt.
   ClearanceParameters& p = clearance.parameters;

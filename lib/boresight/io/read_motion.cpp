@@ -142,7 +142,10 @@ std::vector<InitialRateDescription> read_rates(Cursor& table, const MechanismDes
       inner.finish();
       continue;
     }
-    const std::size_t dot = key.find('.');
+    // "C.angle" is a freedom of C, "cross.first" a joint.
+    const bool is_joint = std::any_of(so_far.joints.begin(), so_far.joints.end(),
+                                      [&](const JointDescription& j) { return j.name == key; });
+    const std::size_t dot = is_joint ? std::string::npos : key.rfind('.');
     read_one(table, key, key.substr(0, dot), dot == std::string::npos ? "" : key.substr(dot + 1));
   }
   table.finish();

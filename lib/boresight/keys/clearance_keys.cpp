@@ -33,42 +33,44 @@ const KeyTable& clearance_keys() {
           "carried by "
           "the other; of a "
           "spherical one a ball in its socket.",
-      .keys = {
-          text("joint").says("The joint that has play; its paths are clearance.JOINT.radial and so on."),
-          text("journal").says("Which of the joint's bodies carries the journal or the ball; the other one "
-                               "carries the sleeve or socket."),
-          quantity("radial", kSizeRange)
-              .above(0.0, "a length above zero")
-              .says("Radial clearance: the sleeve's radius less the journal's, half the difference of the "
-                    "diameters; of a ball "
-                    "likewise."),
-          quantity("axial", kSizeRange)
-              .at_least(0.0, "a length of zero or more")
-              .sometimes(
-                  "needed of a revolute joint; a cylindrical or prismatic one slides through its sleeve and has none, "
-                  "nor has a ball")
-              .says("Axial clearance on each side, between end face and cap."),
-          quantity("journal_radius", kSizeRange)
-              .above(0.0, "a length above zero")
-              .says("Radius of the journal, or of the ball."),
-          quantity("cap_radius", kSizeRange)
-              .above(0.0, "a length above zero")
-              .sometimes("needed of a revolute joint")
-              .says("Radius of the caps that hold the journal along its axis; more than the sleeve's radius."),
-          quantity("sleeve_length", kSizeRange)
-              .above(0.0, "a length above zero")
-              .sometimes("needed of a revolute joint, of a journal that tilts and of laws for cylinders")
-              .says("Length of the sleeve; its end faces lie at half of it on both sides of the joint's point."),
-          choice("axes", std::vector<KeyChoice>{{"parallel", "the journal stays parallel to the sleeve"},
-                                                {"free", "the journal may tilt in the sleeve"}})
-              .otherwise("parallel")
-              .says("Whether the journal may tilt in its sleeve."),
-          table("contact", contact_keys)
-              .sometimes("left out, all its defaults hold")
-              .says("Normal force of the contact: law, material, restitution."),
-          table("friction", friction_keys)
-              .sometimes("left out, all its defaults hold: no friction")
-              .says("Friction of the contact.")}};
+      .keys = with_two_bearings(
+          {text("joint").says("The joint that has play; its paths are clearance.JOINT.radial and so on."),
+           text("journal")
+               .sometimes("needed but of a universal joint, whose cross carries the journals")
+               .says("Which of the joint's bodies carries the journal or the ball; the other one "
+                     "carries the sleeve or socket."),
+           quantity("radial", kSizeRange)
+               .above(0.0, "a length above zero")
+               .says("Radial clearance: the sleeve's radius less the journal's, half the difference of the "
+                     "diameters; of a ball "
+                     "likewise."),
+           quantity("axial", kSizeRange)
+               .at_least(0.0, "a length of zero or more")
+               .sometimes(
+                   "needed of a revolute joint; a cylindrical or prismatic one slides through its sleeve and has none, "
+                   "nor has a ball")
+               .says("Axial clearance on each side, between end face and cap."),
+           quantity("journal_radius", kSizeRange)
+               .above(0.0, "a length above zero")
+               .says("Radius of the journal, or of the ball."),
+           quantity("cap_radius", kSizeRange)
+               .above(0.0, "a length above zero")
+               .sometimes("needed of a revolute joint")
+               .says("Radius of the caps that hold the journal along its axis; more than the sleeve's radius."),
+           quantity("sleeve_length", kSizeRange)
+               .above(0.0, "a length above zero")
+               .sometimes("needed of a revolute joint, of a journal that tilts and of laws for cylinders")
+               .says("Length of the sleeve; its end faces lie at half of it on both sides of the joint's point."),
+           choice("axes", std::vector<KeyChoice>{{"parallel", "the journal stays parallel to the sleeve"},
+                                                 {"free", "the journal may tilt in the sleeve"}})
+               .usually("\"parallel\"; of a bearing pair \"free\"")
+               .says("Whether the journal may tilt in its sleeve."),
+           table("contact", contact_keys)
+               .sometimes("left out, all its defaults hold")
+               .says("Normal force of the contact: law, material, restitution."),
+           table("friction", friction_keys)
+               .sometimes("left out, all its defaults hold: no friction")
+               .says("Friction of the contact.")})};
   return table_of_keys;
 }
 

@@ -11,6 +11,11 @@ const KeyTable& payload_keys();
 const KeyTable& pattern_keys();
 const KeyTable& joint_keys();
 const KeyTable& clearance_keys();
+// bearing_keys.cpp: the keys of a clearance and those by which it stands for two bearings, the names of the latter, and what one of a pair
+// has of its own.
+std::vector<Key> with_two_bearings(std::vector<Key> keys_of_one);
+std::vector<std::string> two_bearing_keys();
+const KeyTable& floating_bearing_keys();
 const KeyTable& contact_keys();
 const KeyTable& friction_keys();
 const KeyTable& motion_keys();

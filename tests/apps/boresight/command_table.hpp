@@ -34,5 +34,7 @@ struct Command {
 std::vector<Command> commands();
 // Those of them that are about standing errors of lengths, axes, drives and temperature.
 std::vector<Command> commands_on_errors();
+// And about bearing pairs.
+std::vector<Command> commands_on_two_bearings();
 
 }  // namespace boresight::app

@@ -1,0 +1,37 @@
+// What the commands on bearing pairs do.
+#include <gmock/gmock.h>
+
+#include "command_claims.hpp"
+#include "command_table.hpp"
+
+namespace boresight::app {
+namespace {
+
+using testing::HasSubstr;
+
+double boresight_rms(const Left& left) { return left.summary["index"]["boresight_error"]["rms"].get<double>(); }
+
+}  // namespace
+
+std::vector<Command> commands_on_two_bearings() {
+  return {
+      // "the plays of one shaft move together"
+      {.text = "boresight check examples/bearing-pairs/gimbal.toml",
+       .claims =
+           [](const Left& left) {
+             freedoms(2, 8)(left);
+             EXPECT_THAT(left.ended.out, HasSubstr("the plays of \"pitch\" and \"pitch.floating\" move together"));
+           }},
+      {.text = "boresight run examples/bearing-pairs/gimbal.toml",
+       .shorter = {"--step-error", "off"},
+       .claims = [](const Left& left) { EXPECT_NEAR(boresight_rms(left) / 0.162e-3, 1.0, 0.05); }},
+      // "the boresight error (RMS) is two thirds of what it was"
+      {.text = "boresight run examples/bearing-pairs/gimbal.toml --set \"clearance.yaw.span=100 mm\"",
+       .shorter = {"--step-error", "off"},
+       .claims = [](const Left& left) { EXPECT_NEAR(boresight_rms(left) / 0.162e-3, 2.0 / 3.0, 0.05); }},
+      {.text = "boresight montecarlo examples/bearing-pairs/montecarlo.toml --rung perturbation",
+       .claims = [](const Left& left) { EXPECT_EQ(left.summary["failed"], 0); }},
+  };
+}
+
+}  // namespace boresight::app
