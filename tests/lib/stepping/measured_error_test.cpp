@@ -119,6 +119,7 @@ class OnTheEdge final : public Rung {
     if (step < 1e-4 && step > followed_below_) throw UnstableStep("the deviation is not finite", 0.0, step);
     RunResult result;
     result.end_time = 1.0;
+    result.error.discretisation = kNotMeasured;  // as rungs that take steps say
     result.cost.steps = static_cast<std::int64_t>(1.0 / step);
     result.index.position_error.max = result.index.position_error.rms = 1e-3 + step;
     return result;
