@@ -48,6 +48,21 @@ void refuse_foreign_keys(const Cursor& cursor, Kind kind) {
   if (kind == Kind::expansion) refuse("joint", "no joint: the whole part grows");
 }
 
+constexpr int kNoBody = kGround - 1;
+
+// The joint of that name; of a universal one whose play has made it two bearings on a cross, the bearing in `body`, whose frame there is the
+// universal joint's.
+int joint_or_bearing(const Cursor& cursor, const std::string& key, const MechanismDescription& so_far,
+                     const std::string& name, int body) {
+  int first = -1, second = -1;
+  for (std::size_t j = 0; j < so_far.joints.size(); ++j) {
+    if (so_far.joints[j].name == name + ".first") first = static_cast<int>(j);
+    if (so_far.joints[j].name == name + ".second") second = static_cast<int>(j);
+  }
+  if (first < 0 || second < 0) return joint_index(so_far, cursor, key, name);
+  return so_far.joints[second].second == body ? second : first;
+}
+
 // A direction in words: towards another joint, or along the joint's own axis.
 Vec3 direction_in_words(Cursor& cursor, const std::string& key, const MechanismDescription& so_far,
                         const JointDescription& joint) {
@@ -60,7 +75,8 @@ Vec3 direction_in_words(Cursor& cursor, const std::string& key, const MechanismD
   }
   if (!words.starts_with(towards))
     cursor.fail_found(key, in_quotes(words), "three numbers, \"towards JOINT\", or \"axis\"");
-  const JointDescription& other = so_far.joints[joint_index(so_far, cursor, key, words.substr(towards.size()))];
+  const JointDescription& other =
+      so_far.joints[joint_or_bearing(cursor, key, so_far, words.substr(towards.size()), joint.first)];
   const Vec3 way = other.point - joint.point;
   if (!(way.norm() > 1e-12 * (1.0 + joint.point.norm())))
     cursor.fail_found(key, in_quotes(words) + ", which is at the same point as " + in_quotes(joint.name),
@@ -106,12 +122,15 @@ ErrorDescription read_error(Cursor& cursor, const MechanismDescription& so_far) 
     case Kind::translation:
     case Kind::rotation: {
       const std::string key = error.kind == Kind::translation ? "translation" : "rotation";
-      error.joint = joint_index(so_far, cursor, "joint", cursor.text("joint"));
-      const JointDescription& joint = so_far.joints[error.joint];
+      const std::string name = cursor.text("joint");
       error.body = body_index(so_far, cursor, "body", cursor.text("body"), true);
+      error.joint = joint_or_bearing(cursor, "joint", so_far, name, error.body);
+      const JointDescription& joint = so_far.joints[error.joint];
       if (error.body != joint.first && error.body != joint.second)
-        cursor.fail("body", "one of the two bodies that " + in_quotes(joint.name) + " connects");
-      error.direction = cursor.is_text(key) ? direction_in_words(cursor, key, so_far, joint) : cursor.direction(key);
+        cursor.fail("body", "one of the two bodies that " + in_quotes(name) + " connects");
+      // A universal joint's own axis is that of its first bearing.
+      const JointDescription& named = so_far.joints[joint_or_bearing(cursor, "joint", so_far, name, kNoBody)];
+      error.direction = cursor.is_text(key) ? direction_in_words(cursor, key, so_far, named) : cursor.direction(key);
       if (error.kind == Kind::rotation) range = kFrameTurnRange;
       break;
     }

@@ -220,6 +220,19 @@ TEST(BearingPair, LetsErrorsNameEitherBearing) {
   EXPECT_EQ(m.errors[1].direction, Vec3::UnitX());
 }
 
+// An error of the universal joint is one of its bearing in that body: a file stays valid when its joint gets play.
+TEST(UniversalJoint, WithPlayKeepsItsErrors) {
+  const auto m = read(universal() +
+                      "[[error]]\nname = \"hand\"\njoint = \"R\"\nbody = \"arm\"\ntranslation = [0, 0, 1]\n"
+                      "[[error]]\nname = \"foot\"\njoint = \"R\"\nbody = \"ground\"\nrotation = \"axis\"\n"
+                      "[[error]]\nname = \"turned\"\njoint = \"R\"\nbody = \"arm\"\nrotation = \"axis\"\n");
+  ASSERT_EQ(m.errors.size(), 3u);
+  EXPECT_EQ(m.joints[m.errors[0].joint].name, "R.second");
+  EXPECT_EQ(m.joints[m.errors[1].joint].name, "R.first");
+  EXPECT_EQ(m.joints[m.errors[2].joint].name, "R.second");
+  for (const std::size_t e : {1u, 2u}) EXPECT_EQ(m.errors[e].direction, Vec3::UnitX());
+}
+
 struct Refused {
   std::string text, expected;
   std::vector<Setting> settings;
