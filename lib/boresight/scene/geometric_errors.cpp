@@ -39,7 +39,7 @@ template <int W>  // of a register
                                                  const double* eps, double* out) {
   using Numbers [[gnu::vector_size(W * sizeof(double))]] = double;
   constexpr int kParts = kBlock / W;
-  constexpr Eigen::Index kTogether = 12 / W;  // rows; every knot has three or six
+  constexpr Eigen::Index kTogether = W == 8 ? 6 : 12 / W;  // rows; every knot has three or six
   for (Eigen::Index r = 0; r < count; r += kTogether) {
     // Towards the end some rows are taken twice.
     const Eigen::Index first = std::min(r, count - kTogether);
@@ -62,10 +62,16 @@ template <int W>  // of a register
                                                const double* eps, double* out) {
   contract_rows<4>(rows, count, errors, eps, out);
 }
+[[gnu::target("avx512f,fma")]] void contract_avx512(const double* rows, Eigen::Index count, Eigen::Index errors,
+                                                    const double* eps, double* out) {
+  contract_rows<8>(rows, count, errors, eps, out);
+}
 #endif
 void contract(const double* rows, Eigen::Index count, Eigen::Index errors, const double* eps, double* out) {
 #if defined(__x86_64__)
   static const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  static const bool widest = wide && __builtin_cpu_supports("avx512f");
+  if (widest) return contract_avx512(rows, count, errors, eps, out);
   if (wide) return contract_avx2(rows, count, errors, eps, out);
 #endif
   contract_rows<2>(rows, count, errors, eps, out);
