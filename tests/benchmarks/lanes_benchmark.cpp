@@ -3,20 +3,13 @@
 // "times_the_baseline" is the baseline's CPU per sample over the lanes', both in this run.
 #include <benchmark/benchmark.h>
 
-#include <ctime>
-
 #include "boresight/lanes/perturbation_lanes.hpp"
+#include "boresight/rungs/cpu_clock.hpp"
 #include "dense_baseline.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
 namespace {
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 const std::shared_ptr<const Mechanism>& mechanism() {
   static const std::shared_ptr<const Mechanism> m = scenes::build(scenes::rrcpr());
@@ -30,9 +23,9 @@ double baseline_seconds_per_sample() {
   ideal.state(0.23, state);
   benchmarks::DenseBaseline dense(*mechanism(), mechanism()->parameters(), ideal);
   constexpr int kTimed = 400;
-  const double start = cpu_seconds();
+  const double start = thread_cpu_seconds();
   for (int k = 0; k < kTimed; ++k) benchmark::DoNotOptimize(dense.acceleration(0.23 + 1e-6 * k, state.bodies));
-  return (cpu_seconds() - start) / kTimed * 40'000.0;
+  return (thread_cpu_seconds() - start) / kTimed * 40'000.0;
 }
 
 std::vector<Parameters> samples() {
@@ -57,10 +50,10 @@ void sample_on_lanes(benchmark::State& state, const LaneTarget& target) {
   double baseline = 0.0, spent = 0.0;
   for (auto _ : state) {
     baseline += baseline_seconds_per_sample();
-    const double start = cpu_seconds();
+    const double start = thread_cpu_seconds();
     lanes.run(target, all, outcomes);
-    spent += cpu_seconds() - start;
-    state.SetIterationTime((cpu_seconds() - start) / static_cast<double>(all.size()));
+    spent += thread_cpu_seconds() - start;
+    state.SetIterationTime((thread_cpu_seconds() - start) / static_cast<double>(all.size()));
   }
   const double per_sample = spent / static_cast<double>(state.iterations()) / static_cast<double>(all.size());
   state.counters["ms_per_sample"] = 1e3 * per_sample;

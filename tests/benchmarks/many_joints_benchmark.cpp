@@ -4,22 +4,16 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <ctime>
 #include <map>
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/lanes/perturbation_lanes.hpp"
+#include "boresight/rungs/cpu_clock.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
 namespace {
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 std::shared_ptr<const Mechanism> mechanism(int joints) {
   MechanismDescription d = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/twelve-joints.toml", {});
@@ -56,16 +50,16 @@ void joints_on_lanes(benchmark::State& state, bool with_single) {
   std::vector<LaneOutcome> outcomes(all.size());
   double spent = 0.0, single = 0.0;
   for (auto _ : state) {
-    const double start = cpu_seconds();
+    const double start = thread_cpu_seconds();
     lanes.run(all, outcomes);
-    spent += cpu_seconds() - start;
+    spent += thread_cpu_seconds() - start;
     if (with_single) {
-      const double began = cpu_seconds();
+      const double began = thread_cpu_seconds();
       const auto rung = make_rung("perturbation", m);
       rung->run(m->parameters(), {});
-      const double once = cpu_seconds() - began;
+      const double once = thread_cpu_seconds() - began;
       rung->run(m->parameters(), {});
-      single += cpu_seconds() - began - once;  // without the scene, which samples share
+      single += thread_cpu_seconds() - began - once;  // without the scene, which samples share
     }
   }
   double attempts = 0.0, impacts = 0.0;

@@ -2,21 +2,14 @@
 // one. `--benchmark_filter=forty` prints both; whole studies: tolerances.py.
 #include <benchmark/benchmark.h>
 
-#include <ctime>
-
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/lanes/perturbation_lanes.hpp"
+#include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/scene/geometric_errors.hpp"
 #include "error_scenes.hpp"
 
 namespace boresight {
 namespace {
-
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 // Every third of all the errors that the mechanism can have, up to forty.
 std::shared_ptr<const Mechanism> with_forty_errors(bool play) {
@@ -47,9 +40,9 @@ void forty_errors_on_lanes(benchmark::State& state) {
   double spent[2] = {};
   for (auto _ : state)
     for (const int errors : {0, 1}) {
-      const double start = cpu_seconds();
+      const double start = thread_cpu_seconds();
       lanes.run(errors ? with : without, outcomes);
-      spent[errors] += cpu_seconds() - start;
+      spent[errors] += thread_cpu_seconds() - start;
     }
   const double runs = static_cast<double>(state.iterations()) * static_cast<double>(with.size());
   state.counters["ms_per_sample"] = 1e3 * spent[1] / runs;
@@ -67,14 +60,14 @@ void forty_errors_alone(benchmark::State& state) {
   RunOptions options;
   options.sample_spacing = 0.0;
   benchmark::DoNotOptimize(rung->run(samples[0], options).index);
-  const double before = cpu_seconds();
+  const double before = thread_cpu_seconds();
   for (int k = 0; k < 8; ++k) benchmark::DoNotOptimize(rung->run(samples[static_cast<std::size_t>(k)], options).index);
-  const double one_by_one = (cpu_seconds() - before) / 8.0;
+  const double one_by_one = (thread_cpu_seconds() - before) / 8.0;
   double spent = 0.0;
   for (auto _ : state) {
-    const double start = cpu_seconds();
+    const double start = thread_cpu_seconds();
     geometry.run(samples, outcomes);
-    spent += cpu_seconds() - start;
+    spent += thread_cpu_seconds() - start;
   }
   const double per_sample = spent / static_cast<double>(state.iterations()) / static_cast<double>(samples.size());
   state.counters["us_per_sample"] = 1e6 * per_sample;

@@ -13,8 +13,7 @@ struct Shape {
   Turns turns = Turns::none;
   bool driven = false;  // by the tree itself
   bool opened = false;
-  bool leaves_rows =
-      false;  // free to tilt, but driven or held against turning about its axis: these are then rows of its own
+  bool leaves_rows = false;  // free to tilt, and driven or keyed: these rows then close loops of their own
 
   int speeds() const {
     constexpr std::array<int, 4> kTurning = {0, 1, 2, 3};

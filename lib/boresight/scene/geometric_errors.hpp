@@ -12,7 +12,6 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <span>
 
 #include "boresight/pointing/indices.hpp"

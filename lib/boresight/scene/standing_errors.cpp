@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/math/cubic_at_middle.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/interruption.hpp"
@@ -56,15 +57,7 @@ StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& co
       work_reached(kFollowing, 0.5 + 0.5 * k / cells);
       middles.push_back(at((k + 0.5) * spacing_));
       const MatX& middle = middles.back();
-      // The cubic through the four knots around the middle, one-sided at the ends.
-      const int first = std::clamp(k - 1, 0, cells - 3);
-      MatX cubic = MatX::Zero(middle.rows(), middle.cols());
-      for (int i = 0; i < 4; ++i) {
-        double weight = 1.0;
-        for (int j = 0; j < 4; ++j)
-          if (j != i) weight *= (k + 0.5 - (first + j)) / static_cast<double>(i - j);
-        cubic += weight * knots_[static_cast<std::size_t>(first + i)];
-      }
+      const MatX cubic = cubic_at_middle(knots_, k);
       missed = missed.cwiseMax((scale.asDiagonal() * (middle - cubic)).cwiseAbs().colwise().maxCoeff());
       largest = largest.cwiseMax((scale.asDiagonal() * middle).cwiseAbs().colwise().maxCoeff());
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/math/cubic_at_middle.hpp"
 #include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
@@ -32,19 +33,6 @@ bool same_springs(const Parameters& a, const Parameters& b) {
 
 bool same_loads(const Parameters& a, const Parameters& b) {
   return a.gravity == b.gravity && a.payload_mass == b.payload_mass && a.body_mass == b.body_mass && same_springs(a, b);
-}
-
-// The cubic through the four knots around the middle of cell k, one-sided at the ends.
-VecX cubic_at_middle(const std::vector<VecX>& knots, int k) {
-  const int first = std::clamp(k - 1, 0, static_cast<int>(knots.size()) - 4);
-  VecX cubic = VecX::Zero(knots[0].size());
-  for (int i = 0; i < 4; ++i) {
-    double weight = 1.0;
-    for (int j = 0; j < 4; ++j)
-      if (j != i) weight *= (k + 0.5 - (first + j)) / static_cast<double>(i - j);
-    cubic += weight * knots[static_cast<std::size_t>(first + i)];
-  }
-  return cubic;
 }
 
 }  // namespace

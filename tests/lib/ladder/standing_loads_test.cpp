@@ -88,7 +88,7 @@ TEST(StandingLoads, PushAJournalWhereNothingElseDoes) {
   EXPECT_NEAR(linear.rms, exact.rms, 0.003 * exact.rms);
 }
 
-// A screw's ripple of a micrometre at 300 Hz shakes with 3.6 m/s^2: as much as gravity has to spare.
+// A screw's ripple of three micrometres at 300 Hz shakes with 10.7 m/s^2, more than gravity.
 TEST(StandingLoads, ShakeTheJournalWithTheRippleOfAScrew) {
   MechanismDescription m = scenes::rrcpr({{"motion.duration", "0.1 s"}, {"initial.journals", "rest"}});
   m.errors.push_back(drive_error(m, "P1", "sin(2*pi*300*t)"));
