@@ -132,7 +132,7 @@ report::Panels motion_panels(const Mechanism& mechanism, const std::vector<Overl
 report::Panels difference_panels(const std::vector<Overlay>& overlays) {
   report::Panels panels{
       .title = "Difference from the ideal motion",
-      .caption = "The same motion with the ideal one taken away, in world axes: what the clearance does.",
+      .caption = "The same motion with the ideal one taken away, in world axes: what play and standing errors do.",
       .columns = 3};
   double position = 0.0, rotation = 0.0;
   for (int k = 0; k < 3; ++k) {
