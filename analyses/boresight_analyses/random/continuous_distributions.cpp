@@ -79,9 +79,14 @@ class FromBoost final : public Distribution {
 
 }  // namespace
 
+// In double throughout: the quantile, of which a study with many tolerances takes dozens a sample, costs a third of what it does by
+// way of long double, and is within 3 units in the last place of it.
 DistributionPtr make_normal(double mean, double sd) {
-  return std::make_shared<FromBoost<boost::math::normal>>(
-      boost::math::normal(mean, sd), described("normal", {{"mean", mean}, {"sd", sd}}), -kInfinity, kInfinity);
+  using Normal =
+      boost::math::normal_distribution<double,
+                                       boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
+  return std::make_shared<FromBoost<Normal>>(Normal(mean, sd), described("normal", {{"mean", mean}, {"sd", sd}}),
+                                             -kInfinity, kInfinity);
 }
 
 DistributionPtr make_uniform(double min, double max) {

@@ -109,6 +109,7 @@ SampleStore::SampleStore(const std::filesystem::path& file, const std::map<std::
                          " differs); give another --out, or remove it");
   read_layout();
   if (!damage_.empty()) note("damage", damage_);
+  count();  // while it is small
 }
 
 SampleStore::SampleStore(const std::filesystem::path& file) : file_(file) {
@@ -245,6 +246,7 @@ void SampleStore::add(const SampleRecord& record) {
   put.step();
   const bool added = sqlite3_changes(db_->handle) > 0;  // and not there before
   put.reset();
+  if (count_ && added) ++*count_;
   if (added && !record.outcome.history.empty()) add_history(record.number, record.outcome.history);
 }
 
@@ -317,9 +319,12 @@ void SampleStore::merge(const std::filesystem::path& other) {
 }
 
 std::uint64_t SampleStore::count() const {
-  Statement get(db_->handle, file_, "SELECT count(*) FROM sample");
-  get.step();
-  return static_cast<std::uint64_t>(get.integer(0));
+  if (!count_) {
+    Statement get(db_->handle, file_, "SELECT count(*) FROM sample");
+    get.step();
+    count_ = static_cast<std::uint64_t>(get.integer(0));
+  }
+  return *count_;
 }
 
 std::vector<NumberRange> SampleStore::missing(std::uint64_t end) const {

@@ -22,6 +22,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -94,6 +95,7 @@ class SampleStore {
   std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
   Cost earlier_;
   mutable std::string damage_;
+  mutable std::optional<std::uint64_t> count_;  // kept up once it is known: counting reads the whole file
 };
 
 }  // namespace boresight

@@ -78,8 +78,9 @@ class Statement {
   void reset() { sqlite3_reset(statement_); }
   std::int64_t integer(int column) const { return sqlite3_column_int64(statement_, column); }
   double real(int column) const {
-    return sqlite3_column_type(statement_, column) == SQLITE_NULL ? std::numeric_limits<double>::quiet_NaN()
-                                                                  : sqlite3_column_double(statement_, column);
+    const double value = sqlite3_column_double(statement_, column);  // zero also where nothing is stored
+    const bool is_nan = value == 0.0 && sqlite3_column_type(statement_, column) == SQLITE_NULL;
+    return is_nan ? std::numeric_limits<double>::quiet_NaN() : value;
   }
   std::vector<double> doubles(int column) const {
     std::vector<double> out(static_cast<std::size_t>(sqlite3_column_bytes(statement_, column)) / sizeof(double));

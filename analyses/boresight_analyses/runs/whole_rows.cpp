@@ -1,6 +1,7 @@
 #include "boresight_analyses/runs/whole_rows.hpp"
 
 #include <algorithm>
+#include <future>
 #include <optional>
 
 #include "boresight_analyses/runs/row_checksum.hpp"
@@ -10,22 +11,94 @@
 namespace boresight {
 namespace {
 
+// Rows that were read and not yet told. While the checksums of one lot are computed by another thread, the next is read; the store
+// is used, and the rows are told, by the caller's thread only.
+class Lots {
+ public:
+  Lots(const std::function<void(SampleRecord&, int)>& each, std::size_t parameters)
+      : each_(each), parameters_(parameters) {}
+
+  struct Row {
+    SampleRecord record;
+    int rung = 0;
+    std::int64_t status = 0;
+    std::optional<std::int64_t> checksum;
+    bool whole = false;
+  };
+
+  // Where the next row goes.
+  Row& place() {
+    if (used_ == rows_.size()) rows_.emplace_back().record.inputs.resize(parameters_);
+    return rows_[used_];
+  }
+  // The row in its place is one.
+  void keep() {
+    doubles_ += parameters_ + rows_[used_].record.outcome.history.size();
+    ++used_;
+    if (used_ == kMostRows || doubles_ > kMostDoubles) hand_over();
+  }
+  RowsRead finish() {
+    tell_checked();
+    check(rows_, used_);
+    tell(rows_, used_);
+    used_ = doubles_ = 0;
+    return read_;
+  }
+
+ private:
+  // A lot that costs many times what the thread does, and a few megabytes of histories.
+  static constexpr std::size_t kMostRows = 512, kMostDoubles = std::size_t{1} << 20;
+
+  void hand_over() {
+    tell_checked();
+    rows_.swap(lot_);
+    lot_size_ = used_;
+    checking_ = std::async(std::launch::async, [this] { check(lot_, lot_size_); });
+    used_ = doubles_ = 0;
+  }
+  void tell_checked() {
+    if (!checking_.valid()) return;
+    checking_.get();
+    tell(lot_, lot_size_);
+  }
+  static void check(std::vector<Row>& rows, std::size_t n) {
+    for (std::size_t k = 0; k < n; ++k) {
+      Row& row = rows[k];
+      row.whole = (row.status == 0 || row.status == 1) &&
+                  (!row.checksum || checksum_of(row.record, row.rung, row.record.outcome.history) == *row.checksum);
+    }
+  }
+  void tell(std::vector<Row>& rows, std::size_t n) {
+    for (std::size_t k = 0; k < n; ++k) {
+      ++(rows[k].whole ? read_.whole : read_.damaged);
+      if (rows[k].whole) each_(rows[k].record, rows[k].rung);
+    }
+  }
+
+  const std::function<void(SampleRecord&, int)>& each_;
+  const std::size_t parameters_;
+  std::vector<Row> rows_, lot_;
+  std::size_t used_ = 0, doubles_ = 0, lot_size_ = 0;
+  RowsRead read_;
+  std::future<void> checking_;  // last: waited for before the rest goes
+};
+
 class Rows {
  public:
   Rows(sqlite3* db, const std::filesystem::path& file, std::size_t parameters,
        const std::function<void(SampleRecord&, int)>& each)
-      : each_(each), get_(db, file, "SELECT * FROM sample WHERE number >= ? AND number < ? ORDER BY number") {
-    record_.inputs.resize(parameters);
+      : lots_(each, parameters),
+        get_(db, file, "SELECT * FROM sample WHERE number >= ? AND number < ? ORDER BY number") {
     checksum_ = static_cast<int>(parameters) + 8;
     has_checksums_ = sqlite3_column_count(get_.handle()) > checksum_;
     try {
       if (has_table(db, file, "history")) history_.emplace(db, file, "SELECT doubles FROM history WHERE number = ?");
     } catch (const StoreDamaged&) {
-      read.pages_damaged = true;
+      pages_damaged = true;
     }
   }
 
-  // Throws StoreDamaged, StoreFailed where a page cannot be read; what came before it has been told.
+  // Throws StoreDamaged, StoreFailed where a page cannot be read; what came before it is kept.
   void take(std::uint64_t first, std::uint64_t end) {
     get_.reset();
     get_.bind(1, static_cast<std::int64_t>(first));
@@ -33,35 +106,35 @@ class Rows {
     while (get_.step()) take_row();
     get_.reset();
   }
+  RowsRead finish() {
+    RowsRead read = lots_.finish();
+    read.pages_damaged = pages_damaged;
+    return read;
+  }
 
-  std::uint64_t next = 0;  // behind the last that was told
-  RowsRead read;
+  std::uint64_t next = 0;  // behind the last that was taken
+  bool pages_damaged = false;
 
  private:
   void take_row() {
+    Lots::Row& row = lots_.place();
+    SampleRecord& record = row.record;
     int column = 0;
-    record_.number = static_cast<std::uint64_t>(get_.integer(column++));
-    if (record_.number < next) return;
-    const std::int64_t status = get_.integer(column++);
-    record_.outcome.status = static_cast<Outcome::Status>(status);
-    record_.outcome.value = get_.real(column++);
-    for (double& input : record_.inputs) input = get_.real(column++);
-    record_.outcome.cpu_seconds = get_.real(column++);
-    record_.outcome.model_error = get_.real(column++);
-    record_.outcome.discretisation_error = get_.real(column++);
-    const int rung = static_cast<int>(get_.integer(column++));
-    record_.outcome.message = get_.text(column++);
-    record_.outcome.history = history_of(record_.number);
-    const bool whole =
-        (status == 0 || status == 1) &&
-        (!has_checksums_ || checksum_of(record_, rung, record_.outcome.history) == get_.integer(checksum_));
-    next = record_.number + 1;
-    if (!whole) {
-      ++read.damaged;
-      return;
-    }
-    ++read.whole;
-    each_(record_, rung);
+    record.number = static_cast<std::uint64_t>(get_.integer(column++));
+    if (record.number < next) return;
+    row.status = get_.integer(column++);
+    record.outcome.status = static_cast<Outcome::Status>(row.status);
+    record.outcome.value = get_.real(column++);
+    for (double& input : record.inputs) input = get_.real(column++);
+    record.outcome.cpu_seconds = get_.real(column++);
+    record.outcome.model_error = get_.real(column++);
+    record.outcome.discretisation_error = get_.real(column++);
+    row.rung = static_cast<int>(get_.integer(column++));
+    record.outcome.message = get_.text(column++);
+    record.outcome.history = history_of(record.number);
+    if (has_checksums_) row.checksum = get_.integer(checksum_);
+    next = record.number + 1;
+    lots_.keep();
   }
 
   std::vector<double> history_of(std::uint64_t number) {
@@ -75,10 +148,9 @@ class Rows {
     }
   }
 
-  const std::function<void(SampleRecord&, int)>& each_;
+  Lots lots_;
   Statement get_;
   std::optional<Statement> history_;
-  SampleRecord record_;
   int checksum_ = 0;
   bool has_checksums_ = false;
 };
@@ -107,12 +179,12 @@ RowsRead read_whole_rows(sqlite3* db, const std::filesystem::path& file, std::si
   try {
     rows.emplace(db, file, parameters, each);
     rows->take(0, end);
-    return rows->read;
+    return rows->finish();
   } catch (const StoreDamaged&) {
     if (!rows) return {.whole = 0, .damaged = 0, .pages_damaged = true};
   }
   // Around what cannot be read: block by block, and where a block cannot be read, number by number.
-  rows->read.pages_damaged = true;
+  rows->pages_damaged = true;
   const std::uint64_t last = std::min(last_number(db, file, rows->next, end), rows->next + (1u << 26));
   for (std::uint64_t first = rows->next; first < last; first += kBlock) {
     const std::uint64_t stop = std::min(last, first + kBlock);
@@ -127,7 +199,7 @@ RowsRead read_whole_rows(sqlite3* db, const std::filesystem::path& file, std::si
       }
     }
   }
-  return rows->read;
+  return rows->finish();
 }
 
 }  // namespace boresight

@@ -19,7 +19,8 @@ struct RowsRead {
   bool good() const { return damaged == 0 && !pages_damaged; }
 };
 
-// In ascending order of number, each once, those below `end`: the sample, its rung's number, its history.
+// In ascending order of number, each once, those below `end`: the sample, its rung's number, its history. `each` is called
+// by the caller's thread and may use the store.
 // parameters: how many columns of inputs there are. Stores of versions before have no checksums: their rows count as whole if they
 // can be read. Throws StoreRefused where the store is in use.
 RowsRead read_whole_rows(sqlite3* db, const std::filesystem::path& file, std::size_t parameters, std::uint64_t end,
