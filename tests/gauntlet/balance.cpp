@@ -48,7 +48,8 @@ Json momentum_change(const std::shared_ptr<const Mechanism>& mechanism, const As
   scale.head<3>() = scale.head<3>().cwiseMax(scale.tail<3>() / length);
   scale.tail<3>() = scale.tail<3>().cwiseMax(scale.head<3>() * length);
   const double worst = scale.minCoeff() > 0.0 ? change.cwiseQuotient(scale).norm() : 0.0;
-  return {{"change", std::isfinite(worst) ? worst : 1e300}};
+  return {{"change", std::isfinite(worst) ? worst : 1e300},
+          {"step", mechanism->duration() / static_cast<double>(std::max<std::int64_t>(1, r.cost.steps))}};
 }
 
 Json energy_change(const std::shared_ptr<const Mechanism>& mechanism) {

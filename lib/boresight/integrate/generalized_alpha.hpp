@@ -84,9 +84,11 @@ class GeneralizedAlpha {
     algorithmic_ = accepted_ + ((alpha_m_ - alpha_f_) * (h - h_accepted_)) * algorithmic_rate_;
     h_ = h;
     if (!jacobian_known_) partial_.evaluate_jacobian(system, t, y, start_slope_, cost_);
-    jacobian_known_ = true;
+    // Known to the next attempt only if this one ends well: iterations that run away leave derivatives from anywhere.
+    jacobian_known_ = false;
     if (!decompose()) return Attempt::singular_matrix;
     if (!solve(system, t)) return Attempt::no_convergence;
+    jacobian_known_ = true;
     estimate_error(system, t);
     return Attempt::done;
   }
@@ -144,6 +146,7 @@ class GeneralizedAlpha {
   bool solve(const S& system, double t) {
     const double t_f = t + (1.0 - alpha_f_) * h_;
     algorithmic_end_ = algorithmic_;
+    bool on_the_way = false;  // derivatives were taken where an iteration stood, which may be far from where it led
     for (int k = 0; k < kIterations; ++k) {
       ++cost_.iterations;
       place();
@@ -154,13 +157,16 @@ class GeneralizedAlpha {
       if (k > 0 && k % kIterationsPerJacobian == 0) {
         partial_.evaluate_jacobian(system, t_f, state_, slope_, cost_);
         if (!decompose()) return false;
+        on_the_way = true;
       }
       correction_ = lu_.solve(residual_);
       algorithmic_end_ += correction_;
       const double size = algorithmic_end_.norm() + algorithmic_.norm();
       if (correction_.norm() <= kIterationTolerance * size) {
         place();
-        return true;
+        if (!on_the_way) return true;
+        partial_.evaluate_jacobian(system, t_f, state_, slope_, cost_);  // the error is filtered by it
+        return decompose();
       }
     }
     return false;

@@ -11,6 +11,7 @@
 #include "boresight/stepping/measured_error.hpp"
 #include "boresight/stepping/motion_scales.hpp"
 #include "boresight/stepping/own_step.hpp"
+#include "boresight/stepping/unstable_step.hpp"
 
 namespace boresight {
 namespace {
@@ -112,8 +113,8 @@ RunResult follow_locating_contacts(const MultibodyMotion& run, const std::string
   try {
     summary = follow_located(integrator, system, duration, options.sample_spacing, y,
                              integration_options(run, *formulation, system.elements()), show, taken);
-  } catch (const ComputationError& failure) {
-    throw ComputationError(failure.what() + (system.fault().empty() ? "" : "; refused last: " + system.fault()));
+  } catch (const StepFailed& failure) {
+    throw StepFailed(failure.what() + (system.fault().empty() ? "" : "; refused last: " + system.fault()));
   }
   RunResult result = recorder.finish();
   if (!start_warning.empty()) result.warnings.push_back(start_warning);

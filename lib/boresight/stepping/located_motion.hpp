@@ -49,8 +49,8 @@ IntegrationSummary follow_located(M method, S& system, double duration, double s
   });
   if (summary.stop == StopReason::error_too_large) throw misleading_step(integrator.method().name(), summary, options);
   if (!summary.completed())
-    throw ComputationError(summary.message + " (" + integrator.method().name() +
-                           "): the motion cannot be followed further at this step or tolerance");
+    throw StepFailed(summary.message + " (" + integrator.method().name() +
+                     "): the motion cannot be followed further at this step or tolerance");
   return summary;
 }
 

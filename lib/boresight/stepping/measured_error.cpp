@@ -31,8 +31,8 @@ constexpr double kOfRange = 2.0;
 // Implicit methods step over a contact's vibration that is smaller than the tolerance, and finer tolerances that still do show nothing of
 // it. It is a share of the clearances, as the indices are, and may stand to either side.
 constexpr double kOfTolerance = 2.0;
-// Three runs that do not agree, and no time for more: of three draws of one distribution the next one lies beyond three
-// ranges in less than one case out of twenty.
+// Few runs that do not agree, and no time or no neighbour for more: of three draws of one distribution the next one lies
+// beyond three ranges in less than one case out of twenty.
 constexpr double kOfScatteredRange = 3.0;
 // Student's t at 97.5 percent, four degrees of freedom: two groups of three.
 constexpr double kStudent4 = 2.776;
@@ -71,17 +71,21 @@ class FurtherRuns {
     return result.index;
   }
 
-  // The next neighbour that can be followed.
-  PointingIndices neighbour() {
-    for (;;) {
-      try {
-        return at(kNeighbours[next_++]);
-      } catch (const UnstableStep&) {
-        if (next_ == std::size(kNeighbours)) throw;
-      } catch (const SingularPose&) {  // what a motion that blows up may meet on its way
-        if (next_ == std::size(kNeighbours)) throw;
-      }
+  // The next neighbour that can be followed, if there is one.
+  void add_neighbour(std::vector<PointingIndices>& to) {
+    while (next_ < std::size(kNeighbours) && !add_followed(to, kNeighbours[next_++], false)) {
     }
+  }
+  // Whether it could be followed.
+  bool add_followed(std::vector<PointingIndices>& to, double share, bool finer) {
+    try {
+      to.push_back(at(share, finer));
+      return true;
+    } catch (const UnstableStep&) {
+    } catch (const StepFailed&) {
+    } catch (const SingularPose&) {  // what a motion that blows up may meet on its way
+    }
+    return false;
   }
 
   int runs = 0;
@@ -171,16 +175,16 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
   std::vector<PointingIndices> own = {result.index}, finer;
   bool settled = false, whole = false;
   try {
-    own.push_back(further.neighbour());
+    further.add_neighbour(own);
     finer.push_back(further.at(1.0, true));
-    settled = all_agree({own[0], own[1], finer[0]});
-    whole = !settled && !(measure.most_seconds > 0.0 && all > measure.most_seconds);
-    if (whole) {
-      own.push_back(further.neighbour());
-      for (const double share : {kNeighbours[0], kNeighbours[1]}) finer.push_back(further.at(share, true));
+    settled = own.size() > 1 && all_agree({own[0], own[1], finer[0]});
+    if (!settled && !(measure.most_seconds > 0.0 && all > measure.most_seconds)) {
+      further.add_neighbour(own);
+      for (const double share : {kNeighbours[0], kNeighbours[1]}) further.add_followed(finer, share, true);
     }
+    whole = own.size() == 3 && finer.size() == 3;
   } catch (const ComputationError& failure) {
-    error.why_not = std::string("a neighbouring run failed: ") + failure.what();
+    error.why_not = std::string("a further run failed: ") + failure.what();
   }
   error.runs = further.runs;
   error.cpu_seconds = further.cpu_seconds;
@@ -200,8 +204,10 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
       stated =
           std::abs(x[0] - mean(x)) + (stands_out ? 2.0 : 1.0) * shift + kStudent4 * spread * std::sqrt(1.0 + 1.0 / n);
     } else {
-      const std::vector<double> values = {x[0], x[1], y[0]};
-      spread = settled ? 0.0 : std::abs(x[0] - x[1]) / std::sqrt(2.0);  // what agrees does not scatter
+      std::vector<double> values = x;
+      values.insert(values.end(), y.begin(), y.end());
+      // What agrees does not scatter.
+      spread = settled || x.size() < 2 ? 0.0 : std::abs(x[0] - x[1]) / std::sqrt(2.0);
       stated = (settled ? kOfRange : kOfScatteredRange) * range(values);
     }
     error.stated.*quantity.*statistic = std::max(stated, kOfTolerance * further.tolerance() * std::abs(x[0]));
@@ -210,9 +216,15 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
   });
   const bool by_tolerance = further.tolerance() > 0.0;
   const char* fineness = by_tolerance ? "a tenth of the tolerance and half the longest step" : "half the step";
-  std::snprintf(text, sizeof text, "%s: %zu of them at neighbouring %s, %zu at %s",
-                settled ? "measured by further runs that agree" : "measured by further runs", own.size() - 1,
-                by_tolerance ? "tolerances" : "steps", finer.size(), fineness);
+  const char* alike = by_tolerance ? "tolerances" : "steps";
+  if (own.size() > 1)
+    std::snprintf(text, sizeof text, "%s: %zu of them at neighbouring %s, %zu at %s",
+                  settled ? "measured by further runs that agree" : "measured by further runs", own.size() - 1, alike,
+                  finer.size(), fineness);
+  else
+    std::snprintf(text, sizeof text,
+                  "no neighbouring %s can be followed, so this one is by chance; measured by %zu at %s",
+                  by_tolerance ? "tolerance" : "step", finer.size(), fineness);
   error.basis = text;
   return error;
 }

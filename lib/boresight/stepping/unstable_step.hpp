@@ -19,6 +19,12 @@ class UnstableStep : public ComputationError {
   double largest_step = 0.0;  // that would have been stable there [s]; 0: not known
 };
 
+// The error control found no step short enough to go on with, or a given step's equations were not solved.
+class StepFailed : public ComputationError {
+ public:
+  using ComputationError::ComputationError;
+};
+
 // The step that the paper uses [s], and the most that a rung takes on its own.
 inline constexpr double kPaperStep = 1e-4;
 inline double longest_step(double duration) { return std::min(kPaperStep, duration / 100.0); }

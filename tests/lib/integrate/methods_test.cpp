@@ -228,5 +228,31 @@ TEST(Integrator, SaysWhyItStopped) {
   EXPECT_NE(text.str().find("too many steps"), std::string::npos);
 }
 
+// Iterations of a step that was far too long run away to where the spring is stiffer than any; that must not be what the shorter steps
+// after it are solved with.
+TEST(GeneralizedAlphaMethod, GoesOnAfterAStepWhoseIterationsRanAway) {
+  struct CubicSpring {
+    void derivative(double, const VecX& y, VecX& dy) const {
+      dy[0] = y[1];
+      dy[1] = -1e4 * std::pow(y[0], 3);
+    }
+  };
+  const auto end_of = [](double first_step, IntegrationSummary& summary) {
+    Integrator<GeneralizedAlpha> integrator(GeneralizedAlpha(0.8, 2));
+    CubicSpring spring;
+    VecX y(2);
+    y << 0.5, 0.0;
+    summary = integrator.run(spring, 0.0, 1.0, y,
+                             {.relative_tolerance = 1e-6, .first_step = first_step, .most_steps = 100000});
+    return y;
+  };
+  IntegrationSummary wild, tame;
+  const VecX far = end_of(0.1, wild), near = end_of(1e-4, tame);
+  ASSERT_TRUE(wild.completed()) << wild;
+  ASSERT_TRUE(tame.completed()) << tame;
+  ASSERT_GT(wild.rejected_no_convergence, 0) << "the first attempt does not run away: the test holds nothing";
+  EXPECT_NEAR(far[0], near[0], 1e-3);
+}
+
 }  // namespace
 }  // namespace boresight

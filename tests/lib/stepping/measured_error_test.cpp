@@ -134,9 +134,18 @@ TEST(MeasuredError, TakesTheNeighboursThatCanBeFollowed) {
   const MeasuredError edge = measure_discretisation(OnTheEdge(0.96e-4), {}, {}, run);
   ASSERT_TRUE(edge.measured) << edge.why_not;
   EXPECT_GT(edge.stated.position_error.max, 0.5e-4) << "half the step moves it by as much";
-  const MeasuredError beyond = measure_discretisation(OnTheEdge(0.8e-4), {}, {}, run);
-  EXPECT_FALSE(beyond.measured);
-  EXPECT_NE(beyond.why_not.find("step too large"), std::string::npos) << beyond.why_not;
+}
+
+// A run whose neighbours all fail went through by chance: what smaller steps give says what it is worth.
+TEST(MeasuredError, IsThatOfFinerRunsWhereNoNeighbourCanBeFollowed) {
+  const RunResult run = OnTheEdge(1.0).run({}, {});
+  const MeasuredError alone = measure_discretisation(OnTheEdge(0.8e-4), {}, {}, run);
+  ASSERT_TRUE(alone.measured) << alone.why_not;
+  EXPECT_GT(alone.stated.position_error.max, 1e-4) << "the step's own part";
+  EXPECT_NE(alone.basis.find("by chance"), std::string::npos) << alone.basis;
+  const MeasuredError none = measure_discretisation(OnTheEdge(0.4e-4), {}, {}, run);
+  EXPECT_FALSE(none.measured);
+  EXPECT_NE(none.why_not.find("step too large"), std::string::npos) << none.why_not;
 }
 
 TEST(MeasuredError, IsNothingOfARungWithoutSteps) {
