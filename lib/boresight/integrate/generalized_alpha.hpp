@@ -130,6 +130,7 @@ class GeneralizedAlpha {
     matrix_ = -to_position * partial_.jacobian.bottomLeftCorner(half_, half_) -
               to_velocity * partial_.jacobian.bottomRightCorner(half_, half_);
     matrix_.diagonal().array() += 1.0 - alpha_m_;
+    if (!matrix_.allFinite()) return false;
     lu_.compute(matrix_);
     ++cost_.decompositions;
     return lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0;

@@ -148,6 +148,18 @@ void MultibodySystem::remember_motion(double t, const VecX& y) const {
 }
 
 void MultibodySystem::jacobian(double t, const VecX& y, MatX& J) const {
+  try {
+    jacobian_of_all(t, y, J);
+  } catch (const ComputationError& failure) {
+    fault_ = failure.what();
+    J.setConstant(std::numeric_limits<double>::quiet_NaN());
+    evaluated_time_ = -1.0;
+    slow_then_ = {};  // what is kept may be half of here
+    unit_then_.assign(unit_then_.size(), {});
+  }
+}
+
+void MultibodySystem::jacobian_of_all(double t, const VecX& y, MatX& J) const {
   if (!elements_.empty()) {  // the laws' own derivatives know nothing of what elements remember
     VecX shifted, slope(y.size());
     base_.resize(y.size());

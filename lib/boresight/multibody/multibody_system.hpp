@@ -44,7 +44,8 @@ class MultibodySystem {
 
   void start(double t, const VecX& y);
 
-  // Not a number where the formulation cannot follow (a trial step into a singular pose): the step is then rejected.
+  // Not a number where the formulation cannot follow (a trial step into a singular pose), nor the derivatives in jacobian(): the step is
+  // then rejected.
   void derivative(double t, const VecX& y, VecX& dy) const;
   // The contacts' part exactly, from the laws' own derivatives; the rest, which is slow, by differences with the
   // contacts' wrenches held, and kept until the mechanism has moved by kSlowShare.
@@ -73,6 +74,7 @@ class MultibodySystem {
   void remember_motion(double t, const VecX& y) const;
   void respond(double t, const VecX& y) const;
   void derivative_of_all(double t, const VecX& y, VecX& dy) const;
+  void jacobian_of_all(double t, const VecX& y, MatX& J) const;
   void read(int clearance, double t, const VecX& y) const;
 
   Formulation& formulation_;
