@@ -230,7 +230,7 @@ report::Table contact_table(const std::vector<Overlay>& overlays) {
   report::Table table{
       .title = "Contacts",
       .caption =
-          "An impact is a contact begun. Flores' law is valid up to the speed in the last column but one "
+          "An impact is a contact begun. Contact laws hold up to the speed in the last column but one "
           "(Eq. 26); faster impacts are counted.",
       .columns = {{"Motion"},
                   {"Joint"},

@@ -110,7 +110,7 @@ report::Panels event_histograms(const RunResult& result) {
                    histogram("Duration", "duration", "ms", duration), histogram("Largest force", "force", "kN", force)};
   const double valid = result.contact.empty() ? 0.0 : 1e3 * result.contact.front().validity_speed;
   if (valid > 0.0 && !speed.empty() && valid < 1.5 * *std::max_element(speed.begin(), speed.end()))
-    panels.panels[0].lines.push_back({'x', valid, "Flores' law valid up to here"});
+    panels.panels[0].lines.push_back({'x', valid, "the contact law holds up to here"});
   return panels;
 }
 
