@@ -227,20 +227,19 @@ report::Table index_table(const std::vector<Overlay>& overlays) {
 }
 
 report::Table contact_table(const std::vector<Overlay>& overlays) {
-  report::Table table{
-      .title = "Contacts",
-      .caption =
-          "An impact is a contact begun. Contact laws hold up to the speed in the last column but one "
-          "(Eq. 26); faster impacts are counted.",
-      .columns = {{"Motion"},
-                  {"Joint"},
-                  {"In contact", "%"},
-                  {"Impacts"},
-                  {"Deepest penetration", "µm"},
-                  {"Largest force", "kN"},
-                  {"Fastest impact", "mm/s"},
-                  {"Valid up to", "mm/s"},
-                  {"Faster than valid"}}};
+  report::Table table{.title = "Contacts",
+                      .caption =
+                          "An impact is a contact begun. Contact laws hold up to the speed in the last column but one "
+                          "(Eq. 26); faster impacts are counted.",
+                      .columns = {{"Motion"},
+                                  {"Joint"},
+                                  {"In contact", "%"},
+                                  {"Impacts"},
+                                  {"Deepest penetration", "µm"},
+                                  {"Largest force", "kN"},
+                                  {"Fastest impact", "mm/s"},
+                                  {"Valid up to", "mm/s"},
+                                  {"Faster than valid"}}};
   const bool one = overlays.size() == 1;
   if (one) table.columns.erase(table.columns.begin());
   for (const Overlay& overlay : overlays) {

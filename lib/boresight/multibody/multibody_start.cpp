@@ -15,7 +15,10 @@ namespace {
 
 // Steps of the journals, over their clearances: shorter ones are rounding.
 constexpr double kRounding = 1e-12;
-constexpr int kMostSteps = 40;
+// Where the pose bends much they shrink slowly, by a quarter or less each: as long as they shrink they lead there. Some that do not are
+// rounding, or a way around.
+constexpr int kMostSteps = 400, kMostIdle = 6;
+constexpr double kShrinks = 0.98;
 // A step this many times the shortest leads away.
 constexpr double kAstray = 100.0;
 
@@ -113,14 +116,16 @@ class ExactBalance {
 };
 
 // Newton's method with the offsets' own stiffness: a few steps, where the pose is all but linear in the offsets. Returns the length of
-// the last step.
+// the shortest step.
 double rest_nearly_linear(ExactBalance& exact, VecX& z) {
   VecX at = z;
   // What no place of the journals balances is left to the motion: steps are judged by their length.
   double least = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMostSteps; ++step) {
+  int idle = 0;
+  for (int step = 0; step < kMostSteps && idle < kMostIdle; ++step) {
     const VecX left = exact.left(at), dz = exact.step(exact.stiffness(), left);
     const double length = exact.length(dz);
+    idle = length < kShrinks * least ? 0 : idle + 1;
     if (length < least) {
       least = length;
       z = at;
@@ -154,7 +159,13 @@ double rest_as_clearances_grow(const Mechanism& mechanism, const Parameters& par
     }
     const ElasticOnly elastic(formulation.forces(), balance.joints());
     ExactBalance exact(mechanism, parameters, scene, balance, formulation);
-    return rest_nearly_linear(exact, z);
+    const double length = rest_nearly_linear(exact, z);
+    if (length <= kAcceptableRest || !from) return length;
+    // Close to a rest, with the stiffness that the bent pose has.
+    VecX other = *from;
+    const double other_length = search_rest([&](const VecX& at) { return exact.left(at); }, exact.unit(), other);
+    if (other_length < length) z = other;
+    return std::min(length, other_length);
   };
   double share = kFirst, growth = kFastest, length = rest_at(share, nullptr);
   if (!(length <= kAcceptableRest)) return std::numeric_limits<double>::infinity();
