@@ -5,10 +5,11 @@
 namespace boresight {
 namespace {
 
-// column: of each input, among the numbers of the motion.
+// column: of each input, among the numbers of the motion; to: among those of out.
 template <int inputs>
 void differentiate(const JointPlay& law, const PlayMotion<double>& m, const std::array<int, inputs>& column,
-                   const std::array<double, kContactPlaces>& impact_speed, MomentAbout about, ContactJacobian& out) {
+                   const std::array<double, kContactPlaces>& impact_speed, MomentAbout about, auto& out,
+                   const std::array<int, inputs>& to) {
   using Jet = ceres::Jet<double, inputs>;
   PlayMotion<Jet> motion;
   const auto number = [](auto& of, int k) -> auto& {
@@ -26,8 +27,8 @@ void differentiate(const JointPlay& law, const PlayMotion<double>& m, const std:
   if (about == MomentAbout::insert) moment -= motion.e.cross(wrench.force);
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < inputs; ++i) {
-      out(k, column[i]) = wrench.force[k].v[i];
-      out(3 + k, column[i]) = moment[k].v[i];
+      out(k, to[i]) = wrench.force[k].v[i];
+      out(3 + k, to[i]) = moment[k].v[i];
     }
 }
 
@@ -36,15 +37,26 @@ void differentiate(const JointPlay& law, const PlayMotion<double>& m, const std:
 void contact_jacobian(const JointPlay& law, const PlayMotion<double>& motion,
                       const std::array<double, kContactPlaces>& impact_speed, MomentAbout about, ContactJacobian& out) {
   out.setZero();
+  const auto by = [&]<std::size_t inputs>(const std::array<int, inputs>& columns) {
+    differentiate<static_cast<int>(inputs)>(law, motion, columns, impact_speed, about, out, columns);
+  };
   switch (law.inputs()) {
     case MotionInputs::parallel:
-      return differentiate<7>(law, motion, {0, 1, 2, 3, 4, 5, 7}, impact_speed, about, out);
+      return by(std::array<int, 7>{0, 1, 2, 3, 4, 5, 7});
     case MotionInputs::turning:
-      return differentiate<9>(law, motion, {0, 1, 2, 3, 4, 5, 6, 7, 8}, impact_speed, about, out);
+      return by(std::array<int, 9>{0, 1, 2, 3, 4, 5, 6, 7, 8});
     case MotionInputs::tilting:
-      return differentiate<kMotionNumbers>(law, motion, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, impact_speed, about,
-                                           out);
+      return by(std::array<int, kMotionNumbers>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
   }
+}
+
+void offset_jacobian(const JointPlay& law, const PlayMotion<double>& at_rest,
+                     const std::array<double, kContactPlaces>& impact_speed, MomentAbout about, OffsetJacobian& out) {
+  out.setZero();
+  if (law.inputs() == MotionInputs::tilting)
+    differentiate<5>(law, at_rest, {0, 1, 2, 9, 10}, impact_speed, about, out, {0, 1, 2, 3, 4});
+  else
+    differentiate<3>(law, at_rest, {0, 1, 2}, impact_speed, about, out, {0, 1, 2});
 }
 
 }  // namespace boresight

@@ -1,5 +1,6 @@
 #include "boresight/scene/resting_start.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,12 @@ constexpr double kLeftToMotion = 1e-4;
 constexpr int kMostSteps = 400;
 // Of the load over a clearance: with less, the step is the undamped one.
 constexpr double kLeastDamping = 1e-8;
+// Steps by one stiffness: so many, each no longer than this share of the one before it, the first of this many clearances at most; and the
+// length of one that ends them, in clearances.
+constexpr int kMostStrides = 12;
+constexpr double kShrinks = 0.3, kLongestStride = 0.5, kArrived = 1e-7;
+// Of an energy, which loads and clearances make: what rounding leaves of it.
+constexpr double kRoundedEnergy = 1e-14;
 // Stiffness below this share of the largest holds nothing.
 constexpr double kSoft = 1e-11;
 
@@ -41,38 +48,68 @@ constexpr ImpactSpeeds<double> kSlow = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3};  // of no
 
 }  // namespace
 
-RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std::vector<JointPlay> joints)
-    : at_(layout), held_(static_cast<std::size_t>(layout.n), false) {
-  const int n = at_.n;
+RestingBalance::RestingBalance(const SceneLayout& layout, std::vector<JointPlay> joints)
+    : at_(layout),
+      stiffness_(MatX::Zero(layout.n, layout.n)),
+      reaction_(VecX::Zero(layout.n)),
+      held_(static_cast<std::size_t>(layout.n), false) {
   // A rest is a matter of elastic forces: what contacts dissipate and rub hangs on how fast the bodies carry them along.
   for (const JointPlay& joint : joints) joints_.push_back(joint.elastic_only());
+  for (const JointPlay& law : joints_) widest_ = std::max(widest_, law.widest());
+  if (!(widest_ > 0.0)) widest_ = 1e-6;
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    widths_.push_back(joints_[c].widths(widest_));
+    const SceneLayout::Joint& joint = at_.joints[c];
+    for (int k = 0; k < joint.offsets; ++k)
+      if (joint.source[k] >= 0) held_[joint.source[k]] = true;
+  }
+  offsets_of_.assign(joints_.size(), MatX::Zero(kMostOffsets, at_.n));
+  works_on_.assign(joints_.size(), MatX::Zero(6, at_.n));
+  over_widths_.resize(joints_.size());
+  slide_.assign(joints_.size(), 0.0);
+  shift_.assign(joints_.size(), PlayOffsets::Zero());
+  with_offsets_ = MatX::Identity(at_.n, at_.n);
+}
+
+RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std::vector<JointPlay> joints)
+    : RestingBalance(layout, std::move(joints)) {
+  const int n = at_.n;
   MatX inverse;
   at_.inverse_mass(row, inverse);
-  mass_ = inverse.ldlt().solve(MatX::Identity(n, n));
+  const MatX mass = inverse.ldlt().solve(MatX::Identity(n, n));
   using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
-  reaction_ = mass_ * Eigen::Map<const VecX>(row + at_.Ar, n);
-  stiffness_ = at_.stiff ? MatX(mass_ * Rows(row + at_.AK, n, n)) : MatX(MatX::Zero(n, n));
-  double widest = 0.0;
-  for (const JointPlay& law : joints_) widest = std::max(widest, law.widest());
-  if (!(widest > 0.0)) widest = 1e-6;
-  VecX scale = VecX::Constant(n, widest);
+  reaction_ = mass * Eigen::Map<const VecX>(row + at_.Ar, n);
+  if (at_.stiff) stiffness_ = mass * Rows(row + at_.AK, n, n);
+  read(row);
+  with_offsets_ = carried_along(mass, held_);
+  weigh();
+}
+
+void RestingBalance::take(const double* row, const VecX& reaction, const MatX& stiffness) {
+  reaction_ = reaction;
+  stiffness_ = stiffness;
+  read(row);
+  // Where a journal of a joint that slides comes to along its axis decides how far apart its ends push: to second order, without which forces
+  // would not be those of the energy.
+  for (std::size_t c = 0; c < joints_.size(); ++c)
+    if (at_.joints[c].slides) offsets_of_[c].row(1) = works_on_[c].row(1);
+  weigh();
+}
+
+// What the coordinates do to the joints.
+void RestingBalance::read(const double* row) {
+  const int n = at_.n;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     const SceneLayout::Joint& joint = at_.joints[c];
-    const JointPlay& law = joints_[c];
-    MatX& G = offsets_of_.emplace_back(MatX::Zero(kMostOffsets, n));
-    MatX& V = works_on_.emplace_back(MatX::Zero(6, n));
-    slide_.push_back(joint.slides ? row[joint.slide] : 0.0);
-    PlayOffsets& shift = shift_.emplace_back(PlayOffsets::Zero());
-    const PlayOffsets& width = widths_.emplace_back(law.widths(widest));
+    MatX &G = offsets_of_[c], &V = works_on_[c];
+    if (joint.slides) slide_[c] = row[joint.slide];
     for (int k = 0; k < joint.offsets; ++k) {
       const int source = joint.source[k];
       if (source >= 0) {
         G(k, source) = 1.0;
-        held_[source] = true;
-        scale[source] = width[k];
       } else if (source == DeviationCoordinates::kDependent) {
         G.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.dependent + k * n, n);
-        shift[k] = row[joint.shift + k];
+        shift_[c][k] = row[joint.shift + k];
       } else if (k < 3) {
         V.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.slide_gain, n);
       }
@@ -81,7 +118,15 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
     for (int i = 0; i < joint.spins; ++i)
       V.row(3 + (joint.spins == 3 ? i : 1)) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.spin_gain + i * n, n);
   }
-  with_offsets_ = carried_along(mass_, held_);
+}
+
+// The loads as far as journals can balance them, and offsets over clearances.
+void RestingBalance::weigh() {
+  const int n = at_.n;
+  VecX scale = VecX::Constant(n, widest_);
+  for (std::size_t c = 0; c < joints_.size(); ++c)
+    for (int k = 0; k < at_.joints[c].offsets; ++k)
+      if (const int source = at_.joints[c].source[k]; source >= 0) scale[source] = widths_[c][k];
   reaction_ = balanceable(reaction_);
   const VecX parts = reaction_.cwiseProduct(scale).cwiseAbs();
   for (int k = 0; k < n; ++k)
@@ -89,11 +134,13 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
 
   MatX spread = MatX::Zero(n, n);
   for (int k = 0; k < n; ++k)
-    if (!held_[k]) spread(k, k) = 1.0 / (widest * widest);
+    if (!held_[k]) spread(k, k) = 1.0 / (widest_ * widest_);
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    MatX& G = over_widths_.emplace_back(widths_[c].cwiseInverse().asDiagonal() * offsets_of_[c]);
+    MatX& G = over_widths_[c];
+    G = widths_[c].cwiseInverse().asDiagonal() * offsets_of_[c];
     for (int k = 0; k < n; ++k)
       if (!held_[k]) G.col(k).setZero();
+    if (at_.joints[c].slides) G.row(1).setZero();
     spread += G.transpose() * G;
   }
   unit_ = spread.llt().matrixU().solve(MatX::Identity(n, n));
@@ -102,37 +149,41 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
 
 PlayMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z) const {
   PlayMotion<double> m = at_rest_at(offsets_of_[joint] * z + shift_[joint]);
-  if (at_.joints[joint].slides) m.e.y() = slide_[joint];
+  m.e.y() += slide_[joint];
   return m;
 }
 
-void RestingBalance::evaluate(const VecX& offsets, VecX& F, MatX& by_z) const {
+VecX RestingBalance::left(const VecX& offsets) const {
   const VecX z = completed(offsets);
-  F = -stiffness_ * z;
-  std::vector<PlayMotion<double>> journals;
+  VecX F = -stiffness_ * z;
   PlayWrench<double> wrench;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    const PlayMotion<double>& motion = journals.emplace_back(motion_of(c, z));
+    const PlayMotion<double> motion = motion_of(c, z);
     joints_[c].wrench(motion, kSlow, wrench);
     Vec6 load;
     load << wrench.force, wrench.moment - motion.e.cross(wrench.force);
     F.noalias() += works_on_[c].transpose() * load;
   }
-  F = reaction_ + balanceable(F);
+  return reaction_ + balanceable(F);
+}
+
+void RestingBalance::evaluate(const VecX& offsets, VecX& F, MatX& by_z) const {
+  F = left(offsets);
+  const VecX z = completed(offsets);
+  std::vector<PlayMotion<double>> journals;
+  for (std::size_t c = 0; c < joints_.size(); ++c) journals.push_back(motion_of(c, z));
   by_z = stiffness_at(journals);
 }
 
 MatX RestingBalance::stiffness_at(const std::vector<PlayMotion<double>>& journals) const {
   MatX by_z = -stiffness_;
-  ContactJacobian of_motion;
-  Eigen::Matrix<double, 6, kMostOffsets> of_offsets;
+  OffsetJacobian of_offsets;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     PlayMotion<double> still = journals[c];
     still.e_dot.setZero();
     still.w.setZero();
     still.slope_rate.setZero();
-    contact_jacobian(joints_[c], still, kSlow, MomentAbout::insert, of_motion);
-    of_offsets << of_motion.leftCols<3>(), of_motion.middleCols<2>(9);
+    offset_jacobian(joints_[c], still, kSlow, MomentAbout::insert, of_offsets);
     by_z.noalias() += works_on_[c].transpose() * (of_offsets * offsets_of_[c]);
   }
   return with_offsets_.transpose() * by_z * with_offsets_;
@@ -169,12 +220,9 @@ VecX RestingBalance::guess() const {
   return unit_ * (unit_.transpose() * there);
 }
 
-RestingStart RestingBalance::solve() const {
+double RestingBalance::descend(VecX& z, double undecided, bool downhill) const {
   const int n = at_.n;
-  RestingStart rest{VecX::Zero(n), ""};
-  if (n == 0 || !(load_ > 0.0)) return rest;  // nothing presses anywhere
-  VecX z = guess(), F(n), trial(n), F_trial(n);
-  if (!(energy(z) < energy(VecX::Zero(n)))) z.setZero();
+  VecX F(n), trial(n), F_trial(n);
   MatX J(n, n), J_trial(n, n);
   evaluate(z, F, J);
   double E = energy(z), damping = 0.0;
@@ -182,6 +230,7 @@ RestingStart RestingBalance::solve() const {
     VecX dz;
     if (damping == 0.0) {
       dz = correction(J, F);
+      if (size(F) <= undecided && length(dz) <= kSettledRest) break;
     } else {
       const MatX H = damping * MatX::Identity(n, n) - MatX(unit_.transpose() * J * unit_);
       dz = unit_ * H.partialPivLu().solve(unit_.transpose() * F);
@@ -193,32 +242,85 @@ RestingStart RestingBalance::solve() const {
     trial = z + dz;
     evaluate(trial, F_trial, J_trial);
     const double E_trial = energy(trial);
-    if (E_trial < E || size(F_trial) < size(F)) {
+    const double rounding = kRoundedEnergy * (std::abs(E) + load_);
+    const bool pays = downhill ? E_trial < E - rounding || (E_trial <= E + rounding && size(F_trial) < size(F))
+                               : E_trial < E || size(F_trial) < size(F);
+    if (pays) {
       z = trial;
       E = E_trial;
       F.swap(F_trial);
       J.swap(J_trial);
       damping = damping > kLeastDamping * load_ ? 0.1 * damping : 0.0;
     } else {
-      if (size(F) <= kAcceptable * load_) break;  // rounding decides which is lower
+      if (size(F) <= std::max(kAcceptable * load_, undecided)) break;  // rounding decides which is lower
       damping = std::max(10.0 * damping, kLeastDamping * load_);
     }
   }
-  if (size(F) > kAcceptable * load_ || !z.allFinite()) {
-    const auto left = [&](const VecX& at) {
-      VecX balance(n);
-      MatX unused(n, n);
-      evaluate(at, balance, unused);
-      return balance;
-    };
+  return size(F);
+}
+
+bool RestingBalance::follow(VecX& z, double undecided) {
+  double before = kLongestStride;
+  for (int step = 0; step < kMostStrides; ++step) {
+    // The first step turns the contacts as far as they turn; from there on their stiffness is what it will be.
+    if (step == 1 || kept_.rows() != at_.n) keep_stiffness(z);
+    const VecX F = left(z), dz = kept_ * F;
+    const double by = length(dz);
+    if (!(by <= (step < 2 ? 1.0 : kShrinks) * before)) return false;
+    z += dz;
+    if (by <= kArrived) return size(F) <= std::max(kAcceptable * load_, undecided);
+    before = by;
+  }
+  return false;
+}
+
+void RestingBalance::keep_stiffness(const VecX& z) {
+  std::vector<PlayMotion<double>> journals;
+  for (std::size_t c = 0; c < joints_.size(); ++c) journals.push_back(motion_of(c, z));
+  const MatX H = -(unit_.transpose() * stiffness_at(journals) * unit_);
+  const Eigen::LLT<MatX> cholesky(H);
+  if (cholesky.info() == Eigen::Success && cholesky.rcond() > kSoft) {
+    kept_ = unit_ * cholesky.solve(MatX(unit_.transpose()));
+    return;
+  }
+  Eigen::CompleteOrthogonalDecomposition<MatX> solver;
+  solver.setThreshold(kSoft);
+  solver.compute(H);
+  kept_ = unit_ * solver.pseudoInverse() * unit_.transpose();
+}
+
+RestingStart RestingBalance::solve_near(const VecX& before, double undecided) {
+  RestingStart rest{before, ""};
+  if (at_.n == 0 || !(load_ > undecided) || follow(rest.z, undecided)) return rest;
+  rest.z = before;
+  const double size_left = descend(rest.z, undecided);
+  if (!rest.z.allFinite() || size_left > std::max(kAcceptable * load_, undecided)) rest = solve();
+  if (rest.refusal.empty()) keep_stiffness(rest.z);
+  return rest;
+}
+
+RestingStart RestingBalance::solve() const {
+  const int n = at_.n;
+  RestingStart rest{VecX::Zero(n), ""};
+  if (n == 0 || !(load_ > 0.0)) return rest;  // nothing presses anywhere
+  VecX z = guess();
+  if (!(energy(z) < energy(VecX::Zero(n)))) z.setZero();
+  const double size_left = descend(z, 0.0);
+  if (size_left > kAcceptable * load_ || !z.allFinite()) {
     rest.z = guess();
-    const double length = search_rest(left, unit_, rest.z);
+    const double length = search_rest([&](const VecX& at) { return left(at); }, unit_, rest.z);
     if (rest.z.allFinite()) {
       const double remains = size(left(rest.z));
       if (remains <= kAcceptable * load_ || (length <= kSettledRest && remains <= kLeftToMotion * load_)) {
         rest.z = completed(rest.z);
         return rest;
       }
+    }
+    // Contacts that take turns lead both in circles, and the energy does not.
+    rest.z.setZero();
+    if (descend(rest.z, 0.0, true) <= kAcceptable * load_) {
+      rest.z = completed(rest.z);
+      return rest;
     }
     rest.z.setZero();
     rest.refusal =

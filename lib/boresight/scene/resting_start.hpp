@@ -11,6 +11,9 @@
 // The balance is the minimum of the elastic energy less the work of the loads, which is convex but for the tilt of faces:
 // Newton's method in offsets over clearances, damped (Levenberg 1944, Quarterly of Applied Mathematics 2, 164-168) where a
 // step does not pay, from where each journal would rest alone.
+//
+// The same balance holds at any instant of a motion without vibration (the quasistatic rung), with the loads r(t): there from where the
+// journals were a moment before.
 #pragma once
 
 #include <string>
@@ -31,10 +34,18 @@ struct RestingStart {
 class RestingBalance {
  public:
   RestingBalance(const SceneLayout& layout, const double* row, std::vector<JointPlay> joints);
+  // Of mechanisms all of whose coordinates are offsets, at one instant after the other: take() says which.
+  RestingBalance(const SceneLayout& layout, std::vector<JointPlay> joints);
+  // Another instant. row: of it, read for gains, slides and shifts alone. reaction, stiffness: r and K as forces [N, N m; per m, per slope].
+  void take(const double* row, const VecX& reaction, const MatX& stiffness);
 
   RestingStart solve() const;
+  // The same from where the journals were a moment before: what nothing pushes stays there. undecided: a load (size()) below which it is not
+  // known which way it points.
+  RestingStart solve_near(const VecX& before, double undecided);
 
-  // Of what is left unbalanced with the offsets of z, F = r + f - K z, and of its change with z: n, n x n [N, N m; per m, per slope].
+  // What is left unbalanced with the offsets of z, F = r + f - K z, and its change with z: n, n x n [N, N m; per m, per slope].
+  VecX left(const VecX& offsets) const;
   void evaluate(const VecX& offsets, VecX& F, MatX& by_z) const;
   // The latter where the journals stand as given, which a mechanism's own geometry may put a little off z.
   MatX stiffness_at(const std::vector<PlayMotion<double>>& journals) const;
@@ -50,15 +61,30 @@ class RestingBalance {
   double size(const VecX& load) const { return (unit_.transpose() * load).norm(); }
   const MatX& unit() const { return unit_; }  // z = unit y: y of length 1 makes offsets of that length
   const std::vector<JointPlay>& joints() const { return joints_; }  // elastic, without friction
+  PlayMotion<double> motion_of(std::size_t joint, const VecX& z) const;
+  // Of a joint: its offsets are gain z + shift. 5 x n, 5.
+  const MatX& offset_gain(std::size_t joint) const { return offsets_of_[joint]; }
+  const PlayOffsets& offset_shift(std::size_t joint) const { return shift_[joint]; }
+  bool slides(std::size_t joint) const { return at_.joints[joint].slides; }
+  double slide(std::size_t joint) const { return slide_[joint]; }  // along its axis, where it slides [m]
+  double load() const { return load_; }                            // size() of the reactions [N m]
 
  private:
-  PlayMotion<double> motion_of(std::size_t joint, const VecX& z) const;
+  void read(const double* row);
+  void weigh();
   double energy(const VecX& offsets) const;
   VecX guess() const;
+  // Newton's method, damped, from z on; undecided: what may be left where no step is; downhill: every step lowers the energy. Returns the
+  // size of what is left.
+  double descend(VecX& z, double undecided, bool downhill = false) const;
+  // The same where little has changed since the instant before: one step by its stiffness, then by one of now as long as they shrink fast.
+  // Whether that found the balance.
+  bool follow(VecX& z, double undecided);
+  void keep_stiffness(const VecX& z);
 
   const SceneLayout& at_;
   std::vector<JointPlay> joints_;
-  MatX mass_, stiffness_;
+  MatX stiffness_;
   VecX reaction_;
   MatX unit_;                        // upper triangle
   std::vector<bool> held_;           // coordinates that the balance may move: offsets
@@ -69,7 +95,8 @@ class RestingBalance {
   std::vector<MatX> works_on_;       // per joint: 6 x n, the rates that force and moment work on
   std::vector<double> slide_;
   std::vector<PlayOffsets> shift_;  // what standing errors leave of the offsets with all coordinates zero
-  double load_ = 0.0;               // size() of the reactions [N m]
+  double load_ = 0.0, widest_ = 0.0;
+  MatX kept_;  // z per load, where follow() was last
 };
 
 // The coordinates, and then their rates, that motions of this mechanism start with: zero where the file has the journals centred,

@@ -1,49 +1,19 @@
 #include "boresight/statics/envelope.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <optional>
 
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/scene/scene_rung.hpp"
 #include "boresight/statics/measured_by_dynamics.hpp"
 #include "boresight/statics/reaction_table.hpp"
+#include "boresight/statics/tied_gaps.hpp"
+#include "boresight/statics/tied_rest.hpp"
+#include "boresight/statics/worst_offset.hpp"
 
 namespace boresight {
 namespace {
 
 using Gain = Eigen::Matrix<double, 3, 3>;
-
-// The offset in a joint's gap (a cylinder of radius `radial`, half length `axial`, axis y) with the largest |G xi|. A convex
-// function is largest on the rim; its square is a second-order trigonometric polynomial of the angle, so the best of 32
-// starts followed by Newton steps is the global maximum.
-Vec3 worst_offset(const Gain& G, double radial, double axial) {
-  const Vec3 gx = radial * G.col(0), gz = radial * G.col(2), gy = axial * G.col(1);
-  const auto value = [&](double s) { return (std::cos(s) * gx + std::sin(s) * gz + gy).squaredNorm(); };
-  double best = 0.0;
-  for (int k = 1; k < 32; ++k) {
-    const double s = k * std::numbers::pi / 16.0;
-    if (value(s) > value(best)) best = s;
-  }
-  for (int k = 0; k < 8; ++k) {
-    const Vec3 g = std::cos(best) * gx + std::sin(best) * gz + gy;
-    const Vec3 d = -std::sin(best) * gx + std::cos(best) * gz, dd = gy - g;
-    const double slope = 2.0 * g.dot(d), curvature = 2.0 * (d.squaredNorm() + g.dot(dd));
-    if (!(curvature < 0.0)) break;
-    const double next = best - slope / curvature;
-    if (!(value(next) >= value(best))) break;
-    best = next;
-  }
-  return {radial * std::cos(best), axial, radial * std::sin(best)};
-}
-
-// The same in a part of any shape. In a ball it lies along the direction that G stretches most.
-Vec3 worst_offset(const Gain& G, const GapPart& part) {
-  if (part.shape == GapPart::Shape::cylinder) return worst_offset(G, part.radial, part.axial);
-  const Eigen::SelfAdjointEigenSolver<Gain> stretch(G.transpose() * G);
-  return part.radial * stretch.eigenvectors().col(2);
-}
 
 constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
 
@@ -61,12 +31,15 @@ class Envelope final : public SceneRung {
  private:
   RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
-    refuse_shifts(standing);
     const ReactionTable reactions(mechanism(), prepared, standing, parameters);
     const std::vector<JointPlay>& joints = reactions.joints();
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<ContactSummary> summary = reactions.summaries();
     std::vector<RestingPlay> worst_rest(joints.size()), at_rest(joints.size());
+    std::optional<TiedRest> tied;
+    if (reactions.tied()) tied.emplace(prepared, standing, parameters, reactions);
+    TiedGaps gaps;
+    VecX z, worst_z;
     bool interrupted = false;
     for (int i = 0; i < reactions.instants() && !interrupted; ++i) {
       const ReactionTable::Instant now = reactions.at(i);
@@ -83,7 +56,24 @@ class Envelope final : public SceneRung {
       const Mat3 across = gain_of(PointingQuantity::boresight_error).rightCols<3>();  // turn -> change of axis
 
       PoseError bound;
-      for (std::size_t c = 0; c < joints.size(); ++c) {
+      if (tied) {
+        TiedRest::Rest rest = tied->at(now, i == 0 ? nullptr : &z);
+        z = rest.z;
+        gaps.take(tied->balance(), rest.joint);
+        const TiedGaps::Gain moves = now.pose_gain.topRows<3>(), turns = now.pose_gain.bottomRows<3>();
+        bound.orientation = gaps.bound(turns, 0);
+        bound.boresight = gaps.bound(across * turns, 1);
+        if (line) bound.line_of_sight = gaps.bound(sight * now.pose_gain, 2);
+        bound.position = gaps.bound(moves, 3);
+        // What is worst for the position stands for all in the pictures.
+        worst_z = gaps.place(moves, moves * z);
+        for (std::size_t c = 0; c < joints.size(); ++c) {
+          reactions.note(rest.joint[c], summary[c]);
+          worst_rest[c].motion = tied->balance().motion_of(c, worst_z);
+          joints[c].penetrations(worst_rest[c].motion, worst_rest[c].contact);
+        }
+      }
+      for (std::size_t c = 0; c < joints.size() && !tied; ++c) {
         const RestingPlay rest = joints[c].rest_under(now.load[c].force, now.load[c].slide, at_rest[c]);
         at_rest[c] = rest;
         reactions.note(rest, summary[c]);
@@ -114,10 +104,10 @@ class Envelope final : public SceneRung {
         bound.boresight += (across * errors.tail<3>()).norm();
         bound.line_of_sight += (sight * errors).norm();
       }
-      const VecX z = reactions.coordinates(worst_rest);
-      const DisplacedBodies displaced(prepared, standing, now.t, z);
-      bound.displacement = now.pose_gain.topRows<3>() * z + errors.head<3>();
-      bound.rotation = now.pose_gain.bottomRows<3>() * z + errors.tail<3>();
+      if (!tied) worst_z = reactions.coordinates(worst_rest);
+      const DisplacedBodies displaced(prepared, standing, now.t, worst_z);
+      bound.displacement = now.pose_gain.topRows<3>() * worst_z + errors.head<3>();
+      bound.rotation = now.pose_gain.bottomRows<3>() * worst_z + errors.tail<3>();
       recorder.accept(now.t, displaced.at_rest(mechanism().boresight_body(), acceleration), acceleration, &bound);
       if (!recorder.sampling()) continue;
       for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {

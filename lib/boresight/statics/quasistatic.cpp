@@ -1,12 +1,14 @@
 #include "boresight/statics/quasistatic.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "boresight/play/play_words.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/scene/scene_rung.hpp"
 #include "boresight/statics/measured_by_dynamics.hpp"
 #include "boresight/statics/reaction_table.hpp"
+#include "boresight/statics/tied_rest.hpp"
 
 namespace boresight {
 namespace {
@@ -30,14 +32,18 @@ class Quasistatic final : public SceneRung {
  private:
   RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
-    refuse_shifts(standing);
     const ReactionTable reactions(mechanism(), prepared, standing, parameters);
+    std::optional<TiedRest> tied;
+    if (reactions.tied()) tied.emplace(prepared, standing, parameters, reactions);
+    const auto balance_at = [&](double t, const Balance* before) {
+      return tied ? balance_of_all(reactions, *tied, t, before) : balance_of_each(reactions, t, before);
+    };
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<ContactSummary> summary = reactions.summaries();
     bool interrupted = false;
     double largest = 0.0;  // position error [m]
     long instants = 1;
-    Balance before = balance_at(reactions, 0.0, nullptr);
+    Balance before = balance_at(0.0, nullptr);
     record(prepared, standing, before, summary, recorder, reactions);
     for (int i = 1; i < reactions.instants() && !interrupted; ++i) {
       interrupted = i % kInstantsBetweenLooks == 0 && options.progress &&
@@ -46,7 +52,7 @@ class Quasistatic final : public SceneRung {
       std::vector<double> ahead = {i * reactions.spacing()};
       while (!ahead.empty()) {
         const double shortest = reactions.spacing() / kMostBetween, t = ahead.back();
-        Balance balance = balance_at(reactions, t, &before);
+        Balance balance = balance_at(t, &before);
         if (t - before.now.t > shortest && (balance.moved - before.moved).norm() > kTurns * largest) {
           ahead.push_back(0.5 * (before.now.t + t));
           continue;
@@ -73,7 +79,7 @@ class Quasistatic final : public SceneRung {
     VecX z;
     Vec3 moved;
   };
-  static Balance balance_at(const ReactionTable& reactions, double t, const Balance* before) {
+  static Balance balance_of_each(const ReactionTable& reactions, double t, const Balance* before) {
     Balance balance{reactions.at_time(t), std::vector<RestingPlay>(reactions.joints().size()), {}, {}};
     for (std::size_t c = 0; c < balance.rest.size(); ++c) {
       const ReactionTable::Load& load = balance.now.load[c];
@@ -85,6 +91,15 @@ class Quasistatic final : public SceneRung {
             reactions.joints()[c].rest_under(load.force, load.slide, before ? before->rest[c] : RestingPlay{});
     }
     balance.z = reactions.coordinates(balance.rest);
+    balance.moved = (balance.now.pose_gain * balance.z).head<3>();
+    return balance;
+  }
+  // Where redundant joints tie their offsets together.
+  static Balance balance_of_all(const ReactionTable& reactions, TiedRest& tied, double t, const Balance* before) {
+    Balance balance{reactions.at_time(t), {}, {}, {}};
+    TiedRest::Rest rest = tied.at(balance.now, before ? &before->z : nullptr);
+    balance.z = std::move(rest.z);
+    balance.rest = std::move(rest.joint);
     balance.moved = (balance.now.pose_gain * balance.z).head<3>();
     return balance;
   }

@@ -15,12 +15,8 @@ constexpr double kSpacing = 5e-4;
 constexpr int kFewestInstants = 400;
 // More than so many only as far as the scene is tabled that finely.
 constexpr int kManyInstants = 200000, kInstantsPerKnot = 4;
-constexpr char kTied[] =
-    "redundant joints tie the offsets of clearance joints together: none rests on its own; use perturbation";
 // Share of the offsets that counts as none.
 constexpr double kNothing = 1e-6;
-// Of the largest load of all joints: below it a table's error decides.
-constexpr double kRounding = 10.0 * ClearanceScene::kAccuracy;
 // Of the largest load: its direction is then known to two thousandths of a radian.
 constexpr double kDecides = 500.0 * ClearanceScene::kAccuracy;
 
@@ -32,17 +28,9 @@ double size(const PlayOffsets& load, const JointPlay& joint) {
 
 }  // namespace
 
-void refuse_shifts(const StandingDisplacement& standing) {
-  if (standing.shifts())
-    throw ComputationError(
-        "standing errors use up play of joints that hold each other; how they rest then is a matter of all of them "
-        "together, which the "
-        "perturbation and multibody rungs follow");
-}
-
 ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& prepared,
                              const StandingDisplacement& standing, const Parameters& parameters)
-    : mechanism_(mechanism), layout_(prepared.scene().layout()) {
+    : mechanism_(mechanism), layout_(prepared.scene().layout()), tied_(standing.shifts()) {
   const ClearanceScene& scene = prepared.scene();
   if (scene.coordinates().leftover() > 0)
     throw ComputationError(parts_in_play(mechanism.description()).inserts +
@@ -67,7 +55,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
       if (group.front() >= joint.offsets) continue;
       const auto tied = [&](int k) { return joint.source[k] == DeviationCoordinates::kDependent; };
       const auto count = std::count_if(group.begin(), group.end(), tied);
-      if (count > 0 && count < static_cast<long>(group.size())) throw ComputationError(kTied);
+      tied_ = tied_ || (count > 0 && count < static_cast<long>(group.size()));
     }
   std::vector<double> values, row(layout_.width);
   MatX M, C;
@@ -79,7 +67,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
       for (int i = 0; i < layout_.joints[c].offsets; ++i)
         if (layout_.joints[c].source[i] == DeviationCoordinates::kDependent &&
             B.row(scene.offsets().joint(c).first + i).cwiseAbs().maxCoeff() > kNothing)
-          throw ComputationError(kTied);
+          tied_ = true;
     scene.assemble(parameters, k, M, C, r);
     values.insert(values.end(), r.data(), r.data() + n);
     const MatX E = scene.pose_gain_at(k);

@@ -10,14 +10,9 @@
 
 namespace boresight {
 
-// Throws ComputationError where standing errors displace journals that redundant joints tie to others: they then rest on several places at
-// once, which a balance joint by joint does not find.
-void refuse_shifts(const StandingDisplacement& standing);
-
 class ReactionTable {
  public:
-  // Throws ComputationError where offsets hang on each other (redundant joints), so that no joint rests on its own, or where
-  // the mechanism has freedoms that nothing drives, which do not rest at all.
+  // Throws ComputationError where the mechanism has freedoms that nothing drives, which do not rest at all.
   ReactionTable(const Mechanism& mechanism, const PreparedScene& prepared, const StandingDisplacement& standing,
                 const Parameters& parameters);
 
@@ -36,6 +31,11 @@ class ReactionTable {
   Instant at(int instant) const { return at_time(instant * spacing_); }
   Instant at_time(double t) const;
   const std::vector<JointPlay>& joints() const { return joints_; }
+  // Whether offsets hang on each other (redundant joints, or standing errors that use up their play), so that no joint rests on its own:
+  // tied_rest.hpp.
+  bool tied() const { return tied_; }
+  // Loads that are known no better than zero, as a share of the largest.
+  static constexpr double kRounding = 10.0 * ClearanceScene::kAccuracy;
   // Whether a load is known well enough for its direction: the tables are accurate to a hundred-thousandth of the largest.
   bool decides(const Instant& instant, int clearance) const;
   // E of one joint's offsets: 6 x 5, zero columns where an offset is none.
@@ -59,6 +59,7 @@ class ReactionTable {
   std::vector<OffsetGroups> groups_;  // of each
   std::vector<double> largest_load_;  // per clearance [N]
   double largest_of_all_ = 0.0;       // the largest of these [N]
+  bool tied_ = false;
 };
 
 }  // namespace boresight

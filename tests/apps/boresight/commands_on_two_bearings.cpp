@@ -31,6 +31,9 @@ std::vector<Command> commands_on_two_bearings() {
        .claims = [](const Left& left) { EXPECT_NEAR(boresight_rms(left) / 0.162e-3, 2.0 / 3.0, 0.05); }},
       {.text = "boresight montecarlo examples/bearing-pairs/montecarlo.toml --rung perturbation",
        .claims = [](const Left& left) { EXPECT_EQ(left.summary["failed"], 0); }},
+      // "the yaw bearings need the closer ones"
+      {.text = "boresight allocate examples/bearing-pairs/allocate.toml",
+       .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("the requirement is met")); }},
   };
 }
 

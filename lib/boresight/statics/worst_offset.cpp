@@ -1,0 +1,44 @@
+#include "boresight/statics/worst_offset.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <numbers>
+
+namespace boresight {
+namespace {
+
+using Gain = Eigen::Matrix<double, 3, 3>;
+
+// The offset in a joint's gap (a cylinder of radius `radial`, half length `axial`, axis y) with the largest |G xi|. A convex
+// function is largest on the rim; its square is a second-order trigonometric polynomial of the angle, so the best of 32
+// starts followed by Newton steps is the global maximum.
+Vec3 worst_offset(const Gain& G, double radial, double axial) {
+  const Vec3 gx = radial * G.col(0), gz = radial * G.col(2), gy = axial * G.col(1);
+  const auto value = [&](double s) { return (std::cos(s) * gx + std::sin(s) * gz + gy).squaredNorm(); };
+  double best = 0.0;
+  for (int k = 1; k < 32; ++k) {
+    const double s = k * std::numbers::pi / 16.0;
+    if (value(s) > value(best)) best = s;
+  }
+  for (int k = 0; k < 8; ++k) {
+    const Vec3 g = std::cos(best) * gx + std::sin(best) * gz + gy;
+    const Vec3 d = -std::sin(best) * gx + std::cos(best) * gz, dd = gy - g;
+    const double slope = 2.0 * g.dot(d), curvature = 2.0 * (d.squaredNorm() + g.dot(dd));
+    if (!(curvature < 0.0)) break;
+    const double next = best - slope / curvature;
+    if (!(value(next) >= value(best))) break;
+    best = next;
+  }
+  return {radial * std::cos(best), axial, radial * std::sin(best)};
+}
+
+}  // namespace
+
+// The same in a part of any shape. In a ball it lies along the direction that G stretches most.
+Vec3 worst_offset(const Gain& G, const GapPart& part) {
+  if (part.shape == GapPart::Shape::cylinder) return worst_offset(G, part.radial, part.axial);
+  const Eigen::SelfAdjointEigenSolver<Gain> stretch(G.transpose() * G);
+  return part.radial * stretch.eigenvectors().col(2);
+}
+
+}  // namespace boresight
