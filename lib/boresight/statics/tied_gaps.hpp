@@ -8,7 +8,7 @@
 //
 // (weak duality: Rockafellar 1970, Convex Analysis, section 30). Offsets that are all free have one L only, and the bound is that of
 // envelope.cpp. Here there are many, and the least bound is sought by least squares over and over, each multiplier weighed by what it came
-// to before over the width of its gap (iteratively reweighted least squares: Lawson 1961; Bjorck 1996, 4.5.3). Whatever multipliers that
+// to before over the width of its gap (iteratively reweighted least squares: Lawson 1961; Bjorck 1996, 4.5). Whatever multipliers that
 // ends with, the bound holds; the least one met is taken.
 #pragma once
 
