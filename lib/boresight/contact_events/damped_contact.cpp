@@ -11,15 +11,16 @@ namespace {
 // Of the looks that met a contact: more than this share of them beyond the limit is a rule.
 constexpr double kAsARule = 0.1;
 
+using OffsetMatrix = Eigen::Matrix<double, kMostOffsets, kMostOffsets>;
+
 // -d (force on the offsets) / d (their rates), of one joint. A tilting journal's slopes change with its spin, s' = w x y, and the contact's
 // moment works on that.
-Eigen::Matrix<double, 5, 5> damping(const JointPlay& joint, const PlayMotion<double>& motion,
-                                    const ContactMemory& memory) {
+OffsetMatrix damping(const JointPlay& joint, const PlayMotion<double>& motion, const ContactMemory& memory) {
   ContactJacobian J;
   contact_jacobian(joint, motion, memory.impact_speed, MomentAbout::insert, J);
-  Eigen::Matrix<double, 6, 5> by_rate;
+  Eigen::Matrix<double, 6, kMostOffsets> by_rate;
   by_rate << J.col(3), J.col(4), J.col(5), J.col(11) - J.col(8), J.col(12) + J.col(6);
-  Eigen::Matrix<double, 5, 5> D;
+  OffsetMatrix D;
   D << by_rate.topRows<3>(), -by_rate.row(5), by_rate.row(3);
   return -D;
 }

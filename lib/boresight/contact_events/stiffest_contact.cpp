@@ -12,7 +12,7 @@ StiffestContact stiffest_contact(const OffsetLayout& layout, const std::vector<J
   struct Touch {
     int clearance;
     ContactPlace place;
-    Eigen::Matrix<double, 5, 1> n;
+    PlayOffsets n;
   };
   std::vector<Touch> touches;
   for (int c = 0; c < layout.clearances(); ++c) {

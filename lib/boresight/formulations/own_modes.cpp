@@ -18,7 +18,7 @@ constexpr int kInstants = 5;
 
 double fastest_own_rate(Formulation& formulation, double t, const VecX& y) {
   formulation.forces().replace_contact(
-      std::vector<Eigen::Matrix<double, 5, 1>>(formulation.forces().clearances(), Eigen::Matrix<double, 5, 1>::Zero()));
+      std::vector<PlayOffsets>(formulation.forces().clearances(), PlayOffsets::Zero()));
   const std::vector<ContactMemory> memory(formulation.forces().clearances());
   const Eigen::Index n = y.size();
   if (n == 0) return 0.0;

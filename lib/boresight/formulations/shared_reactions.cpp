@@ -4,8 +4,8 @@
 
 namespace boresight {
 
-std::vector<Eigen::Matrix<double, 5, 1>> shared_reactions(const OffsetLayout& layout, const Parameters& parameters,
-                                                          const MatX& B, const VecX& r) {
+std::vector<PlayOffsets> shared_reactions(const OffsetLayout& layout, const Parameters& parameters, const MatX& B,
+                                          const VecX& r) {
   VecX length = VecX::Zero(layout.size());
   for (int c = 0; c < layout.clearances(); ++c)
     for (int k = 0; k < layout.joint(c).count(); ++k)
@@ -13,8 +13,7 @@ std::vector<Eigen::Matrix<double, 5, 1>> shared_reactions(const OffsetLayout& la
         length[layout.joint(c).first + k] = k < 3 ? 1.0 : 0.5 * parameters.clearance[c].sleeve_length;
   const MatX in_lengths = length.asDiagonal() * B;
   const VecX f = -length.cwiseProduct(in_lengths.transpose().completeOrthogonalDecomposition().solve(r));
-  std::vector<Eigen::Matrix<double, 5, 1>> loads(static_cast<std::size_t>(layout.clearances()),
-                                                 Eigen::Matrix<double, 5, 1>::Zero());
+  std::vector<PlayOffsets> loads(static_cast<std::size_t>(layout.clearances()), PlayOffsets::Zero());
   for (int c = 0; c < layout.clearances(); ++c)
     loads[static_cast<std::size_t>(c)].head(layout.joint(c).count()) =
         f.segment(layout.joint(c).first, layout.joint(c).count());

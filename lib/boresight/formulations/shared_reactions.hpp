@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "boresight/mechanism/offset_layout.hpp"
+#include "boresight/play/play_motion.hpp"
 
 namespace boresight {
 
-// B: layout.size() x n, r: n [N, N m]. Returns for each clearance the loads on its offsets, in the order of OffsetLayout (five numbers,
-// the last two zero where the journal does not tilt), sleeve axes.
-std::vector<Eigen::Matrix<double, 5, 1>> shared_reactions(const OffsetLayout& layout, const Parameters& parameters,
-                                                          const MatX& B, const VecX& r);
+// B: layout.size() x n, r: n [N, N m]. Returns for each clearance the loads on its offsets, in the order of OffsetLayout (kMostOffsets,
+// the slopes zero where the journal does not tilt), sleeve axes.
+std::vector<PlayOffsets> shared_reactions(const OffsetLayout& layout, const Parameters& parameters, const MatX& B,
+                                          const VecX& r);
 
 }  // namespace boresight

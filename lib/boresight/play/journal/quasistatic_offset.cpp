@@ -21,7 +21,7 @@ namespace {
 
 using Vec2 = Vec2T<double>;
 using Offsets = PlayOffsets;
-using Stiffness = Eigen::Matrix<double, 5, 5>;
+using Stiffness = Eigen::Matrix<double, kMostOffsets, kMostOffsets>;
 
 constexpr int kIterations = 200;
 // Balance asked for: force left over, relative to the load.
