@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace boresight::gauntlet {
 namespace {
 
@@ -10,15 +12,27 @@ std::string head() {
          "\"position_error\"\nstatistic = \"rms\"\n";
 }
 
+// The number that says how wide a joint's play is.
+struct Width {
+  std::string path;
+  double value;  // [m]
+};
+Width width_of(const MechanismDescription& m, const ClearanceDescription& c) {
+  const std::string path = "clearance." + m.joints[c.joint].name;
+  if (m.joints[c.joint].type == JointType::planar) return {path + ".axial", c.parameters.axial};
+  return {path + ".radial", c.parameters.radial};
+}
+
 std::string scatter(const Mechanism& mechanism) {
   std::string text;
   const MechanismDescription& m = mechanism.description();
   for (const ClearanceDescription& c : m.clearances) {
     const std::string path = "clearance." + m.joints[c.joint].name;
+    const Width width = width_of(m, c);
     text += fmt::format(
-        "\n[[random]]\nparameter = \"{}.radial\"\ndistribution = {{ uniform = {{ min = \"{:.9g} m\", max = \"{:.9g} "
+        "\n[[random]]\nparameter = \"{}\"\ndistribution = {{ uniform = {{ min = \"{:.9g} m\", max = \"{:.9g} "
         "m\" }} }}\n",
-        path, 0.8 * c.parameters.radial, 1.2 * c.parameters.radial);
+        width.path, 0.8 * width.value, 1.2 * width.value);
     if (c.friction_law != "none" && c.parameters.friction.coefficient > 0.0)
       text += fmt::format(
           "\n[[random]]\nparameter = \"{}.friction.coefficient\"\ndistribution = {{ uniform = {{ min = {:.9g}, max = "
@@ -36,8 +50,7 @@ std::vector<Study> studies(const Mechanism& mechanism, double typical, const std
   std::vector<Study> all;
   if (m.clearances.empty()) return all;
   const ClearanceDescription& first = m.clearances.front();
-  const std::string joint = m.joints[first.joint].name, path = "clearance." + joint + ".radial";
-  const double radial = first.parameters.radial;
+  const auto [path, radial] = width_of(m, first);
   const std::vector<std::string> cheap = {"--rung", "perturbation"};
   const std::string random = scatter(mechanism);
 
@@ -92,14 +105,20 @@ std::vector<Study> studies(const Mechanism& mechanism, double typical, const std
     text.erase(at, (next == std::string::npos ? text.find("[match]") : next) - at);
     if (next == std::string::npos) text.replace(text.find("over = \"mean\""), 13, "over = \"nominal\"");
   }
-  all.push_back({"allocate", "allocate", "allocate.toml",
-                 head() + fmt::format("\n[allocate]\nrequirement = {{ limit = \"{:.9g} m\", probability = 0.9, "
-                                      "confidence = 0.8 }}\nsamples = 40\nconfirm = 40\nseed = 3\nfront = 0\n"
-                                      "[[allocate.joint]]\nparameter = \"{}\"\nleast = \"{:.9g} m\"\n"
-                                      "processes = [{{ name = \"coarse\", tolerance = \"{:.9g} m\", price = 1 }}, {{ "
-                                      "name = \"fine\", tolerance = \"{:.9g} m\", price = 3 }}]\n",
-                                      1.3 * typical, path, 0.5 * radial, 0.5 * radial, 0.1 * radial),
-                 cheap});
+  // Fits are of journals and balls.
+  const auto fitted = std::find_if(m.clearances.begin(), m.clearances.end(),
+                                   [](const ClearanceDescription& c) { return c.parameters.radial > 0.0; });
+  if (fitted != m.clearances.end()) {
+    const auto [fit, gap] = width_of(m, *fitted);
+    all.push_back({"allocate", "allocate", "allocate.toml",
+                   head() + fmt::format("\n[allocate]\nrequirement = {{ limit = \"{:.9g} m\", probability = 0.9, "
+                                        "confidence = 0.8 }}\nsamples = 40\nconfirm = 40\nseed = 3\nfront = 0\n"
+                                        "[[allocate.joint]]\nparameter = \"{}\"\nleast = \"{:.9g} m\"\n"
+                                        "processes = [{{ name = \"coarse\", tolerance = \"{:.9g} m\", price = 1 }}, {{ "
+                                        "name = \"fine\", tolerance = \"{:.9g} m\", price = 3 }}]\n",
+                                        1.3 * typical, fit, 0.5 * gap, 0.5 * gap, 0.1 * gap),
+                   cheap});
+  }
   const std::string random_budget = random;
   all.push_back(
       {"budget", "budget", "budget.toml",

@@ -189,12 +189,15 @@ report::Table contributor_table(const BudgetStudy& s) {
           "the others from outside as the study gives them.",
       .columns = {{"Contributor"}, {"Class"}, {"Course in time"}, {"Over the members"}, {"Axes"}, {"Source"}}};
   const MechanismDescription& m = s.mechanism.description();
-  for (const ClearanceDescription& c : m.clearances)
+  for (const ClearanceDescription& c : m.clearances) {
+    const bool pad = m.joints[static_cast<std::size_t>(c.joint)].type == JointType::planar;
     table.rows.push_back({m.joints[static_cast<std::size_t>(c.joint)].name, kClearanceKind,
                           "the motion's own, " + readable(s.mechanism.duration(), "s"),
-                          fmt::format("radial {}, axial {} where nothing else is drawn",
-                                      readable(c.parameters.radial, "m"), readable(c.parameters.axial, "m")),
+                          (pad ? "gap " : "radial " + readable(c.parameters.radial, "m") + ", axial ") +
+                              readable(c.parameters.axial, "m") + (pad ? " on each side" : "") +
+                              " where nothing else is drawn",
                           "all", kFromNominal});
+  }
   for (std::size_t g = 0; g < s.plan.groups.names.size(); ++g) {
     std::string spread;
     for (const int i : s.plan.groups.members[g]) {

@@ -169,15 +169,17 @@ void add_contact_findings(const Mechanism& mechanism, CheckResult& result) {
           contact.joint, unknown));
       continue;
     }
-    // A line or point contact as deep as the journal is thick is no contact: the journal would be through its sleeve.
-    const double depth = make_normal_law(d.contact_law, d.dissipation_law, p).depth_under(contact.largest_load);
-    const PlayWords parts = JointPlay::words(mechanism.description().joints[d.joint].type);
-    if (!(depth < p.journal_radius))
+    // A contact as deep as the journal is thick, or the pad is wide, is no contact: the journal would be through its sleeve.
+    const JointPlay play(d, mechanism.description().joints[d.joint].type, p);
+    const double depth = play.normal_law().depth_under(contact.largest_load);
+    const double radius = std::max(p.journal_radius, p.pad_radius);  // one of them is zero
+    const PlayWords parts = play.words();
+    if (!(depth < radius))
       result.findings.push_back(fmt::format(
           "{}: its largest load, {}, would press the {} {} into its {}, which is more than the {}'s radius of {}; "
           "check young, masses and gravity, and the speed of the motion",
           contact.joint, readable(contact.largest_load, "N"), parts.insert, readable(depth, "m"), parts.seat,
-          parts.insert, readable(p.journal_radius, "m")));
+          parts.insert, readable(radius, "m")));
   }
 }
 

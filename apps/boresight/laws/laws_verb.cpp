@@ -13,6 +13,7 @@
 #include "command_line/option_range.hpp"
 #include "command_line/verb.hpp"
 #include "laws/laws_report.hpp"
+#include "report_parts/report_parts.hpp"
 #include "results/report_files.hpp"
 #include "results/summary.hpp"
 #include "results/tables.hpp"
@@ -126,12 +127,20 @@ class LawsVerb : public Verb {
     if (mechanism.clearances() == 0)
       throw InputError({command.file, 0}, "clearance", "none", "at least one joint with clearance");
     std::vector<std::string> joints;
+    int round = mechanism.clearances();  // the first that is no pad
+    for (int c = mechanism.clearances() - 1; c >= 0; --c) round = is_pad(mechanism, c) ? round : c;
     for (int c = 0; c < mechanism.clearances(); ++c) joints.push_back(joint_of_clearance(mechanism, c));
+    if (round == mechanism.clearances())
+      throw InputError({command.file, 0}, "clearance", "pads alone", "a journal or a ball, which the laws are of");
     const std::size_t c =
-        joint_.empty() ? 0 : static_cast<std::size_t>(std::find(joints.begin(), joints.end(), joint_) - joints.begin());
+        joint_.empty() ? static_cast<std::size_t>(round)
+                       : static_cast<std::size_t>(std::find(joints.begin(), joints.end(), joint_) - joints.begin());
     if (c == joints.size())
       throw InputError({"command line", 0}, "--joint", "\"" + joint_ + "\"", "a joint with clearance",
                        nearest_name(joint_, joints));
+    if (is_pad(mechanism, static_cast<int>(c)))
+      throw InputError({"command line", 0}, "--joint", "\"" + joint_ + "\", a pad in its slot",
+                       "a joint with a journal or a ball, which the laws are of");
     subject.mechanism = mechanism.name();
     subject.hash = m.content_hash;
     subject.joint = joints[c];

@@ -260,10 +260,19 @@ report::Table contact_table(const std::vector<Overlay>& overlays) {
   return table;
 }
 
-bool is_ball(const Mechanism& mechanism, int clearance) {
+namespace {
+
+JointType type_of(const Mechanism& mechanism, int clearance) {
   const MechanismDescription& m = mechanism.description();
-  return m.joints[m.clearances[clearance].joint].type == JointType::spherical;
+  return m.joints[m.clearances[clearance].joint].type;
 }
+
+}  // namespace
+
+bool is_ball(const Mechanism& mechanism, int clearance) {
+  return type_of(mechanism, clearance) == JointType::spherical;
+}
+bool is_pad(const Mechanism& mechanism, int clearance) { return type_of(mechanism, clearance) == JointType::planar; }
 
 report::Chart orbit_chart(const std::string& joint, bool ball, double radial_clearance, const RunResult& result,
                           std::size_t clearance) {
@@ -297,21 +306,19 @@ report::Chart orbit_chart(const std::string& joint, bool ball, double radial_cle
 
 report::Strip contact_strip(const Mechanism& mechanism, const RunResult& result) {
   const PartsInPlay parts = parts_in_play(mechanism.description());
-  bool balls = false, journals = false;
-  for (int c = 0; c < mechanism.clearances(); ++c) (is_ball(mechanism, c) ? balls : journals) = true;
-  report::Strip strip{
-      .title = "Contact state",
-      .caption = fmt::format("Where {} {} touches {} {}, sample by sample.", balls && journals ? "each" : "the",
-                             parts.insert, balls && journals ? "its" : "the", parts.seat),
-      .x = {"Time", "s"},
-      .states = {{"free", "free flight", true},
-                 {"radial", !balls     ? "bore"
-                            : journals ? "bore or socket"
-                                       : "socket"}}};
-  if (journals || !balls) {
-    strip.states.push_back({"axial", "end face"});
-    strip.states.push_back({"both", "bore and end face"});
-  }
+  bool balls = false, pads = false, journals = false;
+  for (int c = 0; c < mechanism.clearances(); ++c)
+    (is_ball(mechanism, c) ? balls : is_pad(mechanism, c) ? pads : journals) = true;
+  const bool several = balls + pads + journals > 1;
+  report::Strip strip{.title = "Contact state",
+                      .caption = fmt::format("Where {} {} touches {} {}, sample by sample.", several ? "each" : "the",
+                                             parts.insert, several ? "its" : "the", parts.seat),
+                      .x = {"Time", "s"},
+                      .states = {{"free", "free flight", true}}};
+  if (balls || journals) strip.states.push_back({"radial", !balls ? "bore" : journals ? "bore or socket" : "socket"});
+  if (journals || pads)
+    strip.states.push_back({"axial", !pads ? "end face" : journals ? "end face or face of the slot" : "face"});
+  if (journals) strip.states.push_back({"both", "bore and end face"});
   static const char* const state[] = {"free", "radial", "axial", "both"};
   for (std::size_t c = 0; c < result.clearances.size(); ++c) {
     report::StripRow row{

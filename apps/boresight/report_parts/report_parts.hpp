@@ -46,6 +46,8 @@ report::Table contact_table(const std::vector<Overlay>& overlays);
 
 // Whether a joint with play is a ball in its socket.
 bool is_ball(const Mechanism& mechanism, int clearance);
+// Whether it is a pad in its slot.
+bool is_pad(const Mechanism& mechanism, int clearance);
 
 // The journal's centre in the sleeve or the ball's in its socket, seen along the axis, with the circle at which contact begins.
 report::Chart orbit_chart(const std::string& joint, bool ball, double radial_clearance, const RunResult& result,

@@ -25,7 +25,7 @@ std::optional<AxesComparison> compare_axes(const Mechanism& mechanism) {
   const MechanismDescription& m = mechanism.description();
   if (m.clearances.empty()) return {};
   for (const ClearanceDescription& c : m.clearances)
-    if (c.parameters.sleeve_length <= 0.0) return {};
+    if (tilt_lever(c.parameters) <= 0.0) return {};
   AxesComparison result;
   result.free = std::any_of(m.clearances.begin(), m.clearances.end(),
                             [](const ClearanceDescription& c) { return c.axes == JournalAxes::free; });

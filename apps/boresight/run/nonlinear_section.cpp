@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "boresight/mechanism/error.hpp"
+#include "report_parts/report_parts.hpp"
 #include "results/tables.hpp"
 #include "terminal/readable.hpp"
 
@@ -40,6 +41,11 @@ void check_period(const Mechanism& mechanism, double period) {
   const Origin command_line{"command line", 0};
   if (mechanism.clearances() == 0)
     throw InputError(command_line, "--nonlinear", "a mechanism without clearance", "one with clearance");
+  bool pads = true;
+  for (int c = 0; c < mechanism.clearances(); ++c) pads = pads && is_pad(mechanism, c);
+  if (pads)
+    throw InputError(command_line, "--nonlinear", "pads alone, which slide where the mechanism has them",
+                     "a journal or a ball with clearance");
   if (mechanism.duration() < 10.0 * period)
     throw InputError(command_line, "--nonlinear",
                      fmt::format("{:.3g} periods in the motion", mechanism.duration() / period),
@@ -57,7 +63,9 @@ NonlinearAnalysis analyse_nonlinear(const Mechanism& mechanism, const RunResult&
   const Eigen::Index first = static_cast<Eigen::Index>(analysis.skipped) * per_period;
   const Eigen::Index samples = static_cast<Eigen::Index>(analysis.periods) * per_period + 1 - first;
   for (int c = 0; c < mechanism.clearances(); ++c) {
+    if (is_pad(mechanism, c)) continue;  // what is across its normal is the mechanism's own motion
     JointDynamics joint;
+    joint.clearance = c;
     joint.joint = joint_of_clearance(mechanism, c);
     joint.series = {spacing, per_period, MatX(4, samples)};
     for (Eigen::Index k = 0; k < samples; ++k) {
@@ -80,10 +88,9 @@ report::Section nonlinear_section(const NonlinearAnalysis& analysis, const Mecha
       .title = "Nonlinear motion",
       .intro = fmt::format("Seen once every {}, the drive's period; {} periods, of which the first {} are left out.",
                            readable(analysis.period, "s"), analysis.periods, analysis.skipped)};
-  for (std::size_t c = 0; c < analysis.joints.size(); ++c) {
-    const JointDynamics& j = analysis.joints[c];
+  for (const JointDynamics& j : analysis.joints) {
     section.items.push_back(report::Text{sentence(j)});
-    const double radial = 1e6 * mechanism.parameters().clearance[c].radial;
+    const double radial = 1e6 * mechanism.parameters().clearance[static_cast<std::size_t>(j.clearance)].radial;
     report::Panels panels{
         .title = j.joint + ": the journal's centre in its sleeve",
         .caption =

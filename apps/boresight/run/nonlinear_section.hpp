@@ -14,6 +14,7 @@ namespace boresight::app {
 
 struct JointDynamics {
   std::string joint;
+  int clearance = 0;
   StateSeries series;  // x, z of the journal's centre in the sleeve [m], then their rates [m/s]
   MatX section;        // once a period
   int period = 0;      // of the motion in drive periods; 0: does not come back

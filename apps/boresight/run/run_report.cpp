@@ -55,36 +55,44 @@ report::Chart joint_chart(const std::string& title, const std::string& label, co
 report::Section joint_section(const Mechanism& mechanism, const RunResult& result, std::size_t c) {
   const std::string joint = joint_of_clearance(mechanism, static_cast<int>(c));
   const ClearanceParameters& p = mechanism.parameters().clearance[c];
-  const bool ball = is_ball(mechanism, static_cast<int>(c));
+  const bool ball = is_ball(mechanism, static_cast<int>(c)), pad = is_pad(mechanism, static_cast<int>(c));
   report::Section section{.id = fmt::format("joint-{}", c + 1),
                           .title = "Joint " + joint,
-                          .intro = ball ? fmt::format("A ball in its socket: play {}.", readable(p.radial, "m"))
-                                        : fmt::format("Radial clearance {}, axial clearance {} per side.",
-                                                      readable(p.radial, "m"), readable(p.axial, "m"))};
-  section.items.push_back(orbit_chart(joint, ball, p.radial, result, c));
+                          .intro = ball  ? fmt::format("A ball in its socket: play {}.", readable(p.radial, "m"))
+                                   : pad ? fmt::format("A pad in its slot: gap {} on each side, radius {}.",
+                                                       readable(p.axial, "m"), readable(p.pad_radius, "m"))
+                                         : fmt::format("Radial clearance {}, axial clearance {} per side.",
+                                                       readable(p.radial, "m"), readable(p.axial, "m"))};
+  if (!pad) section.items.push_back(orbit_chart(joint, ball, p.radial, result, c));
 
   report::Panels panels{.title = joint + " over time",
                         .caption = "Penetration and force are drawn with their peaks kept.",
                         .columns = 2,
                         .shared_legend = false};
-  report::Chart axial =
-      joint_chart(ball ? "Offset along y" : "Axial offset", ball ? "y of the socket" : "along the axis", "m", result, c,
-                  [](const ClearanceSample& s) { return s.offset.y(); });
+  report::Chart axial = joint_chart(ball  ? "Offset along y"
+                                    : pad ? "Offset along the normal"
+                                          : "Axial offset",
+                                    ball  ? "y of the socket"
+                                    : pad ? "along the normal"
+                                          : "along the axis",
+                                    "m", result, c, [](const ClearanceSample& s) { return s.offset.y(); });
   const DisplayUnit axial_unit{axial.y.unit, axial.y.unit == "mm"   ? 1e3
                                              : axial.y.unit == "µm" ? 1e6
                                              : axial.y.unit == "nm" ? 1e9
                                                                     : 1.0};
   if (!ball)
-    axial.lines = {{'y', p.axial * axial_unit.per_si, "end face"}, {'y', -p.axial * axial_unit.per_si, "end face"}};
+    axial.lines = {{'y', p.axial * axial_unit.per_si, pad ? "face" : "end face"},
+                   {'y', -p.axial * axial_unit.per_si, pad ? "face" : "end face"}};
   panels.panels = {joint_chart("Penetration", "penetration", "m", result, c,
                                [](const ClearanceSample& s) { return std::max(0.0, s.penetration); }),
                    joint_chart("Contact force", "normal force", "N", result, c,
-                               [](const ClearanceSample& s) { return s.normal_force; }),
-                   joint_chart(ball ? "Offset" : "Radial offset", "distance of the centres", "m", result, c,
-                               [ball](const ClearanceSample& s) {
-                                 return ball ? s.offset.norm() : std::hypot(s.offset.x(), s.offset.z());
-                               }),
-                   std::move(axial)};
+                               [](const ClearanceSample& s) { return s.normal_force; })};
+  // Across its normal a pad slides as the mechanism has it.
+  if (!pad)
+    panels.panels.push_back(joint_chart(
+        ball ? "Offset" : "Radial offset", "distance of the centres", "m", result, c,
+        [ball](const ClearanceSample& s) { return ball ? s.offset.norm() : std::hypot(s.offset.x(), s.offset.z()); }));
+  panels.panels.push_back(std::move(axial));
   section.items.push_back(std::move(panels));
   return section;
 }

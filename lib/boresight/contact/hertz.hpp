@@ -28,6 +28,12 @@ inline double end_face_stiffness(const ClearanceParameters& p) {
   return p.contact.stiffness_scale * (p.cap_radius - sleeve) * composite_modulus(p.contact) / 0.475;
 }
 
+// Of a round pad pressed flat against a plane face, as a rigid punch on a half-space: K_p = 2 R E_s [N/m] (Johnson 1985, Contact Mechanics,
+// 3.8 (a)).
+inline double pad_stiffness(const ClearanceParameters& p) {
+  return p.contact.stiffness_scale * 2.0 * p.pad_radius * composite_modulus(p.contact);
+}
+
 inline double validity_speed(const ContactParameters& c) { return 1e-5 * std::sqrt(composite_modulus(c) / c.density); }
 
 }  // namespace boresight

@@ -1,4 +1,5 @@
-// Where each normal law holds for a journal in a sleeve, and which one does where another does not.
+// Where each normal law holds for a journal in a sleeve, and which one does where another does not. A flat pad takes nothing but its
+// damping from a law.
 //
 //   point        Hertz: the patch's radius a = sqrt(R d), R = R_a R_b / dR, small against the journal (half angle up to
 //                15 degrees: sin 15 = 0.26) and not longer than the sleeve

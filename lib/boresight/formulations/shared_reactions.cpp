@@ -10,7 +10,7 @@ std::vector<PlayOffsets> shared_reactions(const OffsetLayout& layout, const Para
   for (int c = 0; c < layout.clearances(); ++c)
     for (int k = 0; k < layout.joint(c).count(); ++k)
       if (layout.joint(c).released(k))
-        length[layout.joint(c).first + k] = k < 3 ? 1.0 : 0.5 * parameters.clearance[c].sleeve_length;
+        length[layout.joint(c).first + k] = k < 3 ? 1.0 : tilt_lever(parameters.clearance[c]);
   const MatX in_lengths = length.asDiagonal() * B;
   const VecX f = -length.cwiseProduct(in_lengths.transpose().completeOrthogonalDecomposition().solve(r));
   std::vector<PlayOffsets> loads(static_cast<std::size_t>(layout.clearances()), PlayOffsets::Zero());

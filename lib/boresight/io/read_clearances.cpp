@@ -165,7 +165,14 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
         "journal", in_quotes(journal),
         "one of the bodies of joint " + joint.name + ": " + name(joint.first) + " or " + name(joint.second));
   }
-  const bool ball = joint.type == JointType::spherical;
+  const bool ball = joint.type == JointType::spherical, pad = joint.type == JointType::planar;
+  for (const char* key : {"radial", "journal_radius", "cap_radius", "sleeve_length"})
+    if (pad && cursor.has(key))
+      cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", a planar joint",
+                        "axial and pad_radius alone: the gap on each side of a pad and the pad's radius");
+  if (!pad && cursor.has("pad_radius"))
+    cursor.fail_found("pad_radius", "it on " + in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint",
+                      "it only on a planar joint, which has a pad");
   for (const char* key : {"axial", "cap_radius", "sleeve_length", "axes"})
     if (ball && cursor.has(key))
       cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", a spherical joint",
@@ -179,24 +186,29 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
   if (slides_along_axis(joint.type) && cursor.has("axial"))
     cursor.fail_found("axial", "it on " + in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint",
                       "no axial clearance: the journal slides through its sleeve and has no end faces");
-  p.radial = cursor.quantity("radial");
-  p.journal_radius = cursor.quantity("journal_radius");
-  cursor.require(p.radial < p.journal_radius, "radial", "less than journal_radius");
-  if (caps) p.axial = cursor.quantity("axial");
+  if (pad) {
+    p.pad_radius = cursor.quantity("pad_radius");
+  } else {
+    p.radial = cursor.quantity("radial");
+    p.journal_radius = cursor.quantity("journal_radius");
+    cursor.require(p.radial < p.journal_radius, "radial", "less than journal_radius");
+  }
+  if (caps || pad) p.axial = cursor.quantity("axial");
   if (caps || cursor.has("cap_radius")) {
     p.cap_radius = cursor.quantity("cap_radius");
     cursor.require(p.cap_radius > p.journal_radius + p.radial, "cap_radius", "more than journal_radius + radial");
   }
-  if (caps || clearance.axes == JournalAxes::free || cursor.has("sleeve_length")) {
+  if (caps || (clearance.axes == JournalAxes::free && !pad) || cursor.has("sleeve_length")) {
     p.sleeve_length = cursor.quantity("sleeve_length");
   }
   Cursor contact = cursor.table_or_empty("contact"), friction = cursor.table_or_empty("friction");
   std::vector<AssumedValue> left_out;
   if (!ball && !cursor.has("axes")) left_out.push_back({.joint = "", .key = "axes", .value = "\"parallel\""});
   p.contact = read_contact(contact, clearance.contact_law, clearance.dissipation_law, left_out);
-  if (ball && normal_law(clearance.contact_law).geometry == ContactGeometry::line)
+  if ((ball || pad) && normal_law(clearance.contact_law).geometry == ContactGeometry::line)
     contact.fail_found("law", in_quotes(clearance.contact_law) + ", a law for cylinders",
-                       "a law for points or a spring: " + in_quotes(joint.name) + " is a ball in its socket");
+                       "a law for points or a spring: " + in_quotes(joint.name) + " is a " +
+                           (ball ? "ball in its socket" : "pad between faces, to which it lends its damping"));
   if (normal_law(clearance.contact_law).geometry == ContactGeometry::line && p.sleeve_length == 0.0)
     p.sleeve_length = cursor.quantity("sleeve_length");
   p.friction = read_friction(friction, clearance.friction_law, left_out);

@@ -30,28 +30,30 @@ const KeyTable& clearance_keys() {
       .name = "clearance",
       .says =
           "Play of a joint: of a revolute, cylindrical or prismatic one a journal, carried by one body, in a sleeve, "
-          "carried by "
-          "the other; of a "
-          "spherical one a ball in its socket.",
+          "carried by the other; of a spherical one a ball in its socket; of a planar one a pad in the slot between "
+          "two faces.",
       .keys = with_two_bearings(
           {text("joint").says("The joint that has play; its paths are clearance.JOINT.radial and so on."),
            text("journal")
                .sometimes("needed but of a universal joint, whose cross carries the journals")
-               .says("Which of the joint's bodies carries the journal or the ball; the other one "
-                     "carries the sleeve or socket."),
+               .says("Which of the joint's bodies carries the journal, the ball or the pad; the other one "
+                     "carries the sleeve, socket or slot."),
            quantity("radial", kSizeRange)
                .above(0.0, "a length above zero")
+               .sometimes("needed but of a planar joint, whose pad has none")
                .says("Radial clearance: the sleeve's radius less the journal's, half the difference of the "
                      "diameters; of a ball "
                      "likewise."),
            quantity("axial", kSizeRange)
                .at_least(0.0, "a length of zero or more")
                .sometimes(
-                   "needed of a revolute joint; a cylindrical or prismatic one slides through its sleeve and has none, "
-                   "nor has a ball")
-               .says("Axial clearance on each side, between end face and cap."),
+                   "needed of a revolute or planar joint; a cylindrical or prismatic one slides through its sleeve and "
+                   "has none, nor has a ball")
+               .says("Axial clearance on each side, between end face and cap; of a pad, the gap between it and each "
+                     "face."),
            quantity("journal_radius", kSizeRange)
                .above(0.0, "a length above zero")
+               .sometimes("needed but of a planar joint")
                .says("Radius of the journal, or of the ball."),
            quantity("cap_radius", kSizeRange)
                .above(0.0, "a length above zero")
@@ -61,10 +63,15 @@ const KeyTable& clearance_keys() {
                .above(0.0, "a length above zero")
                .sometimes("needed of a revolute joint, of a journal that tilts and of laws for cylinders")
                .says("Length of the sleeve; its end faces lie at half of it on both sides of the joint's point."),
+           quantity("pad_radius", kSizeRange)
+               .above(0.0, "a length above zero")
+               .sometimes("needed of a planar joint, and of no other")
+               .says("Radius of the round pad between the faces. A pad that tilts bears on its rim, and turns about it "
+                     "where it lifts off."),
            choice("axes", std::vector<KeyChoice>{{"parallel", "the journal stays parallel to the sleeve"},
                                                  {"free", "the journal may tilt in the sleeve"}})
                .usually("\"parallel\"; of a bearing pair \"free\"")
-               .says("Whether the journal may tilt in its sleeve."),
+               .says("Whether the journal may tilt in its sleeve, or the pad in its slot."),
            table("contact", contact_keys)
                .sometimes("left out, all its defaults hold")
                .says("Normal force of the contact: law, material, restitution."),

@@ -50,9 +50,10 @@ const char* to_string(JointType type);
 // Whether a joint of this type may have play: there is a kind of it in play/kinds.hpp.
 inline bool slides_along_axis(JointType type) { return type == JointType::cylindrical || type == JointType::prismatic; }
 inline bool can_have_play(JointType type) {
-  return type == JointType::revolute || slides_along_axis(type) || type == JointType::spherical;
+  return type == JointType::revolute || slides_along_axis(type) || type == JointType::planar ||
+         type == JointType::spherical;
 }
-inline constexpr char kTypesWithPlay[] = "a revolute, cylindrical, prismatic or spherical joint";
+inline constexpr char kTypesWithPlay[] = "a revolute, cylindrical, prismatic, planar or spherical joint";
 
 // Whether both bodies share the joint's axis all the time.
 inline bool keeps_axis(JointType type) { return type != JointType::universal && type != JointType::spherical; }
@@ -73,8 +74,7 @@ enum class JournalAxes { parallel, free };
 
 struct ClearanceDescription {
   int joint = 0;
-  int journal =
-      0;  // the body that carries the journal (of a spherical joint the ball); the joint's other body carries the sleeve
+  int journal = 0;  // the body that carries the journal (the ball, the pad); the joint's other body carries the sleeve
   JournalAxes axes = JournalAxes::parallel;
   std::string contact_law = "flores";
   std::string dissipation_law;  // whose damping factor a law for cylinders takes; "": its own

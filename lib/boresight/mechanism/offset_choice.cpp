@@ -74,7 +74,7 @@ void choose(const OffsetLayout& layout, const std::vector<MatX>& rows, const Mat
 
 std::vector<bool> OffsetChoice::dependent_rows(const OffsetLayout& layout, int clearance) const {
   const OffsetLayout::Joint& joint = layout.joint(clearance);
-  std::vector<bool> dependent(joint.slides ? joint.count() - 1 : joint.count(), false);
+  std::vector<bool> dependent(joint.count() - joint.slides, false);
   for (int k = 0; k < joint.count(); ++k)
     if (joint.released(k)) dependent[joint.released_row(k)] = source[joint.first + k] == kDependent;
   return dependent;
@@ -124,7 +124,8 @@ OffsetChoice choose_offsets(const Mechanism& mechanism, const IdealMotion& ideal
     }
   }
   for (int c = 0; c < layout.clearances(); ++c)
-    if (layout.joint(c).slides) choice.source[layout.joint(c).first + 1] = OffsetChoice::kSlides;
+    for (int k = 0; k < layout.joint(c).count(); ++k)
+      if (!layout.joint(c).released(k)) choice.source[layout.joint(c).first + k] = OffsetChoice::kSlides;
   for (const int s : choice.source) choice.has_dependent = choice.has_dependent || s == OffsetChoice::kDependent;
   return choice;
 }

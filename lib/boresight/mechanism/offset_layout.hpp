@@ -1,6 +1,6 @@
-// The offsets of all joints with play in one vector, joint after joint: the x y z of the journal's or ball's centre in the axes of its
-// seat [m], then, where a journal may tilt (axes = "free"), the slopes x z of its axis [-]. The y of a joint that
-// slides along its axis keeps its place in the vector, though it is no offset.
+// The offsets of all joints with play in one vector, joint after joint: the x y z of the insert's centre (of the journal, ball or pad) in the
+// axes of its seat [m], then, where it may tilt (axes = "free"), the slopes x z of its axis [-]. The directions in which a joint slides, y
+// along its axis or x and z across it, keep their places in the vector, though they are no offsets.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ class OffsetLayout {
       joint.first = size_;
       const JointType type = m.joints[c.joint].type;
       joint.tilts = keeps_axis(type) && c.axes == JournalAxes::free;
-      joint.slides = slides_along_axis(type);
+      joint.slides = slides_along_axis(type) ? 1 : type == JointType::planar ? 2 : 0;
       joint.spins = joint.tilts || !keeps_axis(type) ? 3 : 1;
       size_ += joint.count();
       joints_.push_back(joint);
@@ -27,13 +27,17 @@ class OffsetLayout {
 
   struct Joint {
     int first = 0;
-    bool tilts = false;   // five offsets, else three
-    bool slides = false;  // y is no offset
-    int spins = 1;        // components of the relative spin that its contacts see: y, or x y z
+    bool tilts = false;  // five offsets, else three
+    int slides = 0;      // directions in which it slides, which are no offsets: one is y, two are x and z
+    int spins = 1;       // components of the relative spin that its contacts see: y, or x y z
     int count() const { return tilts ? 5 : 3; }
     // Row of an offset among the released constraint rows of its joint (ClearanceRows::released); -1: not released.
-    int released_row(int offset) const { return !slides ? offset : offset == 0 ? 0 : offset - 1; }
-    bool released(int offset) const { return !(slides && offset == 1); }
+    int released_row(int offset) const {
+      int row = 0;
+      for (int k = 0; k < offset; ++k) row += released(k) ? 1 : 0;
+      return row;
+    }
+    bool released(int offset) const { return slides == 0 || offset > 2 || (offset == 1) == (slides == 2); }
   };
 
   int size() const { return size_; }

@@ -24,6 +24,7 @@ const Field<C> kClearanceFields[] = {
     {"journal_radius", "m", [](C& c) { return &c.journal_radius; }},
     {"cap_radius", "m", [](C& c) { return &c.cap_radius; }},
     {"sleeve_length", "m", [](C& c) { return &c.sleeve_length; }},
+    {"pad_radius", "m", [](C& c) { return &c.pad_radius; }},
     {"contact.restitution", "1", [](C& c) { return &c.contact.restitution; }},
     {"contact.young", "Pa", [](C& c) { return &c.contact.young[0]; }, [](C& c) { return &c.contact.young[1]; }},
     {"contact.poisson", "1", [](C& c) { return &c.contact.poisson[0]; }, [](C& c) { return &c.contact.poisson[1]; }},
@@ -41,6 +42,12 @@ const Field<C> kClearanceFields[] = {
     {"friction.bristle_damping", "s/m", [](C& c) { return &c.friction.bristle_damping; }},
     {"friction.viscosity", "s/m", [](C& c) { return &c.friction.viscosity; }},
 };
+
+// A pad has sizes of its own, and a journal or ball has none of a pad's.
+bool belongs(const std::string& number, JointType joint) {
+  if (joint != JointType::planar) return number != "pad_radius";
+  return number != "radial" && number != "journal_radius" && number != "cap_radius" && number != "sleeve_length";
+}
 
 using S = SpringParameters;
 const Field<S> kSpringFields[] = {
@@ -75,6 +82,7 @@ std::vector<Entry> all_entries(const MechanismDescription& m) {
   }
   for (std::size_t c = 0; c < m.clearances.size(); ++c) {
     for (const Field<C>& f : kClearanceFields) {
+      if (!belongs(f.name, m.joints[m.clearances[c].joint].type)) continue;
       Entry e{"clearance." + m.joints[m.clearances[c].joint].name + "." + f.name, f.unit, {}};
       for (auto place : {f.place, f.second_place})
         if (place) e.numbers.push_back([c, place](Parameters& p) { return place(p.clearance[c]); });

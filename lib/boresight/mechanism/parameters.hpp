@@ -42,9 +42,15 @@ struct ClearanceParameters {
   double journal_radius = 0.0;  // R_a [m]
   double cap_radius = 0.0;      // R_s [m]
   double sleeve_length = 0.0;   // L_b [m]
+  double pad_radius = 0.0;      // of a pad in a planar joint [m]
   ContactParameters contact;
   FrictionParameters friction;
 };
+
+// A slope of the insert's axis times this is how far its contacts move [m].
+inline double tilt_lever(const ClearanceParameters& p) {
+  return p.pad_radius > 0.0 ? p.pad_radius : 0.5 * p.sleeve_length;
+}
 
 struct SpringParameters {
   double stiffness = 0.0;    // [N/m]

@@ -36,8 +36,9 @@ void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const d
         gain(rate, j) = B_rate[j];
       }
     } else {
-      for (int j = 0; j < n; ++j) gain(rate, n + j) = scene[joint.slide_gain + j];
-      for (int j = 0; joint.gains_move && j < n; ++j) gain(rate, j) = scene[joint.slide_drift + j];
+      const int slide = slide_number(k) * n;
+      for (int j = 0; j < n; ++j) gain(rate, n + j) = scene[joint.slide_gain + slide + j];
+      for (int j = 0; joint.gains_move && j < n; ++j) gain(rate, j) = scene[joint.slide_drift + slide + j];
     }
   }
   for (int i = 0; i < joint.spins; ++i)

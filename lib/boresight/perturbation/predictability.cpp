@@ -48,7 +48,8 @@ Predictability measure_predictability(std::shared_ptr<const Mechanism> mechanism
     for (std::size_t c = 0; c < run.clearances.size(); ++c) {
       const double difference = (run.clearances[c][k].offset - twin.clearances[c][k].offset).norm();
       apart = std::max(apart, difference);
-      if (found.parted || !(difference > kPartedShare * parameters.clearance[c].radial)) continue;
+      const ClearanceParameters& gap = parameters.clearance[c];
+      if (found.parted || !(difference > kPartedShare * (gap.radial > 0.0 ? gap.radial : gap.axial))) continue;
       found.parted = true;
       found.horizon = run.time[k];
     }

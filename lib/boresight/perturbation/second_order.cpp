@@ -22,7 +22,7 @@ VecX lengths(const Mechanism& mechanism, const Parameters& parameters, const Sce
   for (std::size_t c = 0; c < at.joints.size(); ++c)
     for (int k = 0; k < at.joints[c].offsets; ++k)
       if (const int source = at.joints[c].source[k]; source >= 0)
-        unit[source] = k < 3 ? 1.0 : 0.5 * parameters.clearance[c].sleeve_length;
+        unit[source] = k < 3 ? 1.0 : tilt_lever(parameters.clearance[c]);
   return unit;
 }
 
@@ -63,7 +63,7 @@ DependentOffsets dependent_offsets(const SceneLayout& at, const double* row, con
     const PlayMotion<double>& motion = exact.motion(static_cast<int>(c));
     for (int k = 0; k < joint.offsets; ++k) {
       if (joint.source[k] != DeviationCoordinates::kDependent) continue;
-      const double length = k < 3 ? 1.0 : 0.5 * parameters.clearance[c].sleeve_length;
+      const double length = k < 3 ? 1.0 : tilt_lever(parameters.clearance[c]);
       const Eigen::Map<const Eigen::RowVectorXd> B(row + joint.dependent + k * at.n, at.n);
       const Eigen::Index i = all.B.rows();
       all.B.conservativeResize(i + 1, Eigen::NoChange);

@@ -6,9 +6,9 @@
 
 namespace boresight {
 
-// A cylinder about the joint's axis (a disc where `axial` is 0, a line where `radial` is), or a ball.
+// A cylinder about the joint's axis (a disc where `axial` is 0, a line where `radial` is), a ball, or two cones with one base about it.
 struct GapPart {
-  enum class Shape { cylinder, ball };
+  enum class Shape { cylinder, ball, double_cone };
   Eigen::Matrix<double, kMostOffsets, 3> offset;  // the joint's offsets per unit of x y z inside the part
   double radial = 0.0, axial = 0.0;               // the part's radius and half length [m]; a ball's radius is `radial`
   Shape shape = Shape::cylinder;

@@ -6,6 +6,7 @@
 
 #include "boresight/play/ball/ball_in_socket.hpp"
 #include "boresight/play/journal/journal_in_sleeve.hpp"
+#include "boresight/play/pad/pad_in_slot.hpp"
 
 namespace boresight {
 
@@ -15,7 +16,8 @@ using PlayKind = std::conditional_t<std::is_same_v<T, double>, Own, Lanes<T>>;
 template <typename T>
 using PlayKinds = std::variant<                      //
     PlayKind<T, JournalInSleeveT, JournalInSleeve>,  // revolute, cylindrical, prismatic
-    PlayKind<T, BallInSocketT, BallInSocket>         // spherical
+    PlayKind<T, BallInSocketT, BallInSocket>,        // spherical
+    PlayKind<T, PadInSlotT, PadInSlot>               // planar
     >;
 
 }  // namespace boresight

@@ -1,4 +1,4 @@
-// What a kind of play is made of; journal/ and ball/ are kinds, and kinds.hpp lists them all. A kind K is two types of one shape.
+// What a kind of play is made of; journal/, ball/ and pad/ are kinds, and kinds.hpp lists them all. A kind K is two types of one shape.
 //
 // KT<T>, the contacts as templates on the scalar T of what a sample varies (double, lanes, jets):
 //   static bool serves(JointType)                    whether this kind is the play of such a joint

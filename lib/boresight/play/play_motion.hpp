@@ -1,6 +1,6 @@
 // How the parts of a joint with play sit and move in one another, and what the one does to the other: what goes into the contact
 // laws and what comes out, in the seat's frame (the sleeve's, the socket's: origin at its centre, y along the joint's axis).
-// The other part, the journal or the ball, is the insert.
+// The other part, the journal, the ball or the pad, is the insert.
 #pragma once
 
 #include <array>

@@ -236,21 +236,29 @@ void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
       else
         append(knot.joints, drift.row(1));
     }
-    if (at.slides) {
+    if (at.slides > 0) {
       using Gain = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-      const Vec3 rS = S.R * sleeve.p, rJ = J.R * journal.p, distance = J.p + rJ - S.p - rS, y = R_WS.col(1);
+      const Vec3 rS = S.R * sleeve.p, rJ = J.R * journal.p, distance = J.p + rJ - S.p - rS;
+      const Vec3 distance_rate = J.v + J.w.cross(rJ) - S.v - S.w.cross(rS + distance);
       const Gain across = TJ.topRows<3>() - cross_matrix(rJ) * TJ.bottomRows<3>() - TS.topRows<3>() +
                           cross_matrix(rS + distance) * TS.bottomRows<3>();
-      knot.joints.push_back(y.dot(distance));
-      knot.joints.push_back(y.dot(J.v + J.w.cross(rJ) - S.v - S.w.cross(rS + distance)));
-      append(knot.joints, Eigen::RowVectorXd(y.transpose() * across));
+      const std::vector<int> axes = at.slides == 1 ? std::vector<int>{1} : std::vector<int>{0, 2};
+      for (const int axis : axes) {
+        knot.joints.push_back(R_WS.col(axis).dot(distance));
+        knot.joints.push_back(R_WS.col(axis).dot(distance_rate));
+      }
+      for (const int axis : axes) append(knot.joints, Eigen::RowVectorXd(R_WS.col(axis).transpose() * across));
       if (at.gains_move) {
         const Vec3 rJ_rate = J.w.cross(rJ), on_sleeve_rate = J.v + rJ_rate - S.v;  // of rS + distance
         const Gain across_rate = TdJ.topRows<3>() - cross_matrix(rJ_rate) * TJ.bottomRows<3>() -
                                  cross_matrix(rJ) * TdJ.bottomRows<3>() - TdS.topRows<3>() +
                                  cross_matrix(on_sleeve_rate) * TS.bottomRows<3>() +
                                  cross_matrix(rS + distance) * TdS.bottomRows<3>();
-        append(knot.joints, Eigen::RowVectorXd(S.w.cross(y).transpose() * across + y.transpose() * across_rate));
+        for (const int axis : axes) {
+          const Vec3 along = R_WS.col(axis);
+          append(knot.joints,
+                 Eigen::RowVectorXd(S.w.cross(along).transpose() * across + along.transpose() * across_rate));
+        }
       }
     }
     if (at.has_dependent) {

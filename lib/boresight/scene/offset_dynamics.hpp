@@ -28,11 +28,13 @@ PlayMotion<T> play_motion(const Layout& at, const Joint& joint, const S* scene, 
         offset_rate[k] += T(B[j]) * rate[j] + T(B_rate[j]) * z[j];
       }
     } else {
-      offset[k] = T(scene[joint.slide]);
-      offset_rate[k] = T(scene[joint.slide + 1]);
-      for (int j = 0; j < at.n; ++j) offset_rate[k] += T(scene[joint.slide_gain + j]) * rate[j];
+      const int slide = slide_number(k);
+      const S *gain = scene + joint.slide_gain + slide * at.n, *drift = scene + joint.slide_drift + slide * at.n;
+      offset[k] = T(scene[joint.slide + 2 * slide]);
+      offset_rate[k] = T(scene[joint.slide + 2 * slide + 1]);
+      for (int j = 0; j < at.n; ++j) offset_rate[k] += T(gain[j]) * rate[j];
       if (joint.gains_move)
-        for (int j = 0; j < at.n; ++j) offset_rate[k] += T(scene[joint.slide_drift + j]) * z[j];
+        for (int j = 0; j < at.n; ++j) offset_rate[k] += T(drift[j]) * z[j];
     }
   }
   PlayMotion<T> m;
@@ -63,8 +65,8 @@ void add_generalised_force(const Layout& at, const Joint& joint, const S* scene,
     if (source >= 0) {
       force[source] += wrench.force[k];
     } else {
-      const S* gain =
-          scene + (source == DeviationCoordinates::kDependent ? joint.dependent + k * at.n : joint.slide_gain);
+      const S* gain = scene + (source == DeviationCoordinates::kDependent ? joint.dependent + k * at.n
+                                                                          : joint.slide_gain + slide_number(k) * at.n);
       for (int j = 0; j < at.n; ++j) force[j] += T(gain[j]) * wrench.force[k];
     }
   }

@@ -92,7 +92,7 @@ void RestingBalance::take(const double* row, const VecX& reaction, const MatX& s
   // Where a journal of a joint that slides comes to along its axis decides how far apart its ends push: to second order, without which forces
   // would not be those of the energy.
   for (std::size_t c = 0; c < joints_.size(); ++c)
-    if (at_.joints[c].slides) offsets_of_[c].row(1) = works_on_[c].row(1);
+    if (at_.joints[c].slides == 1) offsets_of_[c].row(1) = works_on_[c].row(1);
   weigh();
 }
 
@@ -102,7 +102,7 @@ void RestingBalance::read(const double* row) {
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     const SceneLayout::Joint& joint = at_.joints[c];
     MatX &G = offsets_of_[c], &V = works_on_[c];
-    if (joint.slides) slide_[c] = row[joint.slide];
+    if (joint.slides == 1) slide_[c] = row[joint.slide];
     for (int k = 0; k < joint.offsets; ++k) {
       const int source = joint.source[k];
       if (source >= 0) {
@@ -111,7 +111,7 @@ void RestingBalance::read(const double* row) {
         G.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.dependent + k * n, n);
         shift_[c][k] = row[joint.shift + k];
       } else if (k < 3) {
-        V.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.slide_gain, n);
+        V.row(k) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.slide_gain + slide_number(k) * n, n);
       }
       if (k < 3 && source != DeviationCoordinates::kSlides) V.row(k) = G.row(k);
     }
@@ -140,7 +140,7 @@ void RestingBalance::weigh() {
     G = widths_[c].cwiseInverse().asDiagonal() * offsets_of_[c];
     for (int k = 0; k < n; ++k)
       if (!held_[k]) G.col(k).setZero();
-    if (at_.joints[c].slides) G.row(1).setZero();
+    if (at_.joints[c].slides == 1) G.row(1).setZero();
     spread += G.transpose() * G;
   }
   unit_ = spread.llt().matrixU().solve(MatX::Identity(n, n));

@@ -65,7 +65,7 @@ class RestingBalance {
   // Of a joint: its offsets are gain z + shift. 5 x n, 5.
   const MatX& offset_gain(std::size_t joint) const { return offsets_of_[joint]; }
   const PlayOffsets& offset_shift(std::size_t joint) const { return shift_[joint]; }
-  bool slides(std::size_t joint) const { return at_.joints[joint].slides; }
+  bool slides_along_axis(std::size_t joint) const { return at_.joints[joint].slides == 1; }
   double slide(std::size_t joint) const { return slide_[joint]; }  // along its axis, where it slides [m]
   double load() const { return load_; }                            // size() of the reactions [N m]
 

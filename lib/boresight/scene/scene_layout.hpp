@@ -14,13 +14,18 @@ constexpr int upper_triangle(int n, int i, int j) {
   return i <= j ? i * n - i * (i - 1) / 2 + j - i : upper_triangle(n, j, i);
 }
 
+// Which of a joint's slides an offset is that is none: y is the only one of a joint that slides along its axis, x and z are the first and
+// the second of one that slides across it.
+constexpr int slide_number(int offset) { return offset / 2; }
+
 // What a row says of the coordinates: their accelerations, zddot = A (r + f) - A C zdot - A K z, or the forces on them,
 // M zddot = r + f - C zdot - K z. Both lie alike: A and M, A r and r, ...
 enum class SceneForm { accelerations, forces };
 
 struct SceneLayout {
   struct Joint {
-    bool tilts = false, slides = false;
+    bool tilts = false;
+    int slides = 0;  // directions in which it slides
     // Per offset (three, or five where a journal tilts): its coordinate, or DeviationCoordinates::kSlides, kDependent.
     int offsets = 3;
     std::array<int, kMostOffsets> source = {};
@@ -28,9 +33,9 @@ struct SceneLayout {
     int spin = 0;         // ideal spin
     int spin_gain = 0;    // spins x n: what coordinate rates add to it
     int spin_drift = 0;   // spins x n: what coordinates add to it (where gains move)
-    int slide = 0;        // ideal displacement along the axis and its rate (where it slides)
-    int slide_gain = 0;   // 1 x n
-    int slide_drift = 0;  // 1 x n, as spin_drift
+    int slide = 0;        // ideal displacement and its rate, slide by slide
+    int slide_gain = 0;   // slides x n
+    int slide_drift = 0;  // slides x n, as spin_drift
     int dependent = 0;    // B and then Bdot, offsets x n each (where an offset is dependent)
     int shift = 0;  // what standing errors leave of the offsets with all coordinates zero, and its rate (likewise)
     bool has_dependent = false;
@@ -67,9 +72,9 @@ struct SceneLayout {
       j.spin = take(j.spins);
       j.spin_gain = take(j.spins * n);
       j.spin_drift = take(j.gains_move ? j.spins * n : 0);
-      j.slide = take(j.slides ? 2 : 0);
-      j.slide_gain = take(j.slides ? n : 0);
-      j.slide_drift = take(j.gains_move && j.slides ? n : 0);
+      j.slide = take(2 * j.slides);
+      j.slide_gain = take(j.slides * n);
+      j.slide_drift = take(j.gains_move ? j.slides * n : 0);
       j.dependent = take(j.has_dependent ? 2 * j.offsets * n : 0);
       j.shift = take(j.has_dependent ? 2 * j.offsets : 0);
       joints.push_back(j);

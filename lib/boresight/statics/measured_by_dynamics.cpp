@@ -46,8 +46,8 @@ double standing_for(double b, double a) {
 
 ClearanceParameters standing_for(const ClearanceParameters& b, const ClearanceParameters& a) {
   ClearanceParameters p = a;
-  for (const auto number :
-       {&ClearanceParameters::radial, &ClearanceParameters::axial, &ClearanceParameters::sleeve_length})
+  for (const auto number : {&ClearanceParameters::radial, &ClearanceParameters::axial,
+                            &ClearanceParameters::sleeve_length, &ClearanceParameters::pad_radius})
     p.*number = standing_for(b.*number, a.*number);
   const double lost = standing_for(1.0 - b.contact.restitution, 1.0 - a.contact.restitution);
   p.contact.restitution = lost < 1.0 ? 1.0 - lost : b.contact.restitution;
@@ -79,8 +79,9 @@ std::vector<double> numbers_of(const Parameters& p) {
   std::vector<double> numbers = {p.gravity.x(), p.gravity.y(), p.gravity.z(), p.payload_mass};
   numbers.insert(numbers.end(), p.body_mass.begin(), p.body_mass.end());
   for (const ClearanceParameters& c : p.clearance)
-    numbers.insert(numbers.end(), {c.radial, c.axial, c.sleeve_length, c.contact.restitution, c.contact.stiffness_scale,
-                                   c.contact.young[0], c.contact.young[1], c.friction.coefficient});
+    numbers.insert(numbers.end(),
+                   {c.radial, c.axial, c.sleeve_length, c.pad_radius, c.contact.restitution, c.contact.stiffness_scale,
+                    c.contact.young[0], c.contact.young[1], c.friction.coefficient});
   for (const SpringParameters& s : p.spring) numbers.insert(numbers.end(), {s.stiffness, s.damping});
   numbers.insert(numbers.end(), p.error.begin(), p.error.end());
   return numbers;

@@ -74,7 +74,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < n; ++j) values.push_back(E(i, j));
     tables->dynamics.at(k * scene.spacing(), row.data());
-    for (const SceneLayout::Joint& j : layout_.joints) values.push_back(j.slides ? row[j.slide] : 0.0);
+    for (const SceneLayout::Joint& j : layout_.joints) values.push_back(j.slides == 1 ? row[j.slide] : 0.0);
   }
   table_ = TimeTable(scene.spacing(), width, values);
   largest_load_.assign(joints_.size(), 0.0);

@@ -37,11 +37,11 @@ void TiedGaps::take(const RestingBalance& balance, const std::vector<RestingPlay
         continue;
       }
       if (part.offset.col(0).any()) groups_.push_back({{first, first + 2}, part.radial});
-      if (part.offset.col(1).any() && !balance.slides(c)) groups_.push_back({{first + 1}, part.axial});
+      if (part.offset.col(1).any() && !balance.slides_along_axis(c)) groups_.push_back({{first + 1}, part.axial});
     }
     Eigen::CompleteOrthogonalDecomposition<MatX> inverse(offsets);
     MatX gain = balance.offset_gain(c);
-    if (balance.slides(c)) gain.row(1).setZero();  // nothing limits that
+    if (balance.slides_along_axis(c)) gain.row(1).setZero();  // nothing limits that
     D.push_back(inverse.solve(gain));
     d.push_back(inverse.solve(VecX(balance.offset_shift(c))));
     parts_.insert(parts_.end(), of_joint.begin(), of_joint.end());

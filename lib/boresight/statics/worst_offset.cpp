@@ -37,6 +37,11 @@ Vec3 worst_offset(const Gain& G, double radial, double axial) {
 // The same in a part of any shape. In a ball it lies along the direction that G stretches most.
 Vec3 worst_offset(const Gain& G, const GapPart& part) {
   if (part.shape == GapPart::Shape::cylinder) return worst_offset(G, part.radial, part.axial);
+  if (part.shape == GapPart::Shape::double_cone) {
+    // A convex function is largest on the rim or at a tip.
+    const Vec3 rim = worst_offset(G, part.radial, 0.0), tip(0.0, part.axial, 0.0);
+    return (G * rim).norm() > (G * tip).norm() ? rim : tip;
+  }
   const Eigen::SelfAdjointEigenSolver<Gain> stretch(G.transpose() * G);
   return part.radial * stretch.eigenvectors().col(2);
 }

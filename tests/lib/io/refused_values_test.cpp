@@ -11,7 +11,7 @@ namespace {
 TEST(RefusedValue, NamesKeysThatAreUnknownMissingOrWithoutMeaning) {
   check({
       {"radial =", "radal =",
-       R"~(f.toml:40: clearance[1].radal: found an unknown key, expected one of joint, journal, radial, axial, journal_radius, cap_radius, sleeve_length, axes, contact, friction, bearing, span, fixed_end, floating, cross_mass, cross_radius, cross_inertia; did you mean radial?)~"},
+       R"~(f.toml:40: clearance[1].radal: found an unknown key, expected one of joint, journal, radial, axial, journal_radius, cap_radius, sleeve_length, pad_radius, axes, contact, friction, bearing, span, fixed_end, floating, cross_mass, cross_radius, cross_inertia; did you mean radial?)~"},
       {"mass = \"1 kg\"\n", "# nothing\n",
        R"~(f.toml:4: body.arm.mass: found nothing, expected a mass such as "1.5 kg")~"},
       {"format = 1\n", "format = 1\nformatt = 2\n",
@@ -118,6 +118,8 @@ TEST(RefusedValue, RefusesNumbersThatNothingRealHas) {
        R"~(f.toml:43: clearance.R.cap_radius: found "10.1 mm", expected more than journal_radius + radial)~"},
       {"sleeve_length = \"30 mm\"", "sleeve_length = \"-30 mm\"",
        R"~(f.toml:44: clearance.R.sleeve_length: found "-30 mm", expected a length above zero)~"},
+      {"sleeve_length = \"30 mm\"", "sleeve_length = \"30 mm\"\npad_radius = \"20 mm\"",
+       R"~(f.toml:45: clearance.R.pad_radius: found it on "R", a revolute joint, expected it only on a planar joint, which has a pad)~"},
       {"restitution = 0.9", "restitution = 0",
        R"~(f.toml:46: clearance.R.contact.restitution: found the number 0, expected a number from 1e-06 to 1 with law = "flores", whose damping grows without bound towards 0; laws that take 0: hunt-crossley, herbert-mcwhannell, lee-wang, lankarani-nikravesh, zhiying-qishao, carvalho-martins)~"},
       {"restitution = 0.9", "restitution = 1.01",
