@@ -39,7 +39,8 @@ FailureCase case_of_vanishing_clearance(const Scene& scene) {
     return c;
   }
   double radial = 0.0;
-  for (const ClearanceParameters& p : scene.mechanism->parameters().clearance) radial = std::max(radial, p.radial);
+  for (const ClearanceParameters& p : scene.mechanism->parameters().clearance)
+    radial = std::max(radial, p.pad_radius > 0.0 ? p.axial : p.radial);
   const auto measure = [&](const Rung& rung) {
     double lever = 0.0, least = 1e300;
     bool tends = true;

@@ -59,10 +59,10 @@ SettlingContact SettlingContact::of(const Mechanism& mechanism, const Parameters
   return contact;
 }
 
-double SettlingContact::rest_depth() const { return std::pow(load / law.stiffness, 2.0 / 3.0); }
+double SettlingContact::rest_depth() const { return law.depth_under(load); }
 
 double SettlingContact::angular_frequency() const {
-  return std::sqrt(1.5 * law.stiffness * std::sqrt(rest_depth()) / mass);
+  return std::sqrt(law.elastic_slope(rest_depth()) / mass);
 }
 
 void SettlingContact::derivative(double, const VecX& y, VecX& dy) const {
