@@ -61,9 +61,7 @@ SettlingContact SettlingContact::of(const Mechanism& mechanism, const Parameters
 
 double SettlingContact::rest_depth() const { return law.depth_under(load); }
 
-double SettlingContact::angular_frequency() const {
-  return std::sqrt(law.elastic_slope(rest_depth()) / mass);
-}
+double SettlingContact::angular_frequency() const { return std::sqrt(law.elastic_slope(rest_depth()) / mass); }
 
 void SettlingContact::derivative(double, const VecX& y, VecX& dy) const {
   dy[0] = y[1];

@@ -129,7 +129,8 @@ class Computation {
     const double duration = kSettledPeriods * 2.0 * std::numbers::pi / own.angular_frequency();
     for (double factor : kSettledFactors) {
       SettlingContact contact = own;
-      contact.law.stiffness *= factor * factor * factor;  // omega goes with its cube root, of a spring with its square root
+      contact.law.stiffness *=
+          factor * factor * factor;  // omega goes with its cube root, of a spring with its square root
       SettledStep step{.frequency = contact.angular_frequency(), .pair = {}, .l_stable = {}};
       const double height = kDropHeight * contact.rest_depth();
       step.pair = stabilise(contact, height, duration, kSettledTolerance, true);

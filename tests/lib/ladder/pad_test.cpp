@@ -272,5 +272,33 @@ TEST(PadInItsSlot, IsFollowedAlikeByAllRungs) {
   EXPECT_GT(bound.index.boresight_error.max, still.index.boresight_error.max);
 }
 
+// On three pads a stage has the same plane three times over: the heights and tilts of the second and the third follow from the first one's,
+// and what friction does to all of them hangs on how they slide.
+TEST(PadInItsSlot, StandsOnThreePads) {
+  MechanismDescription m = read_mechanism(std::string(BORESIGHT_CORPUS) + "/xy-stage.toml", {});
+  m.clearances.resize(1);
+  m.clearances[0].parameters.pad_radius = 15e-3;
+  m.clearances[0].parameters.friction.coefficient = 0.2;
+  const JointDescription table = m.joints[0];
+  m.joints[0].point = Vec3(0.1, 0.0, 0.0);
+  const ClearanceDescription first = m.clearances[0];
+  for (const double y : {-0.08, 0.08}) {
+    JointDescription j = table;
+    j.name += y < 0.0 ? "2" : "3";
+    j.point = Vec3(-0.06, y, 0.0);
+    ClearanceDescription c = first;
+    c.joint = static_cast<int>(m.joints.size());
+    m.joints.push_back(j);
+    m.clearances.push_back(c);
+  }
+  m.motion.duration = 0.08;
+  const auto mechanism = scenes::build(m);
+  const RunResult exact = make_rung("multibody", mechanism)->run(mechanism->parameters(), {});
+  const RunResult linear = make_rung("perturbation", mechanism)->run(mechanism->parameters(), {});
+  EXPECT_NEAR(linear.index.position_error.rms / exact.index.position_error.rms, 1.0, 0.01);
+  EXPECT_NEAR(linear.index.boresight_error.rms / exact.index.boresight_error.rms, 1.0, 0.01);
+  for (const ContactSummary& contact : exact.contact) EXPECT_GT(contact.contact_fraction, 0.2) << contact.joint;
+}
+
 }  // namespace
 }  // namespace boresight
