@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "boresight/contact/normal_law.hpp"
+#include "boresight/play/joint_play.hpp"
 
 namespace boresight {
 namespace {
@@ -39,7 +39,7 @@ std::string fault_of_body(const BodyDescription& body) {
 std::string fault_of_clearance(const MechanismDescription& m, const ClearanceDescription& c) {
   if (c.joint < 0 || c.joint >= static_cast<int>(m.joints.size())) return "clearance joint";
   const JointDescription& joint = m.joints[c.joint];
-  if (joint.type != JointType::revolute && joint.type != JointType::cylindrical) return "clearance joint type";
+  if (!can_have_play(joint.type)) return "clearance joint type";
   if (c.journal != joint.first && c.journal != joint.second) return "journal";
   const ClearanceParameters& p = c.parameters;
   for (const double x : {p.radial,
@@ -67,12 +67,13 @@ std::string fault_of_clearance(const MechanismDescription& m, const ClearanceDes
                          p.friction.viscosity}) {
     if (!std::isfinite(x) || x < 0.0) return "clearance number";
   }
-  if (p.radial <= 0.0 || p.journal_radius <= 0.0) return "radii";
+  const bool pad = joint.type == JointType::planar, ball = joint.type == JointType::spherical;
+  if (pad ? !(p.pad_radius > 0.0) : !(p.radial > 0.0 && p.journal_radius > 0.0)) return "radii";
   if (joint.type == JointType::revolute && !(p.cap_radius > p.journal_radius + p.radial && p.sleeve_length > 0.0))
     return "caps";
-  if (c.axes == JournalAxes::free && p.sleeve_length <= 0.0) return "sleeve length";
+  if (c.axes == JournalAxes::free && !pad && !ball && p.sleeve_length <= 0.0) return "sleeve length";
   if (p.contact.restitution < 0.0 || p.contact.restitution > 1.0) return "restitution";
-  const NormalLaw law = make_normal_law(c.contact_law, c.dissipation_law, p);
+  const NormalLaw law = JointPlay(c, joint.type, p).normal_law();
   if (!std::isfinite(law.stiffness) || !(law.stiffness > 0.0) || !std::isfinite(law.damping_factor))
     return "contact law";
   for (int k = 0; k < 2; ++k) {
