@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "measure.hpp"
 #include "sandbox.hpp"
 
@@ -29,13 +31,13 @@ void check_momentum(const std::shared_ptr<const Mechanism>& mechanism, const Lim
     if (outcome.end != Outcome::End::answered) continue;  // the comparison of rungs has met it
     const double change = outcome.answer["change"], step = outcome.answer["step"];
     if (change <= kMomentumTolerance) continue;
-    // Of the steps, then it goes with them; a force without its reaction stays.
+    // Of the steps, then it falls with them at least in proportion; a force without its reaction stays.
     const Outcome finer = in_sandbox(limits, [&] {
       return momentum_change(mechanism, {.rung = "multibody", .formulation = formulation, .step = step / kFiner});
     });
     verdict.cpu_seconds += finer.cpu_seconds;
     const double left = finer.end == Outcome::End::answered ? finer.answer["change"].get<double>() : change;
-    if (left > kMomentumTolerance)
+    if (left > std::min(kMomentumTolerance, change / kFiner))
       verdict.fault("momentum", std::string("multibody ") + formulation,
                     fmt::format("changes by {:.2g} of its parts, {:.2g} with steps of a quarter", change, left));
   }

@@ -109,11 +109,9 @@ Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& ask
   double deepest = 0.0;
   for (const ContactSummary& c : r.contact) deepest = std::max(deepest, c.max_penetration);
   const double play = smallest_clearance(mechanism->parameters());
-  if (options.integrator.empty()) options.integrator = r.integrator_taken;
   return {{"figure", figures(r.index)},
           {"model", r.error.model},
           {"basis", r.error.basis},
-          {"tolerance", controls_error(options) ? tolerance_of(options, asked.rung) : 0.0},
           {"step", r.cost.steps > 0 ? mechanism->duration() / static_cast<double>(r.cost.steps) : 0.0},
           {"deepest", play > 0.0 ? deepest / play : 0.0},
           {"start", start},
@@ -143,7 +141,6 @@ Measured measured(const Json& json) {
   m.model = json.at("model");
   m.basis = json.at("basis");
   m.start = json.at("start");
-  m.tolerance = json.at("tolerance");
   m.step = json.at("step");
   m.deepest = json.at("deepest");
   m.cpu_seconds = json.at("cpu");

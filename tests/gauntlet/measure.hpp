@@ -33,7 +33,6 @@ struct Measured {
   std::array<double, kFigures.size()>
       by_steps{};  // what further runs show that steps do, of each figure; zero until measured
   bool steps_measured = false;
-  double tolerance = 0.0;                // that its error control was given; 0: fixed steps
   double step = 0.0;                     // mean [s]
   std::string taken;                     // the integrator that took over, if one did
   double deepest = 0.0;                  // deepest penetration over the smallest play [-]

@@ -151,10 +151,7 @@ class Trial {
       if (size < floor_of(k)) continue;
       double model = 0.0;
       for (const Measured& m : runs) model = std::max(model, m.model);
-      // Of steps whose error was not measured a user knows the tolerance that he gave.
-      const double by_steps =
-          runs.front().steps_measured ? runs.front().by_steps[k] : kOfTolerance * runs.front().tolerance * size;
-      const double stated = model * size + by_steps;
+      const double stated = model * size + runs.front().by_steps[k];
       const double spread = 2.0 * (theirs.spread + mine.spread);
       const double allowed = stated + reference_.front().by_steps[k] + spread + floor_of(k);
       const double beyond = std::abs(mine.median - theirs.median) / allowed - 1.0;
@@ -354,7 +351,6 @@ class Trial {
 
   static constexpr double kTabled = 1e-5;      // what tables of time may do to a motion's figure
   static constexpr double kFurtherRuns = 4.0;  // times the limit, for the runs that measure what steps do
-  static constexpr double kOfTolerance = 2.0;  // as measure_discretisation() states at least
   static constexpr double kMostOfLimit = 0.8;  // of the CPU limit, after which a run is asked to end
   static constexpr double kDearRun = 1.5;      // [s]: variants of dearer runs are left out
 

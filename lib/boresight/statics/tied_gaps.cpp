@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "boresight/math/orthogonal_factors.hpp"
+#include "boresight/mechanism/error.hpp"
 #include "boresight/statics/worst_offset.hpp"
 
 namespace boresight {
@@ -14,6 +15,8 @@ namespace {
 constexpr int kFirstRounds = 60, kRounds = 3;
 // No multiplier weighs less than this share of the largest, in what it adds to the bound: it could not come back.
 constexpr double kLeastWeight = 1e-4;
+// How well L D = G has to hold: far above rounding, far below what a bound is read to.
+constexpr double kFulfilled = 1e-6;
 // No gap counts as narrower than this share of the widest.
 constexpr double kNarrowest = 1e-6;
 
@@ -36,8 +39,11 @@ void TiedGaps::take(const RestingBalance& balance, const std::vector<RestingPlay
         groups_.push_back({{first, first + 1, first + 2}, part.radial});
         continue;
       }
-      if (part.offset.col(0).any()) groups_.push_back({{first, first + 2}, part.radial});
-      if (part.offset.col(1).any() && !balance.slides_along_axis(c)) groups_.push_back({{first + 1}, part.axial});
+      // Halves of a double cone's two widths lie within it together.
+      const double of_width = part.shape == GapPart::Shape::double_cone ? 0.5 : 1.0;
+      if (part.offset.col(0).any()) groups_.push_back({{first, first + 2}, of_width * part.radial});
+      if (part.offset.col(1).any() && !balance.slides_along_axis(c))
+        groups_.push_back({{first + 1}, of_width * part.axial});
     }
     Eigen::CompleteOrthogonalDecomposition<MatX> inverse(offsets);
     MatX gain = balance.offset_gain(c);
@@ -110,6 +116,11 @@ double TiedGaps::bound(const Gain& gain, int quantity) {
   double least = 0.0;
   for (int round = 0; round < (first ? kFirstRounds : kRounds); ++round) {
     const Gain L = multipliers(gain, weight);
+    // No multipliers do where the deviation may go on without end; then there is no bound.
+    if (!((gain - L * D_).norm() <= kFulfilled * gain.norm()))
+      throw ComputationError(
+          "redundant joints tie the offsets of clearance joints together, and their gaps do not limit where these may "
+          "go; use multibody");
     const double now = bound_by(L);
     if (round == 0 || now < least) {
       least = now;

@@ -27,7 +27,8 @@ class TiedGaps {
   // The gaps of one instant: of each joint where it rests.
   void take(const RestingBalance& balance, const std::vector<RestingPlay>& rest);
 
-  // Of G = gain: 3 x n. quantity: which of those side by side; its search goes on from the instant before.
+  // Of G = gain: 3 x n. quantity: which of those side by side; its search goes on from the instant before. Throws ComputationError where the
+  // gaps do not limit it.
   double bound(const Gain& gain, int quantity);
   // Of the last bound: a deviation within the gaps that displaces by as much as this search finds, on the side of `towards` (3).
   VecX place(const Gain& gain, const Vec3& towards) const;
