@@ -44,8 +44,6 @@ MatX carried_along(const MatX& mass, const std::vector<bool>& held) {
   return along;
 }
 
-constexpr ImpactSpeeds<double> kSlow = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3};  // of no account where nothing dissipates
-
 }  // namespace
 
 RestingBalance::RestingBalance(const SceneLayout& layout, std::vector<JointPlay> joints)
@@ -159,7 +157,7 @@ VecX RestingBalance::left(const VecX& offsets) const {
   PlayWrench<double> wrench;
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     const PlayMotion<double> motion = motion_of(c, z);
-    joints_[c].wrench(motion, kSlow, wrench);
+    joints_[c].wrench(motion, kSlowImpacts, wrench);
     Vec6 load;
     load << wrench.force, wrench.moment - motion.e.cross(wrench.force);
     F.noalias() += works_on_[c].transpose() * load;
@@ -183,7 +181,7 @@ MatX RestingBalance::stiffness_at(const std::vector<PlayMotion<double>>& journal
     still.e_dot.setZero();
     still.w.setZero();
     still.slope_rate.setZero();
-    offset_jacobian(joints_[c], still, kSlow, MomentAbout::insert, of_offsets);
+    offset_jacobian(joints_[c], still, kSlowImpacts, MomentAbout::insert, of_offsets);
     by_z.noalias() += works_on_[c].transpose() * (of_offsets * offsets_of_[c]);
   }
   return with_offsets_.transpose() * by_z * with_offsets_;

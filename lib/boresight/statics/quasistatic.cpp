@@ -25,8 +25,8 @@ class Quasistatic final : public SceneRung {
   std::string name() const override { return "quasistatic"; }
   std::string leaves_out() const override {
     return "Impacts and vibration: the " + parts_in_play(mechanism().description()).insert +
-           " rests where the ideal joint's reaction pushes it, so maxima that impacts set come out low. Velocities and "
-           "accelerations shown are those of the ideal motion.";
+           " rests where the ideal joint's reaction pushes it, without friction, so maxima that impacts set come out "
+           "low. Velocities and accelerations shown are those of the ideal motion.";
   }
 
  private:

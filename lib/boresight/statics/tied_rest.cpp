@@ -9,8 +9,6 @@
 namespace boresight {
 namespace {
 
-constexpr ImpactSpeeds<double> kSlow = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3};  // of no account where nothing dissipates
-
 using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
 }  // namespace
@@ -70,7 +68,7 @@ RestingPlay TiedRest::resting(std::size_t joint, const VecX& z) const {
   RestingPlay rest;
   rest.motion = balance_.motion_of(joint, z);
   PlayWrench<double> wrench;
-  law.wrench(rest.motion, kSlow, wrench);
+  law.wrench(rest.motion, kSlowImpacts, wrench);
   rest.contact = wrench.contact;
   const std::vector<double> gaps = law.clearances();
   rest.radial_reach.fill(gaps[0]);
