@@ -168,7 +168,7 @@ Allocation Allocating::cheapest(double limit, const std::vector<int>& start) {
     if (options_.interrupted && options_.interrupted()) throw EvaluationInterrupted{};
     a.feasible = d.feasible;
     a.finished = d.proven;
-    a.proven = d.proven && !plan_.has_curves();
+    a.proven = d.proven && !plan_.has_curves() && result_.misfit <= kMostMisfit;
     a.choice = d.feasible ? d.choice : tightest_;
     use_steps(a);
     a.price = price_of_set(a);
@@ -178,7 +178,7 @@ Allocation Allocating::cheapest(double limit, const std::vector<int>& start) {
       a.why += ", tolerances with cost curves in " + std::to_string(kSteps) + " steps; then these by descent";
       if (d.feasible) refine(a, limit);
     } else if (d.feasible) {
-      a.bound = d.bound;
+      a.bound = result_.misfit <= kMostMisfit ? d.bound : 0.0;
     }
   }
   evaluate(a);

@@ -25,6 +25,9 @@
 
 namespace boresight {
 
+// A linear deviation that is off by more than this against its own rung proves nothing of sets that were not confirmed.
+inline constexpr double kMostMisfit = 0.02;
+
 // One set of fits or tolerances, and what it does.
 struct Allocation {
   std::string judged_by;  // "samples", "worst case", "root-sum-square"

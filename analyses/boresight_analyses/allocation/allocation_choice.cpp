@@ -128,7 +128,7 @@ void Allocating::compare() {
     const DiscreteAllocation d = allocate_discrete(price_, tightest_, requirement, {.most_nodes = 100'000});
     a.feasible = d.feasible;
     a.finished = d.proven;
-    a.proven = d.proven && exact && !plan_.has_curves();
+    a.proven = d.proven && exact && !plan_.has_curves() && result_.misfit <= kMostMisfit;
     a.choice = d.choice;
     if (d.feasible) use_steps(a);
     a.price = d.feasible ? d.price : 0.0;

@@ -7,7 +7,8 @@
 // body; and one per standing error: its column of influence (boresight/scene/standing_errors.hpp), exact to
 // first order. e_0 holds what hangs on neither (deflections, axial play). The gaps' are taken from runs of the
 // quasistatic rung, whose contact directions come from the ideal motion and not from the gaps; so the form is
-// its own, up to the second order of c.
+// its own, up to the second order of c. Where redundant joints tie plays together the directions do hang on the
+// gaps: `misfit` says by how much, and beyond kMostMisfit (allocation.hpp) nothing is proven by the form.
 //
 // The index is a convex function of the c for every statistic but p99.73; its gradient then gives lower
 // bounds that hold everywhere, by which the allocation proves that nothing cheaper exists. |e(t)| is convex at

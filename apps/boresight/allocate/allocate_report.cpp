@@ -180,7 +180,8 @@ std::string allocate_sentence(const AllocateStudy& s) {
                        index_text(s, s.result.best_reachable), s.result.chosen.price,
                        s.result.confirmations.back().sentence);
   return fmt::format(
-      "The cheapest choice costs {:.5g} and keeps the {}. {}{}.", s.result.chosen.price, requirement_text(s),
+      "The cheapest choice{} costs {:.5g} and keeps the {}. {}{}.", s.result.chosen.proven ? "" : " that was found",
+      s.result.chosen.price, requirement_text(s),
       s.result.chosen.proven     ? "Nothing cheaper keeps the limit with the room that this confirmation needs. "
       : s.result.chosen.finished ? "Nothing cheaper was found near it; that nothing is elsewhere is not proven. "
       : s.result.chosen.bound > 0.0

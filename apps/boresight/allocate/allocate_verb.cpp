@@ -235,8 +235,7 @@ class AllocateVerb : public Verb {
     for (std::size_t k = 0; k + 1 < r.confirmations.size(); ++k)
       warnings.push_back("round " + std::to_string(k + 1) +
                          " of the confirmation disagreed with the search: " + r.confirmations[k].sentence);
-    constexpr double kMuch = 0.02;
-    if (r.misfit > kMuch)
+    if (r.misfit > kMostMisfit)
       warnings.push_back(fmt::format(
           "the error is not linear in the gaps: off by {:.2g} % against the quasistatic rung", 100.0 * r.misfit));
     for (const Allocation* a : {&r.worst_case, &r.root_sum_square})

@@ -192,6 +192,13 @@ TEST(Allocation, FindsTheWiderGapThatWorksAgainstAnother) {
   EXPECT_TRUE(found.chosen.proven);
   EXPECT_EQ(found.chosen.choice.front(), 5);
 
+  // A form that its own rung does not keep proves nothing, and says no less of what it found.
+  const AllocationResult bent = run_allocation(plan, opposed, 1.01 * kMostMisfit, exact, "synthetic", {});
+  ASSERT_TRUE(bent.feasible);
+  EXPECT_FALSE(bent.chosen.proven);
+  EXPECT_EQ(bent.chosen.bound, 0.0);
+  EXPECT_EQ(bent.chosen.choice, found.chosen.choice);
+
   // And before it says that there is none, it has tried what points best, not the tightest alone.
   plan.requirement.limit = 1.9 * kMilli;
   const AllocationResult none = run_allocation(plan, opposed, 0.0, exact, "synthetic", {});
