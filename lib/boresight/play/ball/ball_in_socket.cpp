@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "boresight/play/elastic_part.hpp"
+
 namespace boresight {
 
 BallInSocket::BallInSocket(const ClearanceDescription& description, JointType, const ClearanceParameters& p) {
@@ -18,9 +20,8 @@ double BallInSocket::elastic_energy(const PlayMotion<double>& motion) const {
 
 BallInSocket BallInSocket::elastic_only() const {
   BallInSocket elastic = *this;
-  elastic.law.damping_factor = elastic.law.dashpot = 0.0;
-  elastic.friction.kind = FrictionKind::none;
-  elastic.friction.stiction = 0.0;
+  keep_elastic(elastic.law);
+  keep_elastic(elastic.friction);
   return elastic;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "boresight/contact/hertz.hpp"
+#include "boresight/play/elastic_part.hpp"
 
 namespace boresight {
 
@@ -53,9 +54,8 @@ double JournalInSleeve::elastic_energy(const PlayMotion<double>& motion) const {
 
 JournalInSleeve JournalInSleeve::elastic_only() const {
   JournalInSleeve elastic = *this;
-  for (NormalLaw* law : {&elastic.radial_law, &elastic.tilted.end_law}) law->damping_factor = law->dashpot = 0.0;
-  elastic.friction.kind = elastic.tilted.friction.kind = FrictionKind::none;
-  elastic.friction.stiction = elastic.tilted.friction.stiction = 0.0;
+  for (NormalLaw* law : {&elastic.radial_law, &elastic.tilted.end_law}) keep_elastic(*law);
+  for (FrictionLaw* law : {&elastic.friction, &elastic.tilted.friction}) keep_elastic(*law);
   return elastic;
 }
 

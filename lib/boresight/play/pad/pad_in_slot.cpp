@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "boresight/contact/hertz.hpp"
+#include "boresight/play/elastic_part.hpp"
 #include "boresight/play/journal/ring_tangent.hpp"
 
 namespace boresight {
@@ -40,9 +41,8 @@ double PadInSlot::elastic_energy(const PlayMotion<double>& motion) const {
 
 PadInSlot PadInSlot::elastic_only() const {
   PadInSlot elastic = *this;
-  elastic.law.damping_factor = elastic.law.dashpot = 0.0;
-  elastic.friction.kind = FrictionKind::none;
-  elastic.friction.stiction = 0.0;
+  keep_elastic(elastic.law);
+  keep_elastic(elastic.friction);
   return elastic;
 }
 
