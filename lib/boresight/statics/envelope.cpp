@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "boresight/pointing/peaks.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/scene/scene_rung.hpp"
 #include "boresight/statics/measured_by_dynamics.hpp"
@@ -35,94 +36,140 @@ class Envelope final : public SceneRung {
     const std::vector<JointPlay>& joints = reactions.joints();
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<ContactSummary> summary = reactions.summaries();
-    std::vector<RestingPlay> worst_rest(joints.size()), at_rest(joints.size());
     std::optional<TiedRest> tied;
     if (reactions.tied()) tied.emplace(prepared, standing, parameters, reactions);
     TiedGaps gaps;
-    VecX z, worst_z;
-    bool interrupted = false;
-    for (int i = 0; i < reactions.instants() && !interrupted; ++i) {
-      const ReactionTable::Instant now = reactions.at(i);
-      interrupted = i % kInstantsBetweenLooks == 0 && options.progress &&
-                    !options.progress({now.t, mechanism().duration(), recorder.position_error_max()});
-      BodyAcceleration acceleration;
-      const BodyMotion ideal = prepared.ideal().body(now.t, mechanism().boresight_body(), &acceleration);
-      const auto& line = mechanism().pointing().line_of_sight;
-      const auto gain_of = [&](PointingQuantity quantity) {
-        return error_gain(quantity, {ideal.p, Quat(ideal.R)}, ideal.R * mechanism().boresight_B(), line);
-      };
-      Eigen::Matrix<double, 3, 6> sight = Eigen::Matrix<double, 3, 6>::Zero();
-      if (line) sight = gain_of(PointingQuantity::line_of_sight_error);
-      const Mat3 across = gain_of(PointingQuantity::boresight_error).rightCols<3>();  // turn -> change of axis
-
-      PoseError bound;
-      if (tied) {
-        TiedRest::Rest rest = tied->at(now, i == 0 ? nullptr : &z);
-        z = rest.z;
-        gaps.take(tied->balance(), rest.joint);
-        const TiedGaps::Gain moves = now.pose_gain.topRows<3>(), turns = now.pose_gain.bottomRows<3>();
-        bound.orientation = gaps.bound(turns, 0);
-        bound.boresight = gaps.bound(across * turns, 1);
-        if (line) bound.line_of_sight = gaps.bound(sight * now.pose_gain, 2);
-        bound.position = gaps.bound(moves, 3);
-        // What is worst for the position stands for all in the pictures.
-        worst_z = gaps.place(moves, moves * z);
-        for (std::size_t c = 0; c < joints.size(); ++c) {
-          reactions.note(rest.joint[c], summary[c]);
-          worst_rest[c].motion = tied->balance().motion_of(c, worst_z);
-          joints[c].penetrations(worst_rest[c].motion, worst_rest[c].contact);
-        }
-      }
-      for (std::size_t c = 0; c < joints.size() && !tied; ++c) {
-        const RestingPlay rest = joints[c].rest_under(now.load[c].force, now.load[c].slide, at_rest[c]);
-        at_rest[c] = rest;
-        reactions.note(rest, summary[c]);
-        const Eigen::Matrix<double, 6, kMostOffsets> gain = reactions.joint_gain(now, static_cast<int>(c));
-        PlayOffsets offset = PlayOffsets::Zero();
-        const Vec3 resting = gain.topRows<3>() * offsets_of(rest.motion);
-        for (const GapPart& part : joints[c].gap_parts(rest, now.load[c].slide)) {
-          const Gain moves = gain.topRows<3>() * part.offset, turns = gain.bottomRows<3>() * part.offset;
-          const auto worst = [&](const Gain& G) { return (G * worst_offset(G, part)).norm(); };
-          // The place that is worst for the position stands for the joint in the pictures: of the two opposite ones, the one
-          // on the side where the journal rests.
-          Vec3 place = worst_offset(moves, part);
-          if (resting.dot(moves * place) < 0.0) place = -place;
-          offset += part.offset * place;
-          bound.position += (moves * place).norm();
-          bound.orientation += worst(turns);
-          bound.boresight += worst(across * turns);
-          bound.line_of_sight += worst(sight.leftCols<3>() * moves + sight.rightCols<3>() * turns);
-        }
-        worst_rest[c].motion = at_rest_at(offset);
-        joints[c].penetrations(worst_rest[c].motion, worst_rest[c].contact);
-      }
+    long instants = 0;
+    const auto bounded_at = [&](double t, const Bounded* before) {
+      ++instants;
+      const ReactionTable::Instant now = reactions.at_time(t);
+      const Directions directions = directions_at(prepared, t);
+      Bounded bounded = tied ? bound_of_all(reactions, *tied, gaps, now, directions, before)
+                             : bound_of_each(reactions, now, directions, before);
       // What the errors displace is known, and not bounded: the play adds to it in the worst way.
-      const Vec6 errors = standing.at(now.t, mechanism().boresight_body());
+      const Vec6 errors = standing.at(t, mechanism().boresight_body());
       if (standing) {
-        bound.position += errors.head<3>().norm();
-        bound.orientation += errors.tail<3>().norm();
-        bound.boresight += (across * errors.tail<3>()).norm();
-        bound.line_of_sight += (sight * errors).norm();
+        bounded.error.position += errors.head<3>().norm();
+        bounded.error.orientation += errors.tail<3>().norm();
+        bounded.error.boresight += (directions.across * errors.tail<3>()).norm();
+        bounded.error.line_of_sight += (directions.sight * errors).norm();
       }
-      if (!tied) worst_z = reactions.coordinates(worst_rest);
-      const DisplacedBodies displaced(prepared, standing, now.t, worst_z);
-      bound.displacement = now.pose_gain.topRows<3>() * worst_z + errors.head<3>();
-      bound.rotation = now.pose_gain.bottomRows<3>() * worst_z + errors.tail<3>();
-      recorder.accept(now.t, displaced.at_rest(mechanism().boresight_body(), acceleration), acceleration, &bound);
-      if (!recorder.sampling()) continue;
+      bounded.error.displacement = now.pose_gain.topRows<3>() * bounded.worst_z + errors.head<3>();
+      bounded.error.rotation = now.pose_gain.bottomRows<3>() * bounded.worst_z + errors.tail<3>();
+      return bounded;
+    };
+    const auto record = [&](const Bounded& bounded) {
+      for (std::size_t c = 0; c < joints.size(); ++c) reactions.note(bounded.rest[c], summary[c]);
+      const DisplacedBodies displaced(prepared, standing, bounded.time, bounded.worst_z);
+      BodyAcceleration acceleration;
+      const BodyMotion boresight = displaced.at_rest(mechanism().boresight_body(), acceleration);
+      recorder.accept(bounded.time, boresight, acceleration, &bounded.error);
+      if (!recorder.sampling()) return;
       for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {
         const BodyMotion body = displaced.at_rest(recorder.bodies_wanted()[k], acceleration);
         recorder.sample_body(static_cast<int>(k), body, acceleration);
       }
       for (std::size_t c = 0; c < joints.size(); ++c)
-        recorder.sample_clearance(static_cast<int>(c), worst_rest[c].motion, worst_rest[c].contact);
+        recorder.sample_clearance(static_cast<int>(c), bounded.worst[c].motion, bounded.worst[c].contact);
+    };
+    PeakSeeker<Bounded> seeker(
+        options.start, [&](double t, const Bounded& before) { return bounded_at(t, &before); }, record);
+    Bounded before = bounded_at(0.0, nullptr);
+    bool interrupted = false;
+    for (int i = 1; i < reactions.instants() && !interrupted; ++i) {
+      seeker.accept(before);
+      interrupted = i % kInstantsBetweenLooks == 0 && options.progress &&
+                    !options.progress({before.time, mechanism().duration(), recorder.position_error_max()});
+      before = bounded_at(i * reactions.spacing(), &before);
     }
+    seeker.accept(std::move(before));
+    seeker.finish();
     RunResult result = recorder.finish();
     result.interrupted = interrupted;
     result.integrator = "none: the worst offset an instant";
     result.contact = std::move(summary);
-    result.cost.steps = result.cost.evaluations = reactions.instants();
+    result.cost.steps = result.cost.evaluations = instants;
     return result;
+  }
+
+  // How a small displacement of the boresight body changes its indices.
+  struct Directions {
+    Mat3 across;  // turn -> change of the pointing axis
+    Eigen::Matrix<double, 3, 6>
+        sight;  // displacement and turn -> turn of the line of sight; zero where nothing is sighted
+  };
+  Directions directions_at(const PreparedScene& prepared, double t) const {
+    const BodyMotion ideal = prepared.ideal().body(t, mechanism().boresight_body());
+    const auto& line = mechanism().pointing().line_of_sight;
+    const auto gain_of = [&](PointingQuantity quantity) {
+      return error_gain(quantity, {ideal.p, Quat(ideal.R)}, ideal.R * mechanism().boresight_B(), line);
+    };
+    return {gain_of(PointingQuantity::boresight_error).rightCols<3>(),
+            line ? gain_of(PointingQuantity::line_of_sight_error) : Eigen::Matrix<double, 3, 6>::Zero().eval()};
+  }
+
+  // The bound at one instant.
+  struct Bounded {
+    double time;
+    PoseError error;  // the bound of each index
+    std::vector<RestingPlay> rest,
+        worst;        // per joint: where it rests, and the place that stands for its worst one in the pictures
+    VecX z, worst_z;  // the same in coordinates; z where joints are tied
+    double t() const { return time; }
+  };
+
+  // Joints added up as if all were worst at once.
+  static Bounded bound_of_each(const ReactionTable& reactions, const ReactionTable::Instant& now,
+                               const Directions& directions, const Bounded* before) {
+    const std::vector<JointPlay>& joints = reactions.joints();
+    Bounded bounded{now.t, {}, {}, std::vector<RestingPlay>(joints.size()), {}, {}};
+    PoseError& bound = bounded.error;
+    for (std::size_t c = 0; c < joints.size(); ++c) {
+      bounded.rest.push_back(
+          joints[c].rest_under(now.load[c].force, now.load[c].slide, before ? before->rest[c] : RestingPlay{}));
+      const RestingPlay& rest = bounded.rest.back();
+      const Eigen::Matrix<double, 6, kMostOffsets> gain = reactions.joint_gain(now, static_cast<int>(c));
+      PlayOffsets offset = PlayOffsets::Zero();
+      const Vec3 resting = gain.topRows<3>() * offsets_of(rest.motion);
+      for (const GapPart& part : joints[c].gap_parts(rest, now.load[c].slide)) {
+        const Gain moves = gain.topRows<3>() * part.offset, turns = gain.bottomRows<3>() * part.offset;
+        const auto worst = [&](const Gain& G) { return (G * worst_offset(G, part)).norm(); };
+        // The place that is worst for the position stands for the joint in the pictures: of the two opposite ones, the one
+        // on the side where the journal rests.
+        Vec3 place = worst_offset(moves, part);
+        if (resting.dot(moves * place) < 0.0) place = -place;
+        offset += part.offset * place;
+        bound.position += (moves * place).norm();
+        bound.orientation += worst(turns);
+        bound.boresight += worst(directions.across * turns);
+        bound.line_of_sight += worst(directions.sight.leftCols<3>() * moves + directions.sight.rightCols<3>() * turns);
+      }
+      bounded.worst[c].motion = at_rest_at(offset);
+      joints[c].penetrations(bounded.worst[c].motion, bounded.worst[c].contact);
+    }
+    bounded.worst_z = reactions.coordinates(bounded.worst);
+    return bounded;
+  }
+
+  // All places that the gaps leave together, where redundant joints tie the offsets.
+  static Bounded bound_of_all(const ReactionTable& reactions, TiedRest& tied, TiedGaps& gaps,
+                              const ReactionTable::Instant& now, const Directions& directions, const Bounded* before) {
+    const std::vector<JointPlay>& joints = reactions.joints();
+    TiedRest::Rest rest = tied.at(now, before ? &before->z : nullptr);
+    Bounded bounded{now.t, {}, std::move(rest.joint), std::vector<RestingPlay>(joints.size()), std::move(rest.z), {}};
+    gaps.take(tied.balance(), bounded.rest);
+    const TiedGaps::Gain moves = now.pose_gain.topRows<3>(), turns = now.pose_gain.bottomRows<3>();
+    bounded.error.orientation = gaps.bound(turns, 0);
+    bounded.error.boresight = gaps.bound(directions.across * turns, 1);
+    if (!directions.sight.isZero(0.0)) bounded.error.line_of_sight = gaps.bound(directions.sight * now.pose_gain, 2);
+    bounded.error.position = gaps.bound(moves, 3);
+    // What is worst for the position stands for all in the pictures.
+    bounded.worst_z = gaps.place(moves, moves * bounded.z);
+    for (std::size_t c = 0; c < joints.size(); ++c) {
+      bounded.worst[c].motion = tied.balance().motion_of(c, bounded.worst_z);
+      joints[c].penetrations(bounded.worst[c].motion, bounded.worst[c].contact);
+    }
+    return bounded;
   }
 };
 

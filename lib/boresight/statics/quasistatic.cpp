@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "boresight/play/play_words.hpp"
+#include "boresight/pointing/peaks.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/scene/scene_rung.hpp"
 #include "boresight/statics/measured_by_dynamics.hpp"
@@ -14,9 +15,9 @@ namespace boresight {
 namespace {
 
 constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
-// From one instant to the next the body moves by no more than this share of its largest error; else there are instants between, as close as
-// this share of their spacing.
-constexpr double kTurns = 0.005, kMostBetween = 1024.0;
+// From one instant to the next the body moves by no more than this share of its largest error, and the same loads are large enough to decide
+// where their journals rest; else there are instants between, as close as this share of their spacing.
+constexpr double kTurns = 0.005, kMostBetween = 65536.0;
 
 class Quasistatic final : public SceneRung {
  public:
@@ -40,11 +41,16 @@ class Quasistatic final : public SceneRung {
     };
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<ContactSummary> summary = reactions.summaries();
+    const auto placed = [&](Balance balance) { return place(prepared, standing, std::move(balance)); };
     bool interrupted = false;
     double largest = 0.0;  // position error [m]
     long instants = 1;
+    PeakSeeker<Placed> seeker(
+        options.start,
+        [&](double t, const Placed& before) { return ++instants, placed(balance_at(t, &before.balance)); },
+        [&](const Placed& at) { record(prepared, standing, at, summary, recorder, reactions); });
     Balance before = balance_at(0.0, nullptr);
-    record(prepared, standing, before, summary, recorder, reactions);
+    seeker.accept(placed(before));
     for (int i = 1; i < reactions.instants() && !interrupted; ++i) {
       interrupted = i % kInstantsBetweenLooks == 0 && options.progress &&
                     !options.progress({before.now.t, mechanism().duration(), recorder.position_error_max()});
@@ -53,17 +59,19 @@ class Quasistatic final : public SceneRung {
       while (!ahead.empty()) {
         const double shortest = reactions.spacing() / kMostBetween, t = ahead.back();
         Balance balance = balance_at(t, &before);
-        if (t - before.now.t > shortest && (balance.moved - before.moved).norm() > kTurns * largest) {
+        if (t - before.now.t > shortest &&
+            (balance.decided != before.decided || (balance.moved - before.moved).norm() > kTurns * largest)) {
           ahead.push_back(0.5 * (before.now.t + t));
           continue;
         }
         ahead.pop_back();
         before = std::move(balance);
-        record(prepared, standing, before, summary, recorder, reactions);
+        seeker.accept(placed(before));
         largest = std::max(largest, before.moved.norm());
         ++instants;
       }
     }
+    seeker.finish();
     RunResult result = recorder.finish();
     result.interrupted = interrupted;
     result.integrator = "none: one static balance an instant";
@@ -78,13 +86,15 @@ class Quasistatic final : public SceneRung {
     std::vector<RestingPlay> rest;
     VecX z;
     Vec3 moved;
+    std::vector<bool> decided;  // whether a load decides where its joint rests; empty where joints are tied
   };
   static Balance balance_of_each(const ReactionTable& reactions, double t, const Balance* before) {
-    Balance balance{reactions.at_time(t), std::vector<RestingPlay>(reactions.joints().size()), {}, {}};
+    Balance balance{reactions.at_time(t), std::vector<RestingPlay>(reactions.joints().size()), {}, {}, {}};
     for (std::size_t c = 0; c < balance.rest.size(); ++c) {
       const ReactionTable::Load& load = balance.now.load[c];
       // Where next to nothing pushes it, a journal stays where it was.
-      if (before && !reactions.decides(balance.now, static_cast<int>(c)))
+      balance.decided.push_back(reactions.decides(balance.now, static_cast<int>(c)));
+      if (before && !balance.decided.back())
         balance.rest[c] = before->rest[c];
       else
         balance.rest[c] =
@@ -96,7 +106,7 @@ class Quasistatic final : public SceneRung {
   }
   // Where redundant joints tie their offsets together.
   static Balance balance_of_all(const ReactionTable& reactions, TiedRest& tied, double t, const Balance* before) {
-    Balance balance{reactions.at_time(t), {}, {}, {}};
+    Balance balance{reactions.at_time(t), {}, {}, {}, {}};
     TiedRest::Rest rest = tied.at(balance.now, before ? &before->z : nullptr);
     balance.z = std::move(rest.z);
     balance.rest = std::move(rest.joint);
@@ -104,16 +114,35 @@ class Quasistatic final : public SceneRung {
     return balance;
   }
 
-  void record(const PreparedScene& prepared, const StandingDisplacement& standing, const Balance& balance,
+  // And the boresight body there.
+  struct Placed {
+    Balance balance;
+    BodyMotion body;
+    BodyAcceleration acceleration;
+    PoseError error;
+    double t() const { return balance.now.t; }
+  };
+  Placed place(const PreparedScene& prepared, const StandingDisplacement& standing, Balance balance) const {
+    const DisplacedBodies displaced(prepared, standing, balance.now.t, balance.z);
+    const int index = mechanism().boresight_body();
+    Placed placed;
+    placed.body = displaced.at_rest(index, placed.acceleration);
+    const BodyMotion ideal = prepared.ideal().body(balance.now.t, index);
+    placed.error = pose_error({placed.body.p, Quat(placed.body.R)}, {ideal.p, Quat(ideal.R)}, mechanism().pointing());
+    placed.balance = std::move(balance);
+    return placed;
+  }
+
+  void record(const PreparedScene& prepared, const StandingDisplacement& standing, const Placed& placed,
               std::vector<ContactSummary>& summary, MotionRecorder& recorder, const ReactionTable& reactions) const {
+    const Balance& balance = placed.balance;
     for (std::size_t c = 0; c < summary.size(); ++c) reactions.note(balance.rest[c], summary[c]);
+    recorder.accept(balance.now.t, placed.body, placed.acceleration, &placed.error);
+    if (!recorder.sampling()) return;
     const DisplacedBodies displaced(prepared, standing, balance.now.t, balance.z);
     BodyAcceleration acceleration;
-    BodyMotion body = displaced.at_rest(mechanism().boresight_body(), acceleration);
-    recorder.accept(balance.now.t, body, acceleration);
-    if (!recorder.sampling()) return;
     for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {
-      body = displaced.at_rest(recorder.bodies_wanted()[k], acceleration);
+      const BodyMotion body = displaced.at_rest(recorder.bodies_wanted()[k], acceleration);
       recorder.sample_body(static_cast<int>(k), body, acceleration);
     }
     for (std::size_t c = 0; c < summary.size(); ++c)
