@@ -75,6 +75,17 @@ class Python(unittest.TestCase):
                 p["clearance.F1.radial"] = value
             self.assertEqual(caught.exception.key, "clearance.F1.radial")
 
+    def test_every_number_has_the_range_of_its_key(self):
+        for name in ("3-rrcpr/3-rrcpr.toml", "bearing-pairs/gimbal.toml", "hexapod/hexapod.toml",
+                     "altaz-gimbal/altaz-gimbal.toml", "crank-slider/crank-slider.toml", "pendulum/pendulum.toml"):
+            p = bs.Mechanism(os.path.join(EXAMPLES, name)).parameters()
+            for path, value in p.as_dict().items():
+                if value != 0.0:
+                    p[path] = value
+                for wrong in (1e30, float("inf")):
+                    with self.assertRaises(bs.InputError, msg=path):
+                        p[path] = wrong
+
     def test_errors_have_file_line_and_key(self):
         with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
             with open(FOUR_BAR, encoding="utf-8") as good:
