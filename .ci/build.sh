@@ -10,5 +10,5 @@ if [ "$tests" = OFF ] && [ -e build/release/CMakeCache.txt ]; then
   cmake --preset developer
 else
   [ "$tests" = OFF ] || install_packages .ci/packages.test.txt
-  cmake --preset developer -DBORESIGHT_TESTS="$tests" -DBORESIGHT_BENCHMARKS="$tests"
+  cmake --preset developer -DBORESIGHT_TESTS="$tests" -DBORESIGHT_BENCHMARKS="$tests" -DBORESIGHT_PYTHON="$tests"
 fi

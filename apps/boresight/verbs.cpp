@@ -19,6 +19,7 @@ namespace boresight::app {
   VERB(report)                \
   VERB(export)                \
   VERB(laws)                  \
+  VERB(serve)                 \
   VERB(paths)                 \
   VERB(help)                  \
   VERB(schema)

@@ -6,12 +6,15 @@
 
 namespace boresight {
 
-bool scene_varies(const RandomInputs& inputs) {
-  return std::any_of(inputs.parameters.begin(), inputs.parameters.end(), [](const RandomParameter& p) {
-    return std::any_of(p.paths.begin(), p.paths.end(), [](const std::string& path) {
-      return !path.starts_with("clearance.") && !path.starts_with("error.");
-    });
+bool scene_varies(const std::vector<std::string>& paths) {
+  return std::any_of(paths.begin(), paths.end(), [](const std::string& path) {
+    return !path.starts_with("clearance.") && !path.starts_with("error.");
   });
+}
+
+bool scene_varies(const RandomInputs& inputs) {
+  return std::any_of(inputs.parameters.begin(), inputs.parameters.end(),
+                     [](const RandomParameter& p) { return scene_varies(p.paths); });
 }
 
 std::vector<Parameters> pilot_samples(const RandomInputs& inputs, const Mechanism& mechanism) {

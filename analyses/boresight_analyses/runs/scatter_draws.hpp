@@ -1,6 +1,7 @@
 // Samples of a scatter that a pilot looks at before a study begins.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "boresight_analyses/random/random_inputs.hpp"
@@ -8,6 +9,7 @@
 namespace boresight {
 
 // Whether some parameter changes more than contacts and standing errors: the scene (masses, gravity, springs) is then another one each time.
+bool scene_varies(const std::vector<std::string>& paths);
 bool scene_varies(const RandomInputs& inputs);
 // The scatter's middle and two corners: where the step that all samples share is looked for.
 std::vector<Parameters> pilot_samples(const RandomInputs& inputs, const Mechanism& mechanism);

@@ -15,17 +15,6 @@ bool all_begin_with(const RandomParameter& p, const char* room) {
                      [room](const std::string& path) { return path.starts_with(room); });
 }
 
-// What a unit of this parameter changes all errors by.
-std::vector<double> errors_of(const Mechanism& mechanism, const RandomParameter& p) {
-  Parameters without = mechanism.parameters(), with = without;
-  for (const ParameterPath& place : p.places) {
-    place.set(without, 0.0);
-    place.set(with, 1.0);
-  }
-  for (std::size_t e = 0; e < with.error.size(); ++e) with.error[e] -= without.error[e];
-  return with.error;
-}
-
 void compare(const IndexSlopes& slopes, LocalSensitivity& p) {
   const double difference = p.derivative.back(), size = std::max(std::abs(p.exact), std::abs(difference));
   p.exact_agrees = p.meaningful && std::abs(p.exact - difference) <= kSettledSlope * size;
@@ -54,7 +43,7 @@ void add_exact_slopes(const std::shared_ptr<const Mechanism>& shared, const Rand
       s.exact_note = "the parameter is discrete";
     } else if (all_begin_with(p, "error.") && mechanism.clearances() > 0) {
       of_errors.push_back(i);
-      errors.push_back(errors_of(mechanism, p));
+      errors.push_back(errors_of_unit(mechanism, p.places));
     } else if (!all_begin_with(p, "clearance.")) {
       s.exact_note = "exact slopes are those by standing errors beside play, and by numbers of a clearance's contacts";
     } else if (!(s.median > 0.0)) {

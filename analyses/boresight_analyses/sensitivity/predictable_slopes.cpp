@@ -21,6 +21,16 @@ std::string beyond(const Predictability& horizon, double duration) {
 
 }  // namespace
 
+std::vector<double> errors_of_unit(const Mechanism& mechanism, const std::vector<ParameterPath>& places) {
+  Parameters without = mechanism.parameters(), with = without;
+  for (const ParameterPath& place : places) {
+    place.set(without, 0.0);
+    place.set(with, 1.0);
+  }
+  for (std::size_t e = 0; e < with.error.size(); ++e) with.error[e] -= without.error[e];
+  return with.error;
+}
+
 IndexSlopes predictable_slopes(const std::shared_ptr<const Mechanism>& mechanism,
                                const std::function<Parameters(const std::vector<double>&)>& parameters_at,
                                const std::vector<double>& values, const IndexChoice& index, double start_offset,

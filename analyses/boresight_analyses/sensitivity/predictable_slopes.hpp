@@ -5,6 +5,9 @@
 
 namespace boresight {
 
+// What a unit of a parameter that is a standing error, or several, changes all errors by: an entry of SlopeOptions::errors.
+std::vector<double> errors_of_unit(const Mechanism& mechanism, const std::vector<ParameterPath>& places);
+
 // As index_slopes(), by these errors too (SlopeOptions::errors), from rest with all offsets at start_offset [m]. Throws ComputationError, which says why there are none:
 // impacts part the motion's neighbours before its end, or whether they do cannot be measured (predictability.hpp), bristles
 // carry no derivatives, or the motion cannot be followed.

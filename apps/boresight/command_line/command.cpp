@@ -13,6 +13,7 @@
 #include "boresight/rungs/integrator_choice.hpp"
 #include "command_line/option_range.hpp"
 #include "command_line/verb.hpp"
+#include "terminal/embedding.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/terminal.hpp"
 
@@ -33,7 +34,10 @@ bool changes_drawing(const std::string& path) {
 }  // namespace
 
 int failed(const Command& command, const std::string& reason) {
-  if (command.quiet) fmt::print(stderr, "boresight: {}\n", reason);
+  if (const Embedding* host = embedding())
+    host->failed(reason);
+  else if (command.quiet)
+    fmt::print(stderr, "boresight: {}\n", reason);
   return kFailed;
 }
 

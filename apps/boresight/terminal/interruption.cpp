@@ -5,6 +5,7 @@
 #include <atomic>
 #include <csignal>
 
+#include "terminal/embedding.hpp"
 #include "terminal/exit_status.hpp"
 #include "terminal/work_line.hpp"
 
@@ -35,6 +36,7 @@ void catch_interruptions() {
 }
 
 bool interrupted() {
+  if (const Embedding* host = embedding()) return host->interrupted();
   if (arrived) heard = true;
   return arrived != 0;
 }

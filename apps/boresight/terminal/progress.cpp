@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terminal/embedding.hpp"
 #include "terminal/terminal.hpp"
 #include "terminal/work_line.hpp"
 
@@ -69,6 +70,7 @@ void Progress::clear() {
 void Progress::update(double done, const std::string& estimate) { update_from(0.0, done, estimate); }
 
 void Progress::update_from(double before, double done, const std::string& estimate) {
+  if (const Embedding* host = embedding()) return host->progress(done, total_, unit_, estimate);
   if (style_ == Style::silent) return;
   const std::scoped_lock lock(mutex_);
   const Clock::time_point now = Clock::now();

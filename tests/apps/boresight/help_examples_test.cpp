@@ -17,9 +17,9 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-const std::vector<std::string> kVerbs = {"new",        "check",       "run",   "sweep",    "chart",     "stability",
-                                         "montecarlo", "sensitivity", "match", "allocate", "calibrate", "budget",
-                                         "report",     "export",      "laws",  "paths",    "help",      "schema"};
+const std::vector<std::string> kVerbs = {
+    "new",       "check",  "run",    "sweep",  "chart", "stability", "montecarlo", "sensitivity", "match", "allocate",
+    "calibrate", "budget", "report", "export", "laws",  "serve",     "paths",      "help",        "schema"};
 
 class HelpExamples : public Program, public testing::WithParamInterface<std::string> {
  protected:

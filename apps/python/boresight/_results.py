@@ -1,0 +1,75 @@
+"""The results of a verb: a folder, read as it is asked for."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+import shutil
+import weakref
+from typing import Any, Dict, List, Optional
+
+import numpy
+
+
+class Result:
+    """What a verb found. Everything is in SI.
+
+    It owns its folder where no other was named with `out`: that then goes with it, so keep what is wanted with report() or
+    save().
+    """
+
+    def __init__(self, verb: str, status: int, folder: str, own: Optional[str] = None) -> None:
+        self.verb: str = verb  #: "montecarlo"
+        self.status: int = status  #: exit status of the command: 0, or 1 where the answer is no
+        self.folder: str = folder
+        if own is not None:
+            weakref.finalize(self, shutil.rmtree, own, ignore_errors=True)
+        with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
+            self.summary: Dict[str, Any] = json.load(file)  #: summary.json; apps/boresight/summary.md says what is in it
+
+    @property
+    def answer(self) -> bool:
+        """False where the answer is no: a requirement not met, an accuracy not shown."""
+        return self.status == 0
+
+    @property
+    def warnings(self) -> List[str]:
+        return list(self.summary.get("warnings", []))
+
+    @property
+    def files(self) -> List[str]:
+        """The names of all files in the folder."""
+        return sorted(os.listdir(self.folder))
+
+    def table(self, name: str) -> numpy.ndarray:
+        """A table of the folder ("timeseries.csv") as a structured array, one field a column, text as str."""
+        return numpy.genfromtxt(os.path.join(self.folder, name), delimiter=",", names=True, dtype=None, encoding="utf-8",
+                                deletechars="", replace_space=" ", comments=None)
+
+    def report(self, path: "str | os.PathLike[str]") -> str:
+        """Writes the report, one file for a browser, and returns its path."""
+        return shutil.copyfile(os.path.join(self.folder, "report.html"), path)
+
+    def save(self, folder: "str | os.PathLike[str]") -> str:
+        """Copies the whole folder, and returns the copy's path. FileExistsError where it exists."""
+        return shutil.copytree(self.folder, folder)
+
+    def _document(self) -> Dict[str, Any]:
+        with open(os.path.join(self.folder, "report.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    def _repr_html_(self) -> str:
+        document = self._document()
+        rows = "".join(
+            f"<tr><th style='text-align:left'>{html.escape(str(fact['label']))}</th>"
+            f"<td>{html.escape(str(fact['value']))} {html.escape(str(fact.get('unit', '')))}</td>"
+            f"<td>{html.escape(str(fact.get('note', '')))}</td></tr>"
+            for fact in document.get("facts", []))
+        warnings = "".join(f"<li>{html.escape(text)}</li>" for text in self.warnings)
+        return (f"<h3>{html.escape(str(document.get('title', self.verb)))}</h3>"
+                f"<p>{html.escape(str(document.get('subtitle', '')))}</p><table>{rows}</table>"
+                + (f"<ul>{warnings}</ul>" if warnings else ""))
+
+    def __repr__(self) -> str:
+        return f"<Result of {self.verb}: {self.folder}{'' if self.answer else ', the answer is no'}>"

@@ -1,0 +1,338 @@
+// One motion, with its histories as arrays that show the memory in which the run left them.
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/option_check.hpp"
+#include "boresight_analyses/study/index_choice.hpp"
+#include "boresight_analyses/study/rung_choice.hpp"
+#include "command_line/command.hpp"
+#include "python/core/arrays.hpp"
+#include "python/core/bindings.hpp"
+#include "python/core/task.hpp"
+
+namespace py = pybind11;
+
+namespace boresight::python {
+namespace {
+
+using Result = std::shared_ptr<const RunResult>;
+
+struct Run {
+  std::shared_ptr<const Mechanism> mechanism;
+  Result result;
+  std::size_t every = 1;  // of its samples one is told: the command follows motions so, and steps end at samples
+};
+
+// The history of one body.
+struct History {
+  Result owner;
+  const BodyHistory* body;
+  std::size_t every;
+};
+struct ClearanceHistory {
+  Result owner;
+  const std::vector<ClearanceSample>* samples;
+  std::string joint;
+  std::size_t every;
+};
+
+template <typename Of>
+py::array pose_column(const History& h, const Of& of, py::ssize_t width) {
+  const auto& samples = h.body->samples;
+  return column(h.owner, samples, samples.empty() ? nullptr : of(samples.front()), width, h.every);
+}
+
+py::dict index_of(const RunResult& result) {
+  py::dict index;
+  for (const QuantityName& quantity : quantity_names()) {
+    if (quantity.kind == PointingQuantity::line_of_sight_error && !result.index.has_line_of_sight) continue;
+    py::dict of;
+    for (const StatisticName& statistic : statistic_names())
+      of[statistic.name] = (result.index.*quantity.statistics).*statistic.value;
+    of["time_of_max"] = (result.index.*quantity.statistics).time_of_max;
+    index[quantity.name] = of;
+  }
+  return index;
+}
+
+py::dict contact_of(const RunResult& result) {
+  py::dict contact;
+  for (const ContactSummary& c : result.contact) {
+    py::dict of;
+    of["contact_fraction"] = c.contact_fraction;
+    of["impacts"] = c.impacts;
+    of["max_penetration"] = c.max_penetration;
+    of["max_force"] = c.max_force;
+    of["max_impact_speed"] = c.max_impact_speed;
+    of["impact_speed_above_validity"] = c.impact_speed_above_validity;
+    contact[py::str(c.joint)] = of;
+  }
+  return contact;
+}
+
+py::dict events_of(const Run& run) {
+  const auto& events = run.result->events;
+  const auto of = [&](auto field) {
+    return column(run.result, events, events.empty() ? nullptr : &(events.front().*field));
+  };
+  py::list joint, contact;
+  for (const ContactEvent& event : events) {
+    joint.append(
+        run.mechanism->description().joints[run.mechanism->description().clearances[event.clearance].joint].name);
+    contact.append(to_string(event.place));
+  }
+  py::dict all;
+  all["joint"] = joint;
+  all["contact"] = contact;
+  all["start"] = of(&ContactEvent::start);
+  all["start_speed"] = of(&ContactEvent::start_speed);
+  all["duration"] = of(&ContactEvent::duration);
+  all["max_penetration"] = of(&ContactEvent::max_penetration);
+  all["max_force"] = of(&ContactEvent::max_force);
+  all["end_speed"] = of(&ContactEvent::end_speed);
+  return all;
+}
+
+Run run(const std::shared_ptr<Mechanism>& mechanism, const std::optional<NamedParameters>& parameters,
+        const std::string& rung, RunOptions options, const std::vector<std::string>& poses,
+        const py::object& progress) {
+  if (parameters && parameters->mechanism != mechanism)
+    throw InputError({}, "parameters", "those of another mechanism", "Mechanism.parameters() of this one");
+  for (const std::string& name : poses) {
+    const int body = mechanism->body_index(name);
+    if (body < 0) throw InputError({}, "poses", "\"" + name + "\"", "a body of the mechanism");
+    options.pose_bodies.push_back(body);
+  }
+  check_rung_name(rung);
+  const std::size_t every =
+      options.sample_spacing > 0.0 ? app::history_refinement(mechanism->duration(), options.sample_spacing) : 1;
+  options.sample_spacing /= static_cast<double>(every);
+  const Parameters& values = parameters ? parameters->values : mechanism->parameters();
+  Task task(progress);
+  options.progress = [&task](const RunProgress& p) {
+    task.tell(p.t, p.duration, "s of motion");
+    return !task.stop();
+  };
+  auto result = std::make_shared<RunResult>();
+  task.run([&] { *result = make_rung(rung == "auto" ? rung_names().back() : rung, mechanism)->run(values, options); });
+  return {mechanism, result, every};
+}
+
+void bind_histories(py::module_& module) {
+  py::class_<History>(
+      module, "BodyHistory",
+      "The motion of one body, world axes unless said otherwise. n: the samples of Run.time. Arrays cannot be "
+      "written to; none is a copy.")
+      .def_property_readonly("body", [](const History& h) { return h.body->name; })
+      .def_property_readonly(
+          "position",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return s.pose.p.data(); }, 3);
+          },
+          "Of its centre of mass, (n, 3) [m].")
+      .def_property_readonly(
+          "orientation",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return s.pose.q.coeffs().data(); }, 4);
+          },
+          "From body to world, a quaternion x, y, z, w as SciPy has it, (n, 4).")
+      .def_property_readonly(
+          "ideal_position",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return s.ideal.p.data(); }, 3);
+          },
+          "Where it would be without play and errors, (n, 3) [m].")
+      .def_property_readonly(
+          "ideal_orientation",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return s.ideal.q.coeffs().data(); }, 4);
+          },
+          "How it would be turned, x, y, z, w, (n, 4).")
+      .def_property_readonly(
+          "displacement",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return s.error.displacement.data(); }, 3);
+          },
+          "Error of the position, (n, 3) [m].")
+      .def_property_readonly(
+          "rotation",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return s.error.rotation.data(); }, 3);
+          },
+          "Error of the orientation, rotation vector from ideal to true, (n, 3) [rad].")
+      .def_property_readonly(
+          "position_error",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return &s.error.position; }, 1);
+          },
+          "(n,) [m]")
+      .def_property_readonly(
+          "orientation_error",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return &s.error.orientation; }, 1);
+          },
+          "(n,) [rad]")
+      .def_property_readonly(
+          "boresight_error",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return &s.error.boresight; }, 1);
+          },
+          "(n,) [rad]")
+      .def_property_readonly(
+          "line_of_sight_error",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return &s.error.line_of_sight; }, 1);
+          },
+          "(n,) [rad]; zero where nothing is sighted.")
+      .def_property_readonly(
+          "velocity",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return s.v.data(); }, 3);
+          },
+          "(n, 3) [m/s]")
+      .def_property_readonly(
+          "angular_velocity",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return s.w.data(); }, 3);
+          },
+          "(n, 3) [rad/s]")
+      .def_property_readonly(
+          "acceleration",
+          [](const History& h) {
+            return pose_column(
+                h, [](const PoseSample& s) { return s.a.data(); }, 3);
+          },
+          "Of the centre of mass, (n, 3) [m/s^2].");
+
+  py::class_<ClearanceHistory>(module, "ClearanceHistory",
+                               "The play of one joint over time. n: the samples of Run.time.")
+      .def_readonly("joint", &ClearanceHistory::joint)
+      .def_property_readonly(
+          "offset",
+          [](const ClearanceHistory& h) {
+            return column(h.owner, *h.samples, h.samples->empty() ? nullptr : h.samples->front().offset.data(), 3,
+                          h.every);
+          },
+          "Journal from sleeve centre, sleeve frame, y along the axis, (n, 3) [m].")
+      .def_property_readonly(
+          "penetration",
+          [](const ClearanceHistory& h) {
+            return column(h.owner, *h.samples, h.samples->empty() ? nullptr : &h.samples->front().penetration, 1,
+                          h.every);
+          },
+          "Of the deepest contact, (n,) [m]; negative: the smallest gap.")
+      .def_property_readonly(
+          "normal_force",
+          [](const ClearanceHistory& h) {
+            return column(h.owner, *h.samples, h.samples->empty() ? nullptr : &h.samples->front().normal_force, 1,
+                          h.every);
+          },
+          "Sum over its contacts, (n,) [N].")
+      .def_property_readonly(
+          "contact",
+          [](const ClearanceHistory& h) {
+            return column(h.owner, *h.samples, h.samples->empty() ? nullptr : &h.samples->front().contact, 1, h.every);
+          },
+          "(n,): 0 free, 1 radial, 2 axial, 3 both.");
+}
+
+}  // namespace
+
+void bind_run(py::module_& module) {
+  bind_histories(module);
+  py::class_<Run>(module, "Run", "One motion: its indices, its contacts, its histories. Everything is in SI.")
+      .def_property_readonly("rung", [](const Run& r) { return r.result->rung; })
+      .def_property_readonly("integrator", [](const Run& r) { return r.result->integrator; })
+      .def_property_readonly(
+          "index", [](const Run& r) { return index_of(*r.result); },
+          "{\"position_error\": {\"max\": .., \"rms\": .., \"mean\": .., \"p99.73\": ..} [m] and \"time_of_max\" [s], "
+          "\"orientation_error\", \"boresight_error\", \"line_of_sight_error\": the same [rad]}")
+      .def_property_readonly(
+          "contact", [](const Run& r) { return contact_of(*r.result); },
+          "Per joint: contact_fraction, impacts, max_penetration [m], max_force [N], max_impact_speed [m/s].")
+      .def_property_readonly("events", &events_of, "One entry a contact, column by column, as in events.csv.")
+      .def_property_readonly(
+          "time",
+          [](const Run& r) {
+            const auto& time = r.result->time;
+            return column(r.result, time, time.empty() ? nullptr : time.data(), 1, r.every);
+          },
+          "Of the samples, (n,) [s].")
+      .def_property_readonly(
+          "boresight",
+          [](const Run& r) {
+            return History{r.result, &r.result->boresight, r.every};
+          },
+          "The body that points.")
+      .def_property_readonly(
+          "poses",
+          [](const Run& r) {
+            py::dict all;
+            for (const BodyHistory& body : r.result->others)
+              all[py::str(body.name)] = History{r.result, &body, r.every};
+            return all;
+          },
+          "The bodies that were asked for besides.")
+      .def_property_readonly(
+          "clearances",
+          [](const Run& r) {
+            py::dict all;
+            for (std::size_t c = 0; c < r.result->clearances.size(); ++c) {
+              const auto& m = r.mechanism->description();
+              const std::string& joint = m.joints[m.clearances[c].joint].name;
+              all[py::str(joint)] = ClearanceHistory{r.result, &r.result->clearances[c], joint, r.every};
+            }
+            return all;
+          },
+          "The play of each joint over time.")
+      .def_property_readonly("warnings", [](const Run& r) { return r.result->warnings; })
+      .def_property_readonly("cpu_seconds", [](const Run& r) { return r.result->cost.cpu_seconds; })
+      .def("__repr__", [](const Run& r) {
+        return "<Run of \"" + r.mechanism->name() + "\" on " + r.result->rung + ", " + r.result->integrator + ">";
+      });
+
+  module.def(
+      "run",
+      [](const std::shared_ptr<Mechanism>& mechanism, const std::optional<NamedParameters>& parameters,
+         const std::string& rung, double step, double sample, const std::string& integrator, double tolerance,
+         const std::string& formulation, const std::string& stabilisation, double start,
+         const std::vector<std::string>& poses, bool events, const py::object& progress) {
+        RunOptions options;
+        options.step = step;
+        options.sample_spacing = sample;
+        options.integrator = integrator;
+        options.tolerance = tolerance;
+        options.formulation = formulation;
+        options.stabilisation = stabilisation;
+        options.start = start;
+        options.events = events;
+        return run(mechanism, parameters, rung, options, poses, progress);
+      },
+      py::arg("mechanism"), py::arg("parameters") = py::none(), py::kw_only(), py::arg("rung") = "auto",
+      py::arg("step") = 0.0, py::arg("sample") = 1e-3, py::arg("integrator") = "", py::arg("tolerance") = 0.0,
+      py::arg("formulation") = "", py::arg("stabilisation") = "", py::arg("start") = 0.0,
+      py::arg("poses") = std::vector<std::string>(), py::arg("events") = true, py::arg("progress") = py::none(),
+      "Follows one motion.\n\n"
+      "rung: envelope, quasistatic, perturbation or multibody; auto is multibody.\n"
+      "step: of the integration [s]; 0: the rung's own. sample: spacing of the histories [s]; 0: none. Steps\n"
+      "end at samples: with the same spacing (1 ms) an index has the bits that `boresight run` gives.\n"
+      "start: indices leave out what comes before [s]. poses: further bodies whose motion is kept.\n"
+      "progress(done, total, unit, estimate): called ten times a second; what it raises ends the run.\n"
+      "Ctrl-C ends it with KeyboardInterrupt. Raises InputError, ComputationError.");
+}
+
+}  // namespace boresight::python
