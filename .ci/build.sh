@@ -6,9 +6,14 @@ set -euo pipefail
 install_packages .ci/packages.txt
 
 tests=${tests:-ON}
-if [ "$tests" = OFF ] && [ -e build/release/CMakeCache.txt ]; then
+# A new build folder compiles the files of a library in batches, which takes less time; one that is there stays as it is. For who
+# changes files: cmake --preset developer -DCMAKE_UNITY_BUILD=OFF.
+new=()
+[ -e build/release/CMakeCache.txt ] || new=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12)
+if [ "$tests" = OFF ] && [ "${#new[@]}" -eq 0 ]; then
   cmake --preset developer
 else
   [ "$tests" = OFF ] || install_packages .ci/packages.test.txt
-  cmake --preset developer -DBORESIGHT_TESTS="$tests" -DBORESIGHT_BENCHMARKS="$tests" -DBORESIGHT_PYTHON="$tests"
+  cmake --preset developer -DBORESIGHT_TESTS="$tests" -DBORESIGHT_BENCHMARKS="$tests" -DBORESIGHT_PYTHON="$tests" \
+    ${new[@]+"${new[@]}"}
 fi

@@ -22,6 +22,7 @@ function(boresight_headers name)
   target_link_libraries(${name} PRIVATE ${of_LINKS})
   target_precompile_headers(${name} PRIVATE ${of_HEADERS})
   target_compile_options(${name} PRIVATE -fpch-preprocess)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
 endfunction()
 
 # What GCC 12 says of memory in its own std::string it says of precompiled headers too, where it no longer knows them for the system's.

@@ -11,9 +11,9 @@ namespace boresight {
 namespace {
 
 // Hands out the numbers of the ranges, ascending, a few at a time and never across two ranges.
-class Numbers {
+class NumbersInRanges {
  public:
-  explicit Numbers(const std::vector<NumberRange>& ranges) : ranges_(ranges) {
+  explicit NumbersInRanges(const std::vector<NumberRange>& ranges) : ranges_(ranges) {
     for (const NumberRange& range : ranges) left_ += range.size();
   }
 
@@ -72,7 +72,7 @@ bool compute_samples(const SampleModel& model, const RandomInputs& inputs, const
 
 bool compute_samples(const SampleModel& model, std::size_t parameters, const ValuesOf& values_of,
                      const std::vector<NumberRange>& ranges, const ParallelSampling& options) {
-  Numbers numbers(ranges);
+  NumbersInRanges numbers(ranges);
   std::mutex landing;
   std::atomic<bool> no_more{false}, failed{false}, all_reached{true};
   const std::atomic<bool> never{false};

@@ -42,7 +42,7 @@ std::vector<RowTerms> whole_rows(const std::vector<std::vector<double>>& rows) {
 }
 
 template <typename Sampling>
-MorrisEffects<Sampling> with(const std::vector<IntervalOf<Sampling>>& intervals) {
+MorrisEffects<Sampling> morris_effects(const std::vector<IntervalOf<Sampling>>& intervals) {
   MorrisEffects<Sampling> result;
   for (std::size_t k = 0; k + 2 < intervals.size(); k += 3)
     result.groups.push_back({intervals[k], intervals[k + 1], intervals[k + 2]});
@@ -105,7 +105,7 @@ std::vector<std::vector<double>> morris_rows(const BatchModel& model, const Poin
 MorrisEffects<Independent> morris_effects(const std::vector<std::vector<double>>& rows,
                                           const BootstrapOptions& options) {
   const std::vector<RowTerms> whole = whole_rows(rows);
-  MorrisEffects<Independent> result = with(row_intervals(whole, measures_of, options));
+  MorrisEffects<Independent> result = morris_effects(row_intervals(whole, measures_of, options));
   result.rows = static_cast<std::int64_t>(whole.size());
   result.failed_rows = static_cast<std::int64_t>(rows.size() - whole.size());
   return result;
@@ -120,7 +120,7 @@ MorrisEffects<Replicated> morris_effects(const std::vector<std::vector<std::vect
     given += static_cast<std::int64_t>(rows.size());
     left += static_cast<std::int64_t>(whole.back().size());
   }
-  MorrisEffects<Replicated> result = with(row_intervals(whole, measures_of, confidence));
+  MorrisEffects<Replicated> result = morris_effects(row_intervals(whole, measures_of, confidence));
   result.rows = left;
   result.failed_rows = given - left;
   return result;

@@ -58,7 +58,7 @@ std::vector<const SobolRow*> whole_rows(const std::vector<SobolRow>& rows, std::
 }
 
 template <typename Sampling>
-SobolIndices<Sampling> with(const std::vector<IntervalOf<Sampling>>& intervals) {
+SobolIndices<Sampling> sobol_indices(const std::vector<IntervalOf<Sampling>>& intervals) {
   SobolIndices<Sampling> result;
   const std::size_t groups = (intervals.size() - 1) / 2;
   for (std::size_t g = 0; g < groups; ++g) result.groups.push_back({intervals[g], intervals[groups + g]});
@@ -97,7 +97,7 @@ SobolIndices<Independent> sobol_indices(const std::vector<SobolRow>& rows, const
   const double centre = centre_of(whole);
   std::vector<RowTerms> terms;
   for (const SobolRow* r : whole) terms.push_back(terms_of(*r, centre));
-  SobolIndices<Independent> result = with(row_intervals(terms, indices_of, options));
+  SobolIndices<Independent> result = sobol_indices(row_intervals(terms, indices_of, options));
   add_moments(whole, centre, result);
   result.failed_rows = static_cast<std::int64_t>(rows.size()) - result.rows;
   return result;
@@ -119,7 +119,7 @@ SobolIndices<Replicated> sobol_indices(const std::vector<std::vector<SobolRow>>&
   std::vector<std::vector<RowTerms>> terms(whole.size());
   for (std::size_t r = 0; r < whole.size(); ++r)
     for (const SobolRow* row : whole[r]) terms[r].push_back(terms_of(*row, centre));
-  SobolIndices<Replicated> result = with(row_intervals(terms, indices_of, confidence));
+  SobolIndices<Replicated> result = sobol_indices(row_intervals(terms, indices_of, confidence));
   add_moments(every, centre, result);
   result.failed_rows = failed;
   return result;

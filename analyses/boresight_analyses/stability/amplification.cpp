@@ -10,7 +10,7 @@ namespace boresight {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoFrequency = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -27,15 +27,15 @@ double theoretical_limit(const MethodCoefficients& method, double zeta) {
 
 double measured_growth(const std::vector<double>& signal) {
   const Eigen::Index equations = static_cast<Eigen::Index>(signal.size()) - 2;
-  if (equations < 2) return kNothing;
+  if (equations < 2) return kNoFrequency;
   Eigen::Matrix<double, Eigen::Dynamic, 2> A(equations, 2);
   VecX b(equations);
   double size = 0.0;
   for (Eigen::Index n = 0; n < equations; ++n) {
     const double here = std::hypot(signal[n], signal[n + 1], signal[n + 2]);
-    if (!std::isfinite(here)) return kNothing;
+    if (!std::isfinite(here)) return kNoFrequency;
     size = std::max(size, here);
-    if (size == 0.0) return kNothing;
+    if (size == 0.0) return kNoFrequency;
     A.row(n) << signal[n + 1] / size, -signal[n] / size;
     b[n] = signal[n + 2] / size;
   }
@@ -47,7 +47,7 @@ double measured_growth(const std::vector<double>& signal) {
 double measured_limit(const std::function<double(double)>& growth, double guess) {
   const double stride = 0.02 * guess;
   for (double low = 0.89 * guess; low < 1.2 * guess; low += stride) {
-    if (growth(low) > 1.0) return low == 0.89 * guess ? kNothing : low;
+    if (growth(low) > 1.0) return low == 0.89 * guess ? kNoFrequency : low;
     double a = low, b = low + stride;
     if (!(growth(b) > 1.0)) continue;
     while (b - a > 1e-5 * guess) {
@@ -56,7 +56,7 @@ double measured_limit(const std::function<double(double)>& growth, double guess)
     }
     return 0.5 * (a + b);
   }
-  return kNothing;
+  return kNoFrequency;
 }
 
 }  // namespace boresight

@@ -13,7 +13,7 @@
 namespace boresight {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kFewestBeyond = 5.0;
 
 double student(double confidence, std::int64_t replicates) {
@@ -91,8 +91,8 @@ ReplicatedInterval ReplicatedSamples::quantile(double p, double confidence) cons
   if (!(p > 0.0 && p < 1.0)) throw std::invalid_argument("probability must lie between 0 and 1");
   if (pooled_.empty()) throw std::invalid_argument("a quantile needs 1 sample, there are 0");
   ReplicatedInterval result{gsl_stats_quantile_from_sorted_data(pooled_.data(), 1, pooled_.size(), p),
-                            -kInfinity,
-                            kInfinity,
+                            -kUnbounded,
+                            kUnbounded,
                             confidence,
                             confidence,
                             false,

@@ -15,14 +15,14 @@ namespace {
 
 // Of what the study's runs would take on multibody, the pilot may take this share where that is long, and no more than the
 // other where it is short.
-constexpr double kShareOfStudy = 0.02, kShareOfShortStudy = 0.5;
+constexpr double kShareOfLongStudy = 0.02, kShareOfShortStudy = 0.5;
 
 }  // namespace
 
 double most_seconds(const PilotOptions& options, double multibody_seconds) {
   if (options.runs == 0) return options.most_seconds;
   const double study = static_cast<double>(options.runs) * multibody_seconds;
-  return std::max(kShareOfStudy * study, std::min(options.most_seconds, kShareOfShortStudy * study));
+  return std::max(kShareOfLongStudy * study, std::min(options.most_seconds, kShareOfShortStudy * study));
 }
 
 std::vector<double> stated_probabilities(const ScatterStatistic& asked) {

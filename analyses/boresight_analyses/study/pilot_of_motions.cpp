@@ -15,7 +15,7 @@ namespace {
 // Steps of a dynamic rung that are tried, against its own choice.
 constexpr double kShares[] = {4.0, 2.0, 1.0, 0.5, 0.25};
 // Of error control.
-constexpr double kTolerances[] = {1e-2, 1e-3, 1e-4};
+constexpr double kTolerancesOfMotions[] = {1e-2, 1e-3, 1e-4};
 // Neighbours of each way, and as many again where these leave it open.
 constexpr int kFew = 3, kMany = 6;
 
@@ -177,7 +177,7 @@ class PilotOfMotions {
     if (!options_.integrators) return false;
     for (const std::string& integrator : integrator_names(rung.name())) {
       if (integrator == "rk4") continue;
-      for (double tolerance : kTolerances) {
+      for (double tolerance : kTolerancesOfMotions) {
         if (attempt(rung, {.rung = rung.name(), .integrator = integrator, .tolerance = tolerance})) {
           met = true;
           break;

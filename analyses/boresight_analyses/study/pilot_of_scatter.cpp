@@ -18,7 +18,7 @@ constexpr double kRankingSeconds = 1.0;
 // second order through it. So the reference is good to a third of what multibody's own step is found to be off from it.
 constexpr double kOwnOverReference = 3.0;
 // Of error control, for rungs without lanes.
-constexpr double kTolerances[] = {1e-2, 1e-3};
+constexpr double kTolerancesOfScatter[] = {1e-2, 1e-3};
 
 class PilotOfScatter {
  public:
@@ -155,7 +155,7 @@ class PilotOfScatter {
     else if (const double step = step_of_perturbation(); step > 0.0)
       setups.push_back({.rung = "perturbation", .step = step});
     if (options_.integrators && options_.step == 0.0 && !lanes_serve())
-      setups.push_back({.rung = "perturbation", .integrator = "rosenbrock", .tolerance = kTolerances[0]});
+      setups.push_back({.rung = "perturbation", .integrator = "rosenbrock", .tolerance = kTolerancesOfScatter[0]});
     return setups;
   }
 
@@ -166,7 +166,7 @@ class PilotOfScatter {
     if (step_of_perturbation() > 0.0) setups.push_back({.rung = "perturbation", .step = 0.5 * step_of_perturbation()});
     if (options_.integrators)
       for (const char* integrator : {"rosenbrock", "dopri5"})
-        setups.push_back({.rung = "perturbation", .integrator = integrator, .tolerance = kTolerances[1]});
+        setups.push_back({.rung = "perturbation", .integrator = integrator, .tolerance = kTolerancesOfScatter[1]});
     return setups;
   }
 

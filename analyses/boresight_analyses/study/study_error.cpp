@@ -10,7 +10,7 @@ namespace boresight {
 namespace {
 
 constexpr std::size_t kFewest = 6, kMost = 256;
-constexpr double kShareOfStudy = 0.1;
+constexpr double kShareForError = 0.1;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ StudyDiscretisation measure_study_discretisation(std::shared_ptr<const Mechanism
     // As many again while that stays within the time.
     for (std::size_t wanted = kFewest; wanted <= kMost && pairs.size() < samples.size(); wanted *= 2) {
       const double per_pair = own.cpu_seconds() + finer.cpu_seconds();
-      most = std::max(options.least_seconds, kShareOfStudy * static_cast<double>(options.runs) * own.cpu_seconds());
+      most = std::max(options.least_seconds, kShareForError * static_cast<double>(options.runs) * own.cpu_seconds());
       const std::size_t count = std::min(wanted, samples.size());
       const double foreseen = static_cast<double>(count - pairs.size()) * per_pair;
       if (!pairs.empty() && found.cpu_seconds + foreseen > most) break;

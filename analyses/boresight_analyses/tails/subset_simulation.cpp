@@ -14,14 +14,14 @@ namespace boresight {
 namespace {
 
 // Samples of one level: chain c is every `chains`-th sample from c on.
-struct Level {
+struct LevelSamples {
   Points points;
   std::vector<double> values;
   std::size_t chains = 0;
 };
 
 // Au and Beck, Eqs. 25-28: (1 - P) / (P N) (1 + gamma), gamma from the autocovariance of the indicator along the chains.
-double coefficient_of_variation(const Level& level, double threshold, double P) {
+double coefficient_of_variation(const LevelSamples& level, double threshold, double P) {
   if (P <= 0.0) return std::numeric_limits<double>::infinity();
   const std::size_t N = level.values.size(), length = N / level.chains;
   const auto beyond = [&](std::size_t chain, std::size_t step) {
@@ -48,8 +48,8 @@ class Simulation {
         stream_(options.seed, StreamPurpose::subset),
         result_(result) {}
 
-  Level first() const {
-    Level level;
+  LevelSamples first() const {
+    LevelSamples level;
     for (int k = 0; k < options_.samples; ++k) level.points.push_back(normals(0, static_cast<std::uint64_t>(k)));
     level.values = evaluate(level.points);
     level.chains = level.points.size();
@@ -57,9 +57,9 @@ class Simulation {
   }
 
   // Chains from `seeds`, all beyond the threshold, to as many samples as before.
-  Level next(std::uint64_t index, Level seeds, double threshold) const {
+  LevelSamples next(std::uint64_t index, LevelSamples seeds, double threshold) const {
     const std::size_t chains = seeds.points.size();
-    Level level = std::move(seeds);
+    LevelSamples level = std::move(seeds);
     level.chains = chains;
     const double r = options_.correlation, s = std::sqrt(1.0 - r * r);
     while (level.points.size() + chains <= static_cast<std::size_t>(options_.samples)) {
@@ -108,12 +108,12 @@ class Simulation {
   SubsetResult& result_;
 };
 
-Level largest(const Level& level, std::size_t count) {
+LevelSamples largest(const LevelSamples& level, std::size_t count) {
   std::vector<std::size_t> order(level.values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return level.values[a] > level.values[b]; });
-  Level seeds;
+  LevelSamples seeds;
   for (std::size_t k = 0; k < count; ++k) {
     seeds.points.push_back(level.points[order[k]]);
     seeds.values.push_back(level.values[order[k]]);
@@ -138,10 +138,10 @@ SubsetResult subset_simulation(const BatchModel& model, int dimensions, double l
   result.probability = 1.0;
   const Simulation simulation(model, dimensions, options, result);
   const auto kept = static_cast<std::size_t>(std::lround(options.samples * options.level));
-  Level level = simulation.first();
+  LevelSamples level = simulation.first();
   double variance = 0.0;
   for (int index = 1;; ++index) {
-    Level seeds = largest(level, kept);
+    LevelSamples seeds = largest(level, kept);
     // Just below the last that is kept. Chains repeat values where a step was refused: ties go with it.
     const double last = seeds.values.back();
     double below = -std::numeric_limits<double>::infinity();

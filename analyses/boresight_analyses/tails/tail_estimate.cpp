@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::int64_t kBatch = 1024;
 
-bool beyond(double value, double limit) { return !std::isfinite(value) || value > limit; }
-
 // Weights of the points beyond the limit.
 struct Excess {
   double sum = 0.0, squares = 0.0;
@@ -85,7 +83,7 @@ TailEstimate importance_sampling(const BatchModel& model, double limit, const Ga
     const WeightedDraws d = weighted_draws(proposal, stream, 2 * options.stream, from, std::min(points, from + kBatch));
     const std::vector<double> y = evaluate(model, d.points, e.exact_evaluations, e.failed);
     for (std::size_t k = 0; k < y.size(); ++k) {
-      const bool bad = beyond(y[k], limit);
+      const bool bad = is_beyond(y[k], limit);
       moments.add(bad ? d.weights[k] : 0.0);
       if (bad) excess.add(d.weights[k]);
       e.exceedances += bad;
@@ -111,7 +109,7 @@ TailEstimate two_level_importance_sampling(const BatchModel& cheap, const BatchM
     const WeightedDraws d =
         weighted_draws(proposal, stream, 2 * options.stream, from, std::min(cheap_points, from + kBatch));
     const std::vector<double> y = evaluate(cheap, d.points, e.cheap_evaluations, e.failed);
-    for (std::size_t k = 0; k < y.size(); ++k) alone.add(beyond(y[k], limit) ? control * d.weights[k] : 0.0);
+    for (std::size_t k = 0; k < y.size(); ++k) alone.add(is_beyond(y[k], limit) ? control * d.weights[k] : 0.0);
   }
   for (std::int64_t from = 0; from < exact_points; from += kBatch) {
     const WeightedDraws d =
@@ -119,9 +117,9 @@ TailEstimate two_level_importance_sampling(const BatchModel& cheap, const BatchM
     const std::vector<double> c = evaluate(cheap, d.points, e.cheap_evaluations, e.failed);
     const std::vector<double> y = evaluate(exact, d.points, e.exact_evaluations, e.failed);
     for (std::size_t k = 0; k < y.size(); ++k) {
-      const bool bad = beyond(y[k], limit);
-      correction.add(d.weights[k] * (double(bad) - control * double(beyond(c[k], limit))));
-      e.disagreements += bad != beyond(c[k], limit);
+      const bool bad = is_beyond(y[k], limit);
+      correction.add(d.weights[k] * (double(bad) - control * double(is_beyond(c[k], limit))));
+      e.disagreements += bad != is_beyond(c[k], limit);
       if (bad) excess.add(d.weights[k]);
       e.exceedances += bad;
     }

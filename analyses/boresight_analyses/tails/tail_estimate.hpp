@@ -16,6 +16,7 @@
 // weights are 1, else by betting on w 1 / W of the exact points (betting_mean.hpp). What is claimed rests on them.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "boresight_analyses/statistics/interval.hpp"
@@ -40,8 +41,10 @@ struct TailEstimate {
   std::int64_t cheap_evaluations = 0, exact_evaluations = 0, failed = 0;
 };
 
-// Points that fail (a value that is not finite) count as beyond the limit. Throw std::invalid_argument for less than two
-// points.
+// Whether a point counts as beyond the limit: one that fails (a value that is not finite) does.
+inline bool is_beyond(double value, double limit) { return !std::isfinite(value) || value > limit; }
+
+// Both throw std::invalid_argument for less than two points.
 TailEstimate importance_sampling(const BatchModel& model, double limit, const GaussianMixture& proposal,
                                  std::int64_t points, const TailOptions& options);
 // `exact_points` of both models, and `cheap_points` further ones of the cheap one alone. `control` is a above.

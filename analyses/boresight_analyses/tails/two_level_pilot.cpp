@@ -16,8 +16,6 @@ struct Pair {
   std::vector<double> cheap, exact;
 };
 
-bool beyond(double value, double limit) { return !std::isfinite(value) || value > limit; }
-
 // Standard deviations of one point's contribution: of the exact model less `control` times the cheap one, and of the cheap.
 // Where few points tell them apart their agreement is a matter of luck: one more point on which they disagree, of the mean
 // square weight of those beyond, keeps the first from being taken for nothing.
@@ -27,7 +25,7 @@ struct Scatter {
 Scatter scatter(const Pair& pair, double limit, double control) {
   RunningMoments corrected, cheap, squares;
   for (std::size_t k = 0; k < pair.exact.size(); ++k) {
-    const double c = beyond(pair.cheap[k], limit), e = beyond(pair.exact[k], limit);
+    const double c = is_beyond(pair.cheap[k], limit), e = is_beyond(pair.exact[k], limit);
     corrected.add(pair.drawn.weights[k] * (e - control * c));
     cheap.add(pair.drawn.weights[k] * c);
     if (c + e > 0.0) squares.add(pair.drawn.weights[k] * pair.drawn.weights[k]);
@@ -71,7 +69,7 @@ TwoLevelPlan two_level_pilot(const BatchModel& cheap, const BatchModel& exact, i
   const Pair pair = run(kPilotSet);
   RunningMoments share;
   for (std::size_t k = 0; k < pair.exact.size(); ++k)
-    share.add(beyond(pair.exact[k], limit) ? pair.drawn.weights[k] : 0.0);
+    share.add(is_beyond(pair.exact[k], limit) ? pair.drawn.weights[k] : 0.0);
   plan.probability = share.mean();
   plan.informed = share.mean() > 0.0;
   if (!plan.informed) {

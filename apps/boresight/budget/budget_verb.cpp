@@ -27,7 +27,7 @@ namespace boresight::app {
 namespace {
 
 // Errors of this size are rounding, in m or rad: a budget of them says nothing.
-constexpr double kNothing = 1e-9;
+constexpr double kNextToNothing = 1e-9;
 
 struct RunsSeen {
   Failures failures;
@@ -45,7 +45,7 @@ RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs, const Budge
     done += 1.0;
     seen.model_error += r.outcome.model_error;
     seen.largest = std::max(seen.largest, r.outcome.value);
-    if (plan.start > 0.0 || r.outcome.value < kNothing) return;
+    if (plan.start > 0.0 || r.outcome.value < kNextToNothing) return;
     double sampled = 0.0;
     for (const Vec3& e : stored_history(store, r.number, plan).error) sampled = std::max(sampled, e.norm());
     seen.missed = std::max(seen.missed, 1.0 - sampled / r.outcome.value);
@@ -280,7 +280,7 @@ class BudgetVerb : public Verb {
           fmt::format("{} of {} runs failed; a member whose own run failed counts as bad in every answer",
                       seen.failures.count, s.runs.count()) +
           first_failure_text(seen.failures, "run"));
-    if (seen.largest < kNothing && s.runs.joints() > 0)
+    if (seen.largest < kNextToNothing && s.runs.joints() > 0)
       warnings.push_back("the clearances make no " + s.study.index.quantity_title() +
                          " beyond rounding: where journal and sleeve axes are kept parallel they turn nothing; axes = "
                          "\"free\" lets them tilt");

@@ -10,9 +10,9 @@ namespace boresight::app {
 namespace {
 
 // Instants that are looked at, both ends among them.
-constexpr int kInstants = 101;
+constexpr int kInstantsOfEffects = 101;
 // Of what a turn by one radian or a move by one length of the mechanism would do: rounding of the joints' closure.
-constexpr double kRounding = 1e-9;
+constexpr double kRoundingOfEffects = 1e-9;
 
 // Columns of the wanted errors at t; why they cannot be had, if they cannot.
 std::optional<std::string> columns_at(ErrorInfluence& influence, double t, const std::vector<bool>& wanted, MatX& G) {
@@ -50,8 +50,8 @@ std::vector<ErrorEffect> error_effects(const Mechanism& mechanism, const IdealMo
   if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return effects;
   const int body = mechanism.boresight_body();
   const double length = mechanism.characteristic_length();
-  for (int i = 0; i < kInstants; ++i) {
-    const double t = mechanism.duration() * i / (kInstants - 1);
+  for (int i = 0; i < kInstantsOfEffects; ++i) {
+    const double t = mechanism.duration() * i / (kInstantsOfEffects - 1);
     if (columns_at(influence, t, wanted, G)) continue;  // a singular pose, which check names by itself
     const Vec3 axis = commanded.body(t, body).R * mechanism.pointing().boresight_B;
     for (std::size_t e = 0; e < effects.size(); ++e) {
@@ -61,15 +61,15 @@ std::vector<ErrorEffect> error_effects(const Mechanism& mechanism, const IdealMo
       if (influence.shifts())
         effects[e].uses_play =
             effects[e].uses_play ||
-            influence.shift().col(static_cast<Eigen::Index>(e)).cwiseAbs().maxCoeff() > kRounding * length;
+            influence.shift().col(static_cast<Eigen::Index>(e)).cwiseAbs().maxCoeff() > kRoundingOfEffects * length;
     }
   }
   for (std::size_t e = 0; e < effects.size(); ++e) {
     ErrorEffect& effect = effects[e];
     // What one unit is beside the mechanism: a length moves it by itself, an angle turns it, warming grows it.
     const double one = effect.unit == "m" ? 1.0 / length : effect.unit == "K" ? description.errors[e].coefficient : 1.0;
-    if (effect.position < kRounding * one * length) effect.position = 0.0;
-    if (effect.boresight < kRounding * one) effect.boresight = 0.0;
+    if (effect.position < kRoundingOfEffects * one * length) effect.position = 0.0;
+    if (effect.boresight < kRoundingOfEffects * one) effect.boresight = 0.0;
   }
   return effects;
 }

@@ -56,7 +56,7 @@ std::string escaped(const std::string& text) {
 }
 
 // Text with `code` in it.
-std::string prose(const std::string& text) {
+std::string html_prose(const std::string& text) {
   std::string out;
   bool code = false;
   for (const char c : escaped(text)) {
@@ -84,14 +84,14 @@ std::string key_row(const Section& section, const Key& key) {
   return fmt::format(
       "<tr id=\"{}.{}\"><td><code>{}</code></td><td>{}{}</td><td class=\"small\">{}</td><td class=\"small\">{}</td>"
       "<td class=\"small\">{}</td></tr>\n",
-      anchor(section), escaped(key.name), escaped(key.name), prose(key.sentence), words, value,
-      prose(presence_text(key)), escaped(verbs_text(section, &key)));
+      anchor(section), escaped(key.name), escaped(key.name), html_prose(key.sentence), words, value,
+      html_prose(presence_text(key)), escaped(verbs_text(section, &key)));
 }
 
 std::string section_part(const Section& section) {
   const std::string heading = section.path().empty() ? "at the top of the file" : section.heading();
   std::string part =
-      fmt::format("<h3 id=\"{}\">{}</h3>\n<p>{}", anchor(section), escaped(heading), prose(section.keys->says));
+      fmt::format("<h3 id=\"{}\">{}</h3>\n<p>{}", anchor(section), escaped(heading), html_prose(section.keys->says));
   if (section.paths.size() > 1)
     part += fmt::format(" <span class=\"small\">Also [{}].</span>",
                         escaped(fmt::format("{}", fmt::join(section.paths.begin() + 1, section.paths.end(), "], ["))));
@@ -104,7 +104,7 @@ std::string topic_part(const Topic& topic) {
   std::string part = fmt::format("<h3 id=\"topic-{}\">{}</h3>\n", topic.name, escaped(topic.title));
   for (const std::string& paragraph : topic.paragraphs)
     part += paragraph.starts_with(' ') ? "<pre>" + escaped(paragraph.substr(1)) + "</pre>\n"
-                                       : "<p>" + prose(paragraph) + "</p>\n";
+                                       : "<p>" + html_prose(paragraph) + "</p>\n";
   return part;
 }
 

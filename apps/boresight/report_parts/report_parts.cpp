@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "boresight/play/play_words.hpp"
 #include "boresight_analyses/study/index_choice.hpp"
@@ -15,8 +16,7 @@
 namespace boresight::app {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegrees = 180.0 / kPi;
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 using Value = std::function<double(const PoseSample&)>;
 
@@ -77,7 +77,8 @@ std::vector<Vec3> euler_angles(const std::vector<Quat>& orientations, const Mat3
     // R = Rz(c) Ry(b) Rx(a)
     Vec3 now(std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0)));
     if (!angles.empty())
-      for (const int k : {0, 2}) now[k] += 2.0 * kPi * std::round((angles.back()[k] - now[k]) / (2.0 * kPi));
+      for (const int k : {0, 2})
+        now[k] += 2.0 * std::numbers::pi * std::round((angles.back()[k] - now[k]) / (2.0 * std::numbers::pi));
     angles.push_back(now);
   }
   return angles;

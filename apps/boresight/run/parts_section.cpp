@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kCurves = 7;
 constexpr std::size_t kLines = 5;  // on the terminal
 // Rounding of the columns, in m or rad.
-constexpr double kNothing = 1e-13;
+constexpr double kNoPart = 1e-13;
 constexpr double kNoShare = 1e-9;
 
 bool is_linear(const RunResult& result) { return result.rung != "multibody"; }
@@ -113,7 +113,7 @@ report::Table parts_table(const RunParts& parts, const Mechanism& mechanism, con
                                   {"Boresight, RMS", angle.name},
                                   {"Share", "%"}}};
   const auto row = [&](const std::string& name, const std::string& value, const ErrorPart& part) {
-    const auto shown = [](double si, const DisplayUnit& unit) { return si > kNothing ? si * unit.per_si : 0.0; };
+    const auto shown = [](double si, const DisplayUnit& unit) { return si > kNoPart ? si * unit.per_si : 0.0; };
     const auto share = [](double of_one) { return std::abs(of_one) > kNoShare ? 100.0 * of_one : 0.0; };
     const PointingIndices& index = part.index;
     table.rows.push_back({name, value, shown(index.position_error.max, length), shown(index.position_error.rms, length),
@@ -180,7 +180,7 @@ std::vector<std::string> parts_lines(const RunParts& parts) {
   for (const std::string& why : parts.found.without_part) lines.push_back("no part: " + why);
   const std::vector<ErrorPart>& all = parts.found.parts;
   const auto up_to = [](double value, const char* unit) {
-    return value > kNothing ? "up to " + readable(value, unit) : std::string("nothing");
+    return value > kNoPart ? "up to " + readable(value, unit) : std::string("nothing");
   };
   for (std::size_t i = 0; i < std::min(kLines, all.size()); ++i)
     lines.push_back(fmt::format("{} of {}: position {}, boresight {}", all[i].name, readable(all[i].value, all[i].unit),

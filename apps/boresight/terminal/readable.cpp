@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <vector>
 
 #include "boresight/keys/units.hpp"
@@ -12,7 +13,6 @@
 namespace boresight::app {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 const char* const kNotKnown = "not known";  // no infinity is a length
 
 // A unit, its size in SI, and the value from which on it is used (a tenth of a millimetre is still said in
@@ -85,7 +85,7 @@ std::string readable_as(double value, const std::string& si_unit, const std::str
 std::string readable_arcsec(double radians) {
   if (!std::isfinite(radians)) return kNotKnown;
   if (radians != 0.0 && std::abs(radians) < 1e-10) return "below 0.0001 arcsec";
-  return digits(radians * 180.0 / kPi * 3600.0) + " arcsec";
+  return digits(radians * 180.0 / std::numbers::pi * 3600.0) + " arcsec";
 }
 std::string readable_share(double share) { return std::isfinite(share) ? digits(100.0 * share) + " %" : kNotKnown; }
 std::string readable_number(double value) { return std::isfinite(value) ? digits(value) : kNotKnown; }

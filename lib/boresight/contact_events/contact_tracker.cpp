@@ -6,14 +6,14 @@
 namespace boresight {
 namespace {
 
-struct Crossing {
+struct ZeroOfGap {
   double share;  // of the step, in [0, 1]
   double rate;   // slope of the gap there
 };
 
 // Zero of the cubic through (gap0, rate0) and (gap1, rate1) over a step h, the gaps of opposite sign: Newton kept inside a
 // shrinking bracket.
-Crossing cubic_crossing(double gap0, double rate0, double gap1, double rate1, double h) {
+ZeroOfGap cubic_crossing(double gap0, double rate0, double gap1, double rate1, double h) {
   const double c1 = h * rate0, c2 = 3.0 * (gap1 - gap0) - h * (2.0 * rate0 + rate1),
                c3 = 2.0 * (gap0 - gap1) + h * (rate0 + rate1);
   const auto value = [&](double s) { return gap0 + s * (c1 + s * (c2 + s * c3)); };
@@ -35,7 +35,7 @@ Crossing cubic_crossing(double gap0, double rate0, double gap1, double rate1, do
 
 // Where a free flight, carried on with a parabola for its rate, closes the gap within a step h after its newest value.
 template <typename FreeFlight>
-Crossing flight_crossing(const FreeFlight& f, double h, double secant_share) {
+ZeroOfGap flight_crossing(const FreeFlight& f, double h, double secant_share) {
   // Newton's divided differences of the rate about the newest time.
   const double d1 = f.count > 1 ? (f.rate[0] - f.rate[1]) / (f.t[0] - f.t[1]) : 0.0;
   const double d1_before = f.count > 2 ? (f.rate[1] - f.rate[2]) / (f.t[1] - f.t[2]) : d1;
@@ -87,7 +87,7 @@ bool ContactTracker::accept(double t, const std::array<ContactState<double>, kCo
     const ContactState<double>& now = contact[k];
     ContactEvent& event = open_[k];
     if (now.penetration > 0.0 && !memory_.touching[k]) {
-      Crossing at{1.0, now.rate};
+      ZeroOfGap at{1.0, now.rate};
       if (started_ && last_[k].penetration < 0.0)
         at = flight_crossing(flight_[k], h, last_[k].penetration / (last_[k].penetration - now.penetration));
       flight_[k].count = 0;
@@ -98,7 +98,7 @@ bool ContactTracker::accept(double t, const std::array<ContactState<double>, kCo
       began = std::min(began, event.start);
       changed = true;
     } else if (now.penetration <= 0.0 && memory_.touching[k]) {
-      const Crossing at = cubic_crossing(last_[k].penetration, last_[k].rate, now.penetration, now.rate, h);
+      const ZeroOfGap at = cubic_crossing(last_[k].penetration, last_[k].rate, now.penetration, now.rate, h);
       end(place, t_ + at.share * h, -at.rate);
       ended = std::max(ended, t_ + at.share * h);
       changed = true;

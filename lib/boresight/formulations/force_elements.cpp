@@ -5,10 +5,10 @@
 namespace boresight {
 namespace {
 
-const BodyMotion kGroundMotion;
+const BodyMotion kUnmovedGround;
 
 const BodyMotion& motion_of(const std::vector<BodyMotion>& bodies, int body) {
-  return body == kGround ? kGroundMotion : bodies[body];
+  return body == kGround ? kUnmovedGround : bodies[body];
 }
 
 Vec3 in_body(const MechanismDescription& m, int body, const Vec3& point) {

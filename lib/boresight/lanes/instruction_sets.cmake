@@ -70,6 +70,7 @@ foreach(kernel IN LISTS built)
   set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/lane_kernels.cpp TARGET_DIRECTORY boresight_lanes
                APPEND PROPERTY COMPILE_DEFINITIONS BORESIGHT_LANES_${upper})
   add_library(boresight_lanes_${kernel} OBJECT ${CMAKE_CURRENT_LIST_DIR}/lanes_${kernel}.cpp)
+  set_target_properties(boresight_lanes_${kernel} PROPERTIES UNITY_BUILD OFF)  # one file, and known by its name
   target_link_libraries(boresight_lanes_${kernel} PRIVATE boresight::scene)
   target_compile_options(boresight_lanes_${kernel} PRIVATE ${kernel_options} ${options_${kernel}})
   boresight_one_entry(boresight_lanes boresight_lanes_${kernel} run_lanes_${kernel} run_lanes_${kernel}_single)

@@ -72,7 +72,7 @@ std::string number(double x) {
 // Bearings of one shaft, guides of one slide, that are meant to share an axis and do not, as when a drawing's coordinates were
 // rounded: no motion is left then, however small the difference is.
 std::vector<std::string> misaligned_joints(const Mechanism& mechanism) {
-  constexpr double kExact = 1e-9, kMeant = 1e-2;
+  constexpr double kAligned = 1e-9, kMeant = 1e-2;
   const std::vector<JointDescription>& joints = mechanism.description().joints;
   const auto turns = [](JointType t) { return t == JointType::revolute || t == JointType::cylindrical; };
   std::vector<std::string> sentences;
@@ -86,7 +86,7 @@ std::vector<std::string> misaligned_joints(const Mechanism& mechanism) {
       const double angle = a.axis.cross(b.axis).norm();
       const double apart = slide ? 0.0 : (b.point - a.point).cross(a.axis).norm();
       const double off = std::max(angle, apart / mechanism.characteristic_length());
-      if (off < kExact || off > kMeant) continue;
+      if (off < kAligned || off > kMeant) continue;
       sentences.push_back('"' + a.name + "\" and \"" + b.name +
                           "\" connect the same parts but do not share one axis: they are " + number(apart) + " m and " +
                           number(angle) +

@@ -19,7 +19,7 @@ namespace {
 
 // First grid, and the finest that accuracy is sought with [s]. A motion longer than kManyCells of the coarsest spacing starts with as
 // many cells as its own table needs; one that is over, or turns, within the finest spacing is looked at more finely.
-constexpr int kFewestCells = 8, kManyCells = 4096, kCellsOfKnot = 4;
+constexpr int kFewestCellsOfMotion = 8, kManyCells = 4096, kCellsOfKnot = 4;
 constexpr double kCoarsestSpacing = 16e-3, kFinestSpacing = 1e-5;
 // The finest spacing is bounded by a share of that of the ideal motion's table, which is about a sixteenth of a radian of the fastest
 // motion.
@@ -28,7 +28,7 @@ constexpr double kFinestOfKnot = 1e-3;
 double spacing_of_knots(const IdealMotion& ideal) { return ideal.duration() / std::max(1, ideal.knots() - 1); }
 
 // Of the tables, relative to their largest values: what is left at the finest spacing must not be more.
-constexpr double kLargestMiss = 0.01;
+constexpr double kLargestMissOfTables = 0.01;
 
 constexpr const char* kBuilding = "opening the mechanism at its clearances";
 
@@ -63,7 +63,7 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
   // Halve the spacing until the coarse grid's cubics meet the new knots: the finer grid's own error is a sixteenth of that.
   const double knot_spacing = spacing_of_knots(ideal);
   const double finest = std::max(kFinestOfKnot * knot_spacing, std::min(kFinestSpacing, knot_spacing));
-  double first_cells = std::max<double>(kFewestCells, std::ceil(mechanism.duration() / kCoarsestSpacing));
+  double first_cells = std::max<double>(kFewestCellsOfMotion, std::ceil(mechanism.duration() / kCoarsestSpacing));
   if (first_cells > kManyCells)
     first_cells = std::max<double>(kManyCells, std::min(first_cells, 1.0 * kCellsOfKnot * ideal.knots()));
   // A knot's matrices, and its row in the tables.
@@ -108,7 +108,7 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
     const double error = interpolation_error(rows, parameters);
     if (error <= 16.0 * accuracy) break;
     if (0.5 * spacing_ >= finest) continue;
-    if (error <= kLargestMiss) break;
+    if (error <= kLargestMissOfTables) break;
     char text[300];
     std::snprintf(text, sizeof text,
                   "the opened mechanism's dynamics change by %.2g of their size within %.2g s: a singular pose is "

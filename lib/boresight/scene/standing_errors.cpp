@@ -15,9 +15,9 @@ namespace {
 constexpr const char* kFollowing = "following the influence of errors";
 
 // First grid, and how often it is halved at most: a thousandth of the first spacing shows the ripple of ten thousand turns of a screw.
-constexpr int kFewestCells = 16, kMostHalvings = 12;
+constexpr int kFewestCellsOfColumns = 16, kMostHalvingsOfColumns = 12;
 // What is left of the columns between the knots where the grid is finest must not be more.
-constexpr double kLargestMiss = 1e-3;
+constexpr double kLargestMissOfColumns = 1e-3;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& co
   ErrorInfluence influence(mechanism, commanded);
   const double duration = mechanism.duration(), length = mechanism.characteristic_length();
   // A sixteenth of what the commanded motion is tabled with: no turn of it is overlooked.
-  int cells = std::max(kFewestCells, commanded.knots() / 16);
+  int cells = std::max(kFewestCellsOfColumns, commanded.knots() / 16);
   const auto refuse_unless_held = [&](double knots) {
     // Knots, and two tables of four coefficients a function.
     const double bytes = knots * 9.0 * 8.0 * 6.0 * bodies_ * count();
@@ -76,8 +76,8 @@ StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& co
       if (largest[e] > 0.0) error = std::max(error, missed[e] / largest[e]);
     // The finer grid's own error is a sixteenth of what the coarser one missed.
     if (error <= 16.0 * kAccuracy) break;
-    if (halving == kMostHalvings) {
-      if (error <= kLargestMiss) break;
+    if (halving == kMostHalvingsOfColumns) {
+      if (error <= kLargestMissOfColumns) break;
       throw ComputationError("what standing errors do to the pose changes within " + std::to_string(spacing_) +
                              " s: a singular pose is near, or a drive's error ripples far faster than the motion; the "
                              "multibody rung needs no table of it");
@@ -133,7 +133,8 @@ std::shared_ptr<const StandingErrors> StandingErrors::of_all(const Mechanism& me
   } catch (const ComputationError&) {
     // One that is taken up at one instant may strain at another.
     const auto before = std::count(wanted.begin(), wanted.end(), true);
-    for (int k = 0; k <= kFewestCells; ++k) leave_out_what_strains_at(mechanism.duration() * k / kFewestCells);
+    for (int k = 0; k <= kFewestCellsOfColumns; ++k)
+      leave_out_what_strains_at(mechanism.duration() * k / kFewestCellsOfColumns);
     if (std::count(wanted.begin(), wanted.end(), true) == before) throw;
   }
   return table();

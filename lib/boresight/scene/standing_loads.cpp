@@ -16,13 +16,13 @@ namespace {
 constexpr const char* kTabling = "tabling what standing errors change of the loads";
 
 // First grid, how often it is halved at most, and what may then be left between the knots.
-constexpr int kFewestCells = 16, kMostHalvings = 12;
-constexpr double kLargestMiss = 0.05;
+constexpr int kFewestCellsOfLoads = 16, kMostHalvingsOfLoads = 12;
+constexpr double kLargestMissOfLoads = 0.05;
 // The little of an error that the mechanism is built with, in turns or lengths of the mechanism's size: joints close to 1e-13, which leaves
 // 1e-8 of a column, and what is of second order another 1e-5.
 constexpr double kLittle = 1e-5;
 // Below this share of the loads a column's rounding is no shape that a grid has to meet.
-constexpr double kNextToNothing = 1e-3;
+constexpr double kNextToNoLoad = 1e-3;
 
 bool same_springs(const Parameters& a, const Parameters& b) {
   return std::equal(a.spring.begin(), a.spring.end(), b.spring.begin(), b.spring.end(),
@@ -137,7 +137,7 @@ StandingLoads::Parts StandingLoads::computed(std::size_t error, const Parameters
   Instants built(built_mechanism(mechanism_, with, commanded_), *commanded_, choice_, with);
   const auto at = [&](double t) { return VecX((built.parts(t) - drawn_->parts_once(t)) / with.error[error]); };
   // As fine as the influence's own first grid: no turn of the motion is overlooked.
-  int cells = std::max(kFewestCells, commanded_->knots() / 16);
+  int cells = std::max(kFewestCellsOfLoads, commanded_->knots() / 16);
   const auto when = [&](double k) { return std::min(duration, duration * k / cells); };
   std::vector<VecX> knots;
   double load = 0.0;  // the largest, in forces, per unit of the error
@@ -164,14 +164,14 @@ StandingLoads::Parts StandingLoads::computed(std::size_t error, const Parameters
     finer.push_back(std::move(knots.back()));
     knots = std::move(finer);
     cells *= 2;
-    const double floor = kNextToNothing * std::max(load, largest.maxCoeff());
+    const double floor = kNextToNoLoad * std::max(load, largest.maxCoeff());
     double miss = 0.0;
     for (Eigen::Index i = 0; i < missed.size(); ++i)
       if (const double scale = std::max(largest[i], floor); scale > 0.0) miss = std::max(miss, missed[i] / scale);
     // The finer grid's own error is a sixteenth of what the coarser one missed.
     if (miss <= 16.0 * kAccuracy) break;
-    if (halving < kMostHalvings) continue;
-    if (miss <= kLargestMiss) break;
+    if (halving < kMostHalvingsOfLoads) continue;
+    if (miss <= kLargestMissOfLoads) break;
     throw ComputationError("what error." + mechanism_.description().errors[error].name +
                            " changes of the loads in the joints ripples within " + std::to_string(duration / cells) +
                            " s: too fast for a table; the multibody rung needs none");

@@ -13,7 +13,7 @@ namespace {
 // their number is prime.
 constexpr int kInstants = 13;
 // Below this share of the others an index counts as next to nothing.
-constexpr double kNextToNothing = 1e-4;
+constexpr double kNextToNoError = 1e-4;
 
 }  // namespace
 
@@ -63,9 +63,9 @@ double standing_model_error(const Mechanism& mechanism, const PreparedScene& pre
   const auto count = [&](double miss, double size, double least) {
     if (const double against = std::max(size, least); against > 0.0) share = std::max(share, miss / against);
   };
-  count(missed.position, index.position_error.max, kNextToNothing * largest);
-  count(missed.orientation, index.orientation_error.max, kNextToNothing * largest / length);
-  count(missed.boresight, index.boresight_error.max, kNextToNothing * largest / length);
+  count(missed.position, index.position_error.max, kNextToNoError * largest);
+  count(missed.orientation, index.orientation_error.max, kNextToNoError * largest / length);
+  count(missed.boresight, index.boresight_error.max, kNextToNoError * largest / length);
   if (index.has_line_of_sight) count(missed.line_of_sight, index.line_of_sight_error.max, 0.0);
   return std::min(share, 1.0);
 }
