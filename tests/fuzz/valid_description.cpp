@@ -68,10 +68,14 @@ std::string fault_of_clearance(const MechanismDescription& m, const ClearanceDes
     if (!std::isfinite(x) || x < 0.0) return "clearance number";
   }
   const bool pad = joint.type == JointType::planar, ball = joint.type == JointType::spherical;
-  if (pad ? !(p.pad_radius > 0.0) : !(p.radial > 0.0 && p.journal_radius > 0.0)) return "radii";
+  const bool slider = c.guide == GuideShape::rectangular;
+  if (slider && !(joint.type == JointType::prismatic && 2.0 * p.width_gap < p.width && 2.0 * p.height_gap < p.height &&
+                  p.length > 0.0 && std::abs(c.width_direction.norm() - 1.0) < 1e-9))
+    return "slider";
+  if (slider ? false : pad ? !(p.pad_radius > 0.0) : !(p.radial > 0.0 && p.journal_radius > 0.0)) return "radii";
   if (joint.type == JointType::revolute && !(p.cap_radius > p.journal_radius + p.radial && p.sleeve_length > 0.0))
     return "caps";
-  if (c.axes == JournalAxes::free && !pad && !ball && p.sleeve_length <= 0.0) return "sleeve length";
+  if (c.axes == JournalAxes::free && !pad && !ball && !slider && p.sleeve_length <= 0.0) return "sleeve length";
   if (p.contact.restitution < 0.0 || p.contact.restitution > 1.0) return "restitution";
   const NormalLaw law = JointPlay(c, joint.type, p).normal_law();
   if (!std::isfinite(law.stiffness) || !(law.stiffness > 0.0) || !std::isfinite(law.damping_factor))

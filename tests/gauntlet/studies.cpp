@@ -20,6 +20,7 @@ struct Width {
 Width width_of(const MechanismDescription& m, const ClearanceDescription& c) {
   const std::string path = "clearance." + m.joints[c.joint].name;
   if (m.joints[c.joint].type == JointType::planar) return {path + ".axial", c.parameters.axial};
+  if (c.guide == GuideShape::rectangular) return {path + ".height_gap", c.parameters.height_gap};
   return {path + ".radial", c.parameters.radial};
 }
 

@@ -111,8 +111,7 @@ BudgetModel::BudgetModel(const std::string& rung, std::shared_ptr<const Mechanis
   for (std::size_t j = 0; j < joints; ++j)
     models_.push_back(model(mechanism, [drawn, j](std::span<const double> values) {
       Parameters p = drawn(values);
-      p.clearance[j].radial *= 0.5;
-      p.clearance[j].axial *= 0.5;
+      for (const auto gap : kGaps) p.clearance[j].*gap *= 0.5;
       return p;
     }));
 }

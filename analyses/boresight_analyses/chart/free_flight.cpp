@@ -49,7 +49,7 @@ FreeFlight fly(const Mechanism& mechanism, const Parameters& parameters, double 
   flight.first_contact = first_contact(*make_rung("multibody", whole), mechanism, parameters, own_step);
   flight.end = kBeforeContact * flight.first_contact;
   double clearance = 0.0;
-  for (const ClearanceParameters& c : parameters.clearance) clearance = std::max({clearance, c.radial, c.axial});
+  for (const ClearanceParameters& c : parameters.clearance) clearance = std::max(clearance, widest_gap(c));
   if (!(flight.end > 0.0) || clearance == 0.0) {
     flight.why_not = clearance == 0.0 ? "no joint has clearance" : "the motion begins in contact";
     return flight;

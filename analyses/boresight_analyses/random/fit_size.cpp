@@ -18,15 +18,20 @@ std::string millimetres(double length) {
 }  // namespace
 
 std::vector<JournalSize> journal_sizes(const MechanismDescription& mechanism, const std::string& path) {
-  constexpr std::string_view kBegin = "clearance.", kEnd = ".radial";
+  constexpr std::string_view kBegin = "clearance.";
   std::vector<JournalSize> sizes;
-  if (!path.starts_with(kBegin) || !path.ends_with(kEnd) || path.size() <= kBegin.size() + kEnd.size()) return sizes;
-  const std::string meant = path.substr(kBegin.size(), path.size() - kBegin.size() - kEnd.size());
-  for (const ClearanceDescription& c : mechanism.clearances) {
-    const std::string& joint = mechanism.joints[static_cast<std::size_t>(c.joint)].name;
-    const ClearanceParameters& p = c.parameters;
-    if (meant == "*" || meant == joint)
-      sizes.push_back({joint, 2.0 * p.journal_radius, 2.0 * (p.journal_radius + p.radial)});
+  for (const char* gap : {"radial", "width_gap", "height_gap"}) {
+    const std::string end = "." + std::string(gap);
+    if (!path.starts_with(kBegin) || !path.ends_with(end) || path.size() <= kBegin.size() + end.size()) continue;
+    const std::string meant = path.substr(kBegin.size(), path.size() - kBegin.size() - end.size());
+    for (const ClearanceDescription& c : mechanism.clearances) {
+      const std::string& joint = mechanism.joints[static_cast<std::size_t>(c.joint)].name;
+      const ClearanceParameters& p = c.parameters;
+      if (meant != "*" && meant != joint) continue;
+      const double inner = gap[0] == 'r' ? 2.0 * p.journal_radius : gap[0] == 'w' ? p.width : p.height;
+      const double room = gap[0] == 'r' ? p.radial : gap[0] == 'w' ? p.width_gap : p.height_gap;
+      if (inner > 0.0) sizes.push_back({joint, inner, inner + 2.0 * room, gap});  // a pad has none
+    }
   }
   return sizes;
 }
@@ -39,12 +44,18 @@ bool is_of_size(const Fit& fit, const JournalSize& size) {
 }
 
 std::string found_size(const Fit& fit, const JournalSize& size) {
-  return "\"" + fit.name + "\" of nominal size " + millimetres(fit.nominal) + ", where the journal of " + size.joint +
-         " has a diameter of " + millimetres(size.journal);
+  const std::string what = size.gap[0] == 'r' ? "journal" : "slider", measure = size.gap[0] == 'r'   ? "diameter"
+                                                                                : size.gap[0] == 'w' ? "width"
+                                                                                                     : "height";
+  return "\"" + fit.name + "\" of nominal size " + millimetres(fit.nominal) + ", where the " + what + " of " +
+         size.joint + " has a " + measure + " of " + millimetres(size.journal);
 }
 
 std::string expected_size(const JournalSize& size) {
-  return "a fit of nominal size " + millimetres(size.journal) + ", twice the mechanism file's journal_radius";
+  return "a fit of nominal size " + millimetres(size.journal) +
+         (size.gap[0] == 'r'   ? ", twice the mechanism file's journal_radius"
+          : size.gap[0] == 'w' ? ", the mechanism file's width"
+                               : ", the mechanism file's height");
 }
 
 }  // namespace boresight

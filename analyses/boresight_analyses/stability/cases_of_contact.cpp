@@ -22,7 +22,8 @@ double deepest(const RunResult& result) {
 // All clearances times a factor, on the cheapest rung that follows: quasistatic, else the one with dynamics.
 RunResult with_clearance(const Scene& scene, const Rung& rung, double factor) {
   Parameters parameters = scene.mechanism->parameters();
-  for (ClearanceParameters& c : parameters.clearance) c.radial *= factor, c.axial *= factor;
+  for (ClearanceParameters& c : parameters.clearance)
+    for (const auto gap : kGaps) c.*gap *= factor;
   RunOptions options = scene.followed->options(0.0);
   return rung.run(parameters, options);
 }
@@ -40,7 +41,7 @@ FailureCase case_of_vanishing_clearance(const Scene& scene) {
   }
   double radial = 0.0;
   for (const ClearanceParameters& p : scene.mechanism->parameters().clearance)
-    radial = std::max(radial, p.pad_radius > 0.0 ? p.axial : p.radial);
+    radial = std::max(radial, p.*carrying_gap(p));
   const auto measure = [&](const Rung& rung) {
     double lever = 0.0, least = 1e300;
     bool tends = true;

@@ -51,8 +51,7 @@ FailureCase case_of_large_clearance(const Scene& scene) {
   for (double factor : {1.0, 10.0}) {
     Parameters parameters = scene.mechanism->parameters();
     for (ClearanceParameters& p : parameters.clearance) {
-      p.radial *= factor;
-      p.axial *= factor;
+      for (const auto gap : kGaps) p.*gap *= factor;
       p.cap_radius = std::max(p.cap_radius, 1.2 * (p.journal_radius + p.radial));
     }
     try {

@@ -17,13 +17,12 @@ std::vector<Separation> separations(const Mechanism& mechanism, const FollowedMo
   options.sample_spacing = followed.until / 2000.0;
   const RunResult first = followed.rung->run(parameters, options);
   double clearance = 0.0;
-  for (const ClearanceParameters& c : parameters.clearance)
-    clearance = std::max(clearance, c.pad_radius > 0.0 ? c.axial : c.radial);
+  for (const ClearanceParameters& c : parameters.clearance) clearance = std::max(clearance, c.*carrying_gap(c));
 
   std::vector<Separation> result;
   for (double start : starts) {
     Parameters other = parameters;
-    for (ClearanceParameters& c : other.clearance) (c.pad_radius > 0.0 ? c.axial : c.radial) *= 1.0 + start;
+    for (ClearanceParameters& c : other.clearance) c.*carrying_gap(c) *= 1.0 + start;
     const RunResult second = followed.rung->run(other, options);
     Separation s{.start = start, .time = {}, .distance = {}, .horizon = -1.0};
     const std::size_t samples = std::min(first.time.size(), second.time.size());

@@ -33,7 +33,7 @@ double LaneSampleModel::nonlinearity(const Parameters& parameters, const LaneOut
   const double length = mechanism_->characteristic_length();
   const double deviation = index_.quantity == "position_error" ? found.max / length : found.max;
   double offset = 0.0;
-  for (const ClearanceParameters& c : parameters.clearance) offset = std::max({offset, c.radial, c.axial});
+  for (const ClearanceParameters& c : parameters.clearance) offset = std::max(offset, widest_gap(c));
   offset += found.max_penetration;
   const double of_play = offset > 0.0 ? deviation * std::max(1.0, deviation * length / offset) : 0.0;
   return of_play + lanes_.error_of_linearity(parameters, found.max);

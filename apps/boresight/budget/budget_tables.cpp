@@ -190,13 +190,16 @@ report::Table contributor_table(const BudgetStudy& s) {
       .columns = {{"Contributor"}, {"Class"}, {"Course in time"}, {"Over the members"}, {"Axes"}, {"Source"}}};
   const MechanismDescription& m = s.mechanism.description();
   for (const ClearanceDescription& c : m.clearances) {
+    const bool slider = c.guide == GuideShape::rectangular;
     const bool pad = m.joints[static_cast<std::size_t>(c.joint)].type == JointType::planar;
-    table.rows.push_back({m.joints[static_cast<std::size_t>(c.joint)].name, kClearanceKind,
-                          "the motion's own, " + readable(s.mechanism.duration(), "s"),
-                          (pad ? "gap " : "radial " + readable(c.parameters.radial, "m") + ", axial ") +
-                              readable(c.parameters.axial, "m") + (pad ? " on each side" : "") +
-                              " where nothing else is drawn",
-                          "all", kFromNominal});
+    table.rows.push_back(
+        {m.joints[static_cast<std::size_t>(c.joint)].name, kClearanceKind,
+         "the motion's own, " + readable(s.mechanism.duration(), "s"),
+         (slider ? "gaps " + readable(c.parameters.width_gap, "m") + " and " + readable(c.parameters.height_gap, "m")
+                 : (pad ? "gap " : "radial " + readable(c.parameters.radial, "m") + ", axial ") +
+                       readable(c.parameters.axial, "m")) +
+             (pad || slider ? " on each side" : "") + " where nothing else is drawn",
+         "all", kFromNominal});
   }
   for (std::size_t g = 0; g < s.plan.groups.names.size(); ++g) {
     std::string spread;

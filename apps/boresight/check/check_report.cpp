@@ -172,14 +172,15 @@ void add_contact_findings(const Mechanism& mechanism, CheckResult& result) {
     // A contact as deep as the journal is thick, or the pad is wide, is no contact: the journal would be through its sleeve.
     const JointPlay play(d, mechanism.description().joints[d.joint].type, p);
     const double depth = play.normal_law().depth_under(contact.largest_load);
-    const double radius = std::max(p.journal_radius, p.pad_radius);  // one of them is zero
+    // But one of them are zero.
+    const double radius = std::max({p.journal_radius, p.pad_radius, 0.5 * std::min(p.width, p.height)});
     const PlayWords parts = play.words();
     if (!(depth < radius))
       result.findings.push_back(fmt::format(
-          "{}: its largest load, {}, would press the {} {} into its {}, which is more than the {}'s radius of {}; "
+          "{}: its largest load, {}, would press the {} {} into its {}, which is more than the {}'s {} of {}; "
           "check young, masses and gravity, and the speed of the motion",
           contact.joint, readable(contact.largest_load, "N"), parts.insert, readable(depth, "m"), parts.seat,
-          parts.insert, readable(radius, "m")));
+          parts.insert, p.length > 0.0 ? "half width" : "radius", readable(radius, "m")));
   }
 }
 

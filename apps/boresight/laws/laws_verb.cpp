@@ -9,6 +9,7 @@
 #include "boresight/contact/law_range.hpp"
 #include "boresight/contact_events/contact_report.hpp"
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight/play/play_words.hpp"
 #include "command_line/declared_option.hpp"
 #include "command_line/option_range.hpp"
 #include "command_line/verb.hpp"
@@ -127,20 +128,25 @@ class LawsVerb : public Verb {
     if (mechanism.clearances() == 0)
       throw InputError({command.file, 0}, "clearance", "none", "at least one joint with clearance");
     std::vector<std::string> joints;
-    int round = mechanism.clearances();  // the first that is no pad
-    for (int c = mechanism.clearances() - 1; c >= 0; --c) round = is_pad(mechanism, c) ? round : c;
+    const auto flat = [&](int c) { return is_pad(mechanism, c) || is_slider(mechanism, c); };
+    int round = mechanism.clearances();  // the first that is no pad and no slider
+    for (int c = mechanism.clearances() - 1; c >= 0; --c) round = flat(c) ? round : c;
     for (int c = 0; c < mechanism.clearances(); ++c) joints.push_back(joint_of_clearance(mechanism, c));
     if (round == mechanism.clearances())
-      throw InputError({command.file, 0}, "clearance", "pads alone", "a journal or a ball, which the laws are of");
+      throw InputError({command.file, 0}, "clearance", parts_in_play(m).inserts + " alone",
+                       "a journal or a ball, which the laws are of");
     const std::size_t c =
         joint_.empty() ? static_cast<std::size_t>(round)
                        : static_cast<std::size_t>(std::find(joints.begin(), joints.end(), joint_) - joints.begin());
     if (c == joints.size())
       throw InputError({"command line", 0}, "--joint", "\"" + joint_ + "\"", "a joint with clearance",
                        nearest_name(joint_, joints));
-    if (is_pad(mechanism, static_cast<int>(c)))
-      throw InputError({"command line", 0}, "--joint", "\"" + joint_ + "\", a pad in its slot",
-                       "a joint with a journal or a ball, which the laws are of");
+    if (flat(static_cast<int>(c)))
+      throw InputError(
+          {"command line", 0}, "--joint",
+          "\"" + joint_ +
+              (is_pad(mechanism, static_cast<int>(c)) ? "\", a pad in its slot" : "\", a slider in its guide"),
+          "a joint with a journal or a ball, which the laws are of");
     subject.mechanism = mechanism.name();
     subject.hash = m.content_hash;
     subject.joint = joints[c];

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "boresight/math/singular_values.hpp"
+#include "report_parts/report_parts.hpp"
 
 namespace boresight::app {
 namespace {
@@ -58,11 +59,26 @@ class ViewBuilder {
     if (mechanism_.clearances() > 0)
       text +=
           " Each point is moved off its ideal place by its deviation times the exaggeration: joints without "
-          "clearance stay "
-          "closed, and bodies look strained where the exaggeration is large. A ring is the room of a "
-          "journal's centre in its "
-          "sleeve, the dot the journal's centre, both exaggerated alike; a ball's room in its socket is drawn as three "
-          "rings.";
+          "clearance stay closed, and bodies look strained where the exaggeration is large. Play is drawn with the dot "
+          "of the moving part's centre, exaggerated alike: " +
+          rooms() + ".";
+    return text;
+  }
+
+  // How the room of each kind of play that there is is drawn.
+  std::string rooms() const {
+    bool journals = false, balls = false, pads = false, sliders = false;
+    for (int c = 0; c < mechanism_.clearances(); ++c)
+      (is_ball(mechanism_, c)     ? balls
+       : is_pad(mechanism_, c)    ? pads
+       : is_slider(mechanism_, c) ? sliders
+                                  : journals) = true;
+    std::string text;
+    for (const auto& [there, says] : {std::pair{journals, "a journal's in its sleeve as a ring"},
+                                      std::pair{balls, "a ball's in its socket as three rings"},
+                                      std::pair{pads, "a pad's between its faces as a line across them"},
+                                      std::pair{sliders, "a slider's in its guide as a ring of the wider gap"}})
+      if (there) text += (text.empty() ? "" : ", ") + std::string(says);
     return text;
   }
 
@@ -110,7 +126,7 @@ class ViewBuilder {
     if (joint.type != JointType::spherical && joint.type != JointType::fixed) drawn.tip = add_tip(*first);
     if (c >= 0) {
       const ClearanceParameters& p = mechanism_.parameters().clearance[c];
-      drawn.clearance = report::ViewClearance{kMmPerM * p.radial, kMmPerM * p.axial};
+      drawn.clearance = report::ViewClearance{kMmPerM * (p.length > 0.0 ? widest_gap(p) : p.radial), kMmPerM * p.axial};
       if (drawn.tip >= 0) drawn.second_tip = add_tip(*second);
     }
     view_.joints.push_back(std::move(drawn));

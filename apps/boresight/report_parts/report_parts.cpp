@@ -274,6 +274,9 @@ bool is_ball(const Mechanism& mechanism, int clearance) {
   return type_of(mechanism, clearance) == JointType::spherical;
 }
 bool is_pad(const Mechanism& mechanism, int clearance) { return type_of(mechanism, clearance) == JointType::planar; }
+bool is_slider(const Mechanism& mechanism, int clearance) {
+  return mechanism.description().clearances[static_cast<std::size_t>(clearance)].guide == GuideShape::rectangular;
+}
 
 report::Chart orbit_chart(const std::string& joint, bool ball, double radial_clearance, const RunResult& result,
                           std::size_t clearance) {
@@ -307,16 +310,20 @@ report::Chart orbit_chart(const std::string& joint, bool ball, double radial_cle
 
 report::Strip contact_strip(const Mechanism& mechanism, const RunResult& result) {
   const PartsInPlay parts = parts_in_play(mechanism.description());
-  bool balls = false, pads = false, journals = false;
+  bool balls = false, pads = false, journals = false, sliders = false;
   for (int c = 0; c < mechanism.clearances(); ++c)
-    (is_ball(mechanism, c) ? balls : is_pad(mechanism, c) ? pads : journals) = true;
-  const bool several = balls + pads + journals > 1;
+    (is_ball(mechanism, c) ? balls : is_pad(mechanism, c) ? pads : is_slider(mechanism, c) ? sliders : journals) = true;
+  const bool several = balls + pads + journals + sliders > 1;
   report::Strip strip{.title = "Contact state",
                       .caption = fmt::format("Where {} {} touches {} {}, sample by sample.", several ? "each" : "the",
                                              parts.insert, several ? "its" : "the", parts.seat),
                       .x = {"Time", "s"},
                       .states = {{"free", "free flight", true}}};
-  if (balls || journals) strip.states.push_back({"radial", !balls ? "bore" : journals ? "bore or socket" : "socket"});
+  std::string around;
+  for (const auto& [there, seat] :
+       {std::pair{journals, "bore"}, std::pair{balls, "socket"}, std::pair{sliders, "guide"}})
+    if (there) around += (around.empty() ? "" : " or ") + std::string(seat);
+  if (!around.empty()) strip.states.push_back({"radial", around});
   if (journals || pads)
     strip.states.push_back({"axial", !pads ? "end face" : journals ? "end face or face of the slot" : "face"});
   if (journals) strip.states.push_back({"both", "bore and end face"});

@@ -48,9 +48,14 @@ report::Table contact_table(const std::vector<Overlay>& overlays);
 bool is_ball(const Mechanism& mechanism, int clearance);
 // Whether it is a pad in its slot.
 bool is_pad(const Mechanism& mechanism, int clearance);
+// Whether it is a slider in a rectangular guide.
+bool is_slider(const Mechanism& mechanism, int clearance);
 
 // The journal's centre in the sleeve or the ball's in its socket, seen along the axis, with the circle at which contact begins.
 report::Chart orbit_chart(const std::string& joint, bool ball, double radial_clearance, const RunResult& result,
+                          std::size_t clearance);
+// The same of a slider, with the rectangle that its guide leaves it.
+report::Chart guide_chart(const std::string& joint, const ClearanceParameters& play, const RunResult& result,
                           std::size_t clearance);
 
 // Free, radial, axial, both: along time, one row per clearance joint.

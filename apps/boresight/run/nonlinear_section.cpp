@@ -90,7 +90,8 @@ report::Section nonlinear_section(const NonlinearAnalysis& analysis, const Mecha
                            readable(analysis.period, "s"), analysis.periods, analysis.skipped)};
   for (const JointDynamics& j : analysis.joints) {
     section.items.push_back(report::Text{sentence(j)});
-    const double radial = 1e6 * mechanism.parameters().clearance[static_cast<std::size_t>(j.clearance)].radial;
+    const ClearanceParameters& gap = mechanism.parameters().clearance[static_cast<std::size_t>(j.clearance)];
+    const double radial = 1e6 * gap.*carrying_gap(gap);
     report::Panels panels{
         .title = j.joint + ": the journal's centre in its sleeve",
         .caption =

@@ -55,15 +55,24 @@ report::Chart joint_chart(const std::string& title, const std::string& label, co
 report::Section joint_section(const Mechanism& mechanism, const RunResult& result, std::size_t c) {
   const std::string joint = joint_of_clearance(mechanism, static_cast<int>(c));
   const ClearanceParameters& p = mechanism.parameters().clearance[c];
-  const bool ball = is_ball(mechanism, static_cast<int>(c)), pad = is_pad(mechanism, static_cast<int>(c));
-  report::Section section{.id = fmt::format("joint-{}", c + 1),
-                          .title = "Joint " + joint,
-                          .intro = ball  ? fmt::format("A ball in its socket: play {}.", readable(p.radial, "m"))
-                                   : pad ? fmt::format("A pad in its slot: gap {} on each side, radius {}.",
-                                                       readable(p.axial, "m"), readable(p.pad_radius, "m"))
-                                         : fmt::format("Radial clearance {}, axial clearance {} per side.",
-                                                       readable(p.radial, "m"), readable(p.axial, "m"))};
-  if (!pad) section.items.push_back(orbit_chart(joint, ball, p.radial, result, c));
+  const bool ball = is_ball(mechanism, static_cast<int>(c)), pad = is_pad(mechanism, static_cast<int>(c)),
+             slider = is_slider(mechanism, static_cast<int>(c));
+  report::Section section{
+      .id = fmt::format("joint-{}", c + 1),
+      .title = "Joint " + joint,
+      .intro = ball     ? fmt::format("A ball in its socket: play {}.", readable(p.radial, "m"))
+               : pad    ? fmt::format("A pad in its slot: gap {} on each side, radius {}.", readable(p.axial, "m"),
+                                      readable(p.pad_radius, "m"))
+               : slider ? fmt::format("A slider in its guide: gap {} on each side along its width of {}, {} "
+                                      "along its height of {}; {} long.",
+                                      readable(p.width_gap, "m"), readable(p.width, "m"), readable(p.height_gap, "m"),
+                                      readable(p.height, "m"), readable(p.length, "m"))
+                        : fmt::format("Radial clearance {}, axial clearance {} per side.", readable(p.radial, "m"),
+                                      readable(p.axial, "m"))};
+  if (slider)
+    section.items.push_back(guide_chart(joint, p, result, c));
+  else if (!pad)
+    section.items.push_back(orbit_chart(joint, ball, p.radial, result, c));
 
   report::Panels panels{.title = joint + " over time",
                         .caption = "Penetration and force are drawn with their peaks kept.",
@@ -80,7 +89,7 @@ report::Section joint_section(const Mechanism& mechanism, const RunResult& resul
                                              : axial.y.unit == "µm" ? 1e6
                                              : axial.y.unit == "nm" ? 1e9
                                                                     : 1.0};
-  if (!ball)
+  if (!ball && !slider)
     axial.lines = {{'y', p.axial * axial_unit.per_si, pad ? "face" : "end face"},
                    {'y', -p.axial * axial_unit.per_si, pad ? "face" : "end face"}};
   panels.panels = {joint_chart("Penetration", "penetration", "m", result, c,
@@ -88,11 +97,17 @@ report::Section joint_section(const Mechanism& mechanism, const RunResult& resul
                    joint_chart("Contact force", "normal force", "N", result, c,
                                [](const ClearanceSample& s) { return s.normal_force; })};
   // Across its normal a pad slides as the mechanism has it.
-  if (!pad)
+  if (slider) {
+    panels.panels.push_back(joint_chart("Offset along the width", "along the width", "m", result, c,
+                                        [](const ClearanceSample& s) { return s.offset.x(); }));
+    panels.panels.push_back(joint_chart("Offset along the height", "along the height", "m", result, c,
+                                        [](const ClearanceSample& s) { return s.offset.z(); }));
+  } else if (!pad)
     panels.panels.push_back(joint_chart(
         ball ? "Offset" : "Radial offset", "distance of the centres", "m", result, c,
         [ball](const ClearanceSample& s) { return ball ? s.offset.norm() : std::hypot(s.offset.x(), s.offset.z()); }));
-  panels.panels.push_back(std::move(axial));
+  // Along its axis a slider goes where the mechanism has it.
+  if (!slider) panels.panels.push_back(std::move(axial));
   section.items.push_back(std::move(panels));
   return section;
 }

@@ -14,24 +14,52 @@
 namespace boresight {
 
 // Where in a clearance joint a contact lies. radial_minus/plus: at the sleeve's ends (free axes only). Sleeve frame: y along
-// the joint's axis; plus is the end at +y.
-enum class ContactPlace : std::uint8_t { radial, radial_minus, radial_plus, axial_minus, axial_plus };
-inline constexpr int kContactPlaces = 5;
+// the joint's axis; plus is the end at +y. width, height: the faces of a rectangular guide, at -x +x -z +z; of a slider that may tilt the
+// edges at its ends on them, first of the end at -y (rear), then of that at +y (front).
+enum class ContactPlace : std::uint8_t {
+  radial,
+  radial_minus,
+  radial_plus,
+  axial_minus,
+  axial_plus,
+  width_minus,
+  width_plus,
+  height_minus,
+  height_plus,
+  width_minus_rear,
+  width_plus_rear,
+  height_minus_rear,
+  height_plus_rear,
+  width_minus_front,
+  width_plus_front,
+  height_minus_front,
+  height_plus_front
+};
+inline constexpr int kContactPlaces = 17;
 
-// "radial", "radial-", "radial+", "axial-", "axial+"
+// "radial", "radial-", "radial+", "axial-", "axial+", "width-", ...
 inline const char* to_string(ContactPlace place) {
-  constexpr const char* names[] = {"radial", "radial-", "radial+", "axial-", "axial+"};
+  constexpr const char* names[kContactPlaces] = {
+      "radial",       "radial-",      "radial+",      "axial-",        "axial+",       "width-",
+      "width+",       "height-",      "height+",      "width- rear",   "width+ rear",  "height- rear",
+      "height+ rear", "width- front", "width+ front", "height- front", "height+ front"};
   return names[static_cast<int>(place)];
 }
 
 // Whether a place limits the motion along the joint's axis, and not across it.
-inline bool is_axial(ContactPlace place) { return place >= ContactPlace::axial_minus; }
+inline bool is_axial(ContactPlace place) {
+  return place == ContactPlace::axial_minus || place == ContactPlace::axial_plus;
+}
 
 struct ContactMemory {
   std::array<bool, kContactPlaces> touching{};
   // Approach speed at the start of the contact; while not touching, the speed to use should a contact begin inside the
   // coming step. Always positive [m/s].
-  std::array<double, kContactPlaces> impact_speed{1e-3, 1e-3, 1e-3, 1e-3, 1e-3};
+  std::array<double, kContactPlaces> impact_speed = [] {
+    std::array<double, kContactPlaces> slow;
+    slow.fill(1e-3);
+    return slow;
+  }();
   // LuGre's z [m], in the contact's plane. A continuous state: the integrator carries it and writes it here for each stage.
   std::array<Eigen::Vector2d, kContactPlaces> bristle = [] {
     std::array<Eigen::Vector2d, kContactPlaces> none;

@@ -41,7 +41,7 @@ double contact_half_angle(const NormalLaw& law, const ClearanceParameters& p, do
 }
 
 std::optional<std::string> out_of_range(const std::string& name, const ClearanceParameters& p, double load) {
-  if (p.pad_radius > 0.0) return {};  // a flat pad takes nothing but its damping from a law
+  if (p.pad_radius > 0.0 || p.length > 0.0) return {};  // what is flat takes nothing but its damping from a law
   const NormalLaw law = make_normal_law(name, "", p);
   if (law.curve == ElasticCurve::linear || !(load > 0.0)) return {};
   const double angle = contact_half_angle(law, p, load), degrees = angle * 180.0 / std::numbers::pi;

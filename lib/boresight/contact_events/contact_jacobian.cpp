@@ -17,7 +17,8 @@ void differentiate(const JointPlay& law, const PlayMotion<double>& m, const std:
            : k < 6  ? of.e_dot[k - 3]
            : k < 9  ? of.w[k - 6]
            : k < 11 ? of.slope[k - 9]
-                    : of.slope_rate[k - 11];
+           : k < 13 ? of.slope_rate[k - 11]
+                    : of.roll;
   };
   for (int k = 0; k < kMotionNumbers; ++k) number(motion, k) = Jet(number(m, k));
   for (int i = 0; i < inputs; ++i) number(motion, column[i]).v[i] = 1.0;
@@ -46,14 +47,18 @@ void contact_jacobian(const JointPlay& law, const PlayMotion<double>& motion,
     case MotionInputs::turning:
       return by(std::array<int, 9>{0, 1, 2, 3, 4, 5, 6, 7, 8});
     case MotionInputs::tilting:
-      return by(std::array<int, kMotionNumbers>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+      return by(std::array<int, 13>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+    case MotionInputs::rolling:
+      return by(std::array<int, kMotionNumbers>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13});
   }
 }
 
 void offset_jacobian(const JointPlay& law, const PlayMotion<double>& at_rest,
                      const std::array<double, kContactPlaces>& impact_speed, MomentAbout about, OffsetJacobian& out) {
   out.setZero();
-  if (law.inputs() == MotionInputs::tilting)
+  if (law.inputs() == MotionInputs::rolling)
+    differentiate<6>(law, at_rest, {0, 1, 2, 9, 10, 13}, impact_speed, about, out, {0, 1, 2, 3, 4, 5});
+  else if (law.inputs() == MotionInputs::tilting)
     differentiate<5>(law, at_rest, {0, 1, 2, 9, 10}, impact_speed, about, out, {0, 1, 2, 3, 4});
   else
     differentiate<3>(law, at_rest, {0, 1, 2}, impact_speed, about, out, {0, 1, 2});

@@ -14,14 +14,14 @@ using ContactJacobian = Eigen::Matrix<double, 6, kMotionNumbers>;
 void contact_jacobian(const JointPlay& law, const PlayMotion<double>& motion,
                       const std::array<double, kContactPlaces>& impact_speed, MomentAbout about, ContactJacobian& out);
 
-// The columns of e and slope alone, of an insert at rest.
+// The columns of e, slope and roll alone, of an insert at rest.
 using OffsetJacobian = Eigen::Matrix<double, 6, kMostOffsets>;
 void offset_jacobian(const JointPlay& law, const PlayMotion<double>& at_rest,
                      const std::array<double, kContactPlaces>& impact_speed, MomentAbout about, OffsetJacobian& out);
 
 inline Eigen::Matrix<double, kMotionNumbers, 1> numbers(const PlayMotion<double>& m) {
   Eigen::Matrix<double, kMotionNumbers, 1> all;
-  all << m.e, m.e_dot, m.w, m.slope, m.slope_rate;
+  all << m.e, m.e_dot, m.w, m.slope, m.slope_rate, m.roll;
   return all;
 }
 

@@ -31,7 +31,7 @@ struct AlongMotion {
 double radial_load(const VecX& reaction, const OffsetLayout::Joint& at, const JointPlay& joint) {
   const double force = reaction.segment<3>(at.first).norm();
   if (!at.tilts) return force;
-  return force + reaction.segment<2>(at.first + 3).norm() / joint.lever();
+  return force + reaction.segment(at.first + 3, at.count() - 3).norm() / joint.lever();
 }
 
 // Of each body as if it were free: what a unit wrench about its own centre of mass accelerates.

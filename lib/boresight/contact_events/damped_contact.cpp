@@ -19,9 +19,9 @@ OffsetMatrix damping(const JointPlay& joint, const PlayMotion<double>& motion, c
   ContactJacobian J;
   contact_jacobian(joint, motion, memory.impact_speed, MomentAbout::insert, J);
   Eigen::Matrix<double, 6, kMostOffsets> by_rate;
-  by_rate << J.col(3), J.col(4), J.col(5), J.col(11) - J.col(8), J.col(12) + J.col(6);
+  by_rate << J.col(3), J.col(4), J.col(5), J.col(11) - J.col(8), J.col(12) + J.col(6), J.col(7);
   OffsetMatrix D;
-  D << by_rate.topRows<3>(), -by_rate.row(5), by_rate.row(3);
+  D << by_rate.topRows<3>(), -by_rate.row(5), by_rate.row(3), by_rate.row(4);
   return -D;
 }
 
@@ -51,7 +51,7 @@ DampedContact most_damped_contact(const OffsetLayout& layout, const std::vector<
     // A slope's moment over a length that makes it a force.
     const OffsetLayout::Joint& at = layout.joint(c);
     double share = mode.segment(at.first, 3).norm();
-    if (at.tilts) share += mode.segment(at.first + 3, 2).norm() / joints[c].lever();
+    if (at.tilts) share += mode.segment(at.first + 3, at.count() - 3).norm() / joints[c].lever();
     if (share > largest) {
       largest = share;
       result.clearance = c;

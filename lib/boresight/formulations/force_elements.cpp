@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "boresight/mechanism/joint_rows.hpp"
+
 namespace boresight {
 namespace {
 
@@ -54,18 +56,22 @@ PlayMotion<double> ForceElements::play_motion(int clearance, const std::vector<B
   const Vec3 d = J.p + rJ - S.p - rS;
   const Vec3 d_dot = J.v + J.w.cross(rJ) - S.v - S.w.cross(rS) - S.w.cross(d);
   PlayMotion<double> motion{R_WS.transpose() * d, R_WS.transpose() * d_dot, R_WS.transpose() * (J.w - S.w)};
-  if (joint.law.inputs() == MotionInputs::tilting) {
-    const Vec3 a = R_WS.transpose() * (J.R * joint.journal.R.col(1)), a_dot = motion.w.cross(a);
+  const MotionInputs inputs = joint.law.inputs();
+  if (inputs == MotionInputs::tilting || inputs == MotionInputs::rolling) {
+    const Mat3 R_SJ = R_WS.transpose() * (J.R * joint.journal.R);
+    const Vec3 a = R_SJ.col(1), a_dot = motion.w.cross(a);
     motion.slope << a.x() / a.y(), a.z() / a.y();
     motion.slope_rate << (a_dot.x() - motion.slope[0] * a_dot.y()) / a.y(),
         (a_dot.z() - motion.slope[1] * a_dot.y()) / a.y();
+    if (inputs == MotionInputs::rolling) motion.roll = twist_about_y(R_SJ);
   }
   return motion;
 }
 
 void ForceElements::load(Joint& joint, const PlayOffsets& held) const {
   joint.wrench.force = held.head<3>();
-  joint.wrench.moment = joint.motion.e.cross(joint.wrench.force) + moment_of_couple(held[3], held[4], joint.motion);
+  joint.wrench.moment = joint.motion.e.cross(joint.wrench.force) + moment_of_couple(held[3], held[4], joint.motion) +
+                        held[5] * roll_axis(joint.motion);
 }
 
 void ForceElements::apply(double t, const std::vector<BodyMotion>& bodies, const std::vector<ContactMemory>& memory,

@@ -136,6 +136,26 @@ FrictionParameters read_friction(Cursor& cursor, std::string& law, std::vector<A
   return p;
 }
 
+// A slider in a rectangular guide: its size and gaps, and where its width lies.
+void read_slider(Cursor& cursor, const JointDescription& joint, ClearanceDescription& clearance) {
+  ClearanceParameters& p = clearance.parameters;
+  clearance.guide = GuideShape::rectangular;
+  p.width = cursor.quantity("width");
+  p.height = cursor.quantity("height");
+  p.length = cursor.quantity("length");
+  p.width_gap = cursor.quantity("width_gap");
+  p.height_gap = cursor.quantity("height_gap");
+  cursor.require(p.width_gap < 0.5 * p.width, "width_gap", "less than half of width");
+  cursor.require(p.height_gap < 0.5 * p.height, "height_gap", "less than half of height");
+  const Vec3 width = cursor.direction("width_direction");
+  const double skew = width.dot(joint.axis);
+  if (std::abs(skew) > 1e-3)
+    cursor.fail_found("width_direction",
+                      "a direction that is not perpendicular to the axis of " + in_quotes(joint.name),
+                      "perpendicular directions");
+  clearance.width_direction = (width - skew * joint.axis).normalized();
+}
+
 }  // namespace
 
 ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& so_far,
@@ -166,6 +186,18 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
         "one of the bodies of joint " + joint.name + ": " + name(joint.first) + " or " + name(joint.second));
   }
   const bool ball = joint.type == JointType::spherical, pad = joint.type == JointType::planar;
+  const bool slider = cursor.choice("guide") == "rectangular";
+  if (cursor.has("guide") && joint.type != JointType::prismatic)
+    cursor.fail_found("guide", "it on " + in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint",
+                      "it only on a prismatic joint");
+  for (const char* key : {"radial", "axial", "journal_radius", "cap_radius", "sleeve_length"})
+    if (slider && cursor.has(key))
+      cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", whose guide is rectangular",
+                        "width, height, length, width_gap and height_gap: the slider's size and its gaps");
+  for (const char* key : {"width", "height", "length", "width_gap", "height_gap", "width_direction"})
+    if (!slider && cursor.has(key))
+      cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", which has no rectangular guide",
+                        "it only on a prismatic joint with guide = \"rectangular\"");
   for (const char* key : {"radial", "journal_radius", "cap_radius", "sleeve_length"})
     if (pad && cursor.has(key))
       cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", a planar joint",
@@ -186,7 +218,9 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
   if (slides_along_axis(joint.type) && cursor.has("axial"))
     cursor.fail_found("axial", "it on " + in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint",
                       "no axial clearance: the journal slides through its sleeve and has no end faces");
-  if (pad) {
+  if (slider) {
+    read_slider(cursor, joint, clearance);
+  } else if (pad) {
     p.pad_radius = cursor.quantity("pad_radius");
   } else {
     p.radial = cursor.quantity("radial");
@@ -198,17 +232,19 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
     p.cap_radius = cursor.quantity("cap_radius");
     cursor.require(p.cap_radius > p.journal_radius + p.radial, "cap_radius", "more than journal_radius + radial");
   }
-  if (caps || (clearance.axes == JournalAxes::free && !pad) || cursor.has("sleeve_length")) {
+  if (caps || (clearance.axes == JournalAxes::free && !pad && !slider) || cursor.has("sleeve_length")) {
     p.sleeve_length = cursor.quantity("sleeve_length");
   }
   Cursor contact = cursor.table_or_empty("contact"), friction = cursor.table_or_empty("friction");
   std::vector<AssumedValue> left_out;
   if (!ball && !cursor.has("axes")) left_out.push_back({.joint = "", .key = "axes", .value = "\"parallel\""});
   p.contact = read_contact(contact, clearance.contact_law, clearance.dissipation_law, left_out);
-  if ((ball || pad) && normal_law(clearance.contact_law).geometry == ContactGeometry::line)
+  if ((ball || pad || slider) && normal_law(clearance.contact_law).geometry == ContactGeometry::line)
     contact.fail_found("law", in_quotes(clearance.contact_law) + ", a law for cylinders",
                        "a law for points or a spring: " + in_quotes(joint.name) + " is a " +
-                           (ball ? "ball in its socket" : "pad between faces, to which it lends its damping"));
+                           (ball     ? "ball in its socket"
+                            : slider ? "slider between faces, to which it lends its damping"
+                                     : "pad between faces, to which it lends its damping"));
   if (normal_law(clearance.contact_law).geometry == ContactGeometry::line && p.sleeve_length == 0.0)
     p.sleeve_length = cursor.quantity("sleeve_length");
   p.friction = read_friction(friction, clearance.friction_law, left_out);

@@ -26,21 +26,26 @@ std::vector<KeyChoice> cited_dissipations() {
 
 const KeyTable& clearance_keys() {
   using namespace keys;
+  static const char* kOfGuide = "needed of a rectangular guide, and of no other";
   static const KeyTable table_of_keys{
       .name = "clearance",
       .says =
           "Play of a joint: of a revolute, cylindrical or prismatic one a journal, carried by one body, in a sleeve, "
           "carried by the other; of a spherical one a ball in its socket; of a planar one a pad in the slot between "
-          "two faces.",
+          "two faces; of a prismatic one with a rectangular guide the slider in it.",
       .keys = with_two_bearings(
           {text("joint").says("The joint that has play; its paths are clearance.JOINT.radial and so on."),
            text("journal")
                .sometimes("needed but of a universal joint, whose cross carries the journals")
-               .says("Which of the joint's bodies carries the journal, the ball or the pad; the other one "
-                     "carries the sleeve, socket or slot."),
+               .says("Which of the joint's bodies carries the journal, the ball, the pad or the slider; the other one "
+                     "carries the sleeve, socket, slot or guide."),
+           choice("guide", std::vector<KeyChoice>{{"round", "a journal in a sleeve, held against turning by a key"},
+                                                  {"rectangular", "a slider between two pairs of faces"}})
+               .otherwise("round")
+               .says("Of a prismatic joint: the shape of its guide."),
            quantity("radial", kSizeRange)
                .above(0.0, "a length above zero")
-               .sometimes("needed but of a planar joint, whose pad has none")
+               .sometimes("needed but of a planar joint and of a rectangular guide")
                .says("Radial clearance: the sleeve's radius less the journal's, half the difference of the "
                      "diameters; of a ball "
                      "likewise."),
@@ -53,7 +58,7 @@ const KeyTable& clearance_keys() {
                      "face."),
            quantity("journal_radius", kSizeRange)
                .above(0.0, "a length above zero")
-               .sometimes("needed but of a planar joint")
+               .sometimes("needed but of a planar joint and of a rectangular guide")
                .says("Radius of the journal, or of the ball."),
            quantity("cap_radius", kSizeRange)
                .above(0.0, "a length above zero")
@@ -68,6 +73,31 @@ const KeyTable& clearance_keys() {
                .sometimes("needed of a planar joint, and of no other")
                .says("Radius of the round pad between the faces. A pad that tilts bears on its rim, and turns about it "
                      "where it lifts off."),
+           quantity("width_gap", kSizeRange)
+               .at_least(0.0, "a length of zero or more")
+               .sometimes(kOfGuide)
+               .says("Gap between slider and guide on each side, along the width."),
+           quantity("height_gap", kSizeRange)
+               .at_least(0.0, "a length of zero or more")
+               .sometimes(kOfGuide)
+               .says("Gap between slider and guide on each side, along the height."),
+           quantity("width", kSizeRange)
+               .above(0.0, "a length above zero")
+               .sometimes(kOfGuide)
+               .says("The slider's size along width_direction."),
+           quantity("height", kSizeRange)
+               .above(0.0, "a length above zero")
+               .sometimes(kOfGuide)
+               .says("The slider's size across its width and the joint's axis."),
+           quantity("length", kSizeRange)
+               .above(0.0, "a length above zero")
+               .sometimes(kOfGuide)
+               .says("The slider's size along the joint's axis; the joint's point is in its middle, and the guide is "
+                     "as long "
+                     "as it goes. A slider that tilts touches with the edges at its ends."),
+           direction("width_direction")
+               .sometimes(kOfGuide)
+               .says("Direction of the width at home, in world axes, across the joint's axis."),
            choice("axes", std::vector<KeyChoice>{{"parallel", "the journal stays parallel to the sleeve"},
                                                  {"free", "the journal may tilt in the sleeve"}})
                .usually("\"parallel\"; of a bearing pair \"free\"")

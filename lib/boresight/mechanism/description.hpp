@@ -72,16 +72,26 @@ struct JointDescription {
 
 enum class JournalAxes { parallel, free };
 
+// Of a prismatic joint with play: round with a key that holds the turn about its axis, or rectangular.
+enum class GuideShape { round, rectangular };
+
 struct ClearanceDescription {
   int joint = 0;
   int journal = 0;  // the body that carries the journal (the ball, the pad); the joint's other body carries the sleeve
   JournalAxes axes = JournalAxes::parallel;
+  GuideShape guide = GuideShape::round;
+  Vec3 width_direction = Vec3::UnitX();  // of a rectangular guide, at home, world axes: unit, across the joint's axis
   std::string contact_law = "flores";
   std::string dissipation_law;  // whose damping factor a law for cylinders takes; "": its own
   std::string friction_law = "modified-coulomb";
   ClearanceParameters parameters;
   Origin origin;
 };
+
+// Whether the insert may turn about the joint's axis within its play: a slider that tilts in a rectangular guide.
+inline bool rolls(const ClearanceDescription& c, JointType type) {
+  return type == JointType::prismatic && c.guide == GuideShape::rectangular && c.axes == JournalAxes::free;
+}
 
 struct SpringDescription {
   int first = kGround;

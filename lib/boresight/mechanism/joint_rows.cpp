@@ -14,9 +14,6 @@ const BodyMotion& motion_of(const std::vector<BodyMotion>& bodies, int body) {
   return body == kGround ? kGroundMotion : bodies[body];
 }
 
-// Turn of R about its y axis, from the rotation that takes components in B's joint frame to A's.
-double twist_about_y(const Mat3& R) { return std::atan2(R(0, 2) - R(2, 0), R(0, 0) + R(2, 2)); }
-
 // m of the header, by which the relative angular velocity becomes the rate of the twist, and its own rate.
 struct TwistAxis {
   Vec3 m, m_dot;
@@ -76,7 +73,11 @@ JointConstraint::JointConstraint(const Mechanism& mechanism, int joint, Clearanc
     add(tilts, {Kind::angle, 2, 1});
   }
   if (type == JointType::universal) add(false, {Kind::angle, 1, 3, description.axis.dot(description.second_axis)});
-  if (type == JointType::prismatic || type == JointType::fixed) add(false, {Kind::angle, 2, 0});
+  // The roll that a rectangular guide leaves is a twist, of which moments are known however far the slider tilts.
+  if (clearance >= 0 && rolls(mechanism.description().clearances[clearance], type))
+    add(loose, {Kind::twist});
+  else if (type == JointType::prismatic || type == JointType::fixed)
+    add(false, {Kind::angle, 2, 0});
   if (with_drive && description.driven && !want_released) {
     drive_row_ = static_cast<int>(rows_.size());
     rows_.push_back(type == JointType::revolute ? Row{Kind::twist} : Row{Kind::distance, 1});
@@ -152,6 +153,8 @@ void JointConstraint::evaluate(const std::vector<BodyMotion>& bodies, const Time
     }
   }
 }
+
+double twist_about_y(const Mat3& R) { return std::atan2(R(0, 2) - R(2, 0), R(0, 0) + R(2, 2)); }
 
 TimeValue joint_coordinate(const Mechanism& mechanism, int joint, const std::vector<BodyMotion>& bodies,
                            const std::vector<BodyAcceleration>* acceleration) {

@@ -32,7 +32,7 @@ enum class ClearanceRows {
   closed,  // as if the joint were ideal
   held,  // as closed, of a built mechanism less the offsets that follow from others: redundant joints' play takes up errors
   open,      // only those that clearance leaves in force
-  released,  // only those that clearance releases, in the order x, y, z of the sleeve frame, then the two tilts (free axes)
+  released,  // only those that clearance releases, in the order x, y, z of the sleeve frame, then the two tilts (free axes), then the roll
   free       // what the joint leaves free even without clearance: its turns and slides, as rows that would hold them
 };
 
@@ -72,6 +72,9 @@ class JointConstraint {
   int drive_row_ = -1;
   double drive_sign_ = 1.0;  // -1 where the reference body is the joint's second
 };
+
+// Turn of R about its y axis, from the rotation that takes components in B's joint frame to A's [rad].
+double twist_about_y(const Mat3& R_AB);
 
 // The joint's own coordinate and its derivatives, second body seen from first: the turn of a revolute about its axis
 // [rad, in (-pi, pi]], the displacement of a prismatic along it [m]. acceleration: of all bodies, or null for none.

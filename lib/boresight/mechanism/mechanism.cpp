@@ -8,10 +8,16 @@
 namespace boresight {
 namespace {
 
-// Columns x, y (the axis), z: see the header for the choice of z.
-Mat3 joint_axes(const Vec3& axis) {
+// Columns x, y (the axis), z: see the header for the choice of z. A rectangular guide has its width along x.
+Mat3 joint_axes(const Vec3& axis, const ClearanceDescription* clearance) {
   constexpr double kCosine25Degrees = 0.9063077870366499;
   const Vec3 y = axis.normalized();
+  if (clearance != nullptr && clearance->guide == GuideShape::rectangular) {
+    const Vec3 x = (clearance->width_direction - y * y.dot(clearance->width_direction)).normalized();
+    Mat3 R;
+    R << x, y, x.cross(y);
+    return R;
+  }
   const bool upright = std::abs(y.z()) > kCosine25Degrees;
   const Vec3 towards = upright ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitZ());
   const Vec3 z = (towards - y * y.dot(towards)).normalized();
@@ -19,6 +25,9 @@ Mat3 joint_axes(const Vec3& axis) {
   R << y.cross(z), y, z;
   return R;
 }
+
+// Cosine of two directions that are perpendicular, as far as they are typed.
+constexpr double kAcross = 1e-3;
 
 JointFrame frame_in(const MechanismDescription& mechanism, int body, const Vec3& point, const Mat3& R_WJ) {
   if (body == kGround) return {kGround, point, R_WJ};
@@ -72,6 +81,14 @@ void check_clearances(const MechanismDescription& m) {
     if (!keeps_axis(j.type) && c.friction_law == "lugre")
       throw InputError(c.origin, key + ".friction.law", std::string("\"lugre\" on a ") + to_string(j.type) + " joint",
                        "a law of the sliding speed: bristles have no lasting directions on a ball");
+    if (c.guide == GuideShape::rectangular) {
+      if (j.type != JointType::prismatic)
+        throw InputError(c.origin, key + ".guide", std::string("\"rectangular\" on a ") + to_string(j.type) + " joint",
+                         "a prismatic joint");
+      if (!(std::abs(c.width_direction.dot(j.axis)) < kAcross))
+        throw InputError(c.origin, key + ".width_direction",
+                         "a direction that is not perpendicular to the joint's axis", "perpendicular directions");
+    }
     if (c.journal != j.first && c.journal != j.second)
       throw InputError(c.origin, key + ".journal", "a body that the joint does not connect",
                        "one of the joint's two bodies");
@@ -97,15 +114,16 @@ Mechanism::Mechanism(MechanismDescription description) : description_(std::move(
   check_clearances(m);
   parameters_ = nominal_parameters(m);
 
+  clearance_of_.assign(m.joints.size(), -1);
+  for (std::size_t c = 0; c < m.clearances.size(); ++c) clearance_of_[m.clearances[c].joint] = static_cast<int>(c);
   geometry_.reserve(m.joints.size());
   for (const JointDescription& j : m.joints) {
-    const Mat3 R_WJ = joint_axes(j.axis);
+    const int clearance = clearance_of_[geometry_.size()];
+    const Mat3 R_WJ = joint_axes(j.axis, clearance < 0 ? nullptr : &m.clearances[static_cast<std::size_t>(clearance)]);
     JointGeometry g{frame_in(m, j.first, j.point, R_WJ), frame_in(m, j.second, j.point, R_WJ)};
     g.second_axis = j.second == kGround ? j.second_axis : Vec3(m.bodies[j.second].axes.transpose() * j.second_axis);
     geometry_.push_back(g);
   }
-  clearance_of_.assign(m.joints.size(), -1);
-  for (std::size_t c = 0; c < m.clearances.size(); ++c) clearance_of_[m.clearances[c].joint] = static_cast<int>(c);
 
   boresight_body_ = -1;
   for (int b = 0; b < bodies(); ++b) {

@@ -1,5 +1,5 @@
 // The offsets of all joints with play in one vector, joint after joint: the x y z of the insert's centre (of the journal, ball or pad) in the
-// axes of its seat [m], then, where it may tilt (axes = "free"), the slopes x z of its axis [-]. The directions in which a joint slides, y
+// axes of its seat [m], then, where it may tilt (axes = "free"), the slopes x z of its axis [-], then, in a rectangular guide, its roll [rad]. The directions in which a joint slides, y
 // along its axis or x and z across it, keep their places in the vector, though they are no offsets.
 #pragma once
 
@@ -18,6 +18,7 @@ class OffsetLayout {
       joint.first = size_;
       const JointType type = m.joints[c.joint].type;
       joint.tilts = keeps_axis(type) && c.axes == JournalAxes::free;
+      joint.rolls = rolls(c, type);
       joint.slides = slides_along_axis(type) ? 1 : type == JointType::planar ? 2 : 0;
       joint.spins = joint.tilts || !keeps_axis(type) ? 3 : 1;
       size_ += joint.count();
@@ -28,9 +29,10 @@ class OffsetLayout {
   struct Joint {
     int first = 0;
     bool tilts = false;  // five offsets, else three
+    bool rolls = false;  // six
     int slides = 0;      // directions in which it slides, which are no offsets: one is y, two are x and z
     int spins = 1;       // components of the relative spin that its contacts see: y, or x y z
-    int count() const { return tilts ? 5 : 3; }
+    int count() const { return rolls ? 6 : tilts ? 5 : 3; }
     // Row of an offset among the released constraint rows of its joint (ClearanceRows::released); -1: not released.
     int released_row(int offset) const {
       int row = 0;

@@ -25,6 +25,11 @@ const Field<C> kClearanceFields[] = {
     {"cap_radius", "m", [](C& c) { return &c.cap_radius; }},
     {"sleeve_length", "m", [](C& c) { return &c.sleeve_length; }},
     {"pad_radius", "m", [](C& c) { return &c.pad_radius; }},
+    {"width", "m", [](C& c) { return &c.width; }},
+    {"height", "m", [](C& c) { return &c.height; }},
+    {"length", "m", [](C& c) { return &c.length; }},
+    {"width_gap", "m", [](C& c) { return &c.width_gap; }},
+    {"height_gap", "m", [](C& c) { return &c.height_gap; }},
     {"contact.restitution", "1", [](C& c) { return &c.contact.restitution; }},
     {"contact.young", "Pa", [](C& c) { return &c.contact.young[0]; }, [](C& c) { return &c.contact.young[1]; }},
     {"contact.poisson", "1", [](C& c) { return &c.contact.poisson[0]; }, [](C& c) { return &c.contact.poisson[1]; }},
@@ -43,10 +48,17 @@ const Field<C> kClearanceFields[] = {
     {"friction.viscosity", "s/m", [](C& c) { return &c.friction.viscosity; }},
 };
 
-// A pad has sizes of its own, and a journal or ball has none of a pad's.
-bool belongs(const std::string& number, JointType joint) {
-  if (joint != JointType::planar) return number != "pad_radius";
-  return number != "radial" && number != "journal_radius" && number != "cap_radius" && number != "sleeve_length";
+// A pad has sizes of its own, and so has a slider in a rectangular guide; a journal or ball has none of theirs.
+bool belongs(const std::string& number, const ClearanceDescription& clearance, JointType joint) {
+  const auto one_of = [&](std::initializer_list<const char*> names) {
+    return std::find(names.begin(), names.end(), number) != names.end();
+  };
+  const bool pad = joint == JointType::planar, slider = clearance.guide == GuideShape::rectangular;
+  if (one_of({"width", "height", "length", "width_gap", "height_gap"})) return slider;
+  if (number == "pad_radius") return pad;
+  if (number == "axial") return !slider;
+  if (one_of({"radial", "journal_radius", "cap_radius", "sleeve_length"})) return !pad && !slider;
+  return true;
 }
 
 using S = SpringParameters;
@@ -82,7 +94,7 @@ std::vector<Entry> all_entries(const MechanismDescription& m) {
   }
   for (std::size_t c = 0; c < m.clearances.size(); ++c) {
     for (const Field<C>& f : kClearanceFields) {
-      if (!belongs(f.name, m.joints[m.clearances[c].joint].type)) continue;
+      if (!belongs(f.name, m.clearances[c], m.joints[m.clearances[c].joint].type)) continue;
       Entry e{"clearance." + m.joints[m.clearances[c].joint].name + "." + f.name, f.unit, {}};
       for (auto place : {f.place, f.second_place})
         if (place) e.numbers.push_back([c, place](Parameters& p) { return place(p.clearance[c]); });

@@ -5,6 +5,7 @@
 //   clearance.F1.radial   clearance.*.contact.restitution   payload.mass   body.rod1.mass   gravity.z   error.rod1.length
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -43,13 +44,35 @@ struct ClearanceParameters {
   double cap_radius = 0.0;      // R_s [m]
   double sleeve_length = 0.0;   // L_b [m]
   double pad_radius = 0.0;      // of a pad in a planar joint [m]
+  double width = 0.0;           // of a slider in a rectangular guide [m]
+  double height = 0.0;          // likewise, across its width and its axis [m]
+  double length = 0.0;          // likewise, along its axis [m]
+  double width_gap = 0.0;       // between slider and guide on each side, along the width [m]
+  double height_gap = 0.0;      // likewise, along the height [m]
   ContactParameters contact;
   FrictionParameters friction;
 };
 
 // A slope of the insert's axis times this is how far its contacts move [m].
 inline double tilt_lever(const ClearanceParameters& p) {
-  return p.pad_radius > 0.0 ? p.pad_radius : 0.5 * p.sleeve_length;
+  return p.pad_radius > 0.0 ? p.pad_radius : 0.5 * (p.length > 0.0 ? p.length : p.sleeve_length);
+}
+
+// Every gap that a joint's play may have; those that its kind has not are zero.
+inline constexpr std::array kGaps = {&ClearanceParameters::radial, &ClearanceParameters::axial,
+                                     &ClearanceParameters::width_gap, &ClearanceParameters::height_gap};
+
+// The gap that carries the loads: of a journal and a ball the radial one, of a pad the axial one, of a slider the wider of its two.
+inline double ClearanceParameters::*carrying_gap(const ClearanceParameters& p) {
+  if (p.pad_radius > 0.0) return &ClearanceParameters::axial;
+  if (!(p.length > 0.0)) return &ClearanceParameters::radial;
+  return p.width_gap > p.height_gap ? &ClearanceParameters::width_gap : &ClearanceParameters::height_gap;
+}
+
+inline double widest_gap(const ClearanceParameters& p) {
+  double widest = 0.0;
+  for (const auto gap : kGaps) widest = std::max(widest, p.*gap);
+  return widest;
 }
 
 struct SpringParameters {

@@ -32,7 +32,7 @@ Shape shape_of(const Mechanism& mechanism, int joint, bool with_clearance) {
   if (with_clearance && clearance >= 0) {
     const bool tilts = !keeps_axis(d.type) || mechanism.description().clearances[clearance].axes == JournalAxes::free;
     s.slides = kAnywhere;
-    const bool keyed = d.type == JointType::prismatic;
+    const bool keyed = d.type == JointType::prismatic && !rolls(mechanism.description().clearances[clearance], d.type);
     s.turns = tilts ? Turns::ball : keyed ? Turns::none : Turns::about_axis;
     s.driven = d.driven && !tilts;
     s.opened = true;

@@ -21,8 +21,7 @@ MotionScales scales_of(const MultibodyMotion& run) {
   const std::vector<ContactFrequency> contacts = analyse_contacts(run.mechanism, run.parameters, run.ideal);
   for (std::size_t c = 0; c < contacts.size(); ++c)
     if (contacts[c].effective_mass > 0.0)
-      scales.add_joint(run.parameters.clearance[c].radial, run.parameters.clearance[c].axial,
-                       contacts[c].typical_load / contacts[c].effective_mass,
+      scales.add_joint(run.parameters.clearance[c], contacts[c].typical_load / contacts[c].effective_mass,
                        contacts[c].largest_load / contacts[c].effective_mass);
   scales.own_time = own_time(run.ideal, run.mechanism.bodies(), run.mechanism.characteristic_length());
   scales.close(run.mechanism.duration());

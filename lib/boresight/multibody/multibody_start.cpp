@@ -144,10 +144,8 @@ double rest_as_clearances_grow(const Mechanism& mechanism, const Parameters& par
   constexpr double kFirst = 1.0 / 256.0, kFastest = 2.0, kSlowest = 1.02;
   const auto rest_at = [&](double share, VecX* from) {
     Parameters narrowed = parameters;
-    for (ClearanceParameters& c : narrowed.clearance) {
-      c.radial *= share;
-      c.axial *= share;
-    }
+    for (ClearanceParameters& c : narrowed.clearance)
+      for (const auto gap : kGaps) c.*gap *= share;
     const RestingBalance balance(scene.layout, scene.numbers.row.data(),
                                  joint_plays(mechanism.description(), narrowed));
     if (!from) {

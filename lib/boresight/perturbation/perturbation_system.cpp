@@ -25,8 +25,15 @@ void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const d
   const int n = at.n;
   gain.setZero();
   for (int k = 0; k < joint.offsets; ++k) {
-    const int value = k < 3 ? k : 6 + k, rate = k < 3 ? 3 + k : 8 + k;
     const int source = joint.source[k];
+    if (k == 5) {  // a roll, whose rate is none of the numbers
+      if (source >= 0)
+        gain(13, source) = 1.0;
+      else
+        for (int j = 0; j < n; ++j) gain(13, j) = scene[joint.dependent + k * n + j];
+      continue;
+    }
+    const int value = k < 3 ? k : 6 + k, rate = k < 3 ? 3 + k : 8 + k;
     if (source >= 0) {
       gain(value, source) = gain(rate, n + source) = 1.0;
     } else if (source == DeviationCoordinates::kDependent) {

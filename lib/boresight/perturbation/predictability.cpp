@@ -49,7 +49,7 @@ Predictability measure_predictability(std::shared_ptr<const Mechanism> mechanism
       const double difference = (run.clearances[c][k].offset - twin.clearances[c][k].offset).norm();
       apart = std::max(apart, difference);
       const ClearanceParameters& gap = parameters.clearance[c];
-      if (found.parted || !(difference > kPartedShare * (gap.pad_radius > 0.0 ? gap.axial : gap.radial))) continue;
+      if (found.parted || !(difference > kPartedShare * gap.*carrying_gap(gap))) continue;
       found.parted = true;
       found.horizon = run.time[k];
     }

@@ -35,6 +35,7 @@ std::vector<std::vector<int>> pushed_together(const SceneLayout& at, const Force
     const SceneLayout::Joint& joint = at.joints[c];
     const std::size_t first = groups.size();
     for (const std::vector<int>& group : forces.joint(static_cast<int>(c)).pushed_together()) {
+      if (group.empty()) continue;
       if (group.front() < 3) groups.emplace_back();
       std::vector<int>& into = group.front() < 3 ? groups.back() : groups[first];
       for (int k : group) {
@@ -69,7 +70,7 @@ DependentOffsets dependent_offsets(const SceneLayout& at, const double* row, con
       all.B.conservativeResize(i + 1, Eigen::NoChange);
       all.beyond.conservativeResize(i + 1);
       all.B.row(i) = length * B;
-      all.beyond[i] = length * ((k < 3 ? motion.e[k] : motion.slope[k - 3]) - B * z);
+      all.beyond[i] = length * (offsets_of(motion)[k] - B * z);
     }
   }
   return all;

@@ -14,7 +14,7 @@ struct ContactTangent {
     PlayOffsets n;  // what an insert cannot do is zero: a parallel journal's slopes
   };
   int count = 0;
-  std::array<Column, 8> column;
+  std::array<Column, 16> column;
 
   void add(ContactPlace place, const PlayOffsets& n) { column[static_cast<std::size_t>(count++)] = {place, n}; }
 };

@@ -17,7 +17,7 @@ template <std::size_t K = 0>
 PlayKinds<double> made(const ClearanceDescription& description, JointType joint, const ClearanceParameters& p) {
   if constexpr (K < std::variant_size_v<PlayKinds<double>>) {
     using Kind = std::variant_alternative_t<K, PlayKinds<double>>;
-    if (Kind::serves(joint)) return Kind(description, joint, p);
+    if (Kind::serves(description, joint)) return Kind(description, joint, p);
     return made<K + 1>(description, joint, p);
   } else {
     refuse(joint);
@@ -25,19 +25,20 @@ PlayKinds<double> made(const ClearanceDescription& description, JointType joint,
 }
 
 template <std::size_t K = 0>
-PlayWords words_for(JointType joint) {
+PlayWords words_for(const ClearanceDescription& description, JointType joint) {
   if constexpr (K < std::variant_size_v<PlayKinds<double>>) {
     using Kind = std::variant_alternative_t<K, PlayKinds<double>>;
-    return Kind::serves(joint) ? Kind::words() : words_for<K + 1>(joint);
+    return Kind::serves(description, joint) ? Kind::words() : words_for<K + 1>(description, joint);
   } else {
     refuse(joint);
   }
 }
 
 template <std::size_t K = 0>
-bool any_serves(JointType joint) {
+bool any_serves(const ClearanceDescription& description, JointType joint) {
   if constexpr (K < std::variant_size_v<PlayKinds<double>>)
-    return std::variant_alternative_t<K, PlayKinds<double>>::serves(joint) || any_serves<K + 1>(joint);
+    return std::variant_alternative_t<K, PlayKinds<double>>::serves(description, joint) ||
+           any_serves<K + 1>(description, joint);
   else
     return false;
 }
@@ -54,8 +55,12 @@ JointPlay::JointPlay(const ClearanceDescription& description, JointType joint, c
   validity_speed = boresight::validity_speed(p.contact);
 }
 
-bool JointPlay::serves(JointType joint) { return any_serves(joint); }
-PlayWords JointPlay::words(JointType joint) { return words_for(joint); }
+bool JointPlay::serves(const ClearanceDescription& description, JointType joint) {
+  return any_serves(description, joint);
+}
+PlayWords JointPlay::words(const ClearanceDescription& description, JointType joint) {
+  return words_for(description, joint);
+}
 PlayWords JointPlay::words() const {
   return std::visit([](const auto& k) { return k.words(); }, kind);
 }

@@ -61,9 +61,9 @@ struct JointPlay : JointPlayT<double> {
   JointPlay(const ClearanceDescription& description, JointType joint, const ClearanceParameters& parameters);
 
   // Whether there is a kind of play for this type of joint.
-  static bool serves(JointType joint);
+  static bool serves(const ClearanceDescription& description, JointType joint);
   // What the parts of such a joint's play are called. Throws std::invalid_argument where no kind serves it.
-  static PlayWords words(JointType joint);
+  static PlayWords words(const ClearanceDescription& description, JointType joint);
   PlayWords words() const;
 
   // The contacts it can have.

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "boresight/play/ball/ball_in_socket.hpp"
+#include "boresight/play/guide/slider_in_guide.hpp"
 #include "boresight/play/journal/journal_in_sleeve.hpp"
 #include "boresight/play/pad/pad_in_slot.hpp"
 
@@ -15,9 +16,10 @@ using PlayKind = std::conditional_t<std::is_same_v<T, double>, Own, Lanes<T>>;
 
 template <typename T>
 using PlayKinds = std::variant<                      //
-    PlayKind<T, JournalInSleeveT, JournalInSleeve>,  // revolute, cylindrical, prismatic
+    PlayKind<T, JournalInSleeveT, JournalInSleeve>,  // revolute, cylindrical, prismatic with a round guide
     PlayKind<T, BallInSocketT, BallInSocket>,        // spherical
-    PlayKind<T, PadInSlotT, PadInSlot>               // planar
+    PlayKind<T, PadInSlotT, PadInSlot>,              // planar
+    PlayKind<T, SliderInGuideT, SliderInGuide>       // prismatic with a rectangular guide
     >;
 
 }  // namespace boresight

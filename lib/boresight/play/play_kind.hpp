@@ -1,7 +1,7 @@
-// What a kind of play is made of; journal/, ball/ and pad/ are kinds, and kinds.hpp lists them all. A kind K is two types of one shape.
+// What a kind of play is made of; journal/, ball/, pad/ and guide/ are kinds, and kinds.hpp lists them all. A kind K is two types of one shape.
 //
 // KT<T>, the contacts as templates on the scalar T of what a sample varies (double, lanes, jets):
-//   static bool serves(JointType)                    whether this kind is the play of such a joint
+//   static bool serves(description, JointType)       whether this kind is the play of such a joint
 //   static words()                                   PlayWords: what its parts are called
 //   penetrations(motion, contact)                    how deep each place is, without its force
 //   wrench(motion, impact_speed, traction, out)      traction: the friction of contact_friction.hpp
@@ -43,8 +43,8 @@ namespace boresight {
 inline constexpr int kMostContactNumbers = 26;
 
 // Which numbers of a PlayMotion a wrench hangs on: of an insert that keeps parallel (e, e_dot, its spin about the axis), of a ball
-// (e, e_dot, w), of one that tilts (all).
-enum class MotionInputs { parallel, turning, tilting };
+// (e, e_dot, w), of one that tilts (all but the roll), of one that tilts and rolls (all).
+enum class MotionInputs { parallel, turning, tilting, rolling };
 
 inline constexpr double kOutOfReach = 1e6;  // [m]
 

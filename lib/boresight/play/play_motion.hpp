@@ -17,29 +17,31 @@ struct PlayMotion {
   Vec3T<T> w;         // angular velocity relative to the seat [rad/s]
   // Of the insert's axis a, where it may tilt: (a_x, a_z) / a_y, and its rate as seen from the seat [1/s].
   Vec2T<T> slope = Vec2T<T>::Constant(T(0.0)), slope_rate = Vec2T<T>::Constant(T(0.0));
+  T roll = T(0.0);  // of the insert about its axis, where play frees it: the twist of joint_rows.hpp [rad]
 };
 
-// Numbers of a PlayMotion: e, e_dot, w (3 each), then slope, slope_rate (2 each).
-inline constexpr int kMotionNumbers = 13;
+// Numbers of a PlayMotion: e, e_dot, w (3 each), then slope, slope_rate (2 each), then roll. Its rate follows from w and slope.
+inline constexpr int kMotionNumbers = 14;
 
-// The offsets that play can free: x y z of the insert's centre [m], then the slopes x z of its axis [-]. A kind that frees fewer
-// leaves the rest zero. With forces in their place: the loads on them [N], couples on the slopes [N m].
-inline constexpr int kMostOffsets = 5;
+// The offsets that play can free: x y z of the insert's centre [m], then the slopes x z of its axis [-], then its roll about it [rad]. A kind
+// that frees fewer leaves the rest zero. With forces in their place: the loads on them [N], couples on slopes and roll [N m].
+inline constexpr int kMostOffsets = 6;
 using PlayOffsets = Eigen::Matrix<double, kMostOffsets, 1>;
 
 // Offsets by their numbers, in groups that the seat's shape does not tell apart: however its frame lies, what is said of one of a
 // group (free, pushed by next to nothing) is said of all. A group is of lengths or of slopes. The first one carries the joint: a
-// load on it, however small, presses the insert against its seat.
+// load on it, however small, presses the insert against its seat; it is empty where none does so alone.
 using OffsetGroups = std::vector<std::vector<int>>;
 
 inline PlayMotion<double> at_rest_at(const PlayOffsets& offsets) {
   PlayMotion<double> motion{offsets.head<3>(), Vec3::Zero(), Vec3::Zero()};
-  motion.slope = offsets.tail<2>();
+  motion.slope = offsets.segment<2>(3);
+  motion.roll = offsets[5];
   return motion;
 }
 inline PlayOffsets offsets_of(const PlayMotion<double>& motion) {
   PlayOffsets offsets;
-  offsets << motion.e, motion.slope;
+  offsets << motion.e, motion.slope, motion.roll;
   return offsets;
 }
 
@@ -52,6 +54,13 @@ template <typename T>
 using ContactStates = std::array<ContactState<T>, kContactPlaces>;  // by ContactPlace; unused places keep a gap of -1 m
 template <typename T>
 using ImpactSpeeds = std::array<T, kContactPlaces>;  // by ContactPlace [m/s]
+
+// For laws without dissipation, which ask for them all the same [m/s].
+inline constexpr ImpactSpeeds<double> kSlowImpacts = [] {
+  ImpactSpeeds<double> speeds{};
+  speeds.fill(1e-3);
+  return speeds;
+}();
 
 // Force on the insert, and moment about the seat's centre.
 template <typename T>
@@ -70,6 +79,15 @@ template <typename M>
 Vec3T<M> moment_of_couple(const M& gx, const M& gz, const PlayMotion<M>& m) {
   const Vec3T<M> along(m.slope[0], M(1.0), m.slope[1]);
   return along.cross(Vec3T<M>(gx, -gx * m.slope[0] - gz * m.slope[1], gz));
+}
+
+// By which the insert's angular velocity relative to the seat becomes the rate of its roll, and a couple on the roll a moment: m of
+// joint_rows.hpp, (y + a) / (1 + y . a) with the slopes for a.
+template <typename M>
+Vec3T<M> roll_axis(const PlayMotion<M>& m) {
+  using std::sqrt;
+  const M n = sqrt(M(1.0) + m.slope[0] * m.slope[0] + m.slope[1] * m.slope[1]), share = M(1.0) / (M(1.0) + n);
+  return {share * m.slope[0], M(1.0), share * m.slope[1]};
 }
 
 // What a law fills in of a contact: everything where it is kept, nothing where only the load is asked for.

@@ -26,7 +26,7 @@ PartsInPlay parts_in_play(const std::vector<JointPlay>& joints) {
 PartsInPlay parts_in_play(const MechanismDescription& mechanism) {
   PartsInPlay parts;
   for (const ClearanceDescription& c : mechanism.clearances)
-    add(JointPlay::words(mechanism.joints[c.joint].type), parts);
+    add(JointPlay::words(c, mechanism.joints[c.joint].type), parts);
   return parts;
 }
 

@@ -26,8 +26,8 @@ bool controls_error(const RunOptions& options) { return integrator_of(options) !
 double smallest_clearance(const Parameters& parameters) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const ClearanceParameters& c : parameters.clearance)
-    for (double clearance : {c.radial, c.axial})
-      if (clearance > 0.0) smallest = std::min(smallest, clearance);
+    for (const auto gap : kGaps)
+      if (c.*gap > 0.0) smallest = std::min(smallest, c.*gap);
   return std::isfinite(smallest) ? smallest : 0.0;
 }
 

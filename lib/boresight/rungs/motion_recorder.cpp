@@ -103,7 +103,7 @@ void MotionRecorder::sample_clearance(int clearance, const PlayMotion<double>& m
     s.penetration = std::max(s.penetration, contact[k].penetration);
     if (contact[k].penetration <= 0.0) continue;
     s.normal_force += contact[k].normal_force;
-    (k < static_cast<int>(ContactPlace::axial_minus) ? radial : axial) = true;
+    (is_axial(static_cast<ContactPlace>(k)) ? axial : radial) = true;
   }
   s.contact = (radial ? 1 : 0) + (axial ? 2 : 0);
   result_.clearances[clearance].push_back(s);

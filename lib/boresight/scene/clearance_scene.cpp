@@ -126,7 +126,7 @@ double ClearanceScene::slowest_rate(const std::vector<double>& rows, const Param
   if (coordinates_.leftover() > 0) return of_motion;
   double load = 0.0, gap = 0.0;
   for (std::size_t c = 0; c < layout_.joints.size(); ++c) {
-    gap = std::max({gap, parameters.clearance[c].radial, parameters.clearance[c].axial});
+    gap = std::max(gap, widest_gap(parameters.clearance[c]));
     for (int k = 0; k < 3; ++k)
       if (const int source = layout_.joints[c].source[k]; source >= 0)
         for (std::size_t row = 0; row < rows.size(); row += layout_.width)

@@ -47,6 +47,7 @@ PlayMotion<T> play_motion(const Layout& at, const Joint& joint, const S* scene, 
       m.slope[i] = offset[3 + i];
       m.slope_rate[i] = offset_rate[3 + i];
     }
+  if (joint.rolls) m.roll = offset[5];
   m.w[0] = m.w[2] = T(0.0);
   for (int i = 0; i < joint.spins; ++i) {
     T spin = sum_of_products(at.n, scene + joint.spin_gain + i * at.n, rate, T(scene[joint.spin + i]));

@@ -25,9 +25,6 @@
 
 namespace boresight {
 
-// For laws without dissipation, which ask for them all the same.
-inline constexpr ImpactSpeeds<double> kSlowImpacts = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3};  // [m/s]
-
 struct RestingStart {
   VecX z;               // the coordinates: zero where there is no balance
   std::string refusal;  // why there is none; empty where there is one

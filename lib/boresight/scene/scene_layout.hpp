@@ -24,9 +24,9 @@ enum class SceneForm { accelerations, forces };
 
 struct SceneLayout {
   struct Joint {
-    bool tilts = false;
+    bool tilts = false, rolls = false;
     int slides = 0;  // directions in which it slides
-    // Per offset (three, or five where a journal tilts): its coordinate, or DeviationCoordinates::kSlides, kDependent.
+    // Per offset (three, five where a journal tilts, six where a slider rolls): its coordinate, or DeviationCoordinates::kSlides, kDependent.
     int offsets = 3;
     std::array<int, kMostOffsets> source = {};
     int spins = 1;        // components of the relative spin kept: y, or x y z where the contacts see all of it
@@ -56,6 +56,7 @@ struct SceneLayout {
     for (int c = 0; c < offsets.clearances(); ++c) {
       Joint j;
       j.tilts = offsets.joint(c).tilts;
+      j.rolls = offsets.joint(c).rolls;
       j.slides = offsets.joint(c).slides;
       j.offsets = offsets.joint(c).count();
       for (int k = 0; k < j.offsets; ++k) {

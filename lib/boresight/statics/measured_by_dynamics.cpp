@@ -44,11 +44,15 @@ double standing_for(double b, double a) {
   return a > 0.0 && b > 0.0 ? a * std::exp2(std::round(std::log2(b / a))) : b;
 }
 
+// What a sample's play is told apart by.
+constexpr std::array kSizes = {
+    &ClearanceParameters::radial,     &ClearanceParameters::axial,         &ClearanceParameters::width_gap,
+    &ClearanceParameters::height_gap, &ClearanceParameters::sleeve_length, &ClearanceParameters::pad_radius,
+    &ClearanceParameters::width,      &ClearanceParameters::height,        &ClearanceParameters::length};
+
 ClearanceParameters standing_for(const ClearanceParameters& b, const ClearanceParameters& a) {
   ClearanceParameters p = a;
-  for (const auto number : {&ClearanceParameters::radial, &ClearanceParameters::axial,
-                            &ClearanceParameters::sleeve_length, &ClearanceParameters::pad_radius})
-    p.*number = standing_for(b.*number, a.*number);
+  for (const auto number : kSizes) p.*number = standing_for(b.*number, a.*number);
   const double lost = standing_for(1.0 - b.contact.restitution, 1.0 - a.contact.restitution);
   p.contact.restitution = lost < 1.0 ? 1.0 - lost : b.contact.restitution;
   p.contact.stiffness_scale = standing_for(b.contact.stiffness_scale, a.contact.stiffness_scale);
@@ -78,10 +82,11 @@ Parameters standing_for(const Parameters& b, const Parameters& a) {
 std::vector<double> numbers_of(const Parameters& p) {
   std::vector<double> numbers = {p.gravity.x(), p.gravity.y(), p.gravity.z(), p.payload_mass};
   numbers.insert(numbers.end(), p.body_mass.begin(), p.body_mass.end());
-  for (const ClearanceParameters& c : p.clearance)
-    numbers.insert(numbers.end(),
-                   {c.radial, c.axial, c.sleeve_length, c.pad_radius, c.contact.restitution, c.contact.stiffness_scale,
-                    c.contact.young[0], c.contact.young[1], c.friction.coefficient});
+  for (const ClearanceParameters& c : p.clearance) {
+    for (const auto size : kSizes) numbers.push_back(c.*size);
+    numbers.insert(numbers.end(), {c.contact.restitution, c.contact.stiffness_scale, c.contact.young[0],
+                                   c.contact.young[1], c.friction.coefficient});
+  }
   for (const SpringParameters& s : p.spring) numbers.insert(numbers.end(), {s.stiffness, s.damping});
   numbers.insert(numbers.end(), p.error.begin(), p.error.end());
   return numbers;

@@ -22,7 +22,7 @@ constexpr double kDecides = 500.0 * ClearanceScene::kAccuracy;
 
 // Of a load: its force, and its couple as forces at the sleeve's ends [N].
 double size(const PlayOffsets& load, const JointPlay& joint) {
-  const double couple = load.tail<2>().norm();
+  const double couple = load.tail<3>().norm();
   return load.head<3>().norm() + (couple > 0.0 ? couple / joint.lever() : 0.0);
 }
 
@@ -52,7 +52,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
   for (std::size_t c = 0; c < joints_.size(); ++c)
     for (const std::vector<int>& group : groups_[c]) {
       const SceneLayout::Joint& joint = layout_.joints[c];
-      if (group.front() >= joint.offsets) continue;
+      if (group.empty() || group.front() >= joint.offsets) continue;
       const auto tied = [&](int k) { return joint.source[k] == DeviationCoordinates::kDependent; };
       const auto count = std::count_if(group.begin(), group.end(), tied);
       tied_ = tied_ || (count > 0 && count < static_cast<long>(group.size()));

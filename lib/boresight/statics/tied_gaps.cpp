@@ -42,8 +42,8 @@ void TiedGaps::take(const RestingBalance& balance, const std::vector<RestingPlay
       // Halves of a double cone's two widths lie within it together.
       const double of_width = part.shape == GapPart::Shape::double_cone ? 0.5 : 1.0;
       if (part.offset.col(0).any()) groups_.push_back({{first, first + 2}, of_width * part.radial});
-      if (part.offset.col(1).any() && !balance.slides_along_axis(c))
-        groups_.push_back({{first + 1}, of_width * part.axial});
+      const bool slides = balance.slides_along_axis(c) && part.offset(1, 1) != 0.0;  // nothing limits that
+      if (part.offset.col(1).any() && !slides) groups_.push_back({{first + 1}, of_width * part.axial});
     }
     Eigen::CompleteOrthogonalDecomposition<MatX> inverse(offsets);
     MatX gain = balance.offset_gain(c);

@@ -22,11 +22,11 @@ double own_time(const IdealMotion& ideal, int bodies, double size) {
   return 1.0 / fastest;
 }
 
-void MotionScales::add_joint(double radial, double axial, double acceleration_rms, double acceleration_max) {
+void MotionScales::add_joint(const ClearanceParameters& play, double acceleration_rms, double acceleration_max) {
   largest_acceleration = std::max(largest_acceleration, acceleration_max);
-  for (double clearance : {radial, axial})
-    if (clearance > 0.0 && acceleration_rms > 0.0)
-      flight_time = std::min(flight_time, std::sqrt(2.0 * clearance / acceleration_rms));
+  for (const auto gap : kGaps)
+    if (play.*gap > 0.0 && acceleration_rms > 0.0)
+      flight_time = std::min(flight_time, std::sqrt(2.0 * play.*gap / acceleration_rms));
 }
 
 void MotionScales::close(double duration) {

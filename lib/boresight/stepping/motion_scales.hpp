@@ -18,8 +18,8 @@ struct MotionScales {
   double own_time = std::numeric_limits<double>::infinity();
   double largest_acceleration = 0.0;  // of a journal that is let go [m/s^2]
 
-  // Of one joint: its clearances, and the mean square and largest acceleration of its journal when let go [m/s^2].
-  void add_joint(double radial, double axial, double acceleration_rms, double acceleration_max);
+  // Of one joint: its gaps, and the mean square and largest acceleration of its journal when let go [m/s^2].
+  void add_joint(const ClearanceParameters& play, double acceleration_rms, double acceleration_max);
   // With what is left open closed by the duration; times are never longer than it.
   void close(double duration);
   // Into the options: the largest step and the floor of events.

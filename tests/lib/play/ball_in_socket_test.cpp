@@ -108,12 +108,12 @@ TEST(EveryKindOfPlay, KeepsItsEnergy) {
     for (int k = 0; k < 100; ++k) {
       PlayOffsets at;
       for (double& x : at) x = 2.2e-4 * uniform(generator);
-      at.tail<2>() *= axes == JournalAxes::free ? 40.0 : 0.0;
+      at.segment<2>(3) *= axes == JournalAxes::free ? 40.0 : 0.0;
       PlayOffsets along = PlayOffsets::Random();
-      along.tail<2>() *= axes == JournalAxes::free ? 40.0 : 0.0;
+      along.segment<2>(3) *= axes == JournalAxes::free ? 40.0 : 0.0;
       PlayMotion<double> m = at_rest_at(at);
       m.e_dot = along.head<3>();
-      m.slope_rate = along.tail<2>();
+      m.slope_rate = along.segment<2>(3);
       m.w.setZero();
       // s' = w x a in the seat: (s_x', s_z') = (-w_z, w_x) where the axis keeps near y; exact through the couple's definition.
       PlayWrench<double> wrench;
@@ -142,7 +142,7 @@ TEST(EveryKindOfPlay, KeepsItsEnergy) {
 TEST(EveryKindOfPlay, IsWhatTheDescriptionAllows) {
   for (const JointType type : {JointType::revolute, JointType::prismatic, JointType::cylindrical, JointType::universal,
                                JointType::spherical, JointType::planar, JointType::fixed})
-    EXPECT_EQ(JointPlay::serves(type), can_have_play(type)) << to_string(type);
+    EXPECT_EQ(JointPlay::serves({}, type), can_have_play(type)) << to_string(type);
 }
 
 }  // namespace

@@ -137,12 +137,12 @@ TEST(PadInSlot, RestsWhereItsLoadIsBalanced) {
     for (const double share : {0.0, 0.2, 0.5, 0.8, 0.99, 1.5, 40.0}) {
       PlayOffsets load = PlayOffsets::Zero();
       load[1] = force;
-      load.tail<2>() = share * std::max(10.0, std::abs(force)) * kRadius * Vec2T<double>(0.6, -0.8);
+      load.segment<2>(3) = share * std::max(10.0, std::abs(force)) * kRadius * Vec2T<double>(0.6, -0.8);
       if (load.isZero()) continue;
       const RestingPlay rest = law.rest_under(load, 0.0, {});
       PlayWrench<double> wrench;
       law.elastic_only().wrench(rest.motion, speeds(1.0), wrench);
-      const double size = load.head<3>().norm() + load.tail<2>().norm() / kRadius;
+      const double size = load.head<3>().norm() + load.segment<2>(3).norm() / kRadius;
       EXPECT_NEAR(wrench.force.y() + force, 0.0, 1e-7 * size) << force << ' ' << share;
       const Vec3 couple = moment_of_couple(load[3], load[4], rest.motion);
       EXPECT_LT((wrench.moment - rest.motion.e.cross(wrench.force) + couple).norm() / kRadius, 1e-7 * size)

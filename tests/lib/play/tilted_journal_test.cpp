@@ -136,11 +136,12 @@ TEST(TiltedJournal, TangentIsTheChangeOfForce) {
       const PlayMotion<double> m = at(o, Vec3::Zero(), Vec3::Zero());
       Eigen::Matrix<double, 5, 5> stiffness = Eigen::Matrix<double, 5, 5>::Zero();
       const ContactTangent tangent = law.tangent(m);
-      for (int i = 0; i < tangent.count; ++i) stiffness += tangent.column[i].n * tangent.column[i].n.transpose();
+      for (int i = 0; i < tangent.count; ++i)
+        stiffness += tangent.column[i].n.head<5>() * tangent.column[i].n.head<5>().transpose();
       // Second differences of the energy; forces that stand add a geometric part of (force / offset), which the tangent
       // leaves out: along the offset's own direction there is none.
       const Eigen::Matrix<double, 5, 1> probe =
-          tangent.count > 0 ? Offsets(tangent.column[0].n.normalized()) : Offsets(o);
+          tangent.count > 0 ? Offsets(tangent.column[0].n.head<5>().normalized()) : Offsets(o);
       if (tangent.count != 1) continue;
       ++touching;
       const double h = 1e-8;
@@ -160,7 +161,8 @@ TEST(ContactTangent, TurnsWithTheDirectionInWhichTheJournalTilts) {
     o << 0.0, 1.2e-4, 0.0, 2e-3 * std::cos(direction), 2e-3 * std::sin(direction);
     Eigen::Matrix<double, 5, 5> sum = Eigen::Matrix<double, 5, 5>::Zero();
     const ContactTangent tangent = law.tangent(at(o, Vec3::Zero(), Vec3::Zero()));
-    for (int i = 0; i < tangent.count; ++i) sum += tangent.column[i].n * tangent.column[i].n.transpose();
+    for (int i = 0; i < tangent.count; ++i)
+      sum += tangent.column[i].n.head<5>() * tangent.column[i].n.head<5>().transpose();
     return sum;
   };
   const Eigen::Matrix<double, 5, 5> along_x = stiffness(0.0);

@@ -21,7 +21,7 @@ struct BallInSocketT {
   NormalLawT<T> law;
   FrictionLawT<T> friction;
 
-  static bool serves(JointType type) { return type == JointType::spherical; }
+  static bool serves(const ClearanceDescription&, JointType type) { return type == JointType::spherical; }
   static PlayWords words() { return {"ball", "socket"}; }
 
   template <typename M>

@@ -69,7 +69,7 @@ PlayOffsets JournalInSleeve::widths(double other) const {
                axial = axial_clearance > 0.0 ? axial_clearance : other;
   const double slope = tilts ? radial / half_length : 1.0;
   PlayOffsets width;
-  width << radial, axial, radial, slope, slope;
+  width << radial, axial, radial, slope, slope, 1.0;
   return width;
 }
 
@@ -83,7 +83,7 @@ PlayOffsets JournalInSleeve::root_stiffness(double load) const {
   if (tilts) {
     const double ends = radial * half_length * half_length;
     const double ring = has_faces ? 0.5 * face_stiffness * tilted.ring_radius * tilted.ring_radius : 0.0;
-    root.tail<2>().setConstant(std::sqrt(ends + ring));
+    root.segment<2>(3).setConstant(std::sqrt(ends + ring));
   }
   return root;
 }

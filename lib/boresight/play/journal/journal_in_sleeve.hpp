@@ -33,7 +33,9 @@ struct JournalInSleeveT {
   bool tilts = false;  // axes = "free": the contacts are those of `tilted`
   TiltedJournalT<T> tilted;
 
-  static bool serves(JointType type) { return type == JointType::revolute || slides_along_axis(type); }
+  static bool serves(const ClearanceDescription& description, JointType type) {
+    return type == JointType::revolute || (slides_along_axis(type) && description.guide == GuideShape::round);
+  }
   static PlayWords words() { return {"journal", "sleeve"}; }
 
   // impact_speed: by ContactPlace [m/s]. M: the scalar of the motion, T itself or one that carries derivatives besides.

@@ -20,10 +20,10 @@ ContactTangent JournalInSleeve::tangent(const PlayMotion<double>& m) const {
   if (!tilts) {
     if (const double d = depth(ContactPlace::radial); d > 0.0) {
       const double root = std::sqrt(radial_law.elastic_slope(d)) / std::hypot(m.e.x(), m.e.z());
-      tangent.add(ContactPlace::radial, Column(root * m.e.x(), 0.0, root * m.e.z(), 0.0, 0.0));
+      tangent.add(ContactPlace::radial, Column(root * m.e.x(), 0.0, root * m.e.z(), 0.0, 0.0, 0.0));
     }
     for (ContactPlace face : {ContactPlace::axial_minus, ContactPlace::axial_plus})
-      if (depth(face) > 0.0) tangent.add(face, Column(0.0, std::sqrt(face_stiffness), 0.0, 0.0, 0.0));
+      if (depth(face) > 0.0) tangent.add(face, Column(0.0, std::sqrt(face_stiffness), 0.0, 0.0, 0.0, 0.0));
     return tangent;
   }
   for (int side : {-1, 1}) {
@@ -34,7 +34,7 @@ ContactTangent JournalInSleeve::tangent(const PlayMotion<double>& m) const {
       const double x = m.e.x() + reach * m.slope[0], z = m.e.z() + reach * m.slope[1];
       const double root = std::sqrt(tilted.end_law.elastic_slope(d)) / std::hypot(x, z);
       Column n;
-      n << x, slides ? -x * m.slope[0] - z * m.slope[1] : 0.0, z, reach * x, reach * z;
+      n << x, slides ? -x * m.slope[0] - z * m.slope[1] : 0.0, z, reach * x, reach * z, 0.0;
       tangent.add(end, root * n);
     }
     if (!has_faces) continue;

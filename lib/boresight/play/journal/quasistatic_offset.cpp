@@ -20,8 +20,9 @@ namespace boresight {
 namespace {
 
 using Vec2 = Vec2T<double>;
-using Offsets = PlayOffsets;
-using Stiffness = Eigen::Matrix<double, kMostOffsets, kMostOffsets>;
+// Those that a journal frees: x y z of its centre, slopes x z.
+using Offsets = Eigen::Matrix<double, 5, 1>;
+using Stiffness = Eigen::Matrix<double, 5, 5>;
 
 constexpr int kIterations = 200;
 // Balance asked for: force left over, relative to the load.
@@ -97,7 +98,10 @@ class PressedJournal {
       if (tilt > 0.0) gradient_.tail<2>() += ring.force * ring.moment_arm * t.ring_radius / tilt * motion_.slope;
     }
     const ContactTangent tangent = joint_.tangent(motion_);
-    for (int k = 0; k < tangent.count; ++k) curvature_ += tangent.column[k].n * tangent.column[k].n.transpose();
+    for (int k = 0; k < tangent.count; ++k) {
+      const Offsets n = tangent.column[k].n.head<5>();
+      curvature_ += n * n.transpose();
+    }
     // Slopes as displacements of the sleeve's ends.
     gradient_ = gradient_.cwiseProduct(unit_);
     curvature_ = unit_.asDiagonal() * curvature_ * unit_.asDiagonal();
@@ -193,7 +197,7 @@ void rest_tilted(const JournalInSleeve& joint, const Offsets& load, double slide
 RestingPlay JournalInSleeve::rest_under(const PlayOffsets& load, double slide, const RestingPlay& before) const {
   RestingPlay rest;
   if (tilts)
-    rest_tilted(*this, load, slide, before, rest);
+    rest_tilted(*this, load.head<5>(), slide, before, rest);
   else
     rest_parallel(*this, load.head<3>(), before, rest);
   return rest;

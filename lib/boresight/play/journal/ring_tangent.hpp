@@ -20,9 +20,9 @@ inline void add_ring_tangent(double stiffness, double radius, double penetration
   const double s = std::sin(a), c = std::cos(a), k = stiffness / std::numbers::pi;
   const double ux = tilt > 0.0 ? slope[0] / tilt : 1.0, uz = tilt > 0.0 ? slope[1] / tilt : 0.0;
   PlayOffsets depth_gradient, swing_gradient, across;
-  depth_gradient << 0.0, closing, 0.0, 0.0, 0.0;
-  swing_gradient << 0.0, 0.0, 0.0, radius * ux, radius * uz;
-  across << 0.0, 0.0, 0.0, -radius * uz, radius * ux;
+  depth_gradient << 0.0, closing, 0.0, 0.0, 0.0, 0.0;
+  swing_gradient << 0.0, 0.0, 0.0, radius * ux, radius * uz, 0.0;
+  across << 0.0, 0.0, 0.0, -radius * uz, radius * ux, 0.0;
   // Cholesky factor of the two by two matrix: [p 0; q r].
   const double p = std::sqrt(k * a), q = p > 0.0 ? k * s / p : 0.0;
   const double r = std::sqrt(std::max(0.0, 0.5 * k * (a + s * c) - q * q));

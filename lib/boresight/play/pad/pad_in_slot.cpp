@@ -78,14 +78,14 @@ std::vector<GapPart> PadInSlot::gap_parts(const RestingPlay& rest, double) const
 PlayOffsets PadInSlot::widths(double other) const {
   const double gap = clearance > 0.0 ? clearance : other, slope = tilts ? gap / radius : 1.0;
   PlayOffsets width;
-  width << other, gap, other, slope, slope;
+  width << other, gap, other, slope, slope, 1.0;
   return width;
 }
 
 PlayOffsets PadInSlot::root_stiffness(double) const {
   PlayOffsets root = PlayOffsets::Zero();
   root[1] = std::sqrt(law.stiffness);
-  if (tilts) root.tail<2>().setConstant(std::sqrt(0.5 * law.stiffness) * radius);
+  if (tilts) root.segment<2>(3).setConstant(std::sqrt(0.5 * law.stiffness) * radius);
   return root;
 }
 

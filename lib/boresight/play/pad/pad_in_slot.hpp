@@ -30,7 +30,7 @@ struct PadInSlotT {
   FrictionLawT<T> friction;
   bool tilts = false;  // axes = "free"
 
-  static bool serves(JointType type) { return type == JointType::planar; }
+  static bool serves(const ClearanceDescription&, JointType type) { return type == JointType::planar; }
   static PlayWords words() { return {"pad", "slot"}; }
 
   template <typename M>

@@ -69,7 +69,7 @@ Pressed between_faces(double stiffness, double room, double force, double couple
 RestingPlay PadInSlot::rest_under(const PlayOffsets& load, double, const RestingPlay& before) const {
   RestingPlay rest;
   const double force = std::abs(load[1]);
-  const Vec2T<double> g = tilts ? Vec2T<double>(load.tail<2>()) : Vec2T<double>(Vec2T<double>::Zero());
+  const Vec2T<double> g = tilts ? Vec2T<double>(load.segment<2>(3)) : Vec2T<double>(Vec2T<double>::Zero());
   const double couple = g.norm() / radius;  // as a force on the rim [N]
   double& y = rest.motion.e.y();
   if (!(force > 0.0) && !(couple > 0.0)) {
@@ -89,8 +89,7 @@ RestingPlay PadInSlot::rest_under(const PlayOffsets& load, double, const Resting
     y = side * (clearance + at.depth);
   }
   PlayWrench<double> elastic;
-  elastic_only().wrench(rest.motion, {1.0, 1.0, 1.0, 1.0, 1.0}, SlidingFriction<double>{elastic_only().friction},
-                        elastic);
+  elastic_only().wrench(rest.motion, kSlowImpacts, SlidingFriction<double>{elastic_only().friction}, elastic);
   rest.contact = elastic.contact;
   rest.axial_reach = std::max(clearance + force / law.stiffness, std::abs(y) + radius * rest.motion.slope.norm());
   return rest;
