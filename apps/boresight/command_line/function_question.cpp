@@ -12,7 +12,7 @@
 namespace boresight::app {
 namespace {
 
-const Origin kCommandLine{"command line", 0};
+const Origin kGivenAsOption{"command line", 0};
 
 bool is_study(const std::string& file) {
   Document document = Document::from_file(file);
@@ -22,10 +22,10 @@ bool is_study(const std::string& file) {
 AskedFunction function_of_study(const FunctionQuestion& question) {
   const Command& command = question.command;
   if (!question.inputs.empty())
-    throw InputError(kCommandLine, "--input", question.inputs.front(),
+    throw InputError(kGivenAsOption, "--input", question.inputs.front(),
                      "none: a study says itself what varies, in [[random]]");
   if (!question.index.empty())
-    throw InputError(kCommandLine, "--index", question.index, "none: a study says itself what is asked, in [index]");
+    throw InputError(kGivenAsOption, "--index", question.index, "none: a study says itself what is asked, in [index]");
   StudyInput input(command.file, command.settings);
   const RandomInputs random = read_random_inputs(input.root, input.mechanism->description(), input.trial);
   if (random.size() == 0) throw InputError({command.file, 0}, "random", "nothing", "at least one [[random]]");
@@ -45,15 +45,15 @@ AskedFunction function_of_mechanism(const FunctionQuestion& question) {
   const Command& command = question.command;
   const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(command.file, command.settings));
   if (question.inputs.empty())
-    throw InputError(kCommandLine, "--input", "none",
+    throw InputError(kGivenAsOption, "--input", "none",
                      "the path of at least one number that varies: boresight paths FILE lists them");
   const IndexChoice index = index_named("--index", question.index.empty() ? "position_error.max" : question.index);
-  check_line_of_sight(index, *mechanism, kCommandLine, "--index");
+  check_line_of_sight(index, *mechanism, kGivenAsOption, "--index");
   std::vector<FunctionInput> inputs;
   try {
     inputs = inputs_named(*mechanism, question.inputs);
   } catch (const InputError& error) {
-    throw InputError(kCommandLine, "--input", error.found, error.expected, error.nearest);
+    throw InputError(kGivenAsOption, "--input", error.found, error.expected, error.nearest);
   }
   RunOptions run = question.motion.run_options(*mechanism, command.rung);
   const RungChoice choice =
