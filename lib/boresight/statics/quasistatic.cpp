@@ -17,7 +17,7 @@ namespace {
 constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
 // From one instant to the next the body moves by no more than this share of its largest error, and the same loads are large enough to decide
 // where their journals rest; else there are instants between, as close as this share of their spacing.
-constexpr double kTurns = 0.005, kMostBetween = 65536.0;
+constexpr double kTurns = 0.005, kMostBetween = 1024.0;
 
 class Quasistatic final : public SceneRung {
  public:

@@ -1,6 +1,7 @@
 #include "boresight_analyses/runs/kept_results.hpp"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -36,7 +37,8 @@ class KeptResultsTest : public testing::Test {
   }
   StudyRun study(const std::string& identity) const { return {mechanism_, {.identity = identity, .folder = folder_}}; }
 
-  const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "boresight_kept_results";
+  const std::filesystem::path folder_ =
+      std::filesystem::path(testing::TempDir()) / ("boresight_kept_results_" + std::to_string(::getpid()));
   const std::shared_ptr<const Mechanism> mechanism_ =
       std::make_shared<const Mechanism>(read_mechanism(BORESIGHT_EXAMPLES "/four-bar/four-bar.toml"));
 };

@@ -31,7 +31,10 @@ TEST(Pilot, TakesTheCheapestRungThatMeetsTheAccuracy) {
   const auto mechanism = rrcpr({{"motion.duration", "0.3 s"}});
   const PilotResult rough = fly(mechanism, 0.10, {"position_error", "rms"});
   EXPECT_TRUE(rough.met);
-  EXPECT_EQ(chosen(rough).rung, "quasistatic");
+  // Which of the two that take no steps is cheaper, is a matter of the moment.
+  EXPECT_TRUE(chosen(rough).rung == "quasistatic" || chosen(rough).rung == "envelope") << chosen(rough).rung;
+  for (const PilotTrial& t : rough.trials)
+    EXPECT_TRUE(!t.accepted || t.cpu_seconds >= chosen(rough).cpu_seconds) << t.rung;
   const PilotResult fine = fly(mechanism, 0.02, {"position_error", "rms"});
   EXPECT_TRUE(fine.met);
   EXPECT_EQ(chosen(fine).rung, "perturbation");
