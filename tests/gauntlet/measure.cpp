@@ -101,26 +101,19 @@ Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& ask
   options.progress = [most_seconds](const RunProgress&) {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC < most_seconds;
   };
-  Parameters parameters = mechanism->parameters();
-  parameters.gravity += asked.gravity_by;
-  const RunResult r = make_rung(asked.rung, mechanism)->run(parameters, options);
+  const RunResult r = make_rung(asked.rung, mechanism)->run(mechanism->parameters(), options);
   if (r.interrupted) throw std::runtime_error("longer than the limit, ended when asked to");
   std::string start;
   for (const std::string& warning : r.warnings)
     if (warning.find(" start in the middle of their ") != std::string::npos) start = warning;
-  double deepest = 0.0, strongest = 0.0, mass = 0.0;
-  for (const ContactSummary& c : r.contact) {
-    deepest = std::max(deepest, c.max_penetration);
-    strongest = std::max(strongest, c.max_force);
-  }
-  for (double m : parameters.body_mass) mass += m;
+  double deepest = 0.0;
+  for (const ContactSummary& c : r.contact) deepest = std::max(deepest, c.max_penetration);
   const double play = smallest_clearance(mechanism->parameters());
   return {{"figure", figures(r.index)},
           {"model", r.error.model},
           {"basis", r.error.basis},
           {"step", r.cost.steps > 0 ? mechanism->duration() / static_cast<double>(r.cost.steps) : 0.0},
           {"deepest", play > 0.0 ? deepest / play : 0.0},
-          {"strongest", mass > 0.0 ? strongest / mass : 0.0},
           {"start", start},
           {"taken", r.integrator_taken},
           {"not_finite", first_not_finite(r)},
@@ -150,7 +143,6 @@ Measured measured(const Json& json) {
   m.start = json.at("start");
   m.step = json.at("step");
   m.deepest = json.at("deepest");
-  m.strongest = json.at("strongest");
   m.cpu_seconds = json.at("cpu");
   return m;
 }

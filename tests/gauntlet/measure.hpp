@@ -21,7 +21,6 @@ struct Asked {
   double step = 0.0;
   double start_offset = 0.0;
   double tolerance = 0.0;
-  Vec3 gravity_by = Vec3::Zero();  // added to the file's [m/s^2]
   std::string label() const {
     return rung + (formulation.empty() ? "" : " " + formulation) + (integrator.empty() ? "" : " " + integrator);
   }
@@ -37,7 +36,6 @@ struct Measured {
   double step = 0.0;                     // mean [s]
   std::string taken;                     // the integrator that took over, if one did
   double deepest = 0.0;                  // deepest penetration over the smallest play [-]
-  double strongest = 0.0;                // largest contact force over the mass of all bodies [m/s^2]
   std::string basis, start, not_finite;  // start: what the run says of how its journals start, if anything
   double cpu_seconds = 0.0;
 };
