@@ -41,13 +41,16 @@ struct Columns {
   std::vector<double> scale;  // of each channel
   std::size_t count = 0;
   std::vector<std::string> name;
+  char separator = ',';
+  char decimal = 0;  // '.' or ',', of the first number that has one
 };
 
 Columns read_header(const std::string& line, const Origin& at, MeasuredData& data) {
   Columns columns;
   std::vector<std::string> known = {"t"};
   for (const ChannelName& c : channel_names()) known.emplace_back(c.name);
-  for (const std::string& text : csv_fields(line)) {
+  if (line.find(';') != std::string::npos) columns.separator = ';';
+  for (const std::string& text : csv_fields(line, columns.separator)) {
     const int here = static_cast<int>(columns.count++);
     const Heading h = heading(text, at);
     columns.name.push_back(h.name);
@@ -72,7 +75,19 @@ Columns read_header(const std::string& line, const Origin& at, MeasuredData& dat
   return columns;
 }
 
-double number(const std::string& field, const std::string& column, const Origin& at) {
+// A comma is that of a decimal fraction where semicolons separate the columns. Mixed with points it may be one of thousands, a thousandfold
+// error that nobody would see: refused.
+double number(std::string field, const std::string& column, const Origin& at, Columns& columns) {
+  const std::size_t mark = field.find_first_of(".,");
+  if (mark != std::string::npos) {
+    if (columns.decimal == 0) columns.decimal = field[mark];
+    if (field[mark] != columns.decimal)
+      throw InputError(at, column, in_quotes(field),
+                       columns.decimal == ',' ? "a decimal comma, as in the numbers before"
+                                              : "a decimal point, as in the numbers before");
+    const bool once = field.find_first_of(".,", mark + 1) == std::string::npos;
+    if (once && columns.separator == ';') field[mark] = '.';
+  }
   double value = 0.0;
   if (!parse_number(field, value)) throw InputError(at, column, in_quotes(field), "a finite number, or nothing");
   return value;
@@ -112,12 +127,12 @@ MeasuredData read_measured_data(const std::string& file) {
       columns = read_header(line, origin, data);
       continue;
     }
-    const std::vector<std::string> row = csv_fields(line);
+    const std::vector<std::string> row = csv_fields(line, columns.separator);
     if (row.size() != columns.count)
       throw InputError(origin, "row", std::to_string(row.size()) + " fields",
                        std::to_string(columns.count) + ", as in the header");
     if (is_missing(row[columns.time])) throw InputError(origin, "t", "nothing", "a time");
-    const double t = number(row[columns.time], "t", origin) * columns.time_scale;
+    const double t = number(row[columns.time], "t", origin, columns) * columns.time_scale;
     if (!data.time.empty() && !(t > data.time.back()))
       throw InputError(origin, "t", in_quotes(row[columns.time]), "a time later than that of the row before");
     data.time.push_back(t);
@@ -127,7 +142,7 @@ MeasuredData read_measured_data(const std::string& file) {
       const std::string& field = row[columns.place[c]];
       rows.back().push_back(is_missing(field)
                                 ? std::numeric_limits<double>::quiet_NaN()
-                                : number(field, columns.name[columns.place[c]], origin) * columns.scale[c]);
+                                : number(field, columns.name[columns.place[c]], origin, columns) * columns.scale[c]);
     }
   }
   if (rows.empty())

@@ -4,6 +4,11 @@
 //   0.000, 3.2, , 41.7                                  an empty field, "nan" or "NA": not measured
 //   0.001, 3.4, -12.1, 40.9                             unequal steps are welcome, times must rise
 //
+// Where the header separates its columns by semicolons, rows do too, and numbers may have a decimal comma, all of them or none:
+//
+//   t [s]; dx [um]
+//   0,001; 3,4
+//
 // Channels: those of channel_names(), each with its unit in brackets. Lines that start with # and empty lines
 // are skipped.
 #pragma once

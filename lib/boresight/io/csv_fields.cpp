@@ -7,7 +7,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::vector<std::string> csv_fields(const std::string& line) {
+std::vector<std::string> csv_fields(const std::string& line, char separator) {
   std::vector<std::string> out(1);
   bool quoted = false;
   for (std::size_t k = 0; k < line.size(); ++k) {
@@ -16,7 +16,7 @@ std::vector<std::string> csv_fields(const std::string& line) {
         out.back() += line[k++];
       else
         quoted = !quoted;
-    } else if (line[k] == ',' && !quoted) {
+    } else if (line[k] == separator && !quoted) {
       out.emplace_back();
     } else {
       out.back() += line[k];

@@ -47,5 +47,33 @@ TEST_F(MeasuredDataTest, WithoutAUnitOrTwiceTheSameColumnAreRefused) {
   EXPECT_THROW(read("t [s], dx [um], dx [mm]\n0, 1, 2\n"), InputError);
 }
 
+TEST_F(MeasuredDataTest, MayHaveSemicolonsAndDecimalCommas) {
+  const MeasuredData data = read("t [s]; dx [um]; ry [mrad]\n0; 3,5;\n0,0025; ; -0,2\n1; 1e1; 4\n");
+  EXPECT_EQ(data.time, (std::vector<double>{0.0, 2.5e-3, 1.0}));
+  EXPECT_NEAR(data.value(0, 0), 3.5e-6, 1e-18);
+  EXPECT_TRUE(std::isnan(data.value(0, 1)));
+  EXPECT_NEAR(data.value(1, 1), -2e-4, 1e-16);
+  EXPECT_NEAR(data.value(2, 0), 1e-5, 1e-17);
+  // The same numbers with points.
+  EXPECT_EQ(read("t [s]; dx [um]\n0; 3.5\n0.0025; -2\n").time.back(), 2.5e-3);
+}
+
+TEST_F(MeasuredDataTest, WithBothKindsOfDecimalMarksAreRefused) {
+  const auto refusal = [&](const std::string& text) {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal("t [s]; dx [um]\n0,1; 3\n0.2; 4\n").find("a decimal comma, as in the numbers before"),
+            std::string::npos);
+  EXPECT_NE(refusal("t [s]; dx [um]\n0.1; 3\n0.2; 1,234\n").find("a decimal point, as in the numbers before"),
+            std::string::npos);
+  EXPECT_NE(refusal("t [s]; dx [um]\n0; 1.234,5\n").find("finite number"), std::string::npos);
+  EXPECT_NE(refusal("t [s], dx [um]\n0, \"3,5\"\n").find("finite number"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace boresight
