@@ -1,6 +1,7 @@
 // What a [[clearance]] on two bearings stands for, written out: a bearing pair on a revolute joint, a cross on a universal one.
 //
-//   pair       NAME revolute, with drive and play, half a span before or behind the joint's point; NAME.floating cylindrical, at the other end
+//   pair       NAME revolute, with drive and play, half a span before or behind the joint's point; NAME.floating cylindrical, at the other end;
+//              where it is preloaded, a spring along the shaft
 //   universal  a body NAME.cross, which carries the journals; NAME.first revolute between the first body and the cross, along axis;
 //              NAME.second revolute between the cross and the second body, along second_axis
 //
@@ -86,7 +87,8 @@ class Expansion {
       cursor.fail_found("bearing", "\"pair\" on " + in_quotes(name) + ", a " + to_string(joint->type) + " joint",
                         "it on a revolute joint: a shaft that turns in two bearings");
     if (!pair)
-      refuse(cursor, {"span", "fixed_end", "floating"}, "it on a single bearing", "it with bearing = \"pair\"");
+      refuse(cursor, {"span", "fixed_end", "floating", "preload", "preload_stiffness"}, "it on a single bearing",
+             "it with bearing = \"pair\"");
     if (!universal)
       refuse(cursor, {"cross_mass", "cross_radius", "cross_inertia"},
              "it on " + in_quotes(name) + ", a " + to_string(joint->type) + " joint", "it on a universal joint");
@@ -124,8 +126,29 @@ class Expansion {
     other.origin = cursor.origin();
     joint.point -= way * joint.axis;
     other.point += way * joint.axis;
+    add_preload(cursor, joint, other.point);
     mechanism_.joints.insert(mechanism_.joints.begin() + static_cast<std::ptrdiff_t>(index) + 1, std::move(other));
     return both;
+  }
+
+  // A spring from the housing at the floating bearing to the shaft at the fixed one, a span long at home. Where its stiffness is left out it
+  // is pressed together by a span, ten thousand times and more what play changes.
+  void add_preload(Cursor& cursor, const JointDescription& fixed, const Vec3& floating) {
+    if (!cursor.has("preload")) {
+      refuse(cursor, {"preload_stiffness"}, "it without a preload", "it with preload");
+      return;
+    }
+    const double force = cursor.quantity("preload"), span = (fixed.point - floating).norm();
+    SpringDescription spring;
+    spring.origin = cursor.origin();
+    const int shaft = body_index(mechanism_, cursor, "journal", cursor.text("journal"), true);
+    spring.first = shaft == fixed.first ? fixed.second : fixed.first;
+    spring.second = shaft;
+    spring.first_point = floating;
+    spring.second_point = fixed.point;
+    spring.parameters.stiffness = cursor.has("preload_stiffness") ? cursor.quantity("preload_stiffness") : force / span;
+    spring.parameters.free_length = span + force / spring.parameters.stiffness;
+    mechanism_.springs.push_back(spring);
   }
 
   static void check_span(const Cursor& cursor, double span, std::vector<Cursor> bearings) {

@@ -1,6 +1,7 @@
 #include "boresight/io/mechanism_file.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "boresight/io/mechanism_sections.hpp"
 #include "boresight/keys/mechanism_keys.hpp"
@@ -36,7 +37,10 @@ MechanismDescription read(Document& document, std::vector<AssumedValue>* assumed
   for (Cursor& clearance : clearances) mechanism.clearances.push_back(read_clearance(clearance, mechanism, assumed));
   Cursor motion = root.table("motion");
   mechanism.motion = read_motion(motion, mechanism);
+  // After those of the file, whose paths count from 1.
+  const std::vector<SpringDescription> preloads = std::exchange(mechanism.springs, {});
   for (Cursor& spring : sections.springs) mechanism.springs.push_back(read_spring(spring, mechanism));
+  mechanism.springs.insert(mechanism.springs.end(), preloads.begin(), preloads.end());
   for (Cursor& load : sections.loads) mechanism.loads.push_back(read_load(load, mechanism));
   for (Cursor& error : sections.errors) mechanism.errors.push_back(read_error(error, mechanism));
   Cursor initial = root.table_or_empty("initial");

@@ -6,6 +6,7 @@ namespace {
 
 using namespace keys;
 
+constexpr PhysicalRange kPreloadRange{kForce, "1e-9 N", "1e12 N"};
 const std::string kOfPair = "of a bearing pair";
 const std::string kOfUniversal = "of a universal joint";
 
@@ -31,6 +32,16 @@ std::vector<Key> own_keys() {
       table("floating", floating_bearing_keys)
           .sometimes(kOfPair + "; left out, the floating bearing has the numbers of the fixed one")
           .says("What the floating bearing has of its own."),
+      quantity("preload", kPreloadRange)
+          .above(0.0, "a force above zero")
+          .sometimes(kOfPair + "; left out, it is not preloaded")
+          .says("Force of a spring between the housing at the floating bearing and the shaft at the fixed one, which "
+                "presses the shaft along the axis towards the fixed bearing's end. It takes up the axial play until a "
+                "load along the axis exceeds it; the radial play stays, but for what friction at the end face holds."),
+      quantity("preload_stiffness", kStiffnessRange)
+          .above(0.0, "a stiffness above zero")
+          .sometimes("with preload; left out, so soft that the play does not change the force")
+          .says("Stiffness of that spring. It is the spring after those of the file: spring.1.stiffness and so on."),
       quantity("cross_mass", kMassRange)
           .above(0.0, "a mass above zero")
           .sometimes("needed " + kOfUniversal)

@@ -11,7 +11,7 @@ namespace {
 TEST(RefusedValue, NamesKeysThatAreUnknownMissingOrWithoutMeaning) {
   check({
       {"radial =", "radal =",
-       R"~(f.toml:40: clearance[1].radal: found an unknown key, expected one of joint, journal, guide, radial, axial, journal_radius, cap_radius, sleeve_length, pad_radius, width_gap, height_gap, width, height, length, width_direction, axes, contact, friction, bearing, span, fixed_end, floating, cross_mass, cross_radius, cross_inertia; did you mean radial?)~"},
+       R"~(f.toml:40: clearance[1].radal: found an unknown key, expected one of joint, journal, guide, radial, axial, journal_radius, cap_radius, sleeve_length, pad_radius, width_gap, height_gap, width, height, length, width_direction, axes, contact, friction, bearing, span, fixed_end, floating, preload, preload_stiffness, cross_mass, cross_radius, cross_inertia; did you mean radial?)~"},
       {"mass = \"1 kg\"\n", "# nothing\n",
        R"~(f.toml:4: body.arm.mass: found nothing, expected a mass such as "1.5 kg")~"},
       {"format = 1\n", "format = 1\nformatt = 2\n",

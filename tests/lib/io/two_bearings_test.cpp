@@ -84,6 +84,25 @@ TEST(BearingPair, MayHaveAFloatingBearingOfItsOwnSize) {
   EXPECT_EQ(play(m, "R.floating").sleeve_length, 12e-3);
 }
 
+// From the housing at the floating bearing to the shaft at the fixed one, pressed together by its force over its stiffness.
+TEST(BearingPair, IsPreloadedByASpringAlongItsShaft) {
+  const std::string preloaded = "span = \"60 mm\"\npreload = \"50 N\"\n";
+  const std::size_t of_file = read(pair()).springs.size();  // which keep their paths
+  for (const bool at_end : {false, true}) {
+    const auto m = read(pair(preloaded + (at_end ? "fixed_end = \"end\"\n" : "")));
+    ASSERT_EQ(m.springs.size(), of_file + 1);
+    const SpringDescription& s = m.springs.back();
+    EXPECT_EQ(s.first, kGround);
+    EXPECT_EQ(s.second, 0);
+    EXPECT_EQ(s.first_point, m.joints[1].point);
+    EXPECT_EQ(s.second_point, m.joints[0].point);
+    EXPECT_NEAR(s.parameters.stiffness * (s.parameters.free_length - 0.06), 50.0, 1e-9);
+  }
+  const auto stiff = read(pair(preloaded + "preload_stiffness = \"10 N/mm\"\n"));
+  EXPECT_NEAR(stiff.springs.back().parameters.free_length, 0.065, 1e-12);
+  EXPECT_EQ(read(pair(preloaded), {{"clearance.R.preload", "80 N"}}).springs.back().parameters.stiffness, 80.0 / 0.06);
+}
+
 TEST(BearingPair, IsSetByThePathsOfItsBearings) {
   EXPECT_EQ(play(read(pair(), {{"clearance.R.radial", "0.3 mm"}}), "R.floating").radial, 1e-4);
   EXPECT_EQ(play(read(pair(), {{"clearance.R.floating.radial", "0.3 mm"}}), "R").radial, 1e-4);
@@ -250,6 +269,15 @@ TEST(TwoBearings, AreRefusedInOneLineWhereTheyMakeNoSense) {
        {}},
       {with("radial = \"0.1 mm\"\n", "radial = \"0.1 mm\"\nspan = \"1 mm\"\n"),
        "f.toml:41: clearance.R.span: found it on a single bearing, expected it with bearing = \"pair\"",
+       {}},
+      {pair("span = \"60 mm\"\npreload = \"0 N\"\n"),
+       "f.toml:43: clearance.R.preload: found \"0 N\", expected a force above zero",
+       {}},
+      {pair("span = \"60 mm\"\npreload_stiffness = \"1 N/mm\"\n"),
+       "f.toml:43: clearance.R.preload_stiffness: found it without a preload, expected it with preload",
+       {}},
+      {with("radial = \"0.1 mm\"\n", "radial = \"0.1 mm\"\npreload = \"1 N\"\n"),
+       "f.toml:41: clearance.R.preload: found it on a single bearing, expected it with bearing = \"pair\"",
        {}},
       {with("type = \"revolute\"", "type = \"cylindrical\""),
        "--set clearance.R.bearing=pair: clearance.R.bearing: found \"pair\" on \"R\", a cylindrical joint, expected it "

@@ -85,6 +85,56 @@ TEST(UniversalJoint, WhoseCrossIsABodyMovesAsTheIdealJoint) {
   }
 }
 
+// A shaft whose spring presses it against its axis, with 50 N; a load pulls along it.
+std::string preloaded_shaft(const std::string& load) {
+  return R"toml(format = 1
+name = "pair"
+gravity = ["0 m/s^2", "0 m/s^2", "0 m/s^2"]
+[[body]]
+name = "shaft"
+mass = "1 kg"
+center_of_mass = ["0 mm", "0 mm", "0 mm"]
+inertia = ["0.001 kg m^2", "0.001 kg m^2", "0.001 kg m^2"]
+boresight = [0, 0, 1]
+[[joint]]
+name = "J"
+type = "revolute"
+connects = ["ground", "shaft"]
+point = ["0 mm", "0 mm", "0 mm"]
+axis = [0, 0, 1]
+driven = true
+[motion]
+duration = "50 ms"
+drives = { J = "t" }
+[[clearance]]
+joint = "J"
+bearing = "pair"
+span = "60 mm"
+preload = "50 N"
+journal = "shaft"
+radial = "0.01 mm"
+axial = "0.02 mm"
+journal_radius = "6 mm"
+cap_radius = "8 mm"
+sleeve_length = "10 mm"
+[[load]]
+body = "shaft"
+point = ["0 mm", "0 mm", "0 mm"]
+force = ["0", "0", ")toml" +
+         load + "\"]\n";
+}
+
+// Up to its preload it stays where that presses it; beyond, it rests at the other end of its play.
+TEST(BearingPair, StaysAtItsEndFaceUntilTheLoadExceedsItsPreload) {
+  for (const char* rung : {"quasistatic", "perturbation", "multibody"})
+    for (const char* load : {"0", "40", "49", "51", "60"}) {
+      const RunResult result = run(read_mechanism_text(preloaded_shaft(load), "shaft.toml"), rung);
+      const double rest = result.clearances[0].back().offset.y(), side = std::stod(load) < 50.0 ? -1.0 : 1.0;
+      EXPECT_GT(side * rest, 0.02e-3) << rung << ", " << load;
+      EXPECT_LT(side * rest, 0.021e-3) << rung << ", " << load;
+    }
+}
+
 // What is left as the clearance goes is the Hertzian deflection, some tenths of a micrometre.
 TEST(TwoBearings, ApproachTheIdealJointAsTheirPlayGoes) {
   for (const bool universal : {true, false}) {
