@@ -13,6 +13,7 @@ namespace boresight::python {
 
 void bind_errors(pybind11::module_& module);
 void bind_mechanism(pybind11::module_& module);
+void bind_histories(pybind11::module_& module);
 void bind_run(pybind11::module_& module);
 void bind_function(pybind11::module_& module);
 void bind_verbs(pybind11::module_& module);

@@ -1,4 +1,4 @@
-// One motion, with its histories as arrays that show the memory in which the run left them.
+// One motion: its indices, its contacts, and its histories (histories.hpp).
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -10,6 +10,7 @@
 #include "command_line/command.hpp"
 #include "python/core/arrays.hpp"
 #include "python/core/bindings.hpp"
+#include "python/core/histories.hpp"
 #include "python/core/task.hpp"
 
 namespace py = pybind11;
@@ -17,32 +18,11 @@ namespace py = pybind11;
 namespace boresight::python {
 namespace {
 
-using Result = std::shared_ptr<const RunResult>;
-
 struct Run {
   std::shared_ptr<const Mechanism> mechanism;
-  Result result;
+  KeptResult result;
   std::size_t every = 1;  // of its samples one is told: the command follows motions so, and steps end at samples
 };
-
-// The history of one body.
-struct History {
-  Result owner;
-  const BodyHistory* body;
-  std::size_t every;
-};
-struct ClearanceHistory {
-  Result owner;
-  const std::vector<ClearanceSample>* samples;
-  std::string joint;
-  std::size_t every;
-};
-
-template <typename Of>
-py::array pose_column(const History& h, const Of& of, py::ssize_t width) {
-  const auto& samples = h.body->samples;
-  return column(h.owner, samples, samples.empty() ? nullptr : of(samples.front()), width, h.every);
-}
 
 py::dict index_of(const RunResult& result) {
   py::dict index;
@@ -120,136 +100,6 @@ Run run(const std::shared_ptr<Mechanism>& mechanism, const std::optional<NamedPa
   return {mechanism, result, every};
 }
 
-void bind_histories(py::module_& module) {
-  py::class_<History>(
-      module, "BodyHistory",
-      "The motion of one body, world axes unless said otherwise. n: the samples of Run.time. Arrays cannot be "
-      "written to; none is a copy.")
-      .def_property_readonly("body", [](const History& h) { return h.body->name; })
-      .def_property_readonly(
-          "position",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return s.pose.p.data(); }, 3);
-          },
-          "Of its centre of mass, (n, 3) [m].")
-      .def_property_readonly(
-          "orientation",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return s.pose.q.coeffs().data(); }, 4);
-          },
-          "From body to world, a quaternion x, y, z, w as SciPy has it, (n, 4).")
-      .def_property_readonly(
-          "ideal_position",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return s.ideal.p.data(); }, 3);
-          },
-          "Where it would be without play and errors, (n, 3) [m].")
-      .def_property_readonly(
-          "ideal_orientation",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return s.ideal.q.coeffs().data(); }, 4);
-          },
-          "How it would be turned, x, y, z, w, (n, 4).")
-      .def_property_readonly(
-          "displacement",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return s.error.displacement.data(); }, 3);
-          },
-          "Error of the position, (n, 3) [m].")
-      .def_property_readonly(
-          "rotation",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return s.error.rotation.data(); }, 3);
-          },
-          "Error of the orientation, rotation vector from ideal to true, (n, 3) [rad].")
-      .def_property_readonly(
-          "position_error",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return &s.error.position; }, 1);
-          },
-          "(n,) [m]")
-      .def_property_readonly(
-          "orientation_error",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return &s.error.orientation; }, 1);
-          },
-          "(n,) [rad]")
-      .def_property_readonly(
-          "boresight_error",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return &s.error.boresight; }, 1);
-          },
-          "(n,) [rad]")
-      .def_property_readonly(
-          "line_of_sight_error",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return &s.error.line_of_sight; }, 1);
-          },
-          "(n,) [rad]; zero where nothing is sighted.")
-      .def_property_readonly(
-          "velocity",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return s.v.data(); }, 3);
-          },
-          "(n, 3) [m/s]")
-      .def_property_readonly(
-          "angular_velocity",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return s.w.data(); }, 3);
-          },
-          "(n, 3) [rad/s]")
-      .def_property_readonly(
-          "acceleration",
-          [](const History& h) {
-            return pose_column(
-                h, [](const PoseSample& s) { return s.a.data(); }, 3);
-          },
-          "Of the centre of mass, (n, 3) [m/s^2].");
-
-  py::class_<ClearanceHistory>(module, "ClearanceHistory",
-                               "The play of one joint over time. n: the samples of Run.time.")
-      .def_readonly("joint", &ClearanceHistory::joint)
-      .def_property_readonly(
-          "offset",
-          [](const ClearanceHistory& h) {
-            return column(h.owner, *h.samples, h.samples->empty() ? nullptr : h.samples->front().offset.data(), 3,
-                          h.every);
-          },
-          "Journal from sleeve centre, sleeve frame, y along the axis, (n, 3) [m].")
-      .def_property_readonly(
-          "penetration",
-          [](const ClearanceHistory& h) {
-            return column(h.owner, *h.samples, h.samples->empty() ? nullptr : &h.samples->front().penetration, 1,
-                          h.every);
-          },
-          "Of the deepest contact, (n,) [m]; negative: the smallest gap.")
-      .def_property_readonly(
-          "normal_force",
-          [](const ClearanceHistory& h) {
-            return column(h.owner, *h.samples, h.samples->empty() ? nullptr : &h.samples->front().normal_force, 1,
-                          h.every);
-          },
-          "Sum over its contacts, (n,) [N].")
-      .def_property_readonly(
-          "contact",
-          [](const ClearanceHistory& h) {
-            return column(h.owner, *h.samples, h.samples->empty() ? nullptr : &h.samples->front().contact, 1, h.every);
-          },
-          "(n,): 0 free, 1 radial, 2 axial, 3 both.");
-}
-
 }  // namespace
 
 void bind_run(py::module_& module) {
@@ -275,7 +125,7 @@ void bind_run(py::module_& module) {
       .def_property_readonly(
           "boresight",
           [](const Run& r) {
-            return History{r.result, &r.result->boresight, r.every};
+            return BodyHistoryView{r.result, &r.result->boresight, r.every};
           },
           "The body that points.")
       .def_property_readonly(
@@ -283,7 +133,7 @@ void bind_run(py::module_& module) {
           [](const Run& r) {
             py::dict all;
             for (const BodyHistory& body : r.result->others)
-              all[py::str(body.name)] = History{r.result, &body, r.every};
+              all[py::str(body.name)] = BodyHistoryView{r.result, &body, r.every};
             return all;
           },
           "The bodies that were asked for besides.")
@@ -294,7 +144,7 @@ void bind_run(py::module_& module) {
             for (std::size_t c = 0; c < r.result->clearances.size(); ++c) {
               const auto& m = r.mechanism->description();
               const std::string& joint = m.joints[m.clearances[c].joint].name;
-              all[py::str(joint)] = ClearanceHistory{r.result, &r.result->clearances[c], joint, r.every};
+              all[py::str(joint)] = ClearanceHistoryView{r.result, &r.result->clearances[c], joint, r.every};
             }
             return all;
           },

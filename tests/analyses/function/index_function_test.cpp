@@ -1,0 +1,103 @@
+// The index as a function: its values are those of single motions, and its points are held to the ranges of their keys.
+#include "boresight_analyses/function/index_function.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/keys/value_fault.hpp"
+#include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
+
+namespace boresight {
+namespace {
+
+using testing::HasSubstr;
+
+const char kRadial[] = "clearance.F1.radial";
+
+std::shared_ptr<const Mechanism> mechanism_of_function() {
+  static const auto shared = std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml", {{"motion.duration", "20 ms"}}));
+  return shared;
+}
+
+IndexFunction function_of(const std::vector<std::string>& paths, const std::string& rung) {
+  return {mechanism_of_function(),
+          inputs_named(*mechanism_of_function(), paths),
+          {.index = {"position_error", "max"}, .rung = rung}};
+}
+
+std::string refusal_of(const IndexFunction& f, const std::vector<double>& point) {
+  try {
+    f.at(point);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
+TEST(FunctionInputs, HaveTheUnitAndTheValueOfTheirPath) {
+  const auto inputs = inputs_named(*mechanism_of_function(), {kRadial, "payload.mass"});
+  ASSERT_EQ(inputs.size(), 2u);
+  EXPECT_EQ(inputs[0].name(), kRadial);
+  EXPECT_EQ(inputs[0].si_unit, "m");
+  EXPECT_EQ(inputs[0].nominal, mechanism_of_function()->parameters().clearance[0].radial);
+  EXPECT_EQ(inputs[1].si_unit, "kg");
+}
+
+TEST(FunctionInputs, AreRefusedASecondTimeAndWhereTheyNameNothing) {
+  EXPECT_THROW(inputs_named(*mechanism_of_function(), {kRadial, kRadial}), InputError);
+  EXPECT_THROW(inputs_named(*mechanism_of_function(), {"clearance.F9.radial"}), InputError);
+}
+
+TEST(FunctionInputs, AreHeldToTheRangeOfTheirKey) {
+  const FunctionInput radial = inputs_named(*mechanism_of_function(), {kRadial}).front();
+  EXPECT_NO_THROW(check_value(radial, 1e-4));
+  for (const double value : {-1e-4, 1e9, std::nan(""), std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(check_value(radial, value), ValueFault) << value;
+}
+
+TEST(IndexFunction, HasTheValueOfTheMotionAlone) {
+  const IndexFunction f = function_of({kRadial}, "quasistatic");
+  const std::vector<double> point = {0.13e-3};
+  Parameters parameters = mechanism_of_function()->parameters();
+  parameters.clearance[0].radial = point[0];
+  const RunResult run = make_rung("quasistatic", mechanism_of_function())->run(parameters, RunOptions());
+  const Outcome outcome = f.at(point);
+  ASSERT_EQ(outcome.status, Outcome::Status::done) << outcome.message;
+  EXPECT_NEAR(outcome.value, run.index.position_error.max, 1e-9 * outcome.value);
+}
+
+TEST(IndexFunction, GivesManyPointsTheBitsOfEachAlone) {
+  const IndexFunction f = function_of({kRadial, "payload.mass"}, "perturbation");
+  std::vector<std::vector<double>> points;
+  for (int k = 0; k < 11; ++k) points.push_back({(0.6 + 0.07 * k) * 1e-4, 1.0 + k});
+  const std::vector<Outcome> all = f.at_all(points, {});
+  ASSERT_EQ(all.size(), points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) EXPECT_EQ(all[k].value, f.at(points[k]).value) << k;
+}
+
+TEST(IndexFunction, RefusesPointsOfAnotherSizeAndValuesThatTheMechanismDoesNotTake) {
+  const IndexFunction f = function_of({kRadial, "payload.mass"}, "quasistatic");
+  EXPECT_NE(refusal_of(f, {1e-4}), "taken");
+  EXPECT_THAT(refusal_of(f, {-1e-4, 1.0}), HasSubstr(kRadial));
+  EXPECT_THAT(refusal_of(f, {1e-4, -1.0}), HasSubstr("payload.mass"));
+  EXPECT_EQ(refusal_of(f, {1e-4, 1.0}), "taken");
+}
+
+TEST(IndexFunction, SaysWhyARungHasNoSlopes) {
+  EXPECT_EQ(function_of({kRadial}, "perturbation").why_no_slopes(), "");
+  EXPECT_NE(function_of({kRadial}, "quasistatic").why_no_slopes(), "");
+}
+
+TEST(IndexFunction, StopsWhereItIsTold) {
+  const std::atomic<bool> stop{true};
+  EXPECT_NE(function_of({kRadial}, "multibody").at(std::vector{1e-4}, stop).status, Outcome::Status::done);
+}
+
+}  // namespace
+}  // namespace boresight
