@@ -128,9 +128,8 @@ const KeyTable& calibrate_run_keys() {
       .name = "calibrate.run",
       .says = "A run that was measured.",
       .keys = {
-          text("data").says("The CSV file of its readings, with commas between columns, or with semicolons and decimal "
-                            "commas or points; a "
-                            "relative name is taken from the study file's folder."),
+          text("data").says("The CSV file of its readings, with commas between its columns, or with semicolons and "
+                            "decimal commas or points. A relative name is taken from the study file's folder."),
           text("name").usually("the name of the data file").says("What reports call the run."),
           settings_key("The mechanism's settings in this run, as --set takes them: [\"motion.drives.A=2*pi*t\"].")}};
   return table_of_keys;
