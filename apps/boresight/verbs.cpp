@@ -5,6 +5,7 @@ namespace boresight::app {
 // A verb is registered by one line here.
 #define BORESIGHT_VERBS(VERB) \
   VERB(new)                   \
+  VERB(import)                \
   VERB(check)                 \
   VERB(run)                   \
   VERB(sweep)                 \

@@ -1,18 +1,15 @@
 #include "boresight/io/document.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 
 #include "boresight/io/content_hash.hpp"
 #include "boresight/io/toml_tree.hpp"
+#include "boresight/io/whole_file.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
 namespace {
-
-constexpr std::uintmax_t kLargestFile = 16u << 20;  // bytes
 
 // A path taken apart at its dots, but for those within the names of what a bearing pair or a universal joint with play is made of:
 // clearance, pitch.floating, radial.
@@ -44,23 +41,6 @@ bool names(std::string_view pattern, std::string_view path, bool whole) {
     if (wanted[i] != present[i] && wanted[i] != "*") return false;
   }
   return true;
-}
-
-std::string read_file(const std::string& path) {
-  std::error_code error;
-  const Origin origin{path, 0};
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw InputError(origin, "", "no such file", "a file that exists");
-  if (std::filesystem::is_directory(status)) throw InputError(origin, "", "a folder", "a file");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(origin, "", "a file that cannot be opened", "a file that may be read");
-  std::string bytes;
-  std::string block(1u << 16, '\0');
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
-    bytes.append(block, 0, static_cast<std::size_t>(in.gcount()));
-    if (bytes.size() > kLargestFile) throw InputError(origin, "", "a file of more than 16 MiB", "a smaller file");
-  }
-  return bytes;
 }
 
 }  // namespace
@@ -114,11 +94,11 @@ std::string shown(const Node& node) {
 }
 
 Document Document::from_file(const std::string& path, std::vector<Setting> settings) {
-  return from_text(read_file(path), path, std::move(settings));
+  return from_text(read_whole_file(path), path, std::move(settings));
 }
 
 Document Document::from_text(std::string_view text, const std::string& filename, std::vector<Setting> settings) {
-  if (text.size() > kLargestFile) {
+  if (text.size() > kLargestText) {
     throw InputError({filename, 0}, "", "a file of more than 16 MiB", "a smaller file");
   }
   ContentHash hash;
