@@ -19,6 +19,7 @@ namespace boresight::app {
   VERB(budget)                \
   VERB(report)                \
   VERB(export)                \
+  VERB(convert)               \
   VERB(laws)                  \
   VERB(serve)                 \
   VERB(paths)                 \

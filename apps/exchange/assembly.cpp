@@ -49,6 +49,11 @@ class Assembler {
     drop_idle_ground();
     if (result_.mechanism.bodies.empty())
       throw InputError({drawing_.file, 0}, "joint", "nothing that moves", "a mechanism: parts that joints let move");
+    // Equations are dense: their time grows with the cube of the bodies' number, and a cloth of thousands takes all memory.
+    constexpr std::size_t kMostBodies = 500;
+    if (const std::size_t n = result_.mechanism.bodies.size(); n > kMostBodies)
+      throw InputError({drawing_.file, 0}, "body", std::to_string(n) + " bodies that move",
+                       "a mechanism of at most " + std::to_string(kMostBodies));
     choose_boresight();
     choose_drives();
     for (SpringDescription spring : drawing_.springs) {
@@ -108,8 +113,21 @@ class Assembler {
     }
   }
 
+  // The first of the parts that are one body, but for what weighs hardly anything beside the others: it only stands for a joint.
+  int name_giver(int lead) const {
+    constexpr double kHardly = 1e-3;
+    double heaviest = 0.0;
+    for (int i = 0; i < ground(); ++i)
+      if (leader(i) == lead) heaviest = std::max(heaviest, drawing_.parts[i].mass);
+    for (int i = 0; i < ground(); ++i)
+      if (leader(i) == lead && (drawing_.parts[i].mass == 0.0 || drawing_.parts[i].mass >= kHardly * heaviest))
+        return i;
+    return lead;
+  }
+
   BodyDescription body_led_by(int lead, double total) {
-    const Part& first = drawing_.parts[lead];
+    const int named = name_giver(lead);
+    const Part& first = drawing_.parts[named];
     BodyDescription body;
     body.name = path_name(first.name, names_);
     body.origin = first.origin;
@@ -120,7 +138,7 @@ class Assembler {
       if (leader(i) != lead) continue;
       body.mass += drawing_.parts[i].mass;
       moment += drawing_.parts[i].mass * drawing_.parts[i].p_WC;
-      if (i != lead) joined += (joined.empty() ? "" : ", ") + drawing_.parts[i].name;
+      if (i != named) joined += (joined.empty() ? "" : ", ") + drawing_.parts[i].name;
     }
     if (!joined.empty())
       result_.assumed.push_back({first.origin.line, first.name + " carries what is fixed to it: " + joined});

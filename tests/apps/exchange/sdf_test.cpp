@@ -1,0 +1,147 @@
+#include "imported.hpp"
+
+namespace boresight::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string inertial(double mass) {
+  return "<inertial><mass>" + std::to_string(mass) +
+         "</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz></inertia></inertial>";
+}
+
+// A model at (1, 2, 3), turned by 90 degrees about z, with a link that is turned by 90 degrees about x, and a joint along x of ...
+std::string turned(const std::string& version, const std::string& axis) {
+  return "<sdf version='" + version +
+         "'>\n<model name='m'><pose>1 2 3 0 0 1.5707963267948966</pose>\n<link name='a'><pose>0.5 0 0 "
+         "1.5707963267948966 0 0</pose>" +
+         inertial(2.0) + "</link>\n<joint name='j' type='revolute'><parent>world</parent><child>a</child>" + axis +
+         "</joint></model></sdf>";
+}
+
+Vec3 axis_of(const std::string& version, const std::string& axis) {
+  return imported(read_sdf(turned(version, axis), "m.sdf")).joints.at(0).axis;
+}
+
+TEST(Sdf, AxesAreInTheFrameThatTheirVersionSays) {
+  const std::string y = "<axis><xyz>0 1 0</xyz></axis>";
+  // Of the model: its y is minus the world's x. Of the joint, which stands as the link does: its y is the model's z.
+  expect_near(axis_of("1.4", y), Vec3(-1.0, 0.0, 0.0), 1e-12);
+  expect_near(axis_of("1.6", y), Vec3(0.0, 0.0, 1.0), 1e-12);
+  expect_near(axis_of("1.9", y), Vec3(0.0, 0.0, 1.0), 1e-12);
+  expect_near(axis_of("1.6", "<axis><xyz>0 1 0</xyz><use_parent_model_frame>1</use_parent_model_frame></axis>"),
+              Vec3(-1.0, 0.0, 0.0), 1e-12);
+  expect_near(axis_of("1.9", "<axis><xyz expressed_in='__model__'>0 1 0</xyz></axis>"), Vec3(-1.0, 0.0, 0.0), 1e-12);
+}
+
+TEST(Sdf, AJointStandsInItsChildUnlessItSaysOtherwise) {
+  const auto point = [](const std::string& pose) {
+    return imported(read_sdf(turned("1.9", pose + "<axis><xyz>0 0 1</xyz></axis>"), "m.sdf")).joints.at(0).point;
+  };
+  expect_near(point(""), Vec3(1.0, 2.5, 3.0), 1e-12);
+  expect_near(point("<pose>0 0.2 0 0 0 0</pose>"), Vec3(1.0, 2.5, 3.2), 1e-12);  // the link's y is up
+  expect_near(point("<pose relative_to='__model__'>0 0.2 0 0 0 0</pose>"), Vec3(0.8, 2.0, 3.0), 1e-12);
+  expect_near(point("<pose degrees='true' relative_to='__model__'>0 0.2 0 90 0 0</pose>"), Vec3(0.8, 2.0, 3.0), 1e-12);
+}
+
+TEST(Sdf, FramesHangInFrames) {
+  const MechanismDescription m =
+      imported(read_sdf("<sdf version='1.9'><world name='w'><gravity>0 0 -1.62</gravity><model name='m'>"
+                        "<frame name='f' attached_to='a'><pose>0 0 1 0 0 0</pose></frame>"
+                        "<frame name='g'><pose relative_to='f'>1 0 0 0 0 0.5</pose></frame>"
+                        "<link name='a'><pose>0 5 0 0 0 0</pose>" +
+                            inertial(1.0) +
+                            "</link>"
+                            "<link name='b'><pose relative_to='g' rotation_format='quat_xyzw'>0 0 0 0 0 0 1</pose>" +
+                            inertial(1.0) +
+                            "</link>"
+                            "<joint name='j' type='ball'><parent>world</parent><child>a</child></joint>"
+                            "<joint name='k' type='universal'><parent>f</parent><child>b</child><axis><xyz>1 0 "
+                            "0</xyz></axis><axis2><xyz>0 1 0</xyz></axis2></joint>"
+                            "</model></world></sdf>",
+                        "m.sdf"));
+  expect_near(m.gravity, Vec3(0.0, 0.0, -1.62), 1e-12);
+  expect_near(m.bodies[index_of(m.bodies, "b")].center_of_mass, Vec3(1.0, 5.0, 1.0), 1e-12);
+  const JointDescription& k = joint_called(m, "k");
+  EXPECT_EQ(k.type, JointType::universal);
+  EXPECT_EQ(k.first, index_of(m.bodies, "a"));  // the link that the frame is attached to
+  expect_near(k.axis, Vec3(std::cos(0.5), std::sin(0.5), 0.0), 1e-12);
+  expect_near(k.second_axis, Vec3(-std::sin(0.5), std::cos(0.5), 0.0), 1e-12);
+}
+
+TEST(Sdf, ModelsInModelsKeepTheirNames) {
+  const MechanismDescription m =
+      imported(read_sdf("<sdf version='1.9'><model name='m'><link name='a'>" + inertial(1.0) +
+                            "</link>"
+                            "<model name='in'><pose>0 0 2 0 0 0</pose><link name='a'><pose>1 0 0 0 0 0</pose>" +
+                            inertial(1.0) +
+                            "</link></model>"
+                            "<joint name='j' type='fixed'><parent>world</parent><child>a</child></joint>"
+                            "<joint name='k' type='prismatic'><parent>a</parent><child>in::a</child><axis><xyz>0 1 "
+                            "0</xyz></axis></joint></model></sdf>",
+                        "m.sdf"));
+  ASSERT_EQ(m.bodies.size(), 1u);
+  EXPECT_EQ(m.bodies[0].name, "in::a");
+  expect_near(m.bodies[0].center_of_mass, Vec3(1.0, 0.0, 2.0), 1e-12);
+}
+
+TEST(Sdf, LoopsStayLoops) {
+  std::string text = "<sdf version='1.9'><model name='four-bar'>";
+  const char* const names[] = {"crank", "coupler", "rocker"};
+  for (int i = 0; i < 3; ++i)
+    text += "<link name='" + std::string(names[i]) + "'><pose>" + std::to_string(i) + " 0 1 0 0 0</pose>" +
+            inertial(1.0) + "</link>";
+  const char* const parents[] = {"world", "crank", "coupler", "rocker"};
+  const char* const children[] = {"crank", "coupler", "rocker", "world"};
+  const char* const points[] = {"0 0 0", "0.5 0 1.5", "1.5 0 1.4", "2 0 0"};
+  for (int i = 0; i < 4; ++i)
+    text += "<joint name='j" + std::to_string(i) + "' type='revolute'><pose relative_to='__model__'>" + points[i] +
+            " 0 0 0</pose><parent>" + parents[i] + "</parent><child>" + children[i] +
+            "</child><axis><xyz expressed_in='__model__'>0 1 0</xyz></axis></joint>";
+  const MechanismDescription m = imported(read_sdf(text + "</model></sdf>", "m.sdf"));
+  EXPECT_EQ(m.bodies.size(), 3u);
+  ASSERT_EQ(m.joints.size(), 4u);
+  EXPECT_EQ(m.joints[3].second, kGround);
+  expect_near(m.joints[2].point, Vec3(1.5, 0.0, 1.4), 1e-12);
+}
+
+struct SdfFault {
+  const char *inside, *line, *found;
+};
+
+class SdfFaults : public testing::TestWithParam<SdfFault> {};
+
+TEST_P(SdfFaults, AreNamedWithTheirLine) {
+  const std::string text = "<sdf version='1.9'><model name='m'><link name='a'/><link name='b'/>\n" +
+                           std::string(GetParam().inside) + "</model></sdf>";
+  try {
+    assembled(read_sdf(text, "m.sdf"), {});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr(std::string("m.sdf:") + GetParam().line), HasSubstr(GetParam().found)));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, SdfFaults,
+    testing::Values(SdfFault{"<joint name='j' type='screw'><parent>a</parent><child>b</child></joint>", "2",
+                             "\"screw\""},
+                    SdfFault{"<joint name='j' type='ball'><parent>a</parent>\n<child>c</child></joint>", "3", "\"c\""},
+                    SdfFault{"<joint name='j' type='ball'><parent>a</parent></joint>", "2", "no <child>"},
+                    SdfFault{"<frame name='f'><pose relative_to='g'/></frame>\n<frame name='g'><pose "
+                             "relative_to='f'/></frame><link name='c'><pose relative_to='f'/></link>",
+                             "", "circle"},
+                    SdfFault{"<link name='c'>\n<pose>0 0 0</pose></link>", "3", "six numbers"},
+                    SdfFault{"<joint name='j' type='universal'><parent>a</parent><child>b</child>\n<axis><xyz>1 0 "
+                             "0</xyz></axis><axis2><xyz>1 1 0</xyz></axis2></joint>",
+                             "2", "not perpendicular"},
+                    SdfFault{"<link name='c'><inertial>\n<mass>heavy</mass></inertial></link>", "3", "\"heavy\""}));
+
+TEST(Sdf, AnotherVersionIsRefused) {
+  EXPECT_THROW(read_sdf("<sdf version='2.0'><model name='m'/></sdf>", "m.sdf"), InputError);
+  EXPECT_THROW(read_sdf("<sdf version='new'><model name='m'/></sdf>", "m.sdf"), InputError);
+}
+
+}  // namespace
+}  // namespace boresight::app
