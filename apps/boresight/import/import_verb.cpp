@@ -66,7 +66,9 @@ class ImportVerb : public Verb {
   std::string summary() const override {
     return "a mechanism file from URDF, SDF or MJCF, with what could not be taken over";
   }
-  std::string example() const override { return "boresight import gimbal.urdf --to gimbal.toml"; }
+  std::string example() const override {
+    return "boresight convert antenna/mechanism.toml --to antenna.sdf\n  boresight import antenna.sdf --to ideal.toml";
+  }
   std::string next(const Command&, bool) const override { return ""; }
   std::vector<std::string> unused_options() const override {
     return {"--set", "--out", "--rung", "--accuracy", "--jobs", "--json"};

@@ -38,6 +38,8 @@ from ._verbs import (
     calibrate,
     chart,
     check,
+    convert,
+    import_mechanism,
     laws,
     match,
     montecarlo,
@@ -51,6 +53,6 @@ from ._verbs import (
 __all__ = [
     "Batch", "BodyHistory", "ClearanceHistory", "ComputationError", "Error", "Function", "InputError", "Mechanism",
     "Parameters", "Result", "ResultsError", "Run", "__version__", "allocate", "budget", "calibrate", "chart", "check",
-    "laws", "match", "mechanism_from_dict", "montecarlo", "openturns", "report_of_run", "run", "sensitivity",
+    "convert", "import_mechanism", "laws", "match", "mechanism_from_dict", "montecarlo", "openturns", "report_of_run", "run", "sensitivity",
     "stability", "sweep", "verb",
 ]

@@ -83,6 +83,40 @@ chart = _named("chart", False, "How accurate and how fast each method is here.")
 stability = _named("stability", False, "Where the methods fail.")
 
 
+def _written(name: str, file: File, to: File, options: Mapping[str, Any]) -> None:
+    words = [name, os.fspath(file), "--to", os.fspath(to), "--quiet"]
+    words += [f"--{option}={_text(value)}" for option, value in options.items() if value is not None]
+    _core.call_verb(words, None)
+
+
+def import_mechanism(
+    file: File,
+    to: File,
+    *,
+    boresight: Optional[str] = None,
+    drive: Optional[str] = None,
+    ground: Optional[str] = None,
+    duration: Optional[str] = None,
+) -> None:
+    """Writes a mechanism file, `to`, from a file of URDF, SDF or MJCF.
+
+    boresight: the link that points, and its axis that does: "camera:x". drive: the driven joints and their courses,
+    "pan=0.5*sin(t); tilt". ground: a link that stands still. duration: of the motion, "1 s". What is not given is as the file
+    says, or assumed; the written file tells what was, and what was left out.
+
+    Raises InputError (what is wrong with the file), ResultsError (`to` is there already).
+    """
+    _written("import", file, to, {"boresight": boresight, "drive": drive, "ground": ground, "duration": duration})
+
+
+def convert(file: File, to: File) -> None:
+    """Writes the ideal mechanism of a mechanism file for other programs: as SDF or, where `to` ends in .xml or .mjcf, as MJCF.
+
+    Raises InputError, ResultsError (`to` is there already).
+    """
+    _written("convert", file, to, {})
+
+
 def laws(file: Optional[File] = None, **options: Any) -> Result:
     """Contact and friction laws, for a mechanism file's joint or for the default pin. Options and errors: those of verb()."""
     return verb("laws", file, **options)

@@ -373,6 +373,7 @@ std::vector<Command> commands() {
            }},
   };
   for (Command& c : commands_on_errors()) all.push_back(std::move(c));
+  for (Command& c : commands_on_imports()) all.push_back(std::move(c));
   for (Command& c : commands_on_two_bearings()) all.push_back(std::move(c));
   return all;
 }

@@ -36,5 +36,7 @@ std::vector<Command> commands();
 std::vector<Command> commands_on_errors();
 // And about bearing pairs.
 std::vector<Command> commands_on_two_bearings();
+// And about mechanisms from other programs.
+std::vector<Command> commands_on_imports();
 
 }  // namespace boresight::app

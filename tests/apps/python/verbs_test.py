@@ -55,6 +55,48 @@ class Python(unittest.TestCase):
                 numpy.testing.assert_array_equal(self.samples_of(ours.folder)[1], values)
                 print(f"{rung}: command line, Python (study and function) and UM-Bridge agree in all bits of {count} values")
 
+    def test_a_mechanism_is_imported_and_converted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            to = os.path.join(folder, "gimbal.toml")
+            bs.import_mechanism(os.path.join(EXAMPLES, "from-urdf", "gimbal.urdf"), to, boresight="optical_frame:z", drive="pan=t; tilt")
+            m = bs.Mechanism(to)
+            self.assertEqual(m.name, "camera gimbal")
+            with self.assertRaises(bs.ResultsError):
+                bs.import_mechanism(os.path.join(EXAMPLES, "from-urdf", "gimbal.urdf"), to)
+            bs.convert(to, os.path.join(folder, "gimbal.sdf"))
+            bs.import_mechanism(os.path.join(folder, "gimbal.sdf"), os.path.join(folder, "again.toml"))
+            with open(os.path.join(folder, "bad.urdf"), "w", encoding="utf-8") as file:
+                file.write("<robot name='r'>\n<link/></robot>")
+            with self.assertRaises(bs.InputError) as caught:
+                bs.import_mechanism(os.path.join(folder, "bad.urdf"), os.path.join(folder, "bad.toml"))
+            self.assertEqual((caught.exception.line, caught.exception.key), (2, "link.name"))
+
+    def test_the_example_from_urdf_ends_with_a_budget(self):
+        with tempfile.TemporaryDirectory() as folder:
+            ran = self.example("gimbal_from_urdf.py", folder)
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            self.assertRegex(ran.stdout, r"APE at 95%: \d+ arcsec")
+            self.assertIn("mounting", ran.stdout)
+            self.assertTrue(os.path.exists(os.path.join(folder, "report.html")))
+            with open(os.path.join(folder, "gimbal.toml"), encoding="utf-8") as made, \
+                    open(os.path.join(EXAMPLES, "from-urdf", "gimbal.toml"), encoding="utf-8") as kept:
+                self.assertEqual(made.read(), kept.read())
+            print(ran.stdout)
+
+    def test_the_example_of_calibration_plots_what_it_fitted(self):
+        with tempfile.TemporaryDirectory() as folder:
+            plot = os.path.join(folder, "plot.html")
+            ran = self.example("calibration.py", plot)
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            self.assertIn("clearance.D.contact.restitution: 0.600", ran.stdout)
+            with open(plot, encoding="utf-8") as file:
+                self.assertIn("fitted", file.read())
+            print(ran.stdout)
+
+    def example(self, name, *arguments):
+        return subprocess.run([sys.executable, os.path.join(EXAMPLES, "python", name), *arguments], capture_output=True,
+                              text=True, check=False, timeout=110)
+
     def test_a_result_has_summary_report_tables_and_a_face(self):
         with tempfile.TemporaryDirectory() as folder:
             result = bs.montecarlo(self.study_in(folder, 30), rung="quasistatic", settings=SHORT)
@@ -77,7 +119,7 @@ class Python(unittest.TestCase):
     def test_every_verb_with_results_is_a_function(self):
         listed = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True, check=True).stdout
         verbs = {line.split()[0] for line in listed.splitlines() if line.startswith("  ") and line[2:3].islower()}
-        not_studies = {"new", "run", "report", "export", "serve", "paths", "help", "schema", "completion"}
+        not_studies = {"new", "import", "run", "report", "export", "serve", "paths", "help", "schema", "completion"}
         self.assertTrue(not_studies <= verbs, verbs)
         for name in verbs - not_studies:
             self.assertTrue(callable(getattr(bs, name, None)), name)

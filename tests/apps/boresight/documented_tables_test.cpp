@@ -1,0 +1,100 @@
+// apps/boresight/tables.md against what verbs write: every table and column is explained, and every one that is explained is there.
+#include <gmock/gmock.h>
+#include <sqlite3.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "program.hpp"
+
+namespace boresight::app {
+namespace {
+
+using Columns = std::set<std::string>;
+
+// The columns that the page explains, by table or file.
+std::map<std::string, Columns> explained() {
+  std::ifstream in(BORESIGHT_SOURCE "/apps/boresight/tables.md");
+  std::map<std::string, Columns> tables;
+  std::string table;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("#")) table = line.substr(line.find(' ') + 1);
+    if (!line.starts_with("| `")) continue;
+    const std::string cell = line.substr(0, line.find('|', 1));
+    for (std::size_t open = cell.find('`'); open != std::string::npos;) {
+      const std::size_t close = cell.find('`', open + 1);
+      tables[table].insert(cell.substr(open + 1, close - open - 1));
+      open = cell.find('`', close + 1);
+    }
+  }
+  return tables;
+}
+
+std::vector<std::vector<std::string>> rows(const std::filesystem::path& file, const std::string& query) {
+  sqlite3* db = nullptr;
+  EXPECT_EQ(sqlite3_open_v2(file.c_str(), &db, SQLITE_OPEN_READONLY, nullptr), SQLITE_OK);
+  std::vector<std::vector<std::string>> found;
+  const auto take = [](void* to, int n, char** values, char**) {
+    auto& row = static_cast<std::vector<std::vector<std::string>>*>(to)->emplace_back();
+    for (int k = 0; k < n; ++k) row.emplace_back(values[k] == nullptr ? "" : values[k]);
+    return 0;
+  };
+  EXPECT_EQ(sqlite3_exec(db, query.c_str(), take, &found, nullptr), SQLITE_OK) << query;
+  sqlite3_close(db);
+  return found;
+}
+
+class DocumentedTables : public Program {};
+
+TEST_F(DocumentedTables, OfAStoreAreThoseThatItHas) {
+  std::ofstream(folder_ / "study.toml") << "format = 1\nmechanism = \"" BORESIGHT_EXAMPLES
+                                           "/four-bar/four-bar.toml\"\n"
+                                           "[[random]]\nparameter = \"clearance.D.radial\"\n"
+                                           "distribution = { uniform = { min = \"0.1 mm\", max = \"0.2 mm\" } }\n"
+                                           "[montecarlo]\nsamples = 20\nseed = 1\n";
+  ASSERT_EQ(call({"montecarlo", "study.toml", "--rung", "quasistatic", "--set", "motion.duration=20ms", "--quiet",
+                  "--out", "out"})
+                .status,
+            0);
+  const auto page = explained();
+  const std::filesystem::path store = folder_ / "out" / "samples.db";
+  std::set<std::string> tables;
+  for (const auto& row : rows(store, "SELECT name FROM sqlite_master WHERE type = 'table'")) {
+    tables.insert(row[0]);
+    ASSERT_TRUE(page.count(row[0])) << "no table " << row[0] << " in tables.md";
+    Columns columns;
+    for (const auto& column : rows(store, "PRAGMA table_info(" + row[0] + ")")) columns.insert(column[1]);
+    if (row[0] == "sample")
+      for (const auto& parameter : rows(store, "SELECT path FROM parameter")) {
+        EXPECT_EQ(columns.erase(parameter[0]), 1u);
+      }
+    EXPECT_EQ(page.at(row[0]), columns) << row[0];
+  }
+  for (const auto& [table, columns] : page)
+    if (!table.ends_with(".csv")) {
+      EXPECT_TRUE(tables.count(table)) << "tables.md explains " << table << ", which is not there";
+    }
+  const auto computed = rows(store, "SELECT count(*) FROM sample WHERE status = 0 AND value > 0 AND rung = 1");
+  EXPECT_EQ(computed.at(0).at(0), "20");
+}
+
+TEST_F(DocumentedTables, OfARunAreThoseThatItWrites) {
+  ASSERT_EQ(call({"run", BORESIGHT_EXAMPLES "/four-bar/four-bar.toml", "--set", "motion.duration=20ms", "--quiet",
+                  "--out", "out"})
+                .status,
+            0);
+  const auto page = explained();
+  for (const char* name : {"timeseries.csv", "events.csv"}) {
+    std::istringstream text(this->text(std::string("out/") + name));
+    std::string header, cell;
+    std::getline(text, header);
+    Columns columns;
+    for (std::istringstream cells(header); std::getline(cells, cell, ',');)
+      columns.insert(cell.starts_with("D.") ? cell.substr(2) : cell);
+    EXPECT_EQ(page.at(name), columns) << name;
+  }
+}
+
+}  // namespace
+}  // namespace boresight::app
