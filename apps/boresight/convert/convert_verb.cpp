@@ -27,7 +27,7 @@ class ConvertVerb : public Verb {
     return {"--out", "--rung", "--accuracy", "--jobs", "--json"};
   }
   void declare_options(CLI::App& app) override {
-    declare_option(app, "--to", to_,
+    declare_option(app, "--to,--out", to_,
                    "the file to write, NAME.sdf or NAME.xml (MJCF); otherwise FILE's name with .sdf, here", "FILE");
   }
 

@@ -74,7 +74,8 @@ class ImportVerb : public Verb {
     return {"--set", "--out", "--rung", "--accuracy", "--jobs", "--json"};
   }
   void declare_options(CLI::App& app) override {
-    declare_option(app, "--to", to_, "the mechanism file to write; otherwise FILE's name with .toml, here", "FILE");
+    declare_option(app, "--to,--out", to_, "the mechanism file to write; otherwise FILE's name with .toml, here",
+                   "FILE");
     declare_option(
         app, "--boresight", boresight_,
         "the link that points, and its axis that does: camera:x; otherwise x of the link furthest from the ground",

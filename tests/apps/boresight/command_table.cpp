@@ -290,6 +290,12 @@ std::vector<Command> commands() {
              EXPECT_EQ(impacts, 12);
              EXPECT_THAT(left.ended.out, HasSubstr("is used outside of its range"));
            }},
+      {.text = "boresight check examples/flores-slider-crank/slider-in-guide.toml",
+       .claims =
+           [](const Left& left) {
+             EXPECT_EQ(left.summary["kinematics"]["mobility"], 1);
+             EXPECT_EQ(left.summary["kinematics"]["redundant_rows"], 3);
+           }},
       {.text = "boresight laws examples/flores-slider-crank/flores-slider-crank.toml",
        .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("lankarani-nikravesh")); }},
       // "neighbouring states part e-fold every 4 ms"

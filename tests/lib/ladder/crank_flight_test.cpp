@@ -1,8 +1,8 @@
 // The slider-crank of Flores, Leine and Glocker (2010), whose block has play in its guide, up to where the
 // block first touches: until then crank, rod and block fly as a free chain.
 //
-// Parameters from Siconos' sample of it. The impacts themselves are between a block's corners and two flat
-// guides with constant restitution, which no joint with clearance here has.
+// Parameters from Siconos' sample of it. The impacts that follow are those of a rectangular guide:
+// slider_crank_guide_test.cpp.
 #include <gtest/gtest.h>
 
 #include "boresight/ladder/ladder.hpp"
