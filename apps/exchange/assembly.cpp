@@ -24,7 +24,12 @@ std::string path_name(const std::string& name, const std::set<std::string>& take
   }
   while (!clean.empty() && clean.back() == ' ') clean.pop_back();
   while (!clean.empty() && clean.front() == ' ') clean.erase(0, 1);
-  clean.resize(std::min<std::size_t>(clean.size(), 90));
+  constexpr std::size_t kLongest = 90;  // bytes; a name may have a hundred, with its number
+  if (clean.size() > kLongest) {
+    std::size_t end = kLongest;
+    while (end > 0 && (static_cast<unsigned char>(clean[end]) & 0xc0) == 0x80) --end;  // no letter of UTF-8 in two
+    clean.resize(end);
+  }
   if (clean.empty()) clean = "unnamed";
   if (clean == "ground") clean = "ground_link";
   std::string own = clean;
@@ -46,7 +51,7 @@ class Assembler {
     join_fixed_parts();
     make_bodies();
     make_joints();
-    drop_idle_ground();
+    drop_what_nothing_holds();
     if (result_.mechanism.bodies.empty())
       throw InputError({drawing_.file, 0}, "joint", "nothing that moves", "a mechanism: parts that joints let move");
     // Equations are dense: their time grows with the cube of the bodies' number, and a cloth of thousands takes all memory.
@@ -101,10 +106,9 @@ class Assembler {
     body_of_.assign(leader_.size(), kGround);
     double total = 0.0;
     for (const Part& p : drawing_.parts) total += p.mass;
-    length_ = 0.0;
-    for (const Connection& a : drawing_.connections)
-      for (const Connection& b : drawing_.connections) length_ = std::max(length_, (a.p_WJ - b.p_WJ).norm());
-    if (!(length_ > 0.0)) length_ = 1.0;
+    Eigen::AlignedBox3d box;
+    for (const Connection& c : drawing_.connections) box.extend(c.p_WJ);
+    length_ = box.isEmpty() || !(box.diagonal().norm() > 0.0) ? 1.0 : box.diagonal().norm();
     for (int i = 0; i < ground(); ++i) {
       if (leader(i) != i) continue;
       body_of_[i] = static_cast<int>(result_.mechanism.bodies.size());
@@ -204,17 +208,20 @@ class Assembler {
     }
   }
 
-  // A body that no joint holds and that is not asked for is a part of the scenery: it would only fall.
-  void drop_idle_ground() {
+  // A body that neither a joint nor a spring holds is a part of the scenery: it would only fall.
+  void drop_what_nothing_holds() {
     if (result_.mechanism.joints.empty()) return;
     const auto is_held = [&](int body) {
       return std::any_of(result_.mechanism.joints.begin(), result_.mechanism.joints.end(),
-                         [&](const JointDescription& j) { return j.first == body || j.second == body; });
+                         [&](const JointDescription& j) { return j.first == body || j.second == body; }) ||
+             std::any_of(drawing_.springs.begin(), drawing_.springs.end(), [&](const SpringDescription& s) {
+               return body_of(s.first) == body || body_of(s.second) == body;
+             });
     };
     for (int b = static_cast<int>(result_.mechanism.bodies.size()) - 1; b >= 0; --b) {
       if (is_held(b)) continue;
       const BodyDescription& body = result_.mechanism.bodies[b];
-      result_.left_out.push_back({body.origin.line, body.name + ": no joint holds it"});
+      result_.left_out.push_back({body.origin.line, body.name + ": neither a joint nor a spring holds it"});
       result_.mechanism.bodies.erase(result_.mechanism.bodies.begin() + b);
       for (int& index : body_of_)
         if (index == b)
@@ -295,12 +302,15 @@ class Assembler {
 
   // Of a joint that moves with another one, the course follows from the other's.
   void follow(const std::string& name, const Mimic& mimic) {
+    if (choices_.drives_given && result_.drives.count(name) != 0) return;  // the user says how it moves
     const auto joint = std::find_if(result_.mechanism.joints.begin(), result_.mechanism.joints.end(),
                                     [&](const JointDescription& j) { return j.name == name; });
     const auto leading = joint_of_.find(mimic.joint);
     const auto course = leading == joint_of_.end() ? result_.drives.end() : result_.drives.find(leading->second);
     if (course == result_.drives.end()) {
       result_.left_out.push_back({joint->origin.line, name + " moving with " + mimic.joint + ", which is not driven"});
+      joint->driven = false;
+      result_.drives.erase(name);
       return;
     }
     joint->driven = true;
@@ -316,7 +326,7 @@ class Assembler {
   std::set<std::string> names_;
   std::map<std::string, std::string> joint_of_;  // as the file names it -> as the mechanism does
   std::map<std::string, Mimic> mimics_;
-  double length_ = 1.0;
+  double length_ = 1.0;  // diagonal of the box that holds all joints [m]
 };
 
 }  // namespace

@@ -69,6 +69,9 @@ struct Drawing {
   std::vector<Remark> left_out;            // what the file says and a mechanism file cannot
 };
 
+// More links than any mechanism has: what is sought by name in so many takes seconds.
+inline constexpr std::size_t kMostParts = 1000;
+
 // The part of this name, or -1.
 int part_named(const Drawing& drawing, const std::string& name);
 

@@ -26,6 +26,8 @@ namespace {
 
 // MuJoCo writes warnings into a file of its own where nobody takes them.
 void ignore(const char*) {}
+// Where it cannot go on, it would wait for a key and end the program.
+void give_up(const char* why) { throw ComputationError(std::string("MuJoCo: ") + why); }
 
 Vec3 vec3(const mjtNum* v) { return {v[0], v[1], v[2]}; }
 Mat3 mat3(const mjtNum* m) { return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(m); }
@@ -36,6 +38,7 @@ class MjcfReader {
     drawing_.file = filename;
     drawing_.format = "MJCF";
     mju_user_warning = ignore;
+    mju_user_error = give_up;
     std::array<char, 1000> fault = {};
     model_.reset(mj_loadXML(filename.c_str(), nullptr, fault.data(), static_cast<int>(fault.size())));
     if (!model_) throw refused(fault.data());

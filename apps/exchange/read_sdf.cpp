@@ -179,6 +179,8 @@ class SdfReader {
 
   void add_link(const XmlElement& link, Model& model) {
     const std::string name = link.text("name");
+    if (drawing_.parts.size() == kMostParts)
+      link.fail("link", "more than " + std::to_string(kMostParts) + " links", "fewer");
     Part part;
     part.name = model.prefix + name;
     part.origin = link.origin();

@@ -54,6 +54,8 @@ class UrdfReader {
   void add_link(const XmlElement& link) {
     const std::string name = link.text("name");
     if (part_named(drawing_, name) >= 0) link.fail("link.name", "\"" + name + "\" a second time", "a name of its own");
+    if (drawing_.parts.size() == kMostParts)
+      link.fail("link", "more than " + std::to_string(kMostParts) + " links", "fewer");
     Part& part = drawing_.parts.emplace_back();
     part.name = name;
     part.origin = link.origin();

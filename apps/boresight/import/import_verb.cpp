@@ -99,7 +99,7 @@ class ImportVerb : public Verb {
     const Assembly assembly = assembled(std::move(drawing), choices);
     const std::string text = mechanism_text(assembly, source, duration_);
     const fs::path to = to_.empty() ? fs::path(fs::path(command.file).stem().string() + ".toml") : fs::path(to_);
-    check(text, to.string());
+    check(text, command.file);
     std::error_code error;
     if (fs::exists(fs::symlink_status(to, error)))
       throw OutputDirectoryError(to.string() + ": is there already; give another --to, or remove it");
@@ -109,8 +109,17 @@ class ImportVerb : public Verb {
   }
 
  private:
-  // What is written can be read, or nothing is written.
-  static void check(const std::string& text, const std::string& to) { Mechanism{read_mechanism_text(text, to)}; }
+  // What is written can be read, or nothing is written. A fault is one of the option or of the file that it came from.
+  static void check(const std::string& text, const std::string& file) {
+    try {
+      Mechanism{read_mechanism_text(text, file)};
+    } catch (const InputError& fault) {
+      const bool of_drive = fault.key.starts_with("motion.drives"), of_duration = fault.key == "motion.duration";
+      const Origin from = of_drive || of_duration ? Origin{"command line", 0} : Origin{file, 0};
+      const std::string key = of_drive ? "--drive" : of_duration ? "--duration" : fault.key;
+      throw InputError(from, key, fault.found, fault.expected, fault.nearest);
+    }
+  }
 
   static void say(const Assembly& assembly, const std::string& to) {
     const MechanismDescription& m = assembly.mechanism;

@@ -96,6 +96,24 @@ TEST(MuJoCo, FindsTheLoopsOfTheExamplesClosed) {
   }
 }
 
+TEST(MuJoCo, ABodyThatOnlyASpringHoldsIsAPartOfTheMechanism) {
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / ("spring-" + std::to_string(::getpid()) + ".xml");
+  std::ofstream(file) << "<mujoco><worldbody><site name='hook' pos='0 0 3'/>"
+                         "<body name='arm'><joint/><inertial pos='0 0 1' mass='1' diaginertia='1 1 1'/></body>"
+                         "<body name='bob' pos='0 0 2'><freejoint/><inertial pos='0 0 0' mass='2' diaginertia='1 1 "
+                         "1'/><site name='eye'/></body>"
+                         "</worldbody><tendon><spatial stiffness='50' springlength='0.5'><site site='hook'/><site "
+                         "site='eye'/></spatial></tendon></mujoco>";
+  const MechanismDescription m = imported(read_mjcf(file.string()));
+  std::filesystem::remove(file);
+  ASSERT_EQ(m.bodies.size(), 2u);
+  ASSERT_EQ(m.springs.size(), 1u);
+  EXPECT_EQ(m.springs[0].first, kGround);
+  EXPECT_EQ(m.springs[0].second, index_of(m.bodies, "bob"));
+  expect_near(m.springs[0].second_point, Vec3(0.0, 0.0, 2.0), 1e-12);
+}
+
 TEST(MuJoCo, ReadsSeveralJointsOfABodyAsOneOrAsAChain) {
   const auto read = [](const std::string& joints, const std::string& actuators = "") {
     const std::filesystem::path file =

@@ -75,6 +75,19 @@ TEST(Urdf, AJointThatMimicsAnotherFollowsItsCourse) {
     }
 }
 
+TEST(Urdf, AJointThatMimicsAFreeOneIsFree) {
+  ImportChoices choices;
+  choices.drives_given = true;
+  const Assembly a = assembled(read_urdf(R"(<robot name="r"><link name="base"/><link name="a"/><link name="b"/>
+    <joint name="j" type="continuous"><parent link="base"/><child link="a"/></joint>
+    <joint name="k" type="continuous"><parent link="a"/><child link="b"/><mimic joint="j"/></joint></robot>)",
+                                         "r.urdf"),
+                               choices);
+  EXPECT_TRUE(a.drives.empty());
+  for (const JointDescription& joint : a.mechanism.joints) EXPECT_FALSE(joint.driven) << joint.name;
+  EXPECT_THAT(grouped(a.left_out), testing::Contains(HasSubstr("k moving with j, which is not driven")));
+}
+
 TEST(Urdf, LinksWithoutMassGetSoLittleThatNothingChanges) {
   const Assembly a = assembled(read_urdf(R"(<robot name="r"><link name="base"/><link name="cross"/>
     <link name="b"><inertial><mass value="3"/><inertia ixx="2" iyy="2" izz="2"/></inertial></link>
