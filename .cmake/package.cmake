@@ -24,4 +24,5 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libeigen3-dev, libgsl-dev, libtbb-dev, libceres-dev, libsqlite3-dev, libnlopt-cxx-dev, nlohmann-json3-dev")  # to build on the library
+set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/package_tools.cmake)
 include(CPack)
