@@ -88,6 +88,43 @@ TEST(Urdf, AJointThatMimicsAFreeOneIsFree) {
   EXPECT_THAT(grouped(a.left_out), testing::Contains(HasSubstr("k moving with j, which is not driven")));
 }
 
+TEST(Urdf, TheUsersOwnCourseOfAJointStandsAgainstItsMimic) {
+  ImportChoices choices;
+  choices.drives_given = true;
+  choices.drives = {{"j", "sin(t)"}, {"k", "3*t"}};
+  const Assembly a = assembled(read_urdf(R"(<robot name="r"><link name="base"/><link name="a"/><link name="b"/>
+    <joint name="j" type="continuous"><parent link="base"/><child link="a"/></joint>
+    <joint name="k" type="continuous"><parent link="a"/><child link="b"/><mimic joint="j"/></joint></robot>)",
+                                         "r.urdf"),
+                               choices);
+  EXPECT_EQ(a.drives.at("k"), "3*t");
+}
+
+TEST(Urdf, ALongNameIsCutBetweenTwoLettersOfUtf8) {
+  // 59 two-byte letters after one of one byte: the 90th byte lies within a letter.
+  std::string name = "x";
+  for (int i = 0; i < 59; ++i) name += "\u00e9";
+  const Assembly a = assembled(read_urdf("<robot name=\"r\"><link name=\"base\"/><link name=\"" + name + R"("/>
+    <joint name="j" type="continuous"><parent link="base"/><child link=")" + name + R"("/></joint></robot>)",
+                                         "r.urdf"),
+                               {});
+  ASSERT_EQ(a.mechanism.bodies.size(), 1u);
+  const std::string& cut = a.mechanism.bodies[0].name;
+  EXPECT_EQ(cut.size(), 89u);
+  EXPECT_EQ(cut, name.substr(0, 89));
+}
+
+TEST(Urdf, MoreLinksThanAnyMechanismHasAreRefusedAtOnce) {
+  std::string text = "<robot name=\"r\">\n";
+  for (int i = 0; i < 1001; ++i) text += "<link name=\"l" + std::to_string(i) + "\"/>\n";
+  try {
+    read_urdf(text + "</robot>", "r.urdf");
+    FAIL() << "expected a fault";
+  } catch (const InputError& fault) {
+    EXPECT_THAT(fault.what(), AllOf(HasSubstr("r.urdf:1002"), HasSubstr("more than 1000 links")));
+  }
+}
+
 TEST(Urdf, LinksWithoutMassGetSoLittleThatNothingChanges) {
   const Assembly a = assembled(read_urdf(R"(<robot name="r"><link name="base"/><link name="cross"/>
     <link name="b"><inertial><mass value="3"/><inertia ixx="2" iyy="2" izz="2"/></inertial></link>
