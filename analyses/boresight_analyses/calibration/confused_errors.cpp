@@ -1,11 +1,11 @@
 #include "boresight_analyses/calibration/confused_errors.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 
+#include "boresight/math/dense_solves.hpp"
 #include "boresight/math/eigenvalues.hpp"
 
 namespace boresight {
@@ -22,7 +22,7 @@ MatX eliminated(const MatX& H, const std::vector<int>& kept, const std::vector<i
   const MatX part = H(kept, kept);
   if (others.empty()) return part;
   const MatX cross = H(kept, others);
-  const MatX left = part - cross * H(others, others).completeOrthogonalDecomposition().solve(MatX(cross.transpose()));
+  const MatX left = part - cross * solve_least(MatX(H(others, others)), MatX(cross.transpose()));
   return 0.5 * (left + left.transpose());
 }
 

@@ -1,6 +1,5 @@
 #include "boresight_analyses/random/copula.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "boresight/math/dense_solves.hpp"
 #include "boresight/math/eigenvalues.hpp"
 
 namespace boresight {
@@ -35,7 +35,7 @@ GaussianCopula::GaussianCopula(const Eigen::MatrixXd& correlation) {
                   least);
     throw std::domain_error(text);
   }
-  factor_ = correlation.llt().matrixL();
+  factor_ = cholesky_factor(correlation);
   for (Eigen::Index i = 0; i < factor_.rows(); ++i) changed_.push_back(!factor_.row(i).head(i).isZero(0.0));
 }
 
@@ -77,7 +77,7 @@ void GaussianCopula::renew(std::span<const double> a, std::span<const double> b,
   };
   Eigen::VectorXd y_anew = part(y_b, anew);
   if (!anew.empty() && !kept.empty())
-    y_anew += block(anew, kept) * block(kept, kept).llt().solve(part(y_a, kept) - part(y_b, kept));
+    y_anew += block(anew, kept) * solve_positive(block(kept, kept), VecX(part(y_a, kept) - part(y_b, kept)));
   for (std::size_t k = 0; k < kept.size(); ++k) out[kept[k]] = uniform_of(y_a[static_cast<Eigen::Index>(kept[k])]);
   for (std::size_t k = 0; k < anew.size(); ++k) out[anew[k]] = uniform_of(y_anew[static_cast<Eigen::Index>(k)]);
 }

@@ -2,12 +2,13 @@
 
 #include <gsl/gsl_cdf.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+
+#include "boresight/math/dense_solves.hpp"
 
 namespace boresight {
 namespace {
@@ -60,7 +61,7 @@ double GaussianMixture::Component::log_density(const VecX& u) const {
 GaussianMixture::Component GaussianMixture::component(double share, VecX mean, const MatX& covariance) {
   Component c;
   c.share = share;
-  c.factor = covariance.llt().matrixL();
+  c.factor = cholesky_factor(covariance);
   c.log_scale = -0.5 * double(mean.size()) * std::log(2.0 * std::numbers::pi) - c.factor.diagonal().array().log().sum();
   c.mean = std::move(mean);
   return c;

@@ -143,9 +143,9 @@ class ViewBuilder {
       MatX centred(3, corners.size());
       for (std::size_t i = 0; i < corners.size(); ++i) centred.col(static_cast<Eigen::Index>(i)) = corners[i].second;
       centred.colwise() -= Vec3(centred.rowwise().mean());
-      const Eigen::JacobiSVD<MatX> svd(centred, Eigen::ComputeThinU);
-      const MatX along = svd.matrixU().transpose() * centred;
-      drawn.closed = svd.singularValues()[1] > 1e-6 * svd.singularValues()[0];
+      const auto [size, directions] = singular_decomposition(centred.transpose());
+      const MatX along = directions.transpose() * centred;
+      drawn.closed = size[1] > 1e-6 * size[0];
       std::map<int, double> turn;
       for (std::size_t i = 0; i < corners.size(); ++i) {
         const auto k = static_cast<Eigen::Index>(i);

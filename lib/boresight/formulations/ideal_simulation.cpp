@@ -9,7 +9,7 @@
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/integrate/integrator.hpp"
 #include "boresight/integrate/rosenbrock_method.hpp"
-#include "boresight/math/orthogonal_factors.hpp"
+#include "boresight/math/dense_solves.hpp"
 #include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
@@ -92,7 +92,7 @@ void set_starting_rates(const Mechanism& mechanism, const std::vector<TimeValue>
         break;
       }
   A = scaled_rows(std::move(A), length);
-  VecX u = A.completeOrthogonalDecomposition().solve(b);
+  VecX u = solve_least(A, b);
   if ((A * u - b).norm() > 1e-8 * b.norm())
     throw InputError(rates.empty() ? mechanism.description().motion.origin : rates.front().origin,
                      rates.empty() ? "motion" : "initial.rates", "rates that contradict each other or the joints",

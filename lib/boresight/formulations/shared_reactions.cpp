@@ -1,6 +1,6 @@
 #include "boresight/formulations/shared_reactions.hpp"
 
-#include "boresight/math/orthogonal_factors.hpp"
+#include "boresight/math/dense_solves.hpp"
 
 namespace boresight {
 
@@ -12,7 +12,7 @@ std::vector<PlayOffsets> shared_reactions(const OffsetLayout& layout, const Para
       if (layout.joint(c).released(k))
         length[layout.joint(c).first + k] = k < 3 ? 1.0 : tilt_lever(parameters.clearance[c]);
   const MatX in_lengths = length.asDiagonal() * B;
-  const VecX f = -length.cwiseProduct(in_lengths.transpose().completeOrthogonalDecomposition().solve(r));
+  const VecX f = -length.cwiseProduct(solve_least(MatX(in_lengths.transpose()), r));
   std::vector<PlayOffsets> loads(static_cast<std::size_t>(layout.clearances()), PlayOffsets::Zero());
   for (int c = 0; c < layout.clearances(); ++c)
     loads[static_cast<std::size_t>(c)].head(layout.joint(c).count()) =

@@ -1,8 +1,9 @@
 #include "boresight/integrate/order_conditions.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <functional>
+
+#include "boresight/math/dense_solves.hpp"
 
 namespace boresight {
 namespace {
@@ -44,7 +45,8 @@ MatX triangle(const std::vector<double>& entries, int stages) {
 
 // Gamma of the textbook's form, u = Gamma k: its inverse is I/gamma - C.
 MatX rosenbrock_gamma(const RosenbrockTable& table) {
-  return (MatX::Identity(table.stages, table.stages) / table.gamma - triangle(table.c, table.stages)).inverse();
+  return solve_square(MatX(MatX::Identity(table.stages, table.stages) / table.gamma - triangle(table.c, table.stages)),
+                      MatX(MatX::Identity(table.stages, table.stages)));
 }
 
 }  // namespace
@@ -123,11 +125,15 @@ int attained_order(const MethodCoefficients& method, const VecX& b, int highest,
 }
 
 std::complex<double> stability_function(const MethodCoefficients& method, std::complex<double> z) {
-  using Complex = Eigen::MatrixXcd;
+  // (I - z A) k = 1 by its real and imaginary parts, one below the other.
   const Eigen::Index s = method.b.size();
-  const Complex matrix = Complex::Identity(s, s) - z * (method.alpha + method.gamma).cast<std::complex<double>>();
-  const Eigen::VectorXcd stages = matrix.partialPivLu().solve(Eigen::VectorXcd::Ones(s));
-  return 1.0 + z * method.b.cast<std::complex<double>>().dot(stages);
+  const MatX A = method.alpha + method.gamma;
+  MatX parts(2 * s, 2 * s);
+  parts << MatX::Identity(s, s) - z.real() * A, z.imag() * A, -z.imag() * A, MatX::Identity(s, s) - z.real() * A;
+  VecX ones = VecX::Zero(2 * s);
+  ones.head(s).setOnes();
+  const VecX stages = solve_square(parts, ones);
+  return 1.0 + z * std::complex<double>(method.b.dot(stages.head(s)), method.b.dot(stages.tail(s)));
 }
 
 double stability_limit(const MethodCoefficients& method, std::complex<double> direction, double farthest) {

@@ -1,6 +1,5 @@
 #include "boresight/lanes/perturbation_lanes.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <list>
@@ -9,6 +8,7 @@
 
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/lanes/scene_for_lanes.hpp"
+#include "boresight/math/dense_solves.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/scene/resting_start.hpp"
 #include "boresight/scene/standing_columns.hpp"
@@ -70,7 +70,7 @@ VecX accelerations(const LaneScene& scene, const double* row) {
   if (scene.form == SceneForm::accelerations) return r;
   MatX M;
   at.inverse_mass(row, M);  // which M's place is
-  return M.llt().solve(r);
+  return solve_positive(M, r);
 }
 
 }  // namespace

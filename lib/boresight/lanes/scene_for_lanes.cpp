@@ -1,10 +1,10 @@
 #include "boresight/lanes/scene_for_lanes.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/lanes/lane_layouts.hpp"
+#include "boresight/math/dense_solves.hpp"
 
 namespace boresight {
 namespace {
@@ -14,7 +14,7 @@ constexpr int kMostRefinements = 3;
 VecX accelerations(const SceneLayout& at, const double* row) {
   MatX M;
   at.inverse_mass(row, M);  // which M's place is
-  return M.llt().solve(Eigen::Map<const VecX>(row + at.Ar, at.n));
+  return solve_positive(M, VecX(Eigen::Map<const VecX>(row + at.Ar, at.n)));
 }
 
 // Of M^-1 r between the knots, relative to its largest value: what cubics through every other knot miss at the knots between,

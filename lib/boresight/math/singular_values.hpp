@@ -1,9 +1,18 @@
 // The singular value decomposition of a matrix of any size, compiled once: Eigen's takes a compiler half a minute wherever it is used.
 #pragma once
 
-#include <Eigen/SVD>
-
 #include "boresight/math/types.hpp"
 
-extern template class Eigen::BDCSVD<boresight::MatX>;
-extern template class Eigen::JacobiSVD<boresight::MatX>;
+namespace boresight {
+
+// A = U diag(values) V^T, A m x n: the min(m, n) values, the largest first, and all n columns of V.
+struct SingularValues {
+  VecX values;
+  MatX V;
+};
+SingularValues singular_decomposition(const MatX& A);
+
+// The values alone.
+VecX singular_values(const MatX& A);
+
+}  // namespace boresight

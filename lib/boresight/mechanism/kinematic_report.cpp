@@ -25,7 +25,7 @@ constexpr int kKnotsBetweenPoses = 8, kMostPoses = 2001;
 
 double inverse_condition(const MatX& A) {
   if (A.size() == 0) return 0.0;
-  const VecX s = Eigen::JacobiSVD<MatX>(A).singularValues();
+  const VecX s = singular_values(A);
   return s[0] > 0.0 ? s[s.size() - 1] / s[0] : 0.0;
 }
 

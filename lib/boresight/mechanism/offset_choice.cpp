@@ -118,9 +118,9 @@ OffsetChoice choose_offsets(const Mechanism& mechanism, const IdealMotion& ideal
     if (kept.rows() == 0) {
       choose(layout, rows, MatX::Identity(kept.cols(), kept.cols()), choice);
     } else {
-      const Eigen::BDCSVD<MatX> svd(kept, Eigen::ComputeFullV);
-      const Eigen::Index rank = (svd.singularValues().array() > kRankTolerance * svd.singularValues()[0]).count();
-      choose(layout, rows, svd.matrixV().rightCols(kept.cols() - rank), choice);
+      const auto [sigma, V] = singular_decomposition(kept);
+      const Eigen::Index rank = (sigma.array() > kRankTolerance * sigma[0]).count();
+      choose(layout, rows, V.rightCols(kept.cols() - rank), choice);
     }
   }
   for (int c = 0; c < layout.clearances(); ++c)

@@ -16,16 +16,14 @@ constexpr double kNothing = 1e-7;
 // Motions of all bodies (scaled, orthonormal columns) that the rows allow.
 MatX allowed_motions(const MatX& rows) {
   if (rows.rows() == 0) return MatX::Identity(rows.cols(), rows.cols());
-  const Eigen::BDCSVD<MatX> svd(rows, Eigen::ComputeFullV);
-  const VecX& sigma = svd.singularValues();
+  const auto [sigma, V] = singular_decomposition(rows);
   const Eigen::Index rank = (sigma.array() > kRankTolerance * sigma[0]).count();
-  return svd.matrixV().rightCols(rows.cols() - rank);
+  return V.rightCols(rows.cols() - rank);
 }
 
 int rank_in(const MatX& rows, const MatX& motions) {
   if (rows.rows() == 0 || motions.cols() == 0) return 0;
-  const Eigen::BDCSVD<MatX> svd(rows * motions);
-  return static_cast<int>((svd.singularValues().array() > kNothing).count());
+  return static_cast<int>((singular_values(rows * motions).array() > kNothing).count());
 }
 
 // A joint's released rows, scaled, each of unit length.

@@ -49,13 +49,13 @@ RankAnalysis analyse_rank(const Mechanism& mechanism, const ConstraintSystem& ev
   result.rows = static_cast<int>(J.rows());
   result.columns = static_cast<int>(J.cols());
   if (J.rows() == 0) return result;
-  const Eigen::BDCSVD<MatX> svd(J, with_motion ? Eigen::ComputeFullV : 0);
-  const VecX& sigma = svd.singularValues();
+  const SingularValues svd = with_motion ? singular_decomposition(J) : SingularValues{singular_values(J), MatX()};
+  const VecX& sigma = svd.values;
   result.largest = sigma[0];
   for (int i = 0; i < sigma.size(); ++i) result.rank += sigma[i] > kRankTolerance * result.largest;
   result.weakest = J.rows() >= J.cols() ? sigma[J.cols() - 1] : 0.0;
   if (with_motion) {
-    result.least_resisted = svd.matrixV().col(J.cols() - 1);
+    result.least_resisted = svd.V.col(J.cols() - 1);
     for (int b = 0; b < evaluated.bodies(); ++b) result.least_resisted.segment<3>(6 * b) *= length;
   }
   return result;

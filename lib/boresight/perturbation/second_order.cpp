@@ -1,12 +1,12 @@
 #include "boresight/perturbation/second_order.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "boresight/formulations/formulation.hpp"
 #include "boresight/formulations/shared_reactions.hpp"
+#include "boresight/math/dense_solves.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/multibody/multibody_start.hpp"
 
@@ -79,7 +79,7 @@ DependentOffsets dependent_offsets(const SceneLayout& at, const double* row, con
 // The shortest step of the coordinates that takes the dependent offsets back.
 VecX taken_along(const DependentOffsets& offsets, const VecX& unit) {
   if (offsets.beyond.size() == 0) return VecX::Zero(unit.size());
-  return -(unit.asDiagonal() * (offsets.B * unit.asDiagonal()).completeOrthogonalDecomposition().solve(offsets.beyond));
+  return -(unit.asDiagonal() * solve_least(MatX(offsets.B * unit.asDiagonal()), offsets.beyond));
 }
 
 // Of one kind of displacement over the instants: the largest and the mean square of what the rung has, and of what it misses or of
@@ -178,8 +178,7 @@ class LeftOut {
     MatX T, A;
     coordinates_.gain(deviation.t, T);
     at_.inverse_mass(row_.data(), A);
-    const Eigen::LLT<MatX> inverse_mass(A);
-    const VecX reaction = inverse_mass.solve(Eigen::Map<const VecX>(row_.data() + at_.Ar, at_.n));
+    const VecX reaction = solve_positive(A, VecX(Eigen::Map<const VecX>(row_.data() + at_.Ar, at_.n)));
     formulation_->forces().replace_contact(
         shared_reactions(prepared_.scene().offsets(), parameters_, coordinates_.offsets_per_coordinate(T), reaction));
 
@@ -202,7 +201,7 @@ class LeftOut {
 
     VecX left = z_ddot + Rows(row_.data() + at_.AC, at_.n, at_.n) * z_dot;
     if (at_.stiff) left += Rows(row_.data() + at_.AK, at_.n, at_.n) * z;
-    const VecX push = reaction.cwiseQuotient(unit_), push_off = inverse_mass.solve(left).cwiseQuotient(unit_);
+    const VecX push = reaction.cwiseQuotient(unit_), push_off = solve_positive(A, left).cwiseQuotient(unit_);
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       double size = 0.0, size_off = 0.0;
       // A journal whose forces turn may go any way: offsets and slopes that cancel in the pose need not cancel then.

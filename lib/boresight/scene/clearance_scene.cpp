@@ -1,12 +1,12 @@
 #include "boresight/scene/clearance_scene.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "boresight/formulations/force_elements.hpp"
 #include "boresight/math/cross_matrix.hpp"
+#include "boresight/math/dense_solves.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/motion_density.hpp"
@@ -193,7 +193,7 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
     VecX r;
     assemble(parameters, knot, M, C, r);
     knot.stiffness =
-        deviation_stiffness(mechanism_, ideal, parameters, coordinates_, knot.state, knot.T, M.llt().solve(C), r);
+        deviation_stiffness(mechanism_, ideal, parameters, coordinates_, knot.state, knot.T, solve_positive(M, C), r);
   }
   return knot;
 }

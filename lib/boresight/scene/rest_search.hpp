@@ -3,13 +3,12 @@
 // nothing gets better yet, so that a step is held against the worst of the last few.
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
 
-#include "boresight/math/orthogonal_factors.hpp"
+#include "boresight/math/dense_solves.hpp"
 #include "boresight/math/types.hpp"
 
 namespace boresight {
@@ -41,16 +40,13 @@ double search_rest(Left&& left_at, const MatX& unit, VecX& z) {
   for (int step = 0; step < kMost && shortest > kSettledRest; ++step) {
     VecX dx;  // in clearances
     if (damping == 0.0) {
-      Eigen::CompleteOrthogonalDecomposition<MatX> solver;
-      solver.setThreshold(kDifference);
-      solver.compute(-H);
-      dx = solver.solve(load);
+      dx = solve_least(-H, load, kDifference);
       if (const double length = dx.norm(); length < shortest) {
         shortest = length;
         best = z;
       }
     } else {
-      dx = (damping * MatX::Identity(H.rows(), H.cols()) - H).partialPivLu().solve(load);
+      dx = solve_square(MatX(damping * MatX::Identity(H.rows(), H.cols()) - H), load);
     }
     const double length = dx.norm();
     if (!std::isfinite(length)) break;

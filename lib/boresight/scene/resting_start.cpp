@@ -1,12 +1,10 @@
 #include "boresight/scene/resting_start.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "boresight/contact_events/contact_jacobian.hpp"
-#include "boresight/math/orthogonal_factors.hpp"
+#include "boresight/math/dense_solves.hpp"
 #include "boresight/play/joint_play.hpp"
 #include "boresight/play/play_words.hpp"
 #include "boresight/scene/rest_search.hpp"
@@ -40,7 +38,7 @@ MatX carried_along(const MatX& mass, const std::vector<bool>& held) {
   MatX along = MatX::Zero(n, n);
   for (Eigen::Index k : offsets) along(k, k) = 1.0;
   if (!offsets.empty() && !others.empty())
-    along(others, offsets) = -mass(others, others).llt().solve(MatX(mass(others, offsets)));
+    along(others, offsets) = -solve_positive(MatX(mass(others, others)), MatX(mass(others, offsets)));
   return along;
 }
 
@@ -74,7 +72,7 @@ RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std
   const int n = at_.n;
   MatX inverse;
   at_.inverse_mass(row, inverse);
-  const MatX mass = inverse.ldlt().solve(MatX::Identity(n, n));
+  const MatX mass = solve_symmetric(inverse, MatX(MatX::Identity(n, n)));
   using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
   reaction_ = mass * Eigen::Map<const VecX>(row + at_.Ar, n);
   if (at_.stiff) stiffness_ = mass * Rows(row + at_.AK, n, n);
@@ -141,7 +139,7 @@ void RestingBalance::weigh() {
     if (at_.joints[c].slides == 1) G.row(1).setZero();
     spread += G.transpose() * G;
   }
-  unit_ = spread.llt().matrixU().solve(MatX::Identity(n, n));
+  unit_ = orthonormal_in(spread);
   load_ = size(reaction_);
 }
 
@@ -196,10 +194,7 @@ double RestingBalance::energy(const VecX& offsets) const {
 
 VecX RestingBalance::correction(const MatX& by_z, const VecX& F) const {
   const MatX H = -(unit_.transpose() * by_z * unit_);
-  Eigen::CompleteOrthogonalDecomposition<MatX> solver;
-  solver.setThreshold(kSoft);
-  solver.compute(H);
-  return unit_ * solver.solve(unit_.transpose() * F);
+  return unit_ * solve_least(H, VecX(unit_.transpose() * F), kSoft);
 }
 
 // Each journal where its own offsets' loads alone would have it; where redundant joints tie offsets together, the loads that are least,
@@ -231,7 +226,7 @@ double RestingBalance::descend(VecX& z, double undecided, bool downhill) const {
       if (size(F) <= undecided && length(dz) <= kSettledRest) break;
     } else {
       const MatX H = damping * MatX::Identity(n, n) - MatX(unit_.transpose() * J * unit_);
-      dz = unit_ * H.partialPivLu().solve(unit_.transpose() * F);
+      dz = unit_ * solve_square(H, VecX(unit_.transpose() * F));
     }
     // No farther at once than the clearances are wide: beyond, the contacts are others.
     const double reach = length(dz);
@@ -276,15 +271,8 @@ void RestingBalance::keep_stiffness(const VecX& z) {
   std::vector<PlayMotion<double>> journals;
   for (std::size_t c = 0; c < joints_.size(); ++c) journals.push_back(motion_of(c, z));
   const MatX H = -(unit_.transpose() * stiffness_at(journals) * unit_);
-  const Eigen::LLT<MatX> cholesky(H);
-  if (cholesky.info() == Eigen::Success && cholesky.rcond() > kSoft) {
-    kept_ = unit_ * cholesky.solve(MatX(unit_.transpose()));
-    return;
-  }
-  Eigen::CompleteOrthogonalDecomposition<MatX> solver;
-  solver.setThreshold(kSoft);
-  solver.compute(H);
-  kept_ = unit_ * solver.pseudoInverse() * unit_.transpose();
+  const std::optional<MatX> moved = solve_if_positive(H, unit_.transpose(), kSoft);
+  kept_ = moved ? MatX(unit_ * *moved) : MatX(unit_ * pseudo_inverse(H, kSoft) * unit_.transpose());
 }
 
 RestingStart RestingBalance::solve_near(const VecX& before, double undecided) {

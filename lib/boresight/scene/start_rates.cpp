@@ -1,6 +1,6 @@
 #include "boresight/scene/start_rates.hpp"
 
-#include <Eigen/Cholesky>
+#include "boresight/math/dense_solves.hpp"
 
 namespace boresight {
 
@@ -21,7 +21,7 @@ MatX start_rates(const Mechanism& mechanism, const Parameters& parameters, const
       change.block<3, 1>(at + 3, k) += turn.cross(w);
     }
   }
-  return -(MT.transpose() * T).ldlt().solve(MT.transpose() * change);
+  return -solve_symmetric(MatX(MT.transpose() * T), MatX(MT.transpose() * change));
 }
 
 }  // namespace boresight
