@@ -105,7 +105,8 @@ TEST(Urdf, ALongNameIsCutBetweenTwoLettersOfUtf8) {
   std::string name = "x";
   for (int i = 0; i < 59; ++i) name += "\u00e9";
   const Assembly a = assembled(read_urdf("<robot name=\"r\"><link name=\"base\"/><link name=\"" + name + R"("/>
-    <joint name="j" type="continuous"><parent link="base"/><child link=")" + name + R"("/></joint></robot>)",
+    <joint name="j" type="continuous"><parent link="base"/><child link=")" +
+                                             name + R"("/></joint></robot>)",
                                          "r.urdf"),
                                {});
   ASSERT_EQ(a.mechanism.bodies.size(), 1u);
