@@ -12,7 +12,7 @@
 #include "boresight_analyses/allocation/allocation.hpp"
 
 namespace boresight {
-namespace {
+namespace confirmation_test {
 
 constexpr double kProbability = 0.9, kConfidence = 0.9, kRisk = 1.0 - kConfidence;
 constexpr double kMilli = 1e-3, kStep = 0.01, kWidth = 0.005;  // option o of a joint: (1 + kStep o + kWidth u) mm
@@ -248,5 +248,5 @@ TEST(Allocation, OverCostCurvesClaimsNoProof) {
   EXPECT_FALSE(result.chosen.proven);
 }
 
-}  // namespace
+}  // namespace confirmation_test
 }  // namespace boresight

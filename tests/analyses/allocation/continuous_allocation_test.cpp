@@ -13,7 +13,7 @@
 #include "boresight_analyses/allocation/gap_requirements.hpp"
 
 namespace boresight {
-namespace {
+namespace continuous_allocation_test {
 
 const std::vector<double> kSensitivity = {1.0, 1.9, 0.6, 2.4};
 const std::vector<double> kB = {0.5, 0.2, 1.0, 0.35};
@@ -137,5 +137,5 @@ TEST(LinearDeviation, ThatStandsStillHasOneValueForEveryStatistic) {
   }
 }
 
-}  // namespace
+}  // namespace continuous_allocation_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "boresight_analyses/allocation/gap_requirements.hpp"
 
 namespace boresight {
-namespace {
+namespace discrete_allocation_test {
 
 struct Scene {
   std::vector<std::vector<double>> price;
@@ -236,5 +236,5 @@ TEST(DiscreteAllocation, IsExactForRootSumSquaresWhateverTheOrderOfOptions) {
   EXPECT_GT(partly, 60);
 }
 
-}  // namespace
+}  // namespace discrete_allocation_test
 }  // namespace boresight

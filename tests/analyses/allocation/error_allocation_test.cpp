@@ -9,7 +9,7 @@
 #include "boresight_analyses/allocation/gap_requirements.hpp"
 
 namespace boresight {
-namespace {
+namespace error_allocation_test {
 
 // The default mechanism with the errors of its example, a short motion.
 std::shared_ptr<const Mechanism> with_errors() {
@@ -198,5 +198,5 @@ TEST(ErrorAllocation, OfOptionsBesideACurveIsTheCheapestOfAllOptionsEachWithItsB
   EXPECT_NEAR(found.chosen.price / best, 1.0, 1e-3);
 }
 
-}  // namespace
+}  // namespace error_allocation_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "boresight/ladder/ladder.hpp"
 
 namespace boresight {
-namespace {
+namespace linear_deviation_test {
 
 // The crank-slider with a target for its line of sight.
 std::shared_ptr<const Mechanism> crank_slider() {
@@ -49,5 +49,5 @@ TEST(LinearDeviation, FoundOnASceneIsItsQuasistaticRungForEveryQuantityAndGap) {
     }
 }
 
-}  // namespace
+}  // namespace linear_deviation_test
 }  // namespace boresight

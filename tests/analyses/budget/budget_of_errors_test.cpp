@@ -7,7 +7,7 @@
 #include "budget/made_budget.hpp"
 
 namespace boresight {
-namespace {
+namespace budget_of_errors_test {
 
 constexpr double kOffset = 2e-4, kRipple = 3e-4;  // [rad], at their largest
 
@@ -63,5 +63,5 @@ TEST_F(BudgetOfErrors, SharesAreThoseOfTheMeanSquaresAndAddUpWhicheverMembersAre
   EXPECT_NEAR(b.contributions[0].share + b.contributions[1].share, 1.0, 1e-6);
 }
 
-}  // namespace
+}  // namespace budget_of_errors_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
-namespace {
+namespace budget_plan_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -135,5 +135,5 @@ TEST_F(BudgetPlanTest, WithoutRequirementsIsAboutThePointingErrorOfAllAxesWithou
   EXPECT_EQ(headline.probability, 0.95);
 }
 
-}  // namespace
+}  // namespace budget_plan_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "boresight/io/mechanism_file.hpp"
 
 namespace boresight {
-namespace {
+namespace budget_runs_test {
 
 struct Budgeted {
   std::shared_ptr<const Mechanism> mechanism;
@@ -92,5 +92,5 @@ TEST(HistoryOnGrid, InterpolatesBetweenTheSamplesOfARun) {
   }
 }
 
-}  // namespace
+}  // namespace budget_runs_test
 }  // namespace boresight

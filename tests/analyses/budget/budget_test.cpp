@@ -11,7 +11,7 @@
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
-namespace {
+namespace budget_test {
 
 constexpr double kNominal = 1e-4;  // median of the clearance [m]
 
@@ -189,5 +189,5 @@ TEST_F(BudgetTest, RunsHaveNumbersThatStayWhenMembersAreAdded) {
   EXPECT_EQ(BudgetRuns(many, *mechanism_).drawn(59), runs.drawn(59));
 }
 
-}  // namespace
+}  // namespace budget_test
 }  // namespace boresight

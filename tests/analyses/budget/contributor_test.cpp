@@ -8,7 +8,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace contributor_test {
 
 constexpr double kSpacing = 0.01;
 constexpr std::size_t kSamples = 100;
@@ -167,5 +167,5 @@ TEST(Contributor, ADriftBeginsWithTheMotionAndNotWithTheHistory) {
   EXPECT_NEAR(course(drift, 1, 0, 0, 0.01, 100, late).front().x(), 2.0 * 0.005, 1e-6);
 }
 
-}  // namespace
+}  // namespace contributor_test
 }  // namespace boresight

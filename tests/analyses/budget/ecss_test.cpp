@@ -9,7 +9,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace ecss_test {
 
 constexpr double kPi = std::numbers::pi;
 const char* const kFigureA5 = "ECSS-E-ST-60-10C, Figure A-5";
@@ -177,5 +177,5 @@ TEST(EcssAnnexB, TheTablesOfShortAndLongPeriodsAreLimitsOfTheFilters) {
   table_5.expect("sd", 0.0, of(1e-5, ErrorIndex::mpe, Interpretation::mixed).sd);
 }
 
-}  // namespace
+}  // namespace ecss_test
 }  // namespace boresight

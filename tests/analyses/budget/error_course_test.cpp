@@ -9,7 +9,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace error_course_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -195,5 +195,5 @@ TEST(ErrorCourses, MistakesAreOneLineWithFileLineAndKey) {
        "which [[random]] scatters too");
 }
 
-}  // namespace
+}  // namespace error_course_test
 }  // namespace boresight

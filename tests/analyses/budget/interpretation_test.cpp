@@ -8,7 +8,7 @@
 #include "boresight_analyses/random/counter_stream.hpp"
 
 namespace boresight {
-namespace {
+namespace interpretation_test {
 
 // Member k is k / 100 of the time at 2, else at 1; 0 <= k < 100.
 EnsembleInTime stepped(std::int64_t failed = 0) {
@@ -128,5 +128,5 @@ TEST(Interpretation, ResampledOnceEachAMemberGivesTheLevelItself) {
   EXPECT_EQ(e.resampled_level(Interpretation::ensemble, 0.95, 0.0, first), 1.0);
 }
 
-}  // namespace
+}  // namespace interpretation_test
 }  // namespace boresight

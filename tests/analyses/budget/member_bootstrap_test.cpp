@@ -5,7 +5,7 @@
 #include <numeric>
 
 namespace boresight {
-namespace {
+namespace member_bootstrap_test {
 
 // A share as a budget has it, E[a] / E[a + b] of members whose mean squares are skewed: a of one, b of another external error.
 TEST(MemberBootstrap, HoldsAShareAsOftenAsItClaims) {
@@ -54,5 +54,5 @@ TEST(MemberBootstrap, SaysNothingOfFewerThanFiveMembers) {
   EXPECT_TRUE(std::isinf(i.low) && std::isinf(i.high));
 }
 
-}  // namespace
+}  // namespace member_bootstrap_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "boresight_analyses/statistics/binomial.hpp"
 
 namespace boresight {
-namespace {
+namespace member_looks_test {
 
 constexpr double kProbability = 0.95, kConfidence = 0.9, kRisk = 1.0 - kConfidence;
 constexpr std::size_t kTimes = 2;
@@ -130,5 +130,5 @@ TEST(MemberLooks, FewestMembersAreThoseThatShowIt) {
   }
 }
 
-}  // namespace
+}  // namespace member_looks_test
 }  // namespace boresight

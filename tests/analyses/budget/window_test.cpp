@@ -7,7 +7,7 @@
 #include "boresight_analyses/budget/contributor.hpp"
 
 namespace boresight {
-namespace {
+namespace window_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -152,5 +152,5 @@ TEST(WindowFilter, KnowsTheLargestRelativeErrorOfASinusoid) {
               1e-12);
 }
 
-}  // namespace
+}  // namespace window_test
 }  // namespace boresight

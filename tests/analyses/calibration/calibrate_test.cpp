@@ -9,7 +9,7 @@
 #include "four_bar_rig.hpp"
 
 namespace boresight {
-namespace {
+namespace calibrate_test {
 
 using four_bar::Bench;
 using four_bar::kFour;
@@ -202,5 +202,5 @@ TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) {
   }
 }
 
-}  // namespace
+}  // namespace calibrate_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
-namespace {
+namespace calibration_plan_test {
 
 MechanismDescription mechanism() { return read_mechanism(BORESIGHT_EXAMPLES "/crank-slider/crank-slider.toml"); }
 
@@ -41,5 +41,5 @@ TEST(CalibrationPlan, TakesWholeNumbersUpToTheEndsThatItNames) {
   EXPECT_THAT(fault("corrections = 11"), testing::HasSubstr("0 to 10"));
 }
 
-}  // namespace
+}  // namespace calibration_plan_test
 }  // namespace boresight

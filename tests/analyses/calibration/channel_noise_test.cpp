@@ -8,7 +8,7 @@
 #include "four_bar_rig.hpp"
 
 namespace boresight {
-namespace {
+namespace channel_noise_test {
 
 CalibrationProblem of_one_channel(const std::vector<double>& readings) {
   MeasuredData data;
@@ -45,5 +45,5 @@ TEST(NoiseFromDifferences, OfExactDataIsAMillionthOfTheirSize) {
   EXPECT_NEAR(noise_from_differences(of_one_channel(readings))[0], 19e-9, 1e-15);
 }
 
-}  // namespace
+}  // namespace channel_noise_test
 }  // namespace boresight

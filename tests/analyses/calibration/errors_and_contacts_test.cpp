@@ -9,7 +9,7 @@
 #include "boresight_analyses/calibration/rig.hpp"
 
 namespace boresight {
-namespace {
+namespace errors_and_contacts_test {
 
 // The example's rig, whose crank is told 0.3 mrad wrong and whose coupler is 40 um too long.
 std::shared_ptr<const Mechanism> rig_with_errors(const std::string& speed) {
@@ -102,5 +102,5 @@ TEST(CalibrateLong, RecoversErrorsAndContactsOfTheExampleRigTogether) {
   EXPECT_LT(result.inference.parameters[5].standard_error, 0.1 * 40e-6);
 }
 
-}  // namespace
+}  // namespace errors_and_contacts_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include "four_bar_rig.hpp"
 
 namespace boresight {
-namespace {
+namespace fit_test {
 
 using four_bar::Bench;
 using four_bar::truth_of;
@@ -109,5 +109,5 @@ TEST(Verdict, NamesContactsThatBeganWhileBarelyMoving) {
               testing::ElementsAre(testing::StartsWith("1 contacts began while barely moving")));
 }
 
-}  // namespace
+}  // namespace fit_test
 }  // namespace boresight

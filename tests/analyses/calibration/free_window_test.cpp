@@ -5,7 +5,7 @@
 #include "four_bar_rig.hpp"
 
 namespace boresight {
-namespace {
+namespace free_window_test {
 
 using four_bar::Bench;
 using four_bar::kFour;
@@ -104,5 +104,5 @@ TEST(FreeWindowLong, FitsRecoverTheTruthWindowByWindowWithAnyNumberOfThreads) {
   EXPECT_LT(result.inference.parameters[0].standard_error, 0.01 * result.inference.parameters[0].value);
 }
 
-}  // namespace
+}  // namespace free_window_test
 }  // namespace boresight

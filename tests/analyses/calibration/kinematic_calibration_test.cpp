@@ -9,7 +9,7 @@
 #include "poses_bench.hpp"
 
 namespace boresight {
-namespace {
+namespace kinematic_calibration_test {
 
 using poses::Bench;
 using poses::Coverage;
@@ -122,5 +122,5 @@ TEST(KinematicCalibration, NamesWhatFiftyPosesOfTheDefaultMechanismDoNotTell) { 
 
 TEST(KinematicCalibrationLong, ThirtyErrorsAreInsideTheirIntervalsAsOftenAsStated) { expect_coverage(100); }
 
-}  // namespace
+}  // namespace kinematic_calibration_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "four_bar_rig.hpp"
 
 namespace boresight {
-namespace {
+namespace law_comparison_test {
 
 using four_bar::Bench;
 
@@ -77,5 +77,5 @@ TEST(LawComparisonLong, TheWrongLawIsDecidedForNoMoreOftenForNoiseThatFollowsIts
   }
 }
 
-}  // namespace
+}  // namespace law_comparison_test
 }  // namespace boresight

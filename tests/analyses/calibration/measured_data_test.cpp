@@ -10,7 +10,7 @@
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
-namespace {
+namespace measured_data_test {
 
 class MeasuredDataTest : public testing::Test {
  protected:
@@ -75,5 +75,5 @@ TEST_F(MeasuredDataTest, WithBothKindsOfDecimalMarksAreRefused) {
   EXPECT_NE(refusal("t [s], dx [um]\n0, \"3,5\"\n").find("finite number"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace measured_data_test
 }  // namespace boresight

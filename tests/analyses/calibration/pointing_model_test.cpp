@@ -7,7 +7,7 @@
 #include "poses_bench.hpp"
 
 namespace boresight {
-namespace {
+namespace pointing_model_test {
 
 using poses::Bench;
 using poses::Coverage;
@@ -146,5 +146,5 @@ TEST(PointingModel, SizesAloneAreRefused) {
   EXPECT_THROW(Bench(gimbal(), kSix, {11}, 10).problem({kArcsec}, 1), InputError);
 }
 
-}  // namespace
+}  // namespace pointing_model_test
 }  // namespace boresight

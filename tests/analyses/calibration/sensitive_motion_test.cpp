@@ -10,7 +10,7 @@
 #include "boresight/scene/scene_rung.hpp"
 
 namespace boresight {
-namespace {
+namespace sensitive_motion_test {
 
 const std::vector<std::string> kFlores = {"clearance.A.radial", "clearance.A.contact.restitution",
                                           "clearance.A.contact.stiffness_scale", "clearance.A.friction.coefficient"};
@@ -118,5 +118,5 @@ TEST(SensitiveMotion, GrazingIsNoticed) {
   EXPECT_EQ(motion.grazing.front().clearance, 0);
 }
 
-}  // namespace
+}  // namespace sensitive_motion_test
 }  // namespace boresight

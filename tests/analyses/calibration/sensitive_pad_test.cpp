@@ -8,7 +8,7 @@
 #include "boresight/slopes/sensitive_motion.hpp"
 
 namespace boresight {
-namespace {
+namespace sensitive_pad_test {
 
 constexpr char kStage[] = R"toml(format = 1
 name = "stage"
@@ -93,5 +93,5 @@ TEST(SensitivePad, DerivativesThroughImpactsAreThoseOfRichardsonDifferences) {
   }
 }
 
-}  // namespace
+}  // namespace sensitive_pad_test
 }  // namespace boresight

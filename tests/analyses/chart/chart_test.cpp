@@ -12,7 +12,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace chart_test {
 
 ChartPoint point(double cpu, double error, const std::string& refusal = "") {
   ChartPoint p;
@@ -168,5 +168,5 @@ TEST(ChartWays, SayHowFinelyTheyStep) {
   EXPECT_EQ(fineness({.rung = "multibody", .step = 5e-5}), "h = 50 us");
 }
 
-}  // namespace
+}  // namespace chart_test
 }  // namespace boresight

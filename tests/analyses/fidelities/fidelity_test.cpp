@@ -10,7 +10,7 @@
 #include "repetition.hpp"
 
 namespace boresight {
-namespace {
+namespace fidelity_test {
 
 double normal(std::mt19937_64& engine) { return gsl_cdf_ugaussian_Pinv(repetition::uniform(engine)); }
 
@@ -275,5 +275,5 @@ TEST(FidelityPlan, OfModelsThatDoNotScatterGainsNothing) {
   EXPECT_EQ(plan.gain_high, 1.0);
 }
 
-}  // namespace
+}  // namespace fidelity_test
 }  // namespace boresight

@@ -13,7 +13,7 @@
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
-namespace {
+namespace index_function_test {
 
 using testing::HasSubstr;
 
@@ -99,5 +99,5 @@ TEST(IndexFunction, StopsWhereItIsTold) {
   EXPECT_NE(function_of({kRadial}, "multibody").at(std::vector{1e-4}, stop).status, Outcome::Status::done);
 }
 
-}  // namespace
+}  // namespace index_function_test
 }  // namespace boresight

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace boresight {
-namespace {
+namespace law_table_test {
 
 ClearanceParameters pin() {
   ClearanceParameters p;
@@ -53,5 +53,5 @@ TEST(LawTable, FrictionOfEveryLawComesToItsKineticCoefficient) {
   }
 }
 
-}  // namespace
+}  // namespace law_table_test
 }  // namespace boresight

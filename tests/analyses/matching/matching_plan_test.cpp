@@ -7,7 +7,7 @@
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
-namespace {
+namespace matching_plan_test {
 
 MechanismDescription mechanism() { return read_mechanism(BORESIGHT_EXAMPLES "/crank-slider/crank-slider.toml"); }
 
@@ -59,5 +59,5 @@ TEST(MatchingPlan, KeepsTheUnitsThatAreWritten) {
   EXPECT_EQ(read_matching_plan(root, study, mechanism(), [](const Setting&) {}).constraints[0].unit, "arcsec");
 }
 
-}  // namespace
+}  // namespace matching_plan_test
 }  // namespace boresight

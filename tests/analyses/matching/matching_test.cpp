@@ -10,7 +10,7 @@
 #include "boresight_analyses/study/rung_sample_model.hpp"
 
 namespace boresight {
-namespace {
+namespace matching_test {
 
 // index = 1 + (x - 3)^2 + scatter, free flight = 0.1 + 0.02 (x - 7)^2: accuracy is best at 3, stability at 7.
 class Valley final : public SampleModel {
@@ -263,5 +263,5 @@ TEST(Matching, GoesOnOnTheRungThatDisagrees) {
   EXPECT_NEAR(r.design[0], 4.5, 0.01);
 }
 
-}  // namespace
+}  // namespace matching_test
 }  // namespace boresight

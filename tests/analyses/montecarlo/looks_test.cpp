@@ -11,7 +11,7 @@
 #include "repetition.hpp"
 
 namespace boresight {
-namespace {
+namespace looks_test {
 
 constexpr double kProbability = 0.95, kConfidence = 0.95, kRisk = 1.0 - kConfidence;
 
@@ -125,5 +125,5 @@ TEST(Looks, AreWrittenAndReadToTheLastBit) {
   EXPECT_NE(question_of({1e-3, 0.95, 0.95}), question_of({1e-3 + 1e-9, 0.95, 0.95}));
 }
 
-}  // namespace
+}  // namespace looks_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
-namespace {
+namespace montecarlo_plan_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -99,5 +99,5 @@ TEST_F(MonteCarloPlanTest, StopsByWidthAloneOrByTimeAlone) {
   EXPECT_EQ(time.seconds, 0.5);
 }
 
-}  // namespace
+}  // namespace montecarlo_plan_test
 }  // namespace boresight

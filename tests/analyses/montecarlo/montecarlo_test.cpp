@@ -8,7 +8,7 @@
 #include "closed_form.hpp"
 
 namespace boresight {
-namespace {
+namespace montecarlo_test {
 
 const double kSd = std::sqrt(2.0);
 
@@ -224,5 +224,5 @@ TEST(Estimates, ARequirementThatIsNotMetIsRarelyShownToBe) {
   EXPECT_GT(met, kStudies / 50);
 }
 
-}  // namespace
+}  // namespace montecarlo_test
 }  // namespace boresight

@@ -8,7 +8,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace nonlinear_test {
 
 StateSeries henon(int n) {  // a = 1.4, b = 0.3
   StateSeries s{1.0, 1, MatX(2, n)};
@@ -133,5 +133,5 @@ TEST(LyapunovExponent, IsNotGivenWhereTheHistoryIsTooShort) {
   EXPECT_EQ(d.pairs, 0);
 }
 
-}  // namespace
+}  // namespace nonlinear_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "boresight_analyses/optimise/measure.hpp"
 
 namespace boresight {
-namespace {
+namespace design_evaluator_test {
 
 // value = design + random part; fails where the design is negative.
 class Sum final : public SampleModel {
@@ -104,5 +104,5 @@ TEST(MeasureChoice, SaysMeanQuantileAndWorstOfTheSamples) {
   EXPECT_TRUE(std::isnan(MeasureChoice{.over = Over::mean}.of(outcomes)));
 }
 
-}  // namespace
+}  // namespace design_evaluator_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace minimise_test {
 
 using testing::HasSubstr;
 using Values = std::span<const double>;
@@ -141,5 +141,5 @@ TEST(Minimise, AnInterruptionKeepsTheBestPlaceSeen) {
   EXPECT_LT(m.objective, p.objective(p.start, {}));
 }
 
-}  // namespace
+}  // namespace minimise_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "boresight_analyses/random/fit_clearance.hpp"
 
 namespace boresight {
-namespace {
+namespace distribution_test {
 
 std::vector<DistributionPtr> all_continuous() {
   return {make_normal(1e-4, 1e-5),
@@ -127,5 +127,5 @@ TEST(Distribution, LognormalFactorIsOneStandardDeviationOfTheLogarithm) {
   EXPECT_NEAR(x->cdf(0.03 * 1.3) - x->cdf(0.03 / 1.3), 0.682689492137, 1e-12);
 }
 
-}  // namespace
+}  // namespace distribution_test
 }  // namespace boresight

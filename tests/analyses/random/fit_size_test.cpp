@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace boresight {
-namespace {
+namespace fit_size_test {
 
 // A journal of 20 mm, a slider of 40 mm by 25 mm, and a pad.
 MechanismDescription three_joints() {
@@ -52,5 +52,5 @@ TEST(FitSize, OfAllJointsIsAskedOfThoseThatHaveTheGap) {
   EXPECT_EQ(sizes[0].joint, "hinge");
 }
 
-}  // namespace
+}  // namespace fit_size_test
 }  // namespace boresight

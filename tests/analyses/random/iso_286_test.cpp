@@ -9,7 +9,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace iso_286_test {
 
 struct Golden {
   const char* fit;
@@ -155,5 +155,5 @@ TEST(FitClearance, RadialClearanceIsHalfTheDifferenceOfTwoIndependentDeviations)
   EXPECT_NEAR(normal->quantile(0.5), 12e-6, 1e-12);
 }
 
-}  // namespace
+}  // namespace iso_286_test
 }  // namespace boresight

@@ -12,7 +12,7 @@
 #include "boresight_analyses/random/sampling_design.hpp"
 
 namespace boresight {
-namespace {
+namespace random_inputs_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -187,5 +187,5 @@ TEST_F(RandomInputsTest, CorrelationsThatCannotHoldTogetherAreRefused) {
               HasSubstr("not positive definite"));
 }
 
-}  // namespace
+}  // namespace random_inputs_test
 }  // namespace boresight

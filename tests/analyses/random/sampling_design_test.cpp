@@ -14,7 +14,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace sampling_design_test {
 
 std::vector<double> point(const SamplingDesign& design, std::uint64_t k) {
   std::vector<double> u(static_cast<std::size_t>(design.dimensions()));
@@ -188,5 +188,5 @@ TEST(SamplingDesign, IndependentPointsAreUniformInEveryDimension) {
   }
 }
 
-}  // namespace
+}  // namespace sampling_design_test
 }  // namespace boresight

@@ -11,7 +11,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace tolerance_disc_test {
 
 using Place = std::array<double, 2>;
 constexpr double kRadius = 2.5e-5;
@@ -131,5 +131,5 @@ TEST(ToleranceDisc, SaysAllThatItsPointsDependOn) {
   EXPECT_THROW(ToleranceDisc(0.0, {0.0, 0.0}, ZoneLaw::normal), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace tolerance_disc_test
 }  // namespace boresight

@@ -15,7 +15,7 @@
 #include "boresight_analyses/random/sampling_design.hpp"
 
 namespace boresight {
-namespace {
+namespace zone_inputs_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -260,5 +260,5 @@ TEST_F(ZoneInputs, TwoErrorsOfOneFrameAreAlongPerpendicularDirections) {
   EXPECT_THAT(fault_with("turned", "leaning", "0.1 mrad"), HasSubstr(" 26.6 degrees apart"));
 }
 
-}  // namespace
+}  // namespace zone_inputs_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 namespace boresight {
-namespace {
+namespace counted_cost_test {
 
 TEST(CountedCost, OfAnEvaluationIsTheTablesForBodiesAndClearances) {
   const auto microseconds = [](const char* rung, bool lanes, std::size_t bodies, std::size_t clearances) {
@@ -22,5 +22,5 @@ TEST(CountedCost, OfAnEvaluationIsTheTablesForBodiesAndClearances) {
   EXPECT_THROW(nominal_seconds_an_evaluation("static", false, 1, 1), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace counted_cost_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "closed_form.hpp"
 
 namespace boresight {
-namespace {
+namespace damaged_store_test {
 
 constexpr std::uint64_t kSamples = 400;
 
@@ -181,5 +181,5 @@ TEST(DamagedStore, AFirstPageThatForbidsWritingIsSeenWhereTheFileMayBeWritten) {
   EXPECT_EQ(run_sum(SumModel(), sum_plan(kSamples), *store, folder).values, uninterrupted());
 }
 
-}  // namespace
+}  // namespace damaged_store_test
 }  // namespace boresight

@@ -21,7 +21,7 @@ struct Kind {
 };
 static void fields(Numbers& n, Kind& k) { n(k.word, k.values, k.matrix, k.flag, k.count); }
 
-namespace {
+namespace kept_results_test {
 
 class KeptResultsTest : public testing::Test {
  protected:
@@ -107,5 +107,5 @@ TEST_F(KeptResultsTest, AStoreThatWasCutShortAsItWasMadeBlocksNobody) {
   EXPECT_TRUE(begun.results->find(7));
 }
 
-}  // namespace
+}  // namespace kept_results_test
 }  // namespace boresight

@@ -12,7 +12,7 @@
 #include "closed_form.hpp"
 
 namespace boresight {
-namespace {
+namespace sample_store_test {
 
 SampleRecord record(std::uint64_t number, double value = 1.5) {
   SampleRecord r;
@@ -168,5 +168,5 @@ TEST(SampleStore, AStoreWhoseRankWasKilledAsItBeganBlocksNobody) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "samples.2.db"));
 }
 
-}  // namespace
+}  // namespace sample_store_test
 }  // namespace boresight

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace boresight {
-namespace {
+namespace stored_pilot_test {
 
 TEST(StoredPilot, IsReadBackAsItWas) {
   PilotResult pilot;
@@ -33,5 +33,5 @@ TEST(StoredPilot, IsReadBackAsItWas) {
   EXPECT_TRUE(read->trials[1].reference);
 }
 
-}  // namespace
+}  // namespace stored_pilot_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "boresight/ladder/ladder.hpp"
 
 namespace boresight {
-namespace {
+namespace exact_slopes_test {
 
 using testing::HasSubstr;
 
@@ -137,5 +137,5 @@ TEST(ExactSlopes, AreWithheldBeyondTheHorizonOfPredictability) {
   }
 }
 
-}  // namespace
+}  // namespace exact_slopes_test
 }  // namespace boresight

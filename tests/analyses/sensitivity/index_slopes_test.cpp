@@ -8,7 +8,7 @@
 #include "boresight/mechanism/parameter_path.hpp"
 
 namespace boresight {
-namespace {
+namespace index_slopes_test {
 
 MechanismDescription crank_slider() {
   MechanismDescription d = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", {});
@@ -102,5 +102,5 @@ TEST(IndexSlopes, LeaveOutWhatComesBeforeTheIndexBegins) {
   EXPECT_NEAR(exact.by[0] / scene.richardson(0, index), 1.0, 1e-6);
 }
 
-}  // namespace
+}  // namespace index_slopes_test
 }  // namespace boresight

@@ -11,7 +11,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace morris_effects_test {
 
 constexpr int kLevels = 4;
 
@@ -206,5 +206,5 @@ TEST(MorrisEffects, IntervalsHoldTheTruth) {
   EXPECT_LT(by_replicates, 0.985 * kRepetitions);
 }
 
-}  // namespace
+}  // namespace morris_effects_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include "closed_form_study.hpp"
 
 namespace boresight {
-namespace {
+namespace sensitivity_methods_test {
 
 const std::string kMorris = "[sensitivity]\nmethod = \"morris\"\n", kShapley = "[sensitivity]\nmethod = \"shapley\"\n";
 const std::string kCorrelated =
@@ -125,5 +125,5 @@ TEST_F(SensitivityTest, PlansOfOtherMethodsAreOtherRuns) {
   EXPECT_EQ(sobol.find("method"), std::string::npos);  // as it was before there were others
 }
 
-}  // namespace
+}  // namespace sensitivity_methods_test
 }  // namespace boresight

@@ -8,7 +8,7 @@
 #include "closed_form_study.hpp"
 
 namespace boresight {
-namespace {
+namespace sensitivity_test {
 
 // V(|z|) = 1 - 2/pi: the variance is 9 + 4 + 25 (1 - 2/pi).
 TEST_F(SensitivityTest, MeetsTheIndicesOfAnAdditiveModelInBothDesigns) {
@@ -108,5 +108,5 @@ TEST_F(SensitivityTest, RefusesWhatContradictsItself) {
                  "\"clearance.F1.friction.coefficient\"]\ncoefficient = 0.5\n");
 }
 
-}  // namespace
+}  // namespace sensitivity_test
 }  // namespace boresight

@@ -13,7 +13,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace shapley_effects_test {
 
 double score(double u) { return boost::math::quantile(boost::math::normal(), u); }
 
@@ -197,5 +197,5 @@ TEST(ShapleyEffects, IntervalsHoldTheTruth) {
   }
 }
 
-}  // namespace
+}  // namespace shapley_effects_test
 }  // namespace boresight

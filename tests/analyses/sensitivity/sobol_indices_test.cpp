@@ -9,7 +9,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace sobol_indices_test {
 
 using std::numbers::pi;
 
@@ -176,5 +176,5 @@ TEST(SobolIndices, ReplicatedIntervalsHoldTheTruth) {
       0.92);
 }
 
-}  // namespace
+}  // namespace sobol_indices_test
 }  // namespace boresight

@@ -13,7 +13,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace amplification_test {
 
 TEST(MeasuredGrowth, IsTheLargerOfTwoPowers) {
   std::vector<double> real, complex;
@@ -106,5 +106,5 @@ TEST_F(DriftOfTheDefaultScene, WithoutStabilisationAWrongVelocityIsNeverForgotte
   EXPECT_NEAR(violation[50] / (w * 5e-5), 1.0, 1e-3);
 }
 
-}  // namespace
+}  // namespace amplification_test
 }  // namespace boresight

@@ -15,7 +15,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace cases_test {
 
 TEST(SingularPose, OfAFourBarAtItsChangePointIsNamedWithItsTime) {
   // A parallelogram, crank up at first, turned into one line with the other bars at t = 0.25 s.
@@ -211,5 +211,5 @@ TEST(VanishingRestitution, IsSaidWithTheForcesOfTheDepthItNames) {
       << c.measured;
 }
 
-}  // namespace
+}  // namespace cases_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "repetition.hpp"
 
 namespace boresight {
-namespace {
+namespace betting_mean_test {
 
 constexpr double kConfidence = 0.95, kRisk = 1.0 - kConfidence;
 
@@ -137,5 +137,5 @@ TEST(FirstBet, KeepsTheRiskTogetherWithTheFirstLookHoweverOftenOneLooks) {
   }
 }
 
-}  // namespace
+}  // namespace betting_mean_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace binomial_test {
 
 // Published tables: 95/95 takes 59, 93, 124 runs (Wilks 1941; NUREG/IAEA practice); the others recomputed exactly.
 TEST(Wilks, OneSidedSizesMeetTheTables) {
@@ -96,5 +96,5 @@ TEST(QuantileRanks, LeaveUnboundedWhatTooFewSamplesCannotBound) {
   EXPECT_EQ(quantile_ranks(100, 0.001, 0.95).low, 0);
 }
 
-}  // namespace
+}  // namespace binomial_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "boresight_analyses/statistics/binomial.hpp"
 
 namespace boresight {
-namespace {
+namespace bounded_mean_test {
 
 TEST(BoundedMean, WithEveryValueAtOneIsWilksAndClopperPearson) {
   for (const int n : {10, 59, 852}) {
@@ -53,5 +53,5 @@ TEST(BoundedMean, RefusesWhatIsNoShare) {
   EXPECT_THROW(bounded_mean_lower(0.5, 10, 1.0), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace bounded_mean_test
 }  // namespace boresight

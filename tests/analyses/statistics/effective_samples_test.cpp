@@ -10,7 +10,7 @@
 #include "repetition.hpp"
 
 namespace boresight {
-namespace {
+namespace effective_samples_test {
 
 double normal(std::mt19937_64& engine) {
   return std::sqrt(-2.0 * std::log(repetition::uniform(engine))) * std::cos(2.0 * M_PI * repetition::uniform(engine));
@@ -122,5 +122,5 @@ TEST(EffectiveSamples, AnEffectThatIsThereIsFound) {
   EXPECT_GE(right, 0.98 * kStudies);
 }
 
-}  // namespace
+}  // namespace effective_samples_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "repetition.hpp"
 
 namespace boresight {
-namespace {
+namespace independent_samples_test {
 
 using repetition::coverage;
 using repetition::uniform;
@@ -105,5 +105,5 @@ TEST(IndependentSamples, Cover95PercentOfTheTimeTheProbability) {
       6));
 }
 
-}  // namespace
+}  // namespace independent_samples_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include "repetition.hpp"
 
 namespace boresight {
-namespace {
+namespace replicated_samples_test {
 
 using repetition::coverage;
 using repetition::Points;
@@ -115,5 +115,5 @@ INSTANTIATE_TEST_SUITE_P(Designs, ReplicatedDesigns,
                                          Case{"ScrambledSobol", repetition::scrambled_sobol}),
                          [](const auto& one) { return one.param.name; });
 
-}  // namespace
+}  // namespace replicated_samples_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include "repetition.hpp"
 
 namespace boresight {
-namespace {
+namespace running_test {
 
 std::vector<double> exponentials(int n) {
   std::mt19937_64 engine(3);
@@ -68,5 +68,5 @@ TEST(RunningQuantiles, RefuseWhatIsNoSample) {
   EXPECT_THROW(running.quantile(0.5, 0.95), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace running_test
 }  // namespace boresight

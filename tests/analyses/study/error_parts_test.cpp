@@ -10,7 +10,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace error_parts_test {
 
 using Kind = ErrorDescription::Kind;
 
@@ -110,5 +110,5 @@ TEST(ErrorParts, AreCountedAlongTheAxesOfTheErrorVector) {
   }
 }
 
-}  // namespace
+}  // namespace error_parts_test
 }  // namespace boresight

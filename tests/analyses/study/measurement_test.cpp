@@ -9,7 +9,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace measurement_test {
 
 TEST(RungSetup, FinerIsHalfTheStepOrATenthOfTheTolerance) {
   const RungSetup steps{.rung = "multibody", .step = 1e-4};
@@ -51,5 +51,5 @@ TEST(Measurement, HasNeighboursOfTheIntegratorThatTookOver) {
   EXPECT_LT(m.half_spread, 0.02 * m.value);
 }
 
-}  // namespace
+}  // namespace measurement_test
 }  // namespace boresight

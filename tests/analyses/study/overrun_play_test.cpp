@@ -8,7 +8,7 @@
 #include "error_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace overrun_play_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -37,5 +37,5 @@ TEST(OverrunPlay, IsNotSaidWhereThereIsRoomOrThePlayMoves) {
   EXPECT_THAT(said({"A1", "A2"}, 100e-6, 130e-6), IsEmpty());
 }
 
-}  // namespace
+}  // namespace overrun_play_test
 }  // namespace boresight

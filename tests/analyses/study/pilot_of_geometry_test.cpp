@@ -11,7 +11,7 @@
 #include "error_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace pilot_of_geometry_test {
 
 std::shared_ptr<const Mechanism> hexapod(const std::vector<Setting>& settings = {}) {
   return std::make_shared<const Mechanism>(
@@ -138,5 +138,5 @@ TEST(PilotOfGeometry, NamesTheJointThatErrorsStrain) {
   }
 }
 
-}  // namespace
+}  // namespace pilot_of_geometry_test
 }  // namespace boresight

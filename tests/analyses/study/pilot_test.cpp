@@ -11,7 +11,7 @@
 #include "boresight_analyses/study/rung_choice.hpp"
 
 namespace boresight {
-namespace {
+namespace pilot_test {
 
 std::shared_ptr<const Mechanism> rrcpr(std::vector<Setting> settings) {
   return std::make_shared<const Mechanism>(
@@ -251,5 +251,5 @@ TEST(PilotOfScatter, CountsItsRunsFromNone) {
   EXPECT_EQ(told, (std::vector<int>{0, 1, 2}));
 }
 
-}  // namespace
+}  // namespace pilot_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "boresight_analyses/study/rung_choice.hpp"
 
 namespace boresight {
-namespace {
+namespace rung_sample_model_test {
 
 std::shared_ptr<const Mechanism> scene() {
   return std::make_shared<const Mechanism>(
@@ -92,5 +92,5 @@ TEST(Failures, TellTheReasonOfTheFirstSampleWhateverTheOrder) {
   EXPECT_EQ(failures.reason, "first");
 }
 
-}  // namespace
+}  // namespace rung_sample_model_test
 }  // namespace boresight

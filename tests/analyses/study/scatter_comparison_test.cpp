@@ -7,7 +7,7 @@
 #include <random>
 
 namespace boresight {
-namespace {
+namespace scatter_comparison_test {
 
 struct Pairs {
   std::vector<double> x, y;
@@ -124,5 +124,5 @@ TEST(ChosenSamples, TakeTheTailFromItsVeryEnd) {
   }
 }
 
-}  // namespace
+}  // namespace scatter_comparison_test
 }  // namespace boresight

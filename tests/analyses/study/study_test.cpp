@@ -9,7 +9,7 @@
 #include "boresight_analyses/study/rung_choice.hpp"
 
 namespace boresight {
-namespace {
+namespace study_test {
 
 using testing::HasSubstr;
 
@@ -116,5 +116,5 @@ TEST(Study, ALineOfSightThatIsNotThereIsNoNumber) {
   EXPECT_EQ(index.of(indices), 0.0);
 }
 
-}  // namespace
+}  // namespace study_test
 }  // namespace boresight

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace boresight {
-namespace {
+namespace sweep_line_test {
 
 TEST(SweepLine, RisesOnlyIfEveryStepDoes) {
   EXPECT_TRUE(rises({1.0, 1.1, 1.2}));
@@ -64,5 +64,5 @@ TEST(SweepLine, AngularDisturbanceIsHeldAgainstTheLargestOfTheIdealMotion) {
   EXPECT_NEAR(*angular_acceleration_disturbance(result), 0.1 / 0.2, 1e-12);
 }
 
-}  // namespace
+}  // namespace sweep_line_test
 }  // namespace boresight

@@ -8,7 +8,7 @@
 #include "example.hpp"
 
 namespace boresight {
-namespace {
+namespace sweep_plan_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -103,5 +103,5 @@ TEST_F(SweepPlanTest, RefusesAGridBeyondReason) {
               HasSubstr("1000000 points"));
 }
 
-}  // namespace
+}  // namespace sweep_plan_test
 }  // namespace boresight

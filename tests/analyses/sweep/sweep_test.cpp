@@ -8,7 +8,7 @@
 #include "example.hpp"
 
 namespace boresight {
-namespace {
+namespace sweep_test {
 
 const char* const kGrid =
     "[[sweep.axis]]\nparameter = [\"clearance.F1.radial\", \"clearance.F1.axial\"]\nvalues = [\"0.1 mm\", "
@@ -122,5 +122,5 @@ TEST_F(SweepTest, GoesOnWithThePointsThatAreKept) {
   std::filesystem::remove(file);
 }
 
-}  // namespace
+}  // namespace sweep_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "problems.hpp"
 
 namespace boresight {
-namespace {
+namespace subset_simulation_test {
 
 using problems::phi;
 using problems::pointwise;
@@ -129,5 +129,5 @@ TEST(SubsetSimulation, MovesEveryChainAndStatesTheScatterOfThem) {
               1e-12);
 }
 
-}  // namespace
+}  // namespace subset_simulation_test
 }  // namespace boresight

@@ -8,7 +8,7 @@
 #include "problems.hpp"
 
 namespace boresight {
-namespace {
+namespace tail_estimate_test {
 
 using problems::phi;
 using problems::pointwise;
@@ -239,5 +239,5 @@ TEST(TwoLevelPilot, LeansOnTheCheapModelByHowMuchOfItsTailIsThere) {
   EXPECT_GT(plan.cheap_points, 0);
 }
 
-}  // namespace
+}  // namespace tail_estimate_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include <vector>
 
 namespace boresight {
-namespace {
+namespace on_threads_test {
 
 TEST(OnThreads, EveryNumberIsDoneOnceWhateverTheThreads) {
   for (const int jobs : {0, 1, 2, 4, 16}) {
@@ -60,5 +60,5 @@ TEST(OnThreads, WorkMayItselfGoOnThreads) {
   EXPECT_EQ(sum, 32);
 }
 
-}  // namespace
+}  // namespace on_threads_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include <vector>
 
 namespace boresight {
-namespace {
+namespace portion_test {
 
 std::vector<std::uint64_t> portions(std::uint64_t batch, std::uint64_t samples, int workers) {
   std::vector<std::uint64_t> all;
@@ -40,5 +40,5 @@ TEST(Portion, IsNeverNothing) {
   EXPECT_EQ(portion(0, 1, 0), 1u);
 }
 
-}  // namespace
+}  // namespace portion_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace budget_program_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -271,5 +271,5 @@ distribution = { normal = { mean = "0 um", sd = "20 um" } }
   EXPECT_NEAR(share, 1.0, 1e-6);
 }
 
-}  // namespace
+}  // namespace budget_program_test
 }  // namespace boresight::app

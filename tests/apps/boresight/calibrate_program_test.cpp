@@ -11,7 +11,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace calibrate_program_test {
 
 const std::string kExample = BORESIGHT_EXAMPLES "/calibration/";
 
@@ -277,5 +277,5 @@ TEST_F(CalibrateProgram, NamesTheNearestChannel) {
   EXPECT_NE(ended.err.find("boresight_error"), std::string::npos) << ended.err;
 }
 
-}  // namespace
+}  // namespace calibrate_program_test
 }  // namespace boresight::app

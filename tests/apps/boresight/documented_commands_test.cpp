@@ -15,7 +15,7 @@ namespace boresight::app {
 
 void PrintTo(const Command& c, std::ostream* out) { *out << c.text; }
 
-namespace {
+namespace documented_commands_test {
 
 class DocumentedCommands : public Program, public testing::WithParamInterface<Command> {
  protected:
@@ -183,5 +183,5 @@ TEST(Examples, EveryFileIsRunByADocumentedCommand) {
   }
 }
 
-}  // namespace
+}  // namespace documented_commands_test
 }  // namespace boresight::app

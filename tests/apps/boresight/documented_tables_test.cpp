@@ -9,7 +9,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace documented_tables_test {
 
 using Columns = std::set<std::string>;
 
@@ -96,5 +96,5 @@ TEST_F(DocumentedTables, OfARunAreThoseThatItWrites) {
   }
 }
 
-}  // namespace
+}  // namespace documented_tables_test
 }  // namespace boresight::app

@@ -8,7 +8,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace errors_program_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -149,5 +149,5 @@ TEST_F(ErrorsProgram, SettingADimensionSaysThatTheDrawingChangesAndSettingAnErro
   EXPECT_THAT(call({"check", "roomy.toml", "--set", "body.mirror.mass=2kg", "--out", "d"}).out, Not(HasSubstr(says)));
 }
 
-}  // namespace
+}  // namespace errors_program_test
 }  // namespace boresight::app

@@ -7,7 +7,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace front_door_program_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -80,5 +80,5 @@ TEST_F(FrontDoor, CompletionForAnUnknownShellNamesTheKnownOnes) {
   EXPECT_THAT(refused.err, AllOf(HasSubstr("bash, zsh or fish"), HasSubstr("zsh?")));
 }
 
-}  // namespace
+}  // namespace front_door_program_test
 }  // namespace boresight::app

@@ -10,7 +10,7 @@
 #include "killed_program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace going_on_test {
 
 class GoingOnTest : public KilledProgram {
  protected:
@@ -72,5 +72,5 @@ std::vector<StudyToKill> cases_that_go_on() {
 INSTANTIATE_TEST_SUITE_P(Long, GoingOnTest, testing::ValuesIn(cases_that_go_on()),
                          [](const auto& one) { return one.param.name(); });
 
-}  // namespace
+}  // namespace going_on_test
 }  // namespace boresight::app

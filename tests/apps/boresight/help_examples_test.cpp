@@ -12,7 +12,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace help_examples_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -116,5 +116,5 @@ TEST_F(Program, TheVerbsWhoseExamplesRunAreAllThatHelpLists) {
   EXPECT_EQ(listed, std::set<std::string>(kVerbs.begin(), kVerbs.end()));
 }
 
-}  // namespace
+}  // namespace help_examples_test
 }  // namespace boresight::app

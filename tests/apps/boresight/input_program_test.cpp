@@ -9,7 +9,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace input_program_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -143,5 +143,5 @@ TEST_F(InputProgram, RestitutionZeroRunsWithALawThatTakesIt) {
   EXPECT_TRUE(json("out/summary.json")["index"]["position_error"]["max"].is_number());
 }
 
-}  // namespace
+}  // namespace input_program_test
 }  // namespace boresight::app

@@ -10,7 +10,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace interruption_test {
 
 class InterruptionTest : public Program {
  protected:
@@ -144,5 +144,5 @@ TEST_F(InterruptionTest, AChartGoesOnWithWhatWasMeasured) {
   for (std::size_t k = 0; k < before.size(); ++k) EXPECT_EQ(before[k], after[k]) << "with the time that it took";
 }
 
-}  // namespace
+}  // namespace interruption_test
 }  // namespace boresight::app

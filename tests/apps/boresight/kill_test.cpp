@@ -17,7 +17,7 @@
 #include "killed_program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace kill_test {
 
 int kills_of_each() {
   const char* asked = std::getenv("BORESIGHT_KILLS");
@@ -246,5 +246,5 @@ TEST_F(LongNewKillTest, LeavesWholeFilesAndTheNextStartCompletesThem) {
 
 INSTANTIATE_TEST_SUITE_P(Long, KillTest, testing::ValuesIn(cases()), [](const auto& one) { return one.param.name(); });
 
-}  // namespace
+}  // namespace kill_test
 }  // namespace boresight::app

@@ -12,7 +12,7 @@
 #include "report/contract.hpp"
 
 namespace boresight::app {
-namespace {
+namespace mechanism_view_test {
 
 std::shared_ptr<const Mechanism> example(const std::string& file) {
   return std::make_shared<const Mechanism>(
@@ -87,5 +87,5 @@ TEST(MechanismView, OfEveryExampleKeepsTheReportSmall) {
   }
 }
 
-}  // namespace
+}  // namespace mechanism_view_test
 }  // namespace boresight::app

@@ -12,7 +12,7 @@
 #include <thread>
 
 namespace boresight::app {
-namespace {
+namespace montecarlo_program_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -173,5 +173,5 @@ TEST_F(MonteCarloProgram, MistakesInTheStudyAreOneLine) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
-}  // namespace
+}  // namespace montecarlo_program_test
 }  // namespace boresight::app

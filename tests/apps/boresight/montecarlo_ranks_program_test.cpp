@@ -12,7 +12,7 @@
 #include "montecarlo_program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace montecarlo_ranks_program_test {
 
 #ifdef BORESIGHT_MPIEXEC
 
@@ -64,5 +64,5 @@ TEST_F(MonteCarloRanks, AMistakeIsSaidOnce) {
 
 #endif
 
-}  // namespace
+}  // namespace montecarlo_ranks_program_test
 }  // namespace boresight::app

@@ -12,7 +12,7 @@
 #include "montecarlo_program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace montecarlo_store_program_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -175,5 +175,5 @@ TEST_F(MonteCarloProgram, ResultsOnADiskThatCannotBeWrittenAreExportedAndGoneOnW
   }
 }
 
-}  // namespace
+}  // namespace montecarlo_store_program_test
 }  // namespace boresight::app

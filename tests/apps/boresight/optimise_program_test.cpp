@@ -9,7 +9,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace optimise_program_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -205,5 +205,5 @@ TEST_F(OptimiseProgram, FitsOfAnotherSizeThanTheJointAreRefused) {
   }
 }
 
-}  // namespace
+}  // namespace optimise_program_test
 }  // namespace boresight::app

@@ -9,7 +9,7 @@
 #include <sstream>
 
 namespace boresight::app {
-namespace {
+namespace output_directory_test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
@@ -209,5 +209,5 @@ TEST_F(OutputDirectoryTest, ADirectoryThatWentAwayIsAWriteError) {
   }
 }
 
-}  // namespace
+}  // namespace output_directory_test
 }  // namespace boresight::app

@@ -6,7 +6,7 @@
 #include <sstream>
 
 namespace boresight::app {
-namespace {
+namespace program_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -283,5 +283,5 @@ TEST_F(ProgramTest, TwoStartsOfTheProgramGiveTheSameBytes) {
   for (const char* again : {"second", "third", "fourth"}) EXPECT_TRUE(started(again) == first);
 }
 
-}  // namespace
+}  // namespace program_test
 }  // namespace boresight::app

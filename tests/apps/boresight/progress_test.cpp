@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 namespace boresight::app {
-namespace {
+namespace progress_test {
 
 using testing::HasSubstr;
 
@@ -36,5 +36,5 @@ TEST(Progress, IsSilentWhenQuiet) {
   std::fclose(file);
 }
 
-}  // namespace
+}  // namespace progress_test
 }  // namespace boresight::app

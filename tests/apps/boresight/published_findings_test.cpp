@@ -5,7 +5,7 @@
 #include "boresight/io/mechanism_file.hpp"
 
 namespace boresight::app {
-namespace {
+namespace published_findings_test {
 
 using Verdict = PublishedFinding::Verdict;
 
@@ -80,5 +80,5 @@ TEST(PublishedFindings, OnePointSaysNothing) {
   EXPECT_TRUE(published_findings(sweep.mechanism, sweep.plan, sweep.result).empty());
 }
 
-}  // namespace
+}  // namespace published_findings_test
 }  // namespace boresight::app

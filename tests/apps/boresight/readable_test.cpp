@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace boresight::app {
-namespace {
+namespace readable_test {
 
 TEST(Readable, UsesTheUnitsPeopleRead) {
   EXPECT_EQ(readable(2.3117787e-4, "m"), "0.231 mm");
@@ -45,5 +45,5 @@ TEST(Readable, ArcsecondsAndShares) {
   EXPECT_EQ(readable_share(0.9786), "97.9 %");
 }
 
-}  // namespace
+}  // namespace readable_test
 }  // namespace boresight::app

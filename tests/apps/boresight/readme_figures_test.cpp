@@ -8,7 +8,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace readme_figures_test {
 
 // README.md's table of rungs: position error of the default scene as `boresight run --rung` gives it, to the digits printed there. Multibody and
 // perturbation follow impacts: their last digit may be the neighbour.
@@ -49,5 +49,5 @@ TEST_F(Program, TheLibrarysErrorOfAFreeJournalIsWhatPerturbationGives) {
               0.02 * milliradians);
 }
 
-}  // namespace
+}  // namespace readme_figures_test
 }  // namespace boresight::app

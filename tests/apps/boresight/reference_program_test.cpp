@@ -6,7 +6,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace reference_program_test {
 
 using testing::AllOf;
 using testing::Contains;
@@ -123,5 +123,5 @@ TEST_F(ReferenceProgram, ThePageIsOneFileThatWorksOffline) {
   EXPECT_THAT(ended.out, AllOf(Not(HasSubstr("<script")), Not(HasSubstr("<link")), Not(HasSubstr("src="))));
 }
 
-}  // namespace
+}  // namespace reference_program_test
 }  // namespace boresight::app

@@ -10,7 +10,7 @@
 #include "reference/sections.hpp"
 
 namespace boresight::app {
-namespace {
+namespace reference_test {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -88,5 +88,5 @@ TEST(Reference, ThePageHasEveryKey) {
   EXPECT_THAT(page, HasSubstr("boresight run &lt;FILE&gt;"));
 }
 
-}  // namespace
+}  // namespace reference_test
 }  // namespace boresight::app

@@ -17,7 +17,7 @@
 #include "reference/json_schema.hpp"
 
 namespace boresight::app {
-namespace {
+namespace schema_test {
 
 using Adapter = valijson::adapters::NlohmannJsonAdapter;
 
@@ -134,5 +134,5 @@ TEST(Schemas, RefuseDamagedStudies) {
   std::filesystem::remove_all(folder);
 }
 
-}  // namespace
+}  // namespace schema_test
 }  // namespace boresight::app

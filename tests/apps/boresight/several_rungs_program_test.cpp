@@ -8,7 +8,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace several_rungs_program_test {
 
 using testing::AllOf;
 using testing::Contains;
@@ -153,5 +153,5 @@ TEST_F(SeveralRungsProgram, ContradictionsAreRefusedWithTheirLine) {
   }
 }
 
-}  // namespace
+}  // namespace several_rungs_program_test
 }  // namespace boresight::app

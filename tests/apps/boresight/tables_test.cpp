@@ -8,7 +8,7 @@
 #include "boresight/io/mechanism_file.hpp"
 
 namespace boresight::app {
-namespace {
+namespace tables_test {
 
 class TablesTest : public testing::Test {
  protected:
@@ -80,5 +80,5 @@ TEST_F(TablesTest, EventsHaveTheColumnsOfTheInterface) {
 TEST(Exact, LeavesWhatIsNotANumberEmpty) { EXPECT_EQ(exact(std::nan("")), ""); }
 TEST(CsvField, QuotesWhatNeedsIt) { EXPECT_EQ(csv_field("a,\"b\""), "\"a,\"\"b\"\"\""); }
 
-}  // namespace
+}  // namespace tables_test
 }  // namespace boresight::app

@@ -7,7 +7,7 @@
 #include "results/tables.hpp"
 
 namespace boresight::app {
-namespace {
+namespace terminal_test {
 
 TEST(Terminal, ShowsControlCharactersAsTheirNumbers) {
   EXPECT_EQ(printable("\x1b[2J\x07 a\x7f"), "\\x1b[2J\\x07 a\\x7f");
@@ -43,5 +43,5 @@ TEST(ShellWord, IsTheSameWordForAShell) {
   EXPECT_EQ(shell_word("clearance.F1.radial=0.2mm"), "clearance.F1.radial=0.2mm");
 }
 
-}  // namespace
+}  // namespace terminal_test
 }  // namespace boresight::app

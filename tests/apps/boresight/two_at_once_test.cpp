@@ -10,7 +10,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace two_at_once_test {
 
 using TwoAtOnceTest = Program;
 
@@ -74,5 +74,5 @@ TEST_F(TwoAtOnceTest, AStudyWithStoredSamplesIsNotBegunTwice) {
   EXPECT_THAT(files("results"), testing::ElementsAre("study-montecarlo"));
 }
 
-}  // namespace
+}  // namespace two_at_once_test
 }  // namespace boresight::app

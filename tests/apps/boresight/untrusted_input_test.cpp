@@ -9,7 +9,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace untrusted_input_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -124,5 +124,5 @@ TEST_F(UntrustedInputTest, AVerbIsNotBlamedForAnOptionThatItDoesNotHave) {
   EXPECT_THAT(wait_for(child).err, Not(HasSubstr("--sample")));
 }
 
-}  // namespace
+}  // namespace untrusted_input_test
 }  // namespace boresight::app

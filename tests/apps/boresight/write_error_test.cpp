@@ -6,7 +6,7 @@
 #include "program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace write_error_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -94,5 +94,5 @@ TEST_F(WriteErrorTest, ATerminalThatWentAwayIsAFailure) {
   EXPECT_THAT(text("err"), HasSubstr("standard output"));
 }
 
-}  // namespace
+}  // namespace write_error_test
 }  // namespace boresight::app

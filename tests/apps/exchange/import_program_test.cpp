@@ -3,7 +3,7 @@
 #include "apps/boresight/program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace import_program_test {
 
 using testing::HasSubstr;
 using testing::Not;
@@ -118,5 +118,5 @@ TEST_F(ImportProgram, ConvertsWhereverAFileIsNamed) {
   EXPECT_EQ(call({"convert", mechanism_, "--to", "out.stl"}).status, 2);
 }
 
-}  // namespace
+}  // namespace import_program_test
 }  // namespace boresight::app

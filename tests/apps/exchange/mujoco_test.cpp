@@ -13,7 +13,7 @@
 #include "imported.hpp"
 
 namespace boresight::app {
-namespace {
+namespace mujoco_test {
 
 struct Model {
   std::unique_ptr<mjModel, void (*)(mjModel*)> model{nullptr, mj_deleteModel};
@@ -140,6 +140,6 @@ TEST(MuJoCo, ReadsSeveralJointsOfABodyAsOneOrAsAChain) {
   EXPECT_LT(std::min(gimbal.bodies[0].mass, gimbal.bodies[1].mass), 1e-8);
 }
 
-}  // namespace
+}  // namespace mujoco_test
 }  // namespace boresight::app
 #endif

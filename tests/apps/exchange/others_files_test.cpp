@@ -8,7 +8,7 @@
 #include "apps/boresight/program.hpp"
 
 namespace boresight::app {
-namespace {
+namespace others_files_test {
 
 namespace fs = std::filesystem;
 
@@ -106,5 +106,5 @@ TEST_F(OthersFiles, LongOfSimbodysExamples) {
   expect_imported_or_refused(files, 5);
 }
 
-}  // namespace
+}  // namespace others_files_test
 }  // namespace boresight::app

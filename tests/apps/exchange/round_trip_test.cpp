@@ -9,7 +9,7 @@
 #include "imported.hpp"
 
 namespace boresight::app {
-namespace {
+namespace round_trip_test {
 
 class RoundTrip : public testing::TestWithParam<const char*> {
  protected:
@@ -108,5 +108,5 @@ INSTANTIATE_TEST_SUITE_P(OfExamples, RoundTrip,
                            return name;
                          });
 
-}  // namespace
+}  // namespace round_trip_test
 }  // namespace boresight::app

@@ -1,7 +1,7 @@
 #include "imported.hpp"
 
 namespace boresight::app {
-namespace {
+namespace sdf_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -143,5 +143,5 @@ TEST(Sdf, AnotherVersionIsRefused) {
   EXPECT_THROW(read_sdf("<sdf version='new'><model name='m'/></sdf>", "m.sdf"), InputError);
 }
 
-}  // namespace
+}  // namespace sdf_test
 }  // namespace boresight::app

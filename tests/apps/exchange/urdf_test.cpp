@@ -1,7 +1,7 @@
 #include "imported.hpp"
 
 namespace boresight::app {
-namespace {
+namespace urdf_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -203,5 +203,5 @@ TEST(Urdf, NothingThatMovesIsNoMechanism) {
   EXPECT_THROW(assembled(read_urdf("<robot name='r'><link name='a'/></robot>", "r.urdf"), {}), InputError);
 }
 
-}  // namespace
+}  // namespace urdf_test
 }  // namespace boresight::app

@@ -10,7 +10,7 @@
 #include "sample.hpp"
 
 namespace boresight::report {
-namespace {
+namespace contract_test {
 
 using nlohmann::json;
 
@@ -211,5 +211,5 @@ TEST(Rounding, LeavesTablesInFull) {
   EXPECT_EQ(rounded(document), document);
 }
 
-}  // namespace
+}  // namespace contract_test
 }  // namespace boresight::report

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace boresight::report {
-namespace {
+namespace document_test {
 
 using nlohmann::json;
 
@@ -56,5 +56,5 @@ TEST(HeightOfBars, GrowsWithThemAsFarAsAChartMay) {
 
 TEST(Thinned, LeavesShortSeriesAlone) { EXPECT_EQ(thinned({1, 2, 3}, {4, 5, 6}, 100).second, (Numbers{4, 5, 6})); }
 
-}  // namespace
+}  // namespace document_test
 }  // namespace boresight::report

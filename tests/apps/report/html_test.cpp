@@ -8,7 +8,7 @@
 #include "sample.hpp"
 
 namespace boresight::report {
-namespace {
+namespace html_test {
 
 using nlohmann::json;
 
@@ -69,5 +69,5 @@ TEST(Html, StaysSmall) {
   EXPECT_LT(html(sample::every_kind()).size(), 2'300'000u);
 }
 
-}  // namespace
+}  // namespace html_test
 }  // namespace boresight::report

@@ -9,7 +9,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace friction_law_test {
 
 FrictionParameters parameters() {
   FrictionParameters p;
@@ -245,5 +245,5 @@ TEST(FrictionLaws, TurnACoulombOscillatorWhereTheoryForesees) {
   EXPECT_LT(std::abs(v), 1e-7 + 1e-4 * 0.19 / 0.981 + 1e-6);
 }
 
-}  // namespace
+}  // namespace friction_law_test
 }  // namespace boresight

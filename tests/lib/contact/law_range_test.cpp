@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace boresight {
-namespace {
+namespace law_range_test {
 
 ClearanceParameters joint(double radial) {
   ClearanceParameters p;
@@ -52,5 +52,5 @@ TEST(LawRange, NeverSpeaksOfAContactWithoutLoad) {
     EXPECT_FALSE(out_of_range(entry.name, joint(1e-5), 0.0)) << entry.name;
 }
 
-}  // namespace
+}  // namespace law_range_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "reference/reference.hpp"
 
 namespace boresight {
-namespace {
+namespace normal_law_test {
 
 // A mass on one contact with the law's damping factor, approaching at 1 m/s: depths relative to the undamped impact's.
 Impact impact_of(double e, const char* name) {
@@ -126,5 +126,5 @@ TEST(ModifiedCoulomb, CreepsUnderAStaticLoadAtTheSpeedThatTheoryForesees) {
   EXPECT_NEAR(v, 1e-4 + 0.9e-3 * std::tan(slope) / 0.5, 1e-9);
 }
 
-}  // namespace
+}  // namespace normal_law_test
 }  // namespace boresight

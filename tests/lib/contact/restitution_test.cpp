@@ -12,7 +12,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace restitution_test {
 
 constexpr double kAsked[] = {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99};
 
@@ -214,5 +214,5 @@ TEST(Impact, WithoutDampingIsAsDeepAndAsHardAsItsEnergySays) {
   }
 }
 
-}  // namespace
+}  // namespace restitution_test
 }  // namespace boresight

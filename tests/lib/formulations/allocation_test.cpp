@@ -22,7 +22,7 @@ extern "C" void* malloc(std::size_t size) {
 }
 
 namespace boresight {
-namespace {
+namespace allocation_test {
 
 void expect_no_allocation(const Mechanism& mechanism, const IdealMotion& ideal, Formulation& formulation) {
   IdealState start;
@@ -64,7 +64,7 @@ TEST(Formulations, TakeNothingFromTheHeapInsideAStep) {
   }
 }
 
-}  // namespace
+}  // namespace allocation_test
 }  // namespace boresight
 
 #endif

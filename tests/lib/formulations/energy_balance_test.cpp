@@ -11,7 +11,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace energy_balance_test {
 
 struct RungSetup {
   std::string formulation, integrator;
@@ -95,5 +95,5 @@ TEST(EnergyBalance, FindsNoPowerInAFreeMechanismWhoseJointsOpen) {
   EXPECT_NEAR(balance.power(*formulation, bodies), 0.0, 1e-9 * std::abs(formulation->opening_power()));
 }
 
-}  // namespace
+}  // namespace energy_balance_test
 }  // namespace boresight

@@ -14,7 +14,7 @@
 #include "boresight/stepping/unstable_step.hpp"
 
 namespace boresight {
-namespace {
+namespace ideal_simulation_test {
 
 // RK4 with steps so small that the dampers are resolved: the answer by another way.
 IdealState resolved(const Mechanism& mechanism, const IdealState& start, long steps) {
@@ -166,5 +166,5 @@ TEST(WithStableStep, BelievesASingularPoseThatShorterStepsMeetToo) {
   EXPECT_EQ(result.warnings.size(), 1u);
 }
 
-}  // namespace
+}  // namespace ideal_simulation_test
 }  // namespace boresight

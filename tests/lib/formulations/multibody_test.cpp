@@ -13,7 +13,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace multibody_test {
 
 // Position error of the default scene over one second, gravity on, as Simbody follows it (tests/reference/simbody_figures.txt): clearance,
 // payload, maximum and root mean square, each the least, the median and the largest of five runs at neighbouring accuracies: impacts make
@@ -178,5 +178,5 @@ TEST(PaperFormulation, KeepsUnitQuaternionsAndTheirSigns) {
   }
 }
 
-}  // namespace
+}  // namespace multibody_test
 }  // namespace boresight

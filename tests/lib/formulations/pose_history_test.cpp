@@ -7,7 +7,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace pose_history_test {
 
 // Angular velocity that takes one orientation to another within a time, world axes.
 Vec3 turn_rate(const Quat& from, const Quat& to, double time) {
@@ -51,5 +51,5 @@ TEST(Perturbation, VelocitiesAndAccelerationsAreTheDerivativesOfItsPoses) {
   }
 }
 
-}  // namespace
+}  // namespace pose_history_test
 }  // namespace boresight

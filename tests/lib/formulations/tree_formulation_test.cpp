@@ -15,7 +15,7 @@
 #include "tree_formulation_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace tree_formulation_test {
 
 double largest(const std::vector<Vec6>& v) {
   double result = 0.0;
@@ -303,5 +303,5 @@ TEST(TreeFormulationLong, KeepsItsLoopsClosedForAHundredSeconds) {
   EXPECT_LT(result.constraint_drift, 1e-10);
 }
 
-}  // namespace
+}  // namespace tree_formulation_test
 }  // namespace boresight

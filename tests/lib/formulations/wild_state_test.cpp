@@ -10,7 +10,7 @@
 #include "published_examples.hpp"
 
 namespace boresight {
-namespace {
+namespace wild_state_test {
 
 struct Followed {
   explicit Followed(const std::string& name)
@@ -55,5 +55,5 @@ TEST(MultibodySystem, HasNoDerivativesWhereItCannotBeFollowedAndTheSameOnesAfter
   }
 }
 
-}  // namespace
+}  // namespace wild_state_test
 }  // namespace boresight

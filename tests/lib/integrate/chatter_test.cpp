@@ -8,7 +8,7 @@
 #include "bouncing_mass.hpp"
 
 namespace boresight {
-namespace {
+namespace chatter_test {
 
 using testing_scenes::BouncingMass;
 using testing_scenes::state_of;
@@ -105,5 +105,5 @@ TEST(ImpactMemory, TakesTheSpeedAtTheEventAndNeverThatOfARejectedStep) {
   }
 }
 
-}  // namespace
+}  // namespace chatter_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "bouncing_mass.hpp"
 
 namespace boresight {
-namespace {
+namespace contact_order_test {
 
 using testing_scenes::BouncingMass;
 using testing_scenes::state_of;
@@ -187,5 +187,5 @@ TEST(Contact, LetsErrorControlKeepTheFullOrderInStepsTaken) {
   EXPECT_GT(work_order(loose_rosenbrock, 1e-5, 1e-9), 2.7);
 }
 
-}  // namespace
+}  // namespace contact_order_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "boresight/integrate/rosenbrock_method.hpp"
 
 namespace boresight {
-namespace {
+namespace methods_test {
 
 // A driven, damped, hardening spring: not linear, not autonomous, second order, and exact because the drive is made for
 // it. q = sin t + 0.3 cos 2t;  q'' = -q - q^3 - 0.2 q' + drive(t).
@@ -254,5 +254,5 @@ TEST(GeneralizedAlphaMethod, GoesOnAfterAStepWhoseIterationsRanAway) {
   EXPECT_NEAR(far[0], near[0], 1e-3);
 }
 
-}  // namespace
+}  // namespace methods_test
 }  // namespace boresight

@@ -13,7 +13,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace published_problems_test {
 
 using testing_scenes::BouncingMass;
 using testing_scenes::state_of;
@@ -143,5 +143,5 @@ TEST(StiffProblems, EndWhereTheTestSetPutsThem) {
                              1e-12);
 }
 
-}  // namespace
+}  // namespace published_problems_test
 }  // namespace boresight

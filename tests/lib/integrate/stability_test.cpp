@@ -8,7 +8,7 @@
 #include "boresight/integrate/integrator.hpp"
 
 namespace boresight {
-namespace {
+namespace stability_test {
 
 struct Decay {
   void derivative(double, const VecX& y, VecX& dy) const { dy = -y; }
@@ -49,5 +49,5 @@ TEST(Stability, OfThePairOnDecayEndsWhereItsConstantSays) {
   EXPECT_NEAR(measured_limit<Decay>(dormand_prince54(), 1) / dormand_prince54().real_limit, 1.0, 0.02);
 }
 
-}  // namespace
+}  // namespace stability_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include "boresight/integrate/order_conditions.hpp"
 
 namespace boresight {
-namespace {
+namespace tables_test {
 
 const std::vector<const ExplicitTable*>& explicit_tables() {
   static const std::vector<const ExplicitTable*> tables{&classical_rk4(), &bogacki_shampine32(), &dormand_prince54()};
@@ -148,5 +148,5 @@ TEST(RosenbrockTables, AreLStable) {
   }
 }
 
-}  // namespace
+}  // namespace tables_test
 }  // namespace boresight

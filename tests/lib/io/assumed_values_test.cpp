@@ -7,7 +7,7 @@
 #include <set>
 
 namespace boresight {
-namespace {
+namespace assumed_values_test {
 
 const std::string kFile = R"toml(format = 1
 gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
@@ -104,5 +104,5 @@ TEST(AssumedValues, AreSaidInOneSentenceForJointsThatLackTheSame) {
   EXPECT_EQ(in_words(assumed_values_of_text(kFile + second + kWhole, "f.toml")).size(), 1u);
 }
 
-}  // namespace
+}  // namespace assumed_values_test
 }  // namespace boresight

@@ -8,7 +8,7 @@
 #include "good_file.hpp"
 
 namespace boresight {
-namespace {
+namespace error_line_test {
 
 TEST(ErrorLine, IsAbsentWhereTheFileIsGood) { EXPECT_EQ(error_of(kGood), "no error"); }
 
@@ -115,5 +115,5 @@ TEST(EditDistance, CountsASwapAsOne) {
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
 }
 
-}  // namespace
+}  // namespace error_line_test
 }  // namespace boresight

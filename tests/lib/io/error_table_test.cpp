@@ -5,7 +5,7 @@
 #include "good_file.hpp"
 
 namespace boresight {
-namespace {
+namespace error_table_test {
 
 const std::string kPlace = "[[clearance]]\njoint = \"R\"";
 
@@ -118,5 +118,5 @@ TEST(ErrorTable, IsRefusedInOneLineThatSaysWhy) {
       "paths must tell them apart");
 }
 
-}  // namespace
+}  // namespace error_table_test
 }  // namespace boresight

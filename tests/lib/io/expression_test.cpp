@@ -12,7 +12,7 @@
 #include "boresight/keys/value_fault.hpp"
 
 namespace boresight {
-namespace {
+namespace expression_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -225,5 +225,5 @@ TEST(Expression, ACombinationAddsItsPartsWithTheirFactors) {
   EXPECT_DOUBLE_EQ(f->at(0.5).acceleration, 4.0 + std::sin(0.5));
 }
 
-}  // namespace
+}  // namespace expression_test
 }  // namespace boresight

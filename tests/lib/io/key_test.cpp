@@ -9,7 +9,7 @@
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
-namespace {
+namespace key_test {
 
 const KeyTable& some_keys() {
   using namespace keys;
@@ -93,5 +93,5 @@ TEST(KeyTables, SayDefaultsAndRangesAsFilesWriteThem) {
   EXPECT_EQ(default_text(keys[3]), "\"first\"");
 }
 
-}  // namespace
+}  // namespace key_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include <numbers>
 
 namespace boresight {
-namespace {
+namespace mechanism_file_test {
 
 const std::string kExamples = BORESIGHT_EXAMPLES;
 
@@ -83,5 +83,5 @@ TEST(DefaultScene, HasTheClearanceAndThePoseLawOfTheStudy) {
   EXPECT_NEAR(pose.position[2]->at(t).value, 0.5 * std::cos(theta) + 0.005 * s, 1e-15);
 }
 
-}  // namespace
+}  // namespace mechanism_file_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include "boresight/mechanism/parameter_path.hpp"
 
 namespace boresight {
-namespace {
+namespace pad_file_test {
 
 std::string stage(const std::string& clearance) {
   return R"toml(format = 1
@@ -65,5 +65,5 @@ TEST(PadInAFile, RefusesWhatAJournalHas) {
             "or a spring: \"table\" is a pad between faces, to which it lends its damping");
 }
 
-}  // namespace
+}  // namespace pad_file_test
 }  // namespace boresight

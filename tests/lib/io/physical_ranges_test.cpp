@@ -12,7 +12,7 @@
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
-namespace {
+namespace physical_ranges_test {
 
 // Without its comments, which hold numbers too.
 std::string example(const std::string& name) {
@@ -166,5 +166,5 @@ TEST(Restitution, StaysInsideOfWhatItMeans) {
     EXPECT_NE(error_with({"clearance.F1.contact.restitution", value}), "no error") << value;
 }
 
-}  // namespace
+}  // namespace physical_ranges_test
 }  // namespace boresight

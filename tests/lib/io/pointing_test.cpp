@@ -6,7 +6,7 @@
 #include "boresight/mechanism/mechanism.hpp"
 
 namespace boresight {
-namespace {
+namespace pointing_test {
 
 const std::string kArm = R"toml(format = 1
 gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
@@ -101,5 +101,5 @@ journal_radius = "10 mm"
       R"~(f.toml:29: clearance.C.axial: found it on "C", a cylindrical joint, expected no axial clearance: the journal slides through its sleeve and has no end faces)~");
 }
 
-}  // namespace
+}  // namespace pointing_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "boresight/mechanism/parameter_path.hpp"
 
 namespace boresight {
-namespace {
+namespace rectangular_guide_file_test {
 
 constexpr char kSizes[] = "width = \"50 mm\"\nheight = \"30 mm\"\nlength = \"60 mm\"\n";
 constexpr char kGaps[] = "width_gap = \"0.02 mm\"\nheight_gap = \"0.01 mm\"\n";
@@ -93,5 +93,5 @@ TEST(RectangularGuideInAFile, RefusesWhatItHasNot) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace rectangular_guide_file_test
 }  // namespace boresight

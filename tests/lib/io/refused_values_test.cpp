@@ -6,7 +6,7 @@
 #include "good_file.hpp"
 
 namespace boresight {
-namespace {
+namespace refused_values_test {
 
 TEST(RefusedValue, NamesKeysThatAreUnknownMissingOrWithoutMeaning) {
   check({
@@ -242,5 +242,5 @@ TEST(RefusedValue, NamesExpressionsThatHaveNoValue) {
   });
 }
 
-}  // namespace
+}  // namespace refused_values_test
 }  // namespace boresight

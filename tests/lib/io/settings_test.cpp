@@ -9,7 +9,7 @@
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
-namespace {
+namespace settings_test {
 
 MechanismDescription scene(const std::vector<Setting>& settings = {}) {
   return read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml", settings);
@@ -226,5 +226,5 @@ TEST(ContentHash, IsTheSameForTheSameBytesAndSettingsOnly) {
             read_mechanism_text(kRing, "other.toml").content_hash);
 }
 
-}  // namespace
+}  // namespace settings_test
 }  // namespace boresight

@@ -4,7 +4,7 @@
 #include "good_file.hpp"
 
 namespace boresight {
-namespace {
+namespace two_bearings_test {
 
 // kGood with its revolute joint in a bearing pair.
 std::string pair(const std::string& more = "span = \"60 mm\"\n") {
@@ -320,5 +320,5 @@ TEST(TwoBearings, HaveNamesThatNoUserCanTake) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace two_bearings_test
 }  // namespace boresight

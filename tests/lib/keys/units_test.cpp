@@ -11,7 +11,7 @@
 #include "boresight/keys/value_fault.hpp"
 
 namespace boresight {
-namespace {
+namespace units_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -161,5 +161,5 @@ TEST(Numbers, AreReadWholeOrNotAtAll) {
   }
 }
 
-}  // namespace
+}  // namespace units_test
 }  // namespace boresight

@@ -15,7 +15,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace altaz_pointing_model_test {
 
 constexpr double kDegree = M_PI / 180.0;
 
@@ -158,5 +158,5 @@ TEST(AltAzPointingModel, HasTheSixGeometricTermsToSecondOrderOverTheSky) {
   }
 }
 
-}  // namespace
+}  // namespace altaz_pointing_model_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace andrews_squeezer_test {
 
 using scenes::carried;
 using scenes::example;
@@ -165,5 +165,5 @@ TEST(AndrewsSqueezer, CarriesTheForcesThatAreTheTestSetsMultipliers) {
   EXPECT_NEAR(force_at_E(*mechanism, result, 0.0, sixth, E).norm(), 0.0, 1e-9);
 }
 
-}  // namespace
+}  // namespace andrews_squeezer_test
 }  // namespace boresight

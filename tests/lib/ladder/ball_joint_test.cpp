@@ -8,7 +8,7 @@
 #include "tree_formulation_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace ball_joint_test {
 
 constexpr double kRadius = 9.5e-3, kClearance = 0.5e-3, kAngle = 0.02;
 
@@ -195,5 +195,5 @@ TEST(BallJoints, RestAlikeWhereTheyAreHeldInOneDirection) {
   }
 }
 
-}  // namespace
+}  // namespace ball_joint_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace car_axis_test {
 
 // M eps^2 / 2 with M = 10, eps = 0.01; the base is one long and lifts its right end by 0.1 sin(10 t). The
 // left wheel stays on the line through the base's left end across the base. What has no mass there has a
@@ -87,5 +87,5 @@ TEST(CarAxis, EndsWhereTheTestSetPutsIt) {
                                1e-9);
 }
 
-}  // namespace
+}  // namespace car_axis_test
 }  // namespace boresight

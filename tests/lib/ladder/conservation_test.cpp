@@ -8,7 +8,7 @@
 #include "tree_formulation_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace conservation_test {
 
 using scenes::at_home;
 using scenes::formulate;
@@ -111,5 +111,5 @@ TEST(Multibody, ConvergesWithOrderFourBeforeTheFirstContact) {
   EXPECT_NEAR(std::log2(coarse / fine), 4.0, 0.35);
 }
 
-}  // namespace
+}  // namespace conservation_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace crank_flight_test {
 
 struct State {
   double q1, q2, u1, u2, y, vy;  // crank and rod [rad], [rad/s]; height of the block [m], [m/s]
@@ -123,5 +123,5 @@ TEST(SliderCrankWithPlayInItsGuide, LeavesItsFirstImpactAsComputed) {
   EXPECT_NEAR(rebound.u2 - free.u2, after_it[2] - before.u2, 1e-6);
 }
 
-}  // namespace
+}  // namespace crank_flight_test
 }  // namespace boresight

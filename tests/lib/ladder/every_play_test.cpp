@@ -11,7 +11,7 @@
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
-namespace {
+namespace every_play_test {
 
 struct Kind {
   const char *name, *type;
@@ -115,5 +115,5 @@ TEST_P(EveryPlay, IsFollowedOrRefusedWithAReasonOnEveryRung) {
 
 INSTANTIATE_TEST_SUITE_P(Ladder, EveryPlay, testing::ValuesIn(every_case()), name_of);
 
-}  // namespace
+}  // namespace every_play_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "slider_crank_in_two_coordinates.hpp"
 
 namespace boresight {
-namespace {
+namespace flores_slider_crank_test {
 
 using scenes::SliderCrankInTwoCoordinates;
 
@@ -229,5 +229,5 @@ TEST(FloresSliderCrank, HasTheClosedFormOfItsIdealMotion) {
   EXPECT_NEAR(smallest_moment, -extreme("smallest_moment")[0], 1e-4);
 }
 
-}  // namespace
+}  // namespace flores_slider_crank_test
 }  // namespace boresight

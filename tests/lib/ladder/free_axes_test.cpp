@@ -7,7 +7,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace free_axes_test {
 
 std::shared_ptr<const Mechanism> with_free_axes(const char* sleeve_length, const char* duration = "1 s") {
   MechanismDescription d =
@@ -110,5 +110,5 @@ TEST(FreeAxes, AreStaticallyBalancedByTheQuasistaticRungAndBoundedByTheEnvelope)
   }
 }
 
-}  // namespace
+}  // namespace free_axes_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "validation/printed.hpp"
 
 namespace boresight {
-namespace {
+namespace free_body_test {
 
 MechanismDescription one_body(double mass, const Vec3& center, const Vec3& inertia) {
   MechanismDescription m;
@@ -158,5 +158,5 @@ TEST(HeavyTop, MovesTheSameInAGimbalWithoutWeight) {
         << row[0];
 }
 
-}  // namespace
+}  // namespace free_body_test
 }  // namespace boresight

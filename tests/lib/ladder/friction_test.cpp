@@ -10,7 +10,7 @@
 #include "tree_formulation_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace friction_test {
 
 constexpr double kSlope = 20.0 * std::numbers::pi / 180.0;
 
@@ -169,5 +169,5 @@ TEST(LuGre, IsCarriedByEveryIntegratorThatKnowsItsContacts) {
   }
 }
 
-}  // namespace
+}  // namespace friction_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "error_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace geometric_errors_test {
 
 struct Choice {
   PointingQuantity quantity;
@@ -169,5 +169,5 @@ TEST(GeometricErrors, ServeWhereNoPlayCanMoveOnly) {
   EXPECT_FALSE(GeometricErrors::serve(*scenes::build(scenes::with_every_error(scenes::rrcpr())))) << "F1 moves";
 }
 
-}  // namespace
+}  // namespace geometric_errors_test
 }  // namespace boresight

@@ -5,7 +5,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace guide_test {
 
 constexpr double kClearance = 0.2e-3, kGravity = 9.81;
 
@@ -118,5 +118,5 @@ TEST(SliderOnItsGuide, IsFollowedAlikeWithPlayInAllFifteenJoints) {
   EXPECT_NEAR(linear.index.position_error.max, exact.index.position_error.max, 0.02 * exact.index.position_error.max);
 }
 
-}  // namespace
+}  // namespace guide_test
 }  // namespace boresight

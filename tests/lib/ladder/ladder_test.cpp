@@ -11,7 +11,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace ladder_test {
 
 RunResult run(const Rung& rung, const Mechanism& mechanism, double clearance, double payload, double step) {
   Parameters p = mechanism.parameters();
@@ -147,5 +147,5 @@ TEST(SceneRungs, RefuseAMechanismWithoutClearance) {
     EXPECT_THROW(make_rung(name, mechanism)->run(mechanism->parameters(), {}), ComputationError) << name;
 }
 
-}  // namespace
+}  // namespace ladder_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "error_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace motion_without_play_test {
 
 std::shared_ptr<const Mechanism> altaz(const std::vector<Setting>& settings, const std::string& ripple = "") {
   MechanismDescription m =
@@ -106,5 +106,5 @@ TEST(MotionWithoutPlay, EndsWhereItIsInterrupted) {
     }
 }
 
-}  // namespace
+}  // namespace motion_without_play_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "tree_formulation_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace moved_drawing_test {
 
 MechanismDescription drawing() {
   MechanismDescription d = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml",
@@ -88,5 +88,5 @@ TEST(MovedDrawing, PushesNoJournalAlongItsAxis) {
   }
 }
 
-}  // namespace
+}  // namespace moved_drawing_test
 }  // namespace boresight

@@ -8,7 +8,7 @@
 #include "tree_formulation_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace pad_test {
 
 constexpr double kGap = 0.1e-3, kGravity = 9.81, kRadius = 40e-3, kMass = 2.0, kInertia = 2.5e-3;
 
@@ -300,5 +300,5 @@ TEST(PadInItsSlot, StandsOnThreePads) {
   for (const ContactSummary& contact : exact.contact) EXPECT_GT(contact.contact_fraction, 0.2) << contact.joint;
 }
 
-}  // namespace
+}  // namespace pad_test
 }  // namespace boresight

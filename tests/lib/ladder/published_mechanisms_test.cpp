@@ -13,7 +13,7 @@
 #include "reference/reference.hpp"
 
 namespace boresight {
-namespace {
+namespace published_mechanisms_test {
 
 using scenes::carried;
 using scenes::example;
@@ -151,5 +151,5 @@ TEST(Bricard, MovesAsItsExactMotionAlthoughOneConstraintIsRedundant) {
   EXPECT_NEAR(back, reference::line("bricard", "period")[0], 5e-5);
 }
 
-}  // namespace
+}  // namespace published_mechanisms_test
 }  // namespace boresight

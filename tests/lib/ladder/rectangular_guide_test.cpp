@@ -8,7 +8,7 @@
 #include "tree_formulation_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace rectangular_guide_test {
 
 constexpr double kGravity = 9.81, kMass = 2.0, kInertia = 2.5e-3;
 constexpr double kWidth = 50e-3, kHeight = 30e-3, kLength = 60e-3, kWidthGap = 0.1e-3, kHeightGap = 0.06e-3;
@@ -261,5 +261,5 @@ TEST(SliderInItsGuide, IsFollowedAlikeByAllRungs) {
   }
 }
 
-}  // namespace
+}  // namespace rectangular_guide_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "tree_formulation_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace rolling_journal_test {
 
 // A solid steel cylinder of 1 kg in a bearing of 10 mm, axis level.
 MechanismDescription journal(double clearance, double friction) {
@@ -97,5 +97,5 @@ TEST(JournalInItsBearing, RollsAsSlowlyAsItsInertiaSays) {
     }
 }
 
-}  // namespace
+}  // namespace rolling_journal_test
 }  // namespace boresight

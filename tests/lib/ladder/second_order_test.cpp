@@ -5,7 +5,7 @@
 #include "boresight/ladder/ladder.hpp"
 
 namespace boresight {
-namespace {
+namespace second_order_test {
 
 // Journals that tilt in flight, so that all motions are the same ones on any scale, gravity being scaled with the lengths. (Those whose
 // axes stay parallel leave next to nothing out there.)
@@ -27,5 +27,5 @@ TEST(SecondOrderShare, IsTheSameOnEveryScaleOfADrawing) {
   for (const double scale : {0.05, 0.4, 20.0}) EXPECT_NEAR(share(scale) / plain, 1.0, 1e-6) << scale;
 }
 
-}  // namespace
+}  // namespace second_order_test
 }  // namespace boresight

@@ -16,7 +16,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace slider_crank_guide_test {
 
 const std::string kGuideReference = "slider_crank_guide";
 constexpr double kGuideGap = 1e-3, kHalfLength = 50e-3, kHalfHeight = 25e-3;
@@ -129,5 +129,5 @@ TEST(SliderCrankWithPlayInItsGuideLong, TurnsAsFarAsWithRigidCornersAndTouchesIn
   }
 }
 
-}  // namespace
+}  // namespace slider_crank_guide_test
 }  // namespace boresight

@@ -15,7 +15,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace standing_errors_test {
 
 using scenes::drive_error, scenes::frame_error, scenes::with_every_error;
 using Kind = ErrorDescription::Kind;
@@ -275,5 +275,5 @@ TEST(StandingErrors, OfABearingsSeatTiltTheShaftWithinTheirPlay) {
   }
 }
 
-}  // namespace
+}  // namespace standing_errors_test
 }  // namespace boresight

@@ -5,7 +5,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace standing_gimbal_test {
 
 constexpr const char* kGimbal = R"(
 format = 1
@@ -103,5 +103,5 @@ TEST(StandingGimbal, RestsEvenlyOnItsFaceAsMultibodySettles) {
               settled.boresight.samples.back().error.displacement.z(), 2e-8);
 }
 
-}  // namespace
+}  // namespace standing_gimbal_test
 }  // namespace boresight

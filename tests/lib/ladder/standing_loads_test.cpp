@@ -9,7 +9,7 @@
 #include "error_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace standing_loads_test {
 
 using scenes::drive_error, scenes::frame_error, scenes::with_every_error;
 
@@ -107,5 +107,5 @@ TEST(StandingLoads, ShakeTheJournalWithTheRippleOfAScrew) {
   EXPECT_NEAR(penetration("perturbation", mechanism->parameters()), exact, 0.01 * exact);
 }
 
-}  // namespace
+}  // namespace standing_loads_test
 }  // namespace boresight

@@ -14,7 +14,7 @@
 #include "two_bearing_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace tied_gaps_test {
 
 // By how much the gaps are overrun with the journals at z: 1 at their edge. Each sleeve's ends and faces by themselves, without the parts
 // that the envelope is made of.
@@ -102,5 +102,5 @@ TEST(TiedGaps, TheEnvelopeOfAGimbalInBearingPairsIsAboveItsMotion) {
   }
 }
 
-}  // namespace
+}  // namespace tied_gaps_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "two_bearing_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace tied_rest_test {
 
 constexpr double kSpan = 0.08, kHalfSleeve = 1e-3, kAxial = 20e-6, kWeight = 2.0 * 9.81;
 
@@ -168,5 +168,5 @@ TEST(TiedRest, ASlowGimbalWithoutFrictionIsFollowedByMultibodyWithinWhatTheQuasi
   }
 }
 
-}  // namespace
+}  // namespace tied_rest_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "two_bearing_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace two_bearings_test {
 
 RunResult run(const MechanismDescription& m, const std::string& rung) {
   const auto mechanism = scenes::build(m);
@@ -162,5 +162,5 @@ TEST(TwoBearings, ApproachTheIdealJointAsTheirPlayGoes) {
   }
 }
 
-}  // namespace
+}  // namespace two_bearings_test
 }  // namespace boresight

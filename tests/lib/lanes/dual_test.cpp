@@ -8,7 +8,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace dual_test {
 
 template <typename M, typename Law>
 PlayWrench<M> wrench_of(const Law& law, const std::array<double, 13>& x) {
@@ -83,5 +83,5 @@ TEST(Dual, IsFiniteForAJournalAtRestInTheMiddle) {
     for (int i = 0; i < 13; ++i) EXPECT_TRUE(std::isfinite(out.force[k].v[i]) && std::isfinite(out.moment[k].v[i]));
 }
 
-}  // namespace
+}  // namespace dual_test
 }  // namespace boresight

@@ -11,7 +11,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace lanes_test {
 
 bool operator==(const LaneOutcome& a, const LaneOutcome& b) {
   return a.status == b.status && a.t == b.t && a.max == b.max && a.time_of_max == b.time_of_max && a.mean == b.mean &&
@@ -352,5 +352,5 @@ TEST(LanesLong, MeetOnePercentOverClearancesAndLoads) {
     }
 }
 
-}  // namespace
+}  // namespace lanes_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace many_joints_test {
 
 Statistics of_the_rung(const std::shared_ptr<const Mechanism>& mechanism, double step) {
   RunOptions options;
@@ -100,5 +100,5 @@ TEST(ManyJoints, TellTheFreeFlightOfTheJointThatFliesMost) {
   EXPECT_NEAR(static_cast<double>(out.impacts), impacts, 3.0);
 }
 
-}  // namespace
+}  // namespace many_joints_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "error_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace standing_lanes_test {
 
 const Statistics& of(const PointingIndices& indices, PointingQuantity quantity) {
   switch (quantity) {
@@ -154,5 +154,5 @@ TEST(StandingLanes, BuildAnotherSceneWhereACentreOfMassHasMoved) {
   EXPECT_EQ(out[2].mean_square, out[0].mean_square);
 }
 
-}  // namespace
+}  // namespace standing_lanes_test
 }  // namespace boresight

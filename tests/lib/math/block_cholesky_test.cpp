@@ -6,7 +6,7 @@
 #include <random>
 
 namespace boresight {
-namespace {
+namespace block_cholesky_test {
 
 // A mechanism-like graph: three chains of five blocks whose last ones all meet.
 const std::vector<BlockCholesky::Pair> kPairs = {{1, 0},   {2, 1},   {3, 2}, {4, 3},   {6, 5},
@@ -61,5 +61,5 @@ TEST(BlockCholesky, RefusesAMatrixThatIsNotPositiveDefiniteAndNamesTheRow) {
   EXPECT_EQ(p.blocks.weakest(), 7);
 }
 
-}  // namespace
+}  // namespace block_cholesky_test
 }  // namespace boresight

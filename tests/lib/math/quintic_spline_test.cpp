@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace boresight {
-namespace {
+namespace quintic_spline_test {
 
 QuinticSpline sine(int intervals) {
   std::vector<double> value, rate, acceleration;
@@ -43,5 +43,5 @@ TEST(QuinticSpline, MeetsValueRateAndAccelerationAtItsKnots) {
   }
 }
 
-}  // namespace
+}  // namespace quintic_spline_test
 }  // namespace boresight

@@ -8,7 +8,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace ideal_motion_test {
 
 constexpr double kEta = -35.264389682754654 * std::numbers::pi / 180.0;
 
@@ -165,5 +165,5 @@ TEST(ConstraintSystem, RedundantRowsGiveTheSameMotionAsAnIndependentSet) {
   }
 }
 
-}  // namespace
+}  // namespace ideal_motion_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace boresight {
-namespace {
+namespace joint_rows_test {
 
 constexpr JointType kTypes[] = {JointType::revolute,  JointType::prismatic, JointType::cylindrical,
                                 JointType::universal, JointType::spherical, JointType::planar,
@@ -155,5 +155,5 @@ TEST(JointRows, AllRowsVanishAtHome) {
   }
 }
 
-}  // namespace
+}  // namespace joint_rows_test
 }  // namespace boresight

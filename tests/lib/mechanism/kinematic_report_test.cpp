@@ -6,7 +6,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace kinematic_report_test {
 
 // One shaft in two bearings, the second one `off` beside the axis of the first.
 Mechanism shaft(double off) {
@@ -41,5 +41,5 @@ TEST(KinematicReport, NamesBearingsThatDoNotQuiteShareAnAxis) {
   EXPECT_NE(off.findings[0].find("1e-05 m"), std::string::npos) << off.findings[0];
 }
 
-}  // namespace
+}  // namespace kinematic_report_test
 }  // namespace boresight

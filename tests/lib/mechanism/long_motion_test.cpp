@@ -12,7 +12,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace long_motion_test {
 
 Mechanism four_bar(const std::string& law, const std::string& duration) {
   return Mechanism(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml",
@@ -117,5 +117,5 @@ TEST(LongWork, StopsWhereItsWatchWantsItTo) {
   watch_work(nullptr);
 }
 
-}  // namespace
+}  // namespace long_motion_test
 }  // namespace boresight

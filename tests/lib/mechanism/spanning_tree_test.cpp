@@ -9,7 +9,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace spanning_tree_test {
 
 std::set<std::string> cut(const Mechanism& mechanism, const SpanningTree& tree) {
   std::set<std::string> names;
@@ -134,5 +134,5 @@ TEST(SpanningTree, CarriesABodyByItsClearanceJointWhereNothingElseDoes) {
   }
 }
 
-}  // namespace
+}  // namespace spanning_tree_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "boresight/play/joint_play.hpp"
 
 namespace boresight {
-namespace {
+namespace ball_in_socket_test {
 
 ClearanceDescription ball_description(double friction = 0.03, const char* law = "flores") {
   ClearanceDescription d;
@@ -145,5 +145,5 @@ TEST(EveryKindOfPlay, IsWhatTheDescriptionAllows) {
     EXPECT_EQ(JointPlay::serves({}, type), can_have_play(type)) << to_string(type);
 }
 
-}  // namespace
+}  // namespace ball_in_socket_test
 }  // namespace boresight

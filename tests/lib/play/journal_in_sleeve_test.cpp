@@ -5,7 +5,7 @@
 #include <random>
 
 namespace boresight {
-namespace {
+namespace journal_in_sleeve_test {
 
 JournalInSleeve default_joint() {
   ClearanceDescription d;
@@ -90,5 +90,5 @@ TEST(JournalInSleeve, ACylindricalJointHasNoEndFaces) {
   EXPECT_EQ(wrench.force, Vec3::Zero());
 }
 
-}  // namespace
+}  // namespace journal_in_sleeve_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include "boresight/play/joint_play.hpp"
 
 namespace boresight {
-namespace {
+namespace law_extremes_test {
 
 using Jet = ceres::Jet<double, 13>;  // by e, e_dot, w, slope, slope_rate
 
@@ -127,5 +127,5 @@ TEST(EveryPairOfLaws, StaysFiniteAtTheEndsOfWhatAFileMaySay) {
   EXPECT_GT(pressing, 10000);
 }
 
-}  // namespace
+}  // namespace law_extremes_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "boresight/play/joint_play.hpp"
 
 namespace boresight {
-namespace {
+namespace pad_in_slot_test {
 
 constexpr double kGap = 0.05e-3, kRadius = 30e-3;
 
@@ -184,5 +184,5 @@ TEST(PadInSlot, TangentIsTheCurvatureOfItsEnergy) {
   }
 }
 
-}  // namespace
+}  // namespace pad_in_slot_test
 }  // namespace boresight

@@ -5,7 +5,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace quasistatic_offset_test {
 
 using Offsets = Eigen::Matrix<double, 5, 1>;
 
@@ -88,5 +88,5 @@ TEST(RestingPlay, StaysWhereItWasWhereNoForceMovesIt) {
   EXPECT_LT(rest.motion.e.y(), -joint.axial_clearance);
 }
 
-}  // namespace
+}  // namespace quasistatic_offset_test
 }  // namespace boresight

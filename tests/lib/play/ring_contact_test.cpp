@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace boresight {
-namespace {
+namespace ring_contact_test {
 
 // Force, moment over radius and energy of the ring by the midpoint rule, which converges fast on periodic functions.
 struct Sum {
@@ -54,5 +54,5 @@ TEST(RingContact, PassesSmoothlyFromAPointToTheWholeRing) {
   EXPECT_NEAR(ring_contact(K, -0.99999 * A, A).moment_arm, 1.0, 1e-4);
 }
 
-}  // namespace
+}  // namespace ring_contact_test
 }  // namespace boresight

@@ -11,7 +11,7 @@
 #include "boresight/play/joint_play.hpp"
 
 namespace boresight {
-namespace {
+namespace slider_in_guide_test {
 
 constexpr double kWidthGap = 0.05e-3, kHeightGap = 0.03e-3, kWidth = 40e-3, kHeight = 24e-3, kLength = 60e-3;
 
@@ -218,5 +218,5 @@ TEST(SliderInGuide, RollsAsFarAsItsGapsLeaveIt) {
   EXPECT_EQ(rest.contact[static_cast<int>(ContactPlace::width_plus_front)].normal_force, 0.0);
 }
 
-}  // namespace
+}  // namespace slider_in_guide_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "boresight/play/journal/journal_in_sleeve.hpp"
 
 namespace boresight {
-namespace {
+namespace tilted_journal_test {
 
 using Offsets = Eigen::Matrix<double, 5, 1>;
 const std::array<double, kContactPlaces> kImpactSpeed{0.02, 0.02, 0.02, 0.02, 0.02};
@@ -176,5 +176,5 @@ TEST(ContactTangent, TurnsWithTheDirectionInWhichTheJournalTilts) {
   }
 }
 
-}  // namespace
+}  // namespace tilted_journal_test
 }  // namespace boresight

@@ -4,7 +4,7 @@
 #include "boresight/pointing/indices.hpp"
 
 namespace boresight {
-namespace {
+namespace error_vector_test {
 
 Quat turn(double angle, const Vec3& axis) { return Quat(Eigen::AngleAxisd(angle, axis.normalized())); }
 
@@ -43,5 +43,5 @@ TEST_F(ErrorVector, StaysExactForTurnsThatAreNotSmall) {
   EXPECT_NEAR(error.x(), error.y(), 1e-14);
 }
 
-}  // namespace
+}  // namespace error_vector_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include "boresight/pointing/indices.hpp"
 
 namespace boresight {
-namespace {
+namespace line_of_sight_test {
 
 const Quat kTurned(Eigen::AngleAxisd(0.3, Vec3(1, 2, -1).normalized()));
 
@@ -80,5 +80,5 @@ TEST(StatisticsOverTime, AStartAtZeroLeavesOutNothing) {
   EXPECT_EQ(s.result().time_of_max, 0.0);
 }
 
-}  // namespace
+}  // namespace line_of_sight_test
 }  // namespace boresight

@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace boresight {
-namespace {
+namespace peaks_test {
 
 struct Instant {
   double time;
@@ -83,5 +83,5 @@ TEST(PeakSeeker, LeavesOutWhatComesBeforeTheStart) {
   EXPECT_GT(walk(position, times, 0.0).size(), times.size());
 }
 
-}  // namespace
+}  // namespace peaks_test
 }  // namespace boresight

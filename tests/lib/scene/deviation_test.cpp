@@ -14,7 +14,7 @@
 #include "tree_formulation_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace deviation_test {
 
 // The default scene with F1's clearance on the joints chosen.
 template <typename Chosen>
@@ -278,5 +278,5 @@ TEST(SceneRungs, KeepFramesOfAllBodiesWithoutChangingAnything) {
   }
 }
 
-}  // namespace
+}  // namespace deviation_test
 }  // namespace boresight

@@ -14,7 +14,7 @@
 #include "boresight/scene/deviation_coordinates.hpp"
 
 namespace boresight {
-namespace {
+namespace held_play_test {
 
 const JournalAxes kBoth[] = {JournalAxes::parallel, JournalAxes::free};
 
@@ -176,5 +176,5 @@ TEST(BearingPair, GivesTheOffsetsOfOneBearingAsCoordinates) {
   for (int i = 0; i <= 10; ++i) EXPECT_NO_THROW(coordinates.gain(0.1 * i * ideal.duration(), T));
 }
 
-}  // namespace
+}  // namespace held_play_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "boresight/scene/starting_journals.hpp"
 
 namespace boresight {
-namespace {
+namespace resting_start_test {
 
 using Settings = std::vector<Setting>;
 
@@ -205,5 +205,5 @@ TEST(RestingStart, JournalsThatStartFreeAreSaidToHaveToSettle) {
   }
 }
 
-}  // namespace
+}  // namespace resting_start_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace scalars_test {
 
 // Numbers of a sample, and the state, as one list: stiffness, clearance, friction, damping, then z and zdot.
 template <typename T>
@@ -91,5 +91,5 @@ TEST(OffsetDynamics, HasExactDerivativesThroughJets) {
   expect_exact_derivatives<5>(JournalAxes::free, {2e-5, -0.9e-4, 1e-5, 1.6e-3, 0.4e-3, 0.01, 0.02, -0.03, 0.2, -0.1});
 }
 
-}  // namespace
+}  // namespace scalars_test
 }  // namespace boresight

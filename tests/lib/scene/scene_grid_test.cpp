@@ -7,7 +7,7 @@
 #include "boresight/scene/clearance_scene.hpp"
 
 namespace boresight {
-namespace {
+namespace scene_grid_test {
 
 std::shared_ptr<const Mechanism> crank_slider(const std::string& law, const std::string& duration) {
   return std::make_shared<const Mechanism>(
@@ -67,5 +67,5 @@ TEST(RestingRungs, StopWhereTheirCallerWantsThemTo) {
   }
 }
 
-}  // namespace
+}  // namespace scene_grid_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace springs_test {
 
 // The default scene with a spring across F1, off its axis on both sides: its length changes with the ideal
 // motion.
@@ -147,5 +147,5 @@ TEST(Perturbation, AStiffnessOfASampleIsThatOfASceneBuiltWithIt) {
             make_rung("perturbation", other)->run(other->parameters(), options).index.position_error.rms);
 }
 
-}  // namespace
+}  // namespace springs_test
 }  // namespace boresight

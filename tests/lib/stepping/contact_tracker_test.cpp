@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace boresight {
-namespace {
+namespace contact_tracker_test {
 
 // A gap whose rate is a parabola in time: what carries the free flight on is exact for it, once it has three
 // values.
@@ -42,5 +42,5 @@ TEST(ContactTracker, PlacesTheStartOfAFlightWithAParabolaForItsRateExactly) {
   EXPECT_NEAR(summary.max_impact_speed, kSpeed, 1e-10);
 }
 
-}  // namespace
+}  // namespace contact_tracker_test
 }  // namespace boresight

@@ -6,7 +6,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace default_integrator_test {
 
 using Settings = std::vector<Setting>;
 
@@ -102,5 +102,5 @@ TEST(DefaultIntegrator, HasTheErrorMeasuredOfTheOneThatTookOver) {
   EXPECT_NE(error.basis.find("neighbouring tolerances"), std::string::npos) << error.basis;
 }
 
-}  // namespace
+}  // namespace default_integrator_test
 }  // namespace boresight

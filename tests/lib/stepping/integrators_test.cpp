@@ -14,7 +14,7 @@
 #include "tree_formulation_scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace integrators_test {
 
 std::shared_ptr<const Mechanism> scene(const std::vector<Setting>& more = {},
                                        JournalAxes axes = JournalAxes::parallel) {
@@ -228,5 +228,5 @@ TEST(Perturbation, HoldsTiltsToTheToleranceWhereNothingElseMoves) {
   }
 }
 
-}  // namespace
+}  // namespace integrators_test
 }  // namespace boresight

@@ -14,7 +14,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace measured_error_test {
 
 constexpr std::array kStatistics = {&Statistics::max, &Statistics::rms, &Statistics::mean, &Statistics::p9973};
 constexpr std::array kStatisticNames = {"max", "rms", "mean", "p99.73"};
@@ -203,5 +203,5 @@ TEST(MeasuredErrorLong, CoversHalfAndQuarterStepsOfTheExamples) {
   EXPECT_LE(coverage.worst, 2.0);
 }
 
-}  // namespace
+}  // namespace measured_error_test
 }  // namespace boresight

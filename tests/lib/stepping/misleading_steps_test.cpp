@@ -9,7 +9,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace misleading_steps_test {
 
 std::string refusal(const char* rung, const std::string& integrator, double step) {
   const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "0.1 s"}}));
@@ -110,5 +110,5 @@ TEST(OpenContact, TakesTheSpeedAtWhichItWouldBeginNowUnderLocatedEvents) {
   EXPECT_EQ(tracker.memory().impact_speed[minus], 1e-3) << "never below the least";
 }
 
-}  // namespace
+}  // namespace misleading_steps_test
 }  // namespace boresight

@@ -7,7 +7,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace option_check_test {
 
 std::shared_ptr<const Mechanism> scene(const std::vector<Setting>& more = {}) {
   std::vector<Setting> settings = {{"motion.duration", "2 ms"}};
@@ -86,5 +86,5 @@ TEST(Options, GeneralizedAlphaIsRefusedWhereTheStateHoldsQuaternions) {
   EXPECT_NE(refusal("multibody", options).find("this state holds quaternions"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace option_check_test
 }  // namespace boresight

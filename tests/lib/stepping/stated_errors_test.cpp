@@ -15,7 +15,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace stated_errors_test {
 
 struct Scene {
   const char* example;  // folder and file of examples/
@@ -229,5 +229,5 @@ TEST(StatedErrors, OfRestingJournalsHoldForTurnsOfALargeDrawing) {
   }
 }
 
-}  // namespace
+}  // namespace stated_errors_test
 }  // namespace boresight
