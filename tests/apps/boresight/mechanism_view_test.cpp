@@ -92,7 +92,9 @@ TEST(MechanismView, DrawsTheRoomOfAPadAndOfASliderWhereTheyAre) {
         const Vec3 offset = 1e3 * result.clearances[c][result.frames[i].sample].offset;
         const Vec3 normal = (ideal(tip, i) - ideal(first, i)).normalized();
         // The real axis is turned by some 1e-4 from the ideal one.
-        if (pad) EXPECT_NEAR(off.dot(normal), offset.y(), 1e-3 * offset.norm() + 1e-9) << joint.name;
+        if (pad) {
+          EXPECT_NEAR(off.dot(normal), offset.y(), 1e-3 * offset.norm() + 1e-9) << joint.name;
+        }
         if (slider) {
           const Vec3 side = (ideal(view.points[joint.side], i) - ideal(first, i)).normalized();
           EXPECT_NEAR(off.dot(side), offset.x(), 1e-3 * offset.norm() + 1e-9) << joint.name;

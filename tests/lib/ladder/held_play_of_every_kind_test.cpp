@@ -36,7 +36,8 @@ TEST_P(HeldPlay, IsNamedWhateverItsKind) {
   for (const bool tilts : {false, true}) {
     if (tilts && !GetParam().tilts) continue;
     const auto mechanism = scenes::build(read_mechanism_text(
-        with_rigid_sibling(GetParam(), scenes::play_file(GetParam(), {.tilts = tilts, .friction = 0.0, .duration = 0.02})),
+        with_rigid_sibling(GetParam(),
+                           scenes::play_file(GetParam(), {.tilts = tilts, .friction = 0.0, .duration = 0.02})),
         "play.toml"));
     const IdealMotion ideal = ideal_motion(*mechanism, mechanism->parameters());
     IdealState state;
@@ -59,7 +60,7 @@ TEST_P(HeldPlay, IsNamedWhateverItsKind) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ladder, HeldPlay, testing::ValuesIn(kinds()),
-                         [](const testing::TestParamInfo<PlayKind>& info) { return std::string(info.param.name); });
+                         [](const testing::TestParamInfo<PlayKind>& of) { return std::string(of.param.name); });
 
 }  // namespace
 }  // namespace boresight
