@@ -26,6 +26,11 @@ export function frameOf(item, width, height) {
   return fitted(all, width, height, width < 520 ? 14 : 26);
 }
 
+// How far its play lets a centre go.
+const reach = ({ radial, axial, width = 0, height = 0 }) => Math.max(radial, width, height, radial + width > 0 ? 0 : axial);
+// What the legend calls the room of a joint's play (room(), below).
+export const roomOf = ({ tip, side, clearance }) => (tip === undefined ? "balls" : side !== undefined ? "guides" : clearance.pad ? "pads" : "journals");
+
 const f = (value) => value.toFixed(1);
 const line = (...points) => points.map((p, i) => `${i ? "L" : "M"}${f(p.x)} ${f(p.y)}`).join("");
 const dot = ({ x, y }, r) => `M${f(x - r)} ${f(y)}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0z`;
@@ -114,7 +119,7 @@ export function scene(item) {
     set(rings, { d: drawn(shown.play, loose.map((joint) => half(joint) + room(joint)).join("")), stroke: green, "stroke-width": 1.8 });
     set(journals, { d: drawn(shown.play, loose.map((joint) => dot(real[joint.second], 3.6)).join("")), fill: green, stroke: colors.surface, "stroke-width": 1 });
     loose.forEach((joint, i) => {
-      const beside = 6 + 0.8 * Math.min(exaggeration * joint.clearance.radial * view.size, 60);
+      const beside = 6 + 0.8 * Math.min(exaggeration * reach(joint.clearance) * view.size, 60);
       set(names[i], { x: f(real[joint.first].x + beside), y: f(real[joint.first].y - beside), fill: colors.ink, stroke: colors.surface, visibility: shown.play ? "visible" : "hidden" });
     });
     set(rays, { d: drawn(shown.boresight, item.rays.map(({ from, to }) => line(real[from], real[to])).join("")), stroke: orange, "stroke-width": 2.4 });
@@ -125,18 +130,24 @@ export function scene(item) {
     set(triad, { d: tips.map(([x, y]) => line(corner, { x: corner.x + 22 * x, y: corner.y + 22 * y })).join(""), stroke: colors.soft, "stroke-width": 1.4 });
     tips.forEach(([x, y], k) => set(triadNames[k], { x: f(corner.x + 31 * x), y: f(corner.y + 31 * y + 4), fill: colors.soft }));
 
-    // What the centre can move in: of a journal a cylinder, a ring at each end; of a ball a sphere, a ring about every axis.
-    function room({ first, tip, clearance }) {
-      const center = world[first];
-      const ring = (axis, along) => {
+    // What the centre can move in: of a journal a cylinder, a ring at each end; of a ball a sphere, a ring about every axis; of a slider a
+    // rectangle across its guide; of a pad the space between its faces, a ring of the pad's own size at each.
+    function room({ first, tip, side, room: middle, clearance }) {
+      const foot = world[first], center = world[middle ?? first];
+      const ring = (axis, along, r = exaggeration * clearance.radial) => {
         const a = unit(cross(axis, Math.abs(axis[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0])), b = cross(axis, a);
         return `${line(...Array.from({ length: 48 }, (_, i) => {
-          const angle = (2 * Math.PI * i) / 48, r = exaggeration * clearance.radial;
+          const angle = (2 * Math.PI * i) / 48;
           return view.project(plus(plus(plus(center, axis, exaggeration * along), a, r * Math.cos(angle)), b, r * Math.sin(angle)));
         }))}z`;
       };
       if (tip === undefined) return [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((axis) => ring(axis, 0)).join("");
-      const axis = unit(minus(world[tip], center));
+      const axis = unit(minus(world[tip], foot));
+      if (side !== undefined) {
+        const a = unit(minus(world[side], foot)), b = cross(a, axis);
+        return `${line(...[[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([w, h]) => view.project(plus(plus(center, a, w * exaggeration * clearance.width), b, h * exaggeration * clearance.height))))}z`;
+      }
+      if (clearance.pad) return ring(axis, -clearance.axial, clearance.pad) + ring(axis, clearance.axial, clearance.pad);
       return clearance.axial > 0 ? ring(axis, -clearance.axial) + ring(axis, clearance.axial) : ring(axis, 0);
     }
   }

@@ -5,7 +5,7 @@ import { element, icon, icons, paragraphs, tool } from "./dom.js";
 import { addPlot } from "./drawing.js";
 import { legend } from "./legend.js";
 import { number } from "./numbers.js";
-import { deviationAt, frameOf, scene } from "./scene.js";
+import { deviationAt, frameOf, roomOf, scene } from "./scene.js";
 import { theme } from "./theme.js";
 
 const reduced = matchMedia("(prefers-reduced-motion: reduce)");
@@ -147,13 +147,16 @@ export function viewItem(item) {
 
   // ---- around it
 
+  const loose = new Set(item.joints.filter((joint) => joint.clearance).map(roomOf));
+  const rooms = [["journals", "rings of journals"], ["balls", "rings of balls"], ["guides", "rectangles of sliders"], ["pads", "bands of pads"]]
+    .filter(([kind]) => loose.has(kind)).map(([, says]) => says).join(", ");
   const measure = element("p", { class: "note" });
   measure.hidden = mostDrawn === 0;
   const keys = [
     ...(mostDrawn > 0 ? [{ name: "ideal", key: "ideal", series: { style: "line", muted: true }, index: 0 }] : []),
     { name: mostDrawn > 0 ? "with clearance" : "bodies", key: "real", series: { style: "line" }, index: 0 },
     ...(item.rays.length ? [{ name: "boresight", key: "boresight", series: { style: "line" }, index: 1 }] : []),
-    ...(item.joints.some((joint) => joint.clearance) ? [{ name: "play of the joints", key: "play", series: { style: "line" }, index: 2 }] : []),
+    ...(loose.size ? [{ name: `play of the joints: ${rooms}`, key: "play", series: { style: "line" }, index: 2 }] : []),
   ].map((entry) => ({ ...entry, visible: true }));
   const switched = () => { for (const { key, visible } of keys) state.shown[key] = visible; paint(); };
 

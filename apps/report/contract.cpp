@@ -236,13 +236,24 @@ void view_point(const Place& place, std::size_t instants) {
 }
 
 void view_joint(const Place& place, std::size_t points) {
-  object(place, {"name", "first", "second"}, {"tip", "second_tip", "clearance"});
+  object(place, {"name", "first", "second"}, {"tip", "second_tip", "side", "room", "clearance"});
   text(place.at("name"), false);
-  for (const char* key : {"first", "second", "tip", "second_tip"})
+  for (const char* key : {"first", "second", "tip", "second_tip", "side", "room"})
     if (place.has(key)) point_index(place.at(key), points);
   if (!place.has("clearance")) return;
-  object(place.at("clearance"), {"radial", "axial"}, {});
-  for (const char* key : {"radial", "axial"}) finite(place.at("clearance").at(key), 0);
+  const Place play = place.at("clearance");
+  object(play, {"radial", "axial"}, {"width", "height", "pad"});
+  for (const char* key : {"radial", "axial", "width", "height", "pad"})
+    if (play.has(key)) finite(play.at(key), 0);
+  const auto needs = [&](const char* key, std::initializer_list<const char*> others) {
+    if (play.has(key))
+      for (const char* other : others)
+        if (!place.has(other))
+          play.at(key).fail(play.at(key).found(), std::string("the joint's ") + other + " beside it");
+  };
+  needs("width", {"tip", "side"});
+  needs("pad", {"tip"});
+  if (play.has("width") != play.has("height")) play.fail("one of width and height", "both");
 }
 
 void view(const Place& place) {

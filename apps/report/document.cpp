@@ -197,7 +197,13 @@ void to_json(json& json, const ViewJoint& joint) {
   json = {{"name", joint.name}, {"first", joint.first}, {"second", joint.second}};
   if (joint.tip >= 0) json["tip"] = joint.tip;
   if (joint.second_tip >= 0) json["second_tip"] = joint.second_tip;
-  if (joint.clearance) json["clearance"] = {{"radial", joint.clearance->radial}, {"axial", joint.clearance->axial}};
+  if (joint.side >= 0) json["side"] = joint.side;
+  if (joint.room >= 0) json["room"] = joint.room;
+  if (!joint.clearance) return;
+  const ViewClearance& play = *joint.clearance;
+  json["clearance"] = {{"radial", play.radial}, {"axial", play.axial}};
+  if (joint.side >= 0) json["clearance"].update({{"width", play.width}, {"height", play.height}});
+  if (play.pad > 0.0) json["clearance"]["pad"] = play.pad;
 }
 
 void to_json(json& json, const ViewRay& ray) { json = {{"name", ray.name}, {"from", ray.from}, {"to", ray.to}}; }

@@ -167,17 +167,20 @@ struct ViewBody {
   bool muted = false;   // the ground
 };
 
-// The room that a journal's centre has in its sleeve, or a ball's in its socket, where the joint has no tip.
+// The room that the moving part's centre has, each way: a journal's in its sleeve (radial, axial), a ball's in its socket (radial; the joint
+// has no tip), a slider's in a rectangular guide (width along the joint's side, height), a pad's in its slot (axial; pad is its radius).
 struct ViewClearance {
   double radial = 0.0, axial = 0.0;
+  double width = 0.0, height = 0.0, pad = 0.0;
 };
 
-// tip: a point along the axis, moving with the first body (-1: no axis). Where there is clearance the first
-// body carries the sleeve, and second_tip moves with the journal.
+// tip, side: points along the axis and along a guide's width, moving with the first body (-1: none). Where there is clearance the first
+// body carries the sleeve, and second_tip moves with the journal; room: where the first body has the middle of the play, where that is not
+// its own point all the time (-1: it is).
 struct ViewJoint {
   std::string name = {};
   int first = 0, second = 0;
-  int tip = -1, second_tip = -1;
+  int tip = -1, second_tip = -1, side = -1, room = -1;
   std::optional<ViewClearance> clearance = {};
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "boresight/play/joint_play.hpp"
+
 namespace boresight {
 namespace {
 
@@ -30,7 +32,9 @@ std::vector<JournalSize> journal_sizes(const MechanismDescription& mechanism, co
       if (meant != "*" && meant != joint) continue;
       const double inner = gap[0] == 'r' ? 2.0 * p.journal_radius : gap[0] == 'w' ? p.width : p.height;
       const double room = gap[0] == 'r' ? p.radial : gap[0] == 'w' ? p.width_gap : p.height_gap;
-      if (inner > 0.0) sizes.push_back({joint, inner, inner + 2.0 * room, gap});  // a pad has none
+      if (inner > 0.0)  // a pad has none
+        sizes.push_back({joint, inner, inner + 2.0 * room, gap,
+                         JointPlay::words(c, mechanism.joints[static_cast<std::size_t>(c.joint)].type).insert});
     }
   }
   return sizes;
@@ -44,10 +48,8 @@ bool is_of_size(const Fit& fit, const JournalSize& size) {
 }
 
 std::string found_size(const Fit& fit, const JournalSize& size) {
-  const std::string what = size.gap[0] == 'r' ? "journal" : "slider", measure = size.gap[0] == 'r'   ? "diameter"
-                                                                                : size.gap[0] == 'w' ? "width"
-                                                                                                     : "height";
-  return "\"" + fit.name + "\" of nominal size " + millimetres(fit.nominal) + ", where the " + what + " of " +
+  const std::string measure = size.gap[0] == 'r' ? "diameter" : size.gap[0] == 'w' ? "width" : "height";
+  return "\"" + fit.name + "\" of nominal size " + millimetres(fit.nominal) + ", where the " + size.part + " of " +
          size.joint + " has a " + measure + " of " + millimetres(size.journal);
 }
 

@@ -18,6 +18,7 @@ struct JournalSize {
   std::string joint;
   double journal = 0.0, sleeve = 0.0;  // diameters; widths or heights of a slider and its guide [m]
   const char* gap = "radial";          // the number that a fit is of: radial, width_gap, height_gap
+  std::string part = "journal";        // what is of that size: a journal, a ball, a slider
 };
 
 // Of the joints that clearance.JOINT.radial or clearance.*.radial (likewise width_gap, height_gap) is of; none for another path.

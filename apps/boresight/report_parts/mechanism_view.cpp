@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -76,34 +77,52 @@ class ViewBuilder {
     std::string text;
     for (const auto& [there, says] : {std::pair{journals, "a journal's in its sleeve as a ring"},
                                       std::pair{balls, "a ball's in its socket as three rings"},
-                                      std::pair{pads, "a pad's between its faces as a line across them"},
-                                      std::pair{sliders, "a slider's in its guide as a ring of the wider gap"}})
+                                      std::pair{pads, "a pad's between its faces as two rings of the pad's size"},
+                                      std::pair{sliders, "a slider's in its guide as a rectangle"}})
       if (there) text += (text.empty() ? "" : ", ") + std::string(says);
     return text;
   }
 
   int add(const BodyPoint& point) {
-    report::ViewPoint track;
-    report::Numbers* const place[] = {&track.x, &track.y, &track.z};
-    report::Numbers* const deviation[] = {&track.dx, &track.dy, &track.dz};
-    const auto put = [](report::Numbers* const(&into)[3], const Vec3& value) {
-      for (int k = 0; k < 3; ++k) into[k]->push_back(kMmPerM * value[k]);
-    };
     if (point.body == kGround) {
-      put(place, point.p);
-    } else {
-      double most = 0.0;
-      for (const Frame& frame : result_.frames) {
-        const Vec3 ideal = at(point, frame.ideal), off = at(point, frame.pose) - ideal;
-        put(place, ideal);
-        put(deviation, off);
-        most = std::max(most, off.norm());
-      }
-      if (most < kNowhere || mechanism_.clearances() == 0)
-        for (report::Numbers* numbers : deviation) numbers->clear();
+      report::ViewPoint still;
+      put({&still.x, &still.y, &still.z}, point.p);
+      view_.points.push_back(std::move(still));
+      return static_cast<int>(view_.points.size()) - 1;
     }
+    return add_moving([&](const Frame&) { return point; });
+  }
+
+  // A point that need not stay in its place in the body.
+  template <typename PointOf>
+  int add_moving(const PointOf& point_of) {
+    report::ViewPoint track;
+    double most = 0.0;
+    for (const Frame& frame : result_.frames) {
+      const BodyPoint point = point_of(frame);
+      const Vec3 ideal = at(point, frame.ideal), off = at(point, frame.pose) - ideal;
+      put({&track.x, &track.y, &track.z}, ideal);
+      put({&track.dx, &track.dy, &track.dz}, off);
+      most = std::max(most, off.norm());
+    }
+    if (most < kNowhere || mechanism_.clearances() == 0)
+      for (report::Numbers* numbers : {&track.dx, &track.dy, &track.dz}) numbers->clear();
     view_.points.push_back(std::move(track));
     return static_cast<int>(view_.points.size()) - 1;
+  }
+
+  static void put(const std::array<report::Numbers*, 3>& into, const Vec3& value) {
+    for (int k = 0; k < 3; ++k) into[k]->push_back(kMmPerM * value[k]);
+  }
+
+  // Where the part that slides would be without play, carried by the body that it slides in.
+  int add_room(const JointFrame& seat, const JointFrame& insert) {
+    return add_moving([&](const Frame& frame) {
+      const Vec3 p = at({insert.body, insert.p}, frame.ideal);
+      if (seat.body == kGround) return BodyPoint{kGround, p};
+      const Pose& body = frame.ideal[seat.body];
+      return BodyPoint{seat.body, body.q.conjugate() * (p - body.p)};
+    });
   }
 
   // Points of one body at one place are one point.
@@ -115,7 +134,7 @@ class ViewBuilder {
     return known.back().first;
   }
 
-  int add_tip(const JointFrame& end) { return add({end.body, end.p + kTip * size_ * end.R.col(1)}); }
+  int add_tip(const JointFrame& end, int axis = 1) { return add({end.body, end.p + kTip * size_ * end.R.col(axis)}); }
 
   void add_joint(int j) {
     const JointDescription& joint = mechanism_.description().joints[j];
@@ -126,8 +145,14 @@ class ViewBuilder {
     if (joint.type != JointType::spherical && joint.type != JointType::fixed) drawn.tip = add_tip(*first);
     if (c >= 0) {
       const ClearanceParameters& p = mechanism_.parameters().clearance[c];
-      drawn.clearance = report::ViewClearance{kMmPerM * (p.length > 0.0 ? widest_gap(p) : p.radial), kMmPerM * p.axial};
+      drawn.clearance = report::ViewClearance{.radial = kMmPerM * p.radial,
+                                              .axial = kMmPerM * p.axial,
+                                              .width = kMmPerM * p.width_gap,
+                                              .height = kMmPerM * p.height_gap,
+                                              .pad = kMmPerM * p.pad_radius};
       if (drawn.tip >= 0) drawn.second_tip = add_tip(*second);
+      if (is_slider(mechanism_, c)) drawn.side = add_tip(*first, 0);
+      if (slides_along_axis(joint.type) || joint.type == JointType::planar) drawn.room = add_room(*first, *second);
     }
     view_.joints.push_back(std::move(drawn));
   }
@@ -167,7 +192,7 @@ class ViewBuilder {
 
 double view_frame_spacing(const Mechanism& mechanism) {
   constexpr double kMostNumbers = 6e4;  // some 600 kB
-  const double points = 3.0 * mechanism.joints() + mechanism.bodies() + 2.0;
+  const double points = 3.0 * mechanism.joints() + 2.0 * mechanism.clearances() + mechanism.bodies() + 2.0;
   return mechanism.duration() / std::clamp(std::floor(kMostNumbers / (6.0 * points)), 40.0, 120.0);
 }
 

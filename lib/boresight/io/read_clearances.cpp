@@ -10,6 +10,9 @@
 namespace boresight {
 namespace {
 
+// In a file; a universal joint is two revolute ones by the time that it is checked (expand_clearances.cpp).
+constexpr char kTypesOfFile[] = "a revolute, cylindrical, prismatic, planar, spherical or universal joint";
+
 // Of journal and sleeve.
 std::array<double, 2> pair(const std::vector<double>& values) { return {values[0], values[1]}; }
 
@@ -166,7 +169,7 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
   clearance.joint = joint_index(so_far, cursor, "joint", cursor.text("joint"));
   const JointDescription& joint = so_far.joints[clearance.joint];
   if (!can_have_play(joint.type))
-    cursor.fail_found("joint", in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint", kTypesWithPlay);
+    cursor.fail_found("joint", in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint", kTypesOfFile);
   for (const ClearanceDescription& other : so_far.clearances) {
     if (other.joint == clearance.joint) {
       cursor.fail_found(

@@ -60,6 +60,54 @@ TEST(MechanismView, KeepsJointsClosedButForTheirClearance) {
   EXPECT_GT(moved, 1e-3);  // there is something to see [mm]
 }
 
+// The middle of the room goes with the part that slides: from it, the part's centre is off by its offset, in a guide's width and height
+// and along a slot's normal, however far the part has slid.
+TEST(MechanismView, DrawsTheRoomOfAPadAndOfASliderWhereTheyAre) {
+  int pads = 0, sliders = 0;
+  for (const std::string file :
+       {BORESIGHT_CORPUS "/xy-stage.toml", BORESIGHT_EXAMPLES "/flores-slider-crank/slider-in-guide.toml"}) {
+    const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(file, {{"motion.duration", "60 ms"}}));
+    const RunResult result = run_with_frames(mechanism);
+    const report::View view = mechanism_view(*mechanism, result);
+    double slid = 0.0;
+    for (int c = 0; c < mechanism->clearances(); ++c) {
+      const ClearanceDescription& play = mechanism->description().clearances[c];
+      const report::ViewJoint& joint = view.joints[play.joint];
+      const bool pad = mechanism->description().joints[play.joint].type == JointType::planar,
+                 slider = play.guide == GuideShape::rectangular;
+      ASSERT_TRUE(joint.clearance.has_value());
+      ASSERT_GE(joint.room, 0);
+      pads += pad;
+      sliders += slider;
+      EXPECT_EQ(joint.side >= 0, slider);
+      EXPECT_DOUBLE_EQ(joint.clearance->pad, 1e3 * play.parameters.pad_radius);
+      EXPECT_DOUBLE_EQ(joint.clearance->width, 1e3 * play.parameters.width_gap);
+      EXPECT_DOUBLE_EQ(joint.clearance->height, 1e3 * play.parameters.height_gap);
+      const report::ViewPoint &first = view.points[joint.first], &second = view.points[joint.second],
+                              &room = view.points[joint.room], &tip = view.points[joint.tip];
+      for (std::size_t i = 0; i < view.time.size(); ++i) {
+        EXPECT_LT((ideal(room, i) - ideal(second, i)).norm(), 1e-9) << joint.name;
+        slid = std::max(slid, (ideal(second, i) - ideal(first, i)).norm());
+        const Vec3 off = deviation(second, i) - deviation(room, i);
+        const Vec3 offset = 1e3 * result.clearances[c][result.frames[i].sample].offset;
+        const Vec3 normal = (ideal(tip, i) - ideal(first, i)).normalized();
+        // The real axis is turned by some 1e-4 from the ideal one.
+        if (pad) {
+          EXPECT_NEAR(off.dot(normal), offset.y(), 1e-3 * offset.norm() + 1e-9) << joint.name;
+        }
+        if (slider) {
+          const Vec3 side = (ideal(view.points[joint.side], i) - ideal(first, i)).normalized();
+          EXPECT_NEAR(off.dot(side), offset.x(), 1e-3 * offset.norm() + 1e-9) << joint.name;
+          EXPECT_NEAR(off.dot(side.cross(normal)), offset.z(), 1e-3 * offset.norm() + 1e-9) << joint.name;
+        }
+      }
+    }
+    EXPECT_GT(slid, 1.0) << file;  // [mm]
+  }
+  EXPECT_EQ(pads, 1);
+  EXPECT_EQ(sliders, 1);
+}
+
 TEST(MechanismView, PointsWhereTheBodyPoints) {
   const auto mechanism = example("3-rrcpr/3-rrcpr.toml");
   const RunResult result = run_with_frames(mechanism);

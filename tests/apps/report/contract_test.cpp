@@ -160,6 +160,18 @@ TEST(Contract, RefusesViewsOfPointsThatAreNotThere) {
   EXPECT_NE(refusal(with_item(view)).find("joints[0].tip: found -1"), std::string::npos);
   view["joints"][0].erase("tip");
   EXPECT_EQ(refusal(with_item(view)), "accepted");  // a ball's clearance has no axis
+  view["joints"][0]["clearance"]["pad"] = 20.0;
+  EXPECT_NE(refusal(with_item(view)).find("clearance.pad: found 20.0, expected the joint's tip beside it"),
+            std::string::npos);
+  view = small_view();
+  view["joints"][0]["clearance"]["width"] = 0.1;
+  EXPECT_NE(refusal(with_item(view)).find("clearance.width: found 0.1, expected the joint's side beside it"),
+            std::string::npos);
+  view["joints"][0]["side"] = 0;
+  EXPECT_NE(refusal(with_item(view)).find("clearance: found one of width and height, expected both"),
+            std::string::npos);
+  view["joints"][0]["clearance"]["height"] = 0.1;
+  EXPECT_EQ(refusal(with_item(view)), "accepted");
 }
 
 TEST(Contract, RefusesSectionsThatCannotBeLinkedTo) {

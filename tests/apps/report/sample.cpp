@@ -272,7 +272,13 @@ Section moving() {
   View ball = crank("With a ball");
   ball.joints.erase(ball.joints.begin() + 1);
   ball.joints.back().clearance = ViewClearance{0.1, 0.0};
-  return {.id = "moving", .title = "The mechanism", .items = {crank("The mechanism in motion"), ideal, ball}};
+  // A slider whose guide is wider than high, and a pad.
+  View flat = crank("With a slider and a pad");
+  flat.joints[1].side = 0;
+  flat.joints[1].clearance = ViewClearance{.width = 0.15, .height = 0.05};
+  flat.joints.push_back(
+      {.name = "pad", .first = 1, .second = 1, .tip = 2, .clearance = ViewClearance{.axial = 0.1, .pad = 40}});
+  return {.id = "moving", .title = "The mechanism", .items = {crank("The mechanism in motion"), ideal, ball, flat}};
 }
 
 }  // namespace

@@ -176,6 +176,10 @@ TEST(RefusedValue, NamesTheNearestName) {
 
 TEST(RefusedValue, RefusesWhatContradictsItself) {
   check({
+      {"type = \"revolute\"\nconnects = [\"ground\", \"arm\"]\npoint = [\"0 mm\", \"0 mm\", \"0 mm\"]\naxis = [1, 0, "
+       "0]\n",
+       "type = \"fixed\"\nconnects = [\"ground\", \"arm\"]\npoint = [\"0 mm\", \"0 mm\", \"0 mm\"]\n\n",
+       R"~(f.toml:38: clearance[1].joint: found "R", a fixed joint, expected a revolute, cylindrical, prismatic, planar, spherical or universal joint)~"},
       {"name = \"slider\"", "name = \"arm\"",
        R"~(f.toml:12: body[2].name: found "arm" a second time (first in line 4), expected a name of its own)~"},
       {"name = \"slider\"", "name = \"\"",
