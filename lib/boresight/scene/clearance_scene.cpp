@@ -5,9 +5,11 @@
 #include <cstdio>
 
 #include "boresight/formulations/force_elements.hpp"
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/math/cross_matrix.hpp"
 #include "boresight/math/dense_solves.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/ideal_solver.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/motion_density.hpp"
 #include "boresight/scene/deviation_stiffness.hpp"
@@ -33,6 +35,16 @@ constexpr double kLargestMissOfTables = 0.01;
 constexpr const char* kBuilding = "opening the mechanism at its clearances";
 
 const BodyMotion kGroundMotion;
+
+// Quintics through the ideal motion's states have its places to 1e-12, but its accelerations to 1e-6 only: places that are rounded, over the
+// square of their spacing. Where the loads of a joint cancel, these are the digits that are left. So they are solved anew where laws give
+// them; a simulated motion has its states from its steps.
+IdealState exact_state(const Mechanism& mechanism, const IdealMotion& ideal, double t) {
+  IdealState state;
+  ideal.state(t, state);
+  if (is_kinematic(mechanism)) IdealSolver(mechanism).solve(t, state);
+  return state;
+}
 
 }  // namespace
 
@@ -176,11 +188,11 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows, cons
 
 ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal, const Parameters& parameters) {
   Knot knot;
-  coordinates_.gain(t, knot.T);
+  knot.state = exact_state(mechanism_, ideal, t);
+  coordinates_.gain(knot.state, knot.T);
   knot.B = coordinates_.offsets_per_coordinate(knot.T);
   MatX B_rate;
   coordinates_.rates(knot.T, knot.T_rate, knot.T_second, B_rate);
-  ideal.state(t, knot.state);
   add_joints(B_rate, knot);
   if (layout_.n == 0) return knot;  // no play can move
   knot.elements.assign(groups_.size() * element_size(), 0.0);

@@ -16,8 +16,9 @@ namespace {
 
 constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
 // From one instant to the next the body moves by no more than this share of its largest error, and the same loads are large enough to decide
-// where their journals rest; else there are instants between, as close as this share of their spacing.
-constexpr double kTurns = 0.005, kMostBetween = 1024.0;
+// where their journals rest; else there are instants between, as close as this share of their spacing: half the digits, so that what a jump
+// adds to an RMS, and the index at its edge, hang on no instants.
+constexpr double kTurns = 0.005, kMostBetween = 0x1p26;
 
 class Quasistatic final : public SceneRung {
  public:
@@ -123,11 +124,11 @@ class Quasistatic final : public SceneRung {
     double t() const { return balance.now.t; }
   };
   Placed place(const PreparedScene& prepared, const StandingDisplacement& standing, Balance balance) const {
-    const DisplacedBodies displaced(prepared, standing, balance.now.t, balance.z);
     const int index = mechanism().boresight_body();
     Placed placed;
-    placed.body = displaced.at_rest(index, placed.acceleration);
-    const BodyMotion ideal = prepared.ideal().body(balance.now.t, index);
+    const BodyMotion ideal = prepared.ideal().body(balance.now.t, index, &placed.acceleration);
+    placed.body = ideal;
+    displace(placed.body, balance.now.pose_gain * balance.z + standing.at(balance.now.t, index));
     placed.error = pose_error({placed.body.p, Quat(placed.body.R)}, {ideal.p, Quat(ideal.R)}, mechanism().pointing());
     placed.balance = std::move(balance);
     return placed;

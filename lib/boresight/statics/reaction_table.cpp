@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
@@ -39,9 +40,9 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
   const double wanted = std::max<double>(
       kFewestInstants,
       std::min(mechanism.duration() / kSpacing, std::max<double>(kManyInstants, kInstantsPerKnot * scene.knots())));
-  const int per_knot = std::max(1, static_cast<int>(std::ceil(wanted / (scene.knots() - 1))));
-  instants_ = (scene.knots() - 1) * per_knot + 1;
-  spacing_ = scene.spacing() / per_knot;
+  // Whatever the knots of the scene: how fine these are may be decided by rounding.
+  instants_ = static_cast<int>(std::ceil(wanted)) + 1;
+  spacing_ = mechanism.duration() / (instants_ - 1);
   const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters);
   change_ = prepared.changed_loads(parameters, standing).table(layout_.n);
   const int n = layout_.n, width = 7 * n + mechanism.clearances();
@@ -76,7 +77,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
     tables->dynamics.at(k * scene.spacing(), row.data());
     for (const SceneLayout::Joint& j : layout_.joints) values.push_back(j.slides == 1 ? row[j.slide] : 0.0);
   }
-  table_ = TimeTable(scene.spacing(), width, values);
+  table_ = EightPointTable(scene.spacing(), width, std::move(values));
   largest_load_.assign(joints_.size(), 0.0);
   for (int i = 0; i < instants_; ++i) {
     const Instant now = at(i);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "boresight/math/eight_point_table.hpp"
 #include "boresight/play/joint_play.hpp"
 #include "boresight/rungs/run_result.hpp"
 #include "boresight/scene/scene_rung.hpp"
@@ -53,8 +54,8 @@ class ReactionTable {
   SceneLayout layout_;
   int instants_;
   double spacing_;
-  TimeTable table_;   // r (n), E (6 x n), slides (one per clearance)
-  TimeTable change_;  // of r by standing errors (n, or no functions)
+  EightPointTable table_;  // r (n), E (6 x n), slides (one per clearance)
+  TimeTable change_;       // of r by standing errors (n, or no functions)
   std::vector<JointPlay> joints_;
   std::vector<OffsetGroups> groups_;  // of each
   std::vector<double> largest_load_;  // per clearance [N]

@@ -13,6 +13,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "boresight/play/journal/journal_in_sleeve.hpp"
 
@@ -27,6 +28,11 @@ using Stiffness = Eigen::Matrix<double, 5, 5>;
 constexpr int kIterations = 200;
 // Balance asked for: force left over, relative to the load.
 constexpr double kBalance = 1e-10;
+// Of a place: a few units in its last digit. Under small loads a stiff contact makes more of these than kBalance.
+constexpr double kRoundingOfPlace = 8.0 * std::numeric_limits<double>::epsilon();
+// Steps that follow it, and the share of the largest stiffness that holds nothing.
+constexpr int kLastSteps = 2;
+constexpr double kSoft = 1e-12;
 // Where nothing holds the journal a step may be no shorter than this share of the clearance.
 constexpr double kShortestStep = 1e-13;
 
@@ -70,6 +76,7 @@ class PressedJournal {
   }
 
   void set(const Offsets& offsets) {
+    offsets_ = offsets;
     motion_.e = offsets.head<3>();
     motion_.slope = offsets.tail<2>();
     value_ = joint_.elastic_energy(motion_) - load_.dot(offsets);
@@ -111,12 +118,49 @@ class PressedJournal {
     curvature_.col(1).setZero();
   }
 
-  // Levenberg's and Marquardt's way down from where a journal was: what no force moves stays.
-  Offsets rest_near(Offsets at) {
+  // Where the ends alone carry the load, statics says what each of them carries, and each lies in the direction of its own share: exact
+  // wherever no face carries a part. False where nothing presses an end, so that no force says where it lies.
+  bool rest_on_ends(Offsets& at) const {
+    const TiltedJournal& t = joint_.tilted;
+    const double along = t.slides ? at[1] : 0.0, span = 2.0 * t.half_length;
+    const Vec2 force(load_[0], load_[2]), couple(load_[3], load_[4]);
+    Vec2 place[2];
+    for (int side : {-1, 1}) {
+      const Vec2 share = (side * couple + (t.half_length + side * along) * force) / span;
+      const double size = share.norm();
+      if (!(size > kBalance * size_)) return false;
+      place[side < 0 ? 0 : 1] = (t.radial_clearance + t.end_law.depth_under(size)) / size * share;
+    }
+    const Vec2 slope = (place[1] - place[0]) / span, middle = 0.5 * (place[0] + place[1]) + along * slope;
+    at << middle.x(), at[1], middle.y(), slope;
+    return true;
+  }
+
+  // What no force moves stays.
+  Offsets rest_near(const Offsets& before) {
+    Offsets on_ends = before;
+    const bool ends = rest_on_ends(on_ends);
+    if (ends) {
+      set(on_ends);
+      if (balanced()) return on_ends;
+    }
+    // Faces carry a part, or nothing presses an end. A journal that the load has turned away from rolls round its sleeve in ever shorter
+    // steps where its contacts are stiff, and may not arrive.
+    const Offsets rolled = rest_down_from(before);
+    if (!ends || balanced()) return rolled;
+    const double left = gradient_.norm();
+    const Offsets across = rest_down_from(on_ends);
+    if (gradient_.norm() < left) return across;
+    set(rolled);
+    return rolled;
+  }
+
+  // Levenberg's and Marquardt's way down from where a journal was.
+  Offsets rest_down_from(Offsets at) {
     const double room = std::max(joint_.radial_clearance, joint_.tilted.end_law.depth_under(size_));
     double damping = size_ > 0.0 ? size_ / room : 1.0;
     set(at);
-    for (int k = 0; k < kIterations && gradient_.norm() > kBalance * size_; ++k) {
+    for (int k = 0; k < kIterations && !balanced(); ++k) {
       const double value = value_, residual = gradient_.norm();
       Stiffness damped = curvature_;
       damped.diagonal().array() += damping;
@@ -134,15 +178,37 @@ class PressedJournal {
       set(at);
       if (step.norm() <= kShortestStep * room) break;
     }
+    return balanced() ? polished(at) : at;
+  }
+
+  // Undamped steps near the rest, of which each doubles the digits: whether friction holds a journal hangs on them.
+  Offsets polished(Offsets at) {
+    for (int k = 0; k < kLastSteps; ++k) {
+      const double residual = gradient_.norm();
+      Stiffness damped = curvature_;
+      damped.diagonal().array() += kSoft * curvature_.norm();
+      const Offsets next = at - unit_.cwiseProduct(damped.ldlt().solve(gradient_));
+      set(next);
+      if (!(gradient_.norm() < residual)) {
+        set(at);
+        break;
+      }
+      at = next;
+    }
     return at;
   }
 
+  // To what digits of the place leave of the forces.
+  bool balanced() const {
+    const double place = unit_.cwiseInverse().cwiseProduct(offsets_).norm();
+    return gradient_.norm() <= kBalance * size_ + kRoundingOfPlace * place * curvature_.norm();
+  }
   double end_force(int end) const { return end_force_[end]; }
   double face_force(int face) const { return face_force_[face]; }
 
  private:
   const JournalInSleeve& joint_;
-  Offsets load_, unit_;
+  Offsets load_, unit_, offsets_ = Offsets::Zero();
   bool hold_;
   double size_ = 0.0;
   PlayMotion<double> motion_{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};

@@ -1,0 +1,78 @@
+// The loads that journals at rest go by: where those of a joint cancel, their last digits say which way it points.
+#include "boresight/statics/reaction_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/mechanism/ideal_solver.hpp"
+#include "boresight/scene/riding_masses.hpp"
+
+namespace boresight {
+namespace {
+
+std::shared_ptr<const Mechanism> example(const std::string& path, const std::vector<Setting>& settings = {}) {
+  return std::make_shared<const Mechanism>(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/" + path, settings));
+}
+
+// r at one instant, of the mechanism closed there by Newton's method.
+VecX solved_load(const Mechanism& mechanism, DeviationCoordinates& coordinates, const IdealMotion& ideal, double t) {
+  const Parameters parameters = mechanism.parameters();
+  IdealState state;
+  ideal.state(t, state);
+  EXPECT_TRUE(IdealSolver(mechanism).solve(t, state));
+  MatX T;
+  coordinates.gain(state, T);
+  const Eigen::Index n = T.cols();
+  VecX r = VecX::Zero(n);
+  const auto groups = riding_masses(mechanism, parameters);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    VecX part = VecX::Zero(n);
+    MatX per_gravity = MatX::Zero(n, 3);
+    for (const RidingMass& mass : groups[g]) add_load(mass, state, T, part.data(), per_gravity.data());
+    r += units_of(g, mechanism, parameters) * (part + per_gravity * parameters.gravity);
+  }
+  add_load_of_forces(mechanism, parameters, state, T, r);
+  return r;
+}
+
+// The largest miss between the instants over the largest load, coordinate by coordinate.
+double miss(const Mechanism& mechanism) {
+  const Parameters parameters = mechanism.parameters();
+  const PreparedScene prepared(mechanism, ideal_motion(mechanism, parameters), parameters);
+  const StandingDisplacement none = prepared.standing(parameters);
+  const ReactionTable table(mechanism, prepared, none, parameters);
+  DeviationCoordinates coordinates(mechanism, prepared.ideal());
+  VecX largest = VecX::Zero(coordinates.count()), off = largest;
+  for (int i = 0; i < 101; ++i) {
+    const double t = mechanism.duration() * (i + 0.37) / 101.0;
+    const VecX exact = solved_load(mechanism, coordinates, prepared.ideal(), t);
+    largest = largest.cwiseMax(exact.cwiseAbs());
+    off = off.cwiseMax((table.at_time(t).reaction - exact).cwiseAbs());
+  }
+  return (off.array() / largest.array().max(1e-9 * largest.maxCoeff())).maxCoeff();
+}
+
+TEST(ReactionTable, HoldsTheLoadsOfTheMechanismSolvedAtTheInstant) {
+  EXPECT_LT(miss(*example("3-rrcpr/3-rrcpr.toml")), 1e-9);
+  EXPECT_LT(miss(*example("crank-slider/crank-slider.toml")), 1e-9);
+  EXPECT_LT(miss(*example("four-bar/four-bar.toml")), 1e-9);
+}
+
+// How fine a scene's tables are is decided by what they miss, and so by rounding where that is at its bound.
+TEST(ReactionTable, HasTheSameInstantsHoweverFineTheScene) {
+  const auto mechanism = example("crank-slider/crank-slider.toml", {{"motion.duration", "0.3 s"}});
+  const Parameters parameters = mechanism->parameters();
+  for (const double accuracy : {1e-4, 2e-6, 1e-8}) {
+    const PreparedScene prepared(*mechanism, ideal_motion(*mechanism, parameters), parameters, accuracy);
+    const ReactionTable table(*mechanism, prepared, prepared.standing(parameters), parameters);
+    EXPECT_EQ(table.instants(), 601) << prepared.scene().knots();
+    EXPECT_NEAR(table.spacing() * (table.instants() - 1), 0.3, 1e-15);
+  }
+}
+
+}  // namespace
+}  // namespace boresight
