@@ -16,34 +16,6 @@ constexpr std::size_t kShown = 40;  // members whose histories a chart may draw
 
 using Values = std::vector<std::vector<Vec3>>;  // of an index, per member
 
-// Mean and standard deviation of one axis as the interpretation takes them (contributor.hpp).
-Moments moments_of(const Values& members, Eigen::Index axis, Interpretation interpretation) {
-  if (members.empty()) return {};
-  double sum = 0.0, squares = 0.0, count = 0.0, worst = -1.0;
-  Moments of_worst;
-  for (const std::vector<Vec3>& values : members) {
-    double own_sum = 0.0, own_squares = 0.0, most = 0.0;
-    for (const Vec3& v : values) {
-      own_sum += v[axis];
-      own_squares += v[axis] * v[axis];
-      most = std::max(most, std::abs(v[axis]));
-    }
-    const auto n = static_cast<double>(values.size());
-    if (own_squares / n > worst) {
-      worst = own_squares / n;
-      of_worst.mean = own_sum / n;
-      of_worst.sd = std::sqrt(std::max(0.0, worst - of_worst.mean * of_worst.mean));
-    }
-    const bool ensemble = interpretation == Interpretation::ensemble;
-    sum += ensemble ? most : own_sum;
-    squares += ensemble ? most * most : own_squares;
-    count += ensemble ? 1.0 : n;
-  }
-  if (interpretation == Interpretation::temporal) return of_worst;
-  const double mean = sum / count;
-  return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
-}
-
 // `with` less `without`, value by value: the part of what adds up.
 Values difference_of(const Values& with, const Values& without) {
   Values out = with;
@@ -89,28 +61,43 @@ class Maker {
     b.requirements.resize(plan_.requirements.size());
     b.shown.assign(totals_.begin(), totals_.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, totals_.size())));
     for (const ErrorIndex index : plan_.indices()) {
-      for (const Interpretation i : kInterpretations) b.tables.push_back(classical(index, i));
-      const Values values = values_of(totals_, index);
+      for (const Interpretation i : kInterpretations) b.tables.push_back(classical(index, i, plan_.windows));
+      const Values values = values_of(totals_, index, plan_.windows);
       for (std::size_t axis = 0; axis <= axes_.count(); ++axis) {
         const EnsembleInTime sizes = in_time(values, axis, failed_);
         for (const Interpretation i : kInterpretations)
           b.levels.push_back(level(sizes, table(b, index, i), axis, b.headline.probability, plan_.confidence));
         for (std::size_t r = 0; r < plan_.requirements.size(); ++r)
-          if (plan_.requirements[r].index == index && plan_.requirements[r].axis == axis)
-            b.requirements[r] = answer(r, sizes, b);
+          if (plan_.requirements[r].index == index && plan_.requirements[r].axis == axis &&
+              plan_.requirements[r].exposure == 0.0)
+            b.requirements[r] = answer(r, sizes, table(b, index, plan_.requirements[r].interpretation));
         if (b.headline.index == index && b.headline.axis == axis)
           for (const std::vector<Vec3>& v : values) b.headline_sizes.push_back(sizes_of(v, {axis, axes_.count()}));
       }
     }
+    for (std::size_t r = 0; r < plan_.requirements.size(); ++r) {
+      const BudgetRequirement& asked = plan_.requirements[r];
+      if (asked.exposure == 0.0) continue;
+      const Windows windows = plan_.windows_of(asked);
+      b.requirements[r] = answer(r, in_time(values_of(totals_, asked.index, windows), asked.axis, failed_),
+                                 classical(asked.index, asked.interpretation, windows));
+    }
+    b.parts = sub_budgets(
+        plan_, ensemble_, axes_, table(b, b.headline.index, b.headline.interpretation).lines,
+        judgements_.empty()
+            ? judgements_
+            : std::vector<Judgement>(judgements_.begin() + static_cast<std::ptrdiff_t>(plan_.requirements.size()),
+                                     judgements_.end()));
+    b.jitter = jitter_curves(plan_, totals_, axes_.count());
     contribute(b);
     relieve(b);
     return b;
   }
 
  private:
-  Values values_of(const std::vector<PointingHistory>& histories, ErrorIndex index) const {
+  Values values_of(const std::vector<PointingHistory>& histories, ErrorIndex index, const Windows& windows) const {
     Values values;
-    for (const PointingHistory& h : histories) values.push_back(index_values(index, h, plan_.windows));
+    for (const PointingHistory& h : histories) values.push_back(index_values(index, h, windows));
     return values;
   }
 
@@ -137,43 +124,43 @@ class Maker {
     return l;
   }
 
-  RequirementAnswer answer(std::size_t r, const EnsembleInTime& sizes, const Budget& b) const {
+  RequirementAnswer answer(std::size_t r, const EnsembleInTime& sizes, const ClassicalTable& t) const {
     const BudgetRequirement& asked = plan_.requirements[r];
     const Judgement judgement =
         judgements_.empty() ? Judgement{.confidence = asked.confidence, .why = ""} : judgements_[r];
     return {.asked = asked,
-            .level = level(sizes, table(b, asked.index, asked.interpretation), asked.axis, asked.probability,
-                           asked.confidence),
+            .level = level(sizes, t, asked.axis, asked.probability, asked.confidence),
             .compliance =
                 sizes.compliance(asked.interpretation, asked.limit, asked.probability, judgement, plan_.leave_out),
             .judgement = judgement};
   }
 
   // Members of the attribution for which both runs are there; the mechanism's part alone, of one index.
-  std::pair<Values, Values> with_and_without(const MemberVariant& variant, ErrorIndex index) const {
+  std::pair<Values, Values> with_and_without(const MemberVariant& variant, ErrorIndex index,
+                                             const Windows& windows) const {
     std::pair<Values, Values> out;
     for (std::uint64_t member = 0; member < runs_.attribution(); ++member) {
       const PointingHistory *drawn = ensemble_.mechanism(member), *changed = ensemble_.mechanism(member, variant);
       if (drawn == nullptr || changed == nullptr) continue;
-      out.first.push_back(index_values(index, *drawn, plan_.windows));
-      out.second.push_back(index_values(index, *changed, plan_.windows));
+      out.first.push_back(index_values(index, *drawn, windows));
+      out.second.push_back(index_values(index, *changed, windows));
     }
     return out;
   }
 
-  ClassicalTable classical(ErrorIndex index, Interpretation interpretation) const {
+  ClassicalTable classical(ErrorIndex index, Interpretation interpretation, const Windows& windows) const {
     ClassicalTable t{.index = index, .interpretation = interpretation, .lines = {}, .total = {}};
     const auto axes = static_cast<Eigen::Index>(axes_.count());
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       t.lines.push_back({joints_[j], kClearanceKind, "", std::vector<Moments>(axes_.count())});
       if (alone_[j].error.empty()) continue;
-      const Values values = {index_values(index, alone_[j], plan_.windows)};
+      const Values values = {index_values(index, alone_[j], windows)};
       for (Eigen::Index a = 0; a < axes; ++a)
         t.lines.back().axes[static_cast<std::size_t>(a)] = moments_of(values, a, interpretation);
     }
     for (std::size_t g = 0; g < runs_.groups(); ++g) {
       t.lines.push_back({plan_.groups.names[g], kinds_[g], "", {}});
-      const auto [drawn, held] = with_and_without({.held = static_cast<int>(g)}, index);
+      const auto [drawn, held] = with_and_without({.held = static_cast<int>(g)}, index, windows);
       const bool adds_up = plan_.is_of_errors(g);
       const Values part = adds_up ? difference_of(drawn, held) : Values{};
       for (Eigen::Index a = 0; a < axes; ++a) {
@@ -188,13 +175,13 @@ class Maker {
     }
     for (const KnownError& known : plan_.known) {
       t.lines.push_back({known.name, kKnownKind, "", {}});
-      const Values part = {index_values(index, known.history, plan_.windows)};
+      const Values part = {index_values(index, known.history, windows)};
       for (Eigen::Index a = 0; a < axes; ++a) t.lines.back().axes.push_back(moments_of(part, a, interpretation));
     }
     for (const Contributor& c : plan_.contributors) {
       t.lines.push_back({c.name, kind_of(c), c.group, {}});
       for (int a = 0; a < static_cast<int>(axes); ++a)
-        t.lines.back().axes.push_back(moments(c, a, index, interpretation, plan_.windows, plan_.duration));
+        t.lines.back().axes.push_back(moments(c, a, index, interpretation, windows, plan_.duration));
     }
     t.total = total_of(t.lines);
     if (t.total.axes.empty()) t.total.axes.resize(axes_.count());
@@ -221,7 +208,7 @@ class Maker {
       p.alone.push_back(alone.error.empty() ? std::nan("")
                                             : mean_product(index_values(index, alone, plan_.windows), nominal, axis));
     for (std::size_t g = 0; g < runs_.groups(); ++g) {
-      const auto [drawn, held] = with_and_without({.held = static_cast<int>(g)}, index);
+      const auto [drawn, held] = with_and_without({.held = static_cast<int>(g)}, index, plan_.windows);
       auto& change = p.change.emplace_back();
       auto& of_same = p.of_same.emplace_back();
       if (plan_.is_of_errors(g)) {
@@ -293,8 +280,8 @@ class Maker {
       }
       if (before.empty()) return;
       const BudgetRequirement& h = b.headline;
-      const EnsembleInTime now = in_time(values_of(before, h.index), h.axis, 0),
-                           then = in_time(values_of(after, h.index), h.axis, 0);
+      const EnsembleInTime now = in_time(values_of(before, h.index, plan_.windows), h.axis, 0),
+                           then = in_time(values_of(after, h.index, plan_.windows), h.axis, 0);
       const auto value = [&](const EnsembleInTime& e) {
         return e.level(h.interpretation, h.probability, plan_.confidence, plan_.leave_out).value;
       };
@@ -342,18 +329,29 @@ bool Budget::met() const {
                      [](const RequirementAnswer& r) { return r.compliance.met; });
 }
 
-std::vector<Judgement> look_at_requirements(const BudgetPlan& plan, SampleStore& store) {
+std::vector<Judgement> look_at_requirements(const BudgetPlan& plan, const BudgetAxes& axes, SampleStore& store) {
   std::vector<Judgement> judgements;
   for (const BudgetRequirement& r : plan.requirements)
     judgements.push_back(look(store, question_of(plan, r),
                               asked_of_members(r.interpretation, r.probability, r.confidence, plan.leave_out),
                               looked_at_members(r.interpretation, plan.leave_out), plan.members));
+  const BudgetRequirement headline = plan.headline(axes);
+  for (const BudgetPart& part : plan.parts)
+    judgements.push_back(
+        part.allocated > 0.0
+            ? look(store, question_of(plan, axes, part),
+                   asked_of_members(headline.interpretation, headline.probability, headline.confidence, plan.leave_out),
+                   looked_at_members(headline.interpretation, plan.leave_out), plan.members)
+            : Judgement{.confidence = headline.confidence, .why = ""});
   return judgements;
 }
 
 Budget budget_of(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,
                  const SampleStore& store, const std::vector<Judgement>& judgements) {
-  return Maker(plan, runs, mechanism, quantity, store, judgements).make();
+  Budget budget = Maker(plan, runs, mechanism, quantity, store, judgements).make();
+  budget.spectral = spectral_levels(plan);
+  if (!budget.spectral.empty()) budget.spectrum = spectrum_of(budget.shown);
+  return budget;
 }
 
 }  // namespace boresight

@@ -20,8 +20,12 @@
 
 #include "boresight_analyses/budget/budget_runs.hpp"
 #include "boresight_analyses/budget/classical.hpp"
+#include "boresight_analyses/budget/error_spectrum.hpp"
+#include "boresight_analyses/budget/jitter.hpp"
 #include "boresight_analyses/budget/line_kinds.hpp"
 #include "boresight_analyses/budget/member_bootstrap.hpp"
+#include "boresight_analyses/budget/spectral_level.hpp"
+#include "boresight_analyses/budget/sub_budgets.hpp"
 
 namespace boresight {
 
@@ -78,14 +82,19 @@ struct Budget {
   std::vector<PointingHistory> shown;               // of the first members, everything together
   PointingHistory nominal;                          // of the mechanism at its medians, alone
   std::vector<std::vector<double>> headline_sizes;  // per member over time
+  std::vector<SubBudget> parts;                     // of the headline
+  std::vector<JitterCurve> jitter;                  // of requirements by exposure time
+  std::vector<SpectralLevel> spectral;              // of contributors with a spectrum
+  ErrorSpectrum spectrum;                           // of the members shown; empty where no contributor has one
 
   bool met() const;  // every requirement
 };
 
-// How each requirement is judged. A first look at it is noted in the store, for those who add members and look again.
-std::vector<Judgement> look_at_requirements(const BudgetPlan& plan, SampleStore& store);
+// How each requirement is judged, and each part behind them. A first look at it is noted in the store, for those who add members and look
+// again.
+std::vector<Judgement> look_at_requirements(const BudgetPlan& plan, const BudgetAxes& axes, SampleStore& store);
 
-// From a store that holds all runs. `judgements`: of the requirements; each as a first look where there are none. Throws
+// From a store that holds all runs. `judgements`: of the requirements and the parts; each as a first look where there are none. Throws
 // ComputationError where no member, or not the nominal motion, could be followed.
 Budget budget_of(const BudgetPlan& plan, const BudgetRuns& runs, const Mechanism& mechanism, PointingQuantity quantity,
                  const SampleStore& store, const std::vector<Judgement>& judgements = {});

@@ -1,6 +1,7 @@
 #include "boresight_analyses/budget/budget_keys.hpp"
 
 #include "boresight_analyses/budget/budget_plan.hpp"
+#include "boresight_analyses/budget/noise_keys.hpp"
 #include "boresight_analyses/random/random_keys.hpp"
 #include "boresight_analyses/study/study_keys.hpp"
 
@@ -60,6 +61,9 @@ const KeyTable& budget_keys() {
           tables("requirement", budget_requirement_keys)
               .sometimes("left out, nothing is required")
               .says("What is required, one table each; the first one is what shares and reliefs are about."),
+          tables("part", budget_part_keys)
+              .sometimes("left out, there are no sub-budgets")
+              .says("Sub-budgets, one table each: what belongs together, allocated and rolled up."),
           tables("contributor", budget_contributor_keys)
               .sometimes("left out, the clearances make all of the error")
               .says("Errors from outside of the clearances, one table each.")}};
@@ -87,7 +91,14 @@ const KeyTable& budget_requirement_keys() {
                           {to_string(Interpretation::mixed), "over members and time together"}})
                    .otherwise(to_string(r.interpretation))
                    .says("What the probability is over (ECSS-E-ST-60-10C, A.1.4)."),
-               quantity_of("limit", "the index").above(0.0, "more than 0").says("What the error shall not exceed."),
+               quantity_of("limit", "the index")
+                   .above(0.0, "more than 0")
+                   .sometimes("needed unless there are exposures")
+                   .says("What the error shall not exceed."),
+               quantities("exposures", kDurationRange)
+                   .sometimes("with index = \"RPE\" only; left out, the budget's window")
+                   .says("Jitter by exposure time: windows of its own, over each of which RPE keeps its own limit."),
+               values("limits", "the index").sometimes("with exposures only").says("One limit for each exposure."),
                number("probability")
                    .share()
                    .otherwise(r.probability)
@@ -100,6 +111,27 @@ const KeyTable& budget_requirement_keys() {
   return table_of_keys;
 }
 
+const KeyTable& budget_part_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "budget.part",
+      .says =
+          "A sub-budget. It is rolled up in the index, axis, interpretation and probability of the first requirement, "
+          "its errors added in time.",
+      .keys = {text("name").says("Its name."),
+               text("within").usually("the whole budget").says("The part that it belongs to."),
+               texts("contributors")
+                   .sometimes("left out, it holds what the parts within it hold")
+                   .says("The names of its own contributors; none is in two parts."),
+               boolean("mechanism", BudgetPart{}.mechanism)
+                   .says("Whether the mechanism's own error is in it: clearances, scatter and standing errors."),
+               quantity_of("allocated", "the index")
+                   .above(0.0, "more than 0")
+                   .sometimes("left out, it is rolled up only")
+                   .says("What it may come to.")}};
+  return table_of_keys;
+}
+
 const KeyTable& budget_contributor_keys() {
   using namespace keys;
   static const std::string one = "this, or the other of distribution and value; either may be left out beside course";
@@ -107,8 +139,9 @@ const KeyTable& budget_contributor_keys() {
   static const KeyTable table_of_keys{
       .name = "budget.contributor",
       .says =
-          "An error from outside of the clearances, by its class (ECSS-E-ST-60-10C, Annex B); or a standing error of "
-          "the "
+          "An error from outside of the clearances, by its class (ECSS-E-ST-60-10C, Annex B); or noise by its "
+          "spectrum; or a measured course; or a "
+          "standing error of the "
           "mechanism over time: factor times course plus value, by its column of influence at the commanded pose.",
       .keys = {
           text("name").says("Its name."),
@@ -117,8 +150,18 @@ const KeyTable& budget_contributor_keys() {
                                         {to_string(ContributorClass::random), "noise of first order"},
                                         {to_string(ContributorClass::periodic), "a sinusoid of unknown phase"},
                                         {to_string(ContributorClass::drift), "grows with time"}})
-              .sometimes("needed, or error")
+              .sometimes("needed, or spectrum, measured or error")
               .says("Its course in time."),
+          table("spectrum", spectrum_keys)
+              .sometimes("in place of class")
+              .says("Noise by its power spectral density, the same on every axis that it acts on and independent "
+                    "between them."),
+          table("measured", measured_keys).sometimes("in place of class").says("A course in time as it was measured."),
+          tables("through", through_keys)
+              .sometimes("not with error; left out, the contributor is the error itself")
+              .says("Transfer functions between the contributor and the pointing, one after the other: a pointing "
+                    "loop, a structure. Of a class "
+                    "what is left once they have settled."),
           text("error").sometimes(of_error).says(
               "The name of an [[error]] of the mechanism, in place of class. What it does is added to the motion by "
               "superposition, to first order and quasi-static; [[random]] must not scatter it too, and what the "
@@ -127,8 +170,8 @@ const KeyTable& budget_contributor_keys() {
               .sometimes("with error only; left out, the error is constant in a member")
               .says("The error over time, an expression of t [s] from the beginning of the motion, in m, rad or K."),
           table("factor", distribution_keys)
-              .sometimes("with course only; left out, 1")
-              .says("How a factor of the course scatters over the members, in pure numbers."),
+              .sometimes("with course, spectrum or measured only; left out, 1")
+              .says("How a factor of the course or the noise scatters over the members, in pure numbers."),
           table("distribution", distribution_keys)
               .sometimes(one)
               .says("How it scatters over the members: a bias, a noise's standard deviation, an amplitude, a drift per "

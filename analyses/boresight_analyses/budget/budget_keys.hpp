@@ -8,6 +8,7 @@ namespace boresight {
 const KeyTable& budget_keys();
 const KeyTable& budget_requirement_keys();
 const KeyTable& budget_contributor_keys();
+const KeyTable& budget_part_keys();
 const KeyTable& posterior_keys();  // a file of its own
 
 }  // namespace boresight

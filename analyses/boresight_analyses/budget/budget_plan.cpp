@@ -10,6 +10,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/budget/budget_keys.hpp"
 #include "boresight_analyses/budget/read_contributor.hpp"
+#include "boresight_analyses/budget/read_parts.hpp"
 
 namespace boresight {
 namespace {
@@ -37,21 +38,49 @@ std::size_t read_axis(Cursor& table, const std::string& key, const BudgetAxes& a
   return static_cast<std::size_t>(std::find(known.begin(), known.end(), name) - known.begin());
 }
 
-BudgetRequirement read_requirement(Cursor& table, const BudgetPlan& plan, const BudgetAxes& axes, const SiUnit& unit) {
+// One requirement, or of jitter one for each exposure.
+std::vector<BudgetRequirement> read_requirement(Cursor& table, const BudgetPlan& plan, const BudgetAxes& axes,
+                                                const SiUnit& unit) {
   table.only(budget_requirement_keys());
   BudgetRequirement r;
   r.index = chosen(table, "index", kErrorIndices);
-  const std::string missing = plan.windows.missing_for(r.index, plan.duration);
+  const bool jitter = table.has("exposures");
+  if (table.has("limits") && !jitter) table.fail("limits", "exposures beside it, each of which has a limit");
+  if (jitter && r.index != ErrorIndex::rpe)
+    table.fail_found("exposures", std::string("exposures of ") + to_string(r.index),
+                     "exposures with index = \"RPE\" only");
+  if (jitter && table.has("limit")) table.fail_found("limit", "exposures and limit", "limits, one for each exposure");
+  const std::string missing = jitter ? "" : plan.windows.missing_for(r.index, plan.duration);
   if (!missing.empty())
     table.fail("index", std::string("in [budget] ") + missing + ", which " + to_string(r.index) + " needs");
   r.axis = read_axis(table, "axis", axes);
   r.interpretation = chosen(table, "interpretation", kInterpretations);
-  r.limit = table.quantity("limit", unit);
-  r.unit = table.unit_as_written("limit");
   r.probability = table.number("probability");
   r.confidence = table.number("confidence");
+  std::vector<BudgetRequirement> out;
+  if (jitter) {
+    const std::vector<double> exposures = table.quantities("exposures"), limits = table.values("limits", unit);
+    r.unit = table.unit_as_written("limits");
+    table.require(!exposures.empty(), "exposures", "at least one");
+    if (limits.size() != exposures.size())
+      table.fail_found("limits", std::to_string(limits.size()) + " of them",
+                       std::to_string(exposures.size()) + ", one for each exposure");
+    for (std::size_t k = 0; k < exposures.size(); ++k) {
+      r.exposure = exposures[k];
+      r.limit = limits[k];
+      table.require(r.limit > 0.0, "limits", "limits above zero");
+      table.require(r.exposure >= 2.0 * plan.sampling, "exposures", "at least two samples of the history each");
+      const std::string needed = plan.windows_of(r).missing_for(r.index, plan.duration);
+      table.require(needed.empty(), "exposures", needed);
+      out.push_back(r);
+    }
+  } else {
+    r.limit = table.quantity("limit", unit);
+    r.unit = table.unit_as_written("limit");
+    out.push_back(r);
+  }
   table.finish();
-  return r;
+  return out;
 }
 
 void read_times(Cursor& table, BudgetPlan& plan, double index_start, double duration) {
@@ -127,7 +156,15 @@ std::vector<std::string> BudgetAxes::all() const {
 }
 
 BudgetRequirement BudgetPlan::headline(const BudgetAxes& axes) const {
-  return requirements.empty() ? BudgetRequirement{.axis = axes.count()} : requirements.front();
+  for (const BudgetRequirement& r : requirements)
+    if (r.exposure == 0.0) return r;
+  return BudgetRequirement{.axis = axes.count()};
+}
+
+Windows BudgetPlan::windows_of(const BudgetRequirement& requirement) const {
+  Windows w = windows;
+  if (requirement.exposure > 0.0) w.window = requirement.exposure;
+  return w;
 }
 
 bool BudgetPlan::is_of_errors(std::size_t group) const {
@@ -162,7 +199,7 @@ std::string question_of(const BudgetPlan& plan, const BudgetRequirement& r) {
     std::snprintf(text, sizeof text, " %.17g", value);
     return std::string(text);
   };
-  const Windows& w = plan.windows;
+  const Windows w = plan.windows_of(r);
   std::string text = std::string(to_string(r.index)) + " " + std::to_string(r.axis) + " " + to_string(r.interpretation);
   for (const double value :
        {r.limit, r.probability, r.confidence, plan.leave_out, w.window, w.separation, w.observation, w.revisit})
@@ -174,7 +211,8 @@ std::string question_of(const BudgetPlan& plan, const BudgetRequirement& r) {
       continue;
     }
     text += std::string("\n") + to_string(c.kind) + number(c.period) + number(c.correlation_time) +
-            (c.recalibrated ? " recalibrated " : " ") + c.group;
+            (c.recalibrated ? " recalibrated " : " ") + c.group + (c.noise ? " " + c.noise->text() : "") +
+            (c.measured ? " " + c.measured->text() : "") + (c.through ? " " + c.through->text() : "");
     for (const DistributionPtr& parameter : c.parameter)
       text += "\n" + (parameter ? parameter->text() : std::string("none"));
   }
@@ -209,7 +247,8 @@ BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDes
         entry.fail_found("name", "\"" + name + "\" a second time", "each contributor once");
   }
   for (Cursor& entry : table.tables("requirement"))
-    plan.requirements.push_back(read_requirement(entry, plan, axes, unit));
+    for (const BudgetRequirement& one : read_requirement(entry, plan, axes, unit)) plan.requirements.push_back(one);
+  read_parts(table, plan, unit);
   table.finish();
   return plan;
 }

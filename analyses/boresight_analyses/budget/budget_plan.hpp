@@ -23,6 +23,18 @@
 //   probability = 0.95
 //   confidence = 0.9
 //
+//   [[budget.requirement]]       # jitter by exposure time: RPE over windows of its own, each with its limit
+//   index = "RPE"
+//   exposures = ["10 ms", "0.1 s"]
+//   limits = ["1 arcsec", "3 arcsec"]
+//
+//   [[budget.part]]              # a sub-budget, sub_budgets.hpp
+//   name = "attitude"
+//   within = "pointing"          # another part; left out: the whole
+//   contributors = ["gyro"]
+//   mechanism = false            # whether the mechanism's own error is in it
+//   allocated = "300 arcsec"     # left out: it is rolled up only
+//
 //   [[budget.contributor]]       # an error from outside of the clearances
 //   name = "star tracker"
 //   class = "random"             # bias, periodic, drift
@@ -34,6 +46,16 @@
 //   correlation_time = "1 ms"    # random; left out: the sampling
 //   recalibrated = true          # bias, drift: every observation has another bias, and a drift that begins at zero
 //   group = "thermal"            # contributors of one group vary together
+//
+//   [[budget.contributor]]       # or noise by its spectrum, read_noise.hpp
+//   name = "gyro"
+//   spectrum = { white = "0.04 arcsec^2/Hz" }                            # in place of class
+//   through = [{ second_order = { frequency = "5 Hz", damping = 0.3 } }] # the pointing loop; left out: it is the error itself
+//   factor = { .. }              # over the members; left out: 1
+//
+//   [[budget.contributor]]       # or a measured course, read_measured_course.hpp
+//   name = "floor"
+//   measured = { file = "floor.csv", time = "t", columns = ["x", "y"], unit = "arcsec", begin = "anywhere" }
 //
 //   [[budget.contributor]]       # or a standing error of the mechanism over time: factor * course + value
 //   name = "sun on the rod"
@@ -77,6 +99,15 @@ struct BudgetRequirement {
   double probability = 0.95;
   double confidence = 0.9;
   std::string unit = "";  // in which the study writes the limit: "arcsec"
+  double exposure = 0.0;  // jitter: the window of its own that RPE is taken over [s]; 0: that of the budget
+};
+
+// A sub-budget: what belongs together, and what of the whole is allocated to it.
+struct BudgetPart {
+  std::string name, within;               // within: another part; "": the whole
+  std::vector<std::size_t> contributors;  // of the plan, its own
+  bool mechanism = false;                 // whether the mechanism's own error is in it
+  double allocated = 0.0;                 // SI; 0: nothing
 };
 
 struct BudgetPlan {
@@ -92,10 +123,13 @@ struct BudgetPlan {
   NamedGroups groups;
   std::vector<BudgetRequirement> requirements;
   std::vector<Contributor> contributors;
+  std::vector<BudgetPart> parts;
   std::vector<KnownError> known;  // once follow_errors() was called
   double duration = 0.0;          // of the histories: the motion from `start` on [s]
 
-  // What shares and reliefs are about: the first requirement, or the APE of all axes, mixed, 95 %.
+  // Those that a requirement is taken over.
+  Windows windows_of(const BudgetRequirement& requirement) const;
+  // What shares and reliefs are about: the first requirement that is none of jitter, or the APE of all axes, mixed, 95 %.
   BudgetRequirement headline(const BudgetAxes& axes) const;
   // Whether a group of parameters holds standing errors of the mechanism and nothing else: these add up in time.
   bool is_of_errors(std::size_t group) const;

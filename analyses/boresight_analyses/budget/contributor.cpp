@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+#include <complex>
+#include <stdexcept>
 
 #include "boresight_analyses/random/counter_stream.hpp"
 
@@ -23,6 +25,18 @@ struct Ensemble {
 };
 
 Moments scaled(const Ensemble& e, double factor) { return {factor * e.mean, std::abs(factor) * e.sd}; }
+
+// A factor of what has these moments: of values, or of largest sizes.
+Moments times(const Ensemble& factor, const Moments& m, Interpretation interpretation) {
+  if (interpretation == Interpretation::temporal) return {factor.worst_signed() * m.mean, factor.worst() * m.sd};
+  const double mean = factor.mean * m.mean;
+  return {mean, std::sqrt(std::max(0.0, factor.rms * factor.rms * (m.mean * m.mean + m.sd * m.sd) - mean * mean))};
+}
+
+// What a transfer function leaves of a constant, a sinusoid and a ramp once it has settled.
+double of_constant(const Contributor& c) { return c.through ? c.through->standing() : 1.0; }
+std::complex<double> of_sinusoid(const Contributor& c) { return c.through ? c.through->at(1.0 / c.period) : 1.0; }
+double behind_ramp(const Contributor& c) { return c.through ? c.through->slope() : 0.0; }
 
 Moments of_bias(const Contributor& c, const Ensemble& e, ErrorIndex index, Interpretation interpretation) {
   if (index == ErrorIndex::rpe || index == ErrorIndex::pde) return {};
@@ -63,10 +77,23 @@ Moments of_drift(const Ensemble& e, Interpretation interpretation, double middle
 
 double standard_normal(double u) { return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * u); }
 
+constexpr std::uint64_t kAxes = 4;           // places a stream has for an observation
+constexpr std::uint64_t kPlaceOfFactor = 3;  // the last of them
+
+// One axis of a noise by its spectrum, of deviation as in its spectrum. Two independent normal numbers from two uniform ones (Box and
+// Muller 1958).
+std::vector<double> drawn_noise(const NoiseCourse& noise, const CounterStream& in_time, std::uint64_t member,
+                                std::uint64_t place) {
+  return noise.drawn([&](std::uint64_t k) {
+    return std::polar(std::sqrt(-2.0 * std::log(in_time.uniform(member, place, 2 * k + 1))),
+                      2.0 * M_PI * in_time.uniform(member, place, 2 * k + 2));
+  });
+}
+
 }  // namespace
 
 const char* to_string(ContributorClass kind) {
-  static const char* const names[] = {"bias", "random", "periodic", "drift"};
+  static const char* const names[] = {"bias", "random", "periodic", "drift", "spectrum", "measured"};
   return names[static_cast<int>(kind)];
 }
 
@@ -80,39 +107,53 @@ Moments moments(const Contributor& c, int axis, ErrorIndex index, Interpretation
   if (!distribution) return {};
   const Ensemble e(*distribution);
   switch (c.kind) {
-    case ContributorClass::bias:
-      return of_bias(c, e, index, interpretation);
+    case ContributorClass::bias: {
+      const Moments m = of_bias(c, e, index, interpretation);
+      return {of_constant(c) * m.mean, std::abs(of_constant(c)) * m.sd};
+    }
     case ContributorClass::random: {
+      if (c.noise) break;
       const double kept = std::sqrt(kept_of_noise(index, c.correlation_time, windows));
       return of_oscillation(e, interpretation, 3.0 * kept, kept);
     }
     case ContributorClass::periodic: {
-      const double frequency = 2.0 * M_PI / c.period;
-      return of_oscillation(e, interpretation, peak_of_sinusoid(index, frequency, windows),
-                            std::sqrt(0.5 * kept_of_sinusoid(index, frequency, windows)));
+      const double frequency = 2.0 * M_PI / c.period, gain = std::abs(of_sinusoid(c));
+      return of_oscillation(e, interpretation, gain * peak_of_sinusoid(index, frequency, windows),
+                            gain * std::sqrt(0.5 * kept_of_sinusoid(index, frequency, windows)));
+    }
+    case ContributorClass::spectrum:
+      break;
+    case ContributorClass::measured: {
+      const std::vector<std::vector<Vec3>>& stretches = c.measured->stretches();
+      const double spacing = duration / static_cast<double>(stretches.front().size());
+      std::vector<std::vector<Vec3>> values;
+      for (const std::vector<Vec3>& stretch : stretches)
+        values.push_back(index_values(index, {spacing, stretch}, windows));
+      return times(e, moments_of(values, axis, interpretation), interpretation);
     }
     case ContributorClass::drift: {
       const double whole = c.recalibrated ? windows.observation_in(duration) : duration;
-      const double middle = 0.5 * whole + (c.recalibrated ? 0.0 : windows.start);
-      if (index == ErrorIndex::ape) return of_drift(e, interpretation, middle, 0.5 * whole);
-      if (index == ErrorIndex::mpe) return of_drift(e, interpretation, middle, 0.5 * (whole - windows.window));
-      if (index == ErrorIndex::rpe) return of_drift(e, interpretation, 0.0, 0.5 * windows.window);
-      if (index == ErrorIndex::pde) return of_drift(e, interpretation, windows.separation, 0.0);
+      const double gain = of_constant(c), half = 0.5 * std::abs(gain);
+      const double middle = gain * (0.5 * whole + (c.recalibrated ? 0.0 : windows.start)) + behind_ramp(c);
+      if (index == ErrorIndex::ape) return of_drift(e, interpretation, middle, half * whole);
+      if (index == ErrorIndex::mpe) return of_drift(e, interpretation, middle, half * (whole - windows.window));
+      if (index == ErrorIndex::rpe) return of_drift(e, interpretation, 0.0, half * windows.window);
+      if (index == ErrorIndex::pde) return of_drift(e, interpretation, gain * windows.separation, 0.0);
       const double revisit = windows.revisit_after();
       const double passed = c.recalibrated ? revisit - std::round(revisit / whole) * whole : revisit;
-      return of_drift(e, interpretation, passed, 0.0);
+      return of_drift(e, interpretation, gain * passed, 0.0);
     }
   }
-  return {};
+  const double deviation = std::sqrt(c.noise->variance(index, windows));
+  return of_oscillation(e, interpretation, 3.0 * deviation, deviation);
 }
 
 std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t member, std::uint64_t stream,
                          double spacing, std::size_t samples, const Windows& windows) {
-  constexpr std::uint64_t kAxes = 4;  // places a stream has for an observation
   const CounterStream value(seed, StreamPurpose::budget_value), in_time(seed, StreamPurpose::budget_course);
   if (c.of_error) {
-    // Contributors of one group draw one and the same value; a factor has a place of its own.
-    constexpr std::uint64_t kPlaceOfValue = 0, kPlaceOfFactor = 3;
+    // Contributors of one group draw one and the same value.
+    constexpr std::uint64_t kPlaceOfValue = 0;
     const auto drawn = [&](const DistributionPtr& of, std::uint64_t place, double fixed) {
       return of ? of->quantile(value.uniform(member, stream, place)) : fixed;
     };
@@ -122,14 +163,34 @@ std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t
   const double observation = windows.observation_in(spacing * static_cast<double>(samples));
   const auto observed = static_cast<std::size_t>(std::max(1.0, std::round(observation / spacing)));
   std::vector<Vec3> out(samples, Vec3::Zero());
+  if ((c.noise && (c.noise_course->samples() != samples || c.noise_course->spacing() != spacing)) ||
+      (c.measured && c.measured->stretches().front().size() != samples))
+    throw std::invalid_argument("the course of " + c.name + " was made for another grid");
+  // A factor is one for all axes.
+  const bool by_factor = c.kind == ContributorClass::spectrum || c.kind == ContributorClass::measured;
+  if (c.measured) out = c.measured->history(in_time.uniform(member, stream * kAxes));
   for (std::uint64_t axis = 0; axis < 3; ++axis) {
     if (!c.parameter[axis]) continue;
     const Distribution& distribution = *c.parameter[axis];
     const auto drawn = [&](std::size_t observation_number) {
-      return distribution.quantile(value.uniform(member, stream, axis + kAxes * observation_number));
+      return distribution.quantile(
+          value.uniform(member, stream, (by_factor ? kPlaceOfFactor : axis) + kAxes * observation_number));
     };
     double parameter = drawn(0);
-    const double phase = 2.0 * M_PI * in_time.uniform(member, stream * kAxes + axis);
+    if (c.measured) {
+      for (Vec3& e : out) e[static_cast<Eigen::Index>(axis)] *= parameter;
+      continue;
+    }
+    if (c.noise) {
+      const std::vector<double> noise = drawn_noise(*c.noise_course, in_time, member, stream * kAxes + axis);
+      for (std::size_t k = 0; k < samples; ++k) out[k][static_cast<Eigen::Index>(axis)] = parameter * noise[k];
+      continue;
+    }
+    const bool turns = c.kind == ContributorClass::periodic;
+    const double gain = turns ? std::abs(of_sinusoid(c)) : of_constant(c),
+                 lead = turns ? std::arg(of_sinusoid(c)) : 0.0;
+    const double behind = behind_ramp(c);
+    const double phase = 2.0 * M_PI * in_time.uniform(member, stream * kAxes + axis) + lead;
     const double correlation = c.kind == ContributorClass::random ? std::exp(-spacing / c.correlation_time) : 0.0;
     double noise = 0.0;
     for (std::size_t k = 0; k < samples; ++k) {
@@ -138,7 +199,7 @@ std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t
       double& e = out[k][static_cast<Eigen::Index>(axis)];
       switch (c.kind) {
         case ContributorClass::bias:
-          e = parameter;
+          e = gain * parameter;
           break;
         case ContributorClass::random: {
           const double fresh = standard_normal(in_time.uniform(member, stream * kAxes + axis, k + 1));
@@ -147,10 +208,15 @@ std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t
           break;
         }
         case ContributorClass::periodic:
-          e = parameter * std::sin(2.0 * M_PI * t / c.period + phase);
+          e = gain * parameter * std::sin(2.0 * M_PI * t / c.period + phase);
           break;
         case ContributorClass::drift:
-          e = parameter * (c.recalibrated ? t - static_cast<double>(k / observed) * observation : t + windows.start);
+          e = parameter *
+              (gain * (c.recalibrated ? t - static_cast<double>(k / observed) * observation : t + windows.start) +
+               behind);
+          break;
+        case ContributorClass::spectrum:
+        case ContributorClass::measured:
           break;
       }
     }

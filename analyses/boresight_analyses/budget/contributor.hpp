@@ -5,38 +5,49 @@
 //   periodic  a sinusoid of amplitude A and some period, its phase unknown
 //   drift     D t, from the beginning of the motion, whenever the history begins; recalibrated, of each observation
 //
-// or a standing error of the mechanism over time (error_course.hpp), which has no class of these.
+// or by its spectrum (noise.hpp), a stationary noise times a factor F; as it was measured over time (measured_course.hpp), times such a
+// factor; or a standing error of the mechanism over time (error_course.hpp). These have no class of ECSS'.
 //
-// B, s, A, D are the ensemble parameter: per axis, with a distribution over members. Two faces of one contributor: its
+// `through` is the transfer function between it and the pointing, of which classes see what is left once it has settled: a bias H(0), a
+// sinusoid |H| and its lead, a drift D the course D (H(0) t + H'(0)), noise its spectrum.
+//
+// B, s, A, D, F are the ensemble parameter: per axis, with a distribution over members. Two faces of one contributor: its
 // moments, for the classical table, and its course in time in one member, for the simulated one.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "boresight_analyses/budget/error_course.hpp"
 #include "boresight_analyses/budget/interpretation.hpp"
+#include "boresight_analyses/budget/measured_course.hpp"
+#include "boresight_analyses/budget/noise_course.hpp"
 #include "boresight_analyses/budget/window_filter.hpp"
 #include "boresight_analyses/random/distribution.hpp"
 
 namespace boresight {
 
-enum class ContributorClass { bias, random, periodic, drift };
+enum class ContributorClass { bias, random, periodic, drift, spectrum, measured };
 const char* to_string(ContributorClass kind);
 
 struct Contributor {
   std::string name;
   ContributorClass kind = ContributorClass::bias;
   std::array<DistributionPtr, 3> parameter =
-      {};                                    // of the ensemble, per axis; none where it does not act [SI; drift: per s]
-  double period = 0.0;                       // periodic [s]
-  double correlation_time = 0.0;             // random [s]
-  bool recalibrated = false;                 // with every observation a bias is another one, and a drift begins at zero
-  std::string group = {};                    // contributors of one group vary together; "": by itself
-  std::optional<ErrorCourse> of_error = {};  // in place of all but name and group
+      {};               // of the ensemble, per axis; none where it does not act [SI; drift: per s; a factor: 1]
+  double period = 0.0;  // periodic [s]
+  double correlation_time = 0.0;  // random [s]
+  bool recalibrated = false;      // with every observation a bias is another one, and a drift begins at zero
+  std::optional<TransferFunction> through = {};          // bias, periodic, drift; others have it in what follows
+  NoisePtr noise = {};                                   // spectrum; random with `through`, of deviation 1
+  std::shared_ptr<const NoiseCourse> noise_course = {};  // the same on the grid of the histories
+  std::shared_ptr<const MeasuredCourse> measured = {};   // measured
+  std::string group = {};                                // contributors of one group vary together; "": by itself
+  std::optional<ErrorCourse> of_error = {};              // in place of all but name and group
 };
 
 // Mean and standard deviation to enter in the budget of one index, by interpretation (ECSS-E-ST-60-10C, Tables B-1 to
@@ -45,7 +56,7 @@ struct Contributor {
 //   temporal   over time, with the worst case of the ensemble parameter: the end of its distribution, or three deviations
 //   mixed      over both; the variance of the conditional mean is part of it (law of total variance), which the
 //              standard's integral leaves out
-// `duration`: of the histories [s].
+// Of a spectrum the filters of the windows are integrated over it; of a measured course its index values count. `duration`: of the histories [s].
 Moments moments(const Contributor& contributor, int axis, ErrorIndex index, Interpretation interpretation,
                 const Windows& windows, double duration);
 

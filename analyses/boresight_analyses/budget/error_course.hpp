@@ -15,14 +15,10 @@
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight/pointing/indices.hpp"
 #include "boresight_analyses/budget/error_index.hpp"
-#include "boresight_analyses/budget/interpretation.hpp"
+#include "boresight_analyses/budget/member_moments.hpp"
 #include "boresight_analyses/random/distribution.hpp"
 
 namespace boresight {
-
-struct Moments {
-  double mean = 0.0, sd = 0.0;
-};
 
 struct ErrorCourse {
   std::string error;            // its name in the mechanism file

@@ -8,7 +8,10 @@
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/budget/budget_keys.hpp"
+#include "boresight_analyses/budget/budget_runs.hpp"
 #include "boresight_analyses/budget/line_kinds.hpp"
+#include "boresight_analyses/budget/read_measured_course.hpp"
+#include "boresight_analyses/budget/read_noise.hpp"
 #include "boresight_analyses/random/read_distribution.hpp"
 
 namespace boresight {
@@ -23,7 +26,8 @@ ContributorClass read_class(Cursor& table) {
 
 // A standing error of the mechanism over time.
 ErrorCourse read_error_course(Cursor& table, const BudgetPlan& plan, const MechanismDescription& mechanism) {
-  for (const char* key : {"class", "axes", "period", "correlation_time", "recalibrated"})
+  for (const char* key :
+       {"class", "axes", "period", "correlation_time", "recalibrated", "spectrum", "measured", "through"})
     if (table.has(key))
       table.fail_found(key, std::string("error and ") + key,
                        "error without it: course, factor and value say how a standing error varies");
@@ -70,6 +74,66 @@ ErrorCourse read_error_course(Cursor& table, const BudgetPlan& plan, const Mecha
   return error;
 }
 
+// The axes that it acts on, each with the parameter.
+void read_axes(Cursor& table, const BudgetAxes& axes, const DistributionPtr& parameter, Contributor& c) {
+  const std::vector<std::string> named = table.has("axes") ? table.texts("axes") : axes.names;
+  table.require(!named.empty(), "axes", "at least one axis");
+  for (const std::string& name : named) {
+    const auto at = std::find(axes.names.begin(), axes.names.end(), name);
+    if (at == axes.names.end())
+      table.fail_found("axes", "\"" + name + "\"", "an axis of the error", nearest_name(name, axes.names));
+    c.parameter[static_cast<std::size_t>(at - axes.names.begin())] = parameter;
+  }
+}
+
+// How a factor scatters over the members; 1 without the key.
+DistributionPtr read_factor(Cursor& table) {
+  if (!table.has("factor")) return make_discrete({1.0}, {1.0});
+  Cursor of = table.table("factor");
+  return read_distribution(of, kRatio);
+}
+
+void refuse_beside(Cursor& table, const std::string& kind, std::initializer_list<const char*> keys) {
+  for (const char* key : keys)
+    if (table.has(key))
+      table.fail_found(key, kind + " and " + key,
+                       kind + " without it: it says how the contributor goes in time, and factor how it scatters");
+}
+
+void set_noise(const Noise& noise, const BudgetPlan& plan, Contributor& c) {
+  c.noise = std::make_shared<const Noise>(noise);
+  c.noise_course = std::make_shared<const NoiseCourse>(noise, plan.sampling, samples_of(plan));
+}
+
+void read_spectrum(Cursor& table, const BudgetPlan& plan, const BudgetAxes& axes, const std::string& si_unit,
+                   Contributor& c) {
+  refuse_beside(
+      table, "spectrum",
+      {"measured", "class", "error", "course", "value", "distribution", "period", "correlation_time", "recalibrated"});
+  c.kind = ContributorClass::spectrum;
+  set_noise(read_noise(table, si_unit), plan, c);
+  read_axes(table, axes, read_factor(table), c);
+}
+
+void read_measured(Cursor& table, const BudgetPlan& plan, const BudgetAxes& axes, const std::string& si_unit,
+                   Contributor& c) {
+  refuse_beside(table, "measured",
+                {"class", "error", "course", "value", "distribution", "period", "correlation_time", "recalibrated"});
+  c.kind = ContributorClass::measured;
+  read_axes(table, axes, read_factor(table), c);
+  c.measured = read_measured_course(table, plan, c, si_unit);
+}
+
+// What the transfer functions leave of a class.
+void read_through_of_class(Cursor& table, const BudgetPlan& plan, Contributor& c) {
+  const std::vector<TransferFunction> through = read_through(table);
+  if (through.empty()) return;
+  if (c.kind == ContributorClass::random)
+    set_noise(Noise({.deviation = 1.0, .correlation_time = c.correlation_time}, through), plan, c);
+  else
+    c.through = in_a_row(through);
+}
+
 }  // namespace
 
 Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuantity quantity,
@@ -86,13 +150,21 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuan
     table.finish();
     return c;
   }
-  for (const char* key : {"course", "factor"})
-    if (table.has(key)) table.fail(key, "this beside error only");
-  if (!table.has("class")) table.fail("class", "a class, or error for a standing error of the mechanism");
+  const bool angle = quantity != PointingQuantity::position_error;
+  if (table.has("spectrum") || table.has("measured")) {
+    (table.has("spectrum") ? read_spectrum : read_measured)(table, plan, axes, angle ? "rad" : "m", c);
+    c.group = table.text("group", "");
+    table.finish();
+    return c;
+  }
+  if (table.has("course")) table.fail("course", "this beside error only");
+  if (table.has("factor")) table.fail("factor", "this beside error, spectrum or measured only");
+  if (!table.has("class"))
+    table.fail("class", "a class, a spectrum, a measured course, or error for a standing error of the mechanism");
   c.kind = read_class(table);
   const bool periodic = c.kind == ContributorClass::periodic, random = c.kind == ContributorClass::random;
 
-  const bool angle = quantity != PointingQuantity::position_error, drift = c.kind == ContributorClass::drift;
+  const bool drift = c.kind == ContributorClass::drift;
   const SiUnit of = angle ? (drift ? kAngularRate : kAngle) : (drift ? kSpeed : kLength);
   if (table.has("value") == table.has("distribution"))
     table.fail("distribution", "a distribution, or a value, and not both");
@@ -103,14 +175,7 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuan
     Cursor distribution = table.table("distribution");
     parameter = read_distribution(distribution, of);
   }
-  const std::vector<std::string> named = table.has("axes") ? table.texts("axes") : axes.names;
-  table.require(!named.empty(), "axes", "at least one axis");
-  for (const std::string& name : named) {
-    const auto at = std::find(axes.names.begin(), axes.names.end(), name);
-    if (at == axes.names.end())
-      table.fail_found("axes", "\"" + name + "\"", "an axis of the error", nearest_name(name, axes.names));
-    c.parameter[static_cast<std::size_t>(at - axes.names.begin())] = parameter;
-  }
+  read_axes(table, axes, parameter, c);
 
   if (table.has("period") && !periodic) table.fail("period", "a period with class = \"periodic\" only");
   if (periodic && !table.has("period")) table.fail("period", "a period, which class = \"periodic\" needs");
@@ -121,6 +186,7 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuan
   c.recalibrated = table.boolean("recalibrated");
   if (c.recalibrated && (periodic || random))
     table.fail("recalibrated", "this with class = \"bias\" or \"drift\" only");
+  read_through_of_class(table, plan, c);
   c.group = table.text("group", "");
   table.finish();
   return c;

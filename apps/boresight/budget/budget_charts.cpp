@@ -59,7 +59,7 @@ report::Chart level_chart(const BudgetStudy& s, const Budget& b) {
   rule.y = by_rule;
   chart.series = {simulated, rule};
   for (const RequirementAnswer& r : b.requirements)
-    if (r.asked.index == b.headline.index && r.asked.axis == b.headline.axis)
+    if (r.asked.index == b.headline.index && r.asked.axis == b.headline.axis && r.asked.exposure == 0.0)
       chart.lines.push_back(
           {'y', r.asked.limit * unit.per_si,
            "limit of " + level_title(axes, r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability)});
@@ -103,7 +103,7 @@ report::Chart waterfall_chart(const BudgetStudy& s, const Budget& b) {
     series.y = y;
     chart.series.push_back(std::move(series));
   }
-  if (!b.requirements.empty()) {
+  if (headline_answer(b) != nullptr) {
     chart.lines.push_back({'x', b.headline.limit * unit.per_si, "limit " + budget_value(s, b.headline.limit)});
     farthest = std::max(farthest, b.headline.limit / level);
   }
@@ -142,7 +142,7 @@ report::Chart distribution_chart(const BudgetStudy& s, const Budget& b) {
   };
   curve_of("mixed", pooled, report::Style::line);
   curve_of("ensemble", maxima, report::Style::steps);
-  if (!b.requirements.empty())
+  if (headline_answer(b) != nullptr)
     chart.lines.push_back({'x', b.headline.limit * unit.per_si, "limit " + budget_value(s, b.headline.limit)});
   return chart;
 }

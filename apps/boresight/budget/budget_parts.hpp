@@ -1,9 +1,12 @@
 // The tables and charts of a pointing budget's report, and the words they share.
 #pragma once
 
+#include <iosfwd>
 #include <string>
+#include <vector>
 
 #include "budget/budget_report.hpp"
+#include "results/scatter_parts.hpp"
 #include "terminal/readable.hpp"
 
 namespace boresight::app {
@@ -27,5 +30,18 @@ report::Chart level_chart(const BudgetStudy& study, const Budget& budget);
 report::Chart waterfall_chart(const BudgetStudy& study, const Budget& budget);
 report::Chart distribution_chart(const BudgetStudy& study, const Budget& budget);
 report::Panels history_panels(const BudgetStudy& study, const Budget& budget);
+
+// Of sub-budgets.
+report::Section tree_section(const BudgetStudy& study, const Budget& budget);
+Json tree_json(const Budget& budget);
+std::vector<std::string> tree_warnings(const BudgetStudy& study, const Budget& budget);
+// Of requirements by exposure time.
+report::Section jitter_section(const BudgetStudy& study, const Budget& budget);
+Json jitter_json(const BudgetStudy& study, const Budget& budget);
+// Of contributors with a spectrum.
+report::Section spectra_section(const BudgetStudy& study, const Budget& budget);
+void write_spectra(std::ostream& out, const BudgetStudy& study, const Budget& budget);
+Json spectra_json(const Budget& budget);
+std::vector<std::string> spectra_warnings(const BudgetStudy& study, const Budget& budget);
 
 }  // namespace boresight::app

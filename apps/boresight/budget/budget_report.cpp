@@ -56,7 +56,10 @@ std::vector<BudgetSource> budget_sources(const BudgetStudy& s) {
        fmt::format("the first {} members in all variants: groups held, clearances halved", r.attribution()),
        std::to_string(r.drawn(0)) + to + std::to_string(r.drawn(r.attribution()) - 1)},
       {kFromClasses,
-       "formulas of ECSS-E-ST-60-10C from the study's contributors, and the clearances' and groups' moments", ""}};
+       "formulas of ECSS-E-ST-60-10C from the study's contributors, the windows' filters integrated over their "
+       "spectra, and "
+       "the clearances' and groups' moments",
+       ""}};
   const bool of_errors = std::any_of(s.plan.contributors.begin(), s.plan.contributors.end(),
                                      [](const Contributor& c) { return c.of_error.has_value(); });
   if (of_errors || !s.plan.known.empty())
@@ -92,6 +95,18 @@ std::string level_title(const BudgetAxes& axes, ErrorIndex index, std::size_t ax
                      percent(probability));
 }
 
+std::string requirement_title(const BudgetStudy& s, const BudgetRequirement& r) {
+  const std::string over = r.exposure > 0.0 ? " over " + readable(r.exposure, "s") : "";
+  return fmt::format("{}{}, {}, {}, {}", to_string(r.index), over, s.axes().name(r.axis), to_string(r.interpretation),
+                     percent(r.probability));
+}
+
+const RequirementAnswer* headline_answer(const Budget& b) {
+  const auto at = std::find_if(b.requirements.begin(), b.requirements.end(),
+                               [](const RequirementAnswer& r) { return r.asked.exposure == 0.0; });
+  return at == b.requirements.end() ? nullptr : &*at;
+}
+
 std::string budget_value(const BudgetStudy& s, double value) {
   const std::string written = s.plan.written_unit();
   if (written.empty() && s.study.index.si_unit() == "rad") return readable_arcsec(value);
@@ -102,10 +117,9 @@ std::string requirement_sentence(const BudgetStudy& s, const RequirementAnswer& 
   const auto in_its_unit = [&](double value) {
     return r.asked.unit.empty() ? budget_value(s, value) : readable_as(value, s.study.index.si_unit(), r.asked.unit);
   };
-  std::string text = fmt::format(
-      "{}: {}, limit {}: {}",
-      level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability),
-      in_its_unit(r.level.level.value), in_its_unit(r.asked.limit), r.compliance.met ? "met" : "not shown to be met");
+  std::string text =
+      fmt::format("{}: {}, limit {}: {}", requirement_title(s, r.asked), in_its_unit(r.level.level.value),
+                  in_its_unit(r.asked.limit), r.compliance.met ? "met" : "not shown to be met");
   if (r.compliance.met)
     text += fmt::format(" with {} confidence, margin {}", percent(r.asked.confidence),
                         readable_share(r.margin() / r.asked.limit));
@@ -167,11 +181,10 @@ report::Document budget_report(const BudgetStudy& s) {
                             .value = budget_value(s, headline.level.value),
                             .note = fmt::format("{}, {}; {}", to_string(b.headline.interpretation),
                                                 percent(b.headline.probability), interval_text(s, headline.level))});
-  if (!b.requirements.empty()) {
+  if (const RequirementAnswer* answer = headline_answer(b)) {
     document.facts.push_back({.label = "Limit", .value = budget_value(s, b.headline.limit)});
-    document.facts.push_back({.label = "Margin",
-                              .value = readable_share(b.requirements.front().margin() / b.headline.limit),
-                              .note = "of the limit"});
+    document.facts.push_back(
+        {.label = "Margin", .value = readable_share(answer->margin() / b.headline.limit), .note = "of the limit"});
   }
   document.facts.push_back({.label = "Classical rule",
                             .value = budget_value(s, headline.by_rule),
@@ -185,7 +198,8 @@ report::Document budget_report(const BudgetStudy& s) {
   if (!b.contributions.empty())
     document.sections.push_back({.id = "contributions",
                                  .title = "Who contributes, and what to tighten first",
-                                 .intro = "Shares and gains are of the first requirement: " +
+                                 .intro = (headline_answer(b) ? "Shares and gains are of the first requirement: "
+                                                              : "Shares and gains are of ") +
                                           level_title(s.axes(), b.headline.index, b.headline.axis,
                                                       b.headline.interpretation, b.headline.probability) +
                                           ".",
@@ -197,6 +211,9 @@ report::Document budget_report(const BudgetStudy& s) {
   for (const ClassicalTable& t : b.tables)
     if (t.interpretation == b.headline.interpretation) classical.items.emplace_back(classical_table(s, t));
   document.sections.push_back(std::move(classical));
+  if (!b.parts.empty()) document.sections.push_back(tree_section(s, b));
+  if (!b.jitter.empty()) document.sections.push_back(jitter_section(s, b));
+  if (!b.spectral.empty()) document.sections.push_back(spectra_section(s, b));
   document.sections.push_back({.id = "histories",
                                .title = "The histories behind it",
                                .items = {distribution_chart(s, b), history_panels(s, b)}});

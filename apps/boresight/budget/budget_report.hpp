@@ -53,6 +53,10 @@ std::string posterior_origin(const BudgetPlan& plan);
 // "APE, half cone, mixed, 95 %": of a level or a requirement.
 std::string level_title(const BudgetAxes& axes, ErrorIndex index, std::size_t axis, Interpretation interpretation,
                         double probability);
+// Of a requirement; of jitter with its exposure: "RPE over 10 ms, half cone, mixed, 95 %".
+std::string requirement_title(const BudgetStudy& study, const BudgetRequirement& asked);
+// The answer to the requirement that shares and reliefs are about; null: there is none.
+const RequirementAnswer* headline_answer(const Budget& budget);
 // Angles in arcsec, lengths in the unit that suits them.
 std::string budget_value(const BudgetStudy& study, double value);
 std::string requirement_sentence(const BudgetStudy& study, const RequirementAnswer& answer);

@@ -28,6 +28,15 @@ std::string spread_text(const Distribution& d, const std::function<std::string(d
   return out;
 }
 
+std::string measured_text(const MeasuredCourse& m) {
+  std::string out = fmt::format("measured, {} rows over {}", m.record().time.size(), readable(m.length(), "s"));
+  out += m.record().begin == MeasuredCourse::Begin::anywhere ? ", each member from a place of its own"
+                                                             : ", the same in every member";
+  if (m.record().ends != MeasuredCourse::Ends::refused) out += fmt::format("; ends {}", to_string(m.record().ends));
+  if (m.jump() > 0.0) out += fmt::format(", with a jump of {} of its range there", readable_share(m.jump()));
+  return out;
+}
+
 // A standing error over time: its course, and what scatters it.
 std::vector<nlohmann::json> of_error_row(const Contributor& c) {
   const ErrorCourse& e = *c.of_error;
@@ -88,9 +97,8 @@ report::Table requirement_table(const BudgetStudy& s, const Budget& b) {
                   {"Source"}}};
   for (const RequirementAnswer& r : b.requirements)
     table.rows.push_back(
-        {level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability),
-         budget_value(s, r.asked.limit), budget_value(s, r.level.level.value), interval_text(s, r.level.level),
-         readable_share(r.margin() / r.asked.limit),
+        {requirement_title(s, r.asked), budget_value(s, r.asked.limit), budget_value(s, r.level.level.value),
+         interval_text(s, r.level.level), readable_share(r.margin() / r.asked.limit),
          fmt::format("{:.4g} % with {} confidence", 100.0 * r.compliance.shown, percent(r.asked.confidence)),
          r.compliance.met ? "met" : "not shown to be met",
          fmt::format("{} ({})", budget_value(s, r.level.by_rule), r.rule_says_met() ? "met" : "not met"),
@@ -171,7 +179,7 @@ report::Table relief_table(const BudgetStudy& s, const Budget& b) {
                   {"Gain, high"},
                   {"Margin then"},
                   {"Source"}}};
-  const bool asked = !b.requirements.empty();
+  const bool asked = headline_answer(b) != nullptr;
   for (const ErrorReduction& r : b.reductions)
     table.rows.push_back(
         {r.name, r.action, budget_value(s, r.before), budget_value(s, r.after), budget_value(s, r.gain()),
@@ -230,13 +238,19 @@ report::Table contributor_table(const BudgetStudy& s) {
     std::string axes, spread, in_time = c.kind == ContributorClass::bias ? "constant" : "linear";
     if (c.recalibrated) in_time += ", anew with every observation";
     if (c.kind == ContributorClass::periodic) in_time = "period " + readable(c.period, "s");
+    if (c.kind == ContributorClass::spectrum)
+      in_time = "stationary noise by its spectrum, deviation " + budget_value(s, std::sqrt(c.noise->power_from(0.0)));
+    if (c.measured) in_time = measured_text(*c.measured);
     if (c.kind == ContributorClass::random) in_time = "correlation time " + readable(c.correlation_time, "s");
     for (std::size_t a = 0; a < s.axes().count(); ++a) {
       if (!c.parameter[a]) continue;
       axes += (axes.empty() ? "" : ", ") + s.axes().names[a];
       const std::string per = c.kind == ContributorClass::drift ? "/s" : "";
-      spread = spread_text(*c.parameter[a], [&](double v) { return budget_value(s, v) + per; });
+      const bool factor = c.kind == ContributorClass::spectrum || c.kind == ContributorClass::measured;
+      spread = factor ? "factor " + spread_text(*c.parameter[a], [](double v) { return readable_number(v); })
+                      : spread_text(*c.parameter[a], [&](double v) { return budget_value(s, v) + per; });
     }
+    if (c.through) in_time += ", through its transfer functions once settled";
     table.rows.push_back({c.name, to_string(c.kind), in_time, spread, axes, kFromClasses});
   }
   return table;

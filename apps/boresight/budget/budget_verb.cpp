@@ -11,6 +11,7 @@
 #include "boresight_analyses/budget/follow_errors.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/runs/stored_runs.hpp"
+#include "budget/budget_parts.hpp"
 #include "budget/budget_report.hpp"
 #include "command_line/study_input.hpp"
 #include "command_line/verb.hpp"
@@ -109,6 +110,7 @@ Json budget_json(const BudgetStudy& s, const Budget& b) {
   for (const RequirementAnswer& r : b.requirements) {
     Json one = level_json(s, r.level, r.asked.probability);
     one["limit"] = r.asked.limit;
+    if (r.asked.exposure > 0.0) one["exposure"] = r.asked.exposure;
     one["asked_confidence"] = r.asked.confidence;
     one["met"] = r.compliance.met;
     one["margin"] = r.margin();
@@ -137,6 +139,9 @@ Json budget_json(const BudgetStudy& s, const Budget& b) {
                                      {"gain_low", number_json(r.interval.low)},
                                      {"gain_high", number_json(r.interval.high)},
                                      {"source", kFromAttribution}});
+  if (!b.parts.empty()) json["parts"] = tree_json(b);
+  if (!b.jitter.empty()) json["jitter"] = jitter_json(s, b);
+  if (!b.spectral.empty()) json["spectra"] = spectra_json(b);
   return json;
 }
 
@@ -204,7 +209,9 @@ class BudgetVerb : public Verb {
     whole = whole && !steps.interrupted;
 
     std::optional<Budget> budget;
-    if (whole) budget = budget_of(plan, runs, *mechanism, study.index.kind(), store, look_at_requirements(plan, store));
+    if (whole)
+      budget = budget_of(plan, runs, *mechanism, study.index.kind(), store,
+                         look_at_requirements(plan, BudgetAxes(study.index.kind()), store));
     BudgetStudy result{.command = command,
                        .study = study,
                        .mechanism = *mechanism,
@@ -291,15 +298,13 @@ class BudgetVerb : public Verb {
                       readable_share(seen.missed)));
     for (const RequirementAnswer& r : b.requirements)
       if (!r.compliance.met && b.members < r.compliance.fewest)
-        warnings.push_back(
-            fmt::format("{} cannot be shown with {} members, whatever they give: it takes {}",
-                        level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability),
-                        b.members, r.compliance.fewest));
+        warnings.push_back(fmt::format("{} cannot be shown with {} members, whatever they give: it takes {}",
+                                       requirement_title(s, r.asked), b.members, r.compliance.fewest));
     for (const RequirementAnswer& r : b.requirements)
       if (r.rule_says_met() && r.margin() < 0.0)
-        warnings.push_back(fmt::format(
-            "{}: the classical rule would have said met",
-            level_title(s.axes(), r.asked.index, r.asked.axis, r.asked.interpretation, r.asked.probability)));
+        warnings.push_back(fmt::format("{}: the classical rule would have said met", requirement_title(s, r.asked)));
+    for (const auto& more : {tree_warnings(s, b), spectra_warnings(s, b)})
+      warnings.insert(warnings.end(), more.begin(), more.end());
     return warnings;
   }
 
@@ -343,6 +348,10 @@ class BudgetVerb : public Verb {
       out.write("classical.csv", [&](std::ostream& stream) { write_classical(stream, s, *s.budget); });
       out.write("contributions.csv", [&](std::ostream& stream) { write_contributions(stream, *s.budget); });
       for (const char* file : {"levels.csv", "classical.csv", "contributions.csv"}) files.emplace_back(file);
+      if (!s.budget->spectral.empty()) {
+        out.write("spectra.csv", [&](std::ostream& stream) { write_spectra(stream, s, *s.budget); });
+        files.emplace_back("spectra.csv");
+      }
     }
     json["sources"] = sources_json(s);
     json["files"] = files;

@@ -19,11 +19,11 @@ namespace {
 
 // The files by which a directory is known to hold results although its summary.json is missing.
 const std::vector<std::string> kResultFiles = {
-    "report.html",    "timeseries.csv",  "events.csv",       "poincare.csv",   "parts.csv",
-    "sweep.csv",      "restitution.csv", "samples.db",       "sobol.csv",      "local.csv",
-    "posterior.toml", "limits.csv",      "growth.csv",       "allocation.csv", "evaluations.csv",
-    "levels.csv",     "rungs.csv",       "evaluations.db",   "chart.csv",      "flight.csv",
-    "unfinished.db",  "confirmation.db", "conditioning.csv", "classical.csv",  "report.json"};
+    "report.html",     "timeseries.csv", "events.csv",      "poincare.csv",    "parts.csv",        "sweep.csv",
+    "restitution.csv", "samples.db",     "sobol.csv",       "local.csv",       "posterior.toml",   "limits.csv",
+    "growth.csv",      "allocation.csv", "evaluations.csv", "levels.csv",      "rungs.csv",        "evaluations.db",
+    "chart.csv",       "flight.csv",     "unfinished.db",   "confirmation.db", "conditioning.csv", "classical.csv",
+    "spectra.csv",     "report.json"};
 
 enum class Owner { nobody, this_study, another_study, unknown };
 

@@ -119,6 +119,131 @@ TEST_F(BudgetPlanTest, MistakesAreOneLineWithFileLineAndKey) {
        "a second time");
 }
 
+TEST_F(BudgetPlanTest, ReadsSpectraWithTheirUnitsAndWhatTheyGoThrough) {
+  const BudgetPlan plan = read(R"(
+window = "50 ms"
+[[budget.contributor]]
+name = "gyro"
+spectrum = { white = "4 arcsec^2/Hz", flicker = "2 arcsec^2/Hz", exponent = 1.5, lower = "0.1 Hz", upper = "100 Hz" }
+axes = ["y"]
+factor = { uniform = { min = 0.5, max = 1.5 } }
+[[budget.contributor]]
+name = "wind"
+spectrum = { white = "9 (N m)^2/Hz", of = "N m" }
+through = [{ ratio = { numerator = [1], denominator = [2, 0.5, 800] } }, { sensitivity = { frequency = "2 Hz", damping = 0.7 } }]
+)");
+  ASSERT_EQ(plan.contributors.size(), 2u);
+  const Contributor &gyro = plan.contributors[0], &wind = plan.contributors[1];
+  EXPECT_EQ(gyro.kind, ContributorClass::spectrum);
+  EXPECT_FALSE(gyro.parameter[0]);
+  EXPECT_NEAR(gyro.parameter[1]->sd(), 1.0 / std::sqrt(12.0), 1e-9);
+  EXPECT_NEAR(gyro.noise->at(4.0) / (arcsec_ * arcsec_), 4.0 + 2.0 / 8.0, 1e-9);
+  EXPECT_EQ(gyro.noise->at(0.09), 0.0);
+  const double w = 2.0 * M_PI * 3.0;
+  EXPECT_NEAR(wind.noise->at(3.0) / (9.0 * TransferFunction::sensitivity(2.0, 0.7).power(3.0) /
+                                     (std::pow(800.0 - 2.0 * w * w, 2) + 0.25 * w * w)),
+              1.0, 1e-9);
+  EXPECT_EQ(wind.noise_course->samples(), 2000u);
+  // Another spectrum is another question of the requirements.
+  const std::string asked = question_of(plan, {});
+  BudgetPlan other = plan;
+  other.contributors[0].noise = std::make_shared<const Noise>(PowerDensity{.white = 1e-12, .upper = 10.0});
+  EXPECT_NE(question_of(other, {}), asked);
+}
+
+TEST_F(BudgetPlanTest, MistakesInASpectrumAreOneLineWithFileLineAndKey) {
+  const auto says = [&](const std::string& lines, const std::string& words) {
+    EXPECT_THAT(fault("[[budget.contributor]]\nname = \"a\"\n" + lines + "\n"),
+                AllOf(HasSubstr("study.toml:"), HasSubstr("budget.contributor.a"), HasSubstr(words)))
+        << lines;
+  };
+  const std::string white = "spectrum = { white = \"1 arcsec^2/Hz\" }\n";
+  const std::string band = "spectrum = { white = \"1 arcsec^2/Hz\", upper = \"9 Hz\" }\n";
+  says(white, "an upper frequency, without which the variance has no bound");
+  says("spectrum = { flicker = \"1 arcsec^2/Hz\", upper = \"9 Hz\" }", "a lower frequency");
+  says(white + "through = [{ sensitivity = { frequency = \"2 Hz\", damping = 0.7 } }]", "an upper frequency");
+  says("spectrum = { white = \"1 arcsec/Hz\" }", "a power spectral density");
+  says("spectrum = { white = \"1 um^2/Hz\" }", "a power spectral density");
+  says("spectrum = {}", "white, flicker or table");
+  says("spectrum = { white = \"1 arcsec^2/Hz\", lower = \"9 Hz\", upper = \"9 Hz\" }", "more than lower");
+  says("spectrum = { white = \"1 arcsec^2/Hz\", exponent = 1, upper = \"9 Hz\" }", "flicker beside it");
+  says("spectrum = { white = \"1 N2/Hz\", of = \"N\" }", "through beside it");
+  says("spectrum = { white = \"1 N2/Hz\", of = \"bogus\" }\nthrough = [{ first_order = { bandwidth = \"1 Hz\" } }]",
+       "a unit, such as");
+  says(band + "class = \"bias\"", "spectrum without it");
+  says(band + "value = \"1 arcsec\"", "spectrum without it");
+  says(band + "through = [{ ratio = { numerator = [1], denominator = [1, -1] } }]", "negative real parts");
+  says(band + "through = [{ ratio = { numerator = [1, 0, 0], denominator = [1, 1] } }]", "no higher power");
+  says(band + "through = [{ ratio = { numerator = [0], denominator = [1, 1] } }]", "a coefficient that is not zero");
+  says(band + "through = [{}]", "one of first_order, second_order");
+  says(band + "through = [{ loop = { numerator = [10], denominator = [1, 0], seen_by = \"wind\" } }]", "disturbance");
+  says("spectrum = { table = { file = \"none.csv\", frequency = \"f\", density = \"s\", unit = \"arcsec^2/Hz\" } }",
+       "none.csv");
+}
+
+TEST_F(BudgetPlanTest, RequirementsByExposureTimeAreOneEachWithAWindowOfTheirOwn) {
+  const BudgetPlan plan = read(R"(
+[[budget.requirement]]
+index = "RPE"
+axis = "x"
+exposures = ["2 ms", "20 ms", "0.2 s"]
+limits = ["1 arcsec", "2 arcsec", "3 arcsec"]
+probability = 0.9
+)");
+  ASSERT_EQ(plan.requirements.size(), 3u);
+  EXPECT_EQ(plan.requirements[1].exposure, 0.02);
+  EXPECT_NEAR(plan.requirements[1].limit, 2 * arcsec_, 1e-15);
+  EXPECT_EQ(plan.windows_of(plan.requirements[1]).window, 0.02);
+  // Shares are of an index over all of the budget: none of these.
+  EXPECT_EQ(plan.headline(BudgetAxes(PointingQuantity::boresight_error)).index, ErrorIndex::ape);
+  EXPECT_NE(question_of(plan, plan.requirements[0]), question_of(plan, plan.requirements[1]));
+  const auto says = [&](const std::string& lines, const std::string& words) {
+    EXPECT_THAT(fault("[[budget.requirement]]\n" + lines),
+                AllOf(HasSubstr("study.toml:"), HasSubstr("budget"), HasSubstr(words)));
+  };
+  const std::string both = "exposures = [\"2 ms\"]\nlimits = [\"1 arcsec\"]\n";
+  says(both, "with index = \"RPE\" only");
+  says("index = \"RPE\"\n" + both + "limit = \"1 arcsec\"\n", "limits, one for each exposure");
+  says("index = \"RPE\"\nexposures = [\"2 ms\", \"3 ms\"]\nlimits = [\"1 arcsec\"]\n", "one for each exposure");
+  says("index = \"RPE\"\nexposures = [\"0.6 ms\"]\nlimits = [\"1 arcsec\"]\n", "at least two samples");
+  says("index = \"RPE\"\nexposures = [\"9 s\"]\nlimits = [\"1 arcsec\"]\n", "no longer than an observation");
+  says("index = \"RPE\"\nlimits = [\"1 arcsec\"]\n", "exposures beside it");
+  says("index = \"APE\"\n", "limit");
+}
+
+TEST_F(BudgetPlanTest, PartsMakeATree) {
+  const std::string contributors =
+      "[[budget.contributor]]\nname = \"a\"\nclass = \"bias\"\nvalue = \"1 arcsec\"\n"
+      "[[budget.contributor]]\nname = \"b\"\nclass = \"bias\"\nvalue = \"1 arcsec\"\n";
+  const BudgetPlan plan = read(contributors + R"(
+[[budget.part]]
+name = "all"
+allocated = "9 arcsec"
+[[budget.part]]
+name = "inner"
+within = "all"
+contributors = ["b"]
+mechanism = true
+)");
+  ASSERT_EQ(plan.parts.size(), 2u);
+  EXPECT_NEAR(plan.parts[0].allocated, 9 * arcsec_, 1e-15);
+  EXPECT_EQ(plan.parts[1].contributors, (std::vector<std::size_t>{1}));
+  EXPECT_TRUE(plan.parts[1].mechanism);
+  const auto says = [&](const std::string& parts, const std::string& words) {
+    EXPECT_THAT(fault(contributors + parts),
+                AllOf(HasSubstr("study.toml:"), HasSubstr("budget.part"), HasSubstr(words)))
+        << parts;
+  };
+  const std::string part = "[[budget.part]]\nname = \"p\"\n", other = "[[budget.part]]\nname = \"q\"\n";
+  says(part, "contributors, the mechanism or parts within it");
+  says(part + "contributors = [\"c\"]\n", "the name of a contributor");
+  says(part + "contributors = [\"a\"]\n" + other + "contributors = [\"a\"]\n", "each contributor in one part");
+  says(part + "mechanism = true\n" + other + "mechanism = true\n", "the mechanism in one part");
+  says(part + "mechanism = true\nwithin = \"z\"\n", "the name of a part");
+  says(part + "within = \"q\"\n" + other + "within = \"p\"\n", "a part that is not");
+  says(part + "mechanism = true\n" + part + "mechanism = true\n", "each part once");
+}
+
 TEST_F(BudgetPlanTest, AnObservationMayTakeTheWholeMotionAndNoMore) {
   const std::string whole = std::to_string(mechanism_->duration()) + " s",
                     more = std::to_string(1.001 * mechanism_->duration()) + " s";

@@ -190,7 +190,7 @@ TEST(ErrorCourses, MistakesAreOneLineWithFileLineAndKey) {
        "a course, which factor multiplies");
   says(kBudget + contributor("error = \"offset\"\ncourse = \"1 + tt\"\n"), "course");
   says(kBudget + contributor("class = \"bias\"\nvalue = \"1 mrad\"\ncourse = \"t\"\n"), "beside error only");
-  says(kBudget + contributor("value = \"1 mrad\"\n"), "a class, or error");
+  says(kBudget + contributor("value = \"1 mrad\"\n"), "or error for a standing error");
   says(kRippleDrawn + kBudget + contributor("error = \"ripple\"\nvalue = \"1 mrad\"\n"),
        "which [[random]] scatters too");
 }

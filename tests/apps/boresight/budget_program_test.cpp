@@ -184,6 +184,30 @@ posterior = "calibration/posterior.toml"
   EXPECT_THAT(both.err, HasSubstr("and not both"));
 }
 
+TEST_F(BudgetProgram, OfASpectrumSaysWhatTheWindowsKeepTwice) {
+  const auto with = [&](const std::string& upper) {
+    study("[[budget.contributor]]\nname = \"gyro\"\nspectrum = { white = \"1 arcsec^2/Hz\", upper = \"" + upper +
+              "\" }\n",
+          "60");
+    const Ended ended = call(arguments());
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return ended.out;
+  };
+  EXPECT_THAT(with("1 kHz"), Not(HasSubstr("gyro, ")));
+  const auto summary = json("out/summary.json");
+  ASSERT_EQ(summary["spectra"].size(), 3u);
+  EXPECT_EQ(summary["spectra"][0]["index"], "APE");
+  EXPECT_NEAR(summary["spectra"][0]["by_filter"].get<double>(), std::sqrt(1000.0) * M_PI / 180.0 / 3600.0, 1e-12);
+  EXPECT_FALSE(summary["spectra"][1]["differs"].get<bool>());
+  EXPECT_THAT(text("out/spectra.csv"),
+              AllOf(HasSubstr("of,frequency,density\n"), HasSubstr("\ngyro,"), HasSubstr("\n,")));
+  EXPECT_THAT(text("out/report.html"),
+              AllOf(HasSubstr("Power spectral densities"), HasSubstr("What the windows keep")));
+  // Five thousand samples a second hold half of this one, and a window of ten of them keeps another share of the rest.
+  EXPECT_THAT(with("5 kHz"), AllOf(HasSubstr("above half the sampling's frequency"), HasSubstr("gyro, MPE: "),
+                                   HasSubstr("they differ")));
+}
+
 // Twelve joints that follow one motion: their errors add up in time, and are anything but independent.
 TEST_F(BudgetProgram, ClearancesThatFollowOneMotionAddUpAndRootSumSquareIsUnsafe) {
   std::ofstream(folder_ / "study.toml")

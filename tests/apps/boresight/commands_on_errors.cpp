@@ -111,6 +111,20 @@ std::vector<Command> commands_on_errors() {
            }},
       {.text = "boresight calibrate examples/altaz-gimbal/calibrate.toml --make-data \"1 arcsec\" --make-samples 50 "
                "--make-seed 3"},
+      // "The longest exposure is not met"; "They agree"
+      {.text = "boresight budget examples/altaz-gimbal/jitter.toml --set motion.drives.azimuth=0.3 --set "
+               "motion.drives.elevation=pi/4",
+       .claims =
+           [](const Left& left) {
+             const auto& asked = left.summary["requirements"];
+             ASSERT_EQ(asked.size(), 4u);
+             EXPECT_TRUE(asked[0]["met"].get<bool>());
+             EXPECT_TRUE(asked[1]["met"].get<bool>());
+             EXPECT_FALSE(asked[2]["met"].get<bool>());
+             for (const auto& one : left.summary["spectra"]) EXPECT_FALSE(one["differs"].get<bool>()) << one;
+             EXPECT_EQ(left.summary["parts"].size(), 5u);
+           },
+       .status = 1},
       // "says which errors use up play"
       {.text = "boresight check examples/altaz-gimbal/bearing-pairs.toml",
        .claims =

@@ -1,0 +1,17 @@
+// The measured course of a [[budget.contributor]]:
+//
+//   measured = { file = "floor.csv", time = "t", columns = ["x", "y"], unit = "arcsec", ends = "repeated", begin = "anywhere" }
+#pragma once
+
+#include <memory>
+
+#include "boresight/io/cursor.hpp"
+#include "boresight_analyses/budget/budget_plan.hpp"
+
+namespace boresight {
+
+// On the plan's grid; the axes are those that have a parameter already. `si_unit`: of the index. Throws InputError.
+std::shared_ptr<const MeasuredCourse> read_measured_course(Cursor& contributor, const BudgetPlan& plan,
+                                                           const Contributor& axes, const std::string& si_unit);
+
+}  // namespace boresight
