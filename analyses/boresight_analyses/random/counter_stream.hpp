@@ -12,15 +12,16 @@ namespace boresight {
 
 // What a stream is for; streams of different purposes never meet. The numbers are part of every stored study.
 enum class StreamPurpose : std::uint64_t {
-  sample = 1,        // coordinates of independent samples
-  scrambling = 2,    // of a net
-  permutation = 3,   // of a Latin hypercube's strata
-  within_cell = 4,   // where in its cell a point of a hypercube or a net lies
-  resampling = 5,    // bootstrap
-  subset = 6,        // chains of subset simulation
-  proposal = 7,      // draws of importance sampling, starts of its mixture
-  budget_value = 8,  // what a member's external errors are
-  budget_course = 9  // and how they go in time
+  sample = 1,         // coordinates of independent samples
+  scrambling = 2,     // of a net
+  permutation = 3,    // of a Latin hypercube's strata
+  within_cell = 4,    // where in its cell a point of a hypercube or a net lies
+  resampling = 5,     // bootstrap
+  subset = 6,         // chains of subset simulation
+  proposal = 7,       // draws of importance sampling, starts of its mixture
+  budget_value = 8,   // what a member's external errors are
+  budget_course = 9,  // and how they go in time
+  posterior = 12      // chains of a posterior
 };
 
 class CounterStream {
