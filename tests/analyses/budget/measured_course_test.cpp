@@ -9,7 +9,7 @@
 #include "boresight_analyses/budget/course_filter.hpp"
 
 namespace boresight {
-namespace {
+namespace measured_course_test {
 
 using Ends = MeasuredCourse::Ends;
 using Begin = MeasuredCourse::Begin;
@@ -158,5 +158,5 @@ TEST(Contributor, OfAClassIsSeenThroughATransferFunctionAsItSettles) {
               1.5 * 0.3, 1e-12);
 }
 
-}  // namespace
+}  // namespace measured_course_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "boresight_analyses/budget/spectral_level.hpp"
 
 namespace boresight {
-namespace {
+namespace noise_course_test {
 
 using Complex = std::complex<double>;
 
@@ -166,5 +166,5 @@ TEST(SpectralLevels, FlagWhereTheSamplesAreTooFarApartForTheWindow) {
   EXPECT_GT(levels[1].simulated, 1.1 * levels[1].by_filter);
 }
 
-}  // namespace
+}  // namespace noise_course_test
 }  // namespace boresight

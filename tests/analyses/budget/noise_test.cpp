@@ -11,7 +11,7 @@
 #include "boresight_analyses/budget/window_filter.hpp"
 
 namespace boresight {
-namespace {
+namespace noise_test {
 
 using Complex = std::complex<double>;
 
@@ -186,5 +186,5 @@ TEST(TransferFunction, RefusesWhatIsNone) {
   EXPECT_NO_THROW(TransferFunction({1.0, 1.0, 0.0}, {1.0, 1.0}));
 }
 
-}  // namespace
+}  // namespace noise_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "budget/made_budget.hpp"
 
 namespace boresight {
-namespace {
+namespace sub_budgets_test {
 
 const double kArcsec = M_PI / 180.0 / 3600.0;
 
@@ -108,5 +108,5 @@ limits = ["12 arcsec", "17 arcsec", "30 arcsec"]
                 0.02);
 }
 
-}  // namespace
+}  // namespace sub_budgets_test
 }  // namespace boresight

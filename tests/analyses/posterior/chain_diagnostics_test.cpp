@@ -10,7 +10,7 @@
 #include <string>
 
 namespace boresight {
-namespace {
+namespace chain_diagnostics_test {
 
 using Chains = std::vector<std::vector<double>>;
 
@@ -65,5 +65,5 @@ TEST(ChainDiagnostics, SayNothingOfDrawsThatAreAllAlike) {
   EXPECT_TRUE(std::isnan(chain_diagnostics(Chains(2, std::vector<double>(20, 3.0))).r_hat));
 }
 
-}  // namespace
+}  // namespace chain_diagnostics_test
 }  // namespace boresight

@@ -10,7 +10,7 @@
 #include "known_densities.hpp"
 
 namespace boresight {
-namespace {
+namespace sample_posterior_test {
 
 struct Moments {
   VecX mean;
@@ -167,5 +167,5 @@ TEST(PosteriorSampler, RefusesWhatIsNoCovarianceAndWhatHasNoDensity) {
   EXPECT_THROW(PosteriorSampler(nowhere, {VecX::Zero(2), MatX::Identity(2, 2)}).run({}), std::runtime_error);
 }
 
-}  // namespace
+}  // namespace sample_posterior_test
 }  // namespace boresight

@@ -9,7 +9,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace held_play_of_every_kind_test {
 
 using scenes::PlayKind;
 using testing::HasSubstr;
@@ -62,5 +62,5 @@ TEST_P(HeldPlay, IsNamedWhateverItsKind) {
 INSTANTIATE_TEST_SUITE_P(Ladder, HeldPlay, testing::ValuesIn(kinds()),
                          [](const testing::TestParamInfo<PlayKind>& of) { return std::string(of.param.name); });
 
-}  // namespace
+}  // namespace held_play_of_every_kind_test
 }  // namespace boresight

@@ -13,7 +13,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace rigid_limit_test {
 
 using scenes::PlayKind;
 
@@ -181,5 +181,5 @@ TEST_P(PlayOfEveryKind, KeepsItsEnergyWhereNothingDissipates) {
 
 INSTANTIATE_TEST_SUITE_P(Ladder, PlayOfEveryKind, testing::ValuesIn(every_case()), name_of);
 
-}  // namespace
+}  // namespace rigid_limit_test
 }  // namespace boresight

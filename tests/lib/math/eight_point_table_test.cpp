@@ -9,7 +9,7 @@
 #include "boresight/math/time_table.hpp"
 
 namespace boresight {
-namespace {
+namespace eight_point_table_test {
 
 constexpr double kSpacing = 0.02;
 constexpr int kKnots = 21;
@@ -70,5 +70,5 @@ TEST(EightPointTable, FallsWithTheEighthPowerOfTheSpacing) {
   EXPECT_LT(miss(EightPointTable(0.5 * kSpacing, 1, fine), f), coarse_miss / 100.0);
 }
 
-}  // namespace
+}  // namespace eight_point_table_test
 }  // namespace boresight

@@ -12,7 +12,7 @@
 #include "boresight/scene/riding_masses.hpp"
 
 namespace boresight {
-namespace {
+namespace reaction_table_test {
 
 std::shared_ptr<const Mechanism> example(const std::string& path, const std::vector<Setting>& settings = {}) {
   return std::make_shared<const Mechanism>(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/" + path, settings));
@@ -74,5 +74,5 @@ TEST(ReactionTable, HasTheSameInstantsHoweverFineTheScene) {
   }
 }
 
-}  // namespace
+}  // namespace reaction_table_test
 }  // namespace boresight
