@@ -31,6 +31,14 @@ std::vector<Command> commands_on_two_bearings() {
        .claims = [](const Left& left) { EXPECT_NEAR(boresight_rms(left) / 0.162e-3, 2.0 / 3.0, 0.05); }},
       {.text = "boresight montecarlo examples/bearing-pairs/montecarlo.toml --rung perturbation",
        .claims = [](const Left& left) { EXPECT_EQ(left.summary["failed"], 0); }},
+      // "The platform sinks by 33 um and turns its boresight by less than 1 urad"
+      {.text = "boresight run examples/hexapod/play.toml --rung perturbation",
+       .shorter = {"--step-error", "off"},
+       .claims =
+           [](const Left& left) {
+             EXPECT_NEAR(largest(left.summary, "position_error"), 33.4e-6, 0.5e-6);
+             EXPECT_LT(largest(left.summary, "boresight_error"), 1e-6);
+           }},
       // "the yaw bearings need the closer ones"
       {.text = "boresight allocate examples/bearing-pairs/allocate.toml",
        .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("the requirement is met")); }},

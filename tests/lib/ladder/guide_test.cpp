@@ -88,35 +88,5 @@ TEST(SliderOnItsGuide, SlidesDownAnInclineWithCoulombsFriction) {
   }
 }
 
-// All fifteen joints of the default mechanism: revolute, cylindrical and prismatic.
-MechanismDescription fifteen_joints(JournalAxes axes) {
-  MechanismDescription m = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/twelve-joints.toml", {});
-  const ClearanceDescription other = m.clearances.front();
-  for (std::size_t j = 0; j < m.joints.size(); ++j) {
-    if (m.joints[j].type != JointType::prismatic) continue;
-    ClearanceDescription c = other;
-    c.joint = static_cast<int>(j);
-    c.journal = m.joints[j].second;
-    c.parameters.axial = c.parameters.cap_radius = 0.0;
-    c.parameters.sleeve_length = 0.08;
-    m.clearances.push_back(c);
-  }
-  for (ClearanceDescription& c : m.clearances) c.axes = axes;
-  m.motion.duration = 0.05;
-  return m;
-}
-
-TEST(SliderOnItsGuide, IsFollowedAlikeWithPlayInAllFifteenJoints) {
-  const MechanismDescription m = fifteen_joints(JournalAxes::parallel);
-  ASSERT_EQ(m.clearances.size(), 15u);
-  const auto mechanism = scenes::build(m);
-  RunOptions options;
-  options.sample_spacing = 0.0;
-  const RunResult exact = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
-  const RunResult linear = make_rung("perturbation", mechanism)->run(mechanism->parameters(), options);
-  EXPECT_NEAR(linear.index.position_error.rms, exact.index.position_error.rms, 0.01 * exact.index.position_error.rms);
-  EXPECT_NEAR(linear.index.position_error.max, exact.index.position_error.max, 0.02 * exact.index.position_error.max);
-}
-
 }  // namespace guide_test
 }  // namespace boresight
