@@ -1,11 +1,11 @@
 // A noise over time, drawn from its spectrum: sums of sinusoids with Gaussian amplitudes (Rice 1944, Mathematical Analysis of Random Noise,
 // eq. 1.7-2), whose mean squares are the power in their bands.
 //
-// The grid of frequencies has a period of several histories, so that a history's end knows nothing of its beginning. Bands of that
-// grid are too wide where the power lies far below one over a history (flicker, slow loops); there narrower ones take their place, each at its root mean square frequency,
-// and below all of them one constant. Samples stand for instants: what lies above half the sampling's frequency is folded down onto
-// them (Bendat and Piersol 2010, 10.3.2), so that their variance is the whole one. What a window's mean then keeps of that share is not what it
-// would; power_above_sampling() says how large it is.
+// The grid of frequencies has a period of several histories, so that a history's end knows nothing of its beginning. Bands of that grid are
+// too wide where the power lies far below one over a history (flicker, slow loops): there narrower ones take their place, each at its root
+// mean square frequency, and below all of them one constant. Samples stand for instants: what lies above half the sampling's frequency is
+// folded down onto them (Bendat and Piersol 2010, 10.3.2), so that their variance is the whole one. What a window's mean keeps of that share
+// is then not what it would; power_above_sampling() says how large the share is.
 #pragma once
 
 #include <complex>

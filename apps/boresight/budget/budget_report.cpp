@@ -162,7 +162,8 @@ report::Document budget_report(const BudgetStudy& s) {
   document.warnings = s.warnings;
   document.provenance = provenance_of(s.command, s.mechanism, s.rung);
   document.provenance.back() = {
-      "Data", "summary.json, levels.csv, classical.csv, contributions.csv; samples.db holds every run"};
+      "Data", fmt::format("summary.json, levels.csv, classical.csv, contributions.csv{}; samples.db holds every run",
+                          s.budget && !s.budget->spectral.empty() ? ", spectra.csv" : "")};
   document.provenance.push_back({"Study", s.study.file});
   document.provenance.push_back({"Study hash", s.study.content_hash});
   document.provenance.push_back({"Seed", std::to_string(s.plan.seed)});

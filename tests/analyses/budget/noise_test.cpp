@@ -101,8 +101,8 @@ TEST(Noise, FlickerWithinABandKeepsWhatTheCosineIntegralSays) {
   EXPECT_NEAR(noise.variance(ErrorIndex::rpe, kWindows) / (all - mean), 1.0, 1e-8);
 }
 
-// With v = (f / fn)^2, b = 2 - 4 zeta^2, q = v^2 - b v + 1: the integral of 1 / (2 v q) is half of ln v - ln(q) / 2 + b / (2 d) atan((v - b / 2) / d),
-// d = sqrt(1 - b^2 / 4).
+// With v = (f / fn)^2, b = 2 - 4 zeta^2, q = v^2 - b v + 1, d = sqrt(1 - b^2 / 4): the integral of 1 / (2 v q) is half of
+// ln v - ln(q) / 2 + b / (2 d) atan((v - b / 2) / d).
 TEST(Noise, FlickerThroughALoopOfSecondOrderHasItsClosedForm) {
   const double flicker = 0.7, fn = 5.0;
   for (const double zeta : {0.05, 0.3, 0.9})
