@@ -67,7 +67,7 @@ const KeyTable& calibrate_keys() {
           boolean("drift", p.drift)
               .says("Whether a steady drift of every channel's offset is fitted too, from each run's start."),
           table("discrepancy", calibrate_discrepancy_keys)
-              .usually("that table's defaults")
+              .sometimes("left out, that table's defaults hold")
               .says("How well what is not fitted is known; intervals are widened by what it may do to the answer."),
           quantity("hold_out", kRatio)
               .bounded({.least = 0.0, .most = 0.5, .above = true, .expected = "more than 0 % and at most 50 %"})
