@@ -7,6 +7,13 @@
 namespace boresight {
 namespace {
 
+std::string in_percent(double share) {
+  std::string text = std::to_string(100.0 * share);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text + " %";
+}
+
 Key settings_key(const char* sentence) {
   return keys::texts("set").sometimes("left out, the mechanism file's own values hold").says(sentence);
 }
@@ -103,11 +110,11 @@ const KeyTable& calibrate_discrepancy_keys() {
       .keys = {
           quantity("axial", kRatio)
               .bounded({.least = 0.0, .most = 1.0, .expected = "0 to 100 %"})
-              .otherwise(d.axial)
+              .usually(in_percent(d.axial))
               .says("Of the axial gaps of clearances that are fitted."),
           quantity("masses", kRatio)
               .bounded({.least = 0.0, .most = 1.0, .expected = "0 to 100 %"})
-              .otherwise(d.masses)
+              .usually(in_percent(d.masses))
               .says("Of every body's mass, each by itself."),
           quantity("lag", kDuration)
               .bounded({.least = 0.0, .most = 1.0, .expected = "0 to 1 s"})

@@ -130,7 +130,8 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
   plan.drift = table.boolean("drift");
   Cursor discrepancy = table.table_or_empty("discrepancy");
   discrepancy.only(calibrate_discrepancy_keys());
-  plan.discrepancy = {discrepancy.quantity("axial"), discrepancy.quantity("masses"), discrepancy.quantity("lag"),
+  plan.discrepancy = {discrepancy.quantity("axial", plan.discrepancy.axial),
+                      discrepancy.quantity("masses", plan.discrepancy.masses), discrepancy.quantity("lag"),
                       discrepancy.boolean("law")};
   discrepancy.finish();
   if (table.has("hold_out")) plan.hold_out = table.quantity("hold_out");
