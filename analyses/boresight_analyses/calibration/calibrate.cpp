@@ -46,6 +46,7 @@ CalibrationResult Calibrator::run() {
     result_.inference = infer_now();
     name_outliers();
     profile();
+    weigh_model_error();
     explain_what_is_held();
     judge_fit();
     result_.hold_out = score_held_out(problem_, result_.fit.globals, options_.jobs);
@@ -70,6 +71,10 @@ CalibrationResult Calibrator::run() {
   if (!result_.inference.parameters.empty()) {
     const std::vector<std::string> words = boresight::verdict(problem_, result_.inference);
     result_.verdict.insert(result_.verdict.end(), words.begin(), words.end());
+    if (result_.model_error) {
+      const std::vector<std::string> more = in_words(*result_.model_error, problem_, result_.inference);
+      result_.verdict.insert(result_.verdict.end(), more.begin(), more.end());
+    }
   }
   return std::move(result_);
 }
@@ -173,6 +178,7 @@ void Calibrator::tell(const std::string& stage, double share, const std::string&
 void Calibrator::note(FitResult fit) {
   result_.evaluations += fit.evaluations;
   if (fit.interrupted) throw CalibrationInterrupted{};
+  optima_.push_back(fit.globals);
   result_.fit = std::move(fit);
 }
 
@@ -214,6 +220,28 @@ void Calibrator::explain_what_is_held() {
   }
 }
 
+void Calibrator::weigh_model_error() {
+  if (!options_.discrepancy || !problem_.follows_play()) return;
+  tell("what the model may be wrong by", 0.0, "");
+  const std::vector<Suspect> suspected = suspects(problem_, result_.fit, *options_.discrepancy, options_.jobs);
+  // Places within three errors of one another are one: the curvature of its loss knows of it.
+  std::vector<Globals> others;
+  const VecX error = result_.inference.covariance.diagonal().cwiseSqrt();
+  const auto apart = [&](const Globals& a, const Globals& b) {
+    double most = 0.0;
+    for (int p = 0; p < problem_.parameter_count(); ++p)
+      if (!result_.fixed[p]) most = std::max(most, std::abs(a.u[p] - b.u[p]) / error[p]);
+    return most > 3.0;
+  };
+  for (const Globals& optimum : optima_)
+    if (apart(optimum, result_.fit.globals) &&
+        std::all_of(others.begin(), others.end(), [&](const Globals& other) { return apart(optimum, other); }))
+      others.push_back(optimum);
+  result_.model_error = model_error(problem_, result_.fit, suspected, others, result_.fixed,
+                                    result_.inference.variance_factor, options_.jobs);
+  take_model_error(*result_.model_error, options_.confidence, problem_, result_.fit.globals, result_.inference);
+}
+
 void Calibrator::correct() {
   if (options_.corrections == 0 || !follows_from_rest(problem_)) return;
   std::vector<std::vector<MatX>> slopes;
@@ -240,8 +268,10 @@ void Calibrator::correct() {
       if (!slopes.empty())
         correction.tangent = {at.u,
                               at.time_offset,
+                              at.lag,
                               std::move(multibody.reading[r]),
                               std::move(multibody.by_time[r]),
+                              std::move(multibody.by_lag[r]),
                               slopes[r],
                               std::move(multibody.motion[r])};
       problem_.corrections.push_back(std::move(correction));

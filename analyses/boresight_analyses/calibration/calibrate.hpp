@@ -13,6 +13,7 @@
 #include "boresight_analyses/calibration/law_comparison.hpp"
 #include "boresight_analyses/calibration/next_test.hpp"
 #include "boresight_analyses/calibration/profile_likelihood.hpp"
+#include "boresight_analyses/calibration/suspects.hpp"
 
 namespace boresight {
 
@@ -25,8 +26,9 @@ struct CalibrationOptions {
   // By multibody, at most; they end where one moves nothing. 0: none, and no confirmation.
   int corrections = 6;
   bool profile = false;
-  std::vector<std::string> laws;      // compared by the same data
-  std::vector<Candidate> candidates;  // of a next test
+  std::optional<Discrepancy> discrepancy = Discrepancy{};  // how well the model is known; none: it is taken for exact
+  std::vector<std::string> laws;                           // compared by the same data
+  std::vector<Candidate> candidates;                       // of a next test
   std::function<bool(const std::string& stage, double share, const std::string& estimate)> progress;
 };
 
@@ -51,6 +53,7 @@ struct CalibrationResult {
   std::optional<HoldOut> hold_out;
   std::vector<LawScore> laws;
   std::vector<Profile> profiles;
+  std::optional<ModelError> model_error;
   std::vector<NextTest> next_tests;
   std::vector<std::string> verdict;
   std::vector<std::string> warnings;  // of readings that no noise explains

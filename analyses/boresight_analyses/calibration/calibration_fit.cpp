@@ -8,32 +8,46 @@
 namespace boresight {
 namespace {
 
-// Residuals of one window. Parameter blocks: one per parameter, [time offset], [biases], [start state].
+// What a global counts in within the fit: parameters as they are, times in ms, biases and drifts in standard deviations.
+VecX units_of(const CalibrationProblem& problem) {
+  VecX units = VecX::Ones(problem.global_count());
+  units.segment(problem.time_offset_column(), problem.bias_column() - problem.time_offset_column()).setConstant(1e-3);
+  if (problem.fit_bias) units.segment(problem.bias_column(), problem.sigma.size()) = problem.sigma;
+  if (problem.fit_drift) units.segment(problem.drift_column(), problem.sigma.size()) = problem.sigma;
+  return units;
+}
+
+// First column and width of each block of globals: one per parameter, [time offset], [lag], [biases], [drifts].
+std::vector<std::pair<int, int>> blocks_of(const CalibrationProblem& problem) {
+  std::vector<std::pair<int, int>> blocks;
+  for (int g = 0; g < problem.bias_column(); ++g) blocks.emplace_back(g, 1);
+  const int channels = static_cast<int>(problem.channels.size());
+  for (int g = problem.bias_column(); g < problem.global_count(); g += channels) blocks.emplace_back(g, channels);
+  return blocks;
+}
+
+// Residuals of one window. Parameter blocks: those of blocks_of(), [start state].
 class WindowCost final : public ceres::CostFunction {
  public:
   WindowCost(const CalibrationProblem& problem, const Window& window, int residuals)
-      : problem_(problem), window_(window), values_(residuals - problem.state_size(window)) {
-    for (int p = 0; p < problem.parameter_count(); ++p) mutable_parameter_block_sizes()->push_back(1);
-    if (problem.fit_time_offset) mutable_parameter_block_sizes()->push_back(1);
-    if (problem.fit_bias) mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.channels.size()));
+      : problem_(problem),
+        window_(window),
+        values_(residuals - problem.state_size(window)),
+        units_(units_of(problem)),
+        globals_(blocks_of(problem)) {
+    for (const auto& [first, width] : globals_) mutable_parameter_block_sizes()->push_back(width);
     if (problem.state_size(window) > 0) mutable_parameter_block_sizes()->push_back(problem.state_size(window));
     set_num_residuals(residuals);
   }
 
   // Follows the window's motion at these blocks, for the Evaluate() that comes next.
   void prepare(const std::vector<double*>& blocks, bool derivatives) {
-    const int P = problem_.parameter_count(), size = problem_.state_size(window_);
-    const int count = static_cast<int>(parameter_block_sizes().size()), last = size > 0 ? count - 1 : count;
-    Globals globals;
-    globals.u.resize(P);
-    for (int p = 0; p < P; ++p) globals.u[p] = blocks[p][0];
-    int block = P;
-    if (problem_.fit_time_offset) globals.time_offset = 1e-3 * blocks[block++][0];
-    if (problem_.fit_bias) {
-      globals.bias = Eigen::Map<const VecX>(blocks[block], parameter_block_sizes()[block]);
-      globals.bias = globals.bias.cwiseProduct(problem_.sigma);
-    }
-    const VecX state = size > 0 ? VecX(Eigen::Map<const VecX>(blocks[last], size)) : VecX();
+    const int size = problem_.state_size(window_);
+    VecX packed(problem_.global_count());
+    for (std::size_t b = 0; b < globals_.size(); ++b)
+      packed.segment(globals_[b].first, globals_[b].second) = Eigen::Map<const VecX>(blocks[b], globals_[b].second);
+    const Globals globals = problem_.unpacked(packed.cwiseProduct(units_));
+    const VecX state = size > 0 ? VecX(Eigen::Map<const VecX>(blocks.back(), size)) : VecX();
     try {
       problem_.evaluate(window_, globals, state, derivatives, at_);
       followed_ = true;
@@ -45,7 +59,7 @@ class WindowCost final : public ceres::CostFunction {
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
     if (!followed_) return false;
     const WindowResiduals& at = at_;
-    const int P = problem_.parameter_count(), size = problem_.state_size(window_);
+    const int size = problem_.state_size(window_);
     const int count = static_cast<int>(parameter_block_sizes().size()), last = size > 0 ? count - 1 : count;
     const VecX state = size > 0 ? VecX(Eigen::Map<const VecX>(blocks[last], size)) : VecX(),
                prior = problem_.prior_deviation(window_);
@@ -63,12 +77,8 @@ class WindowCost final : public ceres::CostFunction {
           J.topRows(values_) = slope.asDiagonal() * at.by_state;
           J.bottomRows(size) = prior.cwiseInverse().asDiagonal();
         } else {
-          J.topRows(values_) = slope.asDiagonal() * at.by_global.middleCols(column, width);
-          // The fit counts the time offset in ms, biases in standard deviations.
-          if (b >= P && problem_.fit_time_offset && b == P)
-            J *= 1e-3;
-          else if (b >= P)
-            J *= problem_.sigma.asDiagonal();
+          J.topRows(values_) =
+              slope.asDiagonal() * at.by_global.middleCols(column, width) * units_.segment(column, width).asDiagonal();
         }
         if (width == 1)
           Eigen::Map<VecX>(jacobians[b], num_residuals()) = J.col(0);
@@ -84,6 +94,8 @@ class WindowCost final : public ceres::CostFunction {
   const CalibrationProblem& problem_;
   const Window& window_;
   int values_;
+  VecX units_;
+  std::vector<std::pair<int, int>> globals_;
   WindowResiduals at_;
   bool followed_ = false;
 };
@@ -108,18 +120,18 @@ class AllWindows final : public ceres::EvaluationCallback {
   std::vector<Window> windows_;
 };
 
-// What was known of a standing error before: (u - u_start) in standard deviations.
+// What was known of a global before: its distance from what was told, in standard deviations.
 class PriorCost final : public ceres::SizedCostFunction<1, 1> {
  public:
-  explicit PriorCost(double expected) : expected_(expected) {}
+  PriorCost(double expected, double deviation) : expected_(expected), deviation_(deviation) {}
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
-    residuals[0] = blocks[0][0] - expected_;
-    if (jacobians && jacobians[0]) jacobians[0][0] = 1.0;
+    residuals[0] = (blocks[0][0] - expected_) / deviation_;
+    if (jacobians && jacobians[0]) jacobians[0][0] = 1.0 / deviation_;
     return true;
   }
 
  private:
-  double expected_;
+  double expected_, deviation_;
 };
 
 class Watch final : public ceres::IterationCallback {
@@ -183,17 +195,15 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
 
   const int P = problem.parameter_count();
   // The solver orders blocks by where they lie in memory: one after the other, so that no fit hangs on what the heap had room for.
-  Eigen::Index numbers = P + 1 + (problem.fit_bias ? problem.sigma.size() : 0);
+  const int G = problem.global_count();
+  const VecX units = units_of(problem);
+  const std::vector<std::pair<int, int>> global_blocks = blocks_of(problem);
+  Eigen::Index numbers = G;
   for (const VecX& state : states) numbers += state.size();
   VecX packed(numbers);
-  Eigen::Map<VecX> u(packed.data(), P);
-  double& offset = packed[P];
-  Eigen::Map<VecX> bias(packed.data() + P + 1, problem.fit_bias ? problem.sigma.size() : 0);
-  u = start.u;
-  offset = 1e3 * start.time_offset;
-  if (problem.fit_bias) bias = start.bias.cwiseQuotient(problem.sigma);
+  packed.head(G) = problem.packed(start).cwiseQuotient(units);
   std::vector<Eigen::Map<VecX>> state_of;
-  for (Eigen::Index k = 0, at = P + 1 + bias.size(); k < static_cast<Eigen::Index>(states.size()); ++k) {
+  for (Eigen::Index k = 0, at = G; k < static_cast<Eigen::Index>(states.size()); ++k) {
     state_of.emplace_back(packed.data() + at, states[k].size());
     state_of.back() = states[k];
     at += states[k].size();
@@ -207,9 +217,7 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
   for (std::size_t k = 0; k < result.windows.size(); ++k) {
     const Window& w = problem.windows[result.windows[k]];
     std::vector<double*> blocks;
-    for (int p = 0; p < P; ++p) blocks.push_back(&u[p]);
-    if (problem.fit_time_offset) blocks.push_back(&offset);
-    if (problem.fit_bias) blocks.push_back(bias.data());
+    for (const auto& [first, width] : global_blocks) blocks.push_back(packed.data() + first);
     if (states[k].size() > 0) blocks.push_back(state_of[k].data());
     auto cost = std::make_unique<WindowCost>(problem, w, value_count(problem, w) + problem.state_size(w));
     all.add(cost.get(), blocks);
@@ -222,31 +230,27 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
       free_states = true;
     }
   }
-  for (int p = 0; p < P; ++p) {
-    ordering->AddElementToGroup(&u[p], 1);
-    ceres_problem.SetParameterLowerBound(&u[p], 0, problem.parameters[p].lowest_coordinate());
-    ceres_problem.SetParameterUpperBound(&u[p], 0, problem.parameters[p].highest_coordinate());
-    if (!options.fixed.empty() && options.fixed[p]) ceres_problem.SetParameterBlockConstant(&u[p]);
-    const FittedParameter& parameter = problem.parameters[p];
-    if (parameter.has_prior)
-      ceres_problem.AddResidualBlock(new PriorCost(parameter.coordinate(parameter.start)), nullptr, &u[p]);
+  const VecX known = problem.prior_information(), expected = problem.packed(problem.start());
+  for (const auto& [first, width] : global_blocks) {
+    double* const block = packed.data() + first;
+    ordering->AddElementToGroup(block, 1);
+    if (first >= P && options.fix_nuisance) ceres_problem.SetParameterBlockConstant(block);
+    if (known[first] > 0.0)
+      ceres_problem.AddResidualBlock(
+          new PriorCost(expected[first] / units[first], 1.0 / (units[first] * std::sqrt(known[first]))), nullptr,
+          block);
+    if (first >= P) continue;
+    ceres_problem.SetParameterLowerBound(block, 0, problem.parameters[first].lowest_coordinate());
+    ceres_problem.SetParameterUpperBound(block, 0, problem.parameters[first].highest_coordinate());
+    if (!options.fixed.empty() && options.fixed[first]) ceres_problem.SetParameterBlockConstant(block);
   }
   if (problem.fit_time_offset) {
-    ordering->AddElementToGroup(&offset, 1);
-    ceres_problem.SetParameterLowerBound(&offset, 0, -1e3 * problem.largest_time_offset);
-    ceres_problem.SetParameterUpperBound(&offset, 0, 1e3 * problem.largest_time_offset);
-    if (options.fix_nuisance) ceres_problem.SetParameterBlockConstant(&offset);
-  }
-  if (problem.fit_bias) {
-    ordering->AddElementToGroup(bias.data(), 1);
-    if (options.fix_nuisance) ceres_problem.SetParameterBlockConstant(bias.data());
+    double* const block = packed.data() + problem.time_offset_column();
+    ceres_problem.SetParameterLowerBound(block, 0, -1e3 * problem.largest_time_offset);
+    ceres_problem.SetParameterUpperBound(block, 0, 1e3 * problem.largest_time_offset);
   }
 
-  const auto take = [&] {
-    result.globals.u = u;
-    result.globals.time_offset = 1e-3 * offset;
-    if (problem.fit_bias) result.globals.bias = bias.cwiseProduct(problem.sigma);
-  };
+  const auto take = [&] { result.globals = problem.unpacked(packed.head(G).cwiseProduct(units)); };
   Watch watch([&](const ceres::IterationSummary& s) {
     if (!options.progress) return true;
     take();

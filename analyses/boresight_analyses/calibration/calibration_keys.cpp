@@ -7,6 +7,13 @@
 namespace boresight {
 namespace {
 
+std::string in_percent(double share) {
+  std::string text = std::to_string(100.0 * share);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text + " %";
+}
+
 Key settings_key(const char* sentence) {
   return keys::texts("set").sometimes("left out, the mechanism file's own values hold").says(sentence);
 }
@@ -58,7 +65,17 @@ const KeyTable& calibrate_keys() {
               .above(0.0, "more than 0: the largest that is possible")
               .sometimes("left out, the rig's clock is taken as right")
               .says("The largest offset of the rig's clock; an offset within it is fitted too."),
+          quantity("sensor_lag", kDuration)
+              .above(0.0, "more than 0: the standard deviation of what it may be")
+              .sometimes("left out, none is fitted")
+              .says(
+                  "What the sensor's first-order lag may well be (its prior's standard deviation); one is fitted too."),
           boolean("mounting_bias", p.mounting_bias).says("Whether a constant offset of every channel is fitted too."),
+          boolean("drift", p.drift)
+              .says("Whether a steady drift of every channel's offset is fitted too, from each run's start."),
+          table("discrepancy", calibrate_discrepancy_keys)
+              .sometimes("left out, that table's defaults hold")
+              .says("How well what is not fitted is known; intervals are widened by what it may do to the answer."),
           quantity("hold_out", kRatio)
               .bounded({.least = 0.0, .most = 0.5, .above = true, .expected = "more than 0 % and at most 50 %"})
               .sometimes("left out, all windows are fitted")
@@ -81,6 +98,32 @@ const KeyTable& calibrate_keys() {
               .sometimes("left out, none is judged")
               .says(
                   "Further tests that could be made; the report says which of them would narrow the intervals most.")}};
+  return table_of_keys;
+}
+
+const KeyTable& calibrate_discrepancy_keys() {
+  using namespace keys;
+  static const Discrepancy d;
+  static const KeyTable table_of_keys{
+      .name = "calibrate.discrepancy",
+      .says = "How well a calibration knows what it does not fit: one standard deviation each, 0 where it is exact.",
+      .keys = {
+          quantity("axial", kRatio)
+              .bounded({.least = 0.0, .most = 1.0, .expected = "0 to 100 %"})
+              .usually(in_percent(d.axial))
+              .says("Of the axial gaps of clearances that are fitted."),
+          quantity("masses", kRatio)
+              .bounded({.least = 0.0, .most = 1.0, .expected = "0 to 100 %"})
+              .usually(in_percent(d.masses))
+              .says("Of every body's mass, each by itself."),
+          quantity("lag", kDuration)
+              .bounded({.least = 0.0, .most = 1.0, .expected = "0 to 1 s"})
+              .otherwise(d.lag)
+              .says("Of the sensor's delay: an offset of the clock is fitted with this prior, unless time_offset or "
+                    "sensor_lag is given."),
+          boolean("law", d.law)
+              .says("Whether the damping law may be another one of its family: then a restitution is known no better "
+                    "than these laws agree on what they mean by it.")}};
   return table_of_keys;
 }
 
@@ -108,17 +151,19 @@ const KeyTable& calibrate_parameter_keys() {
       .name = "calibrate.parameter",
       .says = "A parameter that is fitted.",
       .keys = {
-          text("path").says("The path of a parameter of a clearance, such as clearance.F1.contact.restitution, or of a "
-                            "standing error, "
-                            "such as error.rod1.length. With errors alone no play is followed."),
+          text("path").says(
+              "The path of a parameter of a clearance, such as clearance.F1.contact.restitution, or of a "
+              "standing error, "
+              "such as error.rod1.length; of a mass (body.NAME.mass, payload.mass), with a prior. With errors alone no "
+              "play is followed."),
           of_parameter("start", "the mechanism file's value", "Where the fit starts; of a clearance more than 0."),
           of_parameter("lower", "a tenth of start; of an error a thousand times what it may well be below it",
                        "Lower bound; of a clearance more than 0."),
           of_parameter("upper", "ten times start, where the parameter may be as large; of an error likewise",
                        "Upper bound."),
           of_parameter("prior", "none: the data alone decide",
-                       "Of an error: what was known of it before, the standard deviation of its distance from start "
-                       "(a tolerance). The fit weighs it like a reading.")}};
+                       "What was known of it before: the standard deviation of its distance from start (a tolerance), "
+                       "or a share of start, such as \"20 %\". The fit weighs it like a reading.")}};
   return table_of_keys;
 }
 

@@ -7,6 +7,7 @@
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/play/joint_play.hpp"
+#include "boresight_analyses/calibration/allowances.hpp"
 #include "boresight_analyses/calibration/calibration_keys.hpp"
 #include "boresight_analyses/random/csv_column.hpp"
 
@@ -30,10 +31,11 @@ PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechan
   p.path = table.text("path");
   p.origin = table.origin("path");
   const bool is_error = p.path.starts_with("error.");
-  if (!is_error && !p.path.starts_with("clearance."))
-    table.fail("path",
-               "a parameter of a clearance joint, or a standing error; masses and speeds belong to a run's settings");
   const std::string unit = ParameterPath(mechanism, p.path, p.origin).unit();
+  const bool is_mass = !is_error && !p.path.starts_with("clearance.") && unit == "kg";
+  if (!is_error && !is_mass && !p.path.starts_with("clearance."))
+    table.fail("path",
+               "a parameter of a clearance joint, a standing error, or a mass; speeds belong to a run's settings");
   const auto value = [&](const char* key) -> std::optional<double> {
     if (!table.has(key)) return {};
     if (p.written_unit.empty()) p.written_unit = table.unit_as_written(key);
@@ -45,9 +47,16 @@ PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechan
   p.start = value("start");
   p.lower = value("lower");
   p.upper = value("upper");
-  if (!is_error && table.has("prior"))
-    table.fail_found("prior", "a prior of " + in_quotes(p.path), "none: it is for standing errors");
-  p.prior = value("prior");
+  p.prior_is_share =
+      table.has("prior") && !is_error && table.is_text("prior") && table.unit_as_written("prior") == "%" && unit != "1";
+  if (p.prior_is_share) {
+    p.prior = table.quantity("prior", kRatio);
+    if (!(*p.prior > 0.0)) table.fail("prior", "more than 0");
+  } else {
+    p.prior = value("prior");
+  }
+  if (is_mass)
+    table.require(p.prior.has_value(), "prior", "how well this mass is known: readings tell little of masses");
   table.finish();
   return p;
 }
@@ -76,7 +85,7 @@ FittedParameter planned_parameter(const PlannedParameter& p, const Mechanism& me
   fitted.written_unit = p.written_unit;
   if (p.prior) {
     fitted.has_prior = true;
-    fitted.size = *p.prior;
+    (fitted.is_error() ? fitted.size : fitted.prior) = *p.prior * (p.prior_is_share ? fitted.start : 1.0);
   }
   fitted.lower = p.lower.value_or(fitted.lower);
   fitted.upper = p.upper.value_or(fitted.upper);
@@ -116,7 +125,15 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
   plan.corrections = static_cast<int>(table.integer("corrections"));
   plan.confidence = table.number("confidence");
   if (table.has("time_offset")) plan.largest_time_offset = table.quantity("time_offset");
+  if (table.has("sensor_lag")) plan.sensor_lag = table.quantity("sensor_lag");
   plan.mounting_bias = table.boolean("mounting_bias");
+  plan.drift = table.boolean("drift");
+  Cursor discrepancy = table.table_or_empty("discrepancy");
+  discrepancy.only(calibrate_discrepancy_keys());
+  plan.discrepancy = {discrepancy.quantity("axial", plan.discrepancy.axial),
+                      discrepancy.quantity("masses", plan.discrepancy.masses), discrepancy.quantity("lag"),
+                      discrepancy.boolean("law")};
+  discrepancy.finish();
   if (table.has("hold_out")) plan.hold_out = table.quantity("hold_out");
   plan.profile = table.boolean("profile");
   if (table.has("laws")) plan.laws = table.choices("laws");
@@ -185,7 +202,11 @@ CalibrationProblem calibration_problem(
   problem.loss = plan.loss;
   problem.largest_time_offset = plan.largest_time_offset;
   problem.fit_time_offset = plan.largest_time_offset > 0.0;
+  problem.fit_lag = plan.sensor_lag > 0.0;
+  problem.lag_prior = plan.sensor_lag;
   problem.fit_bias = plan.mounting_bias;
+  problem.fit_drift = plan.drift;
+  allow_for(plan.discrepancy, problem);
   problem.prepare(plan.window, plan.from_rest);
   hold_out_windows(problem, plan.hold_out);
   if (std::none_of(problem.windows.begin(), problem.windows.end(), [](const Window& w) { return !w.held_out; }))

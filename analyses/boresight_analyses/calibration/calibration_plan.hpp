@@ -6,7 +6,10 @@
 //   loss = "huber"                    # "none", "cauchy"; loss_scale: in standard deviations
 //   starts = 4
 //   time_offset = "2 ms"              # the largest; left out: none is fitted
+//   sensor_lag = "0.3 ms"             # what its first-order lag may well be; left out: none is fitted
 //   mounting_bias = true
+//   drift = true                      # of the channels' offsets
+//   discrepancy = { axial = "10 %", masses = "0.5 %", lag = "0 ms", law = false }   # how well the rest is known
 //   hold_out = "20 %"
 //   corrections = 6                   # by multibody, at most
 //   profile = true
@@ -21,6 +24,10 @@
 //   path = "error.rod1.length"        # a standing error
 //   start = "0 mm"
 //   prior = "20 um"                   # standard deviation of what was known of it before; left out: nothing was
+//
+//   [[calibrate.parameter]]
+//   path = "body.rod1.mass"           # a mass, by its prior
+//   prior = "2 %"
 //
 //   [[calibrate.run]]
 //   data = "run-1.csv"                # beside the study
@@ -42,7 +49,8 @@ namespace boresight {
 struct PlannedParameter {
   std::string path;
   std::optional<double> start, lower, upper, prior;
-  std::string written_unit;  // of the first of them that is given
+  bool prior_is_share = false;  // of the start
+  std::string written_unit;     // of the first of them that is given
   Origin origin;
 };
 
@@ -60,8 +68,9 @@ struct CalibrationPlan {
   int starts = 4;
   std::uint64_t seed = 1;
   double confidence = 0.95;
-  double largest_time_offset = 0.0;
-  bool mounting_bias = false;
+  double largest_time_offset = 0.0, sensor_lag = 0.0;  // 0: none is fitted [s]
+  bool mounting_bias = false, drift = false;
+  Discrepancy discrepancy;
   double hold_out = 0.0;
   int corrections = 6;
   bool profile = true;

@@ -30,6 +30,17 @@ CalibrationRun::CalibrationRun(std::string run_name, std::shared_ptr<const Mecha
   prepared->pose_gain(mechanism->boresight_body());
 }
 
+void CalibrationRun::take(const Parameters& parameters) {
+  if (!same_scene(parameters, told())) {
+    // Of a motion that is simulated, masses decide where it goes.
+    if (!is_kinematic(*mechanism) || !same_centers(parameters, told()))
+      prepared = std::make_shared<const PreparedScene>(*mechanism, ideal_motion(*mechanism, parameters), parameters);
+    if (tables) tables = prepared->tables(parameters);
+    prepared->pose_gain(mechanism->boresight_body());
+  }
+  taken = std::make_shared<const Parameters>(parameters);
+}
+
 double ResidualLoss::residual(double r) const {
   const double a = std::abs(r);
   if (kind == Loss::huber && a > scale) return std::copysign(std::sqrt(2.0 * scale * a - scale * scale), r);
@@ -83,7 +94,8 @@ void CalibrationProblem::prepare(double window_length, bool from_rest) {
       int last = first;
       while (last + 1 < samples && data.time[last + 1] < data.time[first] + window_length) ++last;
       Window w{static_cast<int>(r), first, last, 0.0, 0.0, false};
-      w.start = std::max(0.0, data.time[first] - largest_time_offset);
+      // A lag looks back; behind five of them hardly anything is left.
+      w.start = std::max(0.0, data.time[first] - largest_time_offset - (fit_lag ? 5.0 * lag_prior : 0.0));
       w.end = std::min(duration, data.time[last] + largest_time_offset);
       // Poses have no state to start with.
       w.from_rest = (from_rest && first == 0) || !follows_play();
@@ -126,7 +138,7 @@ void CalibrationProblem::prepare_errors() {
 std::vector<int> CalibrationProblem::contact_parameters() const {
   std::vector<int> contacts;
   for (int p = 0; p < parameter_count(); ++p)
-    if (!parameters[p].is_error()) contacts.push_back(p);
+    if (parameters[p].is_contact()) contacts.push_back(p);
   return contacts;
 }
 
@@ -148,9 +160,47 @@ std::vector<std::string> CalibrationProblem::global_names() const {
   std::vector<std::string> names;
   for (const FittedParameter& p : parameters) names.push_back(p.path);
   if (fit_time_offset) names.emplace_back("time_offset");
-  if (fit_bias)
-    for (int c : channels) names.push_back(std::string("bias.") + channel_names()[c].name);
+  if (fit_lag) names.emplace_back("lag");
+  for (const auto& [fitted, what] : {std::pair{fit_bias, "bias."}, {fit_drift, "drift."}})
+    for (std::size_t c = 0; fitted && c < channels.size(); ++c)
+      names.push_back(std::string(what) + channel_names()[channels[c]].name);
   return names;
+}
+
+std::string CalibrationProblem::global_unit(int g) const {
+  if (g < parameter_count()) return parameters[g].si_unit;
+  if (g < bias_column()) return "s";
+  const bool drift = g >= drift_column();
+  const std::string unit = channel_names()[channels[g - (drift ? drift_column() : bias_column())]].si_unit;
+  return drift ? unit + "/s" : unit;
+}
+
+VecX CalibrationProblem::prior_information() const {
+  VecX information = VecX::Zero(global_count());
+  for (int p = 0; p < parameter_count(); ++p) information[p] = parameters[p].prior_information();
+  if (fit_time_offset && time_offset_prior > 0.0) information[time_offset_column()] = std::pow(time_offset_prior, -2);
+  if (fit_lag && lag_prior > 0.0) information[lag_column()] = std::pow(lag_prior, -2);
+  return information;
+}
+
+VecX CalibrationProblem::packed(const Globals& globals) const {
+  VecX out(global_count());
+  out.head(parameter_count()) = globals.u;
+  if (fit_time_offset) out[time_offset_column()] = globals.time_offset;
+  if (fit_lag) out[lag_column()] = globals.lag;
+  if (fit_bias) out.segment(bias_column(), globals.bias.size()) = globals.bias;
+  if (fit_drift) out.segment(drift_column(), globals.drift.size()) = globals.drift;
+  return out;
+}
+
+Globals CalibrationProblem::unpacked(const VecX& from) const {
+  Globals out = start();
+  out.u = from.head(parameter_count());
+  if (fit_time_offset) out.time_offset = from[time_offset_column()];
+  if (fit_lag) out.lag = from[lag_column()];
+  if (fit_bias) out.bias = from.segment(bias_column(), out.bias.size());
+  if (fit_drift) out.drift = from.segment(drift_column(), out.drift.size());
+  return out;
 }
 
 VecX CalibrationProblem::state_scale(const Window& window) const {
@@ -178,6 +228,7 @@ Globals CalibrationProblem::start() const {
   g.u.resize(parameter_count());
   for (int p = 0; p < parameter_count(); ++p) g.u[p] = parameters[p].coordinate(parameters[p].start);
   if (fit_bias) g.bias = VecX::Zero(static_cast<Eigen::Index>(channels.size()));
+  if (fit_drift) g.drift = VecX::Zero(static_cast<Eigen::Index>(channels.size()));
   return g;
 }
 
@@ -189,7 +240,7 @@ std::vector<double> CalibrationProblem::values(const Globals& globals) const {
 }
 
 Parameters CalibrationProblem::parameters_at(int run, const std::vector<double>& values) const {
-  Parameters at = runs[run].mechanism->parameters();
+  Parameters at = runs[run].told();
   for (std::size_t p = 0; p < values.size(); ++p) parameters[p].place.front().set(at, values[p]);
   return at;
 }
@@ -199,10 +250,7 @@ ContactNumbers CalibrationProblem::contact_numbers_at(int run, const std::vector
 }
 
 double CalibrationProblem::prior_cost(const Globals& globals) const {
-  double sum = 0.0;
-  for (int p = 0; p < parameter_count(); ++p)
-    if (parameters[p].has_prior) sum += std::pow(globals.u[p] - parameters[p].coordinate(parameters[p].start), 2);
-  return sum;
+  return prior_information().dot((packed(globals) - packed(start())).cwiseAbs2());
 }
 
 double CalibrationProblem::cost(const Window& window, const Globals& globals, const VecX& state) const {

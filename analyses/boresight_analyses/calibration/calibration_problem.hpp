@@ -7,9 +7,13 @@
 // parameters and then eliminated (multiple shooting without continuity: Bock 1981, with every window an
 // experiment of its own).
 //
-//   r = (model(t + offset; theta, start state) + bias - data) / sigma       per sample and channel
+//   r = (model(t + offset; theta, start state) + bias + drift t - data) / sigma       per sample and channel
 //   f(r): Huber or Cauchy, written as a residual whose square is the loss, so that every sample is bounded
 //   alone
+//
+// Where the sensor lags, what it reads is a mean over the past of the motion, of first order:
+//
+//   y(t) = int_0^inf e^-s model(t - lag s) ds                              by Gauss's and Laguerre's rule
 //
 // A weak prior holds the start state within reach of the clearance where the channels do not see all of it.
 //
@@ -42,8 +46,15 @@ struct CalibrationRun {
   std::shared_ptr<const StandingPoses> standing;  // where errors are fitted, or other than zero; by prepare()
   MeasuredData data;
 
+  std::shared_ptr<const Parameters> taken;  // in place of the mechanism's own; none: these
+
   CalibrationRun() = default;
   CalibrationRun(std::string run_name, std::shared_ptr<const Mechanism> with_settings, MeasuredData measured);
+
+  // What is taken of all that is not fitted.
+  const Parameters& told() const { return taken ? *taken : mechanism->parameters(); }
+  // From here on these, other masses included.
+  void take(const Parameters& parameters);
 };
 
 enum class Loss { none, huber, cauchy };
@@ -70,7 +81,13 @@ struct Window {
 struct Globals {
   VecX u;                    // parameters
   double time_offset = 0.0;  // model time less data time [s]
+  double lag = 0.0;          // of the sensor [s]
   VecX bias;                 // per channel of channels(), SI; empty: none
+  VecX drift;                // of the bias, per channel [SI/s], from each run's t = 0; empty: none
+
+  double offset_of(int channel, double t) const {
+    return (bias.size() > 0 ? bias[channel] : 0.0) + (drift.size() > 0 ? drift[channel] * t : 0.0);
+  }
 };
 
 struct WindowResiduals {
@@ -85,8 +102,8 @@ struct WindowResiduals {
 // channels, SI.
 struct TangentModel {
   VecX at;  // u
-  double time_offset = 0.0;
-  MatX reading, by_time;
+  double time_offset = 0.0, lag = 0.0;
+  MatX reading, by_time, by_lag;
   std::vector<MatX> slope;  // per parameter, by its u
   SensitiveMotion motion;   // this model's, for its impacts
 };
@@ -106,8 +123,9 @@ class CalibrationProblem {
   std::vector<ModelCorrection> corrections;  // per run; empty: none
   std::vector<int> channels;                 // among channel_names(), of all runs together
   VecX sigma;                                // noise per channel [SI]
-  bool fit_time_offset = false, fit_bias = false;
-  double largest_time_offset = 0.0;  // [s]
+  bool fit_time_offset = false, fit_lag = false, fit_bias = false, fit_drift = false;
+  double largest_time_offset = 0.0;                  // [s]
+  double time_offset_prior = 0.0, lag_prior = 2e-4;  // standard deviations about none [s]; 0: nothing is known before
   ResidualLoss loss;
   // Of the integration (MotionRequest). What a motion jitters by from one choice of steps to the next
   // roughens the landscape at the width of a standard error: at 1e-5 by as much as one unit of the loss, at
@@ -128,10 +146,19 @@ class CalibrationProblem {
   int freedoms(int run) const { return follows_play() && runs[run].tables ? runs[run].tables->layout.n : 0; }
 
   int parameter_count() const { return static_cast<int>(parameters.size()); }
-  int global_count() const {
-    return parameter_count() + (fit_time_offset ? 1 : 0) + (fit_bias ? static_cast<int>(channels.size()) : 0);
-  }
+  // Globals: the parameters, then those of these that are fitted.
+  int time_offset_column() const { return parameter_count(); }
+  int lag_column() const { return time_offset_column() + (fit_time_offset ? 1 : 0); }
+  int bias_column() const { return lag_column() + (fit_lag ? 1 : 0); }
+  int drift_column() const { return bias_column() + (fit_bias ? static_cast<int>(channels.size()) : 0); }
+  int global_count() const { return drift_column() + (fit_drift ? static_cast<int>(channels.size()) : 0); }
   std::vector<std::string> global_names() const;
+  std::string global_unit(int g) const;  // SI
+  // What was known of each before: one over its variance.
+  VecX prior_information() const;
+  // All of them as one vector, in the order of their names; and back.
+  VecX packed(const Globals& globals) const;
+  Globals unpacked(const VecX& packed) const;
   int state_size(const Window& window) const { return 2 * freedoms(window.run); }
   // A start state of one, SI: the clearance, and the clearance in a millisecond.
   VecX state_scale(const Window& window) const;
@@ -150,15 +177,21 @@ class CalibrationProblem {
                 WindowResiduals& out) const;
   // Loss over a window, prior included.
   double cost(const Window& window, const Globals& globals, const VecX& state) const;
-  // What the errors' priors add to the loss.
+  // What priors add to the loss.
   double prior_cost(const Globals& globals) const;
   // A start state that fits the window better, parameters held: Levenberg-Marquardt on the state alone.
   // Returns the loss.
   double refine_state(const Window& window, const Globals& globals, VecX& state, int most_iterations) const;
+  // What channels read, channel by time, of a motion's own readings at the instants that reading_times() names.
+  std::vector<double> reading_times(const Window& window, const Globals& globals) const;
+  MatX mean_readings(const Window& window, const Globals& globals, const MatX& at_times) const;
   // A first guess of a window's start state: of several local fits of its data, and of `carried` where it is
   // not empty (where the window before led), the one that the model follows best after a few steps of
   // refinement.
   VecX guess_state(const Window& window, const Globals& globals, const VecX& carried = {}) const;
+  // How the residuals follow jumps of the state, in its scales, at its start and at some `jumps` instants on the way: residuals x 2n of
+  // each. Of a window from rest, by this model itself, whatever corrects it.
+  MatX by_jumps(const Window& window, const Globals& globals, int jumps) const;
   // Where a window's motion stands at the start of the next window; scaled.
   VecX state_at(const Window& window, const Globals& globals, const VecX& state, double t) const;
 
@@ -166,6 +199,14 @@ class CalibrationProblem {
   // Into request: what a window's motion starts with.
   void set_start(const Window& window, const std::vector<double>& values, const VecX& state, bool derivatives,
                  MotionRequest& request) const;
+  // Instants of the motion that a reading is a mean of, with their weights.
+  struct Moment {
+    double back, weight;  // back: in lags
+  };
+  std::vector<Moment> moments(double lag) const;
+  std::shared_ptr<const SceneTables> tables_at(int run, const std::vector<double>& values) const;
+  void differences_by_masses(const Window& window, const Globals& globals, const VecX& state,
+                             WindowResiduals& out) const;
   SensitiveMotion follow(const Window& window, const std::vector<double>& values, const VecX& state,
                          const std::vector<double>& times, bool derivatives) const;
   Vec6 play_displaces(const CalibrationRun& run, double t, const VecX& z) const;

@@ -68,6 +68,9 @@ class Calibrator {
   // optimum.
   void profile();
 
+  // Errors and intervals of a model that may be wrong.
+  void weigh_model_error();
+
   Inference infer_now() const;
 
   void refit(const std::string& stage);
@@ -85,6 +88,7 @@ class Calibrator {
   const CalibrationOptions& options_;
   CalibrationResult result_;
   std::vector<std::pair<int, std::string>> held_;
+  std::vector<Globals> optima_;  // where fits to the whole data have ended
   std::mutex mutex_;
 };
 

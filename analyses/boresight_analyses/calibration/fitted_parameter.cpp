@@ -50,6 +50,16 @@ double FittedParameter::slope(double u) const {
 double FittedParameter::lowest_coordinate() const { return coordinate(lower); }
 double FittedParameter::highest_coordinate() const { return coordinate(upper); }
 
+double FittedParameter::prior_information() const {
+  if (!has_prior) return 0.0;
+  const double deviation = is_error() ? 1.0 : prior / slope(coordinate(start));
+  return 1.0 / (deviation * deviation);
+}
+
+double FittedParameter::prior_distance(double u) const {
+  return (u - coordinate(start)) * std::sqrt(prior_information());
+}
+
 bool FittedParameter::at_bound(double u) const {
   if (transform != Transform::logit) {
     const double low = lowest_coordinate(), high = highest_coordinate();

@@ -21,11 +21,17 @@ struct FittedParameter {
   // SI; lower < start < upper, of log and logit above 0
   double lower = 0.0, upper = 0.0, start = 0.0;
   double size = 1.0;                 // of linear: what a direction that is known is known to a share of [SI]
-  bool has_prior = false;            // then size is its standard deviation about start
+  bool has_prior = false;            // what was known before: of linear, size is its standard deviation about start
+  double prior = 0.0;                // of log and logit: its standard deviation about start [SI]
   std::vector<ParameterPath> place;  // one, found in the mechanism
 
   // Whether it is a standing error, error.NAME; else it belongs to a contact.
   bool is_error() const { return transform == Transform::linear; }
+  bool is_contact() const { return path.starts_with("clearance."); }
+  // Of u, what is known before: one over its variance; 0: nothing.
+  double prior_information() const;
+  // How far u is from what was told, in standard deviations of the prior.
+  double prior_distance(double u) const;
   double value(double u) const;
   double coordinate(double value) const;
   double slope(double u) const;  // dx / du

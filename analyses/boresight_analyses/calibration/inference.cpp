@@ -139,8 +139,7 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
     }
   }
   const MatX data_information = out.information;
-  for (int p = 0; p < P; ++p)
-    if (problem.parameters[p].has_prior) out.information(p, p) += 1.0;
+  out.information.diagonal() += problem.prior_information();
   std::vector<int> free;
   for (int g = 0; g < G; ++g)
     if (g >= P || fixed.empty() || !fixed[g]) free.push_back(g);
@@ -211,9 +210,8 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
         assess_identifiability(p, e);
       }
     } else {
-      const bool offset = problem.fit_time_offset && g == P;
-      e.si_unit = offset ? "s" : channel_names()[problem.channels[g - P - (problem.fit_time_offset ? 1 : 0)]].si_unit;
-      e.value = offset ? fit.globals.time_offset : fit.globals.bias[g - P - (problem.fit_time_offset ? 1 : 0)];
+      e.value = problem.packed(fit.globals)[g];
+      e.si_unit = problem.global_unit(g);
       e.standard_error = deviation[g];
       e.low = e.value - quantile * deviation[g];
       e.high = e.value + quantile * deviation[g];

@@ -28,7 +28,8 @@ struct ParameterEstimate {
   double value = 0.0;
   double standard_error = std::numeric_limits<double>::quiet_NaN();
   double low = std::numeric_limits<double>::quiet_NaN(),
-         high = low;                                                   // by curvature, until profiles take its place
+         high = low;                                             // by curvature, until profiles take its place
+  double data_error = std::numeric_limits<double>::quiet_NaN();  // the standard error were the model without fault
   double coordinate_error = std::numeric_limits<double>::quiet_NaN();  // of u: the relative error of a logarithm
   bool identifiable = true;
   std::string reason;  // why, or why not

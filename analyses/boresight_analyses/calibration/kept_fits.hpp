@@ -10,7 +10,7 @@
 
 namespace boresight {
 
-inline void fields(Numbers& n, Globals& g) { n(g.u, g.time_offset, g.bias); }
+inline void fields(Numbers& n, Globals& g) { n(g.u, g.time_offset, g.lag, g.bias, g.drift); }
 inline void fields(Numbers& n, FitResult& f) {
   n(f.globals, f.windows, f.states, f.start_cost, f.cost, f.iterations, f.evaluations, f.converged, f.interrupted,
     f.reason);

@@ -12,15 +12,13 @@ constexpr double kSurprise = 0.5;
 
 // Held parameters have no covariance, and stay.
 Globals moved_along(const CalibrationProblem& problem, const Globals& from, const VecX& step) {
-  Globals at = from;
-  int g = 0;
-  for (int p = 0; p < problem.parameter_count(); ++p, ++g)
-    if (std::isfinite(step[g]))
-      at.u[p] = std::clamp(at.u[p] + step[g], problem.parameters[p].lowest_coordinate(),
-                           problem.parameters[p].highest_coordinate());
-  if (problem.fit_time_offset)
-    at.time_offset = std::clamp(at.time_offset + step[g++], -problem.largest_time_offset, problem.largest_time_offset);
-  if (problem.fit_bias) at.bias += step.tail(at.bias.size());
+  VecX to = problem.packed(from);
+  for (Eigen::Index g = 0; g < to.size(); ++g)
+    if (std::isfinite(step[g])) to[g] += step[g];
+  for (int p = 0; p < problem.parameter_count(); ++p)
+    to[p] = std::clamp(to[p], problem.parameters[p].lowest_coordinate(), problem.parameters[p].highest_coordinate());
+  Globals at = problem.unpacked(to);
+  at.time_offset = std::clamp(at.time_offset, -problem.largest_time_offset, problem.largest_time_offset);
   return at;
 }
 
@@ -89,7 +87,7 @@ Globals lowest_around(const CalibrationProblem& problem, const std::vector<bool>
   std::vector<Globals> tried = {at};
   for (int p = 0; p < problem.parameter_count(); ++p)
     for (const double step : {-0.2, -0.03, 0.03, 0.2}) {
-      if (fixed[p] || problem.parameters[p].is_error()) continue;
+      if (fixed[p] || problem.parameters[p].is_error() || problem.parameters[p].has_prior) continue;
       Globals moved = at;
       moved.u[p] = std::clamp(at.u[p] + step, problem.parameters[p].lowest_coordinate(),
                               problem.parameters[p].highest_coordinate());
@@ -129,7 +127,7 @@ Valleys valleys_beside(const CalibrationProblem& problem, const FitResult& fit, 
   std::vector<double> foretold;
   for (int p = 0; p < problem.parameter_count(); ++p)
     for (const double step : {-24.0, -12.0, -6.0, -3.0, 3.0, 6.0, 12.0, 24.0}) {
-      if (fixed[p] || problem.parameters[p].is_error()) continue;
+      if (fixed[p] || problem.parameters[p].is_error() || problem.parameters[p].has_prior) continue;
       const VecX line = inference.covariance.col(p) / std::sqrt(inference.covariance(p, p));
       trials.push_back({moved_along(problem, fit.globals, step * line)});
       foretold.push_back(step * step * inference.variance_factor);

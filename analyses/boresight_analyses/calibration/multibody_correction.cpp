@@ -25,12 +25,12 @@ Readings zeros_for(const CalibrationProblem& problem) {
 // Of window w, its samples x the run's channels.
 MatX window_readings(const CalibrationProblem& problem, const Window& w, const Globals& at) {
   const CalibrationRun& run = problem.runs[w.run];
-  std::vector<double> times;
-  for (int i = w.first; i <= w.last; ++i) times.push_back(std::max(0.0, run.data.time[i] + at.time_offset));
+  std::vector<double> times = problem.reading_times(w, at);
   return kept_or_computed<MatX>(
       problem.kept, CalibrationKey("multibody", problem).add(w.run, w.first, w.last, at).value(), [&] {
-        return multibody_readings(run.mechanism, problem.parameters_at(w.run, problem.values(at)), times,
-                                  run.data.channels);
+        return problem.mean_readings(w, at,
+                                     multibody_readings(run.mechanism, problem.parameters_at(w.run, problem.values(at)),
+                                                        times, run.data.channels));
       });
 }
 
@@ -38,7 +38,7 @@ MatX window_readings(const CalibrationProblem& problem, const Window& w, const G
 
 MultibodyAt multibody_at(const CalibrationProblem& problem, const Globals& at, int jobs) {
   const CalibrationProblem plain = without_corrections(problem);
-  MultibodyAt out{zeros_for(plain), zeros_for(plain), zeros_for(plain), {}};
+  MultibodyAt out{zeros_for(plain), zeros_for(plain), zeros_for(plain), zeros_for(plain), {}};
   out.motion.resize(plain.runs.size());
   for_each_on_threads(static_cast<int>(plain.windows.size()), jobs, [&](int k) {
     const Window& w = plain.windows[k];
@@ -50,11 +50,13 @@ MultibodyAt multibody_at(const CalibrationProblem& problem, const Globals& at, i
     plain.evaluate(w, at, VecX::Zero(plain.state_size(w)), true, own);
     for (Eigen::Index i = 0; i < own.r.size(); ++i) {
       const int sample = own.sample[i], channel = own.channel[i], column = plain.column(w.run, channel);
-      const double bias = at.bias.size() > 0 ? at.bias[channel] : 0.0;
+      const double bias = at.offset_of(channel, data.time[sample]);
       const double model = data.value(sample, column) + own.r[i] * plain.sigma[channel] - bias;
       out.difference[w.run](sample, column) = readings(sample - w.first, column) - model;
       if (plain.fit_time_offset)
-        out.by_time[w.run](sample, column) = own.by_global(i, plain.parameter_count()) * plain.sigma[channel];
+        out.by_time[w.run](sample, column) = own.by_global(i, plain.time_offset_column()) * plain.sigma[channel];
+      if (plain.fit_lag)
+        out.by_lag[w.run](sample, column) = own.by_global(i, plain.lag_column()) * plain.sigma[channel];
     }
     out.motion[w.run] = std::move(own.motion);
   });
@@ -92,11 +94,12 @@ CorrectionSize size_of(const CalibrationProblem& problem, const Globals& at, con
     for (int c = 0; c < static_cast<int>(problem.channels.size()); ++c) {
       const int column = problem.column(w.run, c);
       if (column < 0) continue;
-      const double bias = at.bias.size() > 0 ? at.bias[c] : 0.0;
       for (int i = w.first; i <= w.last; ++i) {
         const double measured = problem.runs[w.run].data.value(i, column);
         if (!std::isfinite(measured)) continue;
-        const double r = (multibody.reading[w.run](i, column) + bias - measured) / problem.sigma[c];
+        const double r =
+            (multibody.reading[w.run](i, column) + at.offset_of(c, problem.runs[w.run].data.time[i]) - measured) /
+            problem.sigma[c];
         size.confirmation += std::pow(problem.loss.residual(r), 2);
         size.difference += std::pow(multibody.difference[w.run](i, column) / problem.sigma[c], 2);
         ++count;

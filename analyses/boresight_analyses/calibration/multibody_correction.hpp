@@ -15,7 +15,7 @@ using Readings = std::vector<MatX>;
 
 struct MultibodyAt {
   Readings reading, difference;         // its own; less those of the fit's rung
-  Readings by_time;                     // of the fit's rung [SI/s]; zero unless the time offset is fitted
+  Readings by_time, by_lag;             // of the fit's rung [SI/s]; zero unless the time offset, the lag is fitted
   std::vector<SensitiveMotion> motion;  // of the fit's rung
 };
 // On `jobs` threads; the problem's corrections have no say.

@@ -94,7 +94,7 @@ std::vector<Profile> profile_likelihood(const CalibrationProblem& problem, const
   const double rise = boost::math::quantile(boost::math::chi_squared(1.0), confidence);
   std::vector<int> wanted;
   for (int p = 0; p < problem.parameter_count(); ++p)
-    if (!fixed[p] && !problem.parameters[p].is_error()) wanted.push_back(p);
+    if (!fixed[p] && !problem.parameters[p].is_error() && !problem.parameters[p].has_prior) wanted.push_back(p);
   std::vector<Profile> profiles(wanted.size());
   std::vector<std::vector<std::pair<double, double>>> points(2 * wanted.size());
   std::mutex mutex;

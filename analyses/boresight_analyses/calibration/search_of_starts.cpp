@@ -77,7 +77,9 @@ Globals Calibrator::start(int number) const {
     const FittedParameter& parameter = problem_.parameters[p];
     // The loss is a parabola by them: any start is as good.
     if (parameter.is_error()) continue;
-    const double reach = parameter.transform == Transform::log ? std::log(2.0) : 1.0;
+    const double unknown = parameter.transform == Transform::log ? std::log(2.0) : 1.0;
+    const double reach =
+        parameter.has_prior ? std::min(unknown, 1.0 / std::sqrt(parameter.prior_information())) : unknown;
     const double draw = stream.uniform(static_cast<std::uint64_t>(number), static_cast<std::uint64_t>(p));
     at.u[p] =
         std::clamp(at.u[p] + reach * (2.0 * draw - 1.0), parameter.lowest_coordinate(), parameter.highest_coordinate());
@@ -148,6 +150,7 @@ void Calibrator::stabilise(const std::string& stage) {
       FitResult found = fit(problem_, place, {}, fit_options(stage + ", another valley", 15, options_.jobs));
       if (found.interrupted) throw CalibrationInterrupted{};
       result_.evaluations += found.evaluations;
+      optima_.push_back(found.globals);
       if (found.cost < result_.fit.cost) result_.fit = std::move(found);
     }
     if (!(result_.fit.cost < before - 0.1 * inference.variance_factor)) return;

@@ -40,8 +40,8 @@ void CalibrationProblem::set_start(const Window& w, const std::vector<double>& v
   request.start_state = state.cwiseProduct(state_scale(w));
   if (!w.from_rest) return;
   const CalibrationRun& run = runs[w.run];
-  const StartSlopes start =
-      start_slopes(*run.mechanism, *run.tables, with_contacts(w.run, values), contact_values(values), derivatives);
+  const StartSlopes start = start_slopes(*run.mechanism, *tables_at(w.run, values), with_contacts(w.run, values),
+                                         contact_values(values), derivatives);
   request.start_state += start.state;
   request.start_by_parameters = start.by;
 }
@@ -62,6 +62,34 @@ double displaced_reading(const CalibrationRun& run, int channel, double t, const
 
 }  // namespace
 
+std::vector<CalibrationProblem::Moment> CalibrationProblem::moments(double lag) const {
+  // Abramowitz and Stegun (1964), table 25.9, n = 3; without a lag only its slope matters, and that is of the mean.
+  if (lag == 0.0) return {{1.0, 1.0}};
+  return {{0.415774556783, 0.711093009929}, {2.294280360279, 0.278517733569}, {6.289945082937, 0.0103892565016}};
+}
+
+std::vector<double> CalibrationProblem::reading_times(const Window& w, const Globals& globals) const {
+  std::vector<double> times;
+  for (const Moment& m : moments(globals.lag))
+    for (int i = w.first; i <= w.last; ++i)
+      times.push_back(
+          std::clamp(runs[w.run].data.time[i] + globals.time_offset - globals.lag * m.back, w.start, w.end));
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+MatX CalibrationProblem::mean_readings(const Window& w, const Globals& globals, const MatX& at_times) const {
+  const std::vector<double> times = reading_times(w, globals);
+  MatX mean = MatX::Zero(w.last - w.first + 1, at_times.cols());
+  for (const Moment& m : moments(globals.lag))
+    for (int i = w.first; i <= w.last; ++i) {
+      const double t =
+          std::clamp(runs[w.run].data.time[i] + globals.time_offset - globals.lag * m.back, w.start, w.end);
+      mean.row(i - w.first) += m.weight * at_times.row(std::lower_bound(times.begin(), times.end(), t) - times.begin());
+    }
+  return mean;
+}
+
 void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const VecX& state, bool derivatives,
                                   WindowResiduals& out) const {
   const CalibrationRun& run = runs[w.run];
@@ -71,11 +99,10 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
   const std::vector<double> theta = values(globals);
   const VecX scale = state_scale(w);
   const std::vector<int> contacts = contact_parameters();
-  std::vector<double> times;
-  for (int i = w.first; i <= w.last; ++i)
-    times.push_back(std::clamp(run.data.time[i] + globals.time_offset, w.start, w.end));
+  const std::vector<double> times = reading_times(w, globals);
   out.motion = n > 0 ? follow(w, theta, state, times, derivatives) : SensitiveMotion{};
   const Parameters sample_of_fit = parameters_at(w.run, theta);
+  const bool by_time = derivatives && (fit_time_offset || fit_lag);
   constexpr double kShort = 1e-5;  // [s], against the motion's own time
   const auto later_than = [&](double t) { return std::min(t + kShort, run.mechanism->duration()); };
   const auto earlier_than = [&](double t) { return std::max(t - kShort, 0.0); };
@@ -83,7 +110,7 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
   std::vector<Vec6> standing = nothing, standing_later = nothing, standing_earlier = nothing;
   if (run.standing) {
     standing = run.standing->displacements(sample_of_fit, times);
-    if (derivatives && fit_time_offset) {
+    if (by_time) {
       std::vector<double> later, earlier;
       for (const double t : times) {
         later.push_back(later_than(t));
@@ -110,54 +137,75 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
     for (int i = 0; i < samples; ++i) {
       const double measured = run.data.value(w.first + i, column_here);
       if (!std::isfinite(measured)) continue;
-      const double t = times[i];
-      channel_rows(run, channels[c], t, n, at);
-      const VecX z = n > 0 ? VecX(out.motion.state.col(i).head(n)) : at_rest;
-      const Vec3 vector = at.rows * z + at.by_pose * standing[i];
-      const double own = at.size ? vector.norm() : vector[0];
-      double model = own;
-      if (run.standing) model = displaced_reading(run, channels[c], t, play_displaces(run, t, z) + standing[i]);
-      if (correction) model += correction->offset(w.first + i, column_here);
-      const double bias = globals.bias.size() > 0 ? globals.bias[c] : 0.0;
-      out.r[m] = (model + bias - measured) / sigma[c];
-      out.sample.push_back(w.first + i);
-      out.channel.push_back(c);
-      if (derivatives) {
+      const double of_clock = run.data.time[w.first + i];
+      double model = 0.0;
+      for (const Moment& moment : moments(globals.lag)) {
+        const double t = std::clamp(of_clock + globals.time_offset - globals.lag * moment.back, w.start, w.end);
+        const auto k = static_cast<Eigen::Index>(std::lower_bound(times.begin(), times.end(), t) - times.begin());
+        channel_rows(run, channels[c], t, n, at);
+        const VecX z = n > 0 ? VecX(out.motion.state.col(k).head(n)) : at_rest;
+        const Vec3 vector = at.rows * z + at.by_pose * standing[k];
+        const double own = at.size ? vector.norm() : vector[0];
+        model += moment.weight *
+                 (run.standing ? displaced_reading(run, channels[c], t, play_displaces(run, t, z) + standing[k]) : own);
+        if (!derivatives) continue;
         const Vec3 along = at.size ? Vec3(vector / std::max(own, 1e-12)) : Vec3::UnitX();
-        const Eigen::RowVectorXd by_z = along.transpose() * at.rows / sigma[c];
-        for (std::size_t k = 0; k < contacts.size(); ++k) {
-          const int p = contacts[k];
-          out.by_global(m, p) =
-              by_z.dot(out.motion.by[i].col(static_cast<Eigen::Index>(k)).head(n)) * parameters[p].slope(globals.u[p]);
-        }
+        const Eigen::RowVectorXd by_z = moment.weight * along.transpose() * at.rows / sigma[c];
+        for (std::size_t p = 0; p < contacts.size(); ++p)
+          out.by_global(m, contacts[p]) += by_z.dot(out.motion.by[k].col(static_cast<Eigen::Index>(p)).head(n)) *
+                                           parameters[contacts[p]].slope(globals.u[contacts[p]]);
         if (run.standing) {
           const Eigen::RowVectorXd by_error =
-              along.transpose() * at.by_pose * run.standing->slopes(w.first + i) / sigma[c];
+              moment.weight * along.transpose() * at.by_pose * run.standing->slopes(w.first + i) / sigma[c];
           for (int p = 0; p < P; ++p)
-            if (parameters[p].is_error()) out.by_global(m, p) = by_error[p] * parameters[p].slope(globals.u[p]);
+            if (parameters[p].is_error()) out.by_global(m, p) += by_error[p] * parameters[p].slope(globals.u[p]);
         }
         if (n > 0 && !w.from_rest)
-          out.by_state.row(m) = by_z * out.motion.by[i].rightCols(2 * n).topRows(n) * scale.asDiagonal();
-        int g = P;
-        if (fit_time_offset) {
-          channel_rows(run, channels[c], later_than(t), n, later);
-          channel_rows(run, channels[c], earlier_than(t), n, earlier);
-          const Vec3 turning = ((later.rows - earlier.rows) * z + later.by_pose * standing_later[i] -
-                                earlier.by_pose * standing_earlier[i]) /
-                               (later_than(t) - earlier_than(t));
-          const double moving = n > 0 ? by_z.dot(out.motion.state.col(i).tail(n)) : 0.0;
-          out.by_global(m, g++) = moving + along.dot(turning) / sigma[c];
-        }
-        if (fit_bias) out.by_global(m, g + c) = 1.0 / sigma[c];
+          out.by_state.row(m) += by_z * out.motion.by[k].rightCols(2 * n).topRows(n) * scale.asDiagonal();
+        if (!by_time) continue;
+        channel_rows(run, channels[c], later_than(t), n, later);
+        channel_rows(run, channels[c], earlier_than(t), n, earlier);
+        const Vec3 turning = ((later.rows - earlier.rows) * z + later.by_pose * standing_later[k] -
+                              earlier.by_pose * standing_earlier[k]) /
+                             (later_than(t) - earlier_than(t));
+        const double moving =
+            (n > 0 ? by_z.dot(out.motion.state.col(k).tail(n)) : 0.0) + moment.weight * along.dot(turning) / sigma[c];
+        if (fit_time_offset) out.by_global(m, time_offset_column()) += moving;
+        if (fit_lag) out.by_global(m, lag_column()) -= moment.back * moving;
       }
+      if (correction) model += correction->offset(w.first + i, column_here);
+      out.r[m] = (model + globals.offset_of(c, of_clock) - measured) / sigma[c];
+      out.sample.push_back(w.first + i);
+      out.channel.push_back(c);
+      if (derivatives && fit_bias) out.by_global(m, bias_column() + c) = 1.0 / sigma[c];
+      if (derivatives && fit_drift) out.by_global(m, drift_column() + c) = of_clock / sigma[c];
       ++m;
     }
   }
   out.r.conservativeResize(m);
-  if (derivatives) {
-    out.by_global.conservativeResize(m, Eigen::NoChange);
-    out.by_state.conservativeResize(m, Eigen::NoChange);
+  if (!derivatives) return;
+  out.by_global.conservativeResize(m, Eigen::NoChange);
+  out.by_state.conservativeResize(m, Eigen::NoChange);
+  differences_by_masses(w, globals, state, out);
+}
+
+void CalibrationProblem::differences_by_masses(const Window& w, const Globals& globals, const VecX& state,
+                                               WindowResiduals& out) const {
+  constexpr double kStep = 1e-4;  // of the logarithm
+  for (int p = 0; p < parameter_count(); ++p) {
+    if (parameters[p].is_error() || parameters[p].is_contact()) continue;
+    Globals moved = globals;
+    moved.u[p] += kStep;
+    WindowResiduals there;
+    evaluate(w, moved, state, false, there);
+    out.by_global.col(p) = (there.r - out.r) / kStep;
   }
+}
+
+std::shared_ptr<const SceneTables> CalibrationProblem::tables_at(int run, const std::vector<double>& theta) const {
+  const bool of_masses = std::any_of(parameters.begin(), parameters.end(),
+                                     [](const FittedParameter& p) { return !p.is_error() && !p.is_contact(); });
+  return of_masses ? runs[run].prepared->tables(parameters_at(run, theta)) : runs[run].tables;
 }
 
 SensitiveMotion CalibrationProblem::follow(const Window& w, const std::vector<double>& theta, const VecX& state,
@@ -172,7 +220,7 @@ SensitiveMotion CalibrationProblem::follow(const Window& w, const std::vector<do
   request.by_start_state = derivatives && !w.from_rest;
   request.derivative_tolerance = derivatives ? derivative_tolerance : 0.0;
   request.times = times;
-  return follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), run.tables,
+  return follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), tables_at(w.run, theta),
                                  contact_numbers_at(w.run, theta), request);
 }
 
@@ -189,7 +237,7 @@ void CalibrationProblem::evaluate_tangent(const Window& w, const Globals& global
                                           WindowResiduals& out) const {
   const TangentModel& model = *corrections[w.run].tangent;
   const VecX away = globals.u - model.at;
-  const double later = globals.time_offset - model.time_offset;
+  const double later = globals.time_offset - model.time_offset, more_lag = globals.lag - model.lag;
   const int P = parameter_count(), most = (w.last - w.first + 1) * static_cast<int>(channels.size());
   out.motion = model.motion;
   out.r.resize(most);
@@ -206,16 +254,19 @@ void CalibrationProblem::evaluate_tangent(const Window& w, const Globals& global
     for (int i = w.first; i <= w.last; ++i) {
       const double measured = runs[w.run].data.value(i, k);
       if (!std::isfinite(measured)) continue;
-      double reading = model.reading(i, k) + model.by_time(i, k) * later;
+      double reading = model.reading(i, k) + model.by_time(i, k) * later + model.by_lag(i, k) * more_lag;
       for (int p = 0; p < P; ++p) reading += model.slope[p](i, k) * away[p];
-      if (globals.bias.size() > 0) reading += globals.bias[c];
+      const double of_clock = runs[w.run].data.time[i];
+      reading += globals.offset_of(c, of_clock);
       out.r[m] = (reading - measured) / sigma[c];
       out.sample.push_back(i);
       out.channel.push_back(c);
       if (derivatives) {
         for (int p = 0; p < P; ++p) out.by_global(m, p) = model.slope[p](i, k) / sigma[c];
-        if (fit_time_offset) out.by_global(m, P) = model.by_time(i, k) / sigma[c];
-        if (fit_bias) out.by_global(m, P + (fit_time_offset ? 1 : 0) + c) = 1.0 / sigma[c];
+        if (fit_time_offset) out.by_global(m, time_offset_column()) = model.by_time(i, k) / sigma[c];
+        if (fit_lag) out.by_global(m, lag_column()) = model.by_lag(i, k) / sigma[c];
+        if (fit_bias) out.by_global(m, bias_column() + c) = 1.0 / sigma[c];
+        if (fit_drift) out.by_global(m, drift_column() + c) = of_clock / sigma[c];
       }
       ++m;
     }

@@ -48,7 +48,7 @@ VecX CalibrationProblem::state_at(const Window& w, const Globals& globals, const
   request.times = {t};
   set_start(w, theta, state, false, request);
   request.tolerance = tolerance;
-  return follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), run.tables,
+  return follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), tables_at(w.run, theta),
                                  contact_numbers_at(w.run, theta), request)
       .state.col(0)
       .cwiseQuotient(state_scale(w));
@@ -86,7 +86,7 @@ VecX CalibrationProblem::guess_state(const Window& w, const Globals& globals, co
           Eigen::RowVectorXd row(unknowns);
           for (int k = 0; k < powers; ++k)
             row.segment(k * n, n) = at.rows.row(0) * scale[0] / sigma[c] * std::pow(tau, k);
-          const double bias = globals.bias.size() > 0 ? globals.bias[c] : 0.0;
+          const double bias = globals.offset_of(c, run.data.time[w.first + i]);
           const double y = (measured - bias) / sigma[c], r = std::abs(y - row.dot(x));
           const double weight = pass > 0 && r > 3.0 ? 3.0 / r : 1.0;
           H += weight * row.transpose() * row;

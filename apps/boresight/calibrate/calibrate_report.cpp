@@ -38,7 +38,8 @@ report::Table estimate_table(const CalibrationStudy& s) {
       .caption = fmt::format("Intervals at {} confidence: where the loss itself has risen by as much (profile), "
                              "else by its curvature.",
                              readable_share(s.plan.confidence)),
-      .columns = {{"Parameter"}, {"Value"}, {"Standard error"}, {"Interval"}, {"By"}, {"Verdict"}}};
+      .columns = {
+          {"Parameter"}, {"Value"}, {"Standard error"}, {"Of the data alone"}, {"Interval"}, {"By"}, {"Verdict"}}};
   for (std::size_t k = 0; k < s.result.inference.parameters.size(); ++k) {
     const ParameterEstimate& e = s.result.inference.parameters[k];
     const bool profiled = std::any_of(s.result.profiles.begin(), s.result.profiles.end(), [&](const Profile& p) {
@@ -46,10 +47,11 @@ report::Table estimate_table(const CalibrationStudy& s) {
     });
     if (e.identifiable)
       table.rows.push_back({short_name(e.name), readable_as(e.value, e.si_unit, e.written_unit),
-                            readable_as(e.standard_error, e.si_unit, e.written_unit), interval_of(e),
-                            profiled ? "profile" : "curvature", e.reason});
+                            readable_as(e.standard_error, e.si_unit, e.written_unit),
+                            std::isfinite(e.data_error) ? readable_as(e.data_error, e.si_unit, e.written_unit) : "",
+                            interval_of(e), profiled ? "profile" : "curvature", e.reason});
     else
-      table.rows.push_back({short_name(e.name), "none", "", "", "", "not identifiable: " + e.reason});
+      table.rows.push_back({short_name(e.name), "none", "", "", "", "", "not identifiable: " + e.reason});
   }
   return table;
 }
@@ -67,6 +69,29 @@ report::Table combinations_table(const CalibrationStudy& s) {
                             readable_as(c.standard_error, c.si_unit, written),
                             readable_as(c.low, c.si_unit, written) + " to " + readable_as(c.high, c.si_unit, written)});
     }
+  return table;
+}
+
+// What the fit takes as known, and what that may do to each parameter.
+report::Table suspects_table(const CalibrationStudy& s) {
+  report::Table table{.title = "What the model may be wrong by",
+                      .caption =
+                          "Each with one standard deviation of what was told, what the data make of it (in these "
+                          "deviations), by how much it lowers the loss, and what it adds to the standard error of each "
+                          "parameter, in percent of it.",
+                      .columns = {{"Suspect"}, {"Found"}, {"Error"}, {"Gain"}}};
+  const int count = s.problem.parameter_count();
+  for (int p = 0; p < count; ++p) table.columns.push_back({short_name(s.problem.parameters[p].path), "%"});
+  for (const SuspectFound& found : s.result.model_error->suspects) {
+    std::vector<nlohmann::json> row = {found.name, cell(found.mean), cell(found.error), cell(found.gain)};
+    for (int p = 0; p < count; ++p) {
+      const FittedParameter& parameter = s.problem.parameters[p];
+      const double u = s.result.fit.globals.u[p];
+      const double size = parameter.is_error() ? parameter.size : parameter.value(u);
+      row.push_back(cell(100.0 * found.adds[p] * parameter.slope(u) / size));
+    }
+    table.rows.push_back(row);
+  }
   return table;
 }
 
@@ -281,6 +306,7 @@ report::Document calibrate_report(const CalibrationStudy& s) {
   residuals.items = {residual_panels(s, true), residual_panels(s, false), residual_checks(s)};
   document.sections = {answer, residuals};
   report::Section more{.id = "more", .title = "How sure, and what next"};
+  if (s.result.model_error && !s.result.model_error->suspects.empty()) more.items.push_back(suspects_table(s));
   if (!s.result.profiles.empty()) more.items.push_back(profile_panels(s));
   if (!s.result.laws.empty()) {
     report::Table laws{

@@ -95,6 +95,7 @@ class CalibrateVerb : public Verb {
     options.noise = plan.noise;
     options.corrections = plan.corrections;
     options.profile = plan.profile;
+    options.discrepancy = plan.discrepancy;
     options.laws = plan.laws;
     for (const PlannedRun& c : plan.candidates) options.candidates.push_back({c.name, mechanism_with(c.settings)});
     ContentHash data;
@@ -180,13 +181,15 @@ class CalibrateVerb : public Verb {
     json["converged"] = r.fit.converged;
     json["reason"] = r.fit.reason;
     json["evaluations"] = r.evaluations;
-    for (const char* key : {"optimum", "standard_error", "interval", "correlation", "identifiable"})
+    for (const char* key :
+         {"optimum", "standard_error", "standard_error_of_data", "interval", "correlation", "identifiable"})
       json[key] = Json::object();
     const auto& parameters = r.inference.parameters;
     for (std::size_t a = 0; a < parameters.size(); ++a) {
       const ParameterEstimate& e = parameters[a];
       json["optimum"][e.name] = e.identifiable ? number(e.value) : Json();
       json["standard_error"][e.name] = e.identifiable ? number(e.standard_error) : Json();
+      json["standard_error_of_data"][e.name] = e.identifiable ? number(e.data_error) : Json();
       json["interval"][e.name] =
           e.identifiable ? Json{{"low", number(e.low)}, {"high", number(e.high)}, {"confidence", s.plan.confidence}}
                          : Json();
@@ -200,6 +203,7 @@ class CalibrateVerb : public Verb {
     }
     json["combinations"] = combinations_of(s);
     json["verdict"] = r.verdict;
+    json["model_error"] = model_error_of(s);
     json["residuals"] = {{"values", r.inference.values},
                          {"unknowns", r.inference.unknowns},
                          {"variance_factor", number(r.inference.variance_factor)},
@@ -226,6 +230,30 @@ class CalibrateVerb : public Verb {
     json["files"] = parameters.empty() ? Json{"summary.json"}
                                        : Json{"summary.json", "posterior.toml", "report.html", "report.json"};
     return json;
+  }
+
+  static Json model_error_of(const CalibrationStudy& s) {
+    if (!s.result.model_error) return Json();
+    const ModelError& e = *s.result.model_error;
+    Json suspects = Json::array();
+    for (const SuspectFound& found : e.suspects) {
+      Json adds = Json::object();
+      for (int p = 0; p < s.problem.parameter_count(); ++p) {
+        const FittedParameter& parameter = s.problem.parameters[static_cast<std::size_t>(p)];
+        adds[parameter.path] = number(found.adds[p] * parameter.slope(s.result.fit.globals.u[p]));
+      }
+      suspects.push_back({{"name", found.name},
+                          {"says", found.says},
+                          {"deviation", number(found.deviation)},
+                          {"unit", found.unit == "%" ? "1" : found.unit},
+                          {"found", number(found.mean)},
+                          {"error", number(found.error)},
+                          {"gain", number(found.gain)},
+                          {"adds", adds}});
+    }
+    return {{"jump", number(e.jump)}, {"jump_gain", number(e.jump_gain)},
+            {"optima", e.optima},     {"disagreement", number(e.disagreement)},
+            {"groups", e.groups},     {"suspects", suspects}};
   }
 
   // Of standing errors that the data cannot tell apart.

@@ -137,6 +137,9 @@ SensitiveMotion follow_with_sensitivity(const Mechanism& mechanism, const Parame
     if (left <= 4) {
       follower.directions<4>(first, count, parameters_too, out);
       first += 4;
+    } else if (left <= 6) {
+      follower.directions<6>(first, count, parameters_too, out);
+      first += 6;
     } else if (left <= 10) {
       follower.directions<10>(first, count, parameters_too, out);
       first += 10;
