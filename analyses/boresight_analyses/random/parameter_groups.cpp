@@ -4,9 +4,25 @@
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/random/random_keys.hpp"
+#include "boresight_analyses/random/sample_rows.hpp"
 
 namespace boresight {
 namespace {
+
+// Parameters that are drawn together: `first` and those next to it.
+struct Together {
+  std::size_t first = 0, count = 0;
+  std::string holder;
+};
+
+std::vector<Together> drawn_together(const RandomInputs& inputs) {
+  std::vector<Together> all;
+  for (const DrawnTogether& zone : inputs.zones) all.push_back({zone.first, 2, "cylinder"});
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    if (const SampleRows* rows = rows_from(inputs.parameters[i].distribution))
+      all.push_back({i, static_cast<std::size_t>(rows->columns()), "table"});
+  return all;
+}
 
 // Whether the copula makes parameter `to` depend on the coordinate of `from`.
 bool depends(const RandomInputs& inputs, std::size_t from, std::size_t to) {
@@ -45,26 +61,31 @@ NamedGroups read_parameter_groups(Cursor& table, const RandomInputs& inputs, con
     }
     groups.finish();
   }
-  for (const DrawnTogether& zone : inputs.zones)
-    if (taken[zone.first] != taken[zone.first + 1])
-      table.fail_found("groups", "only one of " + known[zone.first] + " and " + known[zone.first + 1] + " in a group",
-                       "both in it, as one cylinder holds them");
+  const std::vector<Together> together = drawn_together(inputs);
+  for (const Together& t : together)
+    for (std::size_t i = t.first + 1; i < t.first + t.count; ++i)
+      if (taken[t.first] != taken[i])
+        table.fail_found("groups", "only one of " + known[t.first] + " and " + known[i] + " in a group",
+                         "both in it, as one " + t.holder + " holds them");
   for (std::size_t i = 0; i < d; ++i) {
     if (taken[i]) continue;
     out.members.push_back({static_cast<int>(i)});
     out.names.push_back(known[i]);
-    if (inputs.zone_of(i) == nullptr) continue;
-    ++i;
-    out.members.back().push_back(static_cast<int>(i));
-    out.names.back() += ", " + known[i];
+    for (const Together& t : together)
+      while (i >= t.first && i + 1 < t.first + t.count) {
+        ++i;
+        out.members.back().push_back(static_cast<int>(i));
+        out.names.back() += ", " + known[i];
+      }
   }
   std::vector<std::size_t> group_of(d);
   for (std::size_t g = 0; g < out.members.size(); ++g)
     for (const int i : out.members[g]) group_of[static_cast<std::size_t>(i)] = g;
-  for (const DrawnTogether& zone : inputs.zones)
-    if (group_of[zone.first] != group_of[zone.first + 1])
-      table.fail_found("groups", known[zone.first] + " and " + known[zone.first + 1] + " apart",
-                       "both in one group, as one cylinder holds them");
+  for (const Together& t : together)
+    for (std::size_t i = t.first + 1; i < t.first + t.count; ++i)
+      if (group_of[t.first] != group_of[i])
+        table.fail_found("groups", known[t.first] + " and " + known[i] + " apart",
+                         "both in one group, as one " + t.holder + " holds them");
   if (rules.correlated_apart) return out;
   for (std::size_t i = 0; i < d; ++i)
     for (std::size_t j = 0; j < d; ++j)

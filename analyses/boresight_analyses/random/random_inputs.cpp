@@ -12,6 +12,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/random/random_keys.hpp"
 #include "boresight_analyses/random/read_distribution.hpp"
+#include "boresight_analyses/random/read_rows.hpp"
 #include "boresight_analyses/random/read_zone.hpp"
 
 namespace boresight {
@@ -114,6 +115,34 @@ void read_drawn_together(Cursor& entry, const MechanismDescription& mechanism,
   for (RandomParameter& parameter : pair) inputs.parameters.push_back(std::move(parameter));
 }
 
+// Of the rows of a table: the parameters, each with its column.
+void read_rows_of(Cursor& entry, const MechanismDescription& mechanism,
+                  const std::function<void(const Setting&)>& accepts, RandomInputs& inputs) {
+  const std::string key = entry.has("parameters") ? "parameters" : "parameter";
+  const std::vector<std::string> paths = key == "parameter" ? entry.one_or_texts(key) : entry.texts(key);
+  entry.require(!paths.empty(), key, "at least one parameter");
+  std::vector<RandomParameter> row(paths.size());
+  std::vector<std::string> units;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    row[k].paths = {paths[k]};
+    row[k].places.emplace_back(mechanism, paths[k], entry.origin(key));
+    units.push_back(row[k].si_unit = row[k].places[0].unit());
+  }
+  Cursor distribution = entry.table("distribution");
+  distribution.only(distribution_keys());
+  for (const std::string& other : distribution.keys())
+    if (other != "rows") distribution.fail_found(other, "rows and " + other, "rows alone");
+  if (!distribution.is_table("rows")) distribution.fail("rows", "a table, such as { file = \"draws.csv\" }");
+  Cursor of_rows = distribution.table("rows");
+  const auto rows = std::make_shared<const SampleRows>(read_rows(of_rows, paths, units));
+  distribution.finish();
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    row[k].distribution = column_of(rows, static_cast<Eigen::Index>(k));
+    check_ends(entry, row[k], accepts);
+    inputs.parameters.push_back(std::move(row[k]));
+  }
+}
+
 // The paths that a path with * stands for; of another one, itself.
 std::vector<std::string> meant_by(const MechanismDescription& mechanism, const std::string& path) {
   if (path.find(".*.") == std::string::npos) return {path};
@@ -158,6 +187,9 @@ void read_correlations(Cursor& root, RandomInputs& inputs) {
     if (zone != nullptr && zone == other)
       entry.fail_found("parameters", "two parameters of one cylinder",
                        "parameters whose dependence is not given by their zone already");
+    for (const Eigen::Index k : {i, j})
+      if (rows_with(inputs.parameters[static_cast<std::size_t>(k)].distribution) != nullptr)
+        entry.fail_found("parameters", "a parameter of a table's rows", "parameters with distributions of their own");
     if ((zone != nullptr || other != nullptr) && entry.choice("measure") != "normal")
       entry.fail("measure", "\"normal\" for a parameter of a cylinder, of which ranks have no closed form");
     if (correlation(i, j) != 0.0) entry.fail("parameters", "each pair once");
@@ -207,6 +239,10 @@ void RandomInputs::apply_quantiles(std::span<double> coordinates) const {
       zone->disc.place(coordinates.subspan(i).first<2>());
       ++zone;
       ++i;
+    } else if (const SampleRows* rows = rows_from(parameters[i].distribution)) {
+      const Eigen::Index row = rows->row_of(coordinates[i]);
+      for (Eigen::Index k = 0; k < rows->columns(); ++k, ++i) coordinates[i] = rows->at(row, k);
+      --i;
     } else {
       coordinates[i] = parameters[i].distribution->quantile(coordinates[i]);
     }
@@ -242,10 +278,13 @@ RandomInputs read_random_inputs(Cursor& root, const MechanismDescription& mechan
     const std::size_t before = inputs.size();
     if (entry.table("distribution").has("cylinder")) {
       read_drawn_together(entry, mechanism, accepts, inputs);
+    } else if (entry.table("distribution").has("rows")) {
+      read_rows_of(entry, mechanism, accepts, inputs);
     } else {
       if (entry.has("parameters"))
-        entry.fail("parameters",
-                   "a cylinder, of which two parameters are a point; parameter = [..] gives several one value");
+        entry.fail(
+            "parameters",
+            "a cylinder, of which two parameters are a point, or rows; parameter = [..] gives several one value");
       inputs.parameters.push_back(read_parameter(entry, mechanism, accepts));
     }
     entry.finish();

@@ -21,8 +21,12 @@
 //   parameters = ["gravity.x", "gravity.y"]    # two that are drawn together, as a point of a disc: tolerance_disc.hpp
 //   distribution = { cylinder = { diameter = ".." }, zone = "uniform" }
 //
-// Each of the two is a parameter with its own distribution, that of the disc's coordinate, and takes a coordinate of the unit
-// cube. What they do cannot be told apart, so they are one group wherever parameters are grouped.
+//   [[random]]
+//   parameters = ["clearance.F1.radial", ..]   # any number that are drawn together, as a row of a table: sample_rows.hpp
+//   distribution = { rows = { file = "draws.csv" } }
+//
+// Each of them is a parameter with its own distribution, that of the disc's coordinate or of its column, and takes a coordinate of the
+// unit cube. What they do cannot be told apart, so they are one group wherever parameters are grouped.
 //
 //   [[correlation]]
 //   parameters = ["clearance.F1.radial", "clearance.F1.friction.coefficient"]

@@ -1,22 +1,26 @@
 #include "boresight_analyses/random/random_keys.hpp"
 
+#include "boresight_analyses/random/read_rows.hpp"
+
 namespace boresight {
 
 const KeyTable& random_keys() {
   using namespace keys;
   static const KeyTable table_of_keys{
       .name = "random",
-      .says = "A parameter that scatters, several that scatter as one, or two that are drawn as a point of a zone.",
+      .says =
+          "A parameter that scatters, several that scatter as one, two that are drawn as a point of a zone, or any "
+          "number "
+          "that are drawn as a row of a table.",
       .keys = {texts("parameter")
                    .or_single()
                    .sometimes("left out where parameters is given")
                    .says("The parameter's path, or a list of paths that all take the value drawn; `boresight paths` "
                          "lists them."),
                texts("parameters")
-                   .of_length({2}, "two parameters")
-                   .sometimes("with a cylinder only")
-                   .says("The paths of two parameters that are drawn together, as a point of a cylinder's cross "
-                         "section; parameter = [..] of two paths means the same there."),
+                   .sometimes("with a cylinder or rows only")
+                   .says("The paths of parameters that are drawn together: two, as a point of a cylinder's cross "
+                         "section, or any number, as a row of a table; parameter = [..] means the same there."),
                table("distribution", distribution_keys).says("How it scatters: exactly one distribution.")}};
   return table_of_keys;
 }
@@ -78,6 +82,10 @@ const KeyTable& distribution_keys() {
           table("cylinder", cylinder_keys)
               .sometimes(one + "; for two parameters that are drawn together")
               .says("A cylindrical tolerance zone (ISO 1101): a point of a disc."),
+          table("rows", rows_keys)
+              .sometimes(one + "; for parameters that are drawn together")
+              .says("The rows of a CSV file, such as draws of a posterior: all parameters take their values from the "
+                    "same row."),
           choice("zone",
                  std::vector<KeyChoice>{{"normal", "centred, the zone is six standard deviations wide and cut there"},
                                         {"uniform", "any place in the zone is as probable as any other"}})

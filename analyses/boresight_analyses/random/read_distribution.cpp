@@ -153,10 +153,13 @@ DistributionPtr read_distribution(Cursor& entry, const SiUnit& unit, const std::
   }
   if (entry.has("cylinder"))
     entry.fail_found("cylinder", "a zone that two parameters share", "[[random]] parameters = [..], two of them");
+  if (entry.has("rows"))
+    entry.fail_found("rows", "the rows of a table",
+                     "a distribution of one parameter; [[random]] parameters = [..] take rows");
   if (!distribution)
     throw InputError(entry.origin(), entry.path(), "no distribution",
                      "one of normal, uniform, lognormal, triangular, beta, weibull, discrete, empirical, fit, planes, "
-                     "cylinder");
+                     "cylinder, rows");
   if (entry.has("truncate")) {
     const std::vector<double> bounds = entry.values("truncate", unit);
     entry.require(bounds[1] > bounds[0], "truncate", "[low, high], the second one larger");
