@@ -8,7 +8,7 @@
 #include "four_bar_rig.hpp"
 
 namespace boresight {
-namespace {
+namespace allowances_test {
 
 using four_bar::Bench;
 using four_bar::kFour;
@@ -136,5 +136,5 @@ TEST(Fit, WeighsWhatWasKnownOfAContact) {
   EXPECT_NEAR(problem.values(fit(problem, problem.start(), {}, {}).globals)[0], found, 0.1 * error);
 }
 
-}  // namespace
+}  // namespace allowances_test
 }  // namespace boresight

@@ -16,7 +16,7 @@
 #include "boresight_analyses/random/sampling_design.hpp"
 
 namespace boresight {
-namespace {
+namespace rows_inputs_test {
 
 using testing::HasSubstr;
 
@@ -136,5 +136,5 @@ TEST_F(RowsInputs, AreRefusedWhereTheyDoNotFit) {
   EXPECT_THAT(fault(random("") + "[[correlation]]\n" + kTwo + "coefficient = 0.5\n"), HasSubstr("a table's rows"));
 }
 
-}  // namespace
+}  // namespace rows_inputs_test
 }  // namespace boresight

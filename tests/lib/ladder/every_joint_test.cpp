@@ -7,7 +7,7 @@
 #include "scenes.hpp"
 
 namespace boresight {
-namespace {
+namespace every_joint_test {
 
 // turns: whether the play turns the boresight body at all.
 void expect_linear_as_exact(const MechanismDescription& m, bool turns) {
@@ -49,5 +49,5 @@ TEST(PlayInEveryJoint, OfAHexapodThatTiltsIsFollowedAlikeForASecondLong) {
   expect_linear_as_exact(scenes::eighteen_joints(JournalAxes::free, 1.0), true);
 }
 
-}  // namespace
+}  // namespace every_joint_test
 }  // namespace boresight
