@@ -25,7 +25,7 @@
 #include "boresight_analyses/threads/on_threads.hpp"
 
 namespace boresight {
-namespace calibration_coverage {
+namespace {
 
 struct Scene {
   std::string file, joint;
@@ -265,7 +265,7 @@ int cover(const Asked& asked) {
   return 0;
 }
 
-}  // namespace calibration_coverage
+}  // namespace
 }  // namespace boresight
 
 int main(int count, char** words) {
