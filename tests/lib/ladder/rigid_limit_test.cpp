@@ -160,9 +160,12 @@ TEST_P(PlayOfEveryKind, ApproachesTheIdealJointAsItsGapGoes) {
 
 // Nothing drives it, dissipates or rubs: what it has of energy stays through all its impacts, as far as steps follow them.
 TEST_P(PlayOfEveryKind, KeepsItsEnergyWhereNothingDissipates) {
-  const auto mechanism = scenes::build(scenes::play_mechanism(
-      *GetParam().kind,
-      {.tilts = GetParam().tilts, .law = "hertz", .friction = 0.0, .driven = false, .centred = true, .duration = 0.05}));
+  const auto mechanism = scenes::build(scenes::play_mechanism(*GetParam().kind, {.tilts = GetParam().tilts,
+                                                                                 .law = "hertz",
+                                                                                 .friction = 0.0,
+                                                                                 .driven = false,
+                                                                                 .centred = true,
+                                                                                 .duration = 0.05}));
   for (const char* formulation : {"tree", "paper"}) {
     const auto lost = [&](double tolerance) {
       RunOptions options;
