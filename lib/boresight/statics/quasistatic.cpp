@@ -16,9 +16,9 @@ namespace {
 
 constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
 // From one instant to the next the body moves by no more than this share of its largest error, and the same loads are large enough to decide
-// where their journals rest; else there are instants between, as close as this share of their spacing: half the digits, so that what a jump
-// adds to an RMS, and the index at its edge, hang on no instants.
-constexpr double kTurns = 0.005, kMostBetween = 0x1p26;
+// where their journals rest; else there are instants between, as close as this share of their spacing. Closer (2^26 was tried) resolves
+// jumps that only rounding decides.
+constexpr double kTurns = 0.005, kMostBetween = 1024.0;
 
 class Quasistatic final : public SceneRung {
  public:
