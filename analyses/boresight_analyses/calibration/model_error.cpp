@@ -65,10 +65,14 @@ Reduced reduced(const CalibrationProblem& problem, const FitResult& fit, const s
   const VecX r = pseudo_residuals(problem, at.r);
   const MatX B = w.from_rest ? problem.by_jumps(w, fit.globals, kJumps)
                              : MatX(at.by_state * problem.prior_deviation(w).asDiagonal());
-  const Eigen::SelfAdjointEigenSolver<MatX> eigen(MatX(B.transpose() * B));
   Reduced out;
-  out.g = eigen.eigenvalues().cwiseMax(0.0);
-  out.BU = B * eigen.eigenvectors();
+  if (B.cols() > 0) {
+    const Eigen::SelfAdjointEigenSolver<MatX> eigen(MatX(B.transpose() * B));
+    out.g = eigen.eigenvalues().cwiseMax(0.0);
+    out.BU = B * eigen.eigenvectors();
+  } else {
+    out.BU = B;  // nothing of the motion may have moved: errors alone are fitted
+  }
   out.XX = X.transpose() * X;
   out.Xr = X.transpose() * r;
   out.rr = r.squaredNorm();
@@ -87,6 +91,7 @@ struct Solution {
 
 // Least (r + X x)' V^-1 (r + X x) + (d + x)' P (d + x), by columns scaled to one size.
 Solution solved(const Normal& n, const VecX& prior, const VecX& distance) {
+  if (n.M.size() == 0) return {VecX(), MatX(), n.rr, 0.0};  // all are held
   MatX M = n.M;
   // A direction that nothing sees gets a large variance in place of an infinite one.
   M.diagonal() = (M.diagonal() + prior).cwiseMax(kLeastInformation);
@@ -157,6 +162,12 @@ ModelError model_error(const CalibrationProblem& problem, const FitResult& fit, 
   for (int g = 0; g < G; ++g)
     if (g >= P || fixed.empty() || !fixed[g]) free.push_back(g);
   const int F = static_cast<int>(free.size());
+  if (F + K == 0) {  // the fit ran into every bound, and nothing else is in question
+    ModelError none;
+    none.shift = VecX::Zero(G);
+    none.covariance = MatX::Constant(G, G, std::numeric_limits<double>::quiet_NaN());
+    return none;
+  }
   std::vector<Reduced> windows(fit.windows.size());
   for_each_on_threads(static_cast<int>(windows.size()), jobs,
                       [&](int k) { windows[k] = reduced(problem, fit, suspects, free, static_cast<std::size_t>(k)); });

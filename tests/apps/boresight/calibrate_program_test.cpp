@@ -101,7 +101,10 @@ TEST_F(CalibrateProgram, AnImpossibleReadingIsNamedAndMovesNothing) {
   EXPECT_NE(warning.find("robust standard deviations off: it is left out of the fit"), std::string::npos) << warning;
   for (const auto& [name, error] : clean["standard_error"].items()) {
     const double sd = error.get<double>();
-    EXPECT_NEAR(spoilt["standard_error"][name].get<double>(), sd, 0.05 * sd) << name;
+    // What is fitted along by what is known of it, the clock, takes its error from how far the motion jumps, which each reading has a part in.
+    if (name.starts_with("clearance.")) {
+      EXPECT_NEAR(spoilt["standard_error"][name].get<double>(), sd, 0.05 * sd) << name;
+    }
     EXPECT_NEAR(spoilt["optimum"][name].get<double>(), clean["optimum"][name].get<double>(), 0.5 * sd) << name;
   }
 }
@@ -260,7 +263,7 @@ TEST_F(CalibrateErrorsProgram, RefusesWhatMakesNoSenseOfErrors) {
   change("path = \"error.IA\"", "path = \"error.IAA\"");
   refused("error.IA");
   std::ofstream(folder_ / "calibrate.toml") << study;
-  change("path = \"error.IA\"", "path = \"body.tube.mass\"");
+  change("path = \"error.IA\"", "path = \"gravity.z\"");
   refused("a standing error");
   std::ofstream(folder_ / "calibrate.toml") << study;
   change("loss = \"huber\"", "laws = [\"hertz\"]\nloss = \"huber\"");

@@ -43,10 +43,25 @@ Rows rows_of(const std::string& verb) {
 }
 
 // One entry per joint, parameter, rung, law, channel or letter: their names are the user's.
-const std::set<std::string> kByName = {
-    "contacts", "start",        "contact",     "compared",        "optimum",      "standard_error",
-    "interval", "identifiable", "correlation", "standing_errors", "noise",        "errors",
-    "sobol",    "morris",       "local",       "sources",         "contact_laws", "friction_laws"};
+const std::set<std::string> kByName = {"contacts",
+                                       "start",
+                                       "contact",
+                                       "compared",
+                                       "optimum",
+                                       "standard_error",
+                                       "standard_error_of_data",
+                                       "interval",
+                                       "identifiable",
+                                       "correlation",
+                                       "standing_errors",
+                                       "noise",
+                                       "errors",
+                                       "sobol",
+                                       "morris",
+                                       "local",
+                                       "sources",
+                                       "contact_laws",
+                                       "friction_laws"};
 // "The same", "a level each".
 const std::map<std::string, std::string> kAsAnother = {{"errors", "error"}, {"requirements", "levels"}};
 const std::set<std::string> kOfAnInterval = {"value", "low", "high", "confidence", "coverage", "basis"};
