@@ -64,7 +64,11 @@ TEST_F(SeveralRungsProgram, FidelitiesForecastTheirGainAndAgreeWithThePilot) {
   const auto& mean = summary["index"]["mean"];
   EXPECT_LT(mean["low"].get<double>(), mean["value"].get<double>());
   EXPECT_GT(summary["fidelities"]["rungs"][0]["samples"].get<int>(), 1);
-  EXPECT_LT(summary["fidelities"]["cpu_seconds"].get<double>(), 4.0);
+  double counted = 0.0;  // what the plan may spend, whatever a machine takes for it
+  for (const auto& rung : summary["fidelities"]["rungs"])
+    counted += rung["samples"].get<double>() * rung["counted_seconds_per_sample"].get<double>();
+  EXPECT_LE(counted, 2.0);
+  EXPECT_GT(counted, 1.5);
   for (const char* file : {"rungs.csv", "report.html", "samples-perturbation.db"})
     EXPECT_THAT(files("out"), Contains(file));
   EXPECT_EQ(ask("montecarlo").status, 0);
