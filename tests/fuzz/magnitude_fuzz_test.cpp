@@ -122,7 +122,7 @@ void run_fuzz(int count, std::uint64_t seed) {
     EXPECT_LT(seconds_since_begin(), 2.0 * kLongest) << "input " << i << "\n" << text;
   }
   watch_work(nullptr);
-  EXPECT_LE(long_work, count / 50);
+  EXPECT_LE(long_work, (count + 49) / 50);  // one in fifty, and of fewer one
   EXPECT_GT(refused, count / 10);
   EXPECT_GT(finite, count / 20);
 }

@@ -122,7 +122,7 @@ async function everyKind(width, dark) {
     named: [...document.querySelectorAll("button")].every((one) => (one.textContent.trim() || one.getAttribute("aria-label"))),
   }));
   expect(shown.dark === (dark ? "dark" : "light"), `${label}: follows the system's colours`);
-  expect(shown.plots === 22 && shown.drawn === shown.plots, `${label}: draws all 19 plots and 3 views, found ${shown.drawn} of ${shown.plots}`);
+  expect(shown.plots === 23 && shown.drawn === shown.plots, `${label}: draws all 19 plots and 4 views, found ${shown.drawn} of ${shown.plots}`);
   expect(shown.titled && shown.named, `${label}: every figure and button has a name`);
   await close();
 }
