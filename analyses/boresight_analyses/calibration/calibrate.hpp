@@ -53,7 +53,7 @@ struct CalibrationResult {
   std::optional<HoldOut> hold_out;
   std::vector<LawScore> laws;
   std::vector<Profile> profiles;
-  std::optional<ModelError> model_error;
+  std::optional<CalibrationModelError> model_error;
   std::vector<NextTest> next_tests;
   std::vector<std::string> verdict;
   std::vector<std::string> warnings;  // of readings that no noise explains

@@ -154,16 +154,16 @@ double loss_with_jumps(const CalibrationProblem& problem, const FitResult& fit, 
 
 }  // namespace
 
-ModelError model_error(const CalibrationProblem& problem, const FitResult& fit, const std::vector<Suspect>& suspects,
-                       const std::vector<Globals>& optima, const std::vector<bool>& fixed, double variance_factor,
-                       int jobs) {
+CalibrationModelError model_error(const CalibrationProblem& problem, const FitResult& fit,
+                                  const std::vector<Suspect>& suspects, const std::vector<Globals>& optima,
+                                  const std::vector<bool>& fixed, double variance_factor, int jobs) {
   const int G = problem.global_count(), P = problem.parameter_count(), K = static_cast<int>(suspects.size());
   std::vector<int> free;
   for (int g = 0; g < G; ++g)
     if (g >= P || fixed.empty() || !fixed[g]) free.push_back(g);
   const int F = static_cast<int>(free.size());
   if (F + K == 0) {  // the fit ran into every bound, and nothing else is in question
-    ModelError none;
+    CalibrationModelError none;
     none.shift = VecX::Zero(G);
     none.covariance = MatX::Constant(G, G, std::numeric_limits<double>::quiet_NaN());
     return none;
@@ -210,7 +210,7 @@ ModelError model_error(const CalibrationProblem& problem, const FitResult& fit, 
     likeliest = std::max(likeliest, log_weight[k] - (q[k] > 0.0 ? std::log(q[k]) : 0.0));
   double sum = 0.0;
   for (double& w : log_weight) sum += w = std::exp(w - most);
-  ModelError out;
+  CalibrationModelError out;
   out.jump_gain = 2.0 * (likeliest - first_likelihood);
   VecX mean = VecX::Zero(F + K);
   for (std::size_t k = 0; k < q.size(); ++k) {

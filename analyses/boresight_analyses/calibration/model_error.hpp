@@ -44,7 +44,7 @@ struct SuspectFound {
   VecX adds;                       // to the standard error of every parameter's coordinate
 };
 
-struct ModelError {
+struct CalibrationModelError {
   VecX shift;              // of the globals, from where the fit ended
   MatX covariance;         // of the globals; NaN where held
   double jump = 0.0;       // q, its mean
@@ -57,16 +57,16 @@ struct ModelError {
 
 // The fit's windows with what the suspects change. optima: other places where fits have ended; those that such a model may as well have
 // made the data at are weighed in by their likelihood. fixed: parameters that are held.
-ModelError model_error(const CalibrationProblem& problem, const FitResult& fit, const std::vector<Suspect>& suspects,
-                       const std::vector<Globals>& optima, const std::vector<bool>& fixed, double variance_factor,
-                       int jobs);
+CalibrationModelError model_error(const CalibrationProblem& problem, const FitResult& fit,
+                                  const std::vector<Suspect>& suspects, const std::vector<Globals>& optima,
+                                  const std::vector<bool>& fixed, double variance_factor, int jobs);
 
 // Moves the estimates and widens their errors and intervals, profiles' included; nothing becomes narrower.
-void take_model_error(const ModelError& error, double confidence, const CalibrationProblem& problem,
+void take_model_error(const CalibrationModelError& error, double confidence, const CalibrationProblem& problem,
                       const Globals& fitted, Inference& inference);
 
 // What it means, one sentence each: whether runs and stretches contradict each other, what would explain it, and what an error comes from.
-std::vector<std::string> in_words(const ModelError& error, const CalibrationProblem& problem,
+std::vector<std::string> in_words(const CalibrationModelError& error, const CalibrationProblem& problem,
                                   const Inference& inference);
 
 }  // namespace boresight

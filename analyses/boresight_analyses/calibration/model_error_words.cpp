@@ -31,7 +31,7 @@ std::string in_words(const SuspectFound& s) {
 
 }  // namespace
 
-std::vector<std::string> in_words(const ModelError& error, const CalibrationProblem& problem,
+std::vector<std::string> in_words(const CalibrationModelError& error, const CalibrationProblem& problem,
                                   const Inference& inference) {
   std::vector<std::string> words;
   const bool contradict = error.groups > 1 && error.disagreement > 1.5, jumps = error.jump_gain > kDecides;

@@ -6,7 +6,7 @@
 
 namespace boresight {
 
-void take_model_error(const ModelError& error, double confidence, const CalibrationProblem& problem,
+void take_model_error(const CalibrationModelError& error, double confidence, const CalibrationProblem& problem,
                       const Globals& fitted, Inference& inference) {
   const double quantile = boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence);
   MatX covariance = error.covariance;

@@ -30,13 +30,13 @@ struct RequirementVerdict {
 };
 
 // A standard of what a number is wrong by, in its own unit and relative to it.
-struct ErrorPart {
+struct StatedError {
   double value = 0.0, relative = 0.0;
   std::string why;
 };
 struct ErrorStatement {
   std::string of;  // among headlines()
-  ErrorPart sampling, discretisation, rung;
+  StatedError sampling, discretisation, rung;
   std::string dominant;  // "sampling", "discretisation", "rung"
 };
 

@@ -234,7 +234,7 @@ class CalibrateVerb : public Verb {
 
   static Json model_error_of(const CalibrationStudy& s) {
     if (!s.result.model_error) return Json();
-    const ModelError& e = *s.result.model_error;
+    const CalibrationModelError& e = *s.result.model_error;
     Json suspects = Json::array();
     for (const SuspectFound& found : e.suspects) {
       Json adds = Json::object();

@@ -26,7 +26,7 @@
 namespace boresight::app {
 namespace {
 
-Json part_json(const ErrorPart& part) {
+Json part_json(const StatedError& part) {
   return {{"value", number_json(part.value)}, {"relative", number_json(part.relative)}, {"why", part.why}};
 }
 

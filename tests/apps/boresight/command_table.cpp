@@ -20,8 +20,8 @@ const std::vector<std::string> kOnce = {"--step-error", "off"};
 
 }  // namespace
 
-std::vector<Command> commands() {
-  std::vector<Command> all = {
+std::vector<TableCommand> commands() {
+  std::vector<TableCommand> all = {
       {.text = "boresight help clearance.friction",
        .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("static_coefficient")); }},
       {.text = "boresight paths examples/3-rrcpr/3-rrcpr.toml",
@@ -378,9 +378,9 @@ std::vector<Command> commands() {
              EXPECT_THAT(left.file("events.csv"), AllOf(Not(HasSubstr("radial-")), HasSubstr("\nO,radial,")));
            }},
   };
-  for (Command& c : commands_on_errors()) all.push_back(std::move(c));
-  for (Command& c : commands_on_imports()) all.push_back(std::move(c));
-  for (Command& c : commands_on_two_bearings()) all.push_back(std::move(c));
+  for (TableCommand& c : commands_on_errors()) all.push_back(std::move(c));
+  for (TableCommand& c : commands_on_imports()) all.push_back(std::move(c));
+  for (TableCommand& c : commands_on_two_bearings()) all.push_back(std::move(c));
   return all;
 }
 

@@ -22,7 +22,7 @@ struct Edit {
   std::string file, what, with;
 };
 
-struct Command {
+struct TableCommand {
   std::string text;
   std::vector<std::string> shorter = {};         // options that make it quick, and change nothing of what is claimed
   std::function<void(const Left&)> claims = {};  // what the text says of it
@@ -31,12 +31,12 @@ struct Command {
   int status = 0;
 };
 
-std::vector<Command> commands();
+std::vector<TableCommand> commands();
 // Those of them that are about standing errors of lengths, axes, drives and temperature.
-std::vector<Command> commands_on_errors();
+std::vector<TableCommand> commands_on_errors();
 // And about bearing pairs.
-std::vector<Command> commands_on_two_bearings();
+std::vector<TableCommand> commands_on_two_bearings();
 // And about mechanisms from other programs.
-std::vector<Command> commands_on_imports();
+std::vector<TableCommand> commands_on_imports();
 
 }  // namespace boresight::app

@@ -8,7 +8,7 @@
 
 namespace boresight::app {
 
-std::vector<Command> commands_on_errors() {
+std::vector<TableCommand> commands_on_errors() {
   using testing::HasSubstr;
   return {
       // An independent program's loop closure: 0.1 mrad in A3 turns the platform by up to 0.104 mrad, and moves it by 0.077 mm.

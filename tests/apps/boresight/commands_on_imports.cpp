@@ -16,7 +16,7 @@ const char kImport[] =
 
 }  // namespace
 
-std::vector<Command> commands_on_imports() {
+std::vector<TableCommand> commands_on_imports() {
   return {
       {.text = kImport,
        .claims =

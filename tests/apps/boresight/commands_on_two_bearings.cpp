@@ -13,7 +13,7 @@ double boresight_rms(const Left& left) { return left.summary["index"]["boresight
 
 }  // namespace
 
-std::vector<Command> commands_on_two_bearings() {
+std::vector<TableCommand> commands_on_two_bearings() {
   return {
       // "the plays of one shaft move together"
       {.text = "boresight check examples/bearing-pairs/gimbal.toml",

@@ -13,11 +13,11 @@
 
 namespace boresight::app {
 
-void PrintTo(const Command& c, std::ostream* out) { *out << c.text; }
+void PrintTo(const TableCommand& c, std::ostream* out) { *out << c.text; }
 
 namespace documented_commands_test {
 
-class DocumentedCommands : public Program, public testing::WithParamInterface<Command> {
+class DocumentedCommands : public Program, public testing::WithParamInterface<TableCommand> {
  protected:
   void SetUp() override {
     Program::SetUp();
@@ -44,7 +44,7 @@ class DocumentedCommands : public Program, public testing::WithParamInterface<Co
 };
 
 TEST_P(DocumentedCommands, RunAndDoWhatTheTextSays) {
-  const Command& c = GetParam();
+  const TableCommand& c = GetParam();
   SCOPED_TRACE(c.text);
   for (const Edit& e : c.edits) edit(e);
   for (const std::string& command : c.before) {
@@ -73,7 +73,7 @@ TEST_P(DocumentedCommands, RunAndDoWhatTheTextSays) {
   c.claims(left);
 }
 
-std::string name_of(const testing::TestParamInfo<Command>& one) {
+std::string name_of(const testing::TestParamInfo<TableCommand>& one) {
   std::string name = std::to_string(one.index);
   for (const std::string& word : shell_words(one.param.text)) {
     if (word == "boresight") continue;
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Each, DocumentedCommands, testing::ValuesIn(commands())
 
 TEST(Documents, TellNoCommandThatIsNotRunHere) {
   std::set<std::string> run, told;
-  for (const Command& c : commands()) EXPECT_TRUE(run.insert(c.text).second) << "twice: " << c.text;
+  for (const TableCommand& c : commands()) EXPECT_TRUE(run.insert(c.text).second) << "twice: " << c.text;
   for (const DocumentedCommand& c : documented_commands()) {
     told.insert(c.text);
     EXPECT_TRUE(run.contains(c.text)) << c.document << " tells to give " << c.text;
@@ -165,7 +165,7 @@ TEST_F(Program, LongTheFirstCommandsExamplesRunUnshortened) {
 
 TEST(Examples, EveryFileIsRunByADocumentedCommand) {
   std::string all;
-  for (const Command& c : commands()) all += c.text + "\n";
+  for (const TableCommand& c : commands()) all += c.text + "\n";
   for (const auto& entry : std::filesystem::recursive_directory_iterator(BORESIGHT_EXAMPLES)) {
     if (entry.path().extension() != ".toml") continue;
     const std::string name = entry.path().filename();

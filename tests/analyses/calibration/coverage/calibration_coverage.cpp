@@ -221,7 +221,7 @@ Found one_set(const Asked& asked, const Scene& scene, int set) {
       line += one;
     }
     if (result.model_error) {
-      const ModelError& e = *result.model_error;
+      const CalibrationModelError& e = *result.model_error;
       line += "\n    jump " + text(e.jump) + ", disagreement " + text(e.disagreement);
       for (std::size_t p = 0; p < paths.size(); ++p)
         line += ", " + text(100.0 * result.inference.parameters[p].data_error / true_values[p]) + " %";
