@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "boresight/formulations/exact_state.hpp"
 #include "boresight/formulations/formulation.hpp"
 #include "boresight/formulations/shared_reactions.hpp"
 #include "boresight/math/dense_solves.hpp"
@@ -94,10 +96,16 @@ class Share {
     ++instants_;
   }
   double size() const { return size_; }
+  // Of the root mean squares.
+  double mean_value(double least) const {
+    const double square = std::max(square_, instants_ * least * least);
+    if (square > 0.0) return std::sqrt(part_square_ / square);
+    return part_square_ > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
+  }
   // The larger of both ratios; what is smaller than `least` is held against that.
   double value(double least) const {
-    const double size = std::max(size_, least), square = std::max(square_, instants_ * least * least);
-    return size > 0.0 ? std::max(part_ / size, std::sqrt(part_square_ / square)) : 0.0;
+    const double size = std::max(size_, least);
+    return size > 0.0 ? std::max(part_ / size, mean_value(least)) : 0.0;
   }
 
  private:
@@ -170,7 +178,8 @@ class LeftOut {
         memory_(at_.joints.size()),
         row_(tables_->dynamics.width()),
         part_(groups_.size()),
-        pushed_off_(groups_.size(), 0.0) {}
+        astray_(groups_.size()),
+        push_(groups_.size()) {}
 
   // Throws ComputationError where it cannot be made exactly.
   void look(const LargestDeviations::Deviation& deviation) {
@@ -182,8 +191,7 @@ class LeftOut {
     formulation_->forces().replace_contact(
         shared_reactions(prepared_.scene().offsets(), parameters_, coordinates_.offsets_per_coordinate(T), reaction));
 
-    IdealState state;
-    prepared_.ideal().state(deviation.t, state);
+    const IdealState state = exact_state(mechanism_, prepared_.ideal(), deviation.t);
     const std::vector<BodyMotion> bodies = made_exactly(state, T * deviation.z);
     VecX z, z_dot, z_ddot;
     coordinates_.coordinate_rates(bodies, z_dot, z);
@@ -214,9 +222,13 @@ class LeftOut {
         const auto of_one = sizes(E.col(i) / unit_[i]);
         for (int k = 0; k < kKinds; ++k) gain[k] += of_one[k] * of_one[k];
       }
-      for (int k = 0; k < kKinds; ++k) part_[g][k].add(whole[k], std::sqrt(gain[k] * reach));
-      if (size_off > 0.0)
-        pushed_off_[g] = std::max(pushed_off_[g], std::min(1.0, std::sqrt(size_off / std::max(size, 1e-300))));
+      const double share_off = size_off > 0.0 ? std::min(1.0, std::sqrt(size_off / std::max(size, 1e-300))) : 0.0;
+      for (int k = 0; k < kKinds; ++k) {
+        const double part = std::sqrt(gain[k] * reach);
+        part_[g][k].add(whole[k], part);
+        astray_[g][k].add(whole[k], part * share_off);
+      }
+      push_[g].add(std::sqrt(size), std::sqrt(size_off));
     }
   }
 
@@ -233,7 +245,11 @@ class LeftOut {
       const double least = k == kMoved ? next_to_nothing : k == kSighted ? 0.0 : next_to_nothing / length;
       const double size = std::max(miss_[k].size(), least);
       double of_kind = miss_[k].value(least);
-      for (std::size_t g = 0; g < groups_.size(); ++g) of_kind += part_[g][k].value(least) * pushed_off_[g];
+      // A force that is off early shows in where the journal gets to later: all of its part counts by the share of all forces; and where
+      // next to nothing pushes for a while, all of its part counts for that while.
+      for (std::size_t g = 0; g < groups_.size(); ++g)
+        of_kind += std::max(part_[g][k].value(least) * std::min(1.0, push_[g].mean_value(0.0)),
+                            astray_[g][k].mean_value(least));
       share = std::max({share, of_kind, size > 0.0 ? at_rest[k] / size : 0.0});
     }
     return std::isfinite(share) ? std::min(share, 1.0) : 1.0;
@@ -268,10 +284,9 @@ class LeftOut {
   std::vector<double> row_;
   bool begun_ = false;
   std::array<Share, kKinds> miss_;
-  // Of each group, over the instants: its part of each kind, and how much of its forces is off. A force that is off early shows in
-  // where the journal gets to later.
-  std::vector<std::array<Share, kKinds>> part_;
-  std::vector<double> pushed_off_;
+  // Of each group, over the instants: its part of each kind, that times how much of its forces is off then, and these forces.
+  std::vector<std::array<Share, kKinds>> part_, astray_;
+  std::vector<Share> push_;
 };
 
 }  // namespace

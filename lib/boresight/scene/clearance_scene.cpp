@@ -4,12 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "boresight/formulations/exact_state.hpp"
 #include "boresight/formulations/force_elements.hpp"
-#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/math/cross_matrix.hpp"
 #include "boresight/math/dense_solves.hpp"
 #include "boresight/mechanism/error.hpp"
-#include "boresight/mechanism/ideal_solver.hpp"
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/motion_density.hpp"
 #include "boresight/scene/deviation_stiffness.hpp"
@@ -35,16 +34,6 @@ constexpr double kLargestMissOfTables = 0.01;
 constexpr const char* kBuilding = "opening the mechanism at its clearances";
 
 const BodyMotion kGroundMotion;
-
-// Quintics through the ideal motion's states have its places to 1e-12, but its accelerations to 1e-6 only: places that are rounded, over the
-// square of their spacing. Where the loads of a joint cancel, these are the digits that are left. So they are solved anew where laws give
-// them; a simulated motion has its states from its steps.
-IdealState exact_state(const Mechanism& mechanism, const IdealMotion& ideal, double t) {
-  IdealState state;
-  ideal.state(t, state);
-  if (is_kinematic(mechanism)) IdealSolver(mechanism).solve(t, state);
-  return state;
-}
 
 }  // namespace
 

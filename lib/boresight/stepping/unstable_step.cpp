@@ -38,6 +38,8 @@ UnstableStep::UnstableStep(const Mechanism& mechanism, const StiffestContact& co
 UnstableStep::UnstableStep(const std::string& sign, double when, double h)
     : ComputationError(message(sign, when, h)), t(when) {}
 
-double step_on_grid(double step, double spacing) { return spacing > step ? spacing / std::ceil(spacing / step) : step; }
+double step_on_grid(double step, double spacing) {
+  return spacing > 0.0 ? spacing / std::ceil(spacing / step - 1e-9) : step;
+}
 
 }  // namespace boresight

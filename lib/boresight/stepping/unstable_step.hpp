@@ -32,7 +32,7 @@ inline double longest_step(double duration) { return std::min(kPaperStep, durati
 // steps in a half wave of contact, and room for contacts that turn out twice as deep as foreseen.
 inline constexpr double kShareOfStableStep = 0.36;
 
-// Shortened so that whole steps make a sample spacing: samples then lie where they were asked for.
+// Shortened so that whole steps make a sample spacing (0: no samples): samples then lie where they were asked for.
 double step_on_grid(double step, double spacing);
 
 // Runs integrate(step) with the caller's step, or with `own` shortened as often as it proves too large. A motion that blows up
