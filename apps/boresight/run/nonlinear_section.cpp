@@ -57,6 +57,12 @@ NonlinearAnalysis analyse_nonlinear(const Mechanism& mechanism, const RunResult&
   analysis.period = period;
   if (result.time.size() < 3) return analysis;
   const double spacing = result.time[1] - result.time[0];
+  for (std::size_t k = 0; k < result.time.size(); ++k)
+    if (std::abs(result.time[k] - static_cast<double>(k) * spacing) > 0.01 * spacing)
+      throw ComputationError(
+          "--nonlinear: the samples are not evenly spaced, and neighbouring states would be sought at different phases "
+          "of "
+          "the drive; leave out --step, or give one that divides --sample");
   const int per_period = static_cast<int>(std::lround(period / spacing));
   analysis.periods = static_cast<int>((result.time.size() - 1) / static_cast<std::size_t>(per_period));
   analysis.skipped = analysis.periods / 5;

@@ -11,6 +11,7 @@
 #include "boresight/mechanism/offset_layout.hpp"
 #include "boresight/multibody/multibody_motion.hpp"
 #include "boresight/multibody/multibody_start.hpp"
+#include "boresight/stepping/even_steps.hpp"
 #include "boresight/stepping/measured_error.hpp"
 #include "boresight/stepping/unstable_step.hpp"
 
@@ -58,8 +59,9 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
   const RunOptions& options = run.options;
   const IdealMotion& ideal = run.ideal;
   const double duration = mechanism.duration();
-  const long steps = std::max(1L, static_cast<long>(std::ceil(duration / wanted_step - 1e-9)));
-  const double h = duration / static_cast<double>(steps);
+  const EvenSteps course(duration, wanted_step, options.sample_spacing);
+  const long steps = course.count();
+  const double h = course.h();
   const auto formulation = run.make_formulation();
   const ForceElements& forces = formulation->forces();
 
@@ -89,11 +91,11 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
   // The energy's balance, by the weights of the method: a step's work is that of its stages.
   EnergyBalance energy(mechanism, parameters, formulation->bodies(0.0, bodies_of(y)));
   std::size_t stage = 0;
-  double work = 0.0;
+  double work = 0.0, step = h;
   const auto add_power = [&](double t, const VecX& state) {
     // Steps tried again for a diagnosis have no weight.
     if (stage < classical_rk4().b.size())
-      work += h * classical_rk4().b[stage++] * energy.power(*formulation, formulation->bodies(t, bodies_of(state)));
+      work += step * classical_rk4().b[stage++] * energy.power(*formulation, formulation->bodies(t, bodies_of(state)));
   };
   const auto derivative = [&](double t, const VecX& state, VecX& dy) {
     if (elements.empty()) {
@@ -107,11 +109,11 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
     add_power(t, state);
   };
 
-  const auto advance = [&](double t, double step, VecX& state) {
-    method.step(t, step, state, derivative);
-    if (elements.empty()) return formulation->stabilise(t + step, state);
+  const auto advance = [&](double t, double by, VecX& state) {
+    method.step(t, by, state, derivative);
+    if (elements.empty()) return formulation->stabilise(t + by, state);
     head = state.head(n);
-    formulation->stabilise(t + step, head);
+    formulation->stabilise(t + by, head);
     state.head(n) = head;
   };
 
@@ -126,7 +128,8 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
   // Not the Integrator's loop (explicit_runge_kutta.hpp): between the accepted state and its first slope stand the contacts'
   // memory and the look at their stability, and a step that fails is taken anew in shorter ones to say why.
   for (long i = 0;; ++i) {
-    const double t = static_cast<double>(i) * h;
+    const double t = course.start(i);
+    step = course.length(i);
     if (!y.allFinite()) throw UnstableStep("the state is not finite", t, h);
     accept_contacts(formulation->bodies(t, bodies_of(y)), t, forces, trackers, memory, motion);
     elements.accept(y.tail(elements.size()));
@@ -153,16 +156,16 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
     }
     before = y;
     try {
-      advance(t, h, y);
+      advance(t, step, y);
     } catch (const ComputationError&) {
       // A pose that short steps from the same state pass as well, or one that is met with journals deep in their sleeves,
       // comes of the step.
       if (const JointPlay* joint = sunk(joints, motion))
         throw UnstableStep(std::string("a ") + joint->words().insert + " deep in its " + joint->words().seat, t, h);
       for (int k = 0; k < kShorter; ++k) {
-        const double within = t + k * h / kShorter;
+        const double within = t + k * step / kShorter;
         derivative(within, before, method.first_slope());
-        advance(within, h / kShorter, before);
+        advance(within, step / kShorter, before);
       }
       throw UnstableStep("shorter steps go on from there", t, h);
     }

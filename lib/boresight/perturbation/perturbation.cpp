@@ -16,6 +16,7 @@
 #include "boresight/rungs/start_up.hpp"
 #include "boresight/scene/scene_rung.hpp"
 #include "boresight/stepping/default_integrator.hpp"
+#include "boresight/stepping/even_steps.hpp"
 #include "boresight/stepping/located_motion.hpp"
 #include "boresight/stepping/measured_error.hpp"
 #include "boresight/stepping/motion_scales.hpp"
@@ -70,8 +71,9 @@ class Perturbation final : public SceneRung {
     const double duration = mechanism.duration();
     const auto derivative = [&](double t, const VecX& state, VecX& dy) { system.derivative(t, state, dy); };
 
-    const long steps = std::max(1L, static_cast<long>(std::ceil(duration / wanted - 1e-9)));
-    const double h = duration / static_cast<double>(steps);
+    const EvenSteps course(duration, wanted, options.sample_spacing);
+    const long steps = course.count();
+    const double h = course.h();
     MotionRecorder recorder(mechanism, prepared.ideal(), options, static_cast<double>(steps));
     std::string start_warning;
     VecX y = system.start_state(mechanism, options.start_offset, start_warning);
@@ -85,7 +87,7 @@ class Perturbation final : public SceneRung {
     LargestDeviations largest(duration);
     // Not the Integrator's loop, as in multibody/fixed_steps.cpp; that one closes joints and balances energy besides.
     for (long i = 0;; ++i) {
-      const double t = static_cast<double>(i) * h;
+      const double t = course.start(i);
       if (!y.allFinite()) throw UnstableStep("the deviation is not finite", t, h);
       system.accept(t, y);
       derivative(t, y, method.first_slope());
@@ -107,7 +109,7 @@ class Perturbation final : public SceneRung {
         interrupted = true;
         break;
       }
-      method.step(t, h, y, derivative);
+      method.step(t, course.length(i), y, derivative);
     }
 
     RunResult result = recorder.finish();
