@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "boresight/formulations/exact_state.hpp"
+#include "boresight/formulations/exact_states.hpp"
 #include "boresight/formulations/formulation.hpp"
 #include "boresight/formulations/shared_reactions.hpp"
 #include "boresight/math/dense_solves.hpp"
@@ -78,10 +78,14 @@ DependentOffsets dependent_offsets(const SceneLayout& at, const double* row, con
   return all;
 }
 
-// The shortest step of the coordinates that takes the dependent offsets back.
+// The shortest step of the coordinates that takes the dependent offsets back. What depends on them by rounding alone is not taken along.
 VecX taken_along(const DependentOffsets& offsets, const VecX& unit) {
-  if (offsets.beyond.size() == 0) return VecX::Zero(unit.size());
-  return -(unit.asDiagonal() * solve_least(MatX(offsets.B * unit.asDiagonal()), offsets.beyond));
+  constexpr double kRounding = 1e-9;
+  MatX B = offsets.B * unit.asDiagonal();
+  if (B.size() == 0) return VecX::Zero(unit.size());
+  for (auto row : B.rowwise())
+    if (!(row.norm() > kRounding * unit.maxCoeff())) row.setZero();
+  return -(unit.asDiagonal() * solve_least(B, offsets.beyond));
 }
 
 // Of one kind of displacement over the instants: the largest and the mean square of what the rung has, and of what it misses or of
@@ -172,6 +176,7 @@ class LeftOut {
         tables_(prepared.tables(parameters)),
         at_(tables_->layout),
         coordinates_(prepared.scene().coordinates()),
+        exact_(mechanism, prepared.ideal()),
         formulation_(make_tree_formulation(mechanism, parameters, &prepared.ideal(), {})),
         unit_(lengths(mechanism, parameters, at_)),
         groups_(pushed_together(at_, formulation_->forces())),
@@ -191,7 +196,7 @@ class LeftOut {
     formulation_->forces().replace_contact(
         shared_reactions(prepared_.scene().offsets(), parameters_, coordinates_.offsets_per_coordinate(T), reaction));
 
-    const IdealState state = exact_state(mechanism_, prepared_.ideal(), deviation.t);
+    const IdealState state = exact_.at(deviation.t);
     const std::vector<BodyMotion> bodies = made_exactly(state, T * deviation.z);
     VecX z, z_dot, z_ddot;
     coordinates_.coordinate_rates(bodies, z_dot, z);
@@ -245,11 +250,10 @@ class LeftOut {
       const double least = k == kMoved ? next_to_nothing : k == kSighted ? 0.0 : next_to_nothing / length;
       const double size = std::max(miss_[k].size(), least);
       double of_kind = miss_[k].value(least);
-      // A force that is off early shows in where the journal gets to later: all of its part counts by the share of all forces; and where
+      // A force that is off early shows in where the journal gets to later: all of its part counts by the share of all forces. And where
       // next to nothing pushes for a while, all of its part counts for that while.
       for (std::size_t g = 0; g < groups_.size(); ++g)
-        of_kind += std::max(part_[g][k].value(least) * std::min(1.0, push_[g].mean_value(0.0)),
-                            astray_[g][k].mean_value(least));
+        of_kind += part_[g][k].value(least) * std::min(1.0, push_[g].mean_value(0.0)) + astray_[g][k].mean_value(least);
       share = std::max({share, of_kind, size > 0.0 ? at_rest[k] / size : 0.0});
     }
     return std::isfinite(share) ? std::min(share, 1.0) : 1.0;
@@ -277,6 +281,7 @@ class LeftOut {
   std::shared_ptr<const SceneTables> tables_;
   const SceneLayout& at_;
   DeviationCoordinates coordinates_;
+  ExactStates exact_;
   std::unique_ptr<Formulation> formulation_;
   VecX unit_;
   std::vector<std::vector<int>> groups_;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "boresight/formulations/exact_state.hpp"
+#include "boresight/formulations/exact_states.hpp"
 #include "boresight/formulations/force_elements.hpp"
 #include "boresight/math/cross_matrix.hpp"
 #include "boresight/math/dense_solves.hpp"
@@ -54,7 +54,8 @@ SceneStart ClearanceScene::start_of(const Parameters& parameters, const Knot& fi
 ClearanceScene::Start ClearanceScene::at_start(const Mechanism& mechanism, const IdealMotion& ideal,
                                                const Parameters& parameters) {
   ClearanceScene scene(mechanism, parameters, ideal);
-  const Knot knot = scene.knot_at(0.0, ideal, parameters);
+  ExactStates exact(mechanism, ideal);
+  const Knot knot = scene.knot_at(0.0, ideal, exact, parameters);
   return {scene.layout_, scene.start_of(parameters, knot), knot.state, knot.T, knot.T_rate};
 }
 
@@ -87,9 +88,10 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
   int cells = static_cast<int>(first_cells);
   spacing_ = mechanism.duration() / cells;
   std::vector<double> rows;
+  ExactStates exact(mechanism, ideal);
   for (int k = 0; k <= cells; ++k) {
     work_reached(kBuilding, 0.5 * k / cells);
-    knots_.push_back(knot_at(k * spacing_, ideal, parameters));
+    knots_.push_back(knot_at(k * spacing_, ideal, exact, parameters));
   }
   for (;;) {
     refuse_unless_held(2.0 * cells);
@@ -98,7 +100,7 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
     for (int k = 0; k < cells; ++k) {
       work_reached(kBuilding, 0.5 + 0.5 * k / cells);
       finer.push_back(std::move(knots_[k]));
-      finer.push_back(knot_at((k + 0.5) * spacing_, ideal, parameters));
+      finer.push_back(knot_at((k + 0.5) * spacing_, ideal, exact, parameters));
     }
     finer.push_back(std::move(knots_[cells]));
     knots_ = std::move(finer);
@@ -175,9 +177,10 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows, cons
   return worst;
 }
 
-ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal, const Parameters& parameters) {
+ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal, ExactStates& exact,
+                                             const Parameters& parameters) {
   Knot knot;
-  knot.state = exact_state(mechanism_, ideal, t);
+  knot.state = exact.at(t);
   coordinates_.gain(knot.state, knot.T);
   knot.B = coordinates_.offsets_per_coordinate(knot.T);
   MatX B_rate;

@@ -34,6 +34,8 @@
 
 namespace boresight {
 
+class ExactStates;
+
 // The scene as motions start: its numbers at t = 0 (a row of SceneTables::dynamics), and zdot per z there (start_rates.hpp).
 struct SceneStart {
   std::vector<double> row;
@@ -103,7 +105,7 @@ class ClearanceScene {
     std::vector<SpringGain> springs;
     MatX stiffness;  // A K, where by differences
   };
-  Knot knot_at(double t, const IdealMotion& ideal, const Parameters& parameters);
+  Knot knot_at(double t, const IdealMotion& ideal, ExactStates& exact, const Parameters& parameters);
   void add_joints(const MatX& B_rate, Knot& knot) const;
   void add_element(const RidingMass& element, const Knot& knot, double* out) const;
   void assemble(const Parameters& parameters, const Knot& knot, MatX& M, MatX& C, VecX& r) const;
