@@ -162,6 +162,16 @@ TEST(StatedErrors, OfRestingJournalsHoldWhereNothingSettles) {
   EXPECT_LE(v.stated, 3.0 * v.actual);
 }
 
+// A plane mechanism's offsets across its plane hang on nothing but rounding: no share of the error.
+TEST(StatedErrors, OfThePerturbationRungInAPlaneComeOfThePlane) {
+  for (const char* example : {"3-rrr", "flores-slider-crank"}) {
+    const auto mechanism = mechanism_of({example, {{"motion.duration", "0.02 s"}}});
+    RunOptions options;
+    options.sample_spacing = 0.0;
+    EXPECT_LT(make_rung("perturbation", mechanism)->run(mechanism->parameters(), options).error.model, 0.05) << example;
+  }
+}
+
 // Samples that lose as much at an impact, but for a factor of two, share what was measured: whichever comes first, and on a rung of their own.
 TEST(StatedErrors, OfSamplesFarFromTheNominalAreThoseOfTheNearestFactorOfTwo) {
   const auto mechanism = mechanism_of({"3-rrcpr", {{"motion.duration", "0.02 s"}}});  // restitution 0.9
