@@ -152,14 +152,14 @@ class Maker {
     ClassicalTable t{.index = index, .interpretation = interpretation, .lines = {}, .total = {}};
     const auto axes = static_cast<Eigen::Index>(axes_.count());
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      t.lines.push_back({joints_[j], kClearanceKind, "", std::vector<Moments>(axes_.count())});
+      t.lines.push_back({joints_[j], kClearanceKind, "", std::vector<Moments>(axes_.count()), {}, {}});
       if (alone_[j].error.empty()) continue;
       const Values values = {index_values(index, alone_[j], windows)};
       for (Eigen::Index a = 0; a < axes; ++a)
         t.lines.back().axes[static_cast<std::size_t>(a)] = moments_of(values, a, interpretation);
     }
     for (std::size_t g = 0; g < runs_.groups(); ++g) {
-      t.lines.push_back({plan_.groups.names[g], kinds_[g], "", {}});
+      t.lines.push_back({plan_.groups.names[g], kinds_[g], "", {}, {}, {}});
       const auto [drawn, held] = with_and_without({.held = static_cast<int>(g)}, index, windows);
       const bool adds_up = plan_.is_of_errors(g);
       const Values part = adds_up ? difference_of(drawn, held) : Values{};
@@ -174,14 +174,16 @@ class Maker {
       }
     }
     for (const KnownError& known : plan_.known) {
-      t.lines.push_back({known.name, kKnownKind, "", {}});
+      t.lines.push_back({known.name, kKnownKind, "", {}, {}, {}});
       const Values part = {index_values(index, known.history, windows)};
       for (Eigen::Index a = 0; a < axes; ++a) t.lines.back().axes.push_back(moments_of(part, a, interpretation));
     }
-    for (const Contributor& c : plan_.contributors) {
-      t.lines.push_back({c.name, kind_of(c), c.group, {}});
-      for (int a = 0; a < static_cast<int>(axes); ++a)
-        t.lines.back().axes.push_back(moments(c, a, index, interpretation, windows, plan_.duration));
+    const std::vector<Draws> draws = draws_of(plan_.contributors, plan_.correlations);
+    for (std::size_t i = 0; i < plan_.contributors.size(); ++i) {
+      const Contributor& c = plan_.contributors[i];
+      const AxesMoments m = axes_moments(c, index, interpretation, windows, plan_.duration);
+      t.lines.push_back({c.name, kind_of(c), c.group, {}, m.factor, draws[i]});
+      for (Eigen::Index a = 0; a < axes; ++a) t.lines.back().axes.push_back({m.mean[a], m.factor.row(a).norm()});
     }
     t.total = total_of(t.lines);
     if (t.total.axes.empty()) t.total.axes.resize(axes_.count());

@@ -61,6 +61,9 @@ const KeyTable& budget_keys() {
           tables("requirement", budget_requirement_keys)
               .sometimes("left out, nothing is required")
               .says("What is required, one table each; the first one is what shares and reliefs are about."),
+          tables("correlation", budget_correlation_keys)
+              .sometimes("left out, contributors of different groups are independent")
+              .says("Contributors that depend on each other, one table a pair."),
           tables("part", budget_part_keys)
               .sometimes("left out, there are no sub-budgets")
               .says("Sub-budgets, one table each: what belongs together, allocated and rolled up."),
@@ -108,6 +111,33 @@ const KeyTable& budget_requirement_keys() {
                    .above(0.5, "more than 0.5 and less than 1")
                    .otherwise(r.confidence)
                    .says("One-sided confidence at which that probability is shown.")}};
+  return table_of_keys;
+}
+
+const KeyTable& budget_correlation_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "budget.correlation",
+      .says =
+          "Two contributors that depend on each other, axis by axis, by a Gaussian copula: each keeps its own "
+          "distribution, or spectrum.",
+      .keys = {texts("contributors")
+                   .of_length({2}, "two contributors")
+                   .says("Their names: two biases or drifts, two noises of class random, or two by their spectra."),
+               number("coefficient")
+                   .inside_of(-1.0, 1.0, "more than -1 and less than 1")
+                   .says("Correlation of the normal scores behind their draws.")}};
+  return table_of_keys;
+}
+
+const KeyTable& budget_frame_keys() {
+  using namespace keys;
+  static const KeyTable table_of_keys{
+      .name = "budget.contributor.frame",
+      .says = "The axes that a contributor is given in, by two of them; the third one is perpendicular to both.",
+      .keys = {direction("x").sometimes("two of the three").says("Its x axis in the axes of the error."),
+               direction("y").sometimes("two of the three").says("Its y axis."),
+               direction("z").sometimes("two of the three").says("Its z axis.")}};
   return table_of_keys;
 }
 
@@ -181,7 +211,13 @@ const KeyTable& budget_contributor_keys() {
               .says("The same value in all members."),
           texts("axes")
               .sometimes("left out, all axes")
-              .says("The axes that it acts on: \"x\", \"y\", and where there is one \"z\"."),
+              .says("The axes that it acts on: \"x\", \"y\", and where there is one, or with frame, \"z\"."),
+          table("frame", budget_frame_keys)
+              .sometimes("left out, the axes of the error; not with error")
+              .says("Axes of its own that it is given in, such as those of a sensor's head."),
+          numbers("axis_correlation")
+              .sometimes("left out, its axes are independent; not with period, measured or error")
+              .says("How its axes depend on each other: of two axes one coefficient, of three [xy, xz, yz]."),
           time_key("period").sometimes("needed with class = \"periodic\" only").says("Period of the sinusoid."),
           time_key("correlation_time")
               .usually("the sampling")

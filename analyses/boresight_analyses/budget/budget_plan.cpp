@@ -10,6 +10,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/budget/budget_keys.hpp"
 #include "boresight_analyses/budget/read_contributor.hpp"
+#include "boresight_analyses/budget/read_correlations.hpp"
 #include "boresight_analyses/budget/read_parts.hpp"
 
 namespace boresight {
@@ -216,6 +217,16 @@ std::string question_of(const BudgetPlan& plan, const BudgetRequirement& r) {
     for (const DistributionPtr& parameter : c.parameter)
       text += "\n" + (parameter ? parameter->text() : std::string("none"));
   }
+  const auto matrix = [&](const Mat3& m) {
+    if (m != Mat3::Identity())
+      for (const double value : m.reshaped()) text += number(value);
+  };
+  for (const Contributor& c : plan.contributors) {
+    matrix(c.frame);
+    matrix(c.axes_factor);
+  }
+  for (const ContributorCorrelation& c : plan.correlations)
+    text += "\ncorrelation " + std::to_string(c.first) + " " + std::to_string(c.second) + number(c.coefficient);
   ContentHash hash;
   hash.add(text);
   return "first_look " + hash.hexadecimal();
@@ -249,6 +260,7 @@ BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDes
   for (Cursor& entry : table.tables("requirement"))
     for (const BudgetRequirement& one : read_requirement(entry, plan, axes, unit)) plan.requirements.push_back(one);
   read_parts(table, plan, unit);
+  read_correlations(table, plan);
   table.finish();
   return plan;
 }

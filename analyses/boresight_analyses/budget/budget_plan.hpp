@@ -28,6 +28,10 @@
 //   exposures = ["10 ms", "0.1 s"]
 //   limits = ["1 arcsec", "3 arcsec"]
 //
+//   [[budget.correlation]]       # two contributors whose draws depend on each other, read_correlations.hpp
+//   contributors = ["gyro", "star tracker"]
+//   coefficient = 0.5
+//
 //   [[budget.part]]              # a sub-budget, sub_budgets.hpp
 //   name = "attitude"
 //   within = "pointing"          # another part; left out: the whole
@@ -46,6 +50,8 @@
 //   correlation_time = "1 ms"    # random; left out: the sampling
 //   recalibrated = true          # bias, drift: every observation has another bias, and a drift that begins at zero
 //   group = "thermal"            # contributors of one group vary together
+//   axis_correlation = [0.5]     # of x and y; of three axes [xy, xz, yz]
+//   frame = { x = [0, 1, 0], z = [0, 0, 1] }   # its own axes in those of the error; left out: they are the same
 //
 //   [[budget.contributor]]       # or noise by its spectrum, read_noise.hpp
 //   name = "gyro"
@@ -123,6 +129,7 @@ struct BudgetPlan {
   NamedGroups groups;
   std::vector<BudgetRequirement> requirements;
   std::vector<Contributor> contributors;
+  std::vector<ContributorCorrelation> correlations;
   std::vector<BudgetPart> parts;
   std::vector<KnownError> known;  // once follow_errors() was called
   double duration = 0.0;          // of the histories: the motion from `start` on [s]

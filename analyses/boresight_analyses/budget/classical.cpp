@@ -1,7 +1,7 @@
 #include "boresight_analyses/budget/classical.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
-#include <map>
 
 #include "boresight_analyses/budget/half_cone.hpp"
 
@@ -22,31 +22,53 @@ double ClassicalTotal::radius_by_rule(Interpretation interpretation, double prob
   return std::sqrt(square / n) * equal_axes_factor(probability, static_cast<int>(axes.size()));
 }
 
+// A turn of the axes leaves the radius: along the principal ones they are independent.
 double ClassicalTotal::radius_integrated(double probability) const {
-  std::vector<double> mean, sd;
-  for (const Moments& m : axes) {
-    mean.push_back(m.mean);
-    sd.push_back(m.sd);
+  const auto n = static_cast<Eigen::Index>(axes.size());
+  VecX mean(n);
+  for (Eigen::Index a = 0; a < n; ++a) mean[a] = axes[static_cast<std::size_t>(a)].mean;
+  MatX own = covariance.topLeftCorner(n, n), principal = MatX::Identity(n, n);
+  VecX squares = own.diagonal();
+  if (!own.isDiagonal()) {
+    const Eigen::SelfAdjointEigenSolver<MatX> solver(own);
+    principal = solver.eigenvectors();
+    squares = solver.eigenvalues();
   }
-  return radius_of(probability, mean, sd);
+  mean = principal.transpose() * mean;
+  const VecX deviation = squares.cwiseMax(0.0).cwiseSqrt();
+  return radius_of(probability, {mean.data(), axes.size()}, {deviation.data(), axes.size()});
 }
+
+namespace {
+
+double correlation_of(const ClassicalLine& a, const ClassicalLine& b) {
+  if (&a == &b || (!a.group.empty() && a.group == b.group)) return 1.0;
+  return a.draws && b.draws ? a.draws->correlation_with(*b.draws) : 0.0;
+}
+
+Mat3 factor_of(const ClassicalLine& line) {
+  if (line.factor) return *line.factor;
+  Mat3 factor = Mat3::Zero();
+  for (std::size_t a = 0; a < line.axes.size(); ++a)
+    factor(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(a)) = line.axes[a].sd;
+  return factor;
+}
+
+}  // namespace
 
 ClassicalTotal total_of(std::span<const ClassicalLine> lines) {
   ClassicalTotal total;
   if (lines.empty()) return total;
   total.axes.resize(lines.front().axes.size());
+  for (const ClassicalLine& line : lines) {
+    for (std::size_t a = 0; a < total.axes.size(); ++a) total.axes[a].mean += line.axes[a].mean;
+    for (const ClassicalLine& other : lines)
+      if (const double correlation = correlation_of(line, other); correlation != 0.0)
+        total.covariance += correlation * factor_of(line) * factor_of(other).transpose();
+  }
   for (std::size_t a = 0; a < total.axes.size(); ++a) {
-    double square = 0.0;
-    std::map<std::string, double> together;
-    for (const ClassicalLine& line : lines) {
-      total.axes[a].mean += line.axes[a].mean;
-      if (line.group.empty())
-        square += line.axes[a].sd * line.axes[a].sd;
-      else
-        together[line.group] += line.axes[a].sd;
-    }
-    for (const auto& [group, sd] : together) square += sd * sd;
-    total.axes[a].sd = std::sqrt(square);
+    const auto at = static_cast<Eigen::Index>(a);
+    total.axes[a].sd = std::sqrt(std::max(0.0, total.covariance(at, at)));
   }
   return total;
 }

@@ -1,7 +1,7 @@
 // The classical table: contributors by their moments, added up by rule (ECSS-E-ST-60-10C, 5.2; Annex A.2).
 //
 //   means add linearly; standard deviations linearly within a group of correlated contributors, and groups (and those
-//   that belong to none) by the root of the sum of squares
+//   that belong to none) by the root of the sum of squares, or by their coefficients where they are correlated
 //   one axis:   |mean| + n_P sd
 //   half cone:  sd sqrt(-2 ln(1 - P)), sd the root mean square of the axes', as if there were no mean; of the ensemble
 //               interpretation, whose means are those of maxima, the root of the sum of the axes' levels squared
@@ -9,6 +9,7 @@
 // The rules hold for Gaussian errors without a mean across. Whether they did is only seen against a simulation.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,10 +21,13 @@ namespace boresight {
 struct ClassicalLine {
   std::string name, kind, group;
   std::vector<Moments> axes;
+  std::optional<Mat3> factor = {};  // B with B B^T the covariance of its axes; none: they are independent
+  std::optional<Draws> draws = {};  // of a contributor; what has none is independent of all but its group
 };
 
 struct ClassicalTotal {
   std::vector<Moments> axes;
+  Mat3 covariance = Mat3::Zero();  // of the axes, the squares of their deviations on its diagonal
 
   double axis_level(std::size_t axis, double probability) const;
   double radius_by_rule(Interpretation interpretation, double probability) const;  // of two axes or three

@@ -1,7 +1,6 @@
 #include "boresight_analyses/budget/contributor.hpp"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <complex>
 #include <stdexcept>
@@ -75,20 +74,8 @@ Moments of_drift(const Ensemble& e, Interpretation interpretation, double middle
   return {};
 }
 
-double standard_normal(double u) { return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * u); }
-
 constexpr std::uint64_t kAxes = 4;           // places a stream has for an observation
 constexpr std::uint64_t kPlaceOfFactor = 3;  // the last of them
-
-// One axis of a noise by its spectrum, of deviation as in its spectrum. Two independent normal numbers from two uniform ones (Box and
-// Muller 1958).
-std::vector<double> drawn_noise(const NoiseCourse& noise, const CounterStream& in_time, std::uint64_t member,
-                                std::uint64_t place) {
-  return noise.drawn([&](std::uint64_t k) {
-    return std::polar(std::sqrt(-2.0 * std::log(in_time.uniform(member, place, 2 * k + 1))),
-                      2.0 * M_PI * in_time.uniform(member, place, 2 * k + 2));
-  });
-}
 
 }  // namespace
 
@@ -148,8 +135,24 @@ Moments moments(const Contributor& c, int axis, ErrorIndex index, Interpretation
   return of_oscillation(e, interpretation, 3.0 * deviation, deviation);
 }
 
-std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t member, std::uint64_t stream,
+AxesMoments axes_moments(const Contributor& c, ErrorIndex index, Interpretation interpretation, const Windows& windows,
+                         double duration) {
+  AxesMoments out;
+  Mat3 deviations = Mat3::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    const Moments m = moments(c, axis, index, interpretation, windows, duration);
+    out.mean[axis] = m.mean;
+    deviations(axis, axis) = m.sd;
+  }
+  const bool of_sizes = interpretation == Interpretation::ensemble;
+  out.mean = (of_sizes ? Mat3(c.frame.cwiseAbs()) : c.frame) * out.mean;
+  out.factor = c.frame * deviations * c.axes_factor;
+  return out;
+}
+
+std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t member, const Draws& draws,
                          double spacing, std::size_t samples, const Windows& windows) {
+  const std::uint64_t stream = draws.first();
   const CounterStream value(seed, StreamPurpose::budget_value), in_time(seed, StreamPurpose::budget_course);
   if (c.of_error) {
     // Contributors of one group draw one and the same value.
@@ -169,40 +172,51 @@ std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t
   // A factor is one for all axes.
   const bool by_factor = c.kind == ContributorClass::spectrum || c.kind == ContributorClass::measured;
   if (c.measured) out = c.measured->history(in_time.uniform(member, stream * kAxes));
-  for (std::uint64_t axis = 0; axis < 3; ++axis) {
-    if (!c.parameter[axis]) continue;
-    const Distribution& distribution = *c.parameter[axis];
+  const Mat3 one_for_all = Mat3::Identity();
+  using Where = MixedNumbers::Where;
+  const MixedNumbers values(value, member, draws, by_factor ? one_for_all : c.axes_factor),
+      noises(in_time, member, draws, c.axes_factor);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (!c.parameter[static_cast<std::size_t>(axis)]) continue;
+    const Distribution& distribution = *c.parameter[static_cast<std::size_t>(axis)];
     const auto drawn = [&](std::size_t observation_number) {
-      return distribution.quantile(
-          value.uniform(member, stream, (by_factor ? kPlaceOfFactor : axis) + kAxes * observation_number));
+      return distribution.quantile(values.uniform(axis, [&](std::uint64_t of, Eigen::Index own) -> Where {
+        return {of, (by_factor ? kPlaceOfFactor : static_cast<std::uint64_t>(own)) + kAxes * observation_number};
+      }));
+    };
+    const auto in_noise = [&](std::uint64_t number) {
+      return [number](std::uint64_t of, Eigen::Index own) -> Where {
+        return {of * kAxes + static_cast<std::uint64_t>(own), number};
+      };
     };
     double parameter = drawn(0);
     if (c.measured) {
-      for (Vec3& e : out) e[static_cast<Eigen::Index>(axis)] *= parameter;
+      for (Vec3& e : out) e[axis] *= parameter;
       continue;
     }
     if (c.noise) {
-      const std::vector<double> noise = drawn_noise(*c.noise_course, in_time, member, stream * kAxes + axis);
-      for (std::size_t k = 0; k < samples; ++k) out[k][static_cast<Eigen::Index>(axis)] = parameter * noise[k];
+      const std::vector<double> noise =
+          c.noise_course->drawn([&](std::uint64_t k) { return noises.two_normals(axis, in_noise(2 * k + 1)); });
+      for (std::size_t k = 0; k < samples; ++k) out[k][axis] = parameter * noise[k];
       continue;
     }
     const bool turns = c.kind == ContributorClass::periodic;
     const double gain = turns ? std::abs(of_sinusoid(c)) : of_constant(c),
                  lead = turns ? std::arg(of_sinusoid(c)) : 0.0;
     const double behind = behind_ramp(c);
-    const double phase = 2.0 * M_PI * in_time.uniform(member, stream * kAxes + axis) + lead;
+    const double phase = 2.0 * M_PI * in_time.uniform(member, stream * kAxes + static_cast<std::uint64_t>(axis)) + lead;
     const double correlation = c.kind == ContributorClass::random ? std::exp(-spacing / c.correlation_time) : 0.0;
     double noise = 0.0;
     for (std::size_t k = 0; k < samples; ++k) {
       const double t = (static_cast<double>(k) + 0.5) * spacing;
       if (c.kind == ContributorClass::bias && c.recalibrated && k % observed == 0) parameter = drawn(k / observed);
-      double& e = out[k][static_cast<Eigen::Index>(axis)];
+      double& e = out[k][axis];
       switch (c.kind) {
         case ContributorClass::bias:
           e = gain * parameter;
           break;
         case ContributorClass::random: {
-          const double fresh = standard_normal(in_time.uniform(member, stream * kAxes + axis, k + 1));
+          const double fresh = noises.normal(axis, in_noise(k + 1));
           noise = k == 0 ? fresh : correlation * noise + std::sqrt(1.0 - correlation * correlation) * fresh;
           e = parameter * noise;
           break;
@@ -221,6 +235,8 @@ std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t
       }
     }
   }
+  if (c.frame != one_for_all)
+    for (Vec3& e : out) e = (c.frame * e).eval();
   return out;
 }
 
@@ -233,6 +249,11 @@ std::vector<std::uint64_t> streams_of(const std::vector<Contributor>& contributo
     streams.push_back(first);
   }
   return streams;
+}
+
+std::vector<Draws> draws_of(const std::vector<Contributor>& contributors,
+                            const std::vector<ContributorCorrelation>& correlations) {
+  return draws_of(streams_of(contributors), correlations);
 }
 
 }  // namespace boresight

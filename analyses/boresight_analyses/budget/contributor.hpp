@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "boresight_analyses/budget/draws.hpp"
 #include "boresight_analyses/budget/error_course.hpp"
 #include "boresight_analyses/budget/interpretation.hpp"
 #include "boresight_analyses/budget/measured_course.hpp"
@@ -46,8 +47,10 @@ struct Contributor {
   NoisePtr noise = {};                                   // spectrum; random with `through`, of deviation 1
   std::shared_ptr<const NoiseCourse> noise_course = {};  // the same on the grid of the histories
   std::shared_ptr<const MeasuredCourse> measured = {};   // measured
-  std::string group = {};                                // contributors of one group vary together; "": by itself
-  std::optional<ErrorCourse> of_error = {};              // in place of all but name and group
+  // Its own axes in those of the error, as columns, and the factor of the correlation between them (draws.hpp).
+  Mat3 frame = Mat3::Identity(), axes_factor = Mat3::Identity();
+  std::string group = {};                    // contributors of one group vary together; "": by itself
+  std::optional<ErrorCourse> of_error = {};  // in place of all but name and group
 };
 
 // Mean and standard deviation to enter in the budget of one index, by interpretation (ECSS-E-ST-60-10C, Tables B-1 to
@@ -57,14 +60,26 @@ struct Contributor {
 //   mixed      over both; the variance of the conditional mean is part of it (law of total variance), which the
 //              standard's integral leaves out
 // Of a spectrum the filters of the windows are integrated over it; of a measured course its index values count. `duration`: of the histories [s].
+// `axis`: of its own.
 Moments moments(const Contributor& contributor, int axis, ErrorIndex index, Interpretation interpretation,
                 const Windows& windows, double duration);
 
-// Its course in one member: a function of (seed, member) alone. `stream`: contributors of one group share it, and with
-// it what they draw.
-std::vector<Vec3> course(const Contributor& contributor, std::uint64_t seed, std::uint64_t member, std::uint64_t stream,
+// Of all axes together: the means, and B with B B^T their covariance, in the axes of the error. Of the ensemble interpretation, whose means
+// are of largest sizes, those of turned axes add up as if they came at one time.
+struct AxesMoments {
+  Vec3 mean = Vec3::Zero();
+  Mat3 factor = Mat3::Zero();
+};
+AxesMoments axes_moments(const Contributor& contributor, ErrorIndex index, Interpretation interpretation,
+                         const Windows& windows, double duration);
+
+// Its course in one member: a function of (seed, member) alone, in the axes of the error. `draws`: contributors of one group share them, and with
+// them what they draw. Throws std::invalid_argument where noise or a measured course was made for another grid.
+std::vector<Vec3> course(const Contributor& contributor, std::uint64_t seed, std::uint64_t member, const Draws& draws,
                          double spacing, std::size_t samples, const Windows& windows);
 // Stream of each contributor: its place, or that of the first one of its group.
 std::vector<std::uint64_t> streams_of(const std::vector<Contributor>& contributors);
+std::vector<Draws> draws_of(const std::vector<Contributor>& contributors,
+                            const std::vector<ContributorCorrelation>& correlations = {});
 
 }  // namespace boresight

@@ -12,7 +12,7 @@ std::vector<double> sizes_of(const std::vector<Vec3>& values, const AxisOf& axis
 }
 
 BudgetEnsemble::BudgetEnsemble(const BudgetPlan& plan, const BudgetRuns& runs, const SampleStore& store)
-    : plan_(plan), runs_(runs), streams_(streams_of(plan.contributors)) {
+    : plan_(plan), runs_(runs), draws_(draws_of(plan.contributors, plan.correlations)) {
   const auto keep = [&](std::uint64_t number) {
     PointingHistory history = stored_history(store, number, plan);
     if (!history.error.empty()) histories_.emplace(number, std::move(history));
@@ -35,7 +35,7 @@ const PointingHistory* BudgetEnsemble::mechanism(std::uint64_t member, const Mem
 
 PointingHistory BudgetEnsemble::external(std::uint64_t member, std::size_t contributor) const {
   const std::size_t samples = histories_.empty() ? 0 : histories_.begin()->second.error.size();
-  return {plan_.sampling, course(plan_.contributors[contributor], plan_.seed, member, streams_[contributor],
+  return {plan_.sampling, course(plan_.contributors[contributor], plan_.seed, member, draws_[contributor],
                                  plan_.sampling, samples, plan_.windows)};
 }
 

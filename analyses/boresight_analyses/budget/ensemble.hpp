@@ -50,7 +50,7 @@ class BudgetEnsemble {
  private:
   const BudgetPlan& plan_;
   const BudgetRuns& runs_;
-  std::vector<std::uint64_t> streams_;
+  std::vector<Draws> draws_;
   std::map<std::uint64_t, PointingHistory> histories_;  // by number of the run
 };
 

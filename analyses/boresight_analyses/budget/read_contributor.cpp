@@ -10,6 +10,7 @@
 #include "boresight_analyses/budget/budget_keys.hpp"
 #include "boresight_analyses/budget/budget_runs.hpp"
 #include "boresight_analyses/budget/line_kinds.hpp"
+#include "boresight_analyses/budget/read_correlations.hpp"
 #include "boresight_analyses/budget/read_measured_course.hpp"
 #include "boresight_analyses/budget/read_noise.hpp"
 #include "boresight_analyses/random/read_distribution.hpp"
@@ -26,8 +27,8 @@ ContributorClass read_class(Cursor& table) {
 
 // A standing error of the mechanism over time.
 ErrorCourse read_error_course(Cursor& table, const BudgetPlan& plan, const MechanismDescription& mechanism) {
-  for (const char* key :
-       {"class", "axes", "period", "correlation_time", "recalibrated", "spectrum", "measured", "through"})
+  for (const char* key : {"class", "axes", "period", "correlation_time", "recalibrated", "spectrum", "measured",
+                          "through", "frame", "axis_correlation"})
     if (table.has(key))
       table.fail_found(key, std::string("error and ") + key,
                        "error without it: course, factor and value say how a standing error varies");
@@ -76,13 +77,13 @@ ErrorCourse read_error_course(Cursor& table, const BudgetPlan& plan, const Mecha
 
 // The axes that it acts on, each with the parameter.
 void read_axes(Cursor& table, const BudgetAxes& axes, const DistributionPtr& parameter, Contributor& c) {
-  const std::vector<std::string> named = table.has("axes") ? table.texts("axes") : axes.names;
+  const std::vector<std::string> own = table.has("frame") ? std::vector<std::string>{"x", "y", "z"} : axes.names;
+  const std::vector<std::string> named = table.has("axes") ? table.texts("axes") : own;
   table.require(!named.empty(), "axes", "at least one axis");
   for (const std::string& name : named) {
-    const auto at = std::find(axes.names.begin(), axes.names.end(), name);
-    if (at == axes.names.end())
-      table.fail_found("axes", "\"" + name + "\"", "an axis of the error", nearest_name(name, axes.names));
-    c.parameter[static_cast<std::size_t>(at - axes.names.begin())] = parameter;
+    const auto at = std::find(own.begin(), own.end(), name);
+    if (at == own.end()) table.fail_found("axes", "\"" + name + "\"", "an axis of the error", nearest_name(name, own));
+    c.parameter[static_cast<std::size_t>(at - own.begin())] = parameter;
   }
 }
 
@@ -153,6 +154,7 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuan
   const bool angle = quantity != PointingQuantity::position_error;
   if (table.has("spectrum") || table.has("measured")) {
     (table.has("spectrum") ? read_spectrum : read_measured)(table, plan, axes, angle ? "rad" : "m", c);
+    read_frame(table, axes, c);
     c.group = table.text("group", "");
     table.finish();
     return c;
@@ -187,6 +189,7 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuan
   if (c.recalibrated && (periodic || random))
     table.fail("recalibrated", "this with class = \"bias\" or \"drift\" only");
   read_through_of_class(table, plan, c);
+  read_frame(table, axes, c);
   c.group = table.text("group", "");
   table.finish();
   return c;

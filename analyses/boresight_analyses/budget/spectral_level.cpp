@@ -40,7 +40,7 @@ SpectralLevel level_of(const MemberSquares& seen, double alpha) {
 
 std::vector<SpectralLevel> spectral_levels(const BudgetPlan& plan) {
   const std::vector<ErrorIndex> indices = plan.indices();
-  const std::vector<std::uint64_t> streams = streams_of(plan.contributors);
+  const std::vector<Draws> draws = draws_of(plan.contributors, plan.correlations);
   std::size_t noises = 0;
   for (const Contributor& c : plan.contributors) noises += c.noise != nullptr;
   // Mean squares of slow noise have longer tails than a chi-squared variable of estimated freedom, up to twice as many beyond such ends.
@@ -48,8 +48,9 @@ std::vector<SpectralLevel> spectral_levels(const BudgetPlan& plan) {
   const double alpha = kOfTails * kFalseFlags / static_cast<double>(std::max<std::size_t>(1, noises * indices.size()));
   std::vector<SpectralLevel> out;
   for (std::size_t i = 0; i < plan.contributors.size(); ++i) {
-    const Contributor& c = plan.contributors[i];
+    Contributor c = plan.contributors[i];
     if (!c.noise) continue;
+    c.frame.setIdentity();  // on its own axes
     double square_of_factor = 0.0, axes = 0.0;
     for (const DistributionPtr& factor : c.parameter)
       if (factor) {
@@ -59,7 +60,7 @@ std::vector<SpectralLevel> spectral_levels(const BudgetPlan& plan) {
     std::vector<MemberSquares> seen(indices.size());
     for (std::uint64_t member = 0; member < plan.members; ++member) {
       const PointingHistory history{
-          plan.sampling, course(c, plan.seed, member, streams[i], plan.sampling, samples_of(plan), plan.windows)};
+          plan.sampling, course(c, plan.seed, member, draws[i], plan.sampling, samples_of(plan), plan.windows)};
       for (std::size_t k = 0; k < indices.size(); ++k) {
         const std::vector<Vec3> values = index_values(indices[k], history, plan.windows);
         double sum = 0.0;

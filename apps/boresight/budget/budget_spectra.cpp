@@ -39,8 +39,9 @@ std::vector<Density> densities(const BudgetPlan& plan) {
   for (const Contributor& c : plan.contributors) {
     if (!c.noise) continue;
     double factor = 0.0;
-    for (const DistributionPtr& d : c.parameter)
-      if (d) factor += d->mean() * d->mean() + d->sd() * d->sd();
+    for (std::size_t a = 0; a < 3; ++a)
+      if (const DistributionPtr& d = c.parameter[a])
+        factor += (d->mean() * d->mean() + d->sd() * d->sd()) * c.frame.col(static_cast<Eigen::Index>(a)).squaredNorm();
     Density one{c.name, {}, {}};
     for (const double f : between(std::max(least, c.noise->least()), std::min(most, c.noise->most()))) {
       one.frequency.push_back(f);

@@ -242,14 +242,16 @@ report::Table contributor_table(const BudgetStudy& s) {
       in_time = "stationary noise by its spectrum, deviation " + budget_value(s, std::sqrt(c.noise->power_from(0.0)));
     if (c.measured) in_time = measured_text(*c.measured);
     if (c.kind == ContributorClass::random) in_time = "correlation time " + readable(c.correlation_time, "s");
-    for (std::size_t a = 0; a < s.axes().count(); ++a) {
+    for (std::size_t a = 0; a < 3; ++a) {
       if (!c.parameter[a]) continue;
-      axes += (axes.empty() ? "" : ", ") + s.axes().names[a];
+      axes += fmt::format("{}{}", axes.empty() ? "" : ", ", "xyz"[a]);
       const std::string per = c.kind == ContributorClass::drift ? "/s" : "";
       const bool factor = c.kind == ContributorClass::spectrum || c.kind == ContributorClass::measured;
       spread = factor ? "factor " + spread_text(*c.parameter[a], [](double v) { return readable_number(v); })
                       : spread_text(*c.parameter[a], [&](double v) { return budget_value(s, v) + per; });
     }
+    if (c.frame != Mat3::Identity()) axes += " of its own frame";
+    if (c.axes_factor != Mat3::Identity()) axes += ", correlated";
     if (c.through) in_time += ", through its transfer functions once settled";
     table.rows.push_back({c.name, to_string(c.kind), in_time, spread, axes, kFromClasses});
   }
