@@ -184,7 +184,8 @@ class LeftOut {
         row_(tables_->dynamics.width()),
         part_(groups_.size()),
         astray_(groups_.size()),
-        push_(groups_.size()) {}
+        push_(groups_.size()),
+        pushed_off_(groups_.size(), 0.0) {}
 
   // Throws ComputationError where it cannot be made exactly.
   void look(const LargestDeviations::Deviation& deviation) {
@@ -234,6 +235,7 @@ class LeftOut {
         astray_[g][k].add(whole[k], part * share_off);
       }
       push_[g].add(std::sqrt(size), std::sqrt(size_off));
+      pushed_off_[g] = std::max(pushed_off_[g], share_off);
     }
   }
 
@@ -251,9 +253,11 @@ class LeftOut {
       const double size = std::max(miss_[k].size(), least);
       double of_kind = miss_[k].value(least);
       // A force that is off early shows in where the journal gets to later: all of its part counts by the share of all forces. And where
-      // next to nothing pushes for a while, all of its part counts for that while.
-      for (std::size_t g = 0; g < groups_.size(); ++g)
-        of_kind += part_[g][k].value(least) * std::min(1.0, push_[g].mean_value(0.0)) + astray_[g][k].mean_value(least);
+      // next to nothing pushes for a while, all of its part counts for that while. Together no more than all of it by the largest share.
+      for (std::size_t g = 0; g < groups_.size(); ++g) {
+        const double part = part_[g][k].value(least), by_forces = part * std::min(1.0, push_[g].mean_value(0.0));
+        of_kind += std::min(part * pushed_off_[g], by_forces + astray_[g][k].mean_value(least));
+      }
       share = std::max({share, of_kind, size > 0.0 ? at_rest[k] / size : 0.0});
     }
     return std::isfinite(share) ? std::min(share, 1.0) : 1.0;
@@ -289,9 +293,10 @@ class LeftOut {
   std::vector<double> row_;
   bool begun_ = false;
   std::array<Share, kKinds> miss_;
-  // Of each group, over the instants: its part of each kind, that times how much of its forces is off then, and these forces.
+  // Of each group, over the instants: its part of each kind, that times how much of its forces is off then, these forces, and the most of them.
   std::vector<std::array<Share, kKinds>> part_, astray_;
   std::vector<Share> push_;
+  std::vector<double> pushed_off_;
 };
 
 }  // namespace
