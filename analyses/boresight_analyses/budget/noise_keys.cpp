@@ -113,7 +113,9 @@ const KeyTable& spectrum_table_keys() {
   static const KeyTable table_of_keys{
       .name = "budget.contributor.spectrum.table",
       .says = "A power spectral density, one-sided, from a CSV file with a header line.",
-      .keys = {text("file").says("The CSV file; a relative name is taken from the study file's folder."),
+      .keys = {text("file").says("The CSV file, with commas between its columns, or with semicolons and decimal commas "
+                                 "or points; a relative "
+                                 "name is taken from the study file's folder."),
                text("frequency").says("The name of its column of frequencies [Hz], above zero and rising."),
                text("density").says(
                    "The name of its column of densities, above zero; beyond the first and last there are none."),
@@ -133,7 +135,9 @@ const KeyTable& measured_keys() {
           "header line, straight "
           "between its rows.",
       .keys = {
-          text("file").says("The CSV file; a relative name is taken from the study file's folder."),
+          text("file").says("The CSV file, with commas between its columns, or with semicolons and decimal commas or "
+                            "points; a relative "
+                            "name is taken from the study file's folder."),
           text("time").says("The name of its column of times [s], which rise."),
           texts("columns").says("The names of its columns of values, one for each of `axes`."),
           text("unit").says("Unit of the values, such as \"arcsec\"."),

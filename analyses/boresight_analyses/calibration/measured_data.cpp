@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "boresight/io/csv_fields.hpp"
+#include "boresight/io/csv_numbers.hpp"
 #include "boresight/io/text_lines.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/keys/value_fault.hpp"
@@ -41,16 +42,15 @@ struct Columns {
   std::vector<double> scale;  // of each channel
   std::size_t count = 0;
   std::vector<std::string> name;
-  char separator = ',';
-  char decimal = 0;  // '.' or ',', of the first number that has one
+  CsvNumbers numbers{""};
 };
 
 Columns read_header(const std::string& line, const Origin& at, MeasuredData& data) {
   Columns columns;
   std::vector<std::string> known = {"t"};
   for (const ChannelName& c : channel_names()) known.emplace_back(c.name);
-  if (line.find(';') != std::string::npos) columns.separator = ';';
-  for (const std::string& text : csv_fields(line, columns.separator)) {
+  columns.numbers = CsvNumbers(line);
+  for (const std::string& text : columns.numbers.fields(line)) {
     const int here = static_cast<int>(columns.count++);
     const Heading h = heading(text, at);
     columns.name.push_back(h.name);
@@ -75,21 +75,11 @@ Columns read_header(const std::string& line, const Origin& at, MeasuredData& dat
   return columns;
 }
 
-// A comma is that of a decimal fraction where semicolons separate the columns. Mixed with points it may be one of thousands, a thousandfold
-// error that nobody would see: refused.
-double number(std::string field, const std::string& column, const Origin& at, Columns& columns) {
-  const std::size_t mark = field.find_first_of(".,");
-  if (mark != std::string::npos) {
-    if (columns.decimal == 0) columns.decimal = field[mark];
-    if (field[mark] != columns.decimal)
-      throw InputError(at, column, in_quotes(field),
-                       columns.decimal == ',' ? "a decimal comma, as in the numbers before"
-                                              : "a decimal point, as in the numbers before");
-    const bool once = field.find_first_of(".,", mark + 1) == std::string::npos;
-    if (once && columns.separator == ';') field[mark] = '.';
-  }
+double number(const std::string& field, const std::string& column, const Origin& at, Columns& columns) {
   double value = 0.0;
-  if (!parse_number(field, value)) throw InputError(at, column, in_quotes(field), "a finite number, or nothing");
+  if (const std::string expected = columns.numbers.read(field, value); !expected.empty())
+    throw InputError(at, column, in_quotes(field),
+                     expected == "a finite number" ? expected + ", or nothing" : expected);
   return value;
 }
 
@@ -127,7 +117,7 @@ MeasuredData read_measured_data(const std::string& file) {
       columns = read_header(line, origin, data);
       continue;
     }
-    const std::vector<std::string> row = csv_fields(line, columns.separator);
+    const std::vector<std::string> row = columns.numbers.fields(line);
     if (row.size() != columns.count)
       throw InputError(origin, "row", std::to_string(row.size()) + " fields",
                        std::to_string(columns.count) + ", as in the header");

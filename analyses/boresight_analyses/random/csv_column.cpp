@@ -4,12 +4,12 @@
 #include <filesystem>
 
 #include "boresight/io/csv_fields.hpp"
+#include "boresight/io/csv_numbers.hpp"
 #include "boresight/io/text_lines.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
-namespace {}  // namespace
 
 std::string beside(const std::string& file, const std::string& name) {
   const std::filesystem::path path = name;
@@ -20,7 +20,8 @@ std::vector<double> read_csv_column(const std::string& file, const std::string& 
   TextLines lines(file);
   std::string line;
   if (!lines.next(line)) throw ColumnFault{true, "an empty file " + in_quotes(file), "a CSV file", ""};
-  const std::vector<std::string> names = csv_fields(line);
+  CsvNumbers numbers(line);
+  const std::vector<std::string> names = numbers.fields(line);
   const auto place = std::find(names.begin(), names.end(), column);
   if (place == names.end())
     throw ColumnFault{false, in_quotes(column), "a column of " + in_quotes(file), nearest_name(column, names)};
@@ -28,13 +29,14 @@ std::vector<double> read_csv_column(const std::string& file, const std::string& 
   std::vector<double> values;
   while (lines.next(line)) {
     if (trimmed(line).empty()) continue;
-    const std::vector<std::string> row = csv_fields(line);
+    const std::vector<std::string> row = numbers.fields(line);
     double value = 0.0;
-    if (index >= row.size() || !parse_number(row[index], value))
+    const std::string expected = index < row.size() ? numbers.read(row[index], value) : "a finite number";
+    if (!expected.empty())
       throw ColumnFault{false,
                         (index < row.size() ? in_quotes(row[index]) : std::string("nothing")) + " in line " +
                             std::to_string(lines.number()) + " of " + in_quotes(file),
-                        "a finite number", ""};
+                        expected, ""};
     values.push_back(value);
   }
   if (values.empty()) throw ColumnFault{false, "no values in " + in_quotes(file), "at least one", ""};

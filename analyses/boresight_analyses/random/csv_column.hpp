@@ -1,5 +1,5 @@
-// One column of numbers from a CSV file of measurements: a header line with the columns' names, commas between fields,
-// a point as the decimal sign, double quotes around a field where needed.
+// One column of numbers from a CSV file of measurements: a header line with the columns' names, commas between fields
+// and decimal points, or semicolons and either (csv_numbers.hpp), double quotes around a field where needed.
 #pragma once
 
 #include <string>

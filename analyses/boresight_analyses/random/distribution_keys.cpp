@@ -86,7 +86,9 @@ const KeyTable& empirical_keys() {
   static const KeyTable table_of_keys{
       .name = "distribution.empirical",
       .says = "The values of a CSV column, each as probable as any other.",
-      .keys = {text("file").says("The CSV file; a relative name is taken from the study file's folder."),
+      .keys = {text("file").says("The CSV file, with commas between its columns, or with semicolons and decimal commas "
+                                 "or points; a relative "
+                                 "name is taken from the study file's folder."),
                text("column").says("The column's name, as in the file's first line."),
                text("unit")
                    .sometimes("needed unless the parameter is a pure number")

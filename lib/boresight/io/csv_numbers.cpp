@@ -1,0 +1,25 @@
+#include "boresight/io/csv_numbers.hpp"
+
+#include "boresight/io/csv_fields.hpp"
+#include "boresight/keys/units.hpp"
+
+namespace boresight {
+
+CsvNumbers::CsvNumbers(const std::string& header) : separator_(header.find(';') == std::string::npos ? ',' : ';') {}
+
+std::vector<std::string> CsvNumbers::fields(const std::string& line) const { return csv_fields(line, separator_); }
+
+std::string CsvNumbers::read(std::string field, double& value) {
+  const std::size_t mark = field.find_first_of(".,");
+  if (mark != std::string::npos) {
+    if (decimal_ == 0) decimal_ = field[mark];
+    if (field[mark] != decimal_)
+      return decimal_ == ',' ? "a decimal comma, as in the numbers before"
+                             : "a decimal point, as in the numbers before";
+    const bool once = field.find_first_of(".,", mark + 1) == std::string::npos;
+    if (once && separator_ == ';') field[mark] = '.';
+  }
+  return parse_number(field, value) ? "" : "a finite number";
+}
+
+}  // namespace boresight

@@ -1,0 +1,44 @@
+// A column of numbers from a CSV file, whichever of the two marks its program writes.
+#include "boresight_analyses/random/csv_column.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace boresight {
+namespace csv_column_test {
+
+std::string file_of(const std::string& text) {
+  const std::string name = testing::TempDir() + "column.csv";
+  std::ofstream(name) << text;
+  return name;
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    read_csv_column(file_of(text), "b");
+  } catch (const ColumnFault& fault) {
+    return fault.found + ", expected " + fault.expected;
+  }
+  return "no refusal";
+}
+
+TEST(CsvColumn, IsReadWithCommasOrSemicolonsAndEitherDecimalMark) {
+  const std::vector<double> expected = {0.5, 1e-3};
+  EXPECT_EQ(read_csv_column(file_of("a,b\n1,0.5\n2,1e-3\n"), "b"), expected);
+  EXPECT_EQ(read_csv_column(file_of("a; b\n1,5; 0,5\n2,5; 1e-3\n"), "b"), expected);
+  EXPECT_EQ(read_csv_column(file_of("a; b\n1.5; 0.5\n2.5; 1e-3\n"), "b"), expected);
+}
+
+TEST(CsvColumn, DoesNotMixDecimalMarks) {
+  EXPECT_NE(refusal("a;b\n1;0,5\n2;0.5\n").find("\"0.5\" in line 3"), std::string::npos);
+  EXPECT_NE(refusal("a;b\n1;0,5\n2;0.5\n").find("expected a decimal comma, as in the numbers before"),
+            std::string::npos);
+  EXPECT_NE(refusal("a;b\n1;0.5\n2;1,000.5\n").find("expected a decimal point"), std::string::npos);
+  EXPECT_NE(refusal("a;b\n1;1.000,5\n").find("expected a finite number"), std::string::npos);
+  EXPECT_NE(refusal("a,b\n1,\"0,5\"\n").find("expected a finite number"), std::string::npos);
+}
+
+}  // namespace csv_column_test
+}  // namespace boresight
