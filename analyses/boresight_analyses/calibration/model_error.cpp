@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "boresight/math/eigenvalues.hpp"
+#include "boresight_analyses/calibration/kept_fits.hpp"
 
 namespace boresight {
 namespace {
@@ -26,6 +27,8 @@ struct Reduced {
   bool jumps = false;
   int run = 0;
 };
+
+void fields(Numbers& n, Reduced& w) { n(w.XX, w.Y, w.Xr, w.y, w.rr, w.g, w.BU, w.jumps, w.run); }
 
 struct Normal {
   MatX M;
@@ -169,8 +172,13 @@ CalibrationModelError model_error(const CalibrationProblem& problem, const FitRe
     return none;
   }
   std::vector<Reduced> windows(fit.windows.size());
-  for_each_on_threads(static_cast<int>(windows.size()), jobs,
-                      [&](int k) { windows[k] = reduced(problem, fit, suspects, free, static_cast<std::size_t>(k)); });
+  for_each_on_threads(static_cast<int>(windows.size()), jobs, [&](int k) {
+    CalibrationKey key("window with its jumps", problem);
+    key.add(k, fit.globals, fit.windows, fit.states, free);
+    for (const Suspect& suspect : suspects) key.add(suspect.change[k]);
+    windows[k] = kept_or_computed<Reduced>(
+        problem.kept, key.value(), [&] { return reduced(problem, fit, suspects, free, static_cast<std::size_t>(k)); });
+  });
   long values = 0;
   for (const int w : fit.windows) {
     const Window& window = problem.windows[w];
@@ -248,13 +256,18 @@ CalibrationModelError model_error(const CalibrationProblem& problem, const FitRe
     for (ModelCorrection& correction : rough.corrections) correction.tangent.reset();
     std::vector<VecX> away = {VecX::Zero(F + K)};
     std::vector<double> weight = {1.0};
-    const double here = loss_with_jumps(rough, fit, windows, fit.globals, q[best]);
+    const auto loss_at = [&](const Globals& at) {
+      const std::uint64_t key =
+          CalibrationKey("loss with jumps", rough).add(fit.globals, fit.windows, fit.states, at, q[best]).value();
+      return kept_or_computed<double>(problem.kept, key,
+                                      [&] { return loss_with_jumps(rough, fit, windows, at, q[best]); });
+    };
+    const double here = loss_at(fit.globals);
     for (const Globals& optimum : optima) {
       const VecX all = problem.packed(optimum) - problem.packed(fit.globals);
       away.push_back(VecX::Zero(F + K));
       for (int f = 0; f < F; ++f) away.back()[f] = all[free[f]];
-      weight.push_back(
-          std::exp(-0.5 * std::max(0.0, loss_with_jumps(rough, fit, windows, optimum, q[best]) - here) / s2));
+      weight.push_back(std::exp(-0.5 * std::max(0.0, loss_at(optimum) - here) / s2));
     }
     double whole = 0.0;
     for (const double w : weight) whole += w;

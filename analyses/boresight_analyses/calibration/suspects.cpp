@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "boresight/contact/normal_law.hpp"
+#include "boresight_analyses/calibration/kept_fits.hpp"
 
 namespace boresight {
 namespace {
@@ -125,20 +126,24 @@ std::vector<Suspect> suspects(const CalibrationProblem& problem, const FitResult
     return r;
   };
   std::vector<Asked> asked = asked_of(problem, fit, discrepancy);
-  for_each_on_threads(static_cast<int>(asked.size()), jobs, [&](int s) {
-    if (asked[s].as_parameter >= 0) {
-      asked[s].suspect.change = by_parameter(asked[s].as_parameter, asked[s].coordinate);
-      return;
-    }
+  const auto computed = [&](const Asked& one) {
+    if (one.as_parameter >= 0) return by_parameter(one.as_parameter, one.coordinate);
     const auto off_by = [&](double share) {
       CalibrationProblem changed = plain;
       Globals at = fit.globals;
-      asked[s].off(changed, at, share);
+      one.off(changed, at, share);
       return readings(changed, at);
     };
     std::vector<VecX> change = off_by(kShare), less = off_by(-kShare);
     for (std::size_t k = 0; k < change.size(); ++k) change[k] = (change[k] - less[k]) / (2.0 * kShare);
-    asked[s].suspect.change = std::move(change);
+    return change;
+  };
+  for_each_on_threads(static_cast<int>(asked.size()), jobs, [&](int s) {
+    Suspect& suspect = asked[s].suspect;
+    const std::uint64_t key = CalibrationKey("suspect", problem)
+                                  .add(suspect.name, suspect.deviation, fit.globals, fit.windows, fit.states)
+                                  .value();
+    suspect.change = kept_or_computed<std::vector<VecX>>(problem.kept, key, [&] { return computed(asked[s]); });
   });
   std::vector<Suspect> out;
   for (Asked& a : asked) out.push_back(std::move(a.suspect));
