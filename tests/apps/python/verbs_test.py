@@ -100,7 +100,7 @@ class Python(unittest.TestCase):
 
     def example(self, name, *arguments):
         return subprocess.run([sys.executable, os.path.join(EXAMPLES, "python", name), *arguments], capture_output=True,
-                              text=True, check=False, timeout=110)
+                              text=True, check=False, timeout=280)
 
     def test_a_result_has_summary_report_tables_and_a_face(self):
         with tempfile.TemporaryDirectory() as folder:
