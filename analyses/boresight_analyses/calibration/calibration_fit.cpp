@@ -2,6 +2,8 @@
 
 #include <ceres/ceres.h>
 
+#include <chrono>
+
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/calibration/kept_fits.hpp"
 
@@ -29,6 +31,13 @@ std::vector<std::pair<int, int>> blocks_of(const CalibrationProblem& problem) {
 // Residuals of one window. Parameter blocks: those of blocks_of(), [start state].
 class WindowCost final : public ceres::CostFunction {
  public:
+  // What the solver asks of a motion that was followed, or could not be.
+  struct Followed {
+    bool at_all = false;
+    VecX r;
+    MatX by_global, by_state;
+  };
+
   WindowCost(const CalibrationProblem& problem, const Window& window, int residuals)
       : problem_(problem),
         window_(window),
@@ -48,17 +57,23 @@ class WindowCost final : public ceres::CostFunction {
       packed.segment(globals_[b].first, globals_[b].second) = Eigen::Map<const VecX>(blocks[b], globals_[b].second);
     const Globals globals = problem_.unpacked(packed.cwiseProduct(units_));
     const VecX state = size > 0 ? VecX(Eigen::Map<const VecX>(blocks.back(), size)) : VecX();
+    WindowResiduals motion;
+    at_.at_all = true;
     try {
-      problem_.evaluate(window_, globals, state, derivatives, at_);
-      followed_ = true;
+      problem_.evaluate(window_, globals, state, derivatives, motion);
     } catch (const ComputationError&) {
-      followed_ = false;
+      at_.at_all = false;
     }
+    at_.r = std::move(motion.r);
+    at_.by_global = std::move(motion.by_global);
+    at_.by_state = std::move(motion.by_state);
   }
+  const Followed& followed() const { return at_; }
+  void take(Followed at) { at_ = std::move(at); }
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
-    if (!followed_) return false;
-    const WindowResiduals& at = at_;
+    if (!at_.at_all) return false;
+    const Followed& at = at_;
     const int size = problem_.state_size(window_);
     const int count = static_cast<int>(parameter_block_sizes().size()), last = size > 0 ? count - 1 : count;
     const VecX state = size > 0 ? VecX(Eigen::Map<const VecX>(blocks[last], size)) : VecX(),
@@ -96,27 +111,57 @@ class WindowCost final : public ceres::CostFunction {
   int values_;
   VecX units_;
   std::vector<std::pair<int, int>> globals_;
-  WindowResiduals at_;
-  bool followed_ = false;
+  Followed at_;
 };
+
+void fields(Numbers& n, WindowCost::Followed& f) { n(f.at_all, f.r, f.by_global, f.by_state); }
 
 // All windows at once, each on the thread that is free, before the solver adds them up in their order on one: sums of several threads hang
 // on which of them was faster, and a fit among narrow optima on the last bit of a sum.
+//
+// Evaluations that take long are kept until the fit is, so that a start that goes on loses one of them at most, and not a fit.
 class AllWindows final : public ceres::EvaluationCallback {
  public:
-  explicit AllWindows(int jobs) : jobs_(jobs) {}
+  // kept: may be none. fit: the key of this one.
+  AllWindows(int jobs, KeptResults* kept, std::uint64_t fit) : jobs_(jobs), kept_(kept), fit_(fit) {}
   void add(WindowCost* cost, std::vector<double*> blocks) { windows_.push_back({cost, std::move(blocks)}); }
   void PrepareForEvaluation(bool evaluate_jacobians, bool) override {
+    const std::uint64_t key = key_of(evaluations_++);
+    if (auto found = kept_result<std::vector<WindowCost::Followed>>(kept_, key);
+        found && found->size() == windows_.size()) {
+      for (std::size_t k = 0; k < windows_.size(); ++k) windows_[k].cost->take(std::move((*found)[k]));
+      return;
+    }
+    const auto begin = std::chrono::steady_clock::now();
     for_each_on_threads(static_cast<int>(windows_.size()), jobs_,
                         [&](int k) { windows_[k].cost->prepare(windows_[k].blocks, evaluate_jacobians); });
+    if (kept_ == nullptr || std::chrono::steady_clock::now() - begin < kLong) return;
+    std::vector<WindowCost::Followed> all;
+    for (const Window& w : windows_) all.push_back(w.cost->followed());
+    kept_->keep(key, Numbers::of(std::move(all)));
+  }
+  void forget() {
+    if (kept_ == nullptr) return;
+    for (std::uint64_t k = 0; k < evaluations_; ++k) kept_->forget(key_of(k));
   }
 
  private:
+  // Far longer than it takes to write what an evaluation leaves.
+  static constexpr auto kLong = std::chrono::milliseconds(50);
+  std::uint64_t key_of(std::uint64_t evaluation) const {
+    Checksum sum;
+    sum.add(fit_);
+    sum.add(evaluation);
+    return static_cast<std::uint64_t>(sum.value());
+  }
+
   struct Window {
     WindowCost* cost;
     std::vector<double*> blocks;
   };
   int jobs_;
+  KeptResults* kept_;
+  std::uint64_t fit_, evaluations_ = 0;
   std::vector<Window> windows_;
 };
 
@@ -186,8 +231,9 @@ std::vector<VecX> guess_states(const CalibrationProblem& problem, const std::vec
 
 namespace {
 
+// key: what it is kept under.
 FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, std::vector<VecX> states,
-                       const FitOptions& options) {
+                       const FitOptions& options, std::uint64_t key) {
   FitResult result;
   result.globals = start;
   result.windows = windows_of(problem, options);
@@ -208,7 +254,7 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
     state_of.back() = states[k];
     at += states[k].size();
   }
-  AllWindows all(options.jobs);
+  AllWindows all(options.jobs, problem.kept, key);
   ceres::Problem::Options of_problem;
   of_problem.evaluation_callback = &all;
   ceres::Problem ceres_problem(of_problem);
@@ -303,6 +349,10 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
     result.reason = "stopped after " + std::to_string(result.iterations) + " iterations, still falling";
   else
     result.reason = "failed: " + summary.message;
+  if (problem.kept != nullptr && !result.interrupted) {
+    problem.kept->keep(key, Numbers::of(result));
+    all.forget();
+  }
   return result;
 }
 
@@ -310,16 +360,14 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
 
 FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vector<VecX> states,
               const FitOptions& options) {
-  if (problem.kept == nullptr) return computed_fit(problem, start, std::move(states), options);
+  if (problem.kept == nullptr) return computed_fit(problem, start, std::move(states), options, 0);
   const std::uint64_t key =
       CalibrationKey("fit", problem)
           .add(start, states, options.most_iterations, options.cost_tolerance, options.parameter_tolerance,
                options.windows, std::vector<int>(options.fixed.begin(), options.fixed.end()), options.fix_nuisance)
           .value();
   if (std::optional<FitResult> found = kept_result<FitResult>(problem.kept, key)) return std::move(*found);
-  FitResult result = computed_fit(problem, start, std::move(states), options);
-  if (!result.interrupted) problem.kept->keep(key, Numbers::of(result));
-  return result;
+  return computed_fit(problem, start, std::move(states), options, key);
 }
 
 }  // namespace boresight

@@ -1,4 +1,4 @@
-// What a calibration keeps of what takes it long (fits, looks around, multibody's readings), each under a key made of all that
+// What a calibration keeps of what takes it long (fits, looks around, multibody's readings, what the model may be wrong by), each under a key made of all that
 // decides it: a start that goes on takes the way of the one before it, and finds what that one computed.
 #pragma once
 

@@ -44,4 +44,12 @@ void KeptResults::keep(std::uint64_t key, std::vector<double> numbers) {
   next_commit_ = now + kCommitEvery;
 }
 
+void KeptResults::forget(std::uint64_t key) {
+  const std::scoped_lock lock(mutex_);
+  const auto found = number_.find(key);
+  if (found == number_.end()) return;
+  store_->remove(found->second);
+  number_.erase(found);
+}
+
 }  // namespace boresight

@@ -36,6 +36,8 @@ class KeptResults {
   // From any thread. A key says what a result is the result of, and is kept once. Throw StoreFailed.
   std::optional<std::vector<double>> find(std::uint64_t key) const;
   void keep(std::uint64_t key, std::vector<double> numbers);
+  // Of what a larger result took in. Nothing where nothing is kept under it.
+  void forget(std::uint64_t key);
 
  private:
   std::unique_ptr<SampleStore> store_;

@@ -219,11 +219,25 @@ std::vector<SampleStore::StoredRung> SampleStore::rungs() const {
   return found;
 }
 
-void SampleStore::add(const SampleRecord& record) {
-  if (!db_->in_transaction) {
-    db_->execute(file_, "BEGIN");
-    db_->in_transaction = true;
+void SampleStore::begin() {
+  if (db_->in_transaction) return;
+  db_->execute(file_, "BEGIN");
+  db_->in_transaction = true;
+}
+
+void SampleStore::remove(std::uint64_t number) {
+  begin();
+  for (const char* table : {"sample", "history"}) {
+    if (!has_table(db_->handle, file_, table)) continue;
+    Statement drop(db_->handle, file_, std::string("DELETE FROM ") + table + " WHERE number = ?");
+    drop.bind(1, static_cast<std::int64_t>(number));
+    drop.step();
+    if (count_ && table == std::string("sample")) *count_ -= static_cast<std::uint64_t>(sqlite3_changes(db_->handle));
   }
+}
+
+void SampleStore::add(const SampleRecord& record) {
+  begin();
   if (!db_->insert) {
     std::string places = "?, ?, ?, ?, ?, ?, ?, ?";
     for (std::size_t k = 0; k < parameters_.size() + (has_checksums_ ? 1 : 0); ++k) places += ", ?";

@@ -55,6 +55,8 @@ class SampleStore {
   std::vector<StoredRung> rungs() const;
 
   void add(const SampleRecord& record);
+  // One that is no longer needed, with its history; its place in the file is used again.
+  void remove(std::uint64_t number);
   void commit();
 
   // What was damaged and what became of it, in a sentence; "" where nothing was. Of a store that is only read: what read() left out
@@ -84,6 +86,7 @@ class SampleStore {
   void open_to_read();
   void read_layout();
   void put_cost();
+  void begin();  // a transaction, unless one is open
   void add_history(std::uint64_t number, std::span<const double> doubles);
 
   std::filesystem::path file_;

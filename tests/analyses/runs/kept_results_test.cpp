@@ -43,6 +43,25 @@ class KeptResultsTest : public testing::Test {
       std::make_shared<const Mechanism>(read_mechanism(BORESIGHT_EXAMPLES "/four-bar/four-bar.toml"));
 };
 
+TEST_F(KeptResultsTest, ForgetWhatALargerResultTookIn) {
+  {
+    KeptResults kept(store());
+    for (std::uint64_t key = 1; key <= 3; ++key) kept.keep(key, {static_cast<double>(key)});
+    kept.forget(1);
+    kept.forget(3);
+    kept.forget(4);  // never kept
+    EXPECT_FALSE(kept.find(1));
+    EXPECT_EQ(kept.size(), 1u);
+  }
+  EXPECT_EQ(store()->count(), 1u);
+  KeptResults kept(store());
+  EXPECT_FALSE(kept.find(3));
+  EXPECT_EQ(kept.find(2), std::vector<double>{2.0});
+  kept.keep(3, {4.0});
+  EXPECT_EQ(kept.find(3), std::vector<double>{4.0});
+  EXPECT_EQ(kept.find(2), std::vector<double>{2.0}) << "overwritten";
+}
+
 TEST_F(KeptResultsTest, ComeBackBitForBitInTheNextStart) {
   const Kind kind{
       "Störung \"a\"\n", {0.1, -0.0, INFINITY, 1e-310}, Eigen::MatrixXd::Random(3, 2), true, 1'234'567'890'123};
