@@ -5,7 +5,9 @@
 
 namespace boresight {
 
-CsvNumbers::CsvNumbers(const std::string& header) : separator_(header.find(';') == std::string::npos ? ',' : ';') {}
+// The mark that separates more fields: a name may hold the other one.
+CsvNumbers::CsvNumbers(const std::string& header)
+    : separator_(csv_fields(header, ';').size() > csv_fields(header, ',').size() ? ';' : ',') {}
 
 std::vector<std::string> CsvNumbers::fields(const std::string& line) const { return csv_fields(line, separator_); }
 

@@ -2,6 +2,7 @@
 #include "boresight_analyses/random/csv_column.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -9,8 +10,9 @@
 namespace boresight {
 namespace csv_column_test {
 
+// Tests of other processes have files of their own.
 std::string file_of(const std::string& text) {
-  const std::string name = testing::TempDir() + "column.csv";
+  const std::string name = testing::TempDir() + "column." + std::to_string(::getpid()) + ".csv";
   std::ofstream(name) << text;
   return name;
 }
@@ -29,6 +31,14 @@ TEST(CsvColumn, IsReadWithCommasOrSemicolonsAndEitherDecimalMark) {
   EXPECT_EQ(read_csv_column(file_of("a,b\n1,0.5\n2,1e-3\n"), "b"), expected);
   EXPECT_EQ(read_csv_column(file_of("a; b\n1,5; 0,5\n2,5; 1e-3\n"), "b"), expected);
   EXPECT_EQ(read_csv_column(file_of("a; b\n1.5; 0.5\n2.5; 1e-3\n"), "b"), expected);
+}
+
+TEST(CsvColumn, IsFoundBesideNamesWithTheOtherMark) {
+  const std::vector<double> expected = {0.5, 1e-3};
+  EXPECT_EQ(read_csv_column(file_of("a; in mm,c,b\n1,2,0.5\n2,2,1e-3\n"), "b"), expected);
+  EXPECT_EQ(read_csv_column(file_of("\"a;c;d\",b\n1,0.5\n2,1e-3\n"), "b"), expected);
+  EXPECT_EQ(read_csv_column(file_of("a, in mm;c;b\n1,5;2;0,5\n2;2;1e-3\n"), "b"), expected);
+  EXPECT_EQ(read_csv_column(file_of("b\n0.5\n1e-3\n"), "b"), expected);
 }
 
 TEST(CsvColumn, DoesNotMixDecimalMarks) {
