@@ -45,6 +45,12 @@ void read_correlations(Cursor& budget, BudgetPlan& plan) {
     const std::string first = sort_of(plan.contributors[c.first]), second = sort_of(plan.contributors[c.second]);
     if (first.empty() || first != second)
       table.fail_found("contributors", both, "two of one sort: " + std::string(kSorts));
+    // A group is correlated as a whole.
+    for (std::size_t k = 0; k < streams.size(); ++k)
+      if ((streams[k] == streams[c.first] || streams[k] == streams[c.second]) && sort_of(plan.contributors[k]) != first)
+        table.fail_found("contributors",
+                         both + ", in a group with " + plan.contributors[k].name + ", which is of another sort",
+                         "two whose groups are of one sort: " + std::string(kSorts));
     for (const ContributorCorrelation& known : plan.correlations)
       if (std::minmax(streams[known.first], streams[known.second]) == std::minmax(streams[c.first], streams[c.second]))
         table.fail_found("contributors", both + " a second time", "each pair, or pair of groups, once");

@@ -161,6 +161,12 @@ TEST(Correlations, MistakesAreOneLine) {
   EXPECT_THAT(fault(three + pair("a", "q", "0.9")), HasSubstr("the name of a contributor"));
   EXPECT_THAT(fault(three + pair("a", "p", "0.9")), HasSubstr("two of one sort"));
   EXPECT_THAT(fault(three + pair("a", "a", "0.9")), HasSubstr("vary as one"));
+  const auto grouped = [&](const std::string& kind) {
+    return one("g", bias + "\ngroup = \"both\"") + one("h", kind + "\nvalue = \"1 arcsec\"\ngroup = \"both\"");
+  };
+  EXPECT_EQ(fault(three + grouped("class = \"bias\"") + pair("a", "g", "0.5")), "no fault");
+  EXPECT_THAT(fault(three + grouped("class = \"periodic\"\nperiod = \"1 s\"") + pair("a", "g", "0.5")),
+              HasSubstr("a and g, in a group with h, which is of another sort"));
   EXPECT_THAT(fault(three + pair("a", "b", "0.9") + pair("b", "a", "0.1")), HasSubstr("once"));
   EXPECT_THAT(fault(three + pair("a", "b", "1")), HasSubstr("less than 1"));
   EXPECT_THAT(fault(one("a", bias + "\naxis_correlation = [0.5, 0.1, 0.1]")), HasSubstr("one: of x with y"));
