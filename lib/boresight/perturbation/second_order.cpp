@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "boresight/formulations/exact_states.hpp"
 #include "boresight/formulations/formulation.hpp"
 #include "boresight/formulations/shared_reactions.hpp"
 #include "boresight/math/dense_solves.hpp"
@@ -176,7 +175,6 @@ class LeftOut {
         tables_(prepared.tables(parameters)),
         at_(tables_->layout),
         coordinates_(prepared.scene().coordinates()),
-        exact_(mechanism, prepared.ideal()),
         formulation_(make_tree_formulation(mechanism, parameters, &prepared.ideal(), {})),
         unit_(lengths(mechanism, parameters, at_)),
         groups_(pushed_together(at_, formulation_->forces())),
@@ -197,7 +195,8 @@ class LeftOut {
     formulation_->forces().replace_contact(
         shared_reactions(prepared_.scene().offsets(), parameters_, coordinates_.offsets_per_coordinate(T), reaction));
 
-    const IdealState state = exact_.at(deviation.t);
+    IdealState state;
+    prepared_.ideal().state(deviation.t, state);
     const std::vector<BodyMotion> bodies = made_exactly(state, T * deviation.z);
     VecX z, z_dot, z_ddot;
     coordinates_.coordinate_rates(bodies, z_dot, z);
@@ -285,7 +284,6 @@ class LeftOut {
   std::shared_ptr<const SceneTables> tables_;
   const SceneLayout& at_;
   DeviationCoordinates coordinates_;
-  ExactStates exact_;
   std::unique_ptr<Formulation> formulation_;
   VecX unit_;
   std::vector<std::vector<int>> groups_;
