@@ -89,10 +89,10 @@ class Python(unittest.TestCase):
             plot = os.path.join(folder, "plot.html")
             ran = self.example("calibration.py", plot)
             self.assertEqual(ran.returncode, 0, ran.stderr)
-            # The truth of the example's data is in the interval, and near the value.
+            # The truth of the example's data is in the interval, and near the value: three errors of what the data alone know, 0.11 %.
             found = re.search(r"clearance.D.contact.restitution: (\S+) \((\S+) to (\S+)\)", ran.stdout)
             value, low, high = (float(found[i]) for i in (1, 2, 3))
-            self.assertAlmostEqual(value, 0.6, delta=0.005)
+            self.assertAlmostEqual(value, 0.6, delta=0.002)
             self.assertTrue(low < 0.6 < high, found[0])
             with open(plot, encoding="utf-8") as file:
                 self.assertIn("fitted", file.read())
