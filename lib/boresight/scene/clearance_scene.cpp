@@ -28,6 +28,8 @@ constexpr double kFinestOfKnot = 1e-3;
 
 double spacing_of_knots(const IdealMotion& ideal) { return ideal.duration() / std::max(1, ideal.knots() - 1); }
 
+// Share of the bodies' accelerations that the push of coordinates is rounding of.
+constexpr double kRoundingOfPush = 1e-5;
 // Of the tables, relative to their largest values: what is left at the finest spacing must not be more.
 constexpr double kLargestMissOfTables = 0.01;
 
@@ -165,6 +167,13 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows, cons
       }
   }
   const double rate = slowest_rate(rows, parameters);
+  // The push is the difference of such numbers, of bodies with their weight, in whichever of m/s^2 and rad/s^2 is less. Next to nothing
+  // against them it may be rounding alone, as where all plays are held.
+  const double length = mechanism_.characteristic_length();
+  for (const Knot& knot : knots_)
+    for (const BodyAcceleration& a : knot.state.acceleration)
+      size[1] = std::max(size[1], kRoundingOfPush / std::max(1.0, length) *
+                                      std::max((a.head<3>() - parameters.gravity).norm(), length * a.tail<3>().norm()));
   size[2] = std::max(size[2], 1e-3 / mechanism_.duration());  // a thousandth of a speed is lost over the whole motion
   size[3] = std::max(size[3], rate * rate);
   for (std::size_t c = 0; c < layout_.joints.size();

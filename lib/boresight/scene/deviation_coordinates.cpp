@@ -30,6 +30,22 @@ constexpr Weight kDerivative[] = {{-2.0, 1.0 / 12.0, -1.0 / 12.0},
                                   {2.0, -1.0 / 12.0, -1.0 / 12.0}};
 constexpr double kMiddleOfSecond = -30.0 / 12.0;
 
+// Of gains: each entry as large as the entries of its column may be: a zero among them is known to their rounding only.
+MatX sizes_of_columns(const MatX& T, double length) {
+  MatX size(T.rows(), T.cols());
+  for (Eigen::Index j = 0; j < T.cols(); ++j) {
+    double moved = 0.0;
+    for (Eigen::Index b = 0; b < T.rows(); b += 6)
+      moved = std::max({moved, T.col(j).segment<3>(b).cwiseAbs().maxCoeff(),
+                        length * T.col(j).segment<3>(b + 3).cwiseAbs().maxCoeff()});
+    for (Eigen::Index b = 0; b < T.rows(); b += 6) {
+      size.col(j).segment<3>(b).setConstant(moved);
+      size.col(j).segment<3>(b + 3).setConstant(moved / length);
+    }
+  }
+  return size;
+}
+
 }  // namespace
 
 DeviationCoordinates::DeviationCoordinates(const Mechanism& mechanism, const IdealMotion& ideal)
@@ -218,9 +234,10 @@ void DeviationCoordinates::rates(const MatX& T, MatX& T_rate, MatX& T_second, Ma
   T_rate = in_units(x_rate);
   if (!has_dependent_) return;
   T_second = in_units(solved(-J_second * x - 2.0 * J_rate * x_rate));
+  const MatX sizes = sizes_of_columns(T, mechanism_.characteristic_length());
   for (int c = 0; c < layout_.clearances(); ++c) {
     const MatX rows = stacked_rows(rows_[c], state_.bodies), now = of_offsets[c] * T + rows * T_rate;
-    const MatX bound = kCancelled * (speed * (rows.cwiseAbs() * T.cwiseAbs()) + rows.cwiseAbs() * T_rate.cwiseAbs());
+    const MatX bound = kCancelled * (speed * (rows.cwiseAbs() * sizes) + rows.cwiseAbs() * T_rate.cwiseAbs());
     const OffsetLayout::Joint& joint = layout_.joint(c);
     for (int k = 0; k < joint.count(); ++k) {
       if (source_[joint.first + k] != kDependent) continue;
@@ -241,7 +258,8 @@ MatX DeviationCoordinates::offsets_per_coordinate(const MatX& T) const {
       if (source != kDependent) continue;
       if (released.size() == 0) {
         // What bodies' motions cancel to is rounding, and not an offset that moves: its rate would be noise.
-        const MatX rows = stacked_rows(rows_[c], state_.bodies), bound = kCancelled * (rows.cwiseAbs() * T.cwiseAbs());
+        const MatX rows = stacked_rows(rows_[c], state_.bodies),
+                   bound = kCancelled * (rows.cwiseAbs() * sizes_of_columns(T, mechanism_.characteristic_length()));
         released = rows * T;
         released = (released.array().abs() > bound.array()).select(released, 0.0);
       }
