@@ -237,11 +237,14 @@ class MjcfWriter {
     open("tendon");
     for (std::size_t s = 0; s < m_.springs.size(); ++s) {
       const SpringParameters& p = m_.springs[s].parameters;
+      // A force that no length changes: a spring as soft as its own length lets it be.
+      const double stiffness = p.preload > 0.0 && p.stiffness == 0.0 ? p.preload / p.free_length : p.stiffness;
       open("spatial");
       attribute("name", fmt::format("spring {}", s + 1));
-      attribute("stiffness", fmt::format("{}", p.stiffness));
+      attribute("stiffness", fmt::format("{}", stiffness));
       attribute("damping", fmt::format("{}", p.damping));
-      attribute("springlength", fmt::format("{}", p.free_length));
+      attribute("springlength",
+                fmt::format("{}", p.preload > 0.0 ? p.free_length + p.preload / stiffness : p.free_length));
       for (int end = 0; end < 2; ++end) {
         open("site");
         attribute("site", site(s, end));

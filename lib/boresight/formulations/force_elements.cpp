@@ -107,7 +107,7 @@ void ForceElements::apply(double t, const std::vector<BodyMotion>& bodies, const
     if (length <= 0.0) continue;  // its ends coincide: no direction to pull in
     const Vec3 u = d / length;
     const double speed = u.dot(B.v + B.w.cross(rB) - A.v - A.w.cross(rA));
-    const Vec3 pull = (s.law.stiffness * (length - s.law.free_length) + s.law.damping * speed) * u;
+    const Vec3 pull = s.law.pull(length, speed) * u;
     push(wrench, s.first, pull, rA);
     push(wrench, s.second, -pull, rB);
   }
@@ -141,7 +141,7 @@ double ForceElements::elastic_energy(const std::vector<BodyMotion>& bodies) cons
     const BodyMotion& A = motion_of(bodies, s.first);
     const BodyMotion& B = motion_of(bodies, s.second);
     const double stretch = (B.p + B.R * s.p_second - A.p - A.R * s.p_first).norm() - s.law.free_length;
-    energy += 0.5 * s.law.stiffness * stretch * stretch;
+    energy += (0.5 * s.law.stiffness * stretch - s.law.preload) * stretch;
   }
   return energy;
 }

@@ -131,23 +131,23 @@ class Expansion {
     return both;
   }
 
-  // A spring from the housing at the floating bearing to the shaft at the fixed one, a span long at home. Where its stiffness is left out it
-  // is pressed together by a span, ten thousand times and more what play changes.
+  // A spring from the housing at the floating bearing to the shaft at the fixed one, a span long at home.
   void add_preload(Cursor& cursor, const JointDescription& fixed, const Vec3& floating) {
     if (!cursor.has("preload")) {
       refuse(cursor, {"preload_stiffness"}, "it without a preload", "it with preload");
       return;
     }
-    const double force = cursor.quantity("preload"), span = (fixed.point - floating).norm();
     SpringDescription spring;
+    spring.preloads = fixed.name;
     spring.origin = cursor.origin();
     const int shaft = body_index(mechanism_, cursor, "journal", cursor.text("journal"), true);
     spring.first = shaft == fixed.first ? fixed.second : fixed.first;
     spring.second = shaft;
     spring.first_point = floating;
     spring.second_point = fixed.point;
-    spring.parameters.stiffness = cursor.has("preload_stiffness") ? cursor.quantity("preload_stiffness") : force / span;
-    spring.parameters.free_length = span + force / spring.parameters.stiffness;
+    if (cursor.has("preload_stiffness")) spring.parameters.stiffness = cursor.quantity("preload_stiffness");
+    spring.parameters.free_length = (fixed.point - floating).norm();
+    spring.parameters.preload = cursor.quantity("preload");
     mechanism_.springs.push_back(spring);
   }
 

@@ -40,8 +40,9 @@ std::vector<Key> own_keys() {
                 "load along the axis exceeds it; the radial play stays, but for what friction at the end face holds."),
       quantity("preload_stiffness", kStiffnessRange)
           .above(0.0, "a stiffness above zero")
-          .sometimes("with preload; left out, so soft that the play does not change the force")
-          .says("Stiffness of that spring. It is the spring after those of the file: spring.1.stiffness and so on."),
+          .sometimes("with preload; left out, the play does not change the force")
+          .says("Stiffness of that spring, whose force is the preload where the shaft is drawn. It is the spring after "
+                "those of the file: spring.1.stiffness and so on."),
       quantity("cross_mass", kMassRange)
           .above(0.0, "a mass above zero")
           .sometimes("needed " + kOfUniversal)

@@ -99,6 +99,7 @@ struct SpringDescription {
   Vec3 first_point = Vec3::Zero();  // at home, world [m]
   Vec3 second_point = Vec3::Zero();
   SpringParameters parameters;
+  std::string preloads;  // the joint whose bearing pair it presses together: clearance.JOINT.preload; "": none
   Origin origin;
 };
 

@@ -62,6 +62,7 @@ bool belongs(const std::string& number, const ClearanceDescription& clearance, J
 }
 
 using S = SpringParameters;
+const Field<S> kPreload = {"preload", "N", [](S& s) { return &s.preload; }};
 const Field<S> kSpringFields[] = {
     {"stiffness", "N/m", [](S& s) { return &s.stiffness; }},
     {"damping", "N s/m", [](S& s) { return &s.damping; }},
@@ -101,11 +102,14 @@ std::vector<Entry> all_entries(const MechanismDescription& m) {
       entries.push_back(std::move(e));
     }
   }
-  for (std::size_t s = 0; s < m.springs.size(); ++s)
-    for (const Field<S>& f : kSpringFields)
-      entries.push_back({"spring." + std::to_string(s + 1) + "." + f.name,
-                         f.unit,
-                         {[s, place = f.place](Parameters& p) { return place(p.spring[s]); }}});
+  for (std::size_t s = 0; s < m.springs.size(); ++s) {
+    const auto add = [&](const std::string& owner, const Field<S>& f) {
+      entries.push_back(
+          {owner + "." + f.name, f.unit, {[s, place = f.place](Parameters& p) { return place(p.spring[s]); }}});
+    };
+    for (const Field<S>& f : kSpringFields) add("spring." + std::to_string(s + 1), f);
+    if (!m.springs[s].preloads.empty()) add("clearance." + m.springs[s].preloads, kPreload);
+  }
   for (std::size_t e = 0; e < m.errors.size(); ++e)
     entries.push_back(
         {"error." + m.errors[e].name, unit_of(m.errors[e], m.joints), {[e](Parameters& p) { return &p.error[e]; }}});

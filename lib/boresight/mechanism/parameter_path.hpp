@@ -2,7 +2,7 @@
 //
 //   gravity.x|y|z, payload.mass, payload.center_of_mass.x|y|z, body.NAME.mass, body.NAME.center_of_mass.x|y|z,
 //   clearance.JOINT.{radial, axial, journal_radius, cap_radius, sleeve_length, pad_radius, width, height, length, width_gap,
-//   height_gap},
+//   height_gap, preload},                                       (preload: of a bearing pair that has one)
 //   clearance.JOINT.contact.{restitution, young, poisson, density, minimum_impact_speed, stiffness_scale,
 //       stiffness, damping},                                    (the last two: of the Kelvin-Voigt law)
 //   clearance.JOINT.friction.{coefficient, static_speed, dynamic_speed, static_coefficient, stribeck_speed,

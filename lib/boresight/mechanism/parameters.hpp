@@ -79,6 +79,13 @@ struct SpringParameters {
   double stiffness = 0.0;    // [N/m]
   double damping = 0.0;      // [N s/m]
   double free_length = 0.0;  // [m]
+  double preload = 0.0;      // pushes the ends apart whatever the length [N]
+
+  // What pulls the ends together [N]; speed: of lengthening [m/s].
+  double pull(double length, double speed) const {
+    return stiffness * (length - free_length) + damping * speed - preload;
+  }
+  bool operator==(const SpringParameters&) const = default;
 };
 
 struct Parameters {

@@ -25,13 +25,8 @@ bool same_centers(const Parameters& a, const Parameters& b) {
 }
 
 bool same_scene(const Parameters& a, const Parameters& b) {
-  if (!same_centers(a, b)) return false;
-  if (a.gravity != b.gravity || a.payload_mass != b.payload_mass || a.body_mass != b.body_mass) return false;
-  for (std::size_t s = 0; s < a.spring.size(); ++s)
-    if (a.spring[s].stiffness != b.spring[s].stiffness || a.spring[s].damping != b.spring[s].damping ||
-        a.spring[s].free_length != b.spring[s].free_length)
-      return false;
-  return true;
+  return same_centers(a, b) && a.gravity == b.gravity && a.payload_mass == b.payload_mass &&
+         a.body_mass == b.body_mass && a.spring == b.spring;
 }
 
 PreparedScene::PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motion, const Parameters& parameters,

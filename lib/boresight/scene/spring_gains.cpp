@@ -61,8 +61,7 @@ SpringGain spring_gain(const MechanismDescription& mechanism, const SpringDescri
 }
 
 MatX SpringGain::stiffness(const SpringParameters& p) const {
-  const double pull = p.stiffness * (length - p.free_length) + p.damping * speed;
-  return pull * W + g * (p.stiffness * g + p.damping * g_rate).transpose();
+  return p.pull(length, speed) * W + g * (p.stiffness * g + p.damping * g_rate).transpose();
 }
 
 }  // namespace boresight

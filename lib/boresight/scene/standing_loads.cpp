@@ -24,15 +24,9 @@ constexpr double kLittle = 1e-5;
 // Below this share of the loads a column's rounding is no shape that a grid has to meet.
 constexpr double kNextToNoLoad = 1e-3;
 
-bool same_springs(const Parameters& a, const Parameters& b) {
-  return std::equal(a.spring.begin(), a.spring.end(), b.spring.begin(), b.spring.end(),
-                    [](const SpringParameters& x, const SpringParameters& y) {
-                      return x.stiffness == y.stiffness && x.damping == y.damping && x.free_length == y.free_length;
-                    });
-}
-
 bool same_loads(const Parameters& a, const Parameters& b) {
-  return a.gravity == b.gravity && a.payload_mass == b.payload_mass && a.body_mass == b.body_mass && same_springs(a, b);
+  return a.gravity == b.gravity && a.payload_mass == b.payload_mass && a.body_mass == b.body_mass &&
+         a.spring == b.spring;
 }
 
 }  // namespace
@@ -181,7 +175,7 @@ StandingLoads::Parts StandingLoads::computed(std::size_t error, const Parameters
 
 const StandingLoads::Parts& StandingLoads::parts(std::size_t error, const Parameters& parameters,
                                                  const StandingErrors& influence) const {
-  if (!drawn_ || !same_springs(parts_of_, parameters)) {
+  if (!drawn_ || parts_of_.spring != parameters.spring) {
     parts_.clear();
     parts_of_ = parameters;
     drawn_ = std::make_unique<Instants>(as_drawn_, *commanded_, choice_, parts_of_);

@@ -74,6 +74,7 @@ Parameters standing_for(const Parameters& b, const Parameters& a) {
   for (std::size_t k = 0; k < a.spring.size(); ++k) {
     p.spring[k].stiffness = standing_for(b.spring[k].stiffness, a.spring[k].stiffness);
     p.spring[k].damping = standing_for(b.spring[k].damping, a.spring[k].damping);
+    p.spring[k].preload = standing_for(b.spring[k].preload, a.spring[k].preload);
   }
   return p;
 }
@@ -87,7 +88,7 @@ std::vector<double> numbers_of(const Parameters& p) {
     numbers.insert(numbers.end(), {c.contact.restitution, c.contact.stiffness_scale, c.contact.young[0],
                                    c.contact.young[1], c.friction.coefficient});
   }
-  for (const SpringParameters& s : p.spring) numbers.insert(numbers.end(), {s.stiffness, s.damping});
+  for (const SpringParameters& s : p.spring) numbers.insert(numbers.end(), {s.stiffness, s.damping, s.preload});
   numbers.insert(numbers.end(), p.error.begin(), p.error.end());
   return numbers;
 }

@@ -42,6 +42,16 @@ std::vector<TableCommand> commands_on_two_bearings() {
       // "the yaw bearings need the closer ones"
       {.text = "boresight allocate examples/bearing-pairs/allocate.toml",
        .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("the requirement is met")); }},
+      // "with 100 N the boresight error (RMS) is half of what it is with 1 N"
+      {.text = "boresight sweep examples/bearing-pairs/preload.toml --rung perturbation",
+       .claims =
+           [](const Left& left) {
+             const auto& points = left.summary["points"];
+             ASSERT_EQ(points.size(), 4u);
+             const auto error = [&](int k) { return points[k]["index"]["boresight_error"]["rms"].get<double>(); };
+             for (int k = 1; k < 4; ++k) EXPECT_LT(error(k), error(k - 1));
+             EXPECT_NEAR(error(3) / error(0), 0.5, 0.05);
+           }},
   };
 }
 

@@ -1,6 +1,7 @@
 // A [[clearance]] that stands for two bearings: what it becomes, how it is set, what is refused.
 #include <algorithm>
 
+#include "boresight/mechanism/parameter_path.hpp"
 #include "good_file.hpp"
 
 namespace boresight {
@@ -96,11 +97,30 @@ TEST(BearingPair, IsPreloadedByASpringAlongItsShaft) {
     EXPECT_EQ(s.second, 0);
     EXPECT_EQ(s.first_point, m.joints[1].point);
     EXPECT_EQ(s.second_point, m.joints[0].point);
-    EXPECT_NEAR(s.parameters.stiffness * (s.parameters.free_length - 0.06), 50.0, 1e-9);
+    EXPECT_EQ(s.parameters.stiffness, 0.0);
+    EXPECT_NEAR(s.parameters.pull(0.06, 0.0), -50.0, 1e-9);
   }
   const auto stiff = read(pair(preloaded + "preload_stiffness = \"10 N/mm\"\n"));
-  EXPECT_NEAR(stiff.springs.back().parameters.free_length, 0.065, 1e-12);
-  EXPECT_EQ(read(pair(preloaded), {{"clearance.R.preload", "80 N"}}).springs.back().parameters.stiffness, 80.0 / 0.06);
+  EXPECT_NEAR(stiff.springs.back().parameters.pull(0.06, 0.0), -50.0, 1e-9);
+  EXPECT_NEAR(stiff.springs.back().parameters.pull(0.059, 0.0), -60.0, 1e-9);
+  EXPECT_EQ(read(pair(preloaded), {{"clearance.R.preload", "80 N"}}).springs.back().parameters.preload, 80.0);
+}
+
+// A parameter like any other: it scatters and is swept by a path of its own, and whatever its spring's stiffness is, it is the force at home.
+TEST(BearingPair, HasAPathOfItsPreload) {
+  const auto m = read(pair("span = \"60 mm\"\npreload = \"50 N\"\npreload_stiffness = \"10 N/mm\"\n"));
+  Parameters p = nominal_parameters(m);
+  const ParameterPath preload(m, "clearance.R.preload"), stiffness(m, "spring.2.stiffness"),
+      all(m, "clearance.*.preload");
+  EXPECT_EQ(preload.unit(), "N");
+  EXPECT_EQ(preload.get(p), 50.0);
+  preload.set(p, 80.0);
+  stiffness.set(p, 2e4);
+  EXPECT_NEAR(p.spring[1].pull(0.06, 0.0), -80.0, 1e-9);
+  all.set(p, 30.0);
+  EXPECT_NEAR(p.spring[1].pull(0.06, 0.0), -30.0, 1e-9);
+  EXPECT_EQ(p.spring[0], nominal_parameters(m).spring[0]);
+  EXPECT_THROW(ParameterPath(read(pair()), "clearance.R.preload"), InputError);
 }
 
 TEST(BearingPair, IsSetByThePathsOfItsBearings) {
