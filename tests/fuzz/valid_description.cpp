@@ -150,7 +150,8 @@ std::string fault_of(const MechanismDescription& m) {
   for (const SpringDescription& spring : m.springs) {
     if (spring.first == spring.second || spring.first >= bodies || spring.second >= bodies) return "spring bodies";
     if (!spring.first_point.allFinite() || !spring.second_point.allFinite()) return "spring points";
-    for (const double x : {spring.parameters.stiffness, spring.parameters.damping, spring.parameters.free_length}) {
+    const SpringParameters& p = spring.parameters;
+    for (const double x : {p.stiffness, p.damping, p.free_length, p.preload}) {
       if (!std::isfinite(x) || x < 0.0) return "spring number";
     }
   }

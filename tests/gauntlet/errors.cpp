@@ -5,6 +5,7 @@
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 #include "draw.hpp"
+#include "seed_of_text.hpp"
 
 namespace boresight::gauntlet {
 namespace {
@@ -12,18 +13,12 @@ namespace {
 constexpr int kMostErrors = 6;
 constexpr double kSmallest = 3e-6, kLargest = 1e-4;  // of the mechanism's size, or rad
 
-std::uint64_t seed_of(const std::string& text) {  // FNV-1a
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  return hash;
-}
-
 }  // namespace
 
 std::string with_errors(const std::string& toml) {
   const Mechanism mechanism(read_mechanism_text(toml, "scene"));
   const MechanismDescription& m = mechanism.description();
-  Draw draw(seed_of(toml));
+  Draw draw(seed_of_text(toml));
   std::string text = toml + "\n";
   const double length = mechanism.characteristic_length();
   const int errors = draw.whole(1, kMostErrors);

@@ -14,6 +14,7 @@
 
 #include "errors.hpp"
 #include "generator.hpp"
+#include "plays.hpp"
 #include "table.hpp"
 #include "trial.hpp"
 
@@ -104,7 +105,7 @@ int run(int argc, char** argv) {
   std::vector<std::string> files, write;
   std::vector<std::uint64_t> seeds;
   std::string save, known_file;
-  bool corpus = false, errors = false;
+  bool corpus = false, errors = false, plays = false;
   TrialOptions options;
   options.program = BORESIGHT_PROGRAM;
   app.add_option("--from", from, "first seed");
@@ -114,6 +115,7 @@ int run(int argc, char** argv) {
   app.add_option("--scene", files, "mechanism files")->check(CLI::ExistingFile);
   app.add_flag("--corpus", corpus, "the archetypes of tests/gauntlet/corpus");
   app.add_flag("--errors", errors, "standing errors of lengths, axes and drives in each scene");
+  app.add_flag("--plays", plays, "play in each scene's guides, balls, crosses, pads and pairs of bearings too");
   app.add_option("--write", write, "SEED FILE: writes the mechanism file of a seed")->expected(2);
   app.add_option("--save", save, "folder for the mechanism files of scenes with faults");
   app.add_option("--known", known_file, "file of known faults, which are printed and do not count")
@@ -127,9 +129,12 @@ int run(int argc, char** argv) {
                "the drawing moved, turned, renamed, reordered, in other units");
   CLI11_PARSE(app, argc, argv);
 
+  const auto dressed = [errors, plays](std::string text) {
+    if (plays) text = with_plays(text);
+    return errors ? with_errors(text) : text;
+  };
   if (!write.empty()) {
-    const std::string text = generate(std::stoull(write[0])).toml();
-    std::ofstream(write[1]) << (errors ? with_errors(text) : text);
+    std::ofstream(write[1]) << dressed(generate(std::stoull(write[0])).toml());
     return 0;
   }
   std::vector<std::function<Entry()>> scenes;
@@ -138,15 +143,12 @@ int run(int argc, char** argv) {
       if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   for (const std::string& file : files)
-    scenes.push_back([file, errors] {
-      const std::string text = text_of(file);
-      return Entry{file, "file", errors ? with_errors(text) : text};
-    });
+    scenes.push_back([file, dressed] { return Entry{file, "file", dressed(text_of(file))}; });
   for (std::uint64_t seed = from; seed < from + count; ++seed) seeds.push_back(seed);
   for (std::uint64_t seed : seeds)
-    scenes.push_back([seed, errors] {
+    scenes.push_back([seed, dressed] {
       const Scene scene = generate(seed);
-      return Entry{fmt::format("seed {}", seed), scene.family, errors ? with_errors(scene.toml()) : scene.toml()};
+      return Entry{fmt::format("seed {}", seed), scene.family, dressed(scene.toml())};
     });
   KnownFaults known = known_file.empty() ? KnownFaults() : KnownFaults(known_file);
   const std::vector<Verdict> verdicts = try_all(scenes, options, jobs, known);

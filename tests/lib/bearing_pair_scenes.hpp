@@ -96,6 +96,7 @@ inline MechanismDescription drawn_elsewhere(MechanismDescription m, const Mat3& 
     point(s.first_point);
     point(s.second_point);
     s.parameters.free_length *= scale;
+    s.parameters.preload *= scale;
   }
   m.gravity = scale * (turn * m.gravity);
   return m;
