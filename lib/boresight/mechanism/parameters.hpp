@@ -85,7 +85,10 @@ struct SpringParameters {
   double pull(double length, double speed) const {
     return stiffness * (length - free_length) + damping * speed - preload;
   }
-  bool operator==(const SpringParameters&) const = default;
+  bool operator==(const SpringParameters& other) const {
+    return stiffness == other.stiffness && damping == other.damping && free_length == other.free_length &&
+           preload == other.preload;
+  }
 };
 
 struct Parameters {
