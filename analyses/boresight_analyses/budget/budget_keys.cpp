@@ -58,6 +58,11 @@ const KeyTable& budget_keys() {
           table("groups", groups_keys)
               .sometimes("left out, every parameter by itself")
               .says("Parameters that are taken as one."),
+          tables("through", through_keys)
+              .sometimes("left out, the mechanism's own error is the pointing error itself")
+              .says("Transfer functions between the mechanism's own error, clearances and standing errors, and the "
+                    "pointing: "
+                    "a pointing loop that sees it. They have settled at its first value where a history begins."),
           tables("requirement", budget_requirement_keys)
               .sometimes("left out, nothing is required")
               .says("What is required, one table each; the first one is what shares and reliefs are about."),

@@ -11,6 +11,7 @@
 #include "boresight_analyses/budget/budget_keys.hpp"
 #include "boresight_analyses/budget/read_contributor.hpp"
 #include "boresight_analyses/budget/read_correlations.hpp"
+#include "boresight_analyses/budget/read_noise.hpp"
 #include "boresight_analyses/budget/read_parts.hpp"
 
 namespace boresight {
@@ -205,6 +206,7 @@ std::string question_of(const BudgetPlan& plan, const BudgetRequirement& r) {
   for (const double value :
        {r.limit, r.probability, r.confidence, plan.leave_out, w.window, w.separation, w.observation, w.revisit})
     text += number(value);
+  if (plan.through) text += "\nthrough " + plan.through->text();
   for (const Contributor& c : plan.contributors) {
     if (const auto& e = c.of_error) {
       text += "\nerror " + e->error + " course " + e->text + " group " + c.group;
@@ -246,6 +248,8 @@ BudgetPlan read_budget_plan(Cursor& root, const Study& study, const MechanismDes
   plan.confidence = table.number("confidence");
   plan.leave_out = table.number("leave_out");
   read_times(table, plan, study.index.start, duration);
+  if (const std::vector<TransferFunction> through = read_through(table); !through.empty())
+    plan.through = in_a_row(through);
   read_scatter(root, table, plan, study, mechanism, accepts);
   const BudgetAxes axes(study.index.kind());
   const bool angle = study.index.si_unit() == "rad";

@@ -123,6 +123,8 @@ struct BudgetPlan {
   double sampling = 0.0, start = 0.0;  // [s]
   Windows windows;
   double leave_out = 0.0;
+  // Between the mechanism's own error and the pointing: a loop that sees it and drives against it. None: it is the pointing error itself.
+  std::optional<TransferFunction> through;
   RandomInputs inputs;    // none where the study scatters nothing
   std::string posterior;  // the file that they were read from, and its hash; "": the study itself
   std::string posterior_hash;

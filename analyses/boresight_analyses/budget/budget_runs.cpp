@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "boresight/mechanism/built_mechanism.hpp"
+#include "boresight_analyses/budget/course_filter.hpp"
 #include "boresight_analyses/study/rung_sample_model.hpp"
 
 namespace boresight {
@@ -167,12 +168,29 @@ std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quant
   return out;
 }
 
-PointingHistory stored_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan) {
+PointingHistory sampled_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan) {
   const std::vector<double> doubles = store.history(number);
   PointingHistory history{plan.sampling, {}};
   for (std::size_t k = 0; k + 2 < doubles.size(); k += 3)
     history.error.emplace_back(doubles[k], doubles[k + 1], doubles[k + 2]);
   return history;
+}
+
+PointingHistory stored_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan) {
+  PointingHistory history = sampled_history(store, number, plan);
+  pass_through(plan, history.error);
+  return history;
+}
+
+void pass_through(const BudgetPlan& plan, std::vector<Vec3>& error) {
+  if (!plan.through || error.empty()) return;
+  const CourseFilter filter(*plan.through, plan.sampling);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::vector<double> course;
+    for (const Vec3& e : error) course.push_back(e[axis]);
+    const std::vector<double> seen = filter.through(course);
+    for (std::size_t k = 0; k < error.size(); ++k) error[k][axis] = seen[k];
+  }
 }
 
 }  // namespace boresight

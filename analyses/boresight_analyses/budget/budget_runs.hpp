@@ -90,7 +90,10 @@ class BudgetModel final : public SampleModel {
 std::size_t samples_of(const BudgetPlan& plan);
 std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Pointing& pointing,
                                     const BudgetPlan& plan);
-// What the store holds of a run; empty if it failed.
+// What the store holds of a run, the mechanism's own error; empty if it failed.
+PointingHistory sampled_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan);
+// The same as the pointing has it: behind BudgetPlan::through.
 PointingHistory stored_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan);
+void pass_through(const BudgetPlan& plan, std::vector<Vec3>& error);
 
 }  // namespace boresight

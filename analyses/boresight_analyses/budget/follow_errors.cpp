@@ -92,11 +92,12 @@ std::vector<std::string> follow_errors(BudgetPlan& plan, const Mechanism& mechan
     const std::size_t error = place_of(mechanism.description(), c.of_error->error);
     if (const std::string why = columns->refusal(error); !why.empty())
       throw ComputationError("the contributor \"" + c.name + "\": " + why);
-    c.of_error->by_value = columns->of(error);
-    c.of_error->by_course.assign(c.of_error->by_value.size(), Vec3::Zero());
-    if (!c.of_error->course) continue;
-    for (std::size_t k = 0; k < c.of_error->by_course.size(); ++k)
-      c.of_error->by_course[k] = c.of_error->course->at(columns->time()[k]).value * c.of_error->by_value[k];
+    std::vector<Vec3>&by_value = c.of_error->by_value, &by_course = c.of_error->by_course;
+    by_value = columns->of(error);
+    by_course.assign(by_value.size(), Vec3::Zero());
+    for (std::size_t k = 0; c.of_error->course && k < by_course.size(); ++k)
+      by_course[k] = c.of_error->course->at(columns->time()[k]).value * by_value[k];
+    for (std::vector<Vec3>* part : {&by_value, &by_course}) pass_through(plan, *part);
   }
   plan.known.clear();
   for (std::size_t e = 0; e < known.size(); ++e) {
@@ -110,6 +111,7 @@ std::vector<std::string> follow_errors(BudgetPlan& plan, const Mechanism& mechan
     part.value = mechanism.parameters().error[e];
     part.history = {plan.sampling, columns->of(e)};
     for (Vec3& at : part.history.error) at *= part.value;
+    pass_through(plan, part.history.error);
   }
   return untold;
 }

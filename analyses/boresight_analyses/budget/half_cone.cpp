@@ -42,9 +42,12 @@ double radius_of(double probability, std::span<const double> mean, std::span<con
   if (square == 0.0) return 0.0;
   boost::math::tools::eps_tolerance<double> close(30);
   std::uintmax_t most = 100;
+  // Beside a fixed value of one axis a deviation of another may be rounding: a little beyond, all of it is within.
+  constexpr double kRounding = 1e-9;
   // A fixed value makes a step in the probability, so bisection.
-  const auto bracket = boost::math::tools::bisect(
-      [&](double r) { return probability_within(r, mean, sd) - probability; }, 0.0, std::sqrt(square), close, most);
+  const auto bracket =
+      boost::math::tools::bisect([&](double r) { return probability_within(r, mean, sd) - probability; }, 0.0,
+                                 (1.0 + kRounding) * std::sqrt(square), close, most);
   return 0.5 * (bracket.first + bracket.second);
 }
 

@@ -45,7 +45,9 @@ std::vector<BudgetSource> budget_sources(const BudgetStudy& s) {
   const std::string every = slots > 1 && r.rows() > 1 ? fmt::format(", one in {}", slots) : "";
   std::vector<BudgetSource> sources = {
       {kFromMembers,
-       fmt::format("the {} members: the mechanism as drawn, with each member's external errors", s.plan.members),
+       fmt::format(
+           "the {} members: the mechanism as drawn{}, with each member's external errors", s.plan.members,
+           s.plan.through ? ", its error through the loop's transfer functions (settled where a history begins)" : ""),
        std::to_string(r.drawn(0)) + to + std::to_string(r.drawn(r.rows() - 1)) + every},
       {kFromNominal,
        "the mechanism with every scattered parameter at its median; of several clearances, or with standing errors, "

@@ -48,7 +48,7 @@ RunsSeen runs_seen(const SampleStore& store, const BudgetRuns& runs, const Budge
     seen.largest = std::max(seen.largest, r.outcome.value);
     if (plan.start > 0.0 || r.outcome.value < kNextToNothing) return;
     double sampled = 0.0;
-    for (const Vec3& e : stored_history(store, r.number, plan).error) sampled = std::max(sampled, e.norm());
+    for (const Vec3& e : sampled_history(store, r.number, plan).error) sampled = std::max(sampled, e.norm());
     seen.missed = std::max(seen.missed, 1.0 - sampled / r.outcome.value);
   });
   seen.model_error /= std::max(1.0, done);

@@ -14,12 +14,12 @@ constexpr double kOffset = 2e-4, kRipple = 3e-4;  // [rad], at their largest
 class BudgetOfErrors : public testing::Test {
  protected:
   // Of these errors, each between minus and plus its largest value with two values alone, so that every square is known.
-  Budget budget(const std::vector<std::pair<std::string, std::string>>& drawn) const {
+  Budget budget(const std::vector<std::pair<std::string, std::string>>& drawn, const std::string& more = "") const {
     std::string study;
     for (const auto& [path, value] : drawn)
       study += "[[random]]\nparameter = \"" + path + "\"\ndistribution = { discrete = { values = [\"-" + value +
                "\", \"" + value + "\"] } }\n";
-    study += "[budget]\nmembers = 40\nattribution = 12\nsampling = \"1 ms\"\nwindow = \"0.2 s\"\n";
+    study += "[budget]\nmembers = 40\nattribution = 12\nsampling = \"1 ms\"\nwindow = \"0.2 s\"\n" + more;
     return make_budget(mechanism_, study).budget;
   }
   static double mixed(const Budget& b, ErrorIndex index) { return mixed_level(b, index); }
@@ -49,6 +49,22 @@ TEST_F(BudgetOfErrors, ARippleOfTheDriveIsInRpeAsASinusoidAndNotInMpe) {
   EXPECT_LT(mixed(b, ErrorIndex::mpe), 1e-3 * kRipple);
   const std::vector<Moments>& axes = line(b, ErrorIndex::rpe, 0).axes;
   EXPECT_NEAR(std::hypot(axes.at(0).sd, axes.at(1).sd), kRipple / std::sqrt(2.0), 2e-3 * kRipple);
+}
+
+// A loop that sees the error: at its corner a lag of first order leaves 1 / sqrt(2) of a sinusoid, and one that drives against what stands
+// leaves nothing of it. Contributors from outside are what they were.
+TEST_F(BudgetOfErrors, GoThroughALoopThatContributorsFromOutsideDoNotSee) {
+  const Budget lagged =
+      budget({{"error.ripple", "0.3 mrad"}}, "through = [{ first_order = { bandwidth = \"5 Hz\" } }]\n");
+  EXPECT_NEAR(mixed(lagged, ErrorIndex::rpe), kRipple * std::sin(0.95 * M_PI / 2.0) / std::sqrt(2.0), 0.02 * kRipple);
+  const std::string loop = "through = [{ sensitivity = { frequency = \"20 Hz\", damping = 0.7 } }]\n";
+  const Budget standing = budget({{"error.offset", "0.2 mrad"}}, loop);
+  EXPECT_LT(mixed(standing, ErrorIndex::ape), 1e-9 * kOffset);
+  const Budget outside = budget({{"error.offset", "0.2 mrad"}},
+                                loop +
+                                    "[[budget.contributor]]\nname = \"star tracker\"\nclass = \"bias\"\n"
+                                    "distribution = { discrete = { values = [\"0.1 mrad\"] } }\naxes = [\"x\"]\n");
+  EXPECT_NEAR(mixed(outside, ErrorIndex::ape), 1e-4, 1e-9);
 }
 
 TEST_F(BudgetOfErrors, SharesAreThoseOfTheMeanSquaresAndAddUpWhicheverMembersAreAttributed) {
