@@ -173,8 +173,14 @@ const KeyTable& calibrate_run_keys() {
       .name = "calibrate.run",
       .says = "A run that was measured.",
       .keys = {
-          text("data").says("The CSV file of its readings, with commas between its columns, or with semicolons and "
-                            "decimal commas or points. A relative name is taken from the study file's folder."),
+          text("data")
+              .sometimes("left out where sensors have files of their own")
+              .says("The CSV file of its readings, with commas between its columns, or with semicolons or tabs and "
+                    "decimal commas or points. A relative name is taken from the study file's folder."),
+          tables("sensor", calibrate_sensor_keys)
+              .sometimes("left out, data is the one file of the run")
+              .says("Sensors with files of their own, as their software writes them: columns, units and times are "
+                    "mapped."),
           text("name").usually("the name of the data file").says("What reports call the run."),
           settings_key("The mechanism's settings in this run, as --set takes them: [\"motion.drives.A=2*pi*t\"].")}};
   return table_of_keys;

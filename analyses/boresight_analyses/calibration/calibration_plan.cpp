@@ -61,6 +61,33 @@ PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechan
   return p;
 }
 
+PlannedRun read_run(Cursor& run, const std::string& study_file) {
+  PlannedRun planned;
+  planned.origin = run.origin();
+  for (Cursor& sensor : run.tables("sensor")) planned.sensors.push_back(read_sensor(sensor, study_file));
+  std::string data;
+  if (planned.sensors.empty()) {
+    data = run.text("data");
+    planned.data = beside(study_file, data);
+    planned.origin = run.origin("data");
+  } else if (run.has("data")) {
+    run.fail_found("data", "data beside sensors", "data, or [[calibrate.run.sensor]] tables");
+  }
+  planned.name = run.text("name", planned.sensors.empty() ? data : planned.sensors.front().data);
+  run.require(!planned.name.empty(), "name", "a name, or no key at all");
+  planned.settings = settings_of(run);
+  run.finish();
+  return planned;
+}
+
+MeasuredData data_of(const PlannedRun& run, const Mechanism& mechanism) {
+  if (run.sensors.empty())
+    return read_referred(run.origin, "data", run.data, [&] { return read_measured_data(run.data); });
+  std::vector<MeasuredData> sensors;
+  for (const PlannedSensor& sensor : run.sensors) sensors.push_back(read_data(sensor, mechanism));
+  return together(sensors);
+}
+
 // What the mechanism's own reader would refuse is refused as a start or a bound.
 void check_values(const PlannedParameter& p, const Mechanism& mechanism,
                   const std::function<std::shared_ptr<const Mechanism>(const std::vector<Setting>&)>& mechanism_with) {
@@ -153,11 +180,7 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
   table.require(!plan.parameters.empty(), "parameter", "at least one [[calibrate.parameter]]");
   for (Cursor& run : table.tables("run")) {
     run.only(calibrate_run_keys());
-    const std::string data = run.text("data");
-    const std::string name = run.text("name", data);
-    run.require(!name.empty(), "name", "a name, or no key at all");
-    plan.runs.push_back({name, beside(study.file, data), settings_of(run), run.origin("data")});
-    run.finish();
+    plan.runs.push_back(read_run(run, study.file));
   }
   table.require(!plan.runs.empty(), "run", "at least one [[calibrate.run]]");
   for (Cursor& candidate : table.tables("candidate")) {
@@ -175,10 +198,10 @@ CalibrationProblem calibration_problem(
     const CalibrationPlan& plan,
     const std::function<std::shared_ptr<const Mechanism>(const std::vector<Setting>&)>& mechanism_with) {
   CalibrationProblem problem;
-  for (const PlannedRun& run : plan.runs)
-    problem.runs.emplace_back(run.name, mechanism_with(run.settings), read_referred(run.origin, "data", run.data, [&] {
-                                return read_measured_data(run.data);
-                              }));
+  for (const PlannedRun& run : plan.runs) {
+    const std::shared_ptr<const Mechanism> with_settings = mechanism_with(run.settings);
+    problem.runs.emplace_back(run.name, with_settings, data_of(run, *with_settings));
+  }
   for (CalibrationRun& run : problem.runs)
     for (std::size_t i = 0; i < run.data.time.size() && run.data.time[i] < plan.data_from; ++i)
       run.data.value.row(static_cast<Eigen::Index>(i)).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -210,7 +233,7 @@ CalibrationProblem calibration_problem(
   problem.prepare(plan.window, plan.from_rest);
   hold_out_windows(problem, plan.hold_out);
   if (std::none_of(problem.windows.begin(), problem.windows.end(), [](const Window& w) { return !w.held_out; }))
-    throw InputError({plan.runs.front().data, 0}, "data", "too few values",
+    throw InputError({problem.runs.front().data.file, 0}, "data", "too few values",
                      "more in a window than its start state has numbers");
   return problem;
 }

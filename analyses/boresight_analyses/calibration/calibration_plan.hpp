@@ -33,6 +33,8 @@
 //   data = "run-1.csv"                # beside the study
 //   set = ["motion.drives.A=2*pi*t"]  # the mechanism's settings in this run
 //
+//   [[calibrate.run.sensor]]          # in place of data: sensor_plan.hpp
+//
 //   [[calibrate.candidate]]           # of a next test
 //   name = "faster"
 //   set = ["motion.drives.A=4*pi*t"]
@@ -42,6 +44,7 @@
 
 #include "boresight/io/cursor.hpp"
 #include "boresight_analyses/calibration/calibrate.hpp"
+#include "boresight_analyses/calibration/sensor_plan.hpp"
 #include "boresight_analyses/study/study.hpp"
 
 namespace boresight {
@@ -55,9 +58,10 @@ struct PlannedParameter {
 };
 
 struct PlannedRun {
-  std::string name, data;  // data: the file, "" for a candidate
+  std::string name, data;  // data: the file, "" for a candidate and where sensors have files of their own
   std::vector<Setting> settings;
   Origin origin;  // of the text that names the file
+  std::vector<PlannedSensor> sensors = {};
 };
 
 struct CalibrationPlan {

@@ -15,12 +15,18 @@ VecX noise_from_differences(const CalibrationProblem& problem) {
     for (std::size_t r = 0; r < problem.runs.size(); ++r) {
       const int column = problem.column(static_cast<int>(r), c);
       if (column < 0) continue;
-      const auto v = problem.runs[r].data.value.col(column);
-      for (Eigen::Index i = 1; i + 1 < v.size(); ++i) {
-        const double d = v[i - 1] - 2.0 * v[i] + v[i + 1];
-        if (std::isfinite(d)) differences.push_back(std::abs(d));
-        if (std::isfinite(v[i])) sizes.push_back(std::abs(v[i]));
-      }
+      const auto all = problem.runs[r].data.value.col(column);
+      // Where another sensor reads oftener, this one's readings have gaps between them.
+      std::vector<double> v;
+      for (const double reading : all)
+        if (std::isfinite(reading)) v.push_back(reading);
+      const bool gaps = !problem.runs[r].data.file_of.empty();
+      for (Eigen::Index i = 1; !gaps && i + 1 < all.size(); ++i)
+        if (const double d = all[i - 1] - 2.0 * all[i] + all[i + 1]; std::isfinite(d))
+          differences.push_back(std::abs(d));
+      for (std::size_t i = 1; gaps && i + 1 < v.size(); ++i)
+        differences.push_back(std::abs(v[i - 1] - 2.0 * v[i] + v[i + 1]));
+      for (std::size_t i = 1; i + 1 < v.size(); ++i) sizes.push_back(std::abs(v[i]));
     }
     double middle = 0.0;
     if (!differences.empty()) {
@@ -130,8 +136,8 @@ std::vector<OutlyingReading> leave_out_lone_readings(CalibrationProblem& problem
         if (!(off > kAlone * std::max(*high - *low, noise[static_cast<Eigen::Index>(c)]))) continue;
         const Eigen::Index sample = measured[static_cast<std::size_t>(k)];
         alone.push_back(sample);
-        found.push_back({data.file, data.line[static_cast<std::size_t>(sample)], problem.channels[c],
-                         off / noise[static_cast<Eigen::Index>(c)]});
+        const Origin place = data.origin(sample, column);
+        found.push_back({place.file, place.line, problem.channels[c], off / noise[static_cast<Eigen::Index>(c)]});
       }
       for (const Eigen::Index sample : alone) data.value(sample, column) = std::numeric_limits<double>::quiet_NaN();
     }
@@ -167,8 +173,8 @@ std::vector<OutlyingReading> outlying_readings(const CalibrationProblem& problem
     const double deviations = reading.size / deviation[static_cast<std::size_t>(reading.channel)];
     if (!(deviations > kOutlying)) continue;
     const MeasuredData& data = problem.runs[static_cast<std::size_t>(reading.run)].data;
-    found.push_back({data.file, data.line[static_cast<std::size_t>(reading.sample)],
-                     problem.channels[static_cast<std::size_t>(reading.channel)], deviations});
+    const Origin at = data.origin(reading.sample, problem.column(reading.run, reading.channel));
+    found.push_back({at.file, at.line, problem.channels[static_cast<std::size_t>(reading.channel)], deviations});
   }
   std::sort(found.begin(), found.end(),
             [](const OutlyingReading& a, const OutlyingReading& b) { return a.deviations > b.deviations; });

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "boresight/math/types.hpp"
+#include "boresight/mechanism/description.hpp"
 
 namespace boresight {
 
@@ -29,6 +30,8 @@ struct ChannelName {
 // of the pointing axis' unit vector; position_error, orientation_error, boresight_error, line_of_sight_error:
 // sizes, as the indices.
 const std::vector<ChannelName>& channel_names();
+// Whether a channel is a displacement, or its size, so that it matters at which point of the body it is measured.
+inline bool is_of_a_point(int channel) { return channel < 3 || channel == 9; }
 
 struct MeasuredData {
   std::string file;
@@ -36,6 +39,15 @@ struct MeasuredData {
   std::vector<double> time;   // [s]
   MatX value;                 // samples x channels, SI; NaN: missing
   std::vector<int> line;      // of each sample, in the file
+  // Of several sensors, each with a file of its own: by column; by sample and column, 0 where it did not read. Empty: as above.
+  std::vector<std::string> file_of = {};
+  Eigen::MatrixXi line_of = {};
+
+  // By column: where displacements are measured, from the boresight body's origin in its axes. Empty: there.
+  std::vector<Vec3> place_B = {};
+
+  Origin origin(Eigen::Index sample, int column) const;  // of a reading
+  Vec3 place_of(int channel) const;                      // channel: among channel_names()
 };
 
 // Throws InputError naming the line.

@@ -30,7 +30,7 @@ MatX window_readings(const CalibrationProblem& problem, const Window& w, const G
       problem.kept, CalibrationKey("multibody", problem).add(w.run, w.first, w.last, at).value(), [&] {
         return problem.mean_readings(w, at,
                                      multibody_readings(run.mechanism, problem.parameters_at(w.run, problem.values(at)),
-                                                        times, run.data.channels));
+                                                        times, run.data.channels, run.data.place_B));
       });
 }
 

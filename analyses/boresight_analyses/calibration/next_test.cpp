@@ -39,6 +39,11 @@ NextTest judge_candidate(const CalibrationProblem& problem, const Inference& inf
       data.line.push_back(0);
     }
     data.channels = problem.channels;
+    for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+      std::size_t run = 0;
+      while (run + 1 < problem.runs.size() && problem.column(static_cast<int>(run), static_cast<int>(c)) < 0) ++run;
+      data.place_B.push_back(problem.runs[run].data.place_of(problem.channels[c]));
+    }
     data.value =
         MatX::Zero(static_cast<Eigen::Index>(data.time.size()), static_cast<Eigen::Index>(data.channels.size()));
     one.runs = {CalibrationRun(candidate.name, candidate.mechanism, data)};

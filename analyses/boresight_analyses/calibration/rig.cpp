@@ -11,16 +11,20 @@
 
 namespace boresight {
 
-double channel_reading(int channel, const PoseSample& s, const Vec3& boresight_B) {
-  if (channel < 3) return s.error.displacement[channel];
+double channel_reading(int channel, const PoseSample& s, const Vec3& boresight_B, const Vec3& place_B) {
+  if (is_of_a_point(channel)) {
+    const Vec3 displacement = s.error.displacement + (s.pose.q * place_B - s.ideal.q * place_B);
+    return channel < 3 ? displacement[channel] : displacement.norm();
+  }
   if (channel < 6) return s.error.rotation[channel - 3];
   if (channel < 9) return (s.pose.q * boresight_B - s.ideal.q * boresight_B)[channel - 6];
-  const double sizes[] = {s.error.position, s.error.orientation, s.error.boresight, s.error.line_of_sight};
-  return sizes[channel - 9];
+  const double sizes[] = {s.error.orientation, s.error.boresight, s.error.line_of_sight};
+  return sizes[channel - 10];
 }
 
 MatX multibody_readings(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters,
-                        const std::vector<double>& times, const std::vector<int>& channels) {
+                        const std::vector<double>& times, const std::vector<int>& channels,
+                        const std::vector<Vec3>& places_B) {
   double spacing = times.front() > 0.0 ? times.front() : 1e-3;
   for (std::size_t i = 1; i < times.size(); ++i) spacing = std::min(spacing, times[i] - times[i - 1]);
   RunOptions options;
@@ -36,8 +40,9 @@ MatX multibody_readings(const std::shared_ptr<const Mechanism>& mechanism, const
     const std::size_t a = std::abs(run.time[b] - times[i]) < 1e-9 || b == 0 ? b : b - 1;
     const double share = a == b ? 0.0 : (times[i] - run.time[a]) / (run.time[b] - run.time[a]);
     for (std::size_t c = 0; c < channels.size(); ++c) {
-      const double from = channel_reading(channels[c], run.boresight.samples[a], mechanism->boresight_B());
-      const double to = channel_reading(channels[c], run.boresight.samples[b], mechanism->boresight_B());
+      const Vec3 place_B = places_B.empty() ? Vec3(Vec3::Zero()) : places_B[c];
+      const double from = channel_reading(channels[c], run.boresight.samples[a], mechanism->boresight_B(), place_B);
+      const double to = channel_reading(channels[c], run.boresight.samples[b], mechanism->boresight_B(), place_B);
       readings(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = from + share * (to - from);
     }
   }

@@ -7,12 +7,15 @@
 namespace boresight {
 
 // The channel (index into channel_names()) of a sampled pose.
-double channel_reading(int channel, const PoseSample& sample, const Vec3& boresight_B);
+// place_B: of a displacement, where it is measured: MeasuredData::place_of().
+double channel_reading(int channel, const PoseSample& sample, const Vec3& boresight_B,
+                       const Vec3& place_B = Vec3::Zero());
 
 // Readings at `times` (rising, from 0) of the multibody rung's motion, contacts located: times x channels.
-// Throws ComputationError.
+// places_B: where each is measured; empty: at the body's origin. Throws ComputationError.
 MatX multibody_readings(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters,
-                        const std::vector<double>& times, const std::vector<int>& channels);
+                        const std::vector<double>& times, const std::vector<int>& channels,
+                        const std::vector<Vec3>& places_B = {});
 
 struct SyntheticRig {
   std::vector<int> channels = {0, 1, 2, 3, 4, 5};

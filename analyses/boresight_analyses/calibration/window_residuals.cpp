@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/math/cross_matrix.hpp"
 #include "boresight/slopes/start_slopes.hpp"
 #include "boresight_analyses/calibration/calibration_problem.hpp"
 #include "boresight_analyses/calibration/rig.hpp"
@@ -12,7 +13,15 @@ void CalibrationProblem::channel_rows(const CalibrationRun& run, int kind, doubl
   const int body = run.mechanism->boresight_body();
   out.size = kind >= 9;
   out.by_pose.setZero();
-  if (kind < 6) {
+  const Vec3 place_B = run.data.place_of(kind);
+  if (is_of_a_point(kind)) {
+    Eigen::Matrix<double, 3, 6> of_point = Eigen::Matrix<double, 3, 6>::Identity();
+    if (!place_B.isZero(0.0)) of_point.rightCols<3>() = -cross_matrix(run.prepared->ideal().body(t, body).R * place_B);
+    if (out.size)
+      out.by_pose = of_point;
+    else
+      out.by_pose.row(0) = of_point.row(kind);
+  } else if (kind < 6) {
     out.by_pose(0, kind) = 1.0;
   } else {
     const BodyMotion ideal = run.prepared->ideal().body(t, body);
@@ -57,7 +66,7 @@ double displaced_reading(const CalibrationRun& run, int channel, double t, const
   sample.pose = {body.p, Quat(body.R)};
   sample.ideal = {ideal.p, Quat(ideal.R)};
   sample.error = pose_error(sample.pose, sample.ideal, run.mechanism->pointing());
-  return channel_reading(channel, sample, run.mechanism->boresight_B());
+  return channel_reading(channel, sample, run.mechanism->boresight_B(), run.data.place_of(channel));
 }
 
 }  // namespace
@@ -162,7 +171,9 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
         }
         if (n > 0 && !w.from_rest)
           out.by_state.row(m) += by_z * out.motion.by[k].rightCols(2 * n).topRows(n) * scale.asDiagonal();
-        if (!by_time) continue;
+        // Beyond the motion's ends readings stay what they are there.
+        const double wanted = of_clock + globals.time_offset - globals.lag * moment.back;
+        if (!by_time || wanted < w.start || wanted > w.end) continue;
         channel_rows(run, channels[c], later_than(t), n, later);
         channel_rows(run, channels[c], earlier_than(t), n, earlier);
         const Vec3 turning = ((later.rows - earlier.rows) * z + later.by_pose * standing_later[k] -

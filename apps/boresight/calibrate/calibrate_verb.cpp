@@ -150,6 +150,10 @@ class CalibrateVerb : public Verb {
   template <typename MechanismWith>
   int make_data(const Command& command, const CalibrationPlan& plan, const MechanismWith& mechanism_with) const {
     const SyntheticRig rig = asked_.rig();
+    for (const PlannedRun& planned : plan.runs)
+      if (!planned.sensors.empty())
+        throw InputError(planned.origin, "calibrate.run.sensor", "sensors of a run, with --make-data",
+                         "data = \"run.csv\", the file that it writes");
     for (const PlannedRun& planned : plan.runs) check_that_data_may_be_written(planned.data);
     for (std::size_t r = 0; r < plan.runs.size(); ++r) {
       const auto mechanism = mechanism_with(plan.runs[r].settings);
@@ -176,7 +180,12 @@ class CalibrateVerb : public Verb {
     Json json = own.head(s.study, s.rung, watch, r.warnings, r.interrupted, earlier);
     json["seed"] = s.plan.seed;
     json["data"] = Json::array();
-    for (const CalibrationRun& run : s.problem.runs) json["data"].push_back(run.data.file);
+    for (const CalibrationRun& run : s.problem.runs) {
+      if (run.data.file_of.empty()) json["data"].push_back(run.data.file);
+      std::string last;
+      for (const std::string& file : run.data.file_of)
+        if (std::exchange(last, file) != file) json["data"].push_back(file);
+    }
     json["objective"] = number(r.fit.cost);
     json["converged"] = r.fit.converged;
     json["reason"] = r.fit.reason;

@@ -5,9 +5,15 @@
 
 namespace boresight {
 
-// The mark that separates more fields: a name may hold the other one.
-CsvNumbers::CsvNumbers(const std::string& header)
-    : separator_(csv_fields(header, ';').size() > csv_fields(header, ',').size() ? ';' : ',') {}
+// The mark that separates most fields: a name may hold another one.
+CsvNumbers::CsvNumbers(const std::string& header) {
+  std::size_t most = csv_fields(header, separator_).size();
+  for (const char mark : {';', '\t'})
+    if (const std::size_t fields = csv_fields(header, mark).size(); fields > most) {
+      most = fields;
+      separator_ = mark;
+    }
+}
 
 std::vector<std::string> CsvNumbers::fields(const std::string& line) const { return csv_fields(line, separator_); }
 
@@ -19,7 +25,7 @@ std::string CsvNumbers::read(std::string field, double& value) {
       return decimal_ == ',' ? "a decimal comma, as in the numbers before"
                              : "a decimal point, as in the numbers before";
     const bool once = field.find_first_of(".,", mark + 1) == std::string::npos;
-    if (once && separator_ == ';') field[mark] = '.';
+    if (once && separator_ != ',') field[mark] = '.';
   }
   return parse_number(field, value) ? "" : "a finite number";
 }

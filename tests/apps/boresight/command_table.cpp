@@ -196,6 +196,15 @@ std::vector<TableCommand> commands() {
            },
        .edits = {{"calibration/calibrate.toml", "starts = ", "starts = 1 # "},
                  {"calibration/calibrate.toml", "[calibrate]", "[calibrate]\nprofile = false"}}},
+      // Half of the data that the example above takes: the truth lies within twice its errors.
+      {.text = "boresight calibrate examples/calibration/sensors.toml",
+       .claims =
+           [](const Left& left) {
+             EXPECT_NEAR(left.summary["optimum"]["clearance.D.radial"].get<double>(), 0.2e-3, 4e-6);
+             EXPECT_NEAR(left.summary["optimum"]["clearance.D.contact.restitution"].get<double>(), 0.6, 0.02);
+             EXPECT_EQ(left.summary["data"].size(), 2u);
+           },
+       .edits = {{"calibration/sensors.toml", "starts = ", "starts = 1 # "}}},
       {.text = "boresight calibrate examples/calibration/calibrate.toml --make-data \"1 %\" --make-offset \"5 um\" "
                "--make-seed 7"},
       {.text = "boresight new antenna",
