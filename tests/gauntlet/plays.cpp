@@ -27,10 +27,13 @@ std::string bearing(Draw& draw, const Sizes& s) {
          meters("journal_radius", s.journal) + meters("cap_radius", (s.journal + s.gap) * draw.between(1.2, 1.8));
 }
 
-std::string contact_of(Draw& draw, double smallest_mass, double gap) {
+// A ball takes laws for points and springs, and no friction that remembers directions.
+std::string contact_of(Draw& draw, double smallest_mass, double gap, bool ball) {
   std::vector<std::string> laws, frictions;
-  for (const NormalLawEntry& law : normal_laws()) laws.push_back(law.name);
-  for (const FrictionLawEntry& law : friction_laws()) frictions.push_back(law.name);
+  for (const NormalLawEntry& law : normal_laws())
+    if (!ball || law.geometry != ContactGeometry::line) laws.push_back(law.name);
+  for (const FrictionLawEntry& law : friction_laws())
+    if (!ball || law.kind != FrictionKind::lugre) frictions.push_back(law.name);
   const std::string law = draw.chance(0.5) ? "flores" : draw.one_of(laws);
   std::string text = fmt::format("[clearance.contact]\nlaw = \"{}\"\nrestitution = {:.6g}\n", law,
                                  draw.chance(0.1) ? 1.0 : draw.between(0.3, 0.95));
@@ -65,12 +68,12 @@ std::string with_plays(const std::string& toml) {
     s.journal = mechanism.characteristic_length() * draw.between(0.02, 0.06);
     s.gap = s.journal * draw.log_between(1e-3, 2e-2);
     const bool tilts = draw.chance(0.5);
-    const std::string sleeve = meters("sleeve_length", s.journal * draw.between(1.5, 8.0));
+    const double length = s.journal * draw.between(1.5, 8.0);
+    const std::string sleeve = meters("sleeve_length", length);
     std::string sizes;
     switch (joint.type) {
       case JointType::revolute:
-        sizes = "bearing = \"pair\"\n" + meters("span", s.journal * draw.between(4.0, 12.0)) + bearing(draw, s) +
-                (tilts ? sleeve : "");
+        sizes = "bearing = \"pair\"\n" + meters("span", length * draw.between(1.2, 5.0)) + bearing(draw, s) + sleeve;
         break;
       case JointType::prismatic:
         if (draw.chance(0.5)) {
@@ -101,7 +104,7 @@ std::string with_plays(const std::string& toml) {
       text += fmt::format("journal = \"{}\"\n", journal == kGround ? "ground" : m.bodies[journal].name);
     text += sizes;
     if (joint.type != JointType::spherical) text += tilts ? "axes = \"free\"\n" : "axes = \"parallel\"\n";
-    text += contact_of(draw, smallest_mass, s.gap);
+    text += contact_of(draw, smallest_mass, s.gap, joint.type == JointType::spherical);
   }
   return text;
 }
