@@ -39,7 +39,7 @@ TEST(CsvColumn, IsFoundBesideNamesWithTheOtherMark) {
   EXPECT_EQ(read_csv_column(file_of("\"a;c;d\",b\n1,0.5\n2,1e-3\n"), "b"), expected);
   EXPECT_EQ(read_csv_column(file_of("a, in mm;c;b\n1,5;2;0,5\n2;2;1e-3\n"), "b"), expected);
   EXPECT_EQ(read_csv_column(file_of("b\n0.5\n1e-3\n"), "b"), expected);
-  EXPECT_EQ(read_csv_column(file_of("a, in mm\tb\n1,5\t0,5\n2\t1e-3\n"), "b"), expected);
+  EXPECT_EQ(read_csv_column(file_of("a, in mm\tc\tb\n1,5\t2\t0,5\n2\t2\t1e-3\n"), "b"), expected);
 }
 
 TEST(CsvColumn, DoesNotMixDecimalMarks) {
