@@ -61,11 +61,18 @@ TEST_P(HeldPlay, IsNamedWhateverItsKind) {
 
 // What pushes its coordinates is rounding, and no sign of a pose that is singular.
 TEST_P(HeldPlay, DoesNotMoveOnTheOpenedMechanism) {
-  if (std::string(GetParam().type) == "universal") return;  // its cross is free between its journals
   const auto mechanism = scenes::build(read_mechanism_text(
       with_rigid_sibling(GetParam(), scenes::play_file(GetParam(), {.friction = 0.1, .duration = 0.5})), "play.toml"));
-  const RunResult run = make_rung("perturbation", mechanism)->run(mechanism->parameters(), {});
-  EXPECT_LT(run.index.position_error.max, 1e-9);
+  const auto off = [&](const char* rung) {
+    return make_rung(rung, mechanism)->run(mechanism->parameters(), {}).index.position_error.max;
+  };
+  if (std::string(GetParam().type) == "universal") {
+    // Its cross is free between its journals, and rubs on an arm that nothing drives.
+    const double by_multibody = off("multibody");
+    EXPECT_NEAR(off("perturbation"), by_multibody, 0.01 * by_multibody);
+    return;
+  }
+  EXPECT_LT(off("perturbation"), 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ladder, HeldPlay, testing::ValuesIn(kinds()),
