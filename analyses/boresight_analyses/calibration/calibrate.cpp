@@ -57,6 +57,7 @@ CalibrationResult Calibrator::run() {
       result_.evaluations += result_.laws.back().evaluations;
     }
     compare(result_.laws);
+    draw();
     for (const Candidate& candidate : options_.candidates) {
       tell("candidates of a next test", 0.0, candidate.name);
       result_.next_tests.push_back(
@@ -223,7 +224,7 @@ void Calibrator::explain_what_is_held() {
 void Calibrator::weigh_model_error() {
   if (!options_.discrepancy || !problem_.follows_play()) return;
   tell("what the model may be wrong by", 0.0, "");
-  const std::vector<Suspect> suspected = suspects(problem_, result_.fit, *options_.discrepancy, options_.jobs);
+  suspects_ = suspects(problem_, result_.fit, *options_.discrepancy, options_.jobs);
   // Places within three errors of one another are one: the curvature of its loss knows of it.
   std::vector<Globals> others;
   const VecX error = result_.inference.covariance.diagonal().cwiseSqrt();
@@ -237,9 +238,31 @@ void Calibrator::weigh_model_error() {
     if (apart(optimum, result_.fit.globals) &&
         std::all_of(others.begin(), others.end(), [&](const Globals& other) { return apart(optimum, other); }))
       others.push_back(optimum);
-  result_.model_error = model_error(problem_, result_.fit, suspected, others, result_.fixed,
+  result_.model_error = model_error(problem_, result_.fit, suspects_, others, result_.fixed,
                                     result_.inference.variance_factor, options_.jobs);
   take_model_error(*result_.model_error, options_.confidence, problem_, result_.fit.globals, result_.inference);
+}
+
+void Calibrator::draw() {
+  if (!options_.draws) return;
+  if (std::all_of(result_.fixed.begin(), result_.fixed.end(), [](bool held) { return held; })) {
+    result_.verdict.push_back("No posterior is drawn: every parameter is held.");
+    return;
+  }
+  tell("draws of the posterior", 0.0, "");
+  const PosteriorDensity density(problem_, result_.fit, result_.fixed, suspects_, result_.inference.variance_factor,
+                                 result_.model_error ? result_.model_error->disagreement : 1.0, options_.jobs);
+  // Where other optima count, the errors of the fit span them.
+  MatX spread = MatX::Zero(density.size(), density.size());
+  if (result_.model_error && result_.model_error->optima > 1)
+    spread = result_.inference.covariance(density.sampled(), density.sampled());
+  result_.draws = posterior_draws(problem_, density, spread, options_.confidence, *options_.draws, options_.seed,
+                                  options_.jobs, [&](double share, const std::string& stage) {
+                                    tell("draws of the posterior", share, stage);
+                                    return true;
+                                  });
+  result_.evaluations += result_.draws->evaluations;
+  result_.verdict.push_back(result_.draws->says);
 }
 
 void Calibrator::correct() {

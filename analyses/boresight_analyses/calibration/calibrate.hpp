@@ -12,6 +12,7 @@
 
 #include "boresight_analyses/calibration/law_comparison.hpp"
 #include "boresight_analyses/calibration/next_test.hpp"
+#include "boresight_analyses/calibration/posterior_draws.hpp"
 #include "boresight_analyses/calibration/profile_likelihood.hpp"
 #include "boresight_analyses/calibration/suspects.hpp"
 
@@ -27,6 +28,7 @@ struct CalibrationOptions {
   int corrections = 6;
   bool profile = false;
   std::optional<Discrepancy> discrepancy = Discrepancy{};  // how well the model is known; none: it is taken for exact
+  std::optional<DrawOptions> draws;                        // of the posterior; none: by the fit's curvature alone
   std::vector<std::string> laws;                           // compared by the same data
   std::vector<Candidate> candidates;                       // of a next test
   std::function<bool(const std::string& stage, double share, const std::string& estimate)> progress;
@@ -54,6 +56,7 @@ struct CalibrationResult {
   std::vector<LawScore> laws;
   std::vector<Profile> profiles;
   std::optional<CalibrationModelError> model_error;
+  std::optional<PosteriorDraws> draws;
   std::vector<NextTest> next_tests;
   std::vector<std::string> verdict;
   std::vector<std::string> warnings;  // of readings that no noise explains

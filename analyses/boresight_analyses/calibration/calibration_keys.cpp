@@ -86,6 +86,10 @@ const KeyTable& calibrate_keys() {
               .says("How often at most what the fit's rung leaves out is taken from multibody."),
           boolean("profile", p.profile)
               .says("Whether intervals come from the profile of the loss as well, which takes other fits."),
+          table("posterior", calibrate_posterior_keys)
+              .sometimes("left out, none are drawn: posterior.toml is the fit's estimates and their errors")
+              .says("Draws of what the parameters may be given the data, several modes and bent shapes included; "
+                    "posterior.toml then has them."),
           choices("laws", names_of(normal_laws()), "contact laws")
               .sometimes("left out, the mechanism's own law only")
               .says("Contact laws that are fitted too, and compared by the same data."),
@@ -124,6 +128,34 @@ const KeyTable& calibrate_discrepancy_keys() {
           boolean("law", d.law)
               .says("Whether the damping law may be another one of its family: then a restitution is known no better "
                     "than these laws agree on what they mean by it.")}};
+  return table_of_keys;
+}
+
+const KeyTable& calibrate_posterior_keys() {
+  using namespace keys;
+  static const DrawOptions d;
+  static const KeyTable table_of_keys{
+      .name = "calibrate.posterior",
+      .says =
+          "Draws of the posterior by tempered Hamiltonian Monte Carlo. Runs start from rest; offsets, drifts, noise, "
+          "and what the model may be wrong by are integrated out.",
+      .keys = {
+          integer("draws").counting(32.0, 1e7).otherwise(d.draws).says("How many, of all chains together."),
+          integer("chains").counting(2.0, 64.0).otherwise(d.chains).says(
+              "Chains that run beside one another, each from places of its own; their agreement is judged by R-hat."),
+          integer("temperatures")
+              .counting(2.0, 64.0)
+              .otherwise(d.temperatures)
+              .says("Temperatures of each chain, from a wide normal distribution to the posterior; more of them where "
+                    "modes lie far apart."),
+          integer("warm_up").counting(50.0, 1e6).otherwise(d.warm_up).says(
+              "Iterations that find steps, shapes and temperatures before any draw counts."),
+          integer("thin").counting(1.0, 1000.0).otherwise(d.thin).says("Iterations for one draw."),
+          number("reach")
+              .bounded({.least = 1.0, .most = 100.0, .expected = "1 to 100"})
+              .otherwise(d.reach)
+              .says("How much wider than the fit's errors the distribution is that chains start from: no mode beyond "
+                    "it is found.")}};
   return table_of_keys;
 }
 

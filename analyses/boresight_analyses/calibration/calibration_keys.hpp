@@ -8,6 +8,7 @@ namespace boresight {
 const KeyTable& calibrate_keys();
 const KeyTable& calibrate_noise_keys();
 const KeyTable& calibrate_discrepancy_keys();
+const KeyTable& calibrate_posterior_keys();
 const KeyTable& calibrate_parameter_keys();
 const KeyTable& calibrate_run_keys();
 const KeyTable& calibrate_candidate_keys();

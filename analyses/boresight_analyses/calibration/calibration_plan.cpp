@@ -61,6 +61,20 @@ PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechan
   return p;
 }
 
+DrawOptions read_draws(Cursor table) {
+  table.only(calibrate_posterior_keys());
+  DrawOptions draws;
+  draws.draws = static_cast<int>(table.integer("draws"));
+  draws.chains = static_cast<int>(table.integer("chains"));
+  draws.temperatures = static_cast<int>(table.integer("temperatures"));
+  draws.warm_up = static_cast<int>(table.integer("warm_up"));
+  draws.thin = static_cast<int>(table.integer("thin"));
+  draws.reach = table.number("reach");
+  table.require(draws.draws >= 8 * draws.chains, "draws", "at least 8 of each chain");
+  table.finish();
+  return draws;
+}
+
 PlannedRun read_run(Cursor& run, const std::string& study_file) {
   PlannedRun planned;
   planned.origin = run.origin();
@@ -163,6 +177,10 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
   discrepancy.finish();
   if (table.has("hold_out")) plan.hold_out = table.quantity("hold_out");
   plan.profile = table.boolean("profile");
+  if (table.has("posterior")) {
+    plan.draws = read_draws(table.table("posterior"));
+    plan.draws_origin = table.origin("posterior");
+  }
   if (table.has("laws")) plan.laws = table.choices("laws");
   plan.noise =
       VecX::Constant(static_cast<Eigen::Index>(channel_names().size()), std::numeric_limits<double>::quiet_NaN());
@@ -232,6 +250,11 @@ CalibrationProblem calibration_problem(
   allow_for(plan.discrepancy, problem);
   problem.prepare(plan.window, plan.from_rest);
   hold_out_windows(problem, plan.hold_out);
+  if (plan.draws &&
+      std::any_of(problem.windows.begin(), problem.windows.end(), [](const Window& w) { return !w.from_rest; }))
+    throw InputError(plan.draws_origin, "calibrate.posterior",
+                     "windows that start freely, whose start states would have to be drawn too",
+                     "runs from rest: window = \"whole\" and start = \"rest\"");
   if (std::none_of(problem.windows.begin(), problem.windows.end(), [](const Window& w) { return !w.held_out; }))
     throw InputError({problem.runs.front().data.file, 0}, "data", "too few values",
                      "more in a window than its start state has numbers");

@@ -13,6 +13,7 @@
 //   hold_out = "20 %"
 //   corrections = 6                   # by multibody, at most
 //   profile = true
+//   posterior = { draws = 1600 }      # draws of it as well; calibrate.posterior
 //   laws = ["flores", "hertz"]
 //   noise = { dx = "1 um" }           # of single channels; those left out are estimated
 //
@@ -78,6 +79,8 @@ struct CalibrationPlan {
   double hold_out = 0.0;
   int corrections = 6;
   bool profile = true;
+  std::optional<DrawOptions> draws;
+  Origin draws_origin;
   std::vector<std::string> laws;
   VecX noise;
   std::vector<PlannedParameter> parameters;

@@ -71,6 +71,9 @@ class Calibrator {
   // Errors and intervals of a model that may be wrong.
   void weigh_model_error();
 
+  // Draws of the posterior, where they are asked for.
+  void draw();
+
   Inference infer_now() const;
 
   void refit(const std::string& stage);
@@ -89,6 +92,7 @@ class Calibrator {
   CalibrationResult result_;
   std::vector<std::pair<int, std::string>> held_;
   std::vector<Globals> optima_;  // where fits to the whole data have ended
+  std::vector<Suspect> suspects_;
   std::mutex mutex_;
 };
 

@@ -33,6 +33,9 @@ struct Suspect {
   double deviation = 0.0;    // how well it is known, one standard deviation
   std::string unit;          // of it: "%" of what was told, counted as a share; or SI
   std::vector<VecX> change;  // per fitted window: of its standardised residuals, by one standard deviation
+  // Where it is nothing but another value of a fitted parameter: which one (else -1), and by how much of its coordinate.
+  int as_parameter = -1;
+  double coordinate = 0.0;
 };
 
 struct SuspectFound {

@@ -146,7 +146,11 @@ std::vector<Suspect> suspects(const CalibrationProblem& problem, const FitResult
     suspect.change = kept_or_computed<std::vector<VecX>>(problem.kept, key, [&] { return computed(asked[s]); });
   });
   std::vector<Suspect> out;
-  for (Asked& a : asked) out.push_back(std::move(a.suspect));
+  for (Asked& a : asked) {
+    a.suspect.as_parameter = a.as_parameter;
+    a.suspect.coordinate = a.coordinate;
+    out.push_back(std::move(a.suspect));
+  }
   return out;
 }
 

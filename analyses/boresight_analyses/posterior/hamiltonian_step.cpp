@@ -24,7 +24,15 @@ double StepNumbers::normal(std::uint64_t k) const {
   return boost::math::quantile(standard, uniform(k));
 }
 
-double hamiltonian_step(const LogDensity& target, double beta, const HamiltonianShape& shape,
+void see(const SampledDensity& target, ChainPlace& at, long& evaluations) {
+  VecX none;
+  at.slope.setZero(at.z.size());
+  at.log_target = target.exact(at.z, target.guide ? none : at.slope);
+  if (target.guide) target.guide(at.z, at.slope);
+  ++evaluations;
+}
+
+double hamiltonian_step(const SampledDensity& target, double beta, const HamiltonianShape& shape,
                         const StepNumbers& numbers, ChainPlace& at, long& evaluations) {
   const Eigen::Index d = at.z.size();
   const double length = kLongest * numbers.uniform(0);
@@ -36,8 +44,10 @@ double hamiltonian_step(const LogDensity& target, double beta, const Hamiltonian
   v += 0.5 * shape.step * shape.factor.transpose() * slope(beta, there);
   for (int k = 0; k < steps; ++k) {
     there.z += shape.step * shape.factor * v;
-    there.log_target = target(there.z, there.slope);
-    ++evaluations;
+    if (target.guide && k + 1 < steps)
+      target.guide(there.z, there.slope);
+    else
+      see(target, there, evaluations);
     if (!std::isfinite(there.log_target)) return 0.0;
     v += (k + 1 < steps ? 1.0 : 0.5) * shape.step * shape.factor.transpose() * slope(beta, there);
   }

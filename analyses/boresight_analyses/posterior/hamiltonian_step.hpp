@@ -22,7 +22,7 @@ namespace boresight {
 struct ChainPlace {
   VecX z;
   double log_target = 0.0;  // log p
-  VecX slope;               // of it
+  VecX slope;               // of it, or of its guide
 
   // log p less the reference's log density.
   double log_ratio() const { return log_target + 0.5 * z.squaredNorm(); }
@@ -46,8 +46,11 @@ class StepNumbers {
   std::uint64_t iteration_, chain_;
 };
 
-// Moves `at`, or leaves it. Returns the probability with which it was accepted. evaluations: counted up.
-double hamiltonian_step(const LogDensity& target, double beta, const HamiltonianShape& shape,
+// The place at z, with all that a step needs.
+void see(const SampledDensity& target, ChainPlace& at, long& evaluations);
+
+// Moves `at`, or leaves it. Returns the probability with which it was accepted. evaluations: of the exact density, counted up.
+double hamiltonian_step(const SampledDensity& target, double beta, const HamiltonianShape& shape,
                         const StepNumbers& numbers, ChainPlace& at, long& evaluations);
 
 }  // namespace boresight

@@ -39,13 +39,17 @@ std::vector<int> rounds_of(int warm_up) {
 
 }  // namespace
 
-PosteriorSampler::PosteriorSampler(LogDensity target, NormalReference reference)
+PosteriorSampler::PosteriorSampler(SampledDensity target, NormalReference reference)
     : mean_(std::move(reference.mean)), factor_(factor_of(reference.covariance, "the reference")) {
-  target_ = [target = std::move(target), this](const VecX& z, VecX& slope) {
-    const double value = target(mean_ + factor_ * z, slope);
-    if (std::isfinite(value)) slope = (factor_.transpose() * slope).eval();
-    return std::isnan(value) ? -std::numeric_limits<double>::infinity() : value;
+  const auto in_its_coordinates = [this](LogDensity density) -> LogDensity {
+    return [density = std::move(density), this](const VecX& z, VecX& slope) {
+      const double value = density(mean_ + factor_ * z, slope);
+      if (slope.size() > 0 && std::isfinite(value)) slope = (factor_.transpose() * slope).eval();
+      return std::isnan(value) ? -std::numeric_limits<double>::infinity() : value;
+    };
   };
+  target_.exact = in_its_coordinates(std::move(target.exact));
+  if (target.guide) target_.guide = in_its_coordinates(std::move(target.guide));
 }
 
 ChainPlace PosteriorSampler::drawn_from_reference(const StepNumbers& numbers, std::uint64_t first_number) const {
@@ -53,8 +57,8 @@ ChainPlace PosteriorSampler::drawn_from_reference(const StepNumbers& numbers, st
   place.z.resize(mean_.size());
   for (Eigen::Index i = 0; i < mean_.size(); ++i)
     place.z[i] = numbers.normal(first_number + static_cast<std::uint64_t>(i));
-  place.slope = VecX::Zero(mean_.size());
-  place.log_target = target_(place.z, place.slope);
+  long unused = 0;  // whoever draws counts it
+  see(target_, place, unused);
   return place;
 }
 

@@ -83,7 +83,9 @@ struct KeptStretches {
 class PosteriorSampler {
  public:
   // Throws std::domain_error where the reference's covariance is not positive definite.
-  PosteriorSampler(LogDensity target, NormalReference reference);
+  PosteriorSampler(SampledDensity target, NormalReference reference);
+  PosteriorSampler(LogDensity target, NormalReference reference)
+      : PosteriorSampler(SampledDensity{std::move(target), {}}, std::move(reference)) {}
   PosteriorSampler(const PosteriorSampler&) = delete;
   PosteriorSampler& operator=(const PosteriorSampler&) = delete;
 
@@ -94,7 +96,7 @@ class PosteriorSampler {
   struct Run;
   ChainPlace drawn_from_reference(const StepNumbers& numbers, std::uint64_t first_number) const;
 
-  LogDensity target_;  // in coordinates in which the reference is of zero mean and unit variance
+  SampledDensity target_;  // in coordinates in which the reference is of zero mean and unit variance
   VecX mean_;
   MatX factor_;
 };

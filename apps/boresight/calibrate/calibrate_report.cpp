@@ -7,6 +7,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "calibrate/draws_report.hpp"
 #include "report_parts/report_parts.hpp"
 #include "terminal/readable.hpp"
 
@@ -20,14 +21,8 @@ std::string short_name(const std::string& path) {
   return path.starts_with("clearance.") || path.starts_with("error.") ? path.substr(first + 1) : path;
 }
 
-// With as many decimals as its error gives a meaning to.
 std::string known_to(double value, const ParameterEstimate& e) {
-  const DisplayUnit unit = display_unit_as(e.si_unit, std::abs(value), e.written_unit);
-  const double shown_error = e.standard_error * unit.per_si;
-  if (!(shown_error > 0.0) || !std::isfinite(shown_error)) return readable_as(value, e.si_unit, e.written_unit);
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(shown_error))), 0, 12);
-  const std::string name = e.si_unit == "1" ? "" : " " + unit.name;
-  return fmt::format("{:.{}f}{}", value * unit.per_si, decimals, name);
+  return readable_to(value, e.standard_error, e.si_unit, e.written_unit);
 }
 
 std::string interval_of(const ParameterEstimate& e) { return known_to(e.low, e) + " to " + known_to(e.high, e); }
@@ -305,6 +300,7 @@ report::Document calibrate_report(const CalibrationStudy& s) {
   report::Section residuals{.id = "residuals", .title = "Residuals"};
   residuals.items = {residual_panels(s, true), residual_panels(s, false), residual_checks(s)};
   document.sections = {answer, residuals};
+  if (s.result.draws) document.sections.push_back(draws_section(*s.result.draws, s.plan.confidence));
   report::Section more{.id = "more", .title = "How sure, and what next"};
   if (s.result.model_error && !s.result.model_error->suspects.empty()) more.items.push_back(suspects_table(s));
   if (!s.result.profiles.empty()) more.items.push_back(profile_panels(s));

@@ -96,6 +96,7 @@ class CalibrateVerb : public Verb {
     options.corrections = plan.corrections;
     options.profile = plan.profile;
     options.discrepancy = plan.discrepancy;
+    options.draws = plan.draws;
     options.laws = plan.laws;
     for (const PlannedRun& c : plan.candidates) options.candidates.push_back({c.name, mechanism_with(c.settings)});
     ContentHash data;
@@ -132,8 +133,10 @@ class CalibrateVerb : public Verb {
           s << "# The calibration was interrupted: these are the values and errors where it stood, not those of its "
                "data.\n"
                "interrupted = true\n\n";
-        s << posterior_toml(problem, result.inference);
+        s << (result.draws ? posterior_toml(*result.draws, problem, "posterior.csv")
+                           : posterior_toml(problem, result.inference));
       });
+      if (result.draws) out.write("posterior.csv", [&](std::ostream& s) { s << csv_of(*result.draws); });
       write_report(out, calibrate_report(whole));
     }
     out.publish();
@@ -143,7 +146,8 @@ class CalibrateVerb : public Verb {
     if (result.interrupted) return kInterrupted;
     const bool all = std::all_of(result.inference.parameters.begin(), result.inference.parameters.end(),
                                  [](const ParameterEstimate& e) { return e.identifiable; });
-    return all && result.fit.converged ? kDone : kAnswerIsNo;
+    const bool drawn = !plan.draws || (result.draws && result.draws->settled);
+    return all && result.fit.converged && drawn ? kDone : kAnswerIsNo;
   }
 
  private:
@@ -236,9 +240,31 @@ class CalibrateVerb : public Verb {
     for (const NextTest& t : r.next_tests)
       json["next_tests"].push_back(
           {{"name", t.name}, {"d_gain", number(t.d_gain)}, {"a_ratio", number(t.a_ratio)}, {"refusal", t.refusal}});
+    json["posterior"] = draws_of(r);
     json["files"] = parameters.empty() ? Json{"summary.json"}
                                        : Json{"summary.json", "posterior.toml", "report.html", "report.json"};
+    if (r.draws) json["files"].push_back("posterior.csv");
     return json;
+  }
+
+  static Json draws_of(const CalibrationResult& r) {
+    if (!r.draws) return Json();
+    Json quantities = Json::object();
+    for (const DrawnQuantity& q : r.draws->quantities)
+      quantities[q.name] = {{"mean", number(q.mean)},         {"standard_deviation", number(q.deviation)},
+                            {"low", number(q.low)},           {"median", number(q.median)},
+                            {"high", number(q.high)},         {"r_hat", number(q.r_hat)},
+                            {"bulk_ess", number(q.bulk_ess)}, {"tail_ess", number(q.tail_ess)}};
+    return {{"draws", r.draws->values.rows()},
+            {"settled", r.draws->settled},
+            {"says", r.draws->says},
+            {"quantities", quantities},
+            {"temperatures", r.draws->beta},
+            {"acceptance", r.draws->acceptance},
+            {"swaps_rejected", r.draws->swap_rejection},
+            {"barrier", number(r.draws->barrier)},
+            {"restarts", r.draws->restarts},
+            {"evaluations", r.draws->evaluations}};
   }
 
   static Json model_error_of(const CalibrationStudy& s) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <map>
 #include <stdexcept>
 
@@ -94,6 +95,26 @@ TEST(PosteriorSampler, HasTheMomentsAndTheWeightsOfTwoModesFarApart) {
   }
   EXPECT_NEAR(first / all, 0.7, 0.014);
   EXPECT_GT(samples.restarts, 1000);
+}
+
+// The guide is off by half a width, and half as wide again: what is drawn is the exact one.
+TEST(PosteriorSampler, HasTheMomentsOfTheExactDensityWhereverItsGuideLeads) {
+  const known::NormalDensity density = correlated();
+  const known::NormalDensity guide{density.mean + 0.5 * density.covariance.diagonal().cwiseSqrt(),
+                                   2.0 * density.covariance};
+  std::atomic<long> slopes = 0;
+  const SampledDensity guided{[exact = density.log_density(), &slopes](const VecX& y, VecX& gradient) {
+                                if (gradient.size() > 0) ++slopes;
+                                VecX unused(y.size());
+                                return exact(y, gradient.size() > 0 ? gradient : unused);
+                              },
+                              guide.log_density()};
+  const PosteriorSampler sampler(guided, wide_around(density.mean, density.covariance, 5.0));
+  const PosteriorSamples samples = sampler.run({.temperatures = 10, .draws = 16000});
+  expect_moments(samples, density.mean, density.covariance);
+  EXPECT_EQ(slopes, 0);
+  // One value a step, whatever its trajectory took.
+  EXPECT_LE(samples.evaluations, 4l * 10 * (16000 + 500) + 4 * 10 * 1000);
 }
 
 TEST(PosteriorSampler, WithoutTemperaturesBetweenStaysInOneMode) {

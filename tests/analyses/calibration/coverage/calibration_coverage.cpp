@@ -9,6 +9,7 @@
 //   law      another damping law of like restitution (Hu and Guo's for Flores')
 //   masses   every mass 1 % larger or smaller
 //   lag      a sensor with a first-order lag of 0.2 ms
+//   simbody  another program altogether: Simbody, where its package is installed; scene 3-rrcpr
 // Every set draws its own truth, its own signs of what is off, and its own noise.
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,9 @@
 #include "boresight_analyses/calibration/calibrate.hpp"
 #include "boresight_analyses/calibration/rig.hpp"
 #include "boresight_analyses/threads/on_threads.hpp"
+#ifdef BORESIGHT_SIMBODY
+#include "peer.hpp"
+#endif
 
 namespace boresight {
 namespace {
@@ -100,6 +104,31 @@ MatX lagged(const MatX& x, double spacing, double tau) {
   return y;
 }
 
+// Displacements (dx, dy, dz) as Simbody has them, at these times.
+MatX simbody_readings([[maybe_unused]] const std::shared_ptr<const Mechanism>& m,
+                      [[maybe_unused]] const std::vector<double>& times) {
+#ifdef BORESIGHT_SIMBODY
+  const peers::PeerScene scene(m, m->parameters());
+  const auto peer = peers::make_simbody_peer();
+  const peers::PeerMotion motion = peer->follow(scene, {.setting = peer->proving_setting(), .keep_path = true});
+  const auto error = [&](const peers::PeerPose& pose) {
+    return Vec3(pose.p - scene.ideal().body(pose.t, m->boresight_body()).p);
+  };
+  MatX out(static_cast<Eigen::Index>(times.size()), 3);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    while (k + 2 < motion.path.size() && motion.path[k + 1].t < times[i]) ++k;
+    const peers::PeerPose &before = motion.path[k], &after = motion.path[k + 1];
+    const double share = (times[i] - before.t) / (after.t - before.t);
+    out.row(static_cast<Eigen::Index>(i)) = ((1.0 - share) * error(before) + share * error(after)).transpose();
+  }
+  return out;
+#else
+  std::printf("simbody: libsimbody-dev was not there when this was built\n");
+  std::exit(2);
+#endif
+}
+
 std::vector<double> times_of(double duration, double spacing) {
   std::vector<double> t;
   for (int i = 0; i * spacing < duration * (1.0 + 1e-9); ++i) t.push_back(std::min(i * spacing, duration));
@@ -170,7 +199,9 @@ Found one_set(const Asked& asked, const Scene& scene, int set) {
     const double spacing = 1e-3, fine = 1e-4;
     const std::vector<double> times = times_of(maker->duration(), spacing);
     MatX clean;
-    if (asked.kind == "lag") {
+    if (asked.kind == "simbody") {
+      clean = simbody_readings(maker, times);
+    } else if (asked.kind == "lag") {
       const MatX often =
           lagged(readings(rung, maker, options, times_of(maker->duration(), fine), scene.channels), fine, 2e-4);
       clean.resize(static_cast<Eigen::Index>(times.size()), often.cols());
@@ -270,7 +301,7 @@ int cover(const Asked& asked) {
 
 int main(int count, char** words) {
   boresight::Asked asked;
-  if (count < 2) return std::printf("calibration_coverage none|step|axial|law|masses|lag [--sets N] ...\n"), 2;
+  if (count < 2) return std::printf("calibration_coverage none|step|axial|law|masses|lag|simbody [--sets N] ...\n"), 2;
   asked.kind = words[1];
   for (int k = 2; k < count; ++k) {
     const std::string option = words[k];
