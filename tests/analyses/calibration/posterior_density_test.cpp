@@ -127,11 +127,11 @@ TEST(PosteriorDrawsLong, AreNormalWhereTheModelIsLinear) {
   }
 }
 
-// Prior times likelihood: without data that speak, the prior; its scale is known as the noise's is, from 180 values.
+// Prior times likelihood: without data that speak, the prior; its scale is known as the noise's is, from 90 values.
 TEST(PosteriorDrawsLong, FollowThePriorOfWhatTheDataDoNotTell) {
   const auto mechanism = std::make_shared<const Mechanism>(
       read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/altaz-gimbal/altaz-gimbal.toml", std::vector<Setting>{}));
-  const poses::Bench bench(mechanism, {"error.IA"}, {6, 7, 8}, 60);
+  const poses::Bench bench(mechanism, {"error.IA"}, {6, 7, 8}, 30);
   CalibrationProblem problem = bench.problem({1e-2, 1e-2, 1e-2}, 5);
   problem.parameters[0].has_prior = true;
   problem.parameters[0].size = 1e-4;
@@ -157,10 +157,10 @@ TEST(PosteriorDraws, AreWrittenAsRowsThatAStudyReads) {
 
 // Of motions: where a fit's parabola holds, draws and fit agree; and the truth lies among the draws.
 TEST(PosteriorDrawsLong, AgreeWithAFitThatIsSure) {
-  const four_bar::Bench bench({2.0, 2.4, 2.8}, 0.2, false);
+  const four_bar::Bench bench({2.0, 2.6}, 0.12, false);
   CalibrationProblem to_fit = bench.problem({}, four_bar::kFour);
   const Fitted fitted(std::move(to_fit), false);
-  const std::optional<PosteriorDraws> drawn = draws_of(fitted, {});
+  const std::optional<PosteriorDraws> drawn = draws_of(fitted, {.draws = 1200});
   ASSERT_TRUE(drawn);
   EXPECT_TRUE(drawn->settled) << drawn->says;
   for (const DrawnQuantity& q : drawn->quantities) {
