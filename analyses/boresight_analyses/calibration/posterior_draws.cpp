@@ -108,7 +108,7 @@ std::optional<PosteriorDraws> posterior_draws(
     const std::function<bool(double share, const std::string& estimate)>& progress) {
   const NormalReference reference{density.mean(), reference_covariance(density, spread, options.reach)};
   const MatX known = reference_covariance(density, MatX::Zero(density.size(), density.size()), 1.0);
-  // Slopes of a motion take ten times as long as the motion: the fit's parabola leads the trajectories.
+  // Slopes of a motion take longer than the motion: the fit's parabola leads the trajectories.
   const MatX information = known.ldlt().solve(MatX::Identity(known.rows(), known.cols()));
   const PosteriorSampler sampler(
       SampledDensity{[&](const VecX& y, VecX& gradient) { return density.log_density(y, gradient); },
