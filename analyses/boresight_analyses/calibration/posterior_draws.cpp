@@ -8,6 +8,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/posterior/chain_diagnostics.hpp"
 #include "boresight_analyses/posterior/sample_posterior.hpp"
+#include "boresight_analyses/runs/sample_record.hpp"
 #include "boresight_analyses/threads/on_threads.hpp"
 
 namespace boresight {
@@ -143,6 +144,8 @@ std::optional<PosteriorDraws> posterior_draws(
   PosteriorSamples sampled;
   try {
     sampled = sampler.run(sampling, kept);
+  } catch (const StoreFailed&) {  // a full disk is no fault of the density's
+    throw;
   } catch (const std::runtime_error& none) {
     throw ComputationError(std::string("draws of the posterior: ") + none.what());
   }
