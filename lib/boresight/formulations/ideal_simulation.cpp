@@ -83,6 +83,10 @@ void set_starting_rates(const Mechanism& mechanism, const std::vector<TimeValue>
     A.row(row) = freedom_row(mechanism, rate);
     b[row++] = rate.rate;
   }
+  if (b.isZero(0.0)) {  // at rest: no need to solve for the least of all motions
+    for (BodyMotion& body : state.bodies) body.v = body.w = Vec3::Zero();
+    return;
+  }
   // Lengths in units of the mechanism's own, so that its size is of no account.
   const double length = mechanism.characteristic_length();
   for (Eigen::Index k = 0; k < A.rows(); ++k)

@@ -86,7 +86,7 @@ class TreeFormulation final : public Formulation {
     placed_time_ = kNever;
     factored_at_ = nowhere();
     // The tree's own rows are independent of each other: what the whole mechanism's lack in rank its loops lack.
-    loops_.set_redundant(rows_are_redundant(mechanism_, drives_, clearance_rows(), ideal));
+    loops_.set_redundant(loops_.blocks() > 0 && rows_are_redundant(mechanism_, drives_, clearance_rows(), ideal));
   }
 
   void place_bodies(const std::vector<BodyMotion>& bodies, VecX& y) override {

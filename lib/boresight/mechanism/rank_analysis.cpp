@@ -1,7 +1,11 @@
 #include "boresight/mechanism/rank_analysis.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <numeric>
+#include <vector>
 
 #include "boresight/math/singular_values.hpp"
 
@@ -18,6 +22,46 @@ std::string direction(Vec3 v) {
   const auto clean = [](double x) { return std::abs(x) < 5e-4 ? 0.0 : x; };
   std::snprintf(text, sizeof text, "(%.3g, %.3g, %.3g)", clean(v.x()), clean(v.y()), clean(v.z()));
   return text;
+}
+
+// For each body the first one of its group: bodies that no row couples, directly or by others, are in different groups.
+std::vector<int> coupled_groups(const MatX& J) {
+  std::vector<int> first(J.cols() / 6);
+  std::iota(first.begin(), first.end(), 0);
+  const auto root = [&](int b) {
+    while (first[b] != b) b = first[b] = first[first[b]];
+    return b;
+  };
+  for (int row = 0; row < J.rows(); ++row) {
+    int one = -1;
+    for (int b = 0; b < static_cast<int>(first.size()); ++b) {
+      if (J.block(row, 6 * b, 1, 6).isZero(0.0)) continue;
+      if (one >= 0) first[std::max(root(one), root(b))] = std::min(root(one), root(b));
+      one = b;
+    }
+  }
+  for (int b = 0; b < static_cast<int>(first.size()); ++b) first[b] = root(b);
+  return first;
+}
+
+// The singular values of J, falling: those of its groups' blocks together, each for the cube of its own size alone.
+VecX singular_values_by_group(const MatX& J) {
+  const std::vector<int> first = coupled_groups(J);
+  std::vector<double> all;
+  for (int g = 0; g < static_cast<int>(first.size()); ++g) {
+    std::vector<Eigen::Index> rows, columns;
+    for (int b = g; b < static_cast<int>(first.size()); ++b)
+      for (int i = 0; first[b] == g && i < 6; ++i) columns.push_back(6 * b + i);
+    if (columns.empty()) continue;
+    for (Eigen::Index row = 0; row < J.rows(); ++row)
+      if (!J(row, columns).isZero(0.0)) rows.push_back(row);
+    if (rows.empty()) continue;
+    const VecX sigma = singular_values(J(rows, columns));
+    all.insert(all.end(), sigma.begin(), sigma.end());
+  }
+  all.resize(std::min(J.rows(), J.cols()), 0.0);
+  std::sort(all.begin(), all.end(), std::greater<>());
+  return Eigen::Map<const VecX>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
 }  // namespace
@@ -49,7 +93,8 @@ RankAnalysis analyse_rank(const Mechanism& mechanism, const ConstraintSystem& ev
   result.rows = static_cast<int>(J.rows());
   result.columns = static_cast<int>(J.cols());
   if (J.rows() == 0) return result;
-  const SingularValues svd = with_motion ? singular_decomposition(J) : SingularValues{singular_values(J), MatX()};
+  const SingularValues svd =
+      with_motion ? singular_decomposition(J) : SingularValues{singular_values_by_group(J), MatX()};
   const VecX& sigma = svd.values;
   result.largest = sigma[0];
   for (int i = 0; i < sigma.size(); ++i) result.rank += sigma[i] > kRankTolerance * result.largest;

@@ -1,0 +1,78 @@
+// The rank of a mechanism's rows, group of coupled bodies by group.
+#include "boresight/mechanism/rank_analysis.hpp"
+
+#include <gtest/gtest.h>
+
+#include "boresight/io/mechanism_file.hpp"
+
+namespace boresight {
+namespace rank_analysis_test {
+
+MechanismDescription example(const std::string& name) {
+  return read_mechanism(BORESIGHT_EXAMPLES "/" + name + "/" + name + ".toml");
+}
+
+// A scene and `more` copies of it, which nothing couples but the ground: their bodies lie mixed.
+MechanismDescription several(const MechanismDescription& one, int more) {
+  MechanismDescription all;
+  const int copies = more + 1, bodies = static_cast<int>(one.bodies.size());
+  for (int b = 0; b < bodies; ++b)
+    for (int c = 0; c < copies; ++c) {
+      all.bodies.push_back(one.bodies[b]);
+      all.bodies.back().name += std::to_string(c);
+      if (c > 0) all.bodies.back().boresight.reset();
+    }
+  for (int c = 0; c < copies; ++c)
+    for (JointDescription joint : one.joints) {
+      joint.name += std::to_string(c);
+      if (joint.first != kGround) joint.first = copies * joint.first + c;
+      if (joint.second != kGround) joint.second = copies * joint.second + c;
+      all.joints.push_back(joint);
+    }
+  return all;
+}
+
+RankAnalysis at_home(const MechanismDescription& m, MatX* scaled = nullptr) {
+  const Mechanism mechanism(m);
+  std::vector<TimeValue> laws(mechanism.joints());
+  ConstraintSystem system(mechanism, {.clearance = ClearanceRows::closed});
+  std::vector<BodyMotion> bodies(mechanism.bodies());
+  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
+    bodies[b].p = m.bodies[b].center_of_mass;
+    bodies[b].R = m.bodies[b].axes;
+  }
+  system.evaluate(bodies, laws);
+  if (scaled) *scaled = scaled_rows(system.dense_jacobian(), mechanism.characteristic_length());
+  return analyse_rank(mechanism, system, false);
+}
+
+TEST(RankAnalysis, OfSceneBesideSceneIsThatOfEach) {
+  for (const char* scene : {"four-bar", "3-rrcpr", "hexapod", "bricard", "altaz-gimbal"}) {
+    SCOPED_TRACE(scene);
+    MechanismDescription one = example(scene);
+    for (JointDescription& joint : one.joints) joint.driven = false;
+    one = several(one, 0);
+    const RankAnalysis alone = at_home(one), threefold = at_home(several(one, 2));
+    EXPECT_EQ(threefold.rank, 3 * alone.rank);
+    EXPECT_EQ(threefold.rows, 3 * alone.rows);
+    EXPECT_EQ(threefold.columns, 3 * alone.columns);
+  }
+}
+
+TEST(RankAnalysis, GroupByGroupIsThatOfTheWholeMatrix) {
+  for (const char* scene : {"four-bar", "3-rrcpr", "bricard", "hexapod", "free-body"}) {
+    SCOPED_TRACE(scene);
+    MatX J;
+    const RankAnalysis grouped = at_home(several(example(scene), 1), &J);
+    if (J.rows() == 0) continue;
+    const VecX sigma = Eigen::JacobiSVD<MatX>(J).singularValues();
+    int rank = 0;
+    for (const double s : sigma) rank += s > kRankTolerance * sigma[0];
+    EXPECT_EQ(grouped.rank, rank);
+    EXPECT_NEAR(grouped.largest, sigma[0], 1e-13 * sigma[0]);
+    EXPECT_NEAR(grouped.weakest, J.rows() >= J.cols() ? sigma[J.cols() - 1] : 0.0, 1e-13 * sigma[0]);
+  }
+}
+
+}  // namespace rank_analysis_test
+}  // namespace boresight
