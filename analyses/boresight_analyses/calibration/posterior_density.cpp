@@ -64,7 +64,6 @@ PosteriorDensity::PosteriorDensity(const CalibrationProblem& problem, const FitR
 
   windows_.resize(fit.windows.size());
   std::vector<MatX> A(windows_.size()), F(windows_.size()), D(windows_.size());
-  std::vector<VecX> r(windows_.size()), slope(windows_.size());
   std::vector<WindowResiduals> at(windows_.size());
   const auto on_windows = [&](const std::function<void(std::size_t)>& work) {
     for_each_on_threads(windows_.size(), jobs, work);
@@ -73,13 +72,14 @@ PosteriorDensity::PosteriorDensity(const CalibrationProblem& problem, const FitR
     windows_[k].window = fit.windows[k];
     windows_[k].state = fit.states[k];
     problem_.evaluate(problem_.windows[fit.windows[k]], fitted_, fit.states[k], true, at[k]);
-    r[k] = at[k].r.unaryExpr([&](double x) { return problem_.loss.residual(x); });
-    slope[k] = at[k].r.unaryExpr([&](double x) { return problem_.loss.slope(x); });
-    A[k] = slope[k].asDiagonal() * at[k].by_global(Eigen::all, sampled_);
-    F[k] = slope[k].asDiagonal() * at[k].by_global.middleCols(problem_.bias_column(), flat_);
+    windows_[k].r_fit = at[k].r;
+    windows_[k].f_fit = at[k].r.unaryExpr([&](double x) { return problem_.loss.residual(x); });
+    windows_[k].slope = at[k].r.unaryExpr([&](double x) { return problem_.loss.slope(x); });
+    A[k] = windows_[k].slope.asDiagonal() * at[k].by_global(Eigen::all, sampled_);
+    F[k] = windows_[k].slope.asDiagonal() * at[k].by_global.middleCols(problem_.bias_column(), flat_);
     D[k].resize(at[k].r.size(), suspects_);
     for (Eigen::Index s = 0; s < suspects_; ++s)
-      D[k].col(s) = slope[k].cwiseProduct(suspects[static_cast<std::size_t>(s)].change[k]);
+      D[k].col(s) = windows_[k].slope.cwiseProduct(suspects[static_cast<std::size_t>(s)].change[k]);
   });
   VecX ridge = known_;
   for (int k = 0; k < size(); ++k)
@@ -95,9 +95,10 @@ PosteriorDensity::PosteriorDensity(const CalibrationProblem& problem, const FitR
   }
   std::vector<ReducedWindow> full(windows_.size());
   on_windows([&](std::size_t k) {
-    MatX Z(r[k].size(), size() + flat_ + suspects_);
+    MatX Z(at[k].r.size(), size() + flat_ + suspects_);
     Z << A[k], F[k], D[k] - A[k] * mimics_;
-    full[k] = reduced_window(problem_, problem_.windows[windows_[k].window], fitted_, at[k], Z, r[k], slope[k]);
+    full[k] = reduced_window(problem_, problem_.windows[windows_[k].window], fitted_, at[k], Z, windows_[k].f_fit,
+                             windows_[k].slope);
     const Eigen::Index linear = flat_ + suspects_;
     windows_[k].X = Z.rightCols(linear);
     windows_[k].reduced = full[k];
@@ -160,10 +161,8 @@ bool PosteriorDensity::weigh(const VecX& y, bool slopes, Weighed& out) const {
       return false;
     }
     if (!at.r.allFinite()) return false;
-    out.r.push_back(at.r.unaryExpr([&](double x) { return problem_.loss.residual(x); }));
-    if (slopes)
-      out.J.push_back(at.r.unaryExpr([&](double x) { return problem_.loss.slope(x); }).asDiagonal() *
-                      at.by_global(Eigen::all, sampled_));
+    out.r.push_back(placed.f(at.r));
+    if (slopes) out.J.push_back(placed.slope.asDiagonal() * at.by_global(Eigen::all, sampled_));
     out.reduced.push_back(placed.reduced);
     take_residuals(placed.X, out.r.back(), out.reduced.back());
   }

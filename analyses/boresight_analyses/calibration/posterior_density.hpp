@@ -9,8 +9,13 @@
 //   -2 log p(theta | q) = log det V + log det (X' V^-1 X + P) + (N - F) log RSS(q, theta) / D,   V = 1 + q^2 B B'
 //
 // (Zellner 1971, An introduction to Bayesian inference in econometrics, section 3.1, for b, c and s), summed over q; RSS has the priors in
-// it. F, B and D are those at the fit; f is the residual as the loss has it; D, Birge's ratio squared, flattens what runs contradict each
-// other by. Priors: those of the study; without one, any coordinate between the bounds is as probable as any other.
+// it. F, B and D are those at the fit. f is the residual as the loss has it there, and straight from there on,
+//
+//   f(r) = f(r_fit) + f'(r_fit) (r - r_fit):
+//
+// what stands out of the fit counts less wherever theta goes, and no more than that does. Were the loss taken anew at each theta, it would
+// flatten the noise wherever the motion is far off, and b, c and w take the rest: the farther off, the more probable. D, Birge's ratio
+// squared, flattens what runs contradict each other by. Priors: those of the study; without one, any coordinate between the bounds is as probable as any other.
 //
 // A suspect moves the motion as parameters do, and by more than a straight line follows: what parameters can mimic of it, D = A S + rest
 // with A = dr / d theta, is taken as a shift of these,
@@ -60,7 +65,9 @@ class PosteriorDensity {
   struct PlacedWindow {
     int window = 0;
     VecX state;
-    MatX X;  // F, then the suspects' rests
+    VecX r_fit, f_fit, slope;  // f' there
+    MatX X;                    // F, then the suspects' rests
+    VecX f(const VecX& r) const { return f_fit + slope.cwiseProduct(r - r_fit); }
     ReducedWindow reduced;
   };
   struct Size {                    // of a jump

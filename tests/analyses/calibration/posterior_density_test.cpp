@@ -70,7 +70,8 @@ TEST(PosteriorDensity, HasTheGradientOfItsLogarithm) {
     const VecX step = 0.01 * error[k] * VecX::Unit(5, k);
     const double slope =
         (density.log_density(y + step, unused) - density.log_density(y - step, unused)) / (0.02 * error[k]);
-    EXPECT_NEAR(gradient[k] * error[k], slope * error[k], 0.02 * std::abs(slope * error[k]) + 0.01)
+    // Slopes of a motion are off by a hundredth, and a component may be a small sum of large parts.
+    EXPECT_NEAR(gradient[k] * error[k], slope * error[k], 0.01 * gradient.cwiseProduct(error).norm())
         << "of "
         << fitted.problem.global_names()[static_cast<std::size_t>(density.sampled()[static_cast<std::size_t>(k)])];
   }
@@ -166,6 +167,32 @@ TEST(PosteriorDrawsLong, AgreeWithAFitThatIsSure) {
   for (const DrawnQuantity& q : drawn->quantities) {
     std::printf("  %s: %.4f of the truth, deviation %.3g %%, R-hat %.4f, worth %.0f\n", q.name.c_str(),
                 q.mean / bench.truth(q.name), 100.0 * q.deviation / q.mean, q.r_hat, q.bulk_ess);
+    EXPECT_LT(std::abs(q.mean - bench.truth(q.name)), 4.0 * q.deviation) << q.name;
+  }
+}
+
+// A damping law in doubt moves restitution far beyond where a straight line holds: draws that take it for one are too narrow. And what suspects
+// can take of a motion that is far off must leave the noise as large as it is, or the far off is the more probable.
+TEST(PosteriorDrawsLong, AreAsWideAsTheFitWhereALawIsInDoubt) {
+  const four_bar::Bench bench({2.0, 2.6}, 0.12, false);
+  CalibrationOptions options;
+  options.jobs = 2;
+  options.starts = 1;
+  options.corrections = 0;
+  options.draws = DrawOptions{.draws = 1600};
+  CalibrationProblem to_fit = four_parameters(bench);
+  const CalibrationResult result = calibrate(to_fit, options);
+  ASSERT_TRUE(result.draws && result.model_error);
+  ASSERT_FALSE(result.model_error->suspects.empty());
+  ASSERT_EQ(result.draws->quantities.size(), 5u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const ParameterEstimate& e = result.inference.parameters[k];
+    const DrawnQuantity& q = result.draws->quantities[k];
+    std::printf("  %s: drawn %.4g +- %.2g, fitted %.4g +- %.2g, worth %.0f\n", e.name.c_str(), q.mean, q.deviation,
+                e.value, e.standard_error, q.bulk_ess);
+    EXPECT_LT(q.r_hat, 1.05) << q.name;
+    EXPECT_NEAR(q.mean, e.value, 0.5 * e.standard_error) << q.name;
+    EXPECT_NEAR(q.deviation / e.standard_error, 1.0, 0.3) << q.name;
     EXPECT_LT(std::abs(q.mean - bench.truth(q.name)), 4.0 * q.deviation) << q.name;
   }
 }
