@@ -19,7 +19,7 @@ function chromiumPath() {
   return places.flatMap((folder) => ["chromium", "chromium-browser", "google-chrome"].map((name) => path.join(folder, name))).find((file) => fs.existsSync(file));
 }
 
-// One line for each kind of report; antenna is what `boresight new` writes.
+// One line for each kind of report, and some more of it, named kind-what; antenna is what `boresight new` writes. As small as their charts allow.
 const scene = path.join(examples, "3-rrcpr");
 const commands = {
   check: ["check", "antenna/mechanism.toml"],
@@ -39,7 +39,7 @@ const commands = {
   match: ["match", "antenna/match.toml"],
   allocate: ["allocate", "antenna/allocate.toml"],
   budget: ["budget", "antenna/budget.toml"],
-  "budget-errors": ["budget", path.join(scene, "tolerances-budget.toml"), "--rung", "quasistatic"],
+  "budget-errors": ["budget", "errors-budget.toml", "--rung", "quasistatic"],
   calibrate: ["calibrate", "antenna/calibrate.toml"],
   laws: ["laws"],
 };
@@ -62,6 +62,8 @@ const study = fs.readFileSync(path.join(work, "antenna", "sensitivity.toml"), "u
 const correlation = '[[correlation]]\nparameters = ["clearance.elevation.radial", "payload.mass"]\ncoefficient = 0.4\n';
 fs.writeFileSync(path.join(work, "antenna", "morris.toml"), `${study}[sensitivity]\nmethod = "morris"\nsamples = 16\n`);
 fs.writeFileSync(path.join(work, "antenna", "shapley.toml"), `${study}${correlation}[sensitivity]\nmethod = "shapley"\nsamples = 64\n`);
+const errors = fs.readFileSync(path.join(scene, "tolerances-budget.toml"), "utf8");
+fs.writeFileSync(path.join(work, "errors-budget.toml"), errors.replace('"tolerances.toml"', JSON.stringify(path.join(scene, "tolerances.toml"))).replace("members = 200", "members = 40").replace("attribution = 40", "attribution = 10"));
 const reports = [];
 for (const [name, words] of Object.entries(commands)) {
   for (const before of examplesOf(words[0]).slice(0, -1)) call(...before);
@@ -105,8 +107,9 @@ async function look(name, report, { width, dark }) {
   for (const one of [...new Set(seen.cut)]) expect(false, `${label}: ${one}`);
   for (const one of seen.unsaid) expect(false, `${label}: says '${one}'`);
 
-  await page.evaluate(axe);
-  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  // Half of the time: of a kind's further reports, which have the same colours, in one of the two looks.
+  if (width > 1000 || !name.includes("-")) await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => window.axe?.run(document, { resultTypes: ["violations"] }) ?? { violations: [] });
   for (const one of violations)
     expect(false, `${label}: ${one.id} (${one.impact}), ${one.nodes.length} times: ${one.nodes[0].html.slice(0, 120)} ${one.nodes[0].any.map((check) => check.message).join(" ").slice(0, 160)}`);
 
