@@ -24,7 +24,7 @@ const scene = path.join(examples, "3-rrcpr");
 const commands = {
   check: ["check", "antenna/mechanism.toml"],
   run: ["run", "antenna/mechanism.toml", "--compare"],
-  "run-nonlinear": ["run", path.join(examples, "flores-slider-crank", "flores-slider-crank.toml"), "--rung", "perturbation", "--set", "motion.duration=2.4s", "--nonlinear", "12 ms", "--sample", "0.2 ms"],
+  "run-nonlinear": ["run", path.join(examples, "flores-slider-crank", "flores-slider-crank.toml"), "--rung", "perturbation", "--set", "motion.duration=0.6s", "--nonlinear", "12 ms", "--sample", "0.2 ms"],
   "run-3-rrcpr": ["run", path.join(scene, "3-rrcpr.toml"), "--rung", "perturbation"],
   "run-errors": ["run", path.join(scene, "tolerances.toml"), "--rung", "perturbation", "--set", "error.*.length=20um", "--set", "error.A3.zero=0.1mrad", "--set", "error.rod1.warming=5K"],
   "run-errors-exactly": ["run", path.join(examples, "altaz-gimbal", "altaz-gimbal.toml"), "--set", "error.*=0.1mrad"],
