@@ -1,6 +1,8 @@
-# boresight_room(NAME [LINKS target...] [PRIVATE target...] [INCLUDES folder...]): the library boresight::NAME from the .cpp and .hpp files of the
+# boresight_room(NAME [INLINED] [LINKS target...] [PRIVATE target...] [INCLUDES folder...]): the library boresight::NAME from the .cpp and .hpp files of the
 # folder that calls for it. A header is included by its path below lib/ or analyses/, in this tree as after installation. LINKS and PRIVATE name
-# rooms (math) or imported targets (Eigen3::Eigen); INCLUDES is where headers of other libraries lie that only the .cpp files see. The global
+# rooms (math) or imported targets (Eigen3::Eigen); INCLUDES is where headers of other libraries lie that only the .cpp files see. INLINED: Eigen's
+# operations are inlined whatever GCC thinks that they cost, where calls of four additions are a large part of what is spent (a fit by slopes takes a
+# quarter less); so these files take no precompiled headers, with which GCC 12 keeps Eigen as it was. The global
 # property BORESIGHT_ROOMS_OF_analyses (or _lib) names all of them.
 function(boresight_rooms_of variable)
   set(found)
@@ -14,14 +16,18 @@ function(boresight_rooms_of variable)
 endfunction()
 
 function(boresight_room name)
-  cmake_parse_arguments(PARSE_ARGV 1 room "" "" "LINKS;PRIVATE;INCLUDES")
+  cmake_parse_arguments(PARSE_ARGV 1 room "INLINED" "" "LINKS;PRIVATE;INCLUDES")
   set(target boresight_${name})
   set(folder ${CMAKE_CURRENT_SOURCE_DIR}/${BORESIGHT_ROOMS}/${name})
   file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*/*.cpp)
   file(GLOB headers CONFIGURE_DEPENDS ${folder}/*.hpp ${folder}/*/*.hpp)
   if(sources)
     add_library(${target} STATIC ${sources})
-    boresight_precompiled(${target} headers_of_rooms)
+    if(room_INLINED AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+      target_compile_definitions(${target} PRIVATE "EIGEN_STRONG_INLINE=__attribute__((always_inline)) inline")
+    else()
+      boresight_precompiled(${target} headers_of_rooms)
+    endif()
     set(visibility PUBLIC)
     boresight_rooms_of(links ${room_PRIVATE})
     target_link_libraries(${target} PRIVATE ${links})
