@@ -55,10 +55,11 @@ std::vector<TableCommand> commands_on_errors() {
              EXPECT_GT(square, 0.7 * sum);
              EXPECT_THAT(left.file("report.html"), HasSubstr("Tornado"));
            },
-       .edits = {{"3-rrcpr/tolerances-study.toml", "samples = 64", "samples = 32"}}},
+       .edits = {{"3-rrcpr/tolerances-study.toml", "samples = 64", "samples = 16"}}},
       {.text = "boresight montecarlo examples/3-rrcpr/tolerances-study.toml",
        .shorter = {"--rung", "quasistatic", "--set", "motion.duration=20ms"},
-       .claims = [](const Left& left) { EXPECT_TRUE(left.summary["requirement"]["met"].get<bool>()); }},
+       .claims = [](const Left& left) { EXPECT_TRUE(left.summary["requirement"]["met"].get<bool>()); },
+       .edits = {{"3-rrcpr/tolerances-study.toml", "samples = 1000", "samples = 400"}}},
       {.text = "boresight allocate examples/3-rrcpr/allocate-tolerances.toml",
        .shorter = {"--set", "motion.duration=4ms"},
        .claims =
