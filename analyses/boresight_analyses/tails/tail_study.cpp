@@ -48,14 +48,29 @@ TailStudy run_tail_study(const StudyRun& run, const MonteCarloPlan& plan,
   study.leaves_out = exact_level.model->leaves_out();
   study.earlier = exact_level.store->earlier();
 
-  const std::unique_ptr<Stage> stage = run.stage(asked.budget, "s of CPU");
-  double spent = 0.0;
-  std::string doing = "finding the excess";
+  ProposalOptions proposal;
+  proposal.subset.seed = plan.design.seed;
+  // The search is no part of the budget, and how long it takes hangs on how rare the excess turns out to be: as rare as is required to begin
+  // with, and twice as long wherever that is over.
+  const double levels = std::ceil(std::log(1.0 - requirement.probability) / std::log(proposal.subset.level));
+  double points = std::max(levels, 1.0) * proposal.subset.samples + static_cast<double>(asked.pilot);
+  std::unique_ptr<Stage> stage = run.stage(points, "points, about");
+  double spent = 0.0, found = 0.0, before = 0.0;
+  bool searching = true;
   const MethodOptions options{.jobs = run.options().jobs,
                               .progress =
                                   [&](double cpu) {
                                     spent += cpu;
-                                    stage->update(std::min(spent, asked.budget), doing);
+                                    if (!searching) {
+                                      stage->update(std::min(spent, asked.budget), "measuring it");
+                                      return;
+                                    }
+                                    if (++found > points) {
+                                      before = points;
+                                      points *= 2.0;
+                                      stage = run.stage(points, "points, about");
+                                    }
+                                    stage->update(before, found, "finding the excess");
                                   },
                               .interrupted = run.options().interrupted,
                               .failed =
@@ -67,8 +82,6 @@ TailStudy run_tail_study(const StudyRun& run, const MonteCarloPlan& plan,
       on_normal_space(*cheap_level.model, plan.inputs, options, cheap_level.seconds, cheap_level.store.get());
   const BatchModel exact =
       on_normal_space(*exact_level.model, plan.inputs, options, exact_level.seconds, exact_level.store.get());
-  ProposalOptions proposal;
-  proposal.subset.seed = plan.design.seed;
   try {
     const SamplingDesign design(plan.design, dimensions);
     const auto cost_of = [&](const Level& level) {
@@ -82,7 +95,8 @@ TailStudy run_tail_study(const StudyRun& run, const MonteCarloPlan& plan,
     stage->clear();
     if (planned) planned(study.pilot);
     spent = 0.0;
-    doing = "measuring it";
+    searching = false;
+    stage = run.stage(asked.budget, "s of CPU");
     const TailOptions tail{.confidence = 2.0 * requirement.confidence - 1.0, .seed = plan.design.seed};
     const TwoLevelPlan& pilot = study.pilot;
     study.estimate =
