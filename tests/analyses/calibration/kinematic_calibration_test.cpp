@@ -120,7 +120,7 @@ void expect_coverage(int sets) {
 
 TEST(KinematicCalibration, NamesWhatFiftyPosesOfTheDefaultMechanismDoNotTell) { expect_coverage(10); }
 
-TEST(KinematicCalibrationLong, ThirtyErrorsAreInsideTheirIntervalsAsOftenAsStated) { expect_coverage(50); }
+TEST(KinematicCalibrationLong, ThirtyErrorsAreInsideTheirIntervalsAsOftenAsStated) { expect_coverage(100); }
 
 }  // namespace kinematic_calibration_test
 }  // namespace boresight

@@ -19,7 +19,7 @@ function chromiumPath() {
   return places.flatMap((folder) => ["chromium", "chromium-browser", "google-chrome"].map((name) => path.join(folder, name))).find((file) => fs.existsSync(file));
 }
 
-// One line for each kind of report, and some more of it, named kind-what; antenna is what `boresight new` writes. As small as their charts allow.
+// One line for each kind of report; antenna is what `boresight new` writes. As small as their charts allow.
 const scene = path.join(examples, "3-rrcpr");
 const commands = {
   check: ["check", "antenna/mechanism.toml"],
@@ -107,9 +107,8 @@ async function look(name, report, { width, dark }) {
   for (const one of [...new Set(seen.cut)]) expect(false, `${label}: ${one}`);
   for (const one of seen.unsaid) expect(false, `${label}: says '${one}'`);
 
-  // Half of the time: of a kind's further reports, which have the same colours, in one of the two looks.
-  if (width > 1000 || !name.includes("-")) await page.evaluate(axe);
-  const { violations } = await page.evaluate(() => window.axe?.run(document, { resultTypes: ["violations"] }) ?? { violations: [] });
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
   for (const one of violations)
     expect(false, `${label}: ${one.id} (${one.impact}), ${one.nodes.length} times: ${one.nodes[0].html.slice(0, 120)} ${one.nodes[0].any.map((check) => check.message).join(" ").slice(0, 160)}`);
 
