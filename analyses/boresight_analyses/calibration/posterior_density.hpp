@@ -15,7 +15,8 @@
 //
 // what stands out of the fit counts less wherever theta goes, and no more than that does. Were the loss taken anew at each theta, it would
 // flatten the noise wherever the motion is far off, and b, c and w take the rest: the farther off, the more probable. D, Birge's ratio
-// squared, flattens what runs contradict each other by. Priors: those of the study; without one, any coordinate between the bounds is as probable as any other.
+// squared, flattens what runs contradict each other by. Priors: those of the study; without one, any coordinate between the bounds is as
+// probable as any other.
 //
 // A suspect moves the motion as parameters do, and by more than a straight line follows: what parameters can mimic of it, D = A S + rest
 // with A = dr / d theta, is taken as a shift of these,
@@ -67,8 +68,8 @@ class PosteriorDensity {
     VecX state;
     VecX r_fit, f_fit, slope;  // f' there
     MatX X;                    // F, then the suspects' rests
-    VecX f(const VecX& r) const { return f_fit + slope.cwiseProduct(r - r_fit); }
     ReducedWindow reduced;
+    VecX f(const VecX& r) const { return f_fit + slope.cwiseProduct(r - r_fit); }
   };
   struct Size {                    // of a jump
     double q = 0.0, weight = 0.0;  // weight: the logarithm of what does not hang on y
