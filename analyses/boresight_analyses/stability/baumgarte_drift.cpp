@@ -29,8 +29,7 @@ BaumgarteDrift::BaumgarteDrift(const Mechanism& mechanism, const IdealMotion& id
   ideal.drive_laws(0.0, laws);
   ConstraintSystem rows(mechanism, {.clearance = ClearanceRows::open});
   rows.evaluate(start_.bodies, laws);
-  const RankAnalysis rank = analyse_rank(mechanism, rows, false);
-  redundant_ = rank.rank < rank.rows;
+  redundant_ = constraint_rank(mechanism, rows) < rows.row_count();
   // The displacement of one body along one axis that violates one row most, over all of them. Rows of driven
   // freedoms and of clearances are left out: the first move by their law, the second are open.
   double most = 0.0;

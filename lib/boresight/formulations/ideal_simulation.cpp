@@ -294,8 +294,7 @@ int undriven_freedoms(const Mechanism& mechanism) {
   std::vector<TimeValue> laws(mechanism.joints());
   ConstraintSystem system(mechanism, {.clearance = ClearanceRows::closed});
   system.evaluate(home_state(mechanism).bodies, laws);
-  const RankAnalysis rank = analyse_rank(mechanism, system, false);
-  return static_cast<int>(rank.columns - rank.rank);
+  return 6 * mechanism.bodies() - constraint_rank(mechanism, system);
 }
 
 bool is_kinematic(const Mechanism& mechanism) {

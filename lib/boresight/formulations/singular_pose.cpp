@@ -32,13 +32,13 @@ bool rows_are_redundant(const Mechanism& mechanism, const IdealMotion* drives, C
     rows.evaluate(at.bodies, laws);
   };
   evaluate(here);
-  const RankAnalysis rank = analyse_rank(mechanism, rows, false);
-  if (rank.rank == rank.rows) return false;
+  const int rank = constraint_rank(mechanism, rows);
+  if (rank == rows.row_count()) return false;
   if (drives) {
     IdealState elsewhere;
     drives->state(generic_instant(here.t, drives->duration()), elsewhere);
     evaluate(elsewhere);
-    if (analyse_rank(mechanism, rows, false).rank > rank.rank) {
+    if (constraint_rank(mechanism, rows) > rank) {
       evaluate(here);
       throw SingularPose(mechanism, rows, here.t);
     }

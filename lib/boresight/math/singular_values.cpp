@@ -1,6 +1,9 @@
 #include "boresight/math/singular_values.hpp"
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
 
 namespace boresight {
 
@@ -10,5 +13,19 @@ SingularValues singular_decomposition(const MatX& A) {
 }
 
 VecX singular_values(const MatX& A) { return Eigen::BDCSVD<MatX>(A).singularValues(); }
+
+RankBounds rank_bounds(const MatX& A, double threshold) {
+  const Eigen::ColPivHouseholderQR<MatX> qr(A);
+  const MatX& R = qr.matrixQR();
+  const int most = static_cast<int>(std::min(R.rows(), R.cols()));
+  RankBounds bounds;
+  while (bounds.rank < most && std::abs(R(bounds.rank, bounds.rank)) > threshold) ++bounds.rank;
+  const int k = bounds.rank;
+  const MatX inverse = R.topLeftCorner(k, k).triangularView<Eigen::Upper>().solve(MatX::Identity(k, k));
+  bounds.kept = 1.0 / inverse.norm();
+  // Below the diagonal stand the reflections.
+  bounds.dropped = R.block(k, k, most - k, R.cols() - k).triangularView<Eigen::Upper>().toDenseMatrix().norm();
+  return bounds;
+}
 
 }  // namespace boresight

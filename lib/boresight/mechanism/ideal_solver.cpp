@@ -101,7 +101,7 @@ void IdealSolver::laws_at(double t, double scale) {
 bool IdealSolver::factor() {
   if (system_.factor(weight_)) return true;
   if (system_.redundant()) return false;
-  if (analyse_rank(mechanism_, system_, false).rank == system_.row_count()) return false;
+  if (constraint_rank(mechanism_, system_) == system_.row_count()) return false;
   system_.set_redundant(true);
   return system_.factor(weight_);
 }

@@ -44,10 +44,10 @@ std::vector<int> coupled_groups(const MatX& J) {
   return first;
 }
 
-// The singular values of J, falling: those of its groups' blocks together, each for the cube of its own size alone.
-VecX singular_values_by_group(const MatX& J) {
+// The blocks of J that belong to its groups, without rows and columns of zeros only.
+std::vector<MatX> blocks_by_group(const MatX& J) {
   const std::vector<int> first = coupled_groups(J);
-  std::vector<double> all;
+  std::vector<MatX> blocks;
   for (int g = 0; g < static_cast<int>(first.size()); ++g) {
     std::vector<Eigen::Index> rows, columns;
     for (int b = g; b < static_cast<int>(first.size()); ++b)
@@ -55,13 +55,27 @@ VecX singular_values_by_group(const MatX& J) {
     if (columns.empty()) continue;
     for (Eigen::Index row = 0; row < J.rows(); ++row)
       if (!J(row, columns).isZero(0.0)) rows.push_back(row);
-    if (rows.empty()) continue;
-    const VecX sigma = singular_values(J(rows, columns));
+    if (!rows.empty()) blocks.push_back(J(rows, columns));
+  }
+  return blocks;
+}
+
+// The singular values of J, falling: those of its groups' blocks together, each for the cube of its own size alone.
+VecX singular_values_by_group(const MatX& J) {
+  std::vector<double> all;
+  for (const MatX& block : blocks_by_group(J)) {
+    const VecX sigma = singular_values(block);
     all.insert(all.end(), sigma.begin(), sigma.end());
   }
   all.resize(std::min(J.rows(), J.cols()), 0.0);
   std::sort(all.begin(), all.end(), std::greater<>());
   return Eigen::Map<const VecX>(all.data(), static_cast<Eigen::Index>(all.size()));
+}
+
+int rank_of(const VecX& sigma) {
+  int rank = 0;
+  for (const double s : sigma) rank += s > kRankTolerance * sigma[0];
+  return rank;
 }
 
 }  // namespace
@@ -97,13 +111,33 @@ RankAnalysis analyse_rank(const Mechanism& mechanism, const ConstraintSystem& ev
       with_motion ? singular_decomposition(J) : SingularValues{singular_values_by_group(J), MatX()};
   const VecX& sigma = svd.values;
   result.largest = sigma[0];
-  for (int i = 0; i < sigma.size(); ++i) result.rank += sigma[i] > kRankTolerance * result.largest;
+  result.rank = rank_of(sigma);
   result.weakest = J.rows() >= J.cols() ? sigma[J.cols() - 1] : 0.0;
   if (with_motion) {
     result.least_resisted = svd.V.col(J.cols() - 1);
     for (int b = 0; b < evaluated.bodies(); ++b) result.least_resisted.segment<3>(6 * b) *= length;
   }
   return result;
+}
+
+int constraint_rank(const Mechanism& mechanism, const ConstraintSystem& evaluated) {
+  const MatX J = scaled_rows(evaluated.dense_jacobian(), mechanism.characteristic_length());
+  if (J.rows() == 0) return 0;
+  const std::vector<MatX> blocks = blocks_by_group(J);
+  // The largest singular value lies between the longest column and the Frobenius norm of the largest block.
+  double at_least = 0.0, at_most = 0.0;
+  for (const MatX& block : blocks) {
+    at_least = std::max(at_least, block.colwise().norm().maxCoeff());
+    at_most = std::max(at_most, block.norm());
+  }
+  int rank = 0;
+  for (const MatX& block : blocks) {
+    const RankBounds bounds = rank_bounds(block, kRankTolerance * at_most);
+    rank += bounds.rank;
+    if (bounds.kept <= kRankTolerance * at_most || bounds.dropped > kRankTolerance * at_least)
+      return rank_of(singular_values_by_group(J));
+  }
+  return rank;
 }
 
 std::string describe_motion(const Mechanism& mechanism, const VecX& motion, int body) {

@@ -28,6 +28,9 @@ inline constexpr double kRankTolerance = 1e-8;
 // `evaluated`: a system on which evaluate() was called at the pose.
 RankAnalysis analyse_rank(const Mechanism& mechanism, const ConstraintSystem& evaluated, bool with_motion = true);
 
+// The rank alone, the same number: for a small part of the time, wherever bounds decide it.
+int constraint_rank(const Mechanism& mechanism, const ConstraintSystem& evaluated);
+
 // "turns about (0, 0, 1)", "moves along (1, 0, 0)" or both: one body's part of a stacked motion, world axes.
 std::string describe_motion(const Mechanism& mechanism, const VecX& motion, int body);
 

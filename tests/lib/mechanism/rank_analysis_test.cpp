@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <random>
+
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight/math/singular_values.hpp"
 
 namespace boresight {
 namespace rank_analysis_test {
@@ -32,7 +36,12 @@ MechanismDescription several(const MechanismDescription& one, int more) {
   return all;
 }
 
-RankAnalysis at_home(const MechanismDescription& m, MatX* scaled = nullptr) {
+struct Home {
+  RankAnalysis analysis;
+  int rank_alone = 0;
+};
+
+Home ranks_at_home(const MechanismDescription& m, MatX* scaled) {
   const Mechanism mechanism(m);
   std::vector<TimeValue> laws(mechanism.joints());
   ConstraintSystem system(mechanism, {.clearance = ClearanceRows::closed});
@@ -43,7 +52,11 @@ RankAnalysis at_home(const MechanismDescription& m, MatX* scaled = nullptr) {
   }
   system.evaluate(bodies, laws);
   if (scaled) *scaled = scaled_rows(system.dense_jacobian(), mechanism.characteristic_length());
-  return analyse_rank(mechanism, system, false);
+  return {analyse_rank(mechanism, system, false), constraint_rank(mechanism, system)};
+}
+
+RankAnalysis at_home(const MechanismDescription& m, MatX* scaled = nullptr) {
+  return ranks_at_home(m, scaled).analysis;
 }
 
 TEST(RankAnalysis, OfSceneBesideSceneIsThatOfEach) {
@@ -71,6 +84,39 @@ TEST(RankAnalysis, GroupByGroupIsThatOfTheWholeMatrix) {
     EXPECT_EQ(grouped.rank, rank);
     EXPECT_NEAR(grouped.largest, sigma[0], 1e-13 * sigma[0]);
     EXPECT_NEAR(grouped.weakest, J.rows() >= J.cols() ? sigma[J.cols() - 1] : 0.0, 1e-13 * sigma[0]);
+  }
+}
+
+TEST(RankAnalysis, AloneIsTheSameNumber) {
+  for (const auto& entry : std::filesystem::directory_iterator(BORESIGHT_EXAMPLES)) {
+    const std::string name = entry.path().filename().string();
+    if (!std::filesystem::exists(entry.path() / (name + ".toml"))) continue;
+    SCOPED_TRACE(name);
+    const Home home = ranks_at_home(example(name), nullptr);
+    EXPECT_EQ(home.rank_alone, home.analysis.rank);
+  }
+}
+
+// R = Q diag(1 .. s) W with a gap that falls through the tolerance: the bounds must hold the singular values that they bound.
+TEST(RankBounds, HoldTheSingularValuesOnBothSides) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 200; ++trial) {
+    const int m = 1 + trial % 17, n = 1 + trial * 7 % 23, k = std::min(m, n);
+    MatX A = MatX::NullaryExpr(m, n, [&] { return normal(random); });
+    const Eigen::JacobiSVD<MatX> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    VecX sigma(k);
+    for (int i = 0; i < k; ++i) sigma[i] = std::pow(10.0, -12.0 * i / k);
+    if (trial % 3 == 0 && k > 2) sigma.tail(2).setZero();
+    A = svd.matrixU() * sigma.asDiagonal() * svd.matrixV().transpose();
+    const RankBounds bounds = rank_bounds(A, 1e-8);
+    ASSERT_LE(bounds.rank, k);
+    if (bounds.rank > 0) {
+      EXPECT_LE(bounds.kept, sigma[bounds.rank - 1] * (1.0 + 1e-6) + 1e-15) << trial;
+    }
+    if (bounds.rank < k) {
+      EXPECT_GE(bounds.dropped, sigma[bounds.rank] - 1e-15) << trial;
+    }
   }
 }
 

@@ -139,6 +139,7 @@ struct Asked {
   std::string kind, scene = "four-bar", rung;
   int sets = 20, first = 1, jobs = 2, corrections = 0, starts = 4;
   double duration = 0.0, step = 2e-5;
+  bool from_truth = false;    // the fit starts there
   std::vector<Setting> more;  // of data and fit alike
   bool verbose = false, exact = false;
 };
@@ -220,8 +221,10 @@ Found one_set(const Asked& asked, const Scene& scene, int set) {
   }
   const MechanismDescription& m = problem.runs.front().mechanism->description();
   for (std::size_t p = 0; p < paths.size(); ++p)
-    problem.parameters.push_back(
-        fitted_parameter(m, paths[p], true_values[p] * (paths[p].ends_with("restitution") ? 0.9 : 1.2)));
+    problem.parameters.push_back(fitted_parameter(m, paths[p],
+                                                  true_values[p] * (asked.from_truth                    ? 1.0
+                                                                    : paths[p].ends_with("restitution") ? 0.9
+                                                                                                        : 1.2)));
   CalibrationOptions options;
   if (asked.exact)
     options.discrepancy.reset();
@@ -242,7 +245,8 @@ Found one_set(const Asked& asked, const Scene& scene, int set) {
   found.variance_factor = result.inference.variance_factor;
   found.verdict = result.verdict;
   if (asked.verbose) {
-    std::string line = "set " + std::to_string(set) + ", s^2 " + text(found.variance_factor);
+    std::string line =
+        "set " + std::to_string(set) + ", loss " + text(result.fit.cost) + ", s^2 " + text(found.variance_factor);
     for (std::size_t p = 0; p < paths.size(); ++p) {
       char one[160];
       const ParameterEstimate& e = result.inference.parameters[p];
@@ -305,8 +309,8 @@ int main(int count, char** words) {
   asked.kind = words[1];
   for (int k = 2; k < count; ++k) {
     const std::string option = words[k];
-    if (option == "--verbose" || option == "--exact") {
-      (option == "--verbose" ? asked.verbose : asked.exact) = true;
+    if (option == "--verbose" || option == "--exact" || option == "--from-truth") {
+      (option == "--verbose" ? asked.verbose : option == "--exact" ? asked.exact : asked.from_truth) = true;
       continue;
     }
     if (k + 1 == count) return std::printf("%s needs a value\n", words[k]), 2;
