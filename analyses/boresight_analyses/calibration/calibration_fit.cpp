@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 
 #include <chrono>
+#include <limits>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/calibration/kept_fits.hpp"
@@ -339,7 +340,8 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
   }
   for (std::size_t k = 0; k < states.size(); ++k) states[k] = state_of[k];
   result.states = std::move(states);
-  result.cost = 2.0 * summary.final_cost;
+  // A start whose motion cannot be followed has no cost.
+  result.cost = summary.IsSolutionUsable() ? 2.0 * summary.final_cost : std::numeric_limits<double>::infinity();
   result.converged = summary.termination_type == ceres::CONVERGENCE;
   if (result.interrupted)
     result.reason = "interrupted";

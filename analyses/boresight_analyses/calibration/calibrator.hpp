@@ -1,6 +1,7 @@
 // One calibration under way: what calibrate() goes through, step by step.
 #pragma once
 
+#include <cstdint>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -57,9 +58,14 @@ class Calibrator {
   // `count` more of them, side by side.
   void try_starts(const CalibrationProblem& part, int count, std::vector<Descent>& tried);
 
-  // On a horizon that doubles from a quarter to the whole. give_up: returns false as soon as the place is
+  // On a horizon that grows from a quarter to the whole (growing_horizon.cpp). give_up: returns false as soon as the place is
   // lost.
   bool grow(Globals at, bool give_up);
+  // Side by side.
+  std::vector<FitResult> fits_from(const CalibrationProblem& part, const std::vector<Globals>& starts,
+                                   const std::string& stage, int iterations, double cost_tolerance);
+  // Of fits, the lowest first: their places, each once, without those that are hopeless beside it.
+  std::vector<Globals> distinct_places(std::vector<FitResult> ended, const Inference& at_lowest) const;
 
   // Goes on from other valleys until none leads lower.
   void stabilise(const std::string& stage);
@@ -93,6 +99,7 @@ class Calibrator {
   std::vector<std::pair<int, std::string>> held_;
   std::vector<Globals> optima_;  // where fits to the whole data have ended
   std::vector<Suspect> suspects_;
+  std::uint64_t looked_beside_ = 0;  // how many places, while horizons grew
   std::mutex mutex_;
 };
 

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kSurprise = 0.5;
 
-// Held parameters have no covariance, and stay.
+}  // namespace
+
 Globals moved_along(const CalibrationProblem& problem, const Globals& from, const VecX& step) {
   VecX to = problem.packed(from);
   for (Eigen::Index g = 0; g < to.size(); ++g)
@@ -21,8 +22,6 @@ Globals moved_along(const CalibrationProblem& problem, const Globals& from, cons
   at.time_offset = std::clamp(at.time_offset, -problem.largest_time_offset, problem.largest_time_offset);
   return at;
 }
-
-}  // namespace
 
 bool follows_from_rest(const CalibrationProblem& problem) {
   return std::any_of(problem.windows.begin(), problem.windows.end(), [](const Window& w) { return w.from_rest; });

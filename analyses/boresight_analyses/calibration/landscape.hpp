@@ -16,6 +16,9 @@ void loosen(CalibrationProblem& problem);
 // The problem with its runs followed up to a share of the whole only, motions no closer than a search needs.
 CalibrationProblem searched_up_to(const CalibrationProblem& problem, double share);
 
+// A place a step of the packed globals away, within bounds. Not finite (a held parameter has no covariance): no step.
+Globals moved_along(const CalibrationProblem& problem, const Globals& from, const VecX& step);
+
 // The loss over all windows that count, those from rest alone; start states as they rest.
 double loss_at(const CalibrationProblem& problem, const Globals& at);
 

@@ -115,29 +115,6 @@ void Calibrator::try_starts(const CalibrationProblem& part, int count, std::vect
   }
 }
 
-bool Calibrator::grow(Globals at, bool give_up) {
-  for (double share = 0.25; share < 0.99 && follows_from_rest(problem_); share *= 2.0) {
-    FitOptions o = fit_options("horizon " + std::to_string(static_cast<int>(100.0 * share)) + " %", 10, options_.jobs);
-    o.cost_tolerance = 1e-5;
-    const CalibrationProblem part = searched_up_to(problem_, share);
-    const FitResult found = fit(part, at, {}, o);
-    result_.evaluations += found.evaluations;
-    if (found.interrupted) throw CalibrationInterrupted{};
-    at = found.globals;
-    if (share > 0.4) look_around(part, result_.fixed, options_.jobs, at);
-    if (give_up && leaves_more_than_noise(part, at)) return false;
-  }
-  if (follows_from_rest(problem_)) {
-    const FitResult found = fit(searched_up_to(problem_, 1.0), at, {}, fit_options("whole data", 20, options_.jobs));
-    result_.evaluations += found.evaluations;
-    if (found.interrupted) throw CalibrationInterrupted{};
-    at = found.globals;
-  }
-  note(fit(problem_, at, {}, fit_options("whole data", 30, options_.jobs)));
-  stabilise("whole data");
-  return true;
-}
-
 void Calibrator::stabilise(const std::string& stage) {
   if (!follows_from_rest(problem_)) return;
   for (int round = 0; round < kMostSettlings; ++round) {

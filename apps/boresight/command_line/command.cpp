@@ -15,6 +15,7 @@
 #include "command_line/verb.hpp"
 #include "terminal/embedding.hpp"
 #include "terminal/exit_status.hpp"
+#include "terminal/readable.hpp"
 #include "terminal/terminal.hpp"
 
 namespace boresight::app {
@@ -99,8 +100,9 @@ Command CommandOptions::command(const std::string& verb) const {
             "  {} changes the drawing, ideal and built alike; for a part that is built off, see boresight help error\n",
             setting.path);
   if (!accuracy.empty()) command.accuracy = quantity_between("--accuracy", accuracy, {kRatio, "0.0001 %", "100 %"});
-  if (jobs < 0 || jobs > 4096) throw InputError(kCommandLine, "--jobs", std::to_string(jobs), "1 to 4096 threads");
-  command.jobs = jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  if (jobs && (*jobs < 1 || *jobs > 4096))
+    throw InputError(kCommandLine, "--jobs", std::to_string(*jobs), "1 to 4096 threads");
+  command.jobs = jobs ? *jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   return command;
 }
 
@@ -136,7 +138,9 @@ void MotionOptions::set_sample_spacing(RunOptions& options, const Mechanism& mec
   options.sample_spacing = quantity_between("--sample", sample, {kDuration, "1e-12 s", "1e9 s"});
   constexpr double kMostBytes = 2e9;
   if (mechanism.duration() / options.sample_spacing > most_samples)
-    throw InputError(kCommandLine, "--sample", in_quotes(sample), "at most two million samples in all");
+    throw InputError(kCommandLine, "--sample",
+                     in_quotes(sample) + " for a motion of " + readable(mechanism.duration(), "s"),
+                     "at most two million samples in all: a larger --sample, or a shorter motion.duration");
   // Of every sample, the boresight body's and each --pose body's history and every clearance's.
   const double bytes = mechanism.duration() / options.sample_spacing *
                        (sizeof(double) + sizeof(PoseSample) * (1.0 + static_cast<double>(poses.size())) +

@@ -44,7 +44,7 @@ int failed(const Command& command, const std::string& reason);
 struct CommandOptions {
   std::string file, out, rung = "auto", accuracy;
   std::vector<std::string> settings;
-  int jobs = 0;
+  std::optional<int> jobs;
   bool quiet = false;
   bool json = false;
 

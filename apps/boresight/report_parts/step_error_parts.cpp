@@ -13,17 +13,36 @@ double relative_step_error(const MeasuredError& measured, const PointingIndices&
   return value > 0.0 ? stated / value : 0.0;
 }
 
+namespace {
+
+// Neighbouring steps lie as far from each other as from finer ones.
+bool scatters(const MeasuredError& measured, const IndexChoice& of) {
+  for (const QuantityName& quantity : quantity_names())
+    for (const StatisticName& statistic : statistic_names())
+      if (of.quantity == quantity.name && of.statistic == statistic.name)
+        return measured.scatters(quantity.statistics, statistic.value);
+  return false;
+}
+
+}  // namespace
+
+std::string steps_mislead(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of) {
+  if (!measured.measured || measured.runs == 0 || scatters(measured, of)) return "";
+  const double relative = relative_step_error(measured, index, of);
+  if (!(relative > 1.0)) return "";
+  return fmt::format(
+      "{}: what the steps leave out is {} of what is found: this motion is not followed; take a smaller --step",
+      of.title(), readable_share(relative));
+}
+
 std::string step_error_sentence(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of) {
   if (!measured.measured) return "what the steps do to the indices was not measured: " + measured.why_not;
   if (measured.runs == 0) return measured.basis;
   const double relative = relative_step_error(measured, index, of);
-  bool scatters = false;
-  for (const QuantityName& quantity : quantity_names())
-    for (const StatisticName& statistic : statistic_names())
-      if (of.quantity == quantity.name && of.statistic == statistic.name)
-        scatters = relative > 1e-3 && measured.scatters(quantity.statistics, statistic.value);
   return fmt::format("{}: within {} of what smaller steps give{}; {}, {} of CPU", of.title(), readable_share(relative),
-                     scatters ? ", as far as neighbouring steps lie from each other: one motion of many" : "",
+                     relative > 1e-3 && scatters(measured, of)
+                         ? ", as far as neighbouring steps lie from each other: one motion of many"
+                         : "",
                      measured.basis, readable(measured.cpu_seconds, "s"));
 }
 

@@ -15,6 +15,9 @@ double relative_step_error(const MeasuredError& measured, const PointingIndices&
 // "the steps put the position error, maximum, off by up to 1.2 % (measured by further runs ...)", or why nobody knows.
 std::string step_error_sentence(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of);
 
+// A warning where the steps leave out as much as there is, or more, and it is not that one motion is unlike the next; else empty.
+std::string steps_mislead(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of);
+
 // Per quantity and statistic what is stated, in its own unit; whether neighbours scatter; what it cost.
 Json step_error_json(const MeasuredError& measured);
 

@@ -236,11 +236,14 @@ std::string predictability_sentence(const Predictability& found) {
   const std::string twin = fmt::format("a start {} off", readable(kStartOffset, "m"));
   if (!found.parted)
     return fmt::format("{} stays within {} of the clearance over the whole motion", twin, readable_share(kPartedShare));
+  const std::string indices = fmt::format("the indices, which differ by {} (max) and {} (RMS) between the two",
+                                          readable_share(found.max_difference), readable_share(found.rms_difference));
+  if (!(found.horizon > 0.0))
+    return fmt::format("the clearance is so small that {} is a good part of it: judge {}", twin, indices);
   return fmt::format(
-      "the trajectory is predictable up to {}, where {} parts by {} of the clearance; past it judge the indices, which "
-      "differ by {} (max) and {} (RMS) between the two",
-      readable(found.horizon, "s"), twin, readable_share(kPartedShare), readable_share(found.max_difference),
-      readable_share(found.rms_difference));
+      "by perturbation, the trajectory is predictable up to {}, where {} parts by {} of the clearance; past it judge "
+      "{}",
+      readable(found.horizon, "s"), twin, readable_share(kPartedShare), indices);
 }
 
 nlohmann::ordered_json predictability_json(const Predictability& found) {

@@ -54,7 +54,7 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
          readable(index.line_of_sight_error.rms, "rad"), readable_arcsec(index.line_of_sight_error.max));
   if (result.start > 0.0) tell("  from {} on\n", readable(result.start, "s"));
   for (const ContactSummary& c : result.contact)
-    tell("  {}: in contact {} of the time, {} impacts, penetration up to {}, force up to {}\n", c.joint,
+    tell("  {}: in contact {} of the time, {} impacts, penetration up to {}, contact forces up to {}\n", c.joint,
          readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"), readable(c.max_force, "N"));
   if (parts)
     for (const std::string& line : parts_lines(*parts)) tell("  {}\n", line);
@@ -218,6 +218,8 @@ class RunVerb : public Verb {
         predictability = measure_predictability(mechanism, mechanism->parameters());
       if (!cut_short) measured = step_error(*rung, mechanism->parameters(), options, result, progress);
       if (measured.measured) result.error.discretisation = relative_step_error(measured, result.index, index);
+      if (const std::string warning = steps_mislead(measured, result.index, index); !warning.empty())
+        result.warnings.push_back(warning);
     } catch (const Interrupted&) {  // the motion itself is there, and is kept
       cut_short = interrupted();
     }

@@ -7,6 +7,7 @@
 #include "boresight/formulations/formulation.hpp"
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/integrate/explicit_runge_kutta.hpp"
+#include "boresight/math/dense_solves.hpp"
 #include "boresight/math/eigenvalues.hpp"
 #include "boresight/mechanism/ideal_motion.hpp"
 #include "boresight/mechanism/interruption.hpp"
@@ -21,7 +22,7 @@ constexpr double kHeld = 1e-9;
 
 // The offset compliances and the ideal joints' reactions along the motion. The reaction on each journal is what the ideal
 // joint supplies: the offset's acceleration without it, divided by the compliance. Where joints share a load, the least that
-// they can share; where an offset cannot move, none: what holds it carries the load.
+// they can share, as shared_reactions() has it; where an offset cannot move, none: what holds it carries the load.
 struct AlongMotion {
   std::vector<MatX> compliance;                    // instant by instant
   std::vector<double> reaction_rms, reaction_max;  // per clearance [N]
@@ -48,13 +49,25 @@ std::vector<Mat6> free_mobility(const Mechanism& mechanism, const Parameters& pa
   return result;
 }
 
+// Of reactions, and what of them may be shared in other ways (columns), the least one, weighted.
+VecX least_of(const VecX& reaction, const MatX& shared, const VecX& weight) {
+  if (shared.cols() == 0) return reaction;
+  return reaction - shared * solve_least(MatX(weight.asDiagonal() * shared), VecX(weight.cwiseProduct(reaction)));
+}
+
 AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal, int samples) {
   const auto formulation = make_tree_formulation(mechanism, parameters, &ideal, {});
   const ForceElements& forces = formulation->forces();
   const OffsetLayout layout(mechanism);
   const int n = forces.clearances();
   std::vector<JointPlay> joints;
-  for (int c = 0; c < n; ++c) joints.push_back(forces.joint(c));
+  // Couples count as the forces at the ends of the sleeves that they are: a pair of bearings far apart takes next to none.
+  VecX over_levers = VecX::Ones(layout.size());
+  for (int c = 0; c < n; ++c) {
+    joints.push_back(forces.joint(c));
+    const OffsetLayout::Joint& at = layout.joint(c);
+    if (at.tilts) over_levers.segment(at.first + 3, at.count() - 3).setConstant(1.0 / joints[c].lever());
+  }
   std::vector<ContactMemory> memory(n);
   AlongMotion along;
   along.reaction_rms.assign(n, 0.0);
@@ -100,7 +113,8 @@ AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, con
     const VecX kept = eigen.eigenvalues().unaryExpr([](double x) { return x > kHeld ? x : 0.0; });
     const MatX& V = eigen.eigenvectors();
     const VecX reaction =
-        scale.asDiagonal() * (V * (weight.asDiagonal() * (V.transpose() * VecX(scale.asDiagonal() * offset))));
+        least_of(scale.asDiagonal() * (V * (weight.asDiagonal() * (V.transpose() * VecX(scale.asDiagonal() * offset)))),
+                 scale.asDiagonal() * V.leftCols((kept.array() == 0.0).count()), over_levers);
     const VecX back = scale.cwiseInverse();
     along.compliance.push_back(back.asDiagonal() * (V * kept.asDiagonal() * V.transpose()) * back.asDiagonal());
     for (int c = 0; c < n; ++c) {

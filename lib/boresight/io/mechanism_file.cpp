@@ -12,6 +12,8 @@ namespace {
 
 MechanismDescription read(Document& document, std::vector<AssumedValue>* assumed = nullptr) {
   Cursor root(document);
+  if (root.has("mechanism") && !root.has("body"))
+    root.fail_found("mechanism", "a study file", "a mechanism file, such as the one that it names");
   root.only(mechanism_keys());
   MechanismDescription mechanism;
   mechanism.origin = {document.filename(), 0};

@@ -53,6 +53,9 @@ std::pair<int, int> read_connects(Cursor& cursor, const MechanismDescription& me
 // An expression of t, finite with its derivatives over [0, duration].
 TimeFunctionPtr read_expression(Cursor& cursor, const std::string& key, double duration,
                                 const NamedExpressions& named = {}, double scale = 1.0);
+// The same of a law that bodies follow, which must not jump, nor its rate: an impulse would be behind it.
+TimeFunctionPtr read_motion_law(Cursor& cursor, const std::string& key, double duration,
+                                const NamedExpressions& named = {}, double scale = 1.0);
 TimeFunctionPtr compile_expression(const Cursor& cursor, const std::string& key, const std::string& text,
                                    double duration, const NamedExpressions& named = {}, double scale = 1.0);
 

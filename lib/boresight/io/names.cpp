@@ -85,6 +85,16 @@ std::pair<int, int> read_connects(Cursor& cursor, const MechanismDescription& me
   return {first, second};
 }
 
+namespace {
+
+std::string at_time(double t) {
+  char at[60];
+  std::snprintf(at, sizeof at, t == 0.0 || (t >= 1e-3 && t < 1e6) ? " at t = %f s" : " at t = %.6g s", t);
+  return at;
+}
+
+}  // namespace
+
 TimeFunctionPtr compile_expression(const Cursor& cursor, const std::string& key, const std::string& text,
                                    double duration, const NamedExpressions& named, double scale) {
   TimeFunctionPtr function;
@@ -94,9 +104,7 @@ TimeFunctionPtr compile_expression(const Cursor& cursor, const std::string& key,
     cursor.fail_found(key, fault.found, fault.expected, fault.nearest);
   }
   const auto fail = [&](double t, const char* found, const char* expected) {
-    char at[60];
-    std::snprintf(at, sizeof at, t == 0.0 || (t >= 1e-3 && t < 1e6) ? " at t = %f s" : " at t = %.6g s", t);
-    cursor.fail_found(key, in_quotes(text) + found + at, expected);
+    cursor.fail_found(key, in_quotes(text) + found + at_time(t), expected);
   };
   if (const double t = first_time_not_finite(*function, duration); t >= 0.0)
     fail(t, ", which is not finite or not smooth",
@@ -110,6 +118,15 @@ TimeFunctionPtr compile_expression(const Cursor& cursor, const std::string& key,
 TimeFunctionPtr read_expression(Cursor& cursor, const std::string& key, double duration, const NamedExpressions& named,
                                 double scale) {
   return compile_expression(cursor, key, cursor.text(key), duration, named, scale);
+}
+
+TimeFunctionPtr read_motion_law(Cursor& cursor, const std::string& key, double duration, const NamedExpressions& named,
+                                double scale) {
+  TimeFunctionPtr law = read_expression(cursor, key, duration, named, scale);
+  if (const double t = first_jump(*law, duration); t >= 0.0)
+    cursor.fail_found(key, in_quotes(cursor.text(key)) + ", which jumps or has a corner" + at_time(t),
+                      "a law whose value and rate are continuous: round a corner off, as abs(x) to sqrt(x^2 + e^2)");
+  return law;
 }
 
 }  // namespace boresight

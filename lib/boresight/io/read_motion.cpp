@@ -36,7 +36,7 @@ PoseMotionDescription read_pose(Cursor& motion, const MechanismDescription& so_f
   pose.sequence = read_convention(angles);
   const char* const angle_names[3] = {"psi", "theta", "phi"};
   for (int k = 0; k < 3; ++k) {
-    pose.angle[k] = read_expression(angles, angle_names[k], duration, named);
+    pose.angle[k] = read_motion_law(angles, angle_names[k], duration, named);
     named.emplace_back(angle_names[k], angles.text(angle_names[k]));
   }
   angles.finish();
@@ -45,7 +45,7 @@ PoseMotionDescription read_pose(Cursor& motion, const MechanismDescription& so_f
   position.only(position_keys());
   const double scale = read_unit(position);
   const char* const axis_names[3] = {"x", "y", "z"};
-  for (int k = 0; k < 3; ++k) pose.position[k] = read_expression(position, axis_names[k], duration, named, scale);
+  for (int k = 0; k < 3; ++k) pose.position[k] = read_motion_law(position, axis_names[k], duration, named, scale);
   position.finish();
   return pose;
 }
@@ -60,7 +60,7 @@ std::map<int, TimeFunctionPtr> read_drives(Cursor& motion, const MechanismDescri
       drives.fail_found(name, "a law for joint " + in_quotes(name) + ", which is not driven",
                         "the name of a driven joint");
     }
-    laws[joint] = read_expression(drives, name, duration);
+    laws[joint] = read_motion_law(drives, name, duration);
   }
   for (std::size_t j = 0; j < so_far.joints.size(); ++j) {
     if (so_far.joints[j].driven && laws.count(static_cast<int>(j)) == 0) {

@@ -68,15 +68,15 @@ class Laws {
     }
   }
 
-  bool interpolable(double t0, double t1, int looks) const {
-    constexpr double kMissed = 1e-6;  // [rad, or characteristic lengths]
+  // missed: [rad, or characteristic lengths]
+  bool interpolable(double t0, double t1, int looks, double missed) const {
     for (const Law& law : laws_) {
       const TimeValue a = law.function->at(t0), b = law.function->at(t1);
       const QuinticSpline curve(t0, t1 - t0, 1, {a.value, b.value}, {a.rate, b.rate}, {a.acceleration, b.acceleration});
       for (int i = 1; i <= looks; ++i) {
         const double t = t0 + (t1 - t0) * i / (looks + 1);
         const double value = law.function->at(t).value;
-        if (std::abs(curve.at(t, 0).value - value) > kMissed * law.scale + 1e-12 * std::abs(value)) return false;
+        if (std::abs(curve.at(t, 0).value - value) > missed * law.scale + 1e-12 * std::abs(value)) return false;
       }
     }
     return true;
@@ -95,7 +95,7 @@ class Laws {
 // motion. Up to kUsual intervals to 1e-12, which smooth motions of up to a thousand turns reach; from there on to 1e-9, where the
 // rounding of angles grown to millions lies. What would take more states than memory should hold is refused.
 constexpr int kFewestIntervals = 128, kUsual = 1 << 15, kMostIntervals = 1 << 24;
-constexpr double kTolerance = 1e-12, kLongMotionsTolerance = 1e-9, kLargestKink = 1e-3;
+constexpr double kTolerance = 1e-12, kLongMotionsTolerance = 1e-9, kLawsTolerance = 1e-6, kLargestKink = 1e-3;
 constexpr int kLooksAtLaws = 20000, kMostSubsteps = 256;
 
 // Poses, rates and accelerations while they are found, the values that are fitted, and the coefficients.
@@ -159,7 +159,8 @@ IdealMotion IdealMotion::kinematic(const Mechanism& mechanism) {
         break;
       }
       knots.push_back(state);
-      bool fine = intervals >= kUsual || laws.interpolable(from, to, std::max(3, kLooksAtLaws / intervals));
+      bool fine = laws.interpolable(from, to, std::max(3, kLooksAtLaws / intervals),
+                                    intervals < kUsual ? kLawsTolerance : kLargestKink);
       if (checked && fine) {
         const double miss = piece_error(knots[k - 1], middle, knots[k]);
         worst = std::max(worst, miss);

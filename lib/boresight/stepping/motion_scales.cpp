@@ -6,19 +6,26 @@
 namespace boresight {
 namespace {
 
-constexpr int kInstants = 97;          // no divisor of the cycles that a motion is likely to have
-constexpr double kTurnOfAStep = 0.5;   // [rad] an error estimate sees what a step of this size leaves out
+constexpr int kInstants = 97;  // no divisor of the cycles that a motion is likely to have
+// A motion that takes more knots than this may be fast for a moment only: each of them is looked at, up to so many.
+constexpr int kFewKnots = 8192, kMostInstants = 1 << 17;
 constexpr double kLeastSteps = 100.0;  // of any motion
 
 }  // namespace
 
 double own_time(const IdealMotion& ideal, int bodies, double size) {
   double fastest = 0.0;
-  for (int i = 0; i < kInstants; ++i)
+  const int instants = ideal.knots() > kFewKnots ? std::min(ideal.knots(), kMostInstants) : kInstants;
+  IdealState state;
+  for (int i = 0; i < instants; ++i) {
+    ideal.state(ideal.duration() * i / (instants - 1), state);
     for (int b = 0; b < bodies; ++b) {
-      const BodyMotion body = ideal.body(ideal.duration() * i / (kInstants - 1), b);
-      fastest = std::max({fastest, body.w.norm(), body.v.norm() / size});
+      const BodyMotion& body = state.bodies[b];
+      const BodyAcceleration& change = state.acceleration[b];
+      fastest = std::max({fastest, body.w.norm(), body.v.norm() / size, std::sqrt(change.tail<3>().norm()),
+                          std::sqrt(change.head<3>().norm() / size)});
     }
+  }
   return 1.0 / fastest;
 }
 

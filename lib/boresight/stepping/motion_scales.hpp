@@ -10,11 +10,14 @@
 
 namespace boresight {
 
+// What a step may take of the own time below: an error estimate sees what a step of this size leaves out.
+inline constexpr double kTurnOfAStep = 0.5;
+
 struct MotionScales {
   // In which a journal, let go at rest, crosses the smallest clearance under what its joint carries [s]; where nothing
   // drives it, the time below. Speeds are held to the tolerance of positions over this time.
   double flight_time = std::numeric_limits<double>::infinity();
-  // In which the fastest body of the ideal motion turns by a radian or moves by the mechanism's size [s].
+  // In which the fastest body of the ideal motion turns by a radian or moves by the mechanism's size, or would from rest [s].
   double own_time = std::numeric_limits<double>::infinity();
   double largest_acceleration = 0.0;  // of a journal that is let go [m/s^2]
 
@@ -26,7 +29,7 @@ struct MotionScales {
   void apply(double duration, double slowest_impact, IntegrationOptions& options) const;
 };
 
-// 1 / the largest rate of any body at some instants of the ideal motion [s]; infinite where nothing moves. size [m].
+// 1 / the largest rate of any body in the ideal motion, or the root of an acceleration [s]; infinite where nothing moves. size [m].
 double own_time(const IdealMotion& ideal, int bodies, double size);
 
 }  // namespace boresight

@@ -4,12 +4,15 @@
 
 #include "boresight/formulations/own_modes.hpp"
 #include "boresight/integrate/explicit_runge_kutta.hpp"
+#include "boresight/stepping/motion_scales.hpp"
 #include "boresight/stepping/unstable_step.hpp"
 
 namespace boresight {
 
 double own_step(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
   double step = longest_step(mechanism.duration());
+  // A motion that is fast for a moment is not stepped over.
+  step = std::min(step, kTurnOfAStep * own_time(ideal, mechanism.bodies(), mechanism.characteristic_length()));
   // The joints' contacts taken together, at twice the largest ideal reaction: what a load suddenly applied to an elastic
   // contact reaches.
   for (const ContactFrequency& c : analyse_contacts(mechanism, parameters, ideal))

@@ -201,6 +201,19 @@ TEST(Expression, NamesTheTimeAtWhichItIsNotFinite) {
   EXPECT_EQ(first_time_not_finite(*parse_expression("sqrt(1+t)"), 1.0), -1.0);
 }
 
+TEST(Expression, NamesTheTimeAtWhichItOrItsRateJumps) {
+  const auto jump = [](const char* text, double duration) { return first_jump(*parse_expression(text), duration); };
+  EXPECT_NEAR(jump("abs(t-0.1)", 0.2), 0.1, 1e-9);  // at one of the times that are looked at
+  EXPECT_NEAR(jump("0.5*abs(t-0.0512345)", 0.2), 0.0512345, 1e-9);
+  EXPECT_NEAR(jump("asin(sin(20*t))", 0.2), std::acos(-1.0) / 40.0, 1e-9);
+  EXPECT_NEAR(jump("sqrt(abs(t-0.0512345))", 0.2), 0.0512345, 1e-9);
+  EXPECT_NEAR(jump("atan(1/(t-0.0512345))", 0.2), 0.0512345, 1e-9);  // its rate does not
+  EXPECT_NEAR(jump("t+1e-3*abs(t-0.7)", 1.0), 0.7, 1e-9);
+  for (const char* smooth : {"0", "1", "t", "0.3*sin(2*pi*40*t)", "sin(1e5*t)", "t^5", "abs(t-0.1)^3", "exp(-40*t)",
+                             "0.1*tanh(1e6*(t-0.0512345))", "sqrt((t-0.1)^2+1e-8)", "1e6+t^2", "2*pi*1000*t"})
+    EXPECT_EQ(jump(smooth, 1.0), -1.0) << smooth;
+}
+
 TEST(Expression, MayBeParsedAndEvaluatedFromManyThreads) {
   const TimeFunctionPtr shared = parse_expression("sin(3*t)*exp(-t)");
   std::vector<std::thread> threads;

@@ -1,5 +1,6 @@
 // Motions of microseconds and of months: as dense as what moves asks for, whatever share of the duration that is, and refused in words
 // where they cannot be held.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -77,11 +78,30 @@ TEST(LongMotion, OfAMicrosecondIsFollowed) {
   for (const double t : {0.0, 0.4e-6, 1e-6}) EXPECT_LT(miss_at(mechanism, motion, t), 1e-11) << t;
 }
 
-// abs has no impulse where it turns round; the motion goes on as before.
-TEST(LongMotion, LawWithAKinkIsStillFollowed) {
-  const Mechanism mechanism = four_bar("0.5*abs(t - 0.5)", "1 s");
+// Nothing beyond the acceleration is asked of a law.
+TEST(LongMotion, LawWhoseAccelerationHasACornerIsStillFollowed) {
+  const Mechanism mechanism = four_bar("0.5*abs(t - 0.5)^3", "1 s");
   const IdealMotion motion = IdealMotion::kinematic(mechanism);
   for (const double t : {0.1, 0.4, 0.9}) EXPECT_LT(miss_at(mechanism, motion, t), 1e-10) << t;
+}
+
+TEST(LongMotion, LawWhoseRateJumpsIsRefusedWithItsTime) {
+  for (const char* law : {"0.5*abs(t - 0.4321)", "0.1*asin(sin(3*(t-0.4321)+0.5*pi))", "0.5*sqrt(abs(t - 0.4321))"}) {
+    SCOPED_TRACE(law);
+    try {
+      four_bar(law, "1 s");
+      ADD_FAILURE() << "an impulse was taken for a motion";
+    } catch (const InputError& refusal) {
+      EXPECT_THAT(refusal.what(), testing::HasSubstr("motion.drives.A: found"));
+      EXPECT_THAT(refusal.what(), testing::HasSubstr("jumps or has a corner at t = 0.432100 s"));
+    }
+  }
+}
+
+TEST(LongMotion, ThatJumpsForAMomentIsTabledThere) {
+  const Mechanism mechanism = four_bar("0.1*tanh(1e5*(t-0.0512345))", "0.2 s");
+  const IdealMotion motion = IdealMotion::kinematic(mechanism);
+  for (const double t : {0.05, 0.0512345, 0.05124, 0.06}) EXPECT_LT(miss_at(mechanism, motion, t), 1e-6) << t;
 }
 
 TEST(LongMotion, ThatLeavesWhatTheMechanismReachesIsSaidToWhere) {

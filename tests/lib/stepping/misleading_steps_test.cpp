@@ -6,6 +6,7 @@
 #include "boresight/formulations/force_elements.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/stepping/own_step.hpp"
 #include "scenes.hpp"
 
 namespace boresight {
@@ -34,6 +35,22 @@ TEST(FixedSteps, AreRefusedWhereOneOfThemErrsByAShareOfTheClearance) {
     }
   EXPECT_EQ(refusal("perturbation", "rosenbrock", 2e-5), "none");
   EXPECT_EQ(refusal("perturbation", "dopri5", 2e-5), "none");
+}
+
+// A drive that moves by 0.05 rad in some ten microseconds, and stands before and after: steps of what contacts ask for pass over it.
+TEST(OwnStep, FollowsAMotionThatIsFastForAMoment) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "0.1 s"},
+                                                      {"motion.angles.psi", "1"},
+                                                      {"motion.angles.theta", "0.5"},
+                                                      {"motion.angles.phi", "-psi"}}));
+  const double slow = own_step(*mechanism, mechanism->parameters(), IdealMotion::kinematic(*mechanism));
+  const auto jumping = scenes::build(scenes::rrcpr({{"motion.duration", "0.1 s"},
+                                                    {"motion.angles.psi", "1 + 0.05*tanh(1e5*(t - 0.0312345))"},
+                                                    {"motion.angles.theta", "0.5"},
+                                                    {"motion.angles.phi", "-psi"}}));
+  const double fast = own_step(*jumping, jumping->parameters(), IdealMotion::kinematic(*jumping));
+  EXPECT_GT(slow, 2e-5);
+  EXPECT_LT(fast, 1e-5);  // over which the drive moves
 }
 
 // A journal that rests under its load without having struck: D = chi F / v grows without bound as the least impact speed falls.

@@ -232,6 +232,12 @@ Found one_set(const Asked& asked, const Scene& scene, int set) {
     allow_for(*options.discrepancy, problem);
   problem.prepare(1e9, true);
   options.profile = true;
+  if (getenv("TRACE"))
+    options.progress = [last = std::string()](const std::string& stage, double, const std::string& e) mutable {
+      if (stage != last) fprintf(stderr, "%8.2f %s %s\n", clock() / 1e6, stage.c_str(), e.c_str());
+      last = stage;
+      return true;
+    };
   options.corrections = asked.corrections;
   options.starts = asked.starts;
   const CalibrationResult result = calibrate(problem, options);
@@ -245,8 +251,12 @@ Found one_set(const Asked& asked, const Scene& scene, int set) {
   found.variance_factor = result.inference.variance_factor;
   found.verdict = result.verdict;
   if (asked.verbose) {
-    std::string line =
-        "set " + std::to_string(set) + ", loss " + text(result.fit.cost) + ", s^2 " + text(found.variance_factor);
+    // Minus two logarithms of the likelihood, up to a constant that all fits of one set share.
+    double loss = result.fit.cost;
+    for (Eigen::Index c = 0; c < problem.sigma.size(); ++c)
+      for (const CalibrationRun& run : problem.runs)
+        loss += 2.0 * static_cast<double>(run.data.time.size()) * std::log(problem.sigma[c] / 1e-6);
+    std::string line = "set " + std::to_string(set) + ", loss " + text(loss) + ", s^2 " + text(found.variance_factor);
     for (std::size_t p = 0; p < paths.size(); ++p) {
       char one[160];
       const ParameterEstimate& e = result.inference.parameters[p];

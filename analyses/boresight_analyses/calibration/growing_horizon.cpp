@@ -1,0 +1,125 @@
+// Impacts make valleys beside valleys in the loss, more of them the longer a motion is followed: each is narrower than the errors that shorter
+// data leave. So the horizon grows by little at a time, and beside the places that led on so far others are looked at, as far off as the data
+// up to there allow: population over growing data (Chopin 2002, Biometrika 89, 539-551), each member of which is a fit. As many others as find
+// something: none but one where every one of them ends at the same place.
+#include <algorithm>
+#include <atomic>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+#include "boresight/math/eigenvalues.hpp"
+#include "boresight_analyses/calibration/calibrator.hpp"
+#include "boresight_analyses/calibration/landscape.hpp"
+#include "boresight_analyses/random/counter_stream.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr double kFirstShare = 0.25, kGrowth = 1.2;  // of the horizon
+constexpr int kMostBeside = 8, kMostKept = 4;        // places looked at, and led on, at a horizon
+constexpr double kReach = 2.0;                       // in standard errors of the horizon before
+// Higher than the lowest by this many s^2 a place is given up: e^-15 as likely.
+constexpr double kLikely = 30.0;
+// Closer to a lower one than this many standard errors in every parameter, and hardly higher: the same place.
+constexpr double kSame = 1.0;
+
+// A draw of a Gaussian with this covariance; no step along what has none.
+VecX drawn(const MatX& covariance, const CounterStream& stream, std::uint64_t number) {
+  static const boost::math::normal standard;
+  const Eigen::Index n = covariance.rows();
+  std::vector<int> known;
+  for (Eigen::Index g = 0; g < n; ++g)
+    if (std::isfinite(covariance(g, g)) && covariance(g, g) > 0.0) known.push_back(static_cast<int>(g));
+  VecX step = VecX::Zero(n);
+  if (known.empty()) return step;
+  const MatX of = covariance(known, known);
+  const VecX scale = of.diagonal().cwiseSqrt();
+  const Eigen::SelfAdjointEigenSolver<MatX> eigen(
+      MatX(scale.cwiseInverse().asDiagonal() * of * scale.cwiseInverse().asDiagonal()));
+  VecX z(scale.size());
+  for (Eigen::Index k = 0; k < z.size(); ++k)
+    z[k] = boost::math::quantile(standard, stream.uniform(number, static_cast<std::uint64_t>(k))) *
+           std::sqrt(std::max(0.0, eigen.eigenvalues()[k]));
+  step(known) = scale.cwiseProduct(eigen.eigenvectors() * z);
+  return step;
+}
+
+}  // namespace
+
+std::vector<FitResult> Calibrator::fits_from(const CalibrationProblem& part, const std::vector<Globals>& starts,
+                                             const std::string& stage, int iterations, double cost_tolerance) {
+  const int count = static_cast<int>(starts.size()), side_by_side = std::min(options_.jobs, count);
+  std::vector<FitResult> ended(starts.size());
+  std::atomic<bool> stop{false};
+  for_each_on_threads(count, side_by_side, [&](int k) {
+    if (stop) return;
+    FitOptions o = fit_options(stage, iterations, std::max(1, options_.jobs / side_by_side));
+    o.cost_tolerance = cost_tolerance;
+    ended[k] = fit(part, starts[k], {}, o);
+    if (ended[k].interrupted) stop = true;
+  });
+  if (stop) throw CalibrationInterrupted{};
+  for (const FitResult& one : ended) result_.evaluations += one.evaluations;
+  return ended;
+}
+
+std::vector<Globals> Calibrator::distinct_places(std::vector<FitResult> ended, const Inference& at_lowest) const {
+  const VecX error = at_lowest.covariance.diagonal().cwiseSqrt();
+  const auto same = [&](const Globals& a, const Globals& b) {
+    for (int p = 0; p < problem_.parameter_count(); ++p)
+      if (!result_.fixed[p] && std::isfinite(error[p]) && std::abs(a.u[p] - b.u[p]) > kSame * error[p]) return false;
+    return true;
+  };
+  std::vector<Globals> places;
+  for (const FitResult& one : ended) {
+    if (static_cast<int>(places.size()) == kMostKept ||
+        !(one.cost < ended.front().cost + kLikely * at_lowest.variance_factor))
+      break;
+    if (std::none_of(places.begin(), places.end(), [&](const Globals& p) { return same(p, one.globals); }))
+      places.push_back(one.globals);
+  }
+  return places;
+}
+
+bool Calibrator::grow(Globals at, bool give_up) {
+  std::vector<Globals> places = {at};
+  if (follows_from_rest(problem_)) {
+    const CounterStream stream(options_.seed, StreamPurpose::proposal);
+    MatX covariance;
+    std::size_t beside = 0;
+    for (double share = kFirstShare;; share *= kGrowth) {
+      share = share < 0.99 ? share : 1.0;
+      const CalibrationProblem part = searched_up_to(problem_, share);
+      std::vector<Globals> starts = places;
+      for (std::size_t k = 0; k < beside; ++k)
+        starts.push_back(
+            moved_along(part, places[k % places.size()], kReach * drawn(covariance, stream, looked_beside_++)));
+      const std::string stage =
+          share < 1.0 ? "horizon " + std::to_string(static_cast<int>(100.0 * share)) + " %" : "whole data";
+      std::vector<FitResult> ended = fits_from(part, starts, stage, 10, 1e-5);
+      std::stable_sort(ended.begin(), ended.end(),
+                       [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
+      if (!std::isfinite(ended.front().cost)) {
+        if (give_up) return false;
+        break;
+      }
+      const Inference known = infer(part, ended.front(), options_.confidence, result_.fixed, options_.jobs);
+      places = distinct_places(ended, known);
+      covariance = known.covariance;
+      beside = places.size() > 1 ? std::min<std::size_t>(kMostBeside, std::max<std::size_t>(2, 2 * beside))
+                                 : std::max<std::size_t>(1, beside / 2);
+      if (share > 0.4 && share < 1.0) look_around(part, result_.fixed, options_.jobs, places.front());
+      if (give_up && leaves_more_than_noise(part, places.front())) return false;
+      if (share == 1.0) break;
+    }
+  }
+  std::vector<FitResult> ended = fits_from(problem_, places, "whole data", 30, FitOptions().cost_tolerance);
+  std::stable_sort(ended.begin(), ended.end(), [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
+  for (std::size_t k = 1; k < ended.size(); ++k) optima_.push_back(ended[k].globals);
+  optima_.push_back(ended.front().globals);
+  result_.fit = std::move(ended.front());
+  stabilise("whole data");
+  return true;
+}
+
+}  // namespace boresight
