@@ -10,6 +10,7 @@
 //   masses   every mass 1 % larger or smaller
 //   lag      a sensor with a first-order lag of 0.2 ms
 //   simbody  another program altogether: Simbody, where its package is installed; scene 3-rrcpr
+// With --verbose each set prints minus two logarithms of its likelihood; with --from-truth the fit starts at the truth, and should end no lower.
 // Every set draws its own truth, its own signs of what is off, and its own noise.
 #include <algorithm>
 #include <cmath>
@@ -139,6 +140,7 @@ struct Asked {
   std::string kind, scene = "four-bar", rung;
   int sets = 20, first = 1, jobs = 2, corrections = 0, starts = 4;
   double duration = 0.0, step = 2e-5;
+  bool with_masses = false;   // they are fitted too, with what the file says as a prior
   bool from_truth = false;    // the fit starts there
   std::vector<Setting> more;  // of data and fit alike
   bool verbose = false, exact = false;
@@ -171,6 +173,7 @@ Found one_set(const Asked& asked, const Scene& scene, int set) {
     std::vector<Setting> told = scene.runs[r];
     told.insert(told.end(), asked.more.begin(), asked.more.end());
     if (asked.duration > 0.0) told.push_back({"motion.duration", text(asked.duration, "s")});
+    if (asked.kind == "axial" && asked.from_truth) told.push_back({joint + "axial", text(axial, "m")});
     std::vector<Setting> made = told;
     made.insert(made.end(), truth.begin(), truth.end());
     if (asked.kind == "axial") made.push_back({joint + "axial", text(axial, "m")});
@@ -230,6 +233,12 @@ Found one_set(const Asked& asked, const Scene& scene, int set) {
     options.discrepancy.reset();
   else
     allow_for(*options.discrepancy, problem);
+  for (const BodyDescription& body : m.bodies) {
+    if (!asked.with_masses) break;
+    problem.parameters.push_back(fitted_parameter(m, "body." + body.name + ".mass", body.mass));
+    problem.parameters.back().has_prior = true;
+    problem.parameters.back().prior = 0.01 * body.mass;
+  }
   problem.prepare(1e9, true);
   options.profile = true;
   if (getenv("TRACE"))
@@ -319,8 +328,11 @@ int main(int count, char** words) {
   asked.kind = words[1];
   for (int k = 2; k < count; ++k) {
     const std::string option = words[k];
-    if (option == "--verbose" || option == "--exact" || option == "--from-truth") {
-      (option == "--verbose" ? asked.verbose : option == "--exact" ? asked.exact : asked.from_truth) = true;
+    if (option == "--verbose" || option == "--exact" || option == "--from-truth" || option == "--with-masses") {
+      (option == "--verbose"      ? asked.verbose
+       : option == "--exact"      ? asked.exact
+       : option == "--from-truth" ? asked.from_truth
+                                  : asked.with_masses) = true;
       continue;
     }
     if (k + 1 == count) return std::printf("%s needs a value\n", words[k]), 2;
