@@ -49,10 +49,11 @@ std::vector<Mat6> free_mobility(const Mechanism& mechanism, const Parameters& pa
   return result;
 }
 
-// Of reactions, and what of them may be shared in other ways (columns), the least one, weighted.
+// Of reactions, and what of them may be shared in other ways (columns), the least one, weighted. What is held carries none.
 VecX least_of(const VecX& reaction, const MatX& shared, const VecX& weight) {
   if (shared.cols() == 0) return reaction;
-  return reaction - shared * solve_least(MatX(weight.asDiagonal() * shared), VecX(weight.cwiseProduct(reaction)));
+  return reaction -
+         shared * solve_least(MatX(weight.asDiagonal() * shared), VecX(weight.cwiseProduct(reaction)), kHeld);
 }
 
 AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal, int samples) {
@@ -112,9 +113,11 @@ AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, con
     const VecX weight = eigen.eigenvalues().unaryExpr([](double x) { return x > kHeld ? 1.0 / x : 0.0; });
     const VecX kept = eigen.eigenvalues().unaryExpr([](double x) { return x > kHeld ? x : 0.0; });
     const MatX& V = eigen.eigenvectors();
-    const VecX reaction =
-        least_of(scale.asDiagonal() * (V * (weight.asDiagonal() * (V.transpose() * VecX(scale.asDiagonal() * offset)))),
-                 scale.asDiagonal() * V.leftCols((kept.array() == 0.0).count()), over_levers);
+    const VecX moves = A.diagonal().cwiseQuotient(free).unaryExpr([](double x) { return x > kHeld ? 1.0 : 0.0; });
+    const VecX of_moves = moves.cwiseProduct(scale);
+    const VecX reaction = least_of(
+        of_moves.asDiagonal() * (V * (weight.asDiagonal() * (V.transpose() * VecX(scale.asDiagonal() * offset)))),
+        of_moves.asDiagonal() * V.leftCols((kept.array() == 0.0).count()), over_levers);
     const VecX back = scale.cwiseInverse();
     along.compliance.push_back(back.asDiagonal() * (V * kept.asDiagonal() * V.transpose()) * back.asDiagonal());
     for (int c = 0; c < n; ++c) {

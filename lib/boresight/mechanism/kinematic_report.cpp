@@ -123,13 +123,20 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
   for (const JointDescription& j : m.joints) report.drives += j.driven;
   report.redundant_rows = rank.rows - rank.rank;
   report.mobility = rank.columns - rank.rank;
-  report.free_freedoms = m.motion.pose ? 0 : std::max(0, report.mobility - report.drives);
-
+  // By rank, not by count: two drives of one freedom leave another one free.
+  ConstraintSystem driven(mechanism, {.clearance = ClearanceRows::closed, .drives = true});
+  driven.evaluate(home, laws);
+  const int driven_rank = constraint_rank(mechanism, driven);
+  report.free_freedoms = m.motion.pose ? 0 : rank.columns - driven_rank;
   if (report.drives > report.mobility && !m.motion.pose)
     for (std::string& sentence : misaligned_joints(mechanism)) {
       report.feasible = false;
       report.findings.push_back(std::move(sentence));
     }
+
+  if (const int too_many = report.drives - (driven_rank - rank.rank); too_many > 0 && !m.motion.pose && report.feasible)
+    report.findings.push_back(std::to_string(too_many) +
+                              " drive(s) more than freedoms to drive: their laws must agree");
 
   // The ideal motion, sampled; with every drive's row in force, whatever prescribes the motion.
   const bool kinematic = m.motion.pose || report.free_freedoms == 0;
@@ -138,7 +145,6 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
                               " freedom(s) are not driven: the ideal motion is the simulated one without clearance");
     return report;
   }
-  ConstraintSystem driven(mechanism, {.clearance = ClearanceRows::closed, .drives = true});
   const std::vector<Mat6> weight = kinematic_weight(mechanism);
   IdealSolver solver(mechanism);
   IdealState state;

@@ -1,6 +1,7 @@
 // The rank of a mechanism's rows, group of coupled bodies by group.
 #include "boresight/mechanism/rank_analysis.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -8,6 +9,7 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/math/singular_values.hpp"
+#include "boresight/mechanism/kinematic_report.hpp"
 
 namespace boresight {
 namespace rank_analysis_test {
@@ -95,6 +97,33 @@ TEST(RankAnalysis, AloneIsTheSameNumber) {
     const Home home = ranks_at_home(example(name), nullptr);
     EXPECT_EQ(home.rank_alone, home.analysis.rank);
   }
+}
+
+// Two drives of one freedom leave another one free, which their number hides.
+TEST(KinematicReport, CountsFreedomsByRankNotByDrives) {
+  MechanismDescription m = example("four-bar");
+  int passive = -1;
+  for (std::size_t j = 0; j < m.joints.size(); ++j)
+    if (!m.joints[j].driven && m.joints[j].type == JointType::revolute) passive = static_cast<int>(j);
+  ASSERT_GE(passive, 0);
+  const MechanismDescription twice = several(m, 1);  // two four-bars, each with its drive
+  MechanismDescription crossed = twice;
+  int undriven = 0;
+  for (std::size_t j = 0; j < crossed.joints.size(); ++j) {
+    JointDescription& joint = crossed.joints[j];
+    // The first one is driven twice, the second one not at all.
+    if (joint.name.ends_with("1") && joint.driven) {
+      joint.driven = false;
+      ++undriven;
+    }
+    if (joint.name == m.joints[passive].name + "0") joint.driven = true;
+  }
+  ASSERT_EQ(undriven, 1);
+  const KinematicReport report = analyse_kinematics(Mechanism(crossed));
+  EXPECT_EQ(report.mobility, 2);
+  EXPECT_EQ(report.drives, 2);
+  EXPECT_EQ(report.free_freedoms, 1);
+  EXPECT_THAT(report.findings, testing::Contains(testing::HasSubstr("their laws must agree")));
 }
 
 // R = Q diag(1 .. s) W with a gap that falls through the tolerance: the bounds must hold the singular values that they bound.

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "bearing_pair_scenes.hpp"
 #include "boresight/contact_events/contact_report.hpp"
 #include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/kinematic_report.hpp"
@@ -174,6 +176,51 @@ TEST(BearingPair, GivesTheOffsetsOfOneBearingAsCoordinates) {
   for (int k = 5; k < 10; ++k) EXPECT_EQ(coordinates.source()[k], DeviationCoordinates::kDependent);
   MatX T;
   for (int i = 0; i <= 10; ++i) EXPECT_NO_THROW(coordinates.gain(0.1 * i * ideal.duration(), T));
+}
+
+// Statics: a mast in two bearings a span apart carries its jib's moment as a pair of forces, moment over span, and one of them the weight too.
+TEST(BearingPair, CarriesAnOverhungLoadAsStaticsSays) {
+  constexpr double kMass = 18e3, kOverhang = 4.0, kSpan = 3.0, kGravity = 9.81;
+  const std::string file = testing::TempDir() + "boresight_mast.toml";
+  std::ofstream(file) << R"(
+format = 1
+gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
+[[body]]
+name = "jib"
+mass = "18000 kg"
+center_of_mass = ["4 m", "0 m", "0 m"]
+inertia = ["2e4 kg m^2", "2e5 kg m^2", "2e5 kg m^2"]
+boresight = [1, 0, 0]
+[[joint]]
+name = "slew"
+type = "revolute"
+connects = ["ground", "jib"]
+point = ["0 m", "0 m", "0 m"]
+axis = [0, 0, 1]
+driven = true
+[motion]
+duration = "1 s"
+drives = { slew = "0" }
+[[clearance]]
+joint = "slew"
+bearing = "pair"
+span = "3 m"
+journal = "jib"
+radial = "0.1 mm"
+axial = "0.1 mm"
+cap_radius = "200 mm"
+journal_radius = "150 mm"
+sleeve_length = "200 mm"
+)";
+  const Mechanism mechanism(read_mechanism(file));
+  const double weight = kMass * kGravity, pair = weight * kOverhang / kSpan;
+  const std::vector<ContactFrequency> found = analyse_contacts(mechanism, mechanism.parameters());
+  ASSERT_EQ(found.size(), 2u);
+  for (const ContactFrequency& f : found) {
+    const double least = f.joint == "slew" ? std::hypot(pair, weight) : pair;
+    // A journal's own couple counts as the force at its ends that it is: a few percent.
+    EXPECT_NEAR(f.largest_load / least, 1.0, 0.1) << f.joint;
+  }
 }
 
 }  // namespace held_play_test
