@@ -16,7 +16,7 @@ namespace boresight {
 namespace {
 
 constexpr double kFirstShare = 0.25, kGrowth = 1.2;  // of the horizon
-constexpr int kMostBeside = 8, kMostKept = 4;        // places looked at, and led on, at a horizon
+constexpr int kMostBeside = 2, kMostKept = 2;        // places looked at, and led on, at a horizon
 constexpr double kReach = 2.0;                       // in standard errors of the horizon before
 // Higher than the lowest by this many s^2 a place is given up: e^-15 as likely.
 constexpr double kLikely = 30.0;
