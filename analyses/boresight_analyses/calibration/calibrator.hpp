@@ -65,7 +65,7 @@ class Calibrator {
   std::vector<FitResult> fits_from(const CalibrationProblem& part, const std::vector<Globals>& starts,
                                    const std::string& stage, int iterations, double cost_tolerance);
   // Of fits, the lowest first: their places, each once, without those that are hopeless beside it.
-  std::vector<Globals> distinct_places(std::vector<FitResult> ended, const Inference& at_lowest) const;
+  std::vector<Globals> distinct_places(const std::vector<FitResult>& ended, const Inference& at_lowest) const;
 
   // Goes on from other valleys until none leads lower.
   void stabilise(const std::string& stage);

@@ -1,7 +1,7 @@
 // Impacts make valleys beside valleys in the loss, more of them the longer a motion is followed: each is narrower than the errors that shorter
 // data leave. So the horizon grows by little at a time, and beside the places that led on so far others are looked at, as far off as the data
 // up to there allow: a population over growing data (Chopin 2002, Biometrika 89, 539-551), each member of which is a fit. More of them find lower
-// valleys still, and take as much longer: eight beside four cost twice what two beside two do.
+// valleys still, and take as much longer: eight beside four cost nearly twice what two beside two do.
 #include <algorithm>
 #include <atomic>
 #include <boost/math/distributions/normal.hpp>
@@ -63,7 +63,8 @@ std::vector<FitResult> Calibrator::fits_from(const CalibrationProblem& part, con
   return ended;
 }
 
-std::vector<Globals> Calibrator::distinct_places(std::vector<FitResult> ended, const Inference& at_lowest) const {
+std::vector<Globals> Calibrator::distinct_places(const std::vector<FitResult>& ended,
+                                                 const Inference& at_lowest) const {
   const VecX error = at_lowest.covariance.diagonal().cwiseSqrt();
   const auto same = [&](const Globals& a, const Globals& b) {
     for (int p = 0; p < problem_.parameter_count(); ++p)
@@ -86,14 +87,14 @@ bool Calibrator::grow(Globals at, bool give_up) {
   if (follows_from_rest(problem_)) {
     const CounterStream stream(options_.seed, StreamPurpose::proposal);
     MatX covariance;
-    std::size_t beside = 0;
+    int beside = 0;
     for (double share = kFirstShare;; share *= kGrowth) {
       share = share < 0.99 ? share : 1.0;
       const CalibrationProblem part = searched_up_to(problem_, share);
       std::vector<Globals> starts = places;
-      for (std::size_t k = 0; k < beside; ++k)
-        starts.push_back(
-            moved_along(part, places[k % places.size()], kReach * drawn(covariance, stream, looked_beside_++)));
+      for (int k = 0; k < beside; ++k)
+        starts.push_back(moved_along(part, places[static_cast<std::size_t>(k) % places.size()],
+                                     kReach * drawn(covariance, stream, looked_beside_++)));
       const std::string stage =
           share < 1.0 ? "horizon " + std::to_string(static_cast<int>(100.0 * share)) + " %" : "whole data";
       std::vector<FitResult> ended = fits_from(part, starts, stage, 10, 1e-5);
@@ -106,8 +107,7 @@ bool Calibrator::grow(Globals at, bool give_up) {
       const Inference known = infer(part, ended.front(), options_.confidence, result_.fixed, options_.jobs);
       places = distinct_places(ended, known);
       covariance = known.covariance;
-      beside = places.size() > 1 ? std::min<std::size_t>(kMostBeside, std::max<std::size_t>(2, 2 * beside))
-                                 : std::max<std::size_t>(1, beside / 2);
+      beside = places.size() > 1 ? kMostBeside : 1;
       if (share > 0.4 && share < 1.0) look_around(part, result_.fixed, options_.jobs, places.front());
       if (give_up && leaves_more_than_noise(part, places.front())) return false;
       if (share == 1.0) break;
