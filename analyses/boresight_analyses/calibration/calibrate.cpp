@@ -34,6 +34,7 @@ CalibrationResult Calibrator::run() {
       warn_of(reading, "it is left out of the fit");
     if (problem_.follows_play()) {
       set_noise(noise_from_differences(problem_));
+      fit_masses_that_show();
       search();
       hold_what_no_impact_shows();
       set_noise(noise_from_residuals(problem_, result_.fit));

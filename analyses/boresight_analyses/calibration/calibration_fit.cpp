@@ -11,6 +11,10 @@
 namespace boresight {
 namespace {
 
+// Among narrow optima a whole Gauss-Newton step often leads beyond the next ridge. From a radius of 1e4 four such steps, each a motion
+// followed in vain, are refused before one is any shorter; from 100 the second is.
+constexpr double kRadiusInAComb = 100.0;
+
 // What a global counts in within the fit: parameters as they are, times in ms, biases and drifts in standard deviations.
 VecX units_of(const CalibrationProblem& problem) {
   VecX units = VecX::Ones(problem.global_count());
@@ -259,7 +263,7 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
   ceres::Problem::Options of_problem;
   of_problem.evaluation_callback = &all;
   ceres::Problem ceres_problem(of_problem);
-  bool free_states = false;
+  bool free_states = false, any_from_rest = false;
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (std::size_t k = 0; k < result.windows.size(); ++k) {
     const Window& w = problem.windows[result.windows[k]];
@@ -269,6 +273,7 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
     auto cost = std::make_unique<WindowCost>(problem, w, value_count(problem, w) + problem.state_size(w));
     all.add(cost.get(), blocks);
     ceres_problem.AddResidualBlock(cost.release(), nullptr, blocks);
+    any_from_rest = any_from_rest || (w.from_rest && problem.follows_play());
     if (states[k].size() == 0) continue;
     ordering->AddElementToGroup(state_of[k].data(), 0);
     if (w.from_rest) {
@@ -316,6 +321,7 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
   solver.function_tolerance = options.cost_tolerance;
   solver.parameter_tolerance = options.parameter_tolerance;
   solver.update_state_every_iteration = true;
+  if (any_from_rest) solver.initial_trust_region_radius = kRadiusInAComb;
   solver.callbacks.push_back(&watch);
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

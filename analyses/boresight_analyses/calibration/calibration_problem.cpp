@@ -135,22 +135,22 @@ void CalibrationProblem::prepare_errors() {
   }
 }
 
-std::vector<int> CalibrationProblem::contact_parameters() const {
-  std::vector<int> contacts;
+std::vector<int> CalibrationProblem::followed_parameters() const {
+  std::vector<int> followed;
   for (int p = 0; p < parameter_count(); ++p)
-    if (parameters[p].is_contact()) contacts.push_back(p);
-  return contacts;
+    if (!parameters[p].is_error()) followed.push_back(p);
+  return followed;
 }
 
-std::vector<double> CalibrationProblem::contact_values(const std::vector<double>& values) const {
+std::vector<double> CalibrationProblem::followed_values(const std::vector<double>& values) const {
   std::vector<double> of_contacts;
-  for (const int p : contact_parameters()) of_contacts.push_back(values[p]);
+  for (const int p : followed_parameters()) of_contacts.push_back(values[p]);
   return of_contacts;
 }
 
-std::function<Parameters(const std::vector<double>&)> CalibrationProblem::with_contacts(
+std::function<Parameters(const std::vector<double>&)> CalibrationProblem::with_followed(
     int run, const std::vector<double>& values) const {
-  return [this, run, all = values, contacts = contact_parameters()](const std::vector<double>& x) mutable {
+  return [this, run, all = values, contacts = followed_parameters()](const std::vector<double>& x) mutable {
     for (std::size_t c = 0; c < contacts.size(); ++c) all[contacts[c]] = x[c];
     return parameters_at(run, all);
   };
@@ -246,7 +246,7 @@ Parameters CalibrationProblem::parameters_at(int run, const std::vector<double>&
 }
 
 ContactNumbers CalibrationProblem::contact_numbers_at(int run, const std::vector<double>& values) const {
-  return contact_numbers(*runs[run].mechanism, with_contacts(run, values), contact_values(values));
+  return contact_numbers(*runs[run].mechanism, with_followed(run, values), followed_values(values));
 }
 
 double CalibrationProblem::prior_cost(const Globals& globals) const {

@@ -205,8 +205,8 @@ class CalibrationProblem {
   };
   std::vector<Moment> moments(double lag) const;
   std::shared_ptr<const SceneTables> tables_at(int run, const std::vector<double>& values) const;
-  void differences_by_masses(const Window& window, const Globals& globals, const VecX& state,
-                             WindowResiduals& out) const;
+  // Of those of bodies.
+  std::vector<TablesBeside> tables_beside(int run, const std::vector<double>& values) const;
   SensitiveMotion follow(const Window& window, const std::vector<double>& values, const VecX& state,
                          const std::vector<double>& times, bool derivatives) const;
   Vec6 play_displaces(const CalibrationRun& run, double t, const VecX& z) const;
@@ -219,10 +219,10 @@ class CalibrationProblem {
   };
   void channel_rows(const CalibrationRun& run, int kind, double t, int n, ChannelRows& out) const;
   void prepare_errors();
-  // The parameters of contacts among all; by_parameters of a motion has a column for each.
-  std::vector<int> contact_parameters() const;
-  std::function<Parameters(const std::vector<double>&)> with_contacts(int run, const std::vector<double>& values) const;
-  std::vector<double> contact_values(const std::vector<double>& values) const;
+  // The parameters of the play's motion, of contacts and of bodies: by_parameters of a motion has a column for each.
+  std::vector<int> followed_parameters() const;
+  std::function<Parameters(const std::vector<double>&)> with_followed(int run, const std::vector<double>& values) const;
+  std::vector<double> followed_values(const std::vector<double>& values) const;
 };
 
 }  // namespace boresight

@@ -46,6 +46,8 @@ class Calibrator {
   // start's fit stands.
   void search();
 
+  static constexpr double kStartsShare = 0.125;  // of the horizon
+
   struct Descent {
     Globals from, to;
     double cost = 0.0;
@@ -58,7 +60,7 @@ class Calibrator {
   // `count` more of them, side by side.
   void try_starts(const CalibrationProblem& part, int count, std::vector<Descent>& tried);
 
-  // On a horizon that grows from a quarter to the whole (growing_horizon.cpp). give_up: returns false as soon as the place is
+  // On a horizon that grows from that of the starts to the whole (growing_horizon.cpp). give_up: returns false as soon as the place is
   // lost.
   bool grow(Globals at, bool give_up);
   // Side by side.
@@ -66,6 +68,9 @@ class Calibrator {
                                    const std::string& stage, int iterations, double cost_tolerance);
   // Of fits, the lowest first: their places, each once, without those that are hopeless beside it.
   std::vector<Globals> distinct_places(const std::vector<FitResult>& ended, const Inference& at_lowest) const;
+
+  // Before the search: masses that the data know better than they were told become parameters (fitted_masses.cpp).
+  void fit_masses_that_show();
 
   // Goes on from other valleys until none leads lower.
   void stabilise(const std::string& stage);

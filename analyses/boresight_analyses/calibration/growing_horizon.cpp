@@ -1,7 +1,8 @@
 // Impacts make valleys beside valleys in the loss, more of them the longer a motion is followed: each is narrower than the errors that shorter
-// data leave. So the horizon grows by little at a time, and beside the places that led on so far others are looked at, as far off as the data
-// up to there allow: a population over growing data (Chopin 2002, Biometrika 89, 539-551), each member of which is a fit. More of them find lower
-// valleys still, and take as much longer: eight beside four cost nearly twice what two beside two do.
+// data leave. So the horizon grows by little at a time. Whether a fit is still in the right valley shows in what has just come in: it should
+// leave no more than what was there before. Where it leaves more, the horizon is taken back and grows more slowly; where it does so even then,
+// other places are looked at beside those that led on so far, as far off as the data up to there allow, and the likely ones are followed: a
+// population over growing data (Chopin 2002, Biometrika 89, 539-551), each member of which is a fit.
 #include <algorithm>
 #include <atomic>
 #include <boost/math/distributions/normal.hpp>
@@ -10,14 +11,20 @@
 #include "boresight/math/eigenvalues.hpp"
 #include "boresight_analyses/calibration/calibrator.hpp"
 #include "boresight_analyses/calibration/landscape.hpp"
+#include "boresight_analyses/calibration/reduced_window.hpp"
 #include "boresight_analyses/random/counter_stream.hpp"
 
 namespace boresight {
 namespace {
 
-constexpr double kFirstShare = 0.25, kGrowth = 1.2;  // of the horizon
-constexpr int kMostBeside = 2, kMostKept = 2;        // places looked at, and led on, at a horizon
-constexpr double kReach = 2.0;                       // in standard errors of the horizon before
+// By how much the horizon grows: at most, and least before other places are looked at.
+constexpr double kMostGrowth = 1.3, kLeastGrowth = 1.04;
+// A mean square of what came in beyond this many times that of what was there: noise of a hundred values stays below it.
+constexpr double kRise = 1.2;
+// Places looked at, and led on. On 18 sets of the four-bar (multibody's data, axial gaps and masses off) five beside three ended once 720 above
+// what eight beside four found.
+constexpr int kBeside = 8, kMostKept = 4;
+constexpr double kReach = 2.0;  // in standard errors of the horizon before
 // Higher than the lowest by this many s^2 a place is given up: e^-15 as likely.
 constexpr double kLikely = 30.0;
 // Closer to a lower one than this many standard errors in every parameter, and hardly higher: the same place.
@@ -86,10 +93,14 @@ bool Calibrator::grow(Globals at, bool give_up) {
   std::vector<Globals> places = {at};
   if (follows_from_rest(problem_)) {
     const CounterStream stream(options_.seed, StreamPurpose::proposal);
+    double reached = kStartsShare, growth = kMostGrowth;
+    FitResult before;  // at what is reached
+    long values_before = 0;
     MatX covariance;
     int beside = 0;
-    for (double share = kFirstShare;; share *= kGrowth) {
-      share = share < 0.99 ? share : 1.0;
+    while (reached < 1.0) {
+      // The last stretch is no sliver.
+      const double share = reached * growth < 0.98 ? reached * growth : 1.0;
       const CalibrationProblem part = searched_up_to(problem_, share);
       std::vector<Globals> starts = places;
       for (int k = 0; k < beside; ++k)
@@ -104,13 +115,30 @@ bool Calibrator::grow(Globals at, bool give_up) {
         if (give_up) return false;
         break;
       }
+      const long values = values_in(part, ended.front().windows);
+      const bool rises = values_before > 0 &&
+                         ended.front().cost - before.cost > kRise * before.cost / static_cast<double>(values_before) *
+                                                                static_cast<double>(values - values_before);
+      if (getenv("GTRACE"))
+        fprintf(stderr, "%.1f s share %.4f growth %.3f places %zu beside %d cost %.6g of %ld %s\n", clock() / 1e6,
+                share, growth, places.size(), beside, ended.front().cost, values, rises ? "rises" : "");
+      if (rises && growth > kLeastGrowth) {
+        growth = std::max(kLeastGrowth, std::sqrt(growth));
+        continue;
+      }
+      if (rises && beside == 0) {
+        beside = kBeside;
+        continue;
+      }
       const Inference known = infer(part, ended.front(), options_.confidence, result_.fixed, options_.jobs);
       places = distinct_places(ended, known);
       covariance = known.covariance;
-      beside = places.size() > 1 ? kMostBeside : 1;
-      if (share > 0.4 && share < 1.0) look_around(part, result_.fixed, options_.jobs, places.front());
+      before = std::move(ended.front());
+      values_before = values;
+      reached = share;
+      beside = 0;
+      growth = std::min(kMostGrowth, std::pow(growth, 1.5));
       if (give_up && leaves_more_than_noise(part, places.front())) return false;
-      if (share == 1.0) break;
     }
   }
   std::vector<FitResult> ended = fits_from(problem_, places, "whole data", 30, FitOptions().cost_tolerance);

@@ -65,7 +65,7 @@ std::vector<std::string> in_words(const CalibrationModelError& error, const Cali
     const FittedParameter& parameter = problem.parameters[static_cast<std::size_t>(p)];
     const ParameterEstimate& e = inference.parameters[static_cast<std::size_t>(p)];
     const double off = e.value - parameter.start;
-    if (parameter.is_contact() && parameter.has_prior && std::abs(off) > 4.0 * e.standard_error)
+    if (!parameter.is_error() && parameter.has_prior && std::abs(off) > 4.0 * e.standard_error)
       words.push_back("The data ask for a " + e.name + " " + text("%.2g %%", 100.0 * std::abs(off) / parameter.start) +
                       (off > 0.0 ? " larger" : " smaller") + " than was told. It is allowed for.");
     if (!e.identifiable || !(e.standard_error > kMuchMore * e.data_error)) continue;

@@ -47,7 +47,7 @@ FitOptions Calibrator::fit_options(const std::string& stage, int iterations, int
 }
 
 void Calibrator::search() {
-  const CalibrationProblem part = searched_up_to(problem_, 0.125);
+  const CalibrationProblem part = searched_up_to(problem_, kStartsShare);
   const auto cheaper = [](const Descent& a, const Descent& b) { return a.cost < b.cost; };
   std::vector<Descent> tried;
   std::size_t next = 0;
@@ -100,6 +100,9 @@ void Calibrator::try_starts(const CalibrationProblem& part, int count, std::vect
       FitOptions o = fit_options("start " + std::to_string(before + s + 1) + " of " + std::to_string(before + count),
                                  12, std::max(1, options_.jobs / side_by_side));
       o.cost_tolerance = 1e-4;
+      // What was told and is allowed to be otherwise would make up for a start far off.
+      for (int p = 0; p < problem_.parameter_count(); ++p)
+        if (problem_.parameters[p].has_prior && !problem_.parameters[p].is_error()) o.fixed[p] = true;
       const FitResult found = fit(searched_up_to(part, share), d.to, {}, o);
       stop = stop || found.interrupted;
       d.evaluations += found.evaluations;

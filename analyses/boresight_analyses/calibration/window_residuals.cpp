@@ -49,8 +49,8 @@ void CalibrationProblem::set_start(const Window& w, const std::vector<double>& v
   request.start_state = state.cwiseProduct(state_scale(w));
   if (!w.from_rest) return;
   const CalibrationRun& run = runs[w.run];
-  const StartSlopes start = start_slopes(*run.mechanism, *tables_at(w.run, values), with_contacts(w.run, values),
-                                         contact_values(values), derivatives);
+  const StartSlopes start = start_slopes(*run.mechanism, *tables_at(w.run, values), with_followed(w.run, values),
+                                         followed_values(values), derivatives, request.beside);
   request.start_state += start.state;
   request.start_by_parameters = start.by;
 }
@@ -107,7 +107,7 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
   if (correction && correction->tangent) return evaluate_tangent(w, globals, derivatives, out);
   const std::vector<double> theta = values(globals);
   const VecX scale = state_scale(w);
-  const std::vector<int> contacts = contact_parameters();
+  const std::vector<int> followed = followed_parameters();
   const std::vector<double> times = reading_times(w, globals);
   out.motion = n > 0 ? follow(w, theta, state, times, derivatives) : SensitiveMotion{};
   const Parameters sample_of_fit = parameters_at(w.run, theta);
@@ -160,9 +160,9 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
         if (!derivatives) continue;
         const Vec3 along = at.size ? Vec3(vector / std::max(own, 1e-12)) : Vec3::UnitX();
         const Eigen::RowVectorXd by_z = moment.weight * along.transpose() * at.rows / sigma[c];
-        for (std::size_t p = 0; p < contacts.size(); ++p)
-          out.by_global(m, contacts[p]) += by_z.dot(out.motion.by[k].col(static_cast<Eigen::Index>(p)).head(n)) *
-                                           parameters[contacts[p]].slope(globals.u[contacts[p]]);
+        for (std::size_t p = 0; p < followed.size(); ++p)
+          out.by_global(m, followed[p]) += by_z.dot(out.motion.by[k].col(static_cast<Eigen::Index>(p)).head(n)) *
+                                           parameters[followed[p]].slope(globals.u[followed[p]]);
         if (run.standing) {
           const Eigen::RowVectorXd by_error =
               moment.weight * along.transpose() * at.by_pose * run.standing->slopes(w.first + i) / sigma[c];
@@ -197,20 +197,6 @@ void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const
   if (!derivatives) return;
   out.by_global.conservativeResize(m, Eigen::NoChange);
   out.by_state.conservativeResize(m, Eigen::NoChange);
-  differences_by_masses(w, globals, state, out);
-}
-
-void CalibrationProblem::differences_by_masses(const Window& w, const Globals& globals, const VecX& state,
-                                               WindowResiduals& out) const {
-  constexpr double kStep = 1e-4;  // of the logarithm
-  for (int p = 0; p < parameter_count(); ++p) {
-    if (parameters[p].is_error() || parameters[p].is_contact()) continue;
-    Globals moved = globals;
-    moved.u[p] += kStep;
-    WindowResiduals there;
-    evaluate(w, moved, state, false, there);
-    out.by_global.col(p) = (there.r - out.r) / kStep;
-  }
 }
 
 std::shared_ptr<const SceneTables> CalibrationProblem::tables_at(int run, const std::vector<double>& theta) const {
@@ -219,12 +205,31 @@ std::shared_ptr<const SceneTables> CalibrationProblem::tables_at(int run, const 
   return of_masses ? runs[run].prepared->tables(parameters_at(run, theta)) : runs[run].tables;
 }
 
+std::vector<TablesBeside> CalibrationProblem::tables_beside(int run, const std::vector<double>& theta) const {
+  // To either side, of the value: what tables bend by in between is a millionth of their slope.
+  constexpr double kShare = 1e-3;
+  std::vector<TablesBeside> beside;
+  const std::vector<int> followed = followed_parameters();
+  for (std::size_t k = 0; k < followed.size(); ++k) {
+    const int p = followed[k];
+    if (parameters[p].is_contact()) continue;
+    const auto at = [&](double share) {
+      std::vector<double> moved = theta;
+      moved[p] *= 1.0 + share;
+      return runs[run].prepared->tables(parameters_at(run, moved));
+    };
+    beside.push_back({static_cast<int>(k), 2.0 * kShare * theta[p], at(-kShare), at(kShare)});
+  }
+  return beside;
+}
+
 SensitiveMotion CalibrationProblem::follow(const Window& w, const std::vector<double>& theta, const VecX& state,
                                            const std::vector<double>& times, bool derivatives) const {
   const CalibrationRun& run = runs[w.run];
   MotionRequest request;
   request.start = w.start;
   request.end = w.end;
+  if (derivatives) request.beside = tables_beside(w.run, theta);
   set_start(w, theta, state, derivatives, request);
   request.tolerance = tolerance;
   request.by_parameters = derivatives;

@@ -67,7 +67,8 @@ struct Follower {
     const int n2 = 2 * tables->layout.n, by_parameters = parameters_too ? static_cast<int>(numbers.by.size()) : 0;
     ContactNumbers seeded = numbers;
     if (!parameters_too) seeded.by.clear();
-    SensitiveSystem<W> system(mechanism, parameters, tables, seeded, first);
+    SensitiveSystem<W> system(mechanism, parameters, tables, seeded, first,
+                              parameters_too ? request.beside : std::vector<TablesBeside>{});
     VecX Y = VecX::Zero(system.size());
     Y.head(n2) = request.start_state;
     for (int d = 0; d < W; ++d)

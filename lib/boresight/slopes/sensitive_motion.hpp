@@ -34,6 +34,7 @@
 
 #include "boresight/scene/clearance_scene.hpp"
 #include "boresight/slopes/contact_number_slopes.hpp"
+#include "boresight/slopes/tables_beside.hpp"
 
 namespace boresight {
 
@@ -56,6 +57,7 @@ struct MotionRequest {
   double start = 0.0, end = 0.0;      // [s]
   VecX start_state;                   // 2n
   MatX start_by_parameters;           // 2n x parameters: how it follows them; empty: not at all
+  std::vector<TablesBeside> beside;   // of the parameters that the tables hang on
   std::vector<double> times;          // within [start, end], rising [s]
   bool by_parameters = false;         // directions 0 .. parameters-1
   bool by_start_state = false;        // the next 2n directions

@@ -20,7 +20,7 @@ class SensitiveSystem {
 
   // first: the first of the W directions; those from `parameters` on are components of the start state.
   SensitiveSystem(const Mechanism& mechanism, const Parameters& parameters, std::shared_ptr<const SceneTables> tables,
-                  const ContactNumbers& numbers, int first)
+                  const ContactNumbers& numbers, int first, const std::vector<TablesBeside>& beside)
       : tables_(std::move(tables)),
         plain_(mechanism, parameters, tables_, false),
         row_(tables_->dynamics.width()),
@@ -36,6 +36,15 @@ class SensitiveSystem {
       impact_speed_.push_back(speed);
       for (ContactPlace place : numbers.joints[c].places()) gaps_.push_back({static_cast<int>(c), place});
     }
+    for (const TablesBeside& one : beside)
+      if (one.parameter >= first && one.parameter < first + W) {
+        beside_.push_back(one);
+        beside_.back().parameter -= first;
+      }
+    if (beside_.empty()) return;
+    less_ = more_ = row_;
+    slope_of_row_.resize(beside_.size(), row_);
+    force_value_ = added_ = VecX::Zero(tables_->layout.n);
   }
 
   int size() const { return plain_.size() * (1 + W); }
@@ -55,6 +64,7 @@ class SensitiveSystem {
     }
     coordinate_acceleration(at, row_.data(), states_.data(), states_.data() + at.n, force_.data(),
                             acceleration_.data());
+    add_slopes_of_tables(Y);
     const int size = plain_.size();
     for (int i = 0; i < at.n; ++i) {
       dY[i] = Y[at.n + i];
@@ -129,7 +139,22 @@ class SensitiveSystem {
   void scene_at(double t) const {
     if (t == row_time_) return;
     tables_->dynamics.at(t, row_.data());
+    for (std::size_t b = 0; b < beside_.size(); ++b) {
+      beside_[b].less->dynamics.at(t, less_.data());
+      beside_[b].more->dynamics.at(t, more_.data());
+      for (std::size_t k = 0; k < row_.size(); ++k) slope_of_row_[b][k] = (more_[k] - less_[k]) / beside_[b].apart;
+    }
     row_time_ = t;
+  }
+  // The acceleration is linear in the row: what the row's slope gives is the acceleration's.
+  void add_slopes_of_tables(const VecX& Y) const {
+    const SceneLayout& at = tables_->layout;
+    for (std::size_t b = 0; b < beside_.size(); ++b) {
+      for (int i = 0; i < at.n; ++i) force_value_[i] = force_[i].a;
+      coordinate_acceleration(at, slope_of_row_[b].data(), Y.data(), Y.data() + at.n, force_value_.data(),
+                              added_.data());
+      for (int i = 0; i < at.n; ++i) acceleration_[i].v[beside_[b].parameter] += added_[i];
+    }
   }
   void load(const VecX& Y) const {
     const int size = plain_.size();
@@ -200,6 +225,10 @@ class SensitiveSystem {
   mutable VecX y_;
   VecX slope_;
   mutable std::vector<Jet> states_, force_, acceleration_;
+  std::vector<TablesBeside> beside_;  // parameter: among the W
+  mutable std::vector<double> less_, more_;
+  mutable std::vector<std::vector<double>> slope_of_row_;  // of each beside
+  mutable VecX force_value_, added_;
 };
 
 }  // namespace boresight

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "boresight/scene/clearance_scene.hpp"
+#include "boresight/slopes/tables_beside.hpp"
 
 namespace boresight {
 
@@ -15,9 +15,10 @@ struct StartSlopes {
       by;  // 2n x parameters; empty where none are asked for. By central differences of fourth order (Fornberg 1988, table 1)
 };
 
-// parameters_at: the mechanism's parameters at some values > 0 of those varied, numbers of the contacts only.
+// parameters_at: the mechanism's parameters at some values > 0 of those varied. beside: of those that the tables hang on.
 StartSlopes start_slopes(const Mechanism& mechanism, const SceneTables& tables,
                          const std::function<Parameters(const std::vector<double>&)>& parameters_at,
-                         const std::vector<double>& values, bool derivatives);
+                         const std::vector<double>& values, bool derivatives,
+                         const std::vector<TablesBeside>& beside = {});
 
 }  // namespace boresight
