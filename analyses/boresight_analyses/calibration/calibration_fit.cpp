@@ -74,6 +74,7 @@ class WindowCost final : public ceres::CostFunction {
     at_.by_state = std::move(motion.by_state);
   }
   const Followed& followed() const { return at_; }
+  void refuse() { at_.at_all = false; }
   void take(Followed at) { at_ = std::move(at); }
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
@@ -130,7 +131,15 @@ class AllWindows final : public ceres::EvaluationCallback {
   // kept: may be none. fit: the key of this one.
   AllWindows(int jobs, KeptResults* kept, std::uint64_t fit) : jobs_(jobs), kept_(kept), fit_(fit) {}
   void add(WindowCost* cost, std::vector<double*> blocks) { windows_.push_back({cost, std::move(blocks)}); }
+  // Whether the blocks are where they may be; asked before every evaluation from here on.
+  void ask_first(std::function<bool()> inside) { inside_ = std::move(inside); }
+  bool refused() const { return refused_; }
   void PrepareForEvaluation(bool evaluate_jacobians, bool) override {
+    if (inside_ && !inside_()) {
+      for (const Window& w : windows_) w.cost->refuse();
+      refused_ = true;
+      return;
+    }
     const std::uint64_t key = key_of(evaluations_++);
     if (auto found = kept_result<std::vector<WindowCost::Followed>>(kept_, key);
         found && found->size() == windows_.size()) {
@@ -167,6 +176,8 @@ class AllWindows final : public ceres::EvaluationCallback {
   int jobs_;
   KeptResults* kept_;
   std::uint64_t fit_, evaluations_ = 0;
+  std::function<bool()> inside_;
+  bool refused_ = false;
   std::vector<Window> windows_;
 };
 
@@ -186,12 +197,17 @@ class PriorCost final : public ceres::SizedCostFunction<1, 1> {
 
 class Watch final : public ceres::IterationCallback {
  public:
-  explicit Watch(std::function<bool(const ceres::IterationSummary&)> see) : see_(std::move(see)) {}
+  // least: the share of the cost below which what a step promised and did not keep is looked for no more.
+  Watch(double least, std::function<bool(const ceres::IterationSummary&)> see) : least_(least), see_(std::move(see)) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& s) override {
-    return see_(s) ? ceres::SOLVER_CONTINUE : ceres::SOLVER_ABORT;
+    if (!see_(s)) return ceres::SOLVER_ABORT;
+    const double promised = s.cost_change / s.relative_decrease;
+    const bool in_vain = s.iteration > 0 && s.step_is_valid && !s.step_is_successful && promised < least_ * s.cost;
+    return in_vain ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:
+  double least_;
   std::function<bool(const ceres::IterationSummary&)> see_;
 };
 
@@ -291,19 +307,35 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
       ceres_problem.AddResidualBlock(
           new PriorCost(expected[first] / units[first], 1.0 / (units[first] * std::sqrt(known[first]))), nullptr,
           block);
-    if (first >= P) continue;
-    ceres_problem.SetParameterLowerBound(block, 0, problem.parameters[first].lowest_coordinate());
-    ceres_problem.SetParameterUpperBound(block, 0, problem.parameters[first].highest_coordinate());
-    if (!options.fixed.empty() && options.fixed[first]) ceres_problem.SetParameterBlockConstant(block);
+    if (first < P && !options.fixed.empty() && options.fixed[first]) ceres_problem.SetParameterBlockConstant(block);
+  }
+  VecX low = VecX::Constant(G, -std::numeric_limits<double>::infinity()), high = -low;
+  for (int p = 0; p < P; ++p) {
+    low[p] = problem.parameters[p].lowest_coordinate();
+    high[p] = problem.parameters[p].highest_coordinate();
   }
   if (problem.fit_time_offset) {
-    double* const block = packed.data() + problem.time_offset_column();
-    ceres_problem.SetParameterLowerBound(block, 0, -1e3 * problem.largest_time_offset);
-    ceres_problem.SetParameterUpperBound(block, 0, 1e3 * problem.largest_time_offset);
+    high[problem.time_offset_column()] = problem.largest_time_offset / units[problem.time_offset_column()];
+    low[problem.time_offset_column()] = -high[problem.time_offset_column()];
   }
+  // With bounds every step is searched along, three motions for one. They are set where a step has led beyond them.
+  packed.head(G) = packed.head(G).cwiseMax(low).cwiseMin(high);
+  all.ask_first(
+      [&] { return (packed.head(G).array() >= low.array()).all() && (packed.head(G).array() <= high.array()).all(); });
+  const auto set_bounds = [&] {
+    all.ask_first({});
+    for (const auto& [first, width] : global_blocks) {
+      if (!std::isfinite(low[first])) continue;
+      ceres_problem.SetParameterLowerBound(packed.data() + first, 0, low[first]);
+      ceres_problem.SetParameterUpperBound(packed.data() + first, 0, high[first]);
+    }
+  };
 
   const auto take = [&] { result.globals = problem.unpacked(packed.head(G).cwiseProduct(units)); };
-  Watch watch([&](const ceres::IterationSummary& s) {
+  // Steps that promise less than a tenth of what one value leaves, and do not keep it, show how rough the landscape is.
+  Eigen::Index values = 0;
+  for (const int w : result.windows) values += value_count(problem, problem.windows[w]);
+  Watch watch(0.1 / static_cast<double>(std::max<Eigen::Index>(1, values)), [&](const ceres::IterationSummary& s) {
     if (!options.progress) return true;
     take();
     result.interrupted = !options.progress({s.iteration, options.most_iterations, 2.0 * s.cost, result.globals});
@@ -329,10 +361,18 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
   // parameters where the roughest window is: between solves every window looks for its start state alone.
   const int rounds = free_states ? 3 : 1;
   solver.max_num_iterations = std::max(1, options.most_iterations / rounds);
+  bool bounded = false;
   for (int round = 0; round < rounds; ++round) {
     ceres::Solve(solver, &ceres_problem, &summary);
-    take();
     if (round == 0) result.start_cost = 2.0 * summary.initial_cost;
+    if (all.refused() && !bounded && !result.interrupted) {
+      bounded = true;
+      result.iterations += static_cast<int>(summary.iterations.size()) - 1;
+      result.evaluations += summary.num_residual_evaluations + summary.num_jacobian_evaluations;
+      set_bounds();
+      ceres::Solve(solver, &ceres_problem, &summary);
+    }
+    take();
     result.iterations += static_cast<int>(summary.iterations.size()) - 1;
     result.evaluations += summary.num_residual_evaluations + summary.num_jacobian_evaluations;
     if (round + 1 == rounds || result.interrupted || !summary.IsSolutionUsable()) break;
@@ -357,6 +397,10 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
     result.reason = "stopped after " + std::to_string(result.iterations) + " iterations, still falling";
   else
     result.reason = "failed: " + summary.message;
+  if (getenv("GTRACE"))
+    fprintf(stderr, "   %.1f s fit %s: %d iterations, %d evaluations, %.7g to %.7g\n", clock() / 1e6,
+            problem.tolerance > 2e-6 ? "loose" : "tight", result.iterations, result.evaluations, result.start_cost,
+            result.cost);
   if (problem.kept != nullptr && !result.interrupted) {
     problem.kept->keep(key, Numbers::of(result));
     all.forget();
