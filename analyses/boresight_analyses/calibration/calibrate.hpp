@@ -1,8 +1,9 @@
 // A whole calibration: from data to parameters, what they are worth, and what to measure next.
 //
-// Order: noise from differences; several starts on the first eighth of every run, side by side; the best of
-// them on a horizon that doubles up to the whole (so that impacts enter one after another and the landscape
-// stays smooth); other valleys near the place it found; noise from the residuals, and once more. What the
+// Order: noise from differences; masses that the data know better than they were told among the parameters; several
+// starts on the first eighth of every run, side by side; the best of them on a horizon that grows up to the whole (so
+// that impacts enter one after another); other valleys near the place it found; noise from the residuals, and once
+// more. What the
 // fit's rung leaves out and multibody has, in value and slope at the optimum, is then added to the model and
 // the fit goes on until that moves nothing (first order model management: Alexandrov and Lewis 2001,
 // Optimization and Engineering 2, 413-430).
@@ -64,8 +65,8 @@ struct CalibrationResult {
   bool interrupted = false;
 };
 
-// problem: prepared; its sigma is set here, and its data are corrected where options ask for it. Throws
-// ComputationError.
+// problem: prepared; its sigma is set here, its data are corrected where options ask for it, and masses join its
+// parameters. Throws ComputationError.
 CalibrationResult calibrate(CalibrationProblem& problem, const CalibrationOptions& options);
 
 }  // namespace boresight

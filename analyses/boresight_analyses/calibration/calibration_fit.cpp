@@ -397,10 +397,6 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
     result.reason = "stopped after " + std::to_string(result.iterations) + " iterations, still falling";
   else
     result.reason = "failed: " + summary.message;
-  if (getenv("GTRACE"))
-    fprintf(stderr, "   %.1f s fit %s: %d iterations, %d evaluations, %.7g to %.7g\n", clock() / 1e6,
-            problem.tolerance > 2e-6 ? "loose" : "tight", result.iterations, result.evaluations, result.start_cost,
-            result.cost);
   if (problem.kept != nullptr && !result.interrupted) {
     problem.kept->keep(key, Numbers::of(result));
     all.forget();

@@ -119,7 +119,9 @@ const KeyTable& calibrate_discrepancy_keys() {
           quantity("masses", kRatio)
               .bounded({.least = 0.0, .most = 1.0, .expected = "0 to 100 %"})
               .usually(in_percent(d.masses))
-              .says("Of every body's mass, each by itself."),
+              .says("Of every body's mass, each by itself. A mass that the data know better than half of this is "
+                    "fitted too, "
+                    "with this as its prior."),
           quantity("lag", kDuration)
               .bounded({.least = 0.0, .most = 1.0, .expected = "0 to 1 s"})
               .otherwise(d.lag)

@@ -19,12 +19,14 @@ namespace {
 
 // By how much the horizon grows: at most, and least before other places are looked at.
 constexpr double kMostGrowth = 1.3, kLeastGrowth = 1.04;
-// A mean square of what came in beyond this many times that of what was there: noise of a hundred values stays below it.
+// A mean square of what came in beyond this many times that of what was there. Noise alone does so with a hundred values once in a dozen times,
+// which costs a look and no more.
 constexpr double kRise = 1.2;
 // Places looked at, and led on. On 18 sets of the four-bar (multibody's data, axial gaps and masses off) five beside three ended once 720 above
 // what eight beside four found.
 constexpr int kBeside = 8, kMostKept = 4;
-constexpr double kReach = 2.0;  // in standard errors of the horizon before
+// How far off they are looked at, the first and each further one: in standard errors of what is reached.
+constexpr double kNearest = 1.0, kFarther = 0.5;
 // Higher than the lowest by this many s^2 a place is given up: e^-15 as likely.
 constexpr double kLikely = 30.0;
 // Closer to a lower one than this many standard errors in every parameter, and hardly higher: the same place.
@@ -105,7 +107,7 @@ bool Calibrator::grow(Globals at, bool give_up) {
       std::vector<Globals> starts = places;
       for (int k = 0; k < beside; ++k)
         starts.push_back(moved_along(part, places[static_cast<std::size_t>(k) % places.size()],
-                                     kReach * drawn(covariance, stream, looked_beside_++)));
+                                     (kNearest + k * kFarther) * drawn(covariance, stream, looked_beside_++)));
       const std::string stage =
           share < 1.0 ? "horizon " + std::to_string(static_cast<int>(100.0 * share)) + " %" : "whole data";
       std::vector<FitResult> ended = fits_from(part, starts, stage, 10, 1e-5);
@@ -119,9 +121,6 @@ bool Calibrator::grow(Globals at, bool give_up) {
       const bool rises = values_before > 0 &&
                          ended.front().cost - before.cost > kRise * before.cost / static_cast<double>(values_before) *
                                                                 static_cast<double>(values - values_before);
-      if (getenv("GTRACE"))
-        fprintf(stderr, "%.1f s share %.4f growth %.3f places %zu beside %d cost %.6g of %ld %s\n", clock() / 1e6,
-                share, growth, places.size(), beside, ended.front().cost, values, rises ? "rises" : "");
       if (rises && growth > kLeastGrowth) {
         growth = std::max(kLeastGrowth, std::sqrt(growth));
         continue;

@@ -81,35 +81,7 @@ bool leaves_more_than_noise(const CalibrationProblem& problem, const Globals& at
 
 namespace {
 
-// The least of the losses around, and where; `at` where nothing around is lower.
-Globals lowest_around(const CalibrationProblem& problem, const std::vector<bool>& fixed, int jobs, const Globals& at) {
-  std::vector<Globals> tried = {at};
-  for (int p = 0; p < problem.parameter_count(); ++p)
-    for (const double step : {-0.2, -0.03, 0.03, 0.2}) {
-      if (fixed[p] || problem.parameters[p].is_error() || problem.parameters[p].has_prior) continue;
-      Globals moved = at;
-      moved.u[p] = std::clamp(at.u[p] + step, problem.parameters[p].lowest_coordinate(),
-                              problem.parameters[p].highest_coordinate());
-      tried.push_back(moved);
-    }
-  std::vector<double> loss(tried.size(), 0.0);
-  for_each_on_threads(static_cast<int>(tried.size()), jobs, [&](int k) { loss[k] = loss_at(problem, tried[k]); });
-  const auto best = std::min_element(loss.begin(), loss.end());
-  return *best < 0.999 * loss[0] ? tried[best - loss.begin()] : at;
-}
-
 std::vector<int> numbers_of(const std::vector<bool>& fixed) { return {fixed.begin(), fixed.end()}; }
-
-}  // namespace
-
-bool look_around(const CalibrationProblem& problem, const std::vector<bool>& fixed, int jobs, Globals& at) {
-  const Globals before = at;
-  at = kept_or_computed<Globals>(problem.kept, CalibrationKey("around", problem).add(at, numbers_of(fixed)).value(),
-                                 [&] { return lowest_around(problem, fixed, jobs, before); });
-  return at.u != before.u;
-}
-
-namespace {
 
 struct Valleys {
   std::vector<Globals> places;

@@ -27,10 +27,6 @@ double loss_at(const CalibrationProblem& problem, const Globals& at);
 // tenth of the readings, do neither.
 bool leaves_more_than_noise(const CalibrationProblem& problem, const Globals& at);
 
-// Whether a step of a few to some thirty percent of one parameter alone leads to a lower place. Moves `at`
-// there.
-bool look_around(const CalibrationProblem& problem, const std::vector<bool>& fixed, int jobs, Globals& at);
-
 // Away from an optimum by some standard errors of a parameter, along the line on which all others follow it,
 // the loss rises as the parabola of the information says, unless another valley is near. Places, 3 to 24
 // standard errors off, where it rises by less than half of that, the most surprising first. evaluations:

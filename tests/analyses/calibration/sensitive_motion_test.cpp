@@ -98,6 +98,51 @@ TEST(SensitiveMotion, DerivativesJumpWhereADashpotMakesTheForceStartAtOnce) {
   expect_derivatives_of_differences(scene, flight_to(8e-3));
 }
 
+// A mass is in the scene's tables, and in how hard the journal leans where it rests.
+TEST(SensitiveMotion, DerivativesByAMassAreThoseOfRichardsonDifferences) {
+  const Mechanism mechanism(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", std::vector<Setting>{}));
+  const PreparedScene prepared(mechanism, ideal_motion(mechanism, mechanism.parameters()), mechanism.parameters());
+  for (const BodyDescription& body : mechanism.description().bodies) {
+    const ParameterPath path(mechanism.description(), "body." + body.name + ".mass");
+    const double told = path.get(mechanism.parameters());
+    const auto at = [&](double mass) {
+      Parameters p = mechanism.parameters();
+      path.set(p, mass);
+      return p;
+    };
+    const auto follow = [&](double mass, bool derivatives) {
+      MotionRequest request = flight_to(8e-3);
+      request.by_parameters = derivatives;
+      if (derivatives)
+        request.beside = {{0, 2e-3 * mass, prepared.tables(at(0.999 * mass)), prepared.tables(at(1.001 * mass))}};
+      return follow_with_sensitivity(mechanism, at(mass), prepared.tables(at(mass)),
+                                     contact_numbers(mechanism, [&](const auto& x) { return at(x[0]); }, {mass}),
+                                     request);
+    };
+    const SensitiveMotion motion = follow(told, true);
+    ASSERT_GE(motion.impact_speed.size(), 2u);
+    const auto size = [](VecX v) {
+      v.tail<3>() *= kFlightTime;
+      return v.norm();
+    };
+    const VecX exact = motion.by.back().col(0);
+    const auto central = [&](double h) {
+      const auto moved = [&](double share) { return VecX(follow(told * (1.0 + share), false).state.rightCols(1)); };
+      return VecX((moved(h) - moved(-h)) / (2.0 * h * told));
+    };
+    if (body.name == "crank") {  // it is driven, and turns about an axis without play
+      EXPECT_EQ(size(exact), 0.0);
+      continue;
+    }
+    double least = 1.0;
+    for (const double h : {2e-3, 1e-3, 5e-4})
+      least = std::min(least, size((4.0 * central(0.5 * h) - central(h)) / 3.0 - exact) / size(exact));
+    // What tables bend by over two thousandths of a mass.
+    EXPECT_LT(least, 5e-6) << body.name;
+  }
+}
+
 TEST(SensitiveMotion, TheSameMotionWithAndWithoutDerivatives) {
   const Scene scene;
   MotionRequest request = flight_to(8e-3);
