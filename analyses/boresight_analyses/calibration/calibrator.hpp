@@ -62,7 +62,9 @@ class Calibrator {
 
   // On a horizon that grows from that of the starts to the whole (growing_horizon.cpp). give_up: returns false as soon as the place is
   // lost.
-  bool grow(Globals at, bool give_up);
+  bool grow(const Globals& at, bool give_up);
+  // One such path: fits to the whole data, the lowest first; none where it is lost.
+  std::vector<FitResult> grown(const Globals& at, double most_growth, bool give_up);
   // Side by side.
   std::vector<FitResult> fits_from(const CalibrationProblem& part, const std::vector<Globals>& starts,
                                    const std::string& stage, int iterations, double cost_tolerance);

@@ -17,8 +17,9 @@
 namespace boresight {
 namespace {
 
-// By how much the horizon grows: at most, and least before other places are looked at.
-constexpr double kMostGrowth = 1.3, kLeastGrowth = 1.04;
+// By how much the horizon grows at most, of two paths: which valley one ends in hangs on where its horizons fall. And least, before other places
+// are looked at.
+constexpr double kMostGrowth[] = {1.3, 1.2}, kLeastGrowth = 1.04;
 // A mean square of what came in beyond this many times that of what was there. Noise alone does so with a hundred values once in a dozen times,
 // which costs a look and no more.
 constexpr double kRise = 1.2;
@@ -91,54 +92,68 @@ std::vector<Globals> Calibrator::distinct_places(const std::vector<FitResult>& e
   return places;
 }
 
-bool Calibrator::grow(Globals at, bool give_up) {
+std::vector<FitResult> Calibrator::grown(const Globals& at, double most_growth, bool give_up) {
+  std::vector<Globals> places = {at};
+  std::vector<FitResult> ended;
+  const CounterStream stream(options_.seed, StreamPurpose::proposal);
+  double reached = kStartsShare, growth = most_growth;
+  FitResult before;  // at what is reached
+  long values_before = 0;
+  MatX covariance;
+  int beside = 0;
+  while (reached < 1.0) {
+    // The last stretch is no sliver.
+    const double share = reached * growth < 0.98 ? reached * growth : 1.0;
+    const CalibrationProblem part = searched_up_to(problem_, share);
+    std::vector<Globals> starts = places;
+    for (int k = 0; k < beside; ++k)
+      starts.push_back(moved_along(part, places[static_cast<std::size_t>(k) % places.size()],
+                                   (kNearest + k * kFarther) * drawn(covariance, stream, looked_beside_++)));
+    const std::string stage =
+        share < 1.0 ? "horizon " + std::to_string(static_cast<int>(100.0 * share)) + " %" : "whole data";
+    ended = fits_from(part, starts, stage, 10, 1e-5);
+    std::stable_sort(ended.begin(), ended.end(),
+                     [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
+    if (!std::isfinite(ended.front().cost)) return {};
+    const long values = values_in(part, ended.front().windows);
+    const bool rises = values_before > 0 &&
+                       ended.front().cost - before.cost > kRise * before.cost / static_cast<double>(values_before) *
+                                                              static_cast<double>(values - values_before);
+    if (rises && growth > kLeastGrowth) {
+      growth = std::max(kLeastGrowth, std::sqrt(growth));
+      continue;
+    }
+    if (rises && beside == 0) {
+      beside = kBeside;
+      continue;
+    }
+    const Inference known = infer(part, ended.front(), options_.confidence, result_.fixed, options_.jobs);
+    places = distinct_places(ended, known);
+    covariance = known.covariance;
+    before = ended.front();
+    values_before = values;
+    reached = share;
+    beside = 0;
+    growth = std::min(most_growth, std::pow(growth, 1.5));
+    if (give_up && leaves_more_than_noise(part, places.front())) return {};
+  }
+  return ended;
+}
+
+bool Calibrator::grow(const Globals& at, bool give_up) {
   std::vector<Globals> places = {at};
   if (follows_from_rest(problem_)) {
-    const CounterStream stream(options_.seed, StreamPurpose::proposal);
-    double reached = kStartsShare, growth = kMostGrowth;
-    FitResult before;  // at what is reached
-    long values_before = 0;
-    MatX covariance;
-    int beside = 0;
-    while (reached < 1.0) {
-      // The last stretch is no sliver.
-      const double share = reached * growth < 0.98 ? reached * growth : 1.0;
-      const CalibrationProblem part = searched_up_to(problem_, share);
-      std::vector<Globals> starts = places;
-      for (int k = 0; k < beside; ++k)
-        starts.push_back(moved_along(part, places[static_cast<std::size_t>(k) % places.size()],
-                                     (kNearest + k * kFarther) * drawn(covariance, stream, looked_beside_++)));
-      const std::string stage =
-          share < 1.0 ? "horizon " + std::to_string(static_cast<int>(100.0 * share)) + " %" : "whole data";
-      std::vector<FitResult> ended = fits_from(part, starts, stage, 10, 1e-5);
-      std::stable_sort(ended.begin(), ended.end(),
-                       [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
-      if (!std::isfinite(ended.front().cost)) {
-        if (give_up) return false;
-        break;
-      }
-      const long values = values_in(part, ended.front().windows);
-      const bool rises = values_before > 0 &&
-                         ended.front().cost - before.cost > kRise * before.cost / static_cast<double>(values_before) *
-                                                                static_cast<double>(values - values_before);
-      if (rises && growth > kLeastGrowth) {
-        growth = std::max(kLeastGrowth, std::sqrt(growth));
-        continue;
-      }
-      if (rises && beside == 0) {
-        beside = kBeside;
-        continue;
-      }
-      const Inference known = infer(part, ended.front(), options_.confidence, result_.fixed, options_.jobs);
-      places = distinct_places(ended, known);
-      covariance = known.covariance;
-      before = std::move(ended.front());
-      values_before = values;
-      reached = share;
-      beside = 0;
-      growth = std::min(kMostGrowth, std::pow(growth, 1.5));
-      if (give_up && leaves_more_than_noise(part, places.front())) return false;
+    std::vector<FitResult> ended;
+    for (const double most_growth : kMostGrowth) {
+      std::vector<FitResult> more = grown(at, most_growth, give_up);
+      ended.insert(ended.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     }
+    if (ended.empty() && give_up) return false;
+    std::stable_sort(ended.begin(), ended.end(),
+                     [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
+    if (!ended.empty())
+      places = distinct_places(ended, infer(searched_up_to(problem_, 1.0), ended.front(), options_.confidence,
+                                            result_.fixed, options_.jobs));
   }
   std::vector<FitResult> ended = fits_from(problem_, places, "whole data", 30, FitOptions().cost_tolerance);
   std::stable_sort(ended.begin(), ended.end(), [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
