@@ -11,10 +11,6 @@
 namespace boresight {
 namespace {
 
-// Among narrow optima a whole Gauss-Newton step often leads beyond the next ridge. From a radius of 1e4 four such steps, each a motion
-// followed in vain, are refused before one is any shorter; from 100 the second is.
-constexpr double kRadiusInAComb = 100.0;
-
 // What a global counts in within the fit: parameters as they are, times in ms, biases and drifts in standard deviations.
 VecX units_of(const CalibrationProblem& problem) {
   VecX units = VecX::Ones(problem.global_count());
@@ -279,7 +275,7 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
   ceres::Problem::Options of_problem;
   of_problem.evaluation_callback = &all;
   ceres::Problem ceres_problem(of_problem);
-  bool free_states = false, any_from_rest = false;
+  bool free_states = false;
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (std::size_t k = 0; k < result.windows.size(); ++k) {
     const Window& w = problem.windows[result.windows[k]];
@@ -289,7 +285,6 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
     auto cost = std::make_unique<WindowCost>(problem, w, value_count(problem, w) + problem.state_size(w));
     all.add(cost.get(), blocks);
     ceres_problem.AddResidualBlock(cost.release(), nullptr, blocks);
-    any_from_rest = any_from_rest || (w.from_rest && problem.follows_play());
     if (states[k].size() == 0) continue;
     ordering->AddElementToGroup(state_of[k].data(), 0);
     if (w.from_rest) {
@@ -332,15 +327,16 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
   };
 
   const auto take = [&] { result.globals = problem.unpacked(packed.head(G).cwiseProduct(units)); };
-  // Steps that promise less than a tenth of what one value leaves, and do not keep it, show how rough the landscape is.
   Eigen::Index values = 0;
   for (const int w : result.windows) values += value_count(problem, problem.windows[w]);
-  Watch watch(0.1 / static_cast<double>(std::max<Eigen::Index>(1, values)), [&](const ceres::IterationSummary& s) {
-    if (!options.progress) return true;
-    take();
-    result.interrupted = !options.progress({s.iteration, options.most_iterations, 2.0 * s.cost, result.globals});
-    return !result.interrupted;
-  });
+  Watch watch(
+      options.least_gain / static_cast<double>(std::max<Eigen::Index>(1, values)),
+      [&](const ceres::IterationSummary& s) {
+        if (!options.progress) return true;
+        take();
+        result.interrupted = !options.progress({s.iteration, options.most_iterations, 2.0 * s.cost, result.globals});
+        return !result.interrupted;
+      });
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_SCHUR;
   solver.linear_solver_ordering = ordering;
@@ -353,7 +349,7 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
   solver.function_tolerance = options.cost_tolerance;
   solver.parameter_tolerance = options.parameter_tolerance;
   solver.update_state_every_iteration = true;
-  if (any_from_rest) solver.initial_trust_region_radius = kRadiusInAComb;
+  solver.initial_trust_region_radius = options.first_radius;
   solver.callbacks.push_back(&watch);
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
@@ -388,10 +384,10 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
   result.states = std::move(states);
   // A start whose motion cannot be followed has no cost.
   result.cost = summary.IsSolutionUsable() ? 2.0 * summary.final_cost : std::numeric_limits<double>::infinity();
-  result.converged = summary.termination_type == ceres::CONVERGENCE;
+  result.converged = summary.termination_type == ceres::CONVERGENCE || summary.termination_type == ceres::USER_SUCCESS;
   if (result.interrupted)
     result.reason = "interrupted";
-  else if (summary.termination_type == ceres::CONVERGENCE)
+  else if (result.converged)
     result.reason = "converged: cost or parameters no longer change";
   else if (summary.termination_type == ceres::NO_CONVERGENCE)
     result.reason = "stopped after " + std::to_string(result.iterations) + " iterations, still falling";
@@ -412,7 +408,8 @@ FitResult fit(const CalibrationProblem& problem, const Globals& start, std::vect
   const std::uint64_t key =
       CalibrationKey("fit", problem)
           .add(start, states, options.most_iterations, options.cost_tolerance, options.parameter_tolerance,
-               options.windows, std::vector<int>(options.fixed.begin(), options.fixed.end()), options.fix_nuisance)
+               options.least_gain, options.first_radius, options.windows,
+               std::vector<int>(options.fixed.begin(), options.fixed.end()), options.fix_nuisance)
           .value();
   if (std::optional<FitResult> found = kept_result<FitResult>(problem.kept, key)) return std::move(*found);
   return computed_fit(problem, start, std::move(states), options, key);

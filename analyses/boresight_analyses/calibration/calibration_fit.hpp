@@ -24,8 +24,12 @@ struct FitOptions {
   int most_iterations = 40;
   double cost_tolerance = 1e-6;       // relative change of the cost at which it stops
   double parameter_tolerance = 1e-5;  // relative step at which it stops
-  std::vector<int> windows;           // those that count; empty: all that are not held out
-  std::vector<bool> fixed;            // parameters that stay; empty: none
+  // Of what one value leaves: a step that promises no more and does not keep it shows how rough the landscape is, and ends the fit.
+  double least_gain = 0.01;
+  // Of trust, in sizes of the Jacobian's columns: 1e4 lets whole Gauss-Newton steps go, which from afar lead over the ridges between narrow optima.
+  double first_radius = 1e4;
+  std::vector<int> windows;  // those that count; empty: all that are not held out
+  std::vector<bool> fixed;   // parameters that stay; empty: none
   bool fix_nuisance = false;
   std::function<bool(const FitProgress&)> progress;  // return false to stop
 };

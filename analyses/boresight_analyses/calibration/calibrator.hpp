@@ -65,9 +65,9 @@ class Calibrator {
   bool grow(const Globals& at, bool give_up);
   // One such path: fits to the whole data, the lowest first; none where it is lost.
   std::vector<FitResult> grown(const Globals& at, double most_growth, bool give_up);
-  // Side by side.
+  // Side by side. rough: as where the horizon goes on growing.
   std::vector<FitResult> fits_from(const CalibrationProblem& part, const std::vector<Globals>& starts,
-                                   const std::string& stage, int iterations, double cost_tolerance);
+                                   const std::string& stage, bool rough);
   // Of fits, the lowest first: their places, each once, without those that are hopeless beside it.
   std::vector<Globals> distinct_places(const std::vector<FitResult>& ended, const Inference& at_lowest) const;
 

@@ -57,14 +57,20 @@ VecX drawn(const MatX& covariance, const CounterStream& stream, std::uint64_t nu
 }  // namespace
 
 std::vector<FitResult> Calibrator::fits_from(const CalibrationProblem& part, const std::vector<Globals>& starts,
-                                             const std::string& stage, int iterations, double cost_tolerance) {
+                                             const std::string& stage, bool rough) {
   const int count = static_cast<int>(starts.size()), side_by_side = std::min(options_.jobs, count);
   std::vector<FitResult> ended(starts.size());
   std::atomic<bool> stop{false};
   for_each_on_threads(count, side_by_side, [&](int k) {
     if (stop) return;
-    FitOptions o = fit_options(stage, iterations, std::max(1, options_.jobs / side_by_side));
-    o.cost_tolerance = cost_tolerance;
+    FitOptions o = fit_options(stage, rough ? 10 : 30, std::max(1, options_.jobs / side_by_side));
+    // Near an optimum a whole step often leads beyond the next ridge. From a radius of 1e4 four of them, each a motion followed in vain, are
+    // refused before one is any shorter; from 100 the second is.
+    o.first_radius = 100.0;
+    if (rough) {
+      o.cost_tolerance = 1e-5;
+      o.least_gain = 0.1;
+    }
     ended[k] = fit(part, starts[k], {}, o);
     if (ended[k].interrupted) stop = true;
   });
@@ -111,7 +117,7 @@ std::vector<FitResult> Calibrator::grown(const Globals& at, double most_growth, 
                                    (kNearest + k * kFarther) * drawn(covariance, stream, looked_beside_++)));
     const std::string stage =
         share < 1.0 ? "horizon " + std::to_string(static_cast<int>(100.0 * share)) + " %" : "whole data";
-    ended = fits_from(part, starts, stage, 10, 1e-5);
+    ended = fits_from(part, starts, stage, true);
     std::stable_sort(ended.begin(), ended.end(),
                      [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
     if (!std::isfinite(ended.front().cost)) return {};
@@ -155,7 +161,7 @@ bool Calibrator::grow(const Globals& at, bool give_up) {
       places = distinct_places(ended, infer(searched_up_to(problem_, 1.0), ended.front(), options_.confidence,
                                             result_.fixed, options_.jobs));
   }
-  std::vector<FitResult> ended = fits_from(problem_, places, "whole data", 30, FitOptions().cost_tolerance);
+  std::vector<FitResult> ended = fits_from(problem_, places, "whole data", false);
   std::stable_sort(ended.begin(), ended.end(), [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
   for (std::size_t k = 1; k < ended.size(); ++k) optima_.push_back(ended[k].globals);
   optima_.push_back(ended.front().globals);
