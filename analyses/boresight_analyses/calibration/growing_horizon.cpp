@@ -64,9 +64,6 @@ std::vector<FitResult> Calibrator::fits_from(const CalibrationProblem& part, con
   for_each_on_threads(count, side_by_side, [&](int k) {
     if (stop) return;
     FitOptions o = fit_options(stage, rough ? 10 : 30, std::max(1, options_.jobs / side_by_side));
-    // Near an optimum a whole step often leads beyond the next ridge. From a radius of 1e4 four of them, each a motion followed in vain, are
-    // refused before one is any shorter; from 100 the second is.
-    o.first_radius = 100.0;
     if (rough) {
       o.cost_tolerance = 1e-5;
       o.least_gain = 0.1;

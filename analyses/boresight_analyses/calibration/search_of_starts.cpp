@@ -29,6 +29,9 @@ FitOptions Calibrator::fit_options(const std::string& stage, int iterations, int
   o.jobs = jobs;
   o.most_iterations = iterations;
   o.fixed = result_.fixed;
+  // Among narrow optima a whole step often leads beyond the next ridge. From a radius of 1e4 four of them, each a motion followed in vain, are
+  // refused before one is any shorter; from 100 the second is.
+  if (follows_from_rest(problem_)) o.first_radius = 100.0;
   o.progress = [this, stage](const FitProgress& p) {
     std::string text;
     const std::vector<double> values = problem_.values(p.globals);
