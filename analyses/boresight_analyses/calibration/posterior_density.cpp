@@ -11,7 +11,7 @@ namespace boresight {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// What the slopes need: at 1e-6 a small component of the gradient was off by a thirtieth of itself, and draws took no less time.
+// What the slopes need: at 1e-7, the fit's own, a small component of the gradient was off by a twenty-fifth of itself.
 constexpr double kTolerance = 1e-8;
 
 // What parameters can mimic of suspects: least |D - A S - F b|, over all windows. ridge: of the rows of S.
@@ -36,7 +36,7 @@ PosteriorDensity::PosteriorDensity(const CalibrationProblem& problem, const FitR
                                    double variance_factor, double disagreement, int jobs)
     : problem_(problem), fitted_(fit.globals) {
   problem_.kept = nullptr;
-  problem_.tolerance = std::max(problem_.tolerance, kTolerance);
+  problem_.tolerance = std::min(problem_.tolerance, kTolerance);
   for (ModelCorrection& correction : problem_.corrections) correction.tangent.reset();
   for (int g = 0; g < problem_.bias_column(); ++g)
     if (g >= problem_.parameter_count() || !fixed[static_cast<std::size_t>(g)]) sampled_.push_back(g);
