@@ -73,15 +73,15 @@ bool CalibrationProblem::fits_errors() const {
 }
 
 void CalibrationProblem::prepare(double window_length, bool from_rest) {
-  if (follows_play())
-    for (std::size_t r = 0; r < runs.size(); ++r)
-      if (freedoms(static_cast<int>(r)) == 0) refuse_play_that_cannot_move(runs[r]);
   const bool any_mass = std::any_of(parameters.begin(), parameters.end(),
                                     [](const FittedParameter& p) { return !p.is_error() && !p.is_contact(); });
   for (const CalibrationRun& run : runs)
     if (any_mass && !is_kinematic(*run.mechanism))
       throw ComputationError("calibrate fits masses where every freedom is driven: the motion of " +
                              run.mechanism->name() + " is simulated, and masses decide where it goes");
+  if (follows_play())
+    for (std::size_t r = 0; r < runs.size(); ++r)
+      if (freedoms(static_cast<int>(r)) == 0) refuse_play_that_cannot_move(runs[r]);
   channels.clear();
   windows.clear();
   for (const CalibrationRun& run : runs)

@@ -27,10 +27,20 @@ MatX solve_symmetric(const MatX& A, const MatX& B) { return A.ldlt().solve(B); }
 VecX solve_square(const MatX& A, const VecX& b) { return A.partialPivLu().solve(b); }
 MatX solve_square(const MatX& A, const MatX& B) { return A.partialPivLu().solve(B); }
 
-VecX solve_least(const MatX& A, const VecX& b, double threshold) { return decomposed(A, threshold).solve(b); }
-MatX solve_least(const MatX& A, const MatX& B, double threshold) { return decomposed(A, threshold).solve(B); }
+// Eigen's decomposition reads beyond a matrix that is empty.
+VecX solve_least(const MatX& A, const VecX& b, double threshold) {
+  if (A.size() == 0) return VecX::Zero(A.cols());
+  return decomposed(A, threshold).solve(b);
+}
+MatX solve_least(const MatX& A, const MatX& B, double threshold) {
+  if (A.size() == 0) return MatX::Zero(A.cols(), B.cols());
+  return decomposed(A, threshold).solve(B);
+}
 
-MatX pseudo_inverse(const MatX& A, double threshold) { return decomposed(A, threshold).pseudoInverse(); }
+MatX pseudo_inverse(const MatX& A, double threshold) {
+  if (A.size() == 0) return MatX::Zero(A.cols(), A.rows());
+  return decomposed(A, threshold).pseudoInverse();
+}
 
 MatX cholesky_factor(const MatX& A) { return A.llt().matrixL(); }
 

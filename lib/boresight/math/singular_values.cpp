@@ -4,17 +4,21 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace boresight {
 
+// Eigen's decompositions read beyond a matrix that is empty.
 SingularValues singular_decomposition(const MatX& A) {
+  if (A.size() == 0) return {VecX(0), MatX::Identity(A.cols(), A.cols())};
   const Eigen::BDCSVD<MatX> svd(A, Eigen::ComputeFullV);
   return {svd.singularValues(), svd.matrixV()};
 }
 
-VecX singular_values(const MatX& A) { return Eigen::BDCSVD<MatX>(A).singularValues(); }
+VecX singular_values(const MatX& A) { return A.size() == 0 ? VecX(0) : VecX(Eigen::BDCSVD<MatX>(A).singularValues()); }
 
 RankBounds rank_bounds(const MatX& A, double threshold) {
+  if (A.size() == 0) return {0, std::numeric_limits<double>::infinity(), 0.0};
   const Eigen::ColPivHouseholderQR<MatX> qr(A);
   const MatX& R = qr.matrixQR();
   const int most = static_cast<int>(std::min(R.rows(), R.cols()));
