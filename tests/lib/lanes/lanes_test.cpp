@@ -101,8 +101,9 @@ TEST(Lanes, LeaveWhenStoppedAndSayWhatWasNotReached) {
   std::vector<LaneOutcome> outcomes(samples.size()), whole(samples.size());
   std::atomic<bool> stop{false};
   std::size_t done = 0;
-  lanes.run(samples, outcomes, kLaneTolerance,
-            {.stop = &stop, .ended = [&](std::size_t, double) { stop = ++done == 3; }});
+  lanes.run(samples, outcomes, kLaneTolerance, {.stop = &stop, .ended = [&](std::size_t, double) {
+                                                  if (++done == 3) stop = true;
+                                                }});
   lanes.run(samples, whole);
   std::size_t reached = 0;
   for (std::size_t k = 0; k < samples.size(); ++k) {
