@@ -173,7 +173,8 @@ TEST(PosteriorDrawsLong, AgreeWithAFitThatIsSure) {
 // A damping law in doubt moves restitution far beyond where a straight line holds: draws that take it for one are too narrow. And what suspects
 // can take of a motion that is far off must leave the noise as large as it is, or the far off is the more probable.
 TEST(PosteriorDrawsLong, AreAsWideAsTheFitWhereALawIsInDoubt) {
-  const four_bar::Bench bench({2.0, 2.6}, 0.12, false);
+  // Of 0.12 s the loss is so flat along the stiffness that a third of its error lies between two places of one cost: no error by curvature holds.
+  const four_bar::Bench bench({2.0, 2.6}, 0.2, false);
   CalibrationOptions options;
   options.jobs = 2;
   options.starts = 1;
@@ -183,8 +184,9 @@ TEST(PosteriorDrawsLong, AreAsWideAsTheFitWhereALawIsInDoubt) {
   const CalibrationResult result = calibrate(to_fit, options);
   ASSERT_TRUE(result.draws && result.model_error);
   ASSERT_FALSE(result.model_error->suspects.empty());
-  ASSERT_EQ(result.draws->quantities.size(), 5u);
-  for (std::size_t k = 0; k < 4; ++k) {
+  // Masses that the data know are drawn as well, and the clock.
+  ASSERT_EQ(result.draws->quantities.size(), to_fit.parameters.size() + 1);
+  for (std::size_t k = 0; k < to_fit.parameters.size(); ++k) {
     const ParameterEstimate& e = result.inference.parameters[k];
     const DrawnQuantity& q = result.draws->quantities[k];
     std::printf("  %s: drawn %.4g +- %.2g, fitted %.4g +- %.2g, worth %.0f\n", e.name.c_str(), q.mean, q.deviation,
