@@ -3,9 +3,8 @@
 // Order: noise from differences; masses that the data know better than they were told among the parameters; several
 // starts on the first eighth of every run, side by side; the best of them on a horizon that grows up to the whole (so
 // that impacts enter one after another); other valleys near the place it found; noise from the residuals, and once
-// more. What the
-// fit's rung leaves out and multibody has, in value and slope at the optimum, is then added to the model and
-// the fit goes on until that moves nothing (first order model management: Alexandrov and Lewis 2001,
+// more. What the fit's rung leaves out and multibody has, in value and slope at the optimum, is then added to the model
+// and the fit goes on until that moves nothing (first order model management: Alexandrov and Lewis 2001,
 // Optimization and Engineering 2, 413-430).
 #pragma once
 

@@ -1,6 +1,7 @@
 // Masses that the data know better than they were told. One percent of a mass moves late readings by many valleys: taken as a straight line from
 // where the fit ended it explains nothing, and the fit ends in the wrong valley without a sign of it. So such masses are fitted too, with what was
 // told as a prior.
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -70,7 +71,12 @@ void Calibrator::fit_masses_that_show() {
     const MechanismDescription& m = run.mechanism->description();
     for (std::size_t s = 0; s < suspected.size(); ++s) {
       if (!(errors[static_cast<Eigen::Index>(s)] < kKnownBetter)) continue;
-      const double told = ParameterPath(m, suspected[s].name).get(run.told());
+      const ParameterPath place(m, suspected[s].name);
+      const double told = place.get(run.told());
+      // Runs that set a mass each in its own way have no one mass to fit: it stays a suspect.
+      if (std::any_of(problem_.runs.begin(), problem_.runs.end(),
+                      [&](const CalibrationRun& other) { return place.get(other.told()) != told; }))
+        continue;
       problem_.parameters.push_back(fitted_parameter(m, suspected[s].name, told));
       problem_.parameters.back().has_prior = true;
       problem_.parameters.back().prior = masses.masses * told;

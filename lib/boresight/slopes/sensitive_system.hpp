@@ -142,7 +142,9 @@ class SensitiveSystem {
     for (std::size_t b = 0; b < beside_.size(); ++b) {
       beside_[b].less->dynamics.at(t, less_.data());
       beside_[b].more->dynamics.at(t, more_.data());
-      for (std::size_t k = 0; k < row_.size(); ++k) slope_of_row_[b][k] = (more_[k] - less_[k]) / beside_[b].apart;
+      // Masses do not move the joints.
+      for (int k = 0; k < tables_->layout.joints_at; ++k)
+        slope_of_row_[b][k] = (more_[k] - less_[k]) / beside_[b].apart;
     }
     row_time_ = t;
   }

@@ -8,6 +8,7 @@
 #include "boresight/mechanism/parameter_path.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/scene/scene_rung.hpp"
+#include "boresight/slopes/start_slopes.hpp"
 
 namespace boresight {
 namespace sensitive_motion_test {
@@ -98,7 +99,6 @@ TEST(SensitiveMotion, DerivativesJumpWhereADashpotMakesTheForceStartAtOnce) {
   expect_derivatives_of_differences(scene, flight_to(8e-3));
 }
 
-// A mass is in the scene's tables, and in how hard the journal leans where it rests.
 TEST(SensitiveMotion, DerivativesByAMassAreThoseOfRichardsonDifferences) {
   const Mechanism mechanism(
       read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", std::vector<Setting>{}));
@@ -141,6 +141,31 @@ TEST(SensitiveMotion, DerivativesByAMassAreThoseOfRichardsonDifferences) {
     // What tables bend by over two thousandths of a mass.
     EXPECT_LT(least, 5e-6) << body.name;
   }
+}
+
+// A heavier body presses its journal deeper into the bore where the motion starts.
+TEST(SensitiveMotion, StartsFollowAMassAsRichardsonDifferencesOfThemDo) {
+  const Mechanism mechanism(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml", {}));
+  const PreparedScene prepared(mechanism, ideal_motion(mechanism, mechanism.parameters()), mechanism.parameters());
+  const ParameterPath path(mechanism.description(), "body.rocker.mass");
+  const double told = path.get(mechanism.parameters());
+  const auto at = [&](double mass) {
+    Parameters p = mechanism.parameters();
+    path.set(p, mass);
+    return p;
+  };
+  const auto start = [&](double mass, bool derivatives) {
+    std::vector<TablesBeside> beside;
+    if (derivatives) beside = {{0, 2e-3 * mass, prepared.tables(at(0.999 * mass)), prepared.tables(at(1.001 * mass))}};
+    return start_slopes(
+        mechanism, *prepared.tables(at(mass)), [&](const auto& x) { return at(x[0]); }, {mass}, derivatives, beside);
+  };
+  const VecX slope = start(told, true).by.col(0);
+  ASSERT_GT(slope.norm(), 0.0);
+  const auto central = [&](double h) {
+    return VecX((start(told * (1.0 + h), false).state - start(told * (1.0 - h), false).state) / (2.0 * h * told));
+  };
+  EXPECT_LT(((4.0 * central(5e-3) - central(1e-2)) / 3.0 - slope).norm(), 1e-4 * slope.norm());
 }
 
 TEST(SensitiveMotion, TheSameMotionWithAndWithoutDerivatives) {
