@@ -50,11 +50,11 @@ std::string first_not_finite(const RunResult& r) {
   see_statistics(check, "orientation error", r.index.orientation_error);
   see_statistics(check, "boresight error", r.index.boresight_error);
   for (const ContactSummary& c : r.contact)
-    for (double x : {c.contact_fraction, c.max_penetration, c.max_force, c.max_impact_speed})
+    for (double x : {c.contact_fraction, c.max_penetration, c.max_force, c.max_load, c.max_impact_speed})
       check.see("contact summary", x);
   check.see("platform acceleration", r.platform_acceleration_max);
   check.see("constraint drift", r.constraint_drift);
-  check.see("error estimate, model", r.error.model);
+  for (double share : r.error.model) check.see("error estimate, model", share);
   if (!std::isnan(r.error.discretisation))
     check.see("error estimate, discretisation", r.error.discretisation);  // NaN: not measured
   see_history(check, r.boresight);
@@ -80,6 +80,16 @@ RunOptions options_of(const Asked& asked, const Mechanism& mechanism) {
   options.tolerance = asked.tolerance;
   options.sample_spacing = mechanism.duration() / 50.0;
   return options;
+}
+
+// Of each figure.
+std::array<double, kFigures.size()> stated_by_model(const ErrorEstimate& error) {
+  using enum PointingQuantity;
+  std::array<double, kFigures.size()> stated;
+  std::size_t k = 0;
+  for (const PointingQuantity quantity : {position_error, boresight_error, orientation_error, line_of_sight_error})
+    for (int statistic = 0; statistic < 2; ++statistic) stated[k++] = error.model_of(quantity);
+  return stated;
 }
 
 std::array<double, kFigures.size()> figures(const PointingIndices& i) {
@@ -110,7 +120,7 @@ Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& ask
   for (const ContactSummary& c : r.contact) deepest = std::max(deepest, c.max_penetration);
   const double play = smallest_clearance(mechanism->parameters());
   return {{"figure", figures(r.index)},
-          {"model", r.error.model},
+          {"model", stated_by_model(r.error)},
           {"basis", r.error.basis},
           {"step", r.cost.steps > 0 ? mechanism->duration() / static_cast<double>(r.cost.steps) : 0.0},
           {"deepest", play > 0.0 ? deepest / play : 0.0},
@@ -136,9 +146,11 @@ Measured measured(const Json& json) {
   Measured m;
   m.not_finite = json.at("not_finite");
   if (!m.not_finite.empty()) return m;  // JSON has no infinity: nothing else can be relied on
-  for (std::size_t k = 0; k < kFigures.size(); ++k) m.figure[k] = json.at("figure").at(k);
+  for (std::size_t k = 0; k < kFigures.size(); ++k) {
+    m.figure[k] = json.at("figure").at(k);
+    m.model[k] = json.at("model").at(k);
+  }
   m.taken = json.at("taken");
-  m.model = json.at("model");
   m.basis = json.at("basis");
   m.start = json.at("start");
   m.step = json.at("step");

@@ -29,7 +29,7 @@ struct Asked {
 // One figure each of kFigures, what the run says of its error, and the first number that is not finite ("" if none).
 struct Measured {
   std::array<double, kFigures.size()> figure{};
-  double model = 0.0;  // what the rung states of its model, relative
+  std::array<double, kFigures.size()> model = {};  // what the rung states of its model, relative
   std::array<double, kFigures.size()>
       by_steps{};  // what further runs show that steps do, of each figure; zero until measured
   bool steps_measured = false;

@@ -150,7 +150,7 @@ class Trial {
       const double size = std::max(mine.median, theirs.median);
       if (size < floor_of(k)) continue;
       double model = 0.0;
-      for (const Measured& m : runs) model = std::max(model, m.model);
+      for (const Measured& m : runs) model = std::max(model, m.model[k]);
       const double stated = model * size + runs.front().by_steps[k];
       const double spread = 2.0 * (theirs.spread + mine.spread);
       const double allowed = stated + reference_.front().by_steps[k] + spread + floor_of(k);
@@ -234,7 +234,7 @@ class Trial {
       if (actual > worst) {
         worst = actual;
         claim = {asked.label(), kFigures[k], actual,
-                 runs.front().model + runs.front().by_steps[k] / std::max(mine.median, theirs.median)};
+                 runs.front().model[k] + runs.front().by_steps[k] / std::max(mine.median, theirs.median)};
       }
     }
     if (worst >= 0.0) verdict_.claims.push_back(claim);

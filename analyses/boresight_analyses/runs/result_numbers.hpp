@@ -18,8 +18,8 @@ inline void fields(Numbers& n, ContactEvent& e) {
   n(e.clearance, e.place, e.start, e.start_speed, e.duration, e.max_penetration, e.max_force, e.end_speed);
 }
 inline void fields(Numbers& n, ContactSummary& c) {
-  n(c.joint, c.contact_fraction, c.impacts, c.max_penetration, c.max_force, c.max_impact_speed, c.validity_speed,
-    c.impact_speed_above_validity, c.settled_from);
+  n(c.joint, c.contact_fraction, c.impacts, c.max_penetration, c.max_force, c.max_load, c.max_impact_speed,
+    c.validity_speed, c.impact_speed_above_validity, c.settled_from);
 }
 inline void fields(Numbers& n, PoseSample& s) {
   n(s.pose, s.ideal, s.error, s.v, s.w, s.a, s.alpha, s.ideal_a, s.ideal_alpha);
@@ -32,7 +32,10 @@ inline void fields(Numbers& n, Frame& f) { n(f.sample, f.pose, f.ideal); }
 inline void fields(Numbers& n, RunCost& c) {
   n(c.steps, c.rejected_steps, c.evaluations, c.cpu_seconds, c.wall_seconds);
 }
-inline void fields(Numbers& n, ErrorEstimate& e) { n(e.model, e.discretisation, e.basis); }
+inline void fields(Numbers& n, ErrorEstimate& e) {
+  for (double& share : e.model) n(share);
+  n(e.discretisation, e.basis);
+}
 inline void fields(Numbers& n, RunResult& r) {
   n(r.rung, r.formulation, r.integrator, r.damped_beyond_steps, r.integrator_taken, r.index, r.contact,
     r.platform_acceleration_max, r.constraint_drift, r.energy_error, r.start, r.settled_from, r.end_time, r.interrupted,

@@ -64,6 +64,7 @@ Measurement measure(const Rung& rung, const Parameters& parameters, const RungSe
       const double share = 1.0 - kBetweenNeighbours * neighbour;
       if (options.advance && !options.advance()) throw MeasurementInterrupted{};
       RunOptions run = setup.options();
+      run.measure_model = neighbour == 0;
       run.start = options.index.start;
       // Where another integrator took over, the neighbours are neighbours of that: its mean step is none of rk4's.
       if (!out.integrator.empty()) run.integrator = out.integrator;
@@ -96,7 +97,7 @@ Measurement measure(const Rung& rung, const Parameters& parameters, const RungSe
       }
       values.push_back(value);
       if (out.integrator.empty()) out.integrator = result.integrator_taken;
-      out.estimate = std::max(out.estimate, result.error.model);
+      out.estimate = std::max(out.estimate, result.error.model_of(options.index.kind()));
       const double cpu = result.cost.cpu_seconds;
       out.cpu_seconds = values.size() == 1 ? cpu : std::min(out.cpu_seconds, cpu);
       if (out.step == 0.0 && result.cost.steps > 0 && !setup.stepless())

@@ -98,6 +98,7 @@ RunResult RungSampleModel::run(const Rung& rung, const Parameters& parameters, R
 void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outcome& outcome,
                                    const std::atomic<bool>& stop) const {
   RunOptions options = options_;
+  options.measure_model = false;
   options.progress = [&stop](const RunProgress&) { return !stop.load(std::memory_order_relaxed); };
   try {
     const RunResult result = run(rung, parameters_of_(sample.values), options, outcome.message);
@@ -107,7 +108,7 @@ void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outco
     outcome.value = index_.of(result.index);
     outcome.motion = measures_of(result);
     if (kept_.spacing > 0.0) outcome.history = kept_.of(result);
-    outcome.model_error = result.error.model;
+    outcome.model_error = result.error.model_of(index_.kind());
     outcome.discretisation_error = result.error.discretisation;
     outcome.status = Outcome::Status::done;
     if (!std::isfinite(outcome.value)) {

@@ -237,7 +237,8 @@ report::Table contact_table(const std::vector<Overlay>& overlays) {
                                   {"In contact", "%"},
                                   {"Impacts"},
                                   {"Deepest penetration", "µm"},
-                                  {"Largest force", "kN"},
+                                  {"Largest force of one contact", "kN"},
+                                  {"Largest load", "kN"},
                                   {"Fastest impact", "mm/s"},
                                   {"Valid up to", "mm/s"},
                                   {"Faster than valid"}}};
@@ -251,6 +252,7 @@ report::Table contact_table(const std::vector<Overlay>& overlays) {
                                          c.impacts,
                                          1e6 * c.max_penetration,
                                          1e-3 * c.max_force,
+                                         1e-3 * c.max_load,
                                          1e3 * c.max_impact_speed,
                                          1e3 * c.validity_speed,
                                          c.impact_speed_above_validity};

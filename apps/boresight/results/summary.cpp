@@ -83,6 +83,7 @@ Json contact_json(const std::vector<ContactSummary>& contact) {
                      {"impacts", c.impacts},
                      {"max_penetration", c.max_penetration},
                      {"max_force", c.max_force},
+                     {"max_load", c.max_load},
                      {"max_impact_speed", c.max_impact_speed},
                      {"validity_speed", c.validity_speed},
                      {"impact_speed_above_validity", c.impact_speed_above_validity}};

@@ -1,6 +1,7 @@
 #include "run/run_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
@@ -191,8 +192,13 @@ report::Section model_section(const std::string& leaves_out, const RunResult& re
   report::Section section{.id = "model", .title = "What this model leaves out", .items = {report::Text{leaves_out}}};
   const ErrorEstimate& error = result.error;
   if (!error.basis.empty()) {
-    section.items.push_back(report::Text{"By its own estimate what is left out puts the indices off by about " +
-                                         readable_share(error.model) + ". Taken from: " + error.basis + "."});
+    std::vector<std::string> shares;
+    for (const QuantityName& quantity : quantity_names())
+      if (quantity.kind != PointingQuantity::line_of_sight_error || result.index.has_line_of_sight)
+        shares.push_back(fmt::format("{} ({})", readable_share(error.model_of(quantity.kind)), quantity.title));
+    section.items.push_back(report::Text{
+        fmt::format("By its own estimate what is left out puts the indices off by about {}. Taken from: {}.",
+                    fmt::join(shares, ", "), error.basis)});
   }
   if (!result.interrupted) section.items.push_back(report::Text{"Steps: " + steps + "."});
   if (axes) section.items.push_back(report::Text{axes->sentence});
@@ -208,7 +214,8 @@ report::Section model_section(const std::string& leaves_out, const RunResult& re
                                   {"Boresight max", "%"},
                                   {"Boresight RMS", "%"},
                                   {"CPU", "ms"},
-                                  {"Own estimate of its error", "%"},
+                                  {"Own estimate of its error in position", "%"},
+                                  {"in boresight", "%"},
                                   {"Remark"}}};
   const auto change = [](double other, double own) -> nlohmann::json {
     if (own <= kRounding && other <= kRounding) return nullptr;  // nothing on both
@@ -216,7 +223,7 @@ report::Section model_section(const std::string& leaves_out, const RunResult& re
   };
   for (const Compared& other : others) {
     if (!other.refusal.empty()) {
-      table.rows.push_back({other.rung, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, other.refusal});
+      table.rows.push_back({other.rung, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, other.refusal});
       continue;
     }
     const PointingIndices &a = other.result.index, &b = result.index;
@@ -224,7 +231,8 @@ report::Section model_section(const std::string& leaves_out, const RunResult& re
                           change(a.position_error.rms, b.position_error.rms),
                           change(a.boresight_error.max, b.boresight_error.max),
                           change(a.boresight_error.rms, b.boresight_error.rms), 1e3 * other.result.cost.cpu_seconds,
-                          100.0 * other.result.error.model, ""});
+                          100.0 * other.result.error.model_of(PointingQuantity::position_error),
+                          100.0 * other.result.error.model_of(PointingQuantity::boresight_error), ""});
   }
   section.items.push_back(std::move(table));
   return section;

@@ -74,6 +74,15 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
   tell("  report: {}\n", (out.path() / "report.html").string());
 }
 
+// What the rung leaves out, of every quantity that there is.
+Json model_errors_json(const RunResult& result) {
+  Json json;
+  for (const QuantityName& quantity : quantity_names())
+    if (quantity.kind != PointingQuantity::line_of_sight_error || result.index.has_line_of_sight)
+      json[quantity.name] = result.error.model_of(quantity.kind);
+  return json;
+}
+
 Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const RunResult& result,
                 const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
                 const std::optional<Predictability>& predictability, const MeasuredError& measured,
@@ -89,7 +98,8 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const RungCh
   json["platform_acceleration_max"] = vector_json(result.platform_acceleration_max);
   json["constraint_drift"] = result.constraint_drift;
   if (result.rung == "multibody") json["energy_error"] = result.energy_error;  // no other rung keeps track
-  json["error_estimate"] = {{"model", result.error.model},
+  json["error_estimate"] = {{"model", result.error.model_of(wanted.kind())},
+                            {"model_of_each", model_errors_json(result)},
                             {"discretisation", number_json(result.error.discretisation)},
                             {"of", wanted.quantity + "." + wanted.statistic},
                             {"basis", result.error.basis},
@@ -124,7 +134,10 @@ void refuse_infinite(const RunResult& result) {
   for (const QuantityName& quantity : quantity_names())
     for (const StatisticName& statistic : statistic_names())
       check((result.index.*quantity.statistics).*statistic.value, "the " + std::string(quantity.name));
-  for (const ContactSummary& c : result.contact) check(c.max_force, "the contact force of " + c.joint);
+  for (const ContactSummary& c : result.contact) {
+    check(c.max_force, "the contact force of " + c.joint);
+    check(c.max_load, "the load on " + c.joint);
+  }
 }
 
 class RunVerb : public Verb {
@@ -262,6 +275,10 @@ class RunVerb : public Verb {
     if (!parse_number(sample_number_, number) || number < 0.0 || number != std::floor(number) || number > 1e15)
       throw InputError({"command line", 0}, "--sample-number", in_quotes(sample_number_), "a sample's number, from 0");
     const MonteCarloQuestion question = read_montecarlo_question(asked.file, asked.settings);
+    if (!question.plan.tail && !question.plan.fidelities && number >= static_cast<double>(question.plan.samples))
+      throw InputError(
+          {"command line", 0}, "--sample-number", in_quotes(sample_number_),
+          fmt::format("one of the study's {} samples, from 0 to {}", question.plan.samples, question.plan.samples - 1));
     Command command = asked;
     command.file = question.study.mechanism_file;
     if (command.out.empty())

@@ -36,9 +36,10 @@ std::string progress_line(double done, double total, const std::string& unit, do
   const double share = total > 0.0 ? std::clamp(done / total, 0.0, 1.0) : 0.0;
   const int filled = static_cast<int>(share * kBar);
   const double rate = elapsed_seconds > 0.0 ? (done - before) / elapsed_seconds : 0.0;
-  // Before the first of them is done nothing is known of the rate.
-  const std::string pace = rate > 0.0 ? fmt::format("{:.3g}/s, {}", rate, time_left((total - done) / rate))
-                                      : fmt::format("{:.0f} s so far", elapsed_seconds);
+  // Before the first of them is done nothing is known of the rate; after the last one something else goes on.
+  const std::string pace = rate > 0.0 && done < total
+                               ? fmt::format("{:.3g}/s, {}", rate, time_left((total - done) / rate))
+                               : fmt::format("{:.0f} s so far", elapsed_seconds);
   return fmt::format("[{}{}] {:3.0f} %  {:.3g} of {:.3g} {}, {}{}{}", std::string(filled, '#'),
                      std::string(kBar - filled, '-'), 100.0 * share, done, total, unit, pace,
                      estimate.empty() ? "" : "; ", estimate);

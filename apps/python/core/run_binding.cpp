@@ -45,6 +45,7 @@ py::dict contact_of(const RunResult& result) {
     of["impacts"] = c.impacts;
     of["max_penetration"] = c.max_penetration;
     of["max_force"] = c.max_force;
+    of["max_load"] = c.max_load;
     of["max_impact_speed"] = c.max_impact_speed;
     of["impact_speed_above_validity"] = c.impact_speed_above_validity;
     contact[py::str(c.joint)] = of;
@@ -113,7 +114,8 @@ void bind_run(py::module_& module) {
           "\"orientation_error\", \"boresight_error\", \"line_of_sight_error\": the same [rad]}")
       .def_property_readonly(
           "contact", [](const Run& r) { return contact_of(*r.result); },
-          "Per joint: contact_fraction, impacts, max_penetration [m], max_force [N], max_impact_speed [m/s].")
+          "Per joint: contact_fraction, impacts, max_penetration [m], max_force and max_load [N], max_impact_speed "
+          "[m/s].")
       .def_property_readonly("events", &events_of, "One entry a contact, column by column, as in events.csv.")
       .def_property_readonly(
           "time",

@@ -184,7 +184,9 @@ void ContactTracker::observe(double t, const std::array<ContactState<double>, kC
   }
 }
 
-void ContactTracker::observe_forces(const std::array<ContactState<double>, kContactPlaces>& contact) {
+void ContactTracker::observe_forces(const PlayWrench<double>& wrench) {
+  const ContactStates<double>& contact = wrench.contact;
+  if (counts(t_) && touching()) summary_.max_load = std::max(summary_.max_load, wrench.force.norm());
   for (ContactPlace place : places_) {
     const int k = static_cast<int>(place);
     if (!memory_.touching[k]) continue;

@@ -28,8 +28,8 @@ class ContactTracker {
   // The state of the contacts at an accepted time, from JointPlay::penetrations. Call at the start, then after every step.
   // Returns true if a contact began or ended.
   bool accept(double t, const std::array<ContactState<double>, kContactPlaces>& contact);
-  // Forces at the state accepted last (normal_force of each place).
-  void observe_forces(const std::array<ContactState<double>, kContactPlaces>& contact);
+  // Forces at the state accepted last: normal_force of each place, and what they come to with their friction.
+  void observe_forces(const PlayWrench<double>& wrench);
 
   // Where the integrator locates the contacts itself, in place of accept(): observe() at the end of every step and
   // wherever else a state is at hand, then begin() and end() of what changes there. speed: of approach, of separation

@@ -3,11 +3,18 @@
 #include "boresight/io/mechanism_sections.hpp"
 #include "boresight/io/names_of.hpp"
 #include "boresight/keys/mechanism_keys.hpp"
+#include "boresight/keys/units.hpp"
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
 namespace {
+
+bool is_number_in_quotes(const std::string& found) {
+  double number = 0.0;
+  return found.size() > 2 && found.front() == '"' && found.back() == '"' &&
+         parse_number(std::string_view(found).substr(1, found.size() - 2), number);
+}
 
 using Kind = ErrorDescription::Kind;
 
@@ -151,6 +158,9 @@ ErrorDescription read_error(Cursor& cursor, const MechanismDescription& so_far) 
   }
   if (cursor.has("value")) {
     const bool number = error.kind == Kind::drive && cursor.is_number("value");
+    if (const std::string found = cursor.found("value"); error.kind == Kind::drive && is_number_in_quotes(found))
+      cursor.fail_found("value", found + " in quotes and without a unit",
+                        "a number without quotes, or a text with its unit");
     error.value = number ? cursor.value("value", kRatio) : cursor.quantity("value", range);
   }
   cursor.finish();

@@ -95,6 +95,24 @@ std::vector<std::string> misaligned_joints(const Mechanism& mechanism) {
   return sentences;
 }
 
+// Bodies from which no chain of joints leads to the ground.
+std::string loose_bodies(const MechanismDescription& m) {
+  std::vector<bool> held(m.bodies.size(), false);
+  const auto holds = [&](int body) { return body == kGround || held[static_cast<std::size_t>(body)]; };
+  for (bool more = true; more;) {
+    more = false;
+    for (const JointDescription& j : m.joints)
+      if (holds(j.first) != holds(j.second)) {
+        held[static_cast<std::size_t>(holds(j.first) ? j.second : j.first)] = true;
+        more = true;
+      }
+  }
+  std::string names;
+  for (std::size_t b = 0; b < m.bodies.size(); ++b)
+    if (!held[b]) names += (names.empty() ? "\"" : "\", \"") + m.bodies[b].name;
+  return names.empty() ? names : names + '"';
+}
+
 }  // namespace
 
 KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
@@ -120,6 +138,8 @@ KinematicReport analyse_kinematics(const Mechanism& mechanism, int samples) {
   RankAnalysis rank = analyse_rank(mechanism, joints, false);
   report.constraint_rows = rank.rows;
   report.rank = rank.rank;
+  if (const std::string loose = loose_bodies(m); !loose.empty())
+    report.findings.push_back("no chain of joints leads from " + loose + " to the ground: such a body flies freely");
   for (const JointDescription& j : m.joints) report.drives += j.driven;
   report.redundant_rows = rank.rows - rank.rank;
   report.mobility = rank.columns - rank.rank;

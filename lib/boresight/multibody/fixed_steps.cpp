@@ -48,7 +48,7 @@ void record(const MultibodyMotion& run, Formulation& formulation, const VecX& y,
             std::vector<ContactTracker>& trackers, MotionRecorder& recorder) {
   run.record(formulation, y, t, recorder);
   for (std::size_t c = 0; c < trackers.size(); ++c)
-    trackers[c].observe_forces(formulation.forces().contact(static_cast<int>(c)).contact);
+    trackers[c].observe_forces(formulation.forces().contact(static_cast<int>(c)));
 }
 
 }  // namespace
@@ -181,7 +181,7 @@ RunResult follow_in_fixed_steps(const MultibodyMotion& run, double wanted_step) 
   result.integrator = text;
   result.constraint_drift = drift;
   result.energy_error = energy.error();
-  result.error = {0.0, kNotMeasured, ""};
+  result.error = {{}, kNotMeasured, ""};
   result.interrupted = interrupted;
   result.cost.steps = steps;
   result.cost.evaluations = 4 * steps + 1;

@@ -122,7 +122,7 @@ RunResult follow_locating_contacts(const MultibodyMotion& run, const std::string
   result.cost.evaluations += system.evaluations();
   result.constraint_drift = drift;
   result.energy_error = energy.error();
-  result.error = {0.0, kNotMeasured, ""};
+  result.error = {{}, kNotMeasured, ""};
   result.interrupted = interrupted;
   return result;
 }

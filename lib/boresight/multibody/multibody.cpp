@@ -106,7 +106,7 @@ class Multibody final : public Rung {
             state = at;
           },
           commanded, parameters, options);
-      result.error = {0.0, 0.0, "no play can move: the built mechanism's joints are closed exactly"};
+      result.error = {{}, 0.0, "no play can move: the built mechanism's joints are closed exactly"};
       result.rung = name();
       result.formulation = "tree";
       return result;

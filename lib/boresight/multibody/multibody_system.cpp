@@ -250,7 +250,7 @@ void MultibodySystem::observe(double t, const VecX& y, bool with_forces) {
     read(c, t, y);
     trackers_[c].observe(t, contact_);
     memory_[c] = trackers_[c].memory();
-    if (with_forces) trackers_[c].observe_forces(formulation_.forces().contact(c).contact);
+    if (with_forces) trackers_[c].observe_forces(formulation_.forces().contact(c));
   }
 }
 

@@ -9,6 +9,7 @@
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/perturbation/perturbation_system.hpp"
+#include "boresight/perturbation/pushed_motions.hpp"
 #include "boresight/perturbation/second_order.hpp"
 #include "boresight/play/play_words.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
@@ -47,25 +48,47 @@ class Perturbation final : public SceneRung {
  private:
   RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
+    const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters, standing);
+    LargestDeviations largest(mechanism().duration());
+    RunResult result = follow_on(tables, prepared, standing, parameters, options, largest);
+    if (result.interrupted) return result;
+    const SecondOrder beyond = second_order(mechanism(), prepared, parameters, largest);
+    result.error = {beyond.whole, kNotMeasured, basis(mechanism())};
+    if (!options.measure_model) return result;
+    LargestDeviations unused(mechanism().duration());
+    state_what_pushes_move(
+        beyond, mechanism(), tables, options, tolerance_of(options, name()),
+        [&](const std::shared_ptr<const SceneTables>& on, const RunOptions& beside) {
+          return follow_on(on, prepared, standing, parameters, beside, unused);
+        },
+        result);
+    return result;
+  }
+
+  // largest: filled anew.
+  RunResult follow_on(const std::shared_ptr<const SceneTables>& tables, const PreparedScene& prepared,
+                      const StandingDisplacement& standing, const Parameters& parameters, const RunOptions& options,
+                      LargestDeviations& largest) const {
     const std::string integrator = integrator_of(options);
-    if (integrator != "rk4") return integrate_located(prepared, standing, parameters, options, integrator);
+    if (integrator != "rk4")
+      return integrate_located(tables, prepared, standing, parameters, options, integrator, largest);
     const double own = options.step > 0.0 ? options.step : own_step(mechanism(), parameters, prepared.ideal());
     return follow_by_default(
         options, own,
         [&](const RunOptions& by_steps, double step) {
-          return integrate(prepared, standing, parameters, by_steps, step);
+          return integrate(tables, prepared, standing, parameters, by_steps, step, largest);
         },
         [&](const RunOptions& located) {
           check_options(located, name(), mechanism(), parameters);
-          return integrate_located(prepared, standing, parameters, located, located.integrator);
+          return integrate_located(tables, prepared, standing, parameters, located, located.integrator, largest);
         });
   }
 
-  RunResult integrate(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
-                      const RunOptions& options, double wanted) const {
+  RunResult integrate(const std::shared_ptr<const SceneTables>& tables, const PreparedScene& prepared,
+                      const StandingDisplacement& standing, const Parameters& parameters, const RunOptions& options,
+                      double wanted, LargestDeviations& largest) const {
     const Mechanism& mechanism = this->mechanism();
-    PerturbationSystem system(mechanism, parameters, prepared.tables(parameters, standing), options.events,
-                              options.start);
+    PerturbationSystem system(mechanism, parameters, tables, options.events, options.start);
     const OffsetLayout& offsets = prepared.scene().offsets();
     const SceneLayout& at = system.layout();
     const double duration = mechanism.duration();
@@ -84,7 +107,7 @@ class Perturbation final : public SceneRung {
     MatX compliance;
     DampingWatch damping(mechanism, h, limit);
     const long damping_every = std::max(1L, steps / 50);
-    LargestDeviations largest(duration);
+    largest = LargestDeviations(duration);
     // Not the Integrator's loop, as in multibody/fixed_steps.cpp; that one closes joints and balances energy besides.
     for (long i = 0;; ++i) {
       const double t = course.start(i);
@@ -92,7 +115,7 @@ class Perturbation final : public SceneRung {
       system.accept(t, y);
       derivative(t, y, method.first_slope());
       for (std::size_t c = 0; c < system.trackers().size(); ++c)
-        system.trackers()[c].observe_forces(system.wrench()[c].contact);
+        system.trackers()[c].observe_forces(system.wrench()[c]);
       if (system.touching()) {
         offset_compliance(at, offsets, system.row(), compliance);
         const double bound = stiffest_contact_bound(offsets, system.joints(), system.motion(), compliance);
@@ -121,23 +144,21 @@ class Perturbation final : public SceneRung {
     result.damped_beyond_steps = damping.beyond();
     finish_contacts(system, result);
     result.interrupted = interrupted;
-    result.error = {second_order_share(this->mechanism(), prepared, parameters, largest), kNotMeasured,
-                    basis(this->mechanism())};
     result.cost.steps = steps;
     result.cost.evaluations = 4 * steps + 1;
     return result;
   }
 
-  RunResult integrate_located(const PreparedScene& prepared, const StandingDisplacement& standing,
-                              const Parameters& parameters, const RunOptions& options,
-                              const std::string& integrator) const {
+  RunResult integrate_located(const std::shared_ptr<const SceneTables>& tables, const PreparedScene& prepared,
+                              const StandingDisplacement& standing, const Parameters& parameters,
+                              const RunOptions& options, const std::string& integrator,
+                              LargestDeviations& largest) const {
     const double duration = mechanism().duration();
-    PerturbationSystem system(mechanism(), parameters, prepared.tables(parameters, standing), options.events,
-                              options.start);
+    PerturbationSystem system(mechanism(), parameters, tables, options.events, options.start);
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, 2.0 * duration / kPaperStep);
     std::string start_warning;
     VecX y = system.start_state(mechanism(), options.start_offset, start_warning), slope = y;
-    LargestDeviations largest(duration);
+    largest = LargestDeviations(duration);
     bool interrupted = false;
     long points = 0;
     system.start_located(0.0, y);
@@ -158,8 +179,6 @@ class Perturbation final : public SceneRung {
     if (!start_warning.empty()) result.warnings.push_back(start_warning);
     finish_contacts(system, result);
     result.interrupted = interrupted;
-    result.error = {second_order_share(this->mechanism(), prepared, parameters, largest), kNotMeasured,
-                    basis(this->mechanism())};
     return result;
   }
 

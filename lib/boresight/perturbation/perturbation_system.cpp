@@ -208,7 +208,7 @@ void PerturbationSystem::observe(double t) {
       wrench_[c].contact[k].penetration = contact_[k].penetration;
       wrench_[c].contact[k].rate = contact_[k].rate;
     }
-    trackers_[c].observe_forces(wrench_[c].contact);
+    trackers_[c].observe_forces(wrench_[c]);
   }
 }
 

@@ -51,14 +51,14 @@ std::vector<std::vector<int>> pushed_together(const SceneLayout& at, const Force
   return groups;
 }
 
-// Offsets that others decide: B, as many rows, and what their exact values are beyond B z, all in lengths.
+// Offsets that others decide: B, as many rows, and what their exact values are beyond B z, all in lengths; what makes them so.
 struct DependentOffsets {
   MatX B;
-  VecX beyond;
+  VecX beyond, length;
 };
 DependentOffsets dependent_offsets(const SceneLayout& at, const double* row, const Parameters& parameters,
                                    const ForceElements& exact, const VecX& z) {
-  DependentOffsets all{MatX(0, at.n), VecX(0)};
+  DependentOffsets all{MatX(0, at.n), VecX(0), VecX(0)};
   for (std::size_t c = 0; c < at.joints.size(); ++c) {
     const SceneLayout::Joint& joint = at.joints[c];
     if (!joint.has_dependent) continue;
@@ -70,6 +70,8 @@ DependentOffsets dependent_offsets(const SceneLayout& at, const double* row, con
       const Eigen::Index i = all.B.rows();
       all.B.conservativeResize(i + 1, Eigen::NoChange);
       all.beyond.conservativeResize(i + 1);
+      all.length.conservativeResize(i + 1);
+      all.length[i] = length;
       all.B.row(i) = length * B;
       all.beyond[i] = length * (offsets_of(motion)[k] - B * z);
     }
@@ -117,7 +119,7 @@ class Share {
 };
 
 // One a PointingQuantity.
-constexpr int kKinds = 4;
+constexpr int kKinds = kPointingQuantities;
 constexpr int kMoved = int(PointingQuantity::position_error), kTurned = int(PointingQuantity::orientation_error),
               kAimed = int(PointingQuantity::boresight_error), kSighted = int(PointingQuantity::line_of_sight_error);
 
@@ -206,14 +208,15 @@ class LeftOut {
     const auto E = T.middleRows<6>(6 * body);
     const Vec6 linear = E * z, off = displacement(state.bodies[body], bodies[body]) - linear;
     // What the contacts of dependent offsets make of their own misses comes on top, whichever way it points.
-    const Vec6 along =
-        E * taken_along(dependent_offsets(at_, row_.data(), parameters_, formulation_->forces(), z), unit_);
+    const DependentOffsets dependent = dependent_offsets(at_, row_.data(), parameters_, formulation_->forces(), z);
+    const Vec6 along = E * taken_along(dependent, unit_);
     const Sizes sizes(mechanism_, state.bodies[body]);
     const auto whole = sizes(linear), bent = sizes(off), taken = sizes(along);
     for (int k = 0; k < kKinds; ++k) miss_[k].add(whole[k], bent[k] + taken[k]);
 
     VecX left = z_ddot + Rows(row_.data() + at_.AC, at_.n, at_.n) * z_dot;
     if (at_.stiff) left += Rows(row_.data() + at_.AK, at_.n, at_.n) * z;
+    missed_.push_back({deviation.t, left, dependent.beyond.cwiseQuotient(dependent.length)});
     const VecX push = reaction.cwiseQuotient(unit_), push_off = solve_positive(A, left).cwiseQuotient(unit_);
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       double size = 0.0, size_off = 0.0;
@@ -239,27 +242,30 @@ class LeftOut {
   }
 
   // at_rest: what the balance at the start misses, of each kind.
-  double share(const std::array<double, kKinds>& at_rest) const {
+  SecondOrder shares(const std::array<double, kKinds>& at_rest) const {
     // What turns miss that are next to nothing against the displacement, on the mechanism's size, counts against a little of that; and the
     // other way round. The line of sight counts against itself: how small an angle a displacement is depends on the target's distance.
     constexpr double kNextToNothing = 1e-4;
     const double length = mechanism_.characteristic_length();
     const double next_to_nothing = kNextToNothing * std::max({miss_[kMoved].size(), length * miss_[kTurned].size(),
                                                               length * miss_[kAimed].size()});
-    double share = 0.0;
+    const auto of_all = [](double share) { return std::isfinite(share) ? std::min(share, 1.0) : 1.0; };
+    SecondOrder found;
+    found.missed = missed_;
     for (int k = 0; k < kKinds; ++k) {
       const double least = k == kMoved ? next_to_nothing : k == kSighted ? 0.0 : next_to_nothing / length;
       const double size = std::max(miss_[k].size(), least);
       double of_kind = miss_[k].value(least);
+      found.pose[k] = of_all(of_kind);
       // A force that is off early shows in where the journal gets to later: all of its part counts by the share of all forces. And where
       // next to nothing pushes for a while, all of its part counts for that while. Together no more than all of it by the largest share.
       for (std::size_t g = 0; g < groups_.size(); ++g) {
         const double part = part_[g][k].value(least), by_forces = part * std::min(1.0, push_[g].mean_value(0.0));
         of_kind += std::min(part * pushed_off_[g], by_forces + astray_[g][k].mean_value(least));
       }
-      share = std::max({share, of_kind, size > 0.0 ? at_rest[k] / size : 0.0});
+      found.whole[k] = of_all(std::max(of_kind, size > 0.0 ? at_rest[k] / size : 0.0));
     }
-    return std::isfinite(share) ? std::min(share, 1.0) : 1.0;
+    return found;
   }
 
  private:
@@ -295,19 +301,23 @@ class LeftOut {
   std::vector<std::array<Share, kKinds>> part_, astray_;
   std::vector<Share> push_;
   std::vector<double> pushed_off_;
+  std::vector<Missed> missed_;
 };
 
 }  // namespace
 
-double second_order_share(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,
-                          const LargestDeviations& largest) {
+SecondOrder second_order(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,
+                         const LargestDeviations& largest) {
   try {
     LeftOut left_out(mechanism, prepared, parameters);
     for (const LargestDeviations::Deviation& deviation : largest.parts())
       if (deviation.size > 0.0) left_out.look(deviation);
-    return left_out.share(missed_at_rest(mechanism, prepared, parameters));
+    return left_out.shares(missed_at_rest(mechanism, prepared, parameters));
   } catch (const ComputationError&) {
-    return 1.0;
+    SecondOrder all;
+    all.pose.fill(1.0);
+    all.whole.fill(1.0);
+    return all;
   }
 }
 

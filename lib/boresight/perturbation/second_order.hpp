@@ -17,11 +17,12 @@
 //
 //   LargestDeviations largest(duration);
 //   largest.add(t, size, z);                    // along the motion
-//   second_order_share(mechanism, prepared, parameters, largest);
+//   second_order(mechanism, prepared, parameters, largest).whole;
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "boresight/scene/scene_rung.hpp"
 
@@ -53,9 +54,21 @@ class LargestDeviations {
   std::array<Deviation, kParts> parts_;
 };
 
-// Relative to the rung's own indices; 1 where the deviation cannot be made exactly (a singular pose within
-// its reach).
-double second_order_share(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,
-                          const LargestDeviations& largest);
+// What the linear rung misses at one instant of what acts.
+struct Missed {
+  double t = 0.0;     // [s]
+  VecX acceleration;  // of the coordinates, by what pushes them beyond the linear forces and the reduced mass
+  VecX offset;        // of the offsets that others decide, in the order of joints: beyond B z
+};
+
+struct SecondOrder {
+  PerQuantity pose = {};  // by pose and contacts, relative to the rung's own indices
+  PerQuantity whole =
+      {};  // by all of it; 1 where a deviation cannot be made exactly (a singular pose within its reach)
+  std::vector<Missed> missed;  // in the order of time
+};
+
+SecondOrder second_order(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,
+                         const LargestDeviations& largest);
 
 }  // namespace boresight

@@ -9,6 +9,7 @@
 // Statistics weigh each accepted step by the time it covers, so that they do not depend on how an integrator steps.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,9 @@
 namespace boresight {
 
 enum class PointingQuantity { position_error, orientation_error, boresight_error, line_of_sight_error };
+inline constexpr int kPointingQuantities = 4;
+// One number a PointingQuantity, in the order of their declaration.
+using PerQuantity = std::array<double, kPointingQuantities>;
 
 // Error of a pose against the ideal one.
 struct PoseError {
@@ -52,6 +56,11 @@ struct Statistics {
 struct PointingIndices {
   Statistics position_error, orientation_error, boresight_error, line_of_sight_error;
   bool has_line_of_sight = false;  // else line_of_sight_error means nothing
+
+  const Statistics& of(PointingQuantity quantity) const {
+    const Statistics* const all[] = {&position_error, &orientation_error, &boresight_error, &line_of_sight_error};
+    return *all[static_cast<int>(quantity)];
+  }
 };
 
 // The times at which a scalar is known, each of which stands for half the gap to either neighbour; and statistics of its values there.

@@ -1,6 +1,7 @@
 // What one motion on one rung gives: the indices, the contacts, the histories, and what it cost. SI throughout.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -28,7 +29,8 @@ struct ContactSummary {
   double contact_fraction = 0.0;  // share of the time in radial or axial contact
   std::int64_t impacts = 0;       // contacts begun; not those that a motion starts with
   double max_penetration = 0.0;   // [m]
-  double max_force = 0.0;         // [N]
+  double max_force = 0.0;         // of one contact [N]
+  double max_load = 0.0;          // resultant of all its contacts, with their friction [N]
   double max_impact_speed = 0.0;  // [m/s]
   double validity_speed = 0.0;    // bound of Eq. 26 for this pair [m/s]
   std::int64_t impact_speed_above_validity = 0;
@@ -74,10 +76,12 @@ struct RunCost {
 
 // What a rung thinks its own indices are wrong by, relative, before anything else has checked it.
 struct ErrorEstimate {
-  double model = 0.0;           // by what the rung leaves out
+  PerQuantity model = {};       // by what the rung leaves out
   double discretisation = 0.0;  // by its steps
   std::string basis;            // in words
-  double total() const { return model + discretisation; }
+
+  double model_of(PointingQuantity quantity) const { return model[static_cast<std::size_t>(quantity)]; }
+  double largest_model() const { return *std::max_element(model.begin(), model.end()); }
 };
 
 struct RunResult {

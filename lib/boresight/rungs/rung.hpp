@@ -41,6 +41,10 @@ struct RunOptions {
   // part.
   double start_offset = 0.0;
 
+  // Perturbation: further motions show what forces that it leaves out do to the indices, where these are sensitive to them. For one
+  // motion that stands alone; in studies the pilot asks.
+  bool measure_model = true;
+
   // Multibody only.
   std::string formulation;  // "tree" or "paper"; "" is the rung's default, the tree
   std::string

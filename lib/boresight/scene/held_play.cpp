@@ -135,7 +135,8 @@ RunResult motion_without_play(const Mechanism& mechanism, const IdealMotion& ide
                               const Parameters& parameters, const RunOptions& options) {
   RunResult result = motion_without_play(
       mechanism, [&](double t, IdealState& state) { ideal.state(t, state); }, commanded, parameters, options);
-  result.error = {0.0, 0.0,
+  result.error = {{},
+                  0.0,
                   mechanism.built()
                       ? "no play can move: the motion is that of the built mechanism's joints, closed exactly"
                       : "no play can move: the motion is the ideal one"};

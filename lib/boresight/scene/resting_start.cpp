@@ -29,6 +29,10 @@ constexpr double kShrinks = 0.3, kLongestStride = 0.5, kArrived = 1e-7;
 constexpr double kRoundedEnergy = 1e-14;
 // Stiffness below this share of the largest holds nothing.
 constexpr double kSoft = 1e-11;
+// What pulls journals to where the ideal motion has them, of the load over a clearance: of what may be left unbalanced. The steps that it takes,
+// and what of the pull these may leave.
+constexpr double kPull = 0.1 * kAcceptable, kPulled = 1e-3;
+constexpr int kMostPulls = 100, kShortened = 3;
 
 // z per offset: M_r of the other coordinates pulls them to where the bodies move least, T z in the metric of their masses.
 MatX carried_along(const MatX& mass, const std::vector<bool>& held) {
@@ -267,6 +271,54 @@ bool RestingBalance::follow(VecX& z, double undecided) {
   return false;
 }
 
+// Newton's method, damped, for the energy with kPull |y|^2 / 2 added: that has one minimum where the energy has a valley.
+void RestingBalance::settle(VecX& z) const {
+  const int n = at_.n;
+  const double pull = kPull * load_;
+  const auto over_widths = [&](const VecX& at) { return VecX(unit_.triangularView<Eigen::Upper>().solve(at)); };
+  const auto pulled_energy = [&](const VecX& at) { return energy(at) + 0.5 * pull * over_widths(at).squaredNorm(); };
+  VecX at = z, F(n);
+  MatX J(n, n);
+  const auto left_at = [&](const VecX& place) {
+    evaluate(place, F, J);
+    return VecX(unit_.transpose() * F - pull * over_widths(place));
+  };
+  VecX left = left_at(at);
+  double E = pulled_energy(at), damping = 0.0;
+  for (int step = 0; step < kMostPulls && left.norm() > kPulled * pull; ++step) {
+    const MatX H = (damping + pull) * MatX::Identity(n, n) - MatX(unit_.transpose() * J * unit_);
+    VecX dy = solve_square(H, left);
+    const double reach = dy.norm();
+    if (!std::isfinite(reach) || reach <= kSettledRest) break;
+    if (reach > 1.0) dy /= reach;
+    const VecX trial = at + unit_ * dy;
+    const double E_trial = pulled_energy(trial), rounding = kRoundedEnergy * (std::abs(E) + load_);
+    const MatX J_before = J;
+    const VecX left_trial = left_at(trial);
+    if (E_trial < E - rounding || (E_trial <= E + rounding && left_trial.norm() < left.norm())) {
+      at = trial;
+      E = E_trial;
+      left = left_trial;
+      damping = damping > pull ? 0.1 * damping : 0.0;
+    } else {
+      J = J_before;
+      if (damping > load_) break;
+      damping = std::max(10.0 * damping, pull);
+    }
+  }
+  if (!at.allFinite() || !(size(this->left(at)) <= kAcceptable * load_)) return;
+  z = at;
+  // The pull tells places along a valley apart to a hundred-thousandth of a clearance. Which contacts carry is known now: of the balances that
+  // they allow, the shortest.
+  for (int step = 0; step < kShortened; ++step) {
+    evaluate(at, F, J);
+    const MatX H = -(unit_.transpose() * J * unit_);
+    at = unit_ * solve_least(H, VecX(unit_.transpose() * F + H * over_widths(at)), kSoft);
+    if (!at.allFinite() || !(size(this->left(at)) <= kAcceptable * load_)) return;
+    z = at;
+  }
+}
+
 void RestingBalance::keep_stiffness(const VecX& z) {
   std::vector<PlayMotion<double>> journals;
   for (std::size_t c = 0; c < joints_.size(); ++c) journals.push_back(motion_of(c, z));
@@ -298,6 +350,7 @@ RestingStart RestingBalance::solve() const {
     if (rest.z.allFinite()) {
       const double remains = size(left(rest.z));
       if (remains <= kAcceptable * load_ || (length <= kSettledRest && remains <= kLeftToMotion * load_)) {
+        if (remains <= kAcceptable * load_) settle(rest.z);
         rest.z = completed(rest.z);
         return rest;
       }
@@ -305,6 +358,7 @@ RestingStart RestingBalance::solve() const {
     // Contacts that take turns lead both in circles, and the energy does not.
     rest.z.setZero();
     if (descend(rest.z, 0.0, true) <= kAcceptable * load_) {
+      settle(rest.z);
       rest.z = completed(rest.z);
       return rest;
     }
@@ -313,6 +367,7 @@ RestingStart RestingBalance::solve() const {
         "no position was found in which the " + parts_in_play(joints_).inserts + "' contacts carry the loads of t = 0";
     return rest;
   }
+  settle(z);
   rest.z = completed(z);
   return rest;
 }

@@ -3,7 +3,7 @@
 //     r(0) + f_elastic(z) - K z = 0
 //
 // all joints together. Nothing moves against the ideal motion yet, so contacts neither dissipate nor rub. In directions in which
-// no load acts offsets stay where the ideal motion has them. Coordinates that are no offsets go where the bodies move least, weighed by
+// no load acts offsets stay where the ideal motion has them: of all places that balance, the one nearest to there. Coordinates that are no offsets go where the bodies move least, weighed by
 // their masses: which joints' coordinates these are hangs on the order of lists.
 //
 // The bodies start with the velocities of the ideal motion: start_rates.hpp.
@@ -81,6 +81,9 @@ class RestingBalance {
   // Whether that found the balance.
   bool follow(VecX& z, double undecided);
   void keep_stiffness(const VecX& z);
+  // Along what holds nothing, from a balance to the nearest one to where the ideal motion has the journals: which of them Newton's method finds
+  // hangs on rounding.
+  void settle(VecX& z) const;
 
   const SceneLayout& at_;
   std::vector<JointPlay> joints_;

@@ -203,7 +203,8 @@ RunResult SceneRung::run(const Parameters& parameters, const RunOptions& options
   RunResult result = prepared->scene().layout().n == 0 ? without_play(*prepared, standing, parameters, options)
                                                        : follow(*prepared, standing, parameters, options);
   if (standing && !result.interrupted) {
-    result.error.model += standing_model_error(*mechanism_, *prepared, standing, parameters, result.index);
+    const PerQuantity missed = standing_model_error(*mechanism_, *prepared, standing, parameters, result.index);
+    for (int k = 0; k < kPointingQuantities; ++k) result.error.model[k] += missed[k];
     result.error.basis += (result.error.basis.empty() ? "" : "; ") + std::string(kBasisOfErrors);
   }
   result.warnings.insert(result.warnings.begin(), prepared->held().begin(), prepared->held().end());

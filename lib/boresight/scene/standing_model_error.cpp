@@ -48,26 +48,30 @@ std::optional<PoseError> missed_by_linearity(const Mechanism& mechanism, const I
   return missed;
 }
 
-double standing_model_error(const Mechanism& mechanism, const PreparedScene& prepared,
-                            const StandingDisplacement& standing, const Parameters& parameters,
-                            const PointingIndices& index) {
-  if (!standing) return 0.0;
+PerQuantity standing_model_error(const Mechanism& mechanism, const PreparedScene& prepared,
+                                 const StandingDisplacement& standing, const Parameters& parameters,
+                                 const PointingIndices& index) {
+  PerQuantity share = {};
+  if (!standing) return share;
   const std::optional<PoseError> found =
       missed_by_linearity(mechanism, prepared.ideal(), standing.influence(), parameters);
-  if (!found) return 1.0;
+  if (!found) {
+    share.fill(1.0);
+    return share;
+  }
   const PoseError& missed = *found;
   const double length = mechanism.characteristic_length();
   const double largest =
       std::max({index.position_error.max, length * index.orientation_error.max, length * index.boresight_error.max});
-  double share = 0.0;
-  const auto count = [&](double miss, double size, double least) {
-    if (const double against = std::max(size, least); against > 0.0) share = std::max(share, miss / against);
+  const auto count = [&](PointingQuantity quantity, double miss, double least) {
+    if (const double against = std::max(index.of(quantity).max, least); against > 0.0)
+      share[static_cast<std::size_t>(quantity)] = std::min(1.0, miss / against);
   };
-  count(missed.position, index.position_error.max, kNextToNoError * largest);
-  count(missed.orientation, index.orientation_error.max, kNextToNoError * largest / length);
-  count(missed.boresight, index.boresight_error.max, kNextToNoError * largest / length);
-  if (index.has_line_of_sight) count(missed.line_of_sight, index.line_of_sight_error.max, 0.0);
-  return std::min(share, 1.0);
+  count(PointingQuantity::position_error, missed.position, kNextToNoError * largest);
+  count(PointingQuantity::orientation_error, missed.orientation, kNextToNoError * largest / length);
+  count(PointingQuantity::boresight_error, missed.boresight, kNextToNoError * largest / length);
+  if (index.has_line_of_sight) count(PointingQuantity::line_of_sight_error, missed.line_of_sight, 0.0);
+  return share;
 }
 
 }  // namespace boresight

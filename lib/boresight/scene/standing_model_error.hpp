@@ -12,10 +12,10 @@ namespace boresight {
 std::optional<PoseError> missed_by_linearity(const Mechanism& mechanism, const IdealMotion& commanded,
                                              const StandingErrors& influence, const Parameters& parameters);
 
-// Largest difference of the exact pose and the linear one, relative to the largest value of each index; what is next to nothing counts
+// Of each quantity: the largest difference of the exact pose and the linear one, relative to the largest value of its index; what is next to nothing counts
 // against a little of the largest of the others, on the mechanism's size. 1 where the joints do not close. 0 without errors.
-double standing_model_error(const Mechanism& mechanism, const PreparedScene& prepared,
-                            const StandingDisplacement& standing, const Parameters& parameters,
-                            const PointingIndices& index);
+PerQuantity standing_model_error(const Mechanism& mechanism, const PreparedScene& prepared,
+                                 const StandingDisplacement& standing, const Parameters& parameters,
+                                 const PointingIndices& index);
 
 }  // namespace boresight

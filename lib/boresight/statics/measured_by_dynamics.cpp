@@ -93,12 +93,18 @@ std::vector<double> numbers_of(const Parameters& p) {
   return numbers;
 }
 
+PerQuantity all_of_it() {
+  PerQuantity whole;
+  whole.fill(1.0);
+  return whole;
+}
+
 struct Measured {
   ErrorEstimate error;
   double exceeded =
       0.0;  // by how much the largest position error of the dynamic rung exceeds the static one's, relative
-  double of_linearity =
-      0.0;            // what the dynamic rung states for its own model, relative: both are linear in the offsets
+  PerQuantity of_linearity =
+      {};             // what the dynamic rung states for its own model, relative: both are linear in the offsets
   bool keeps = true;  // false: its caller wanted it to stop
 };
 
@@ -122,7 +128,8 @@ class MeasuredByDynamics final : public Rung {
     const ErrorEstimate of_errors = result.error;
     result.error = measured.error;
     // With errors both rungs are linear in them, and the dynamic one's statement has been taken in.
-    if (bounds_) result.error.model += of_errors.model;
+    if (bounds_)
+      for (int k = 0; k < kPointingQuantities; ++k) result.error.model[k] += of_errors.model[k];
     if (!of_errors.basis.empty()) result.error.basis += "; " + of_errors.basis;
     result.cost.cpu_seconds += cost.cpu_seconds;
     result.cost.wall_seconds += cost.wall_seconds;
@@ -135,10 +142,10 @@ class MeasuredByDynamics final : public Rung {
                     100.0 * measured.exceeded);
       result.warnings.push_back(text);
     }
-    if (bounds_ && measured.of_linearity > kBent) {
+    const double bent = *std::max_element(measured.of_linearity.begin(), measured.of_linearity.end());
+    if (bounds_ && bent > kBent) {
       char text[80];
-      std::snprintf(text, sizeof text, "' offsets, and the pose is not: errors may exceed it by %.2g %%",
-                    100.0 * measured.of_linearity);
+      std::snprintf(text, sizeof text, "' offsets, and the pose is not: errors may exceed it by %.2g %%", 100.0 * bent);
       result.warnings.push_back("the bound is linear in the " + parts_in_play(mechanism_->description()).inserts +
                                 text);
     }
@@ -182,6 +189,7 @@ class MeasuredByDynamics final : public Rung {
     try {
       for (double share : kShares) {
         motions.push_back(dynamics_->run(parameters, options));
+        options.measure_model = false;  // the first has
         cost.cpu_seconds += motions.back().cost.cpu_seconds;
         cost.wall_seconds += motions.back().cost.wall_seconds;
         if (stopped) break;
@@ -199,9 +207,9 @@ class MeasuredByDynamics final : public Rung {
     }
     if (stopped) why_not = "following the motion takes too long";
     if (!why_not.empty() || motions.size() < kShares.size())
-      return {{1.0, 0.0, "not measured, so anything up to the whole: on the perturbation rung " + why_not},
+      return {{all_of_it(), 0.0, "not measured, so anything up to the whole: on the perturbation rung " + why_not},
               0.0,
-              0.0,
+              {},
               !asked_to};
     return compared(index, motions);
   }
@@ -214,46 +222,47 @@ class MeasuredByDynamics final : public Rung {
         "largest over maximum, "
         "RMS and mean";
     const double length = mechanism_->characteristic_length();
-    std::vector<Statistics PointingIndices::*> quantities = {
-        &PointingIndices::position_error, &PointingIndices::orientation_error, &PointingIndices::boresight_error};
+    std::vector<PointingQuantity> quantities = {PointingQuantity::position_error, PointingQuantity::orientation_error,
+                                                PointingQuantity::boresight_error};
     const bool sighted = mechanism_->pointing().line_of_sight.has_value();
-    if (sighted) quantities.push_back(&PointingIndices::line_of_sight_error);
+    if (sighted) quantities.push_back(PointingQuantity::line_of_sight_error);
     // All on the mechanism's size, so that they weigh against each other [m]. The line of sight weighs against itself alone: how
     // small an angle a displacement is depends on the target's distance.
-    const auto unit = [&](Statistics PointingIndices::*quantity) {
-      return quantity == &PointingIndices::position_error ? 1.0 : length;
+    const auto unit = [&](PointingQuantity quantity) {
+      return quantity == PointingQuantity::position_error ? 1.0 : length;
     };
-    const auto largest_of = [&](Statistics PointingIndices::*quantity) {
+    const auto largest_of = [&](PointingQuantity quantity) {
       double largest = 0.0;
       for (const RunResult& motion : motions)
-        largest = std::max(largest, unit(quantity) * (motion.index.*quantity).max);
+        largest = std::max(largest, unit(quantity) * motion.index.of(quantity).max);
       return largest;
     };
     double largest_pose = 0.0;
     for (int k = 0; k < 3; ++k) largest_pose = std::max(largest_pose, largest_of(quantities[k]));
     for (const auto quantity : quantities) {
-      const double largest = quantity == &PointingIndices::line_of_sight_error ? largest_of(quantity) : largest_pose;
+      const double largest = quantity == PointingQuantity::line_of_sight_error ? largest_of(quantity) : largest_pose;
+      double& model = measured.error.model[static_cast<std::size_t>(quantity)];
       for (const auto statistic : {&Statistics::max, &Statistics::rms, &Statistics::mean}) {
         double low = 1e300, high = 0.0, sum = 0.0;
         for (const RunResult& motion : motions) {
-          const double value = motion.index.*quantity.*statistic;
+          const double value = motion.index.of(quantity).*statistic;
           low = std::min(low, value);
           high = std::max(high, value);
           sum += value;
         }
         const double mean = sum / static_cast<double>(motions.size());
-        const double off = std::abs(index.*quantity.*statistic - mean) + kOfRange * (high - low);
+        const double off = std::abs(index.of(quantity).*statistic - mean) + kOfRange * (high - low);
         const double against = unit(quantity) * mean > kNextToNothing * largest ? mean : largest / unit(quantity);
         if (against > 0.0)
-          measured.error.model = std::max(measured.error.model, off / against);
+          model = std::max(model, off / against);
         else if (off > kRounding)  // where nothing moves at all, all of it is wrong
-          measured.error.model = std::max(measured.error.model, 1.0);
+          model = std::max(model, 1.0);
         if (statistic == &Statistics::max && quantity == quantities[0])
-          measured.exceeded = high / (index.*quantity).max - 1.0;
+          measured.exceeded = high / index.of(quantity).max - 1.0;
       }
     }
-    for (const RunResult& motion : motions) measured.of_linearity = std::max(measured.of_linearity, motion.error.model);
-    measured.error.model += measured.of_linearity;
+    measured.of_linearity = motions.front().error.model;
+    for (int k = 0; k < kPointingQuantities; ++k) measured.error.model[k] += measured.of_linearity[k];
     return measured;
   }
 

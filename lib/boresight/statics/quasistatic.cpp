@@ -137,7 +137,7 @@ class Quasistatic final : public SceneRung {
   void record(const PreparedScene& prepared, const StandingDisplacement& standing, const Placed& placed,
               std::vector<ContactSummary>& summary, MotionRecorder& recorder, const ReactionTable& reactions) const {
     const Balance& balance = placed.balance;
-    for (std::size_t c = 0; c < summary.size(); ++c) reactions.note(balance.rest[c], summary[c]);
+    for (std::size_t c = 0; c < summary.size(); ++c) reactions.note(balance.rest[c], balance.now.load[c], summary[c]);
     recorder.accept(balance.now.t, placed.body, placed.acceleration, &placed.error);
     if (!recorder.sampling()) return;
     const DisplacedBodies displaced(prepared, standing, balance.now.t, balance.z);

@@ -143,7 +143,8 @@ std::vector<ContactSummary> ReactionTable::summaries() const {
   return result;
 }
 
-void ReactionTable::note(const RestingPlay& rest, ContactSummary& summary) {
+void ReactionTable::note(const RestingPlay& rest, const Load& load, ContactSummary& summary) {
+  summary.max_load = std::max(summary.max_load, load.force.head<3>().norm());
   for (const ContactState<double>& c : rest.contact) summary.max_force = std::max(summary.max_force, c.normal_force);
   summary.max_penetration = std::max(summary.max_penetration, rest.penetration());
 }

@@ -46,8 +46,8 @@ class ReactionTable {
 
   // One per joint, named, in lasting contact.
   std::vector<ContactSummary> summaries() const;
-  // Adds a rest's forces and deflections to a summary.
-  static void note(const RestingPlay& rest, ContactSummary& summary);
+  // Adds a rest's forces and deflections, and the load that it carries, to a summary.
+  static void note(const RestingPlay& rest, const Load& load, ContactSummary& summary);
 
  private:
   const Mechanism& mechanism_;

@@ -49,6 +49,7 @@ class FurtherRuns {
     options_.progress = [this](const RunProgress&) {
       return !(stopped_ = stopped_ || (measure_.advance && !measure_.advance()));
     };
+    options_.measure_model = false;
     if (options.integrator.empty()) options_.integrator = result.integrator_taken;
     by_tolerance_ = controls_error(options_);
     tolerance_ = by_tolerance_ ? tolerance_of(options_, rung.name()) : 0.0;

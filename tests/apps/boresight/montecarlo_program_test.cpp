@@ -56,6 +56,9 @@ TEST_F(MonteCarloProgram, ASampleIsReplayedToTheSameBitsWhereAllTakeOneStep) {
   EXPECT_EQ(json("seven/summary.json")["index"]["position_error"]["max"].get<double>(), stored);
   EXPECT_EQ(call({"run", "study.toml", "--sample-number", "-1"}).status, 2);
   EXPECT_EQ(call({"run", "study.toml", "--sample-number", "1.5"}).status, 2);
+  const Ended beyond = call({"run", "study.toml", "--sample-number", "400"});
+  EXPECT_EQ(beyond.status, 2);
+  EXPECT_THAT(beyond.err, HasSubstr("expected one of the study's 400 samples, from 0 to 399"));
 }
 
 // Lanes choose their steps by the error; so does the replay, by the same method at other times.

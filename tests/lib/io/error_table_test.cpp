@@ -97,6 +97,10 @@ TEST(ErrorTable, IsRefusedInOneLineThatSaysWhy) {
           "42: error.e.drive: found both rotation and drive, expected one of the two: a table is one error");
   refused("joint = \"P\"\nbody = \"ground\"\ntranslation = [1, 0, 0]",
           "40: error.e.body: found \"ground\", expected one of the two bodies that \"P\" connects");
+  refused("drive = \"P\"\nlaw = \"q\"\nvalue = \"0.001\"",
+          "41: error.e.value: found \"0.001\" in quotes and without a unit, expected a number without quotes, or a "
+          "text with "
+          "its unit");
   refused("drive = \"R\"", "39: error.e.drive: found \"R\", which is not driven, expected the name of a driven joint");
   refused("drive = \"P\"\nlaw = \"sin(x)\"",
           "40: error.e.law: found the unknown name \"x\" in \"sin(x)\", expected q, t, pi or a function such as sin; "

@@ -160,11 +160,11 @@ TEST(TiedRest, ASlowGimbalWithoutFrictionIsFollowedByMultibodyWithinWhatTheQuasi
     c.parameters.friction.coefficient = 0.0;
   }
   const RunResult resting = run(m, "quasistatic"), exact = run(m, "multibody");
-  EXPECT_LT(resting.error.model, 0.3);
-  for (const auto quantity : {&PointingIndices::position_error, &PointingIndices::boresight_error}) {
-    const double of_exact = (exact.index.*quantity).rms;
+  EXPECT_LT(resting.error.largest_model(), 0.3);
+  for (const auto quantity : {PointingQuantity::position_error, PointingQuantity::boresight_error}) {
+    const double of_exact = exact.index.of(quantity).rms;
     ASSERT_GT(of_exact, 1e-6);
-    EXPECT_NEAR((resting.index.*quantity).rms / of_exact, 1.0, resting.error.model);
+    EXPECT_NEAR(resting.index.of(quantity).rms / of_exact, 1.0, resting.error.model_of(quantity));
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "scenes.hpp"
 
 namespace boresight {
@@ -30,6 +32,27 @@ Mechanism shaft(double off) {
   }
   m.motion.drives[0] = parse_expression("sin(t)");
   return Mechanism(std::move(m));
+}
+
+TEST(KinematicReport, NamesBodiesThatNoJointsHold) {
+  MechanismDescription m = shaft(0.0).description();
+  for (const char* name : {"cart", "wheel"}) {
+    m.bodies.push_back(m.bodies.front());
+    m.bodies.back().name = name;
+    m.bodies.back().boresight.reset();
+  }
+  JointDescription axle = m.joints.front();
+  axle.name = "axle";
+  axle.first = 1;
+  axle.second = 2;
+  axle.driven = false;
+  m.joints.push_back(axle);
+  const std::vector<std::string> found = analyse_kinematics(Mechanism(std::move(m)), 11).findings;
+  EXPECT_NE(std::find(found.begin(), found.end(),
+                      "no chain of joints leads from \"cart\", \"wheel\" to the ground: such a body flies freely"),
+            found.end());
+  for (const std::string& finding : analyse_kinematics(shaft(0.0), 11).findings)
+    EXPECT_EQ(finding.find("no chain of joints"), std::string::npos) << finding;
 }
 
 TEST(KinematicReport, NamesBearingsThatDoNotQuiteShareAnAxis) {

@@ -1,0 +1,158 @@
+#include "boresight/perturbation/pushed_motions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/integrator_choice.hpp"
+
+namespace boresight {
+namespace {
+
+constexpr int kCells = 192;  // of the load's table, where no finer one is there: four to a part of LargestDeviations
+// What is smaller than this share of the largest, on the mechanism's size, is next to nothing: it counts against a little of that.
+constexpr double kNextToNothing = 1e-4;
+// Neighbouring steps, as measured_error.hpp has them.
+constexpr double kNeighbours[] = {0.985, 0.97};
+// A second look would move the indices again, by less than the first did where linear forces are of use at all: as much is stated.
+constexpr double kWithTheRest = 2.0;
+
+// What the indices of `other` differ by, relative to those of `index`.
+PerQuantity moved(const PointingIndices& index, const PointingIndices& other, double length) {
+  const double largest =
+      std::max({index.position_error.max, length * index.orientation_error.max, length * index.boresight_error.max});
+  PerQuantity share = {};
+  for (int k = 0; k < kPointingQuantities; ++k) {
+    const auto quantity = PointingQuantity(k);
+    const double unit = quantity == PointingQuantity::position_error ? 1.0 : length;
+    const double least = quantity == PointingQuantity::line_of_sight_error ? 0.0 : kNextToNothing * largest / unit;
+    for (const auto statistic : {&Statistics::max, &Statistics::rms, &Statistics::mean}) {
+      const double a = index.of(quantity).*statistic, off = std::abs(other.of(quantity).*statistic - a);
+      if (const double against = std::max(a, least); against > 0.0) share[k] = std::max(share[k], off / against);
+    }
+  }
+  return share;
+}
+
+void raise(PerQuantity& to, const PerQuantity& by) {
+  for (int k = 0; k < kPointingQuantities; ++k) to[k] = std::max(to[k], by[k]);
+}
+
+// What is missed at a time between two instants, and at which rate it changes.
+struct Between {
+  const Missed &from, &to;
+  double share;
+
+  VecX acceleration() const { return (1.0 - share) * from.acceleration + share * to.acceleration; }
+  VecX offset() const { return (1.0 - share) * from.offset + share * to.offset; }
+  VecX offset_rate() const {
+    const double gap = to.t - from.t;
+    return gap > 0.0 ? VecX((to.offset - from.offset) / gap) : VecX(VecX::Zero(to.offset.size()));
+  }
+};
+Between between(const std::vector<Missed>& missed, double t) {
+  const auto next =
+      std::lower_bound(missed.begin(), missed.end(), t, [](const Missed& m, double at) { return m.t < at; });
+  const Missed& to = next == missed.end() ? missed.back() : *next;
+  const Missed& from = next == missed.begin() ? to : *(next - 1);
+  return {from, to, to.t > from.t ? (t - from.t) / (to.t - from.t) : 0.0};
+}
+
+void shift_offsets(const std::vector<Missed>& missed, double times, const SceneTables& tables, SceneTables& shifted) {
+  const TimeTable& dynamics = tables.dynamics;
+  std::vector<double> row(static_cast<std::size_t>(dynamics.width()));
+  int first = 0;  // of the joint's dependent offsets
+  for (const SceneLayout::Joint& joint : tables.layout.joints) {
+    if (!joint.has_dependent) continue;
+    std::vector<int> dependent;
+    for (int k = 0; k < joint.offsets; ++k)
+      if (joint.source[k] == DeviationCoordinates::kDependent) dependent.push_back(k);
+    const auto shift = [&](double t, double* values) {  // those of all offsets, then their rates
+      const Between now = between(missed, t);
+      const VecX offset = times * now.offset(), rate = times * now.offset_rate();
+      for (std::size_t i = 0; i < dependent.size(); ++i) {
+        values[dependent[i]] += offset[first + static_cast<int>(i)];
+        values[joint.offsets + dependent[i]] += rate[first + static_cast<int>(i)];
+      }
+    };
+    const int width = 2 * joint.offsets;
+    std::vector<double> values;
+    for (int k = 0; k <= dynamics.cells(); ++k) {
+      dynamics.at(k * dynamics.spacing(), row.data());
+      shift(k * dynamics.spacing(), &row[joint.shift]);
+      values.insert(values.end(), &row[joint.shift], &row[joint.shift] + width);
+    }
+    shifted.dynamics.replace(joint.shift, TimeTable(dynamics.spacing(), width, values));
+    shift(0.0, &shifted.start.row[joint.shift]);
+    first += static_cast<int>(dependent.size());
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const SceneTables> pushed_by(const std::vector<Missed>& missed, double times, double duration,
+                                             const SceneTables& tables) {
+  const int n = tables.layout.n;
+  const TimeTable& before = tables.load_change;
+  double spacing = duration / kCells;
+  if (before.width() > 0) spacing = before.spacing() / std::max(1.0, std::ceil(before.spacing() / spacing));
+  const int cells = static_cast<int>(std::ceil(duration / spacing - 1e-9));
+  std::vector<double> values;
+  for (int i = 0; i <= cells; ++i) {
+    const double t = i * spacing;
+    VecX load = times * between(missed, t).acceleration();
+    if (before.width() > 0) before.add(t, load.data());
+    values.insert(values.end(), load.data(), load.data() + n);
+  }
+  auto pushed = std::make_shared<SceneTables>(tables);
+  pushed->load_change = TimeTable(spacing, n, values);
+  Eigen::Map<VecX>(&pushed->start.row[tables.layout.Ar], n) += times * missed.front().acceleration;
+  if (missed.front().offset.size() > 0) shift_offsets(missed, times, tables, *pushed);
+  return pushed;
+}
+
+void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanism,
+                            const std::shared_ptr<const SceneTables>& tables, const RunOptions& options,
+                            double tolerance, const FollowOn& follow, RunResult& result) {
+  if (beyond.missed.empty()) return;
+  RunOptions beside = options;
+  beside.sample_spacing = beside.frame_spacing = 0.0;
+  beside.pose_bodies.clear();
+  beside.events = false;
+  beside.progress = [&](const RunProgress&) {
+    return !options.progress ||
+           options.progress({mechanism.duration(), mechanism.duration(), result.index.position_error.max});
+  };
+  if (!result.integrator_taken.empty()) beside.integrator = result.integrator_taken;
+  const bool by_steps = beside.integrator.empty() || beside.integrator == "rk4";
+  if (by_steps && result.cost.steps > 0) beside.step = result.end_time / static_cast<double>(result.cost.steps);
+
+  const double length = mechanism.characteristic_length();
+  PerQuantity by_pushes = {}, by_chance = {};
+  try {
+    for (const double times : {1.0, -1.0}) {
+      const RunResult pushed = follow(pushed_by(beyond.missed, times, mechanism.duration(), *tables), beside);
+      if (pushed.interrupted) return;
+      raise(by_pushes, moved(result.index, pushed.index, length));
+    }
+    for (double& share : by_pushes) share *= kWithTheRest;
+    bool more = false;
+    for (int k = 0; k < kPointingQuantities; ++k) more = more || beyond.pose[k] + by_pushes[k] > beyond.whole[k];
+    if (!more) return;
+    for (const double share : kNeighbours) {
+      RunOptions neighbour = beside;
+      if (by_steps || beside.step > 0.0) neighbour.step *= share;
+      if (!by_steps) neighbour.tolerance = share * tolerance;
+      const RunResult scattered = follow(tables, neighbour);
+      if (scattered.interrupted) return;
+      raise(by_chance, moved(result.index, scattered.index, length));
+    }
+  } catch (const ComputationError&) {
+    return;
+  }
+  for (int k = 0; k < kPointingQuantities; ++k)
+    if (by_pushes[k] > kWithTheRest * by_chance[k])
+      result.error.model[k] = std::max(result.error.model[k], std::min(1.0, beyond.pose[k] + by_pushes[k]));
+}
+
+}  // namespace boresight
