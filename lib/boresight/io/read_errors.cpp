@@ -158,7 +158,8 @@ ErrorDescription read_error(Cursor& cursor, const MechanismDescription& so_far) 
   }
   if (cursor.has("value")) {
     const bool number = error.kind == Kind::drive && cursor.is_number("value");
-    if (const std::string found = cursor.found("value"); error.kind == Kind::drive && is_number_in_quotes(found))
+    if (const std::string found = cursor.found("value");
+        error.kind == Kind::drive && !number && is_number_in_quotes(found))
       cursor.fail_found("value", found + " in quotes and without a unit",
                         "a number without quotes, or a text with its unit");
     error.value = number ? cursor.value("value", kRatio) : cursor.quantity("value", range);

@@ -27,10 +27,11 @@
 namespace boresight {
 namespace {
 
-std::string basis(const Mechanism& mechanism) {
+std::string basis(const Mechanism& mechanism, bool measured) {
   return "the largest deviations made exactly, by closing the joints around them: how their pose, and what pushes "
          "the " +
-         parts_in_play(mechanism.description()).inserts + " there, differ from the linear ones";
+         parts_in_play(mechanism.description()).inserts + " there, differ from the linear ones" +
+         (measured ? "; and the motion again under what its forces miss" : "");
 }
 
 class Perturbation final : public SceneRung {
@@ -53,7 +54,7 @@ class Perturbation final : public SceneRung {
     RunResult result = follow_on(tables, prepared, standing, parameters, options, largest);
     if (result.interrupted) return result;
     const SecondOrder beyond = second_order(mechanism(), prepared, parameters, largest);
-    result.error = {beyond.whole, kNotMeasured, basis(mechanism())};
+    result.error = {beyond.whole, kNotMeasured, basis(mechanism(), options.measure_model)};
     if (!options.measure_model) return result;
     LargestDeviations unused(mechanism().duration());
     state_what_pushes_move(

@@ -15,7 +15,8 @@ TEST(ProgressLine, ShowsBarRateTimeLeftAndEstimate) {
 TEST(ProgressLine, SaysHowLongItHasTakenBeforeTheFirstIsDone) {
   EXPECT_EQ(progress_line(0.0, 2.0, "points", 7.2, ""), "[--------------------]   0 %  0 of 2 points, 7 s so far");
   EXPECT_EQ(progress_line(1.0, 2.0, "points", 7.2, "", 1.0), "[##########----------]  50 %  1 of 2 points, 7 s so far");
-  EXPECT_EQ(progress_line(2.0, 2.0, "points", 7.2, "checking"), "[####################] 100 %  2 of 2 points, 7 s so far; checking");
+  EXPECT_EQ(progress_line(2.0, 2.0, "points", 7.2, "checking"),
+            "[####################] 100 %  2 of 2 points, 7 s so far; checking");
 }
 
 TEST(ProgressLine, NeverLeavesTheBar) {

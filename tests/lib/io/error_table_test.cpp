@@ -98,7 +98,7 @@ TEST(ErrorTable, IsRefusedInOneLineThatSaysWhy) {
   refused("joint = \"P\"\nbody = \"ground\"\ntranslation = [1, 0, 0]",
           "40: error.e.body: found \"ground\", expected one of the two bodies that \"P\" connects");
   refused("drive = \"P\"\nlaw = \"q\"\nvalue = \"0.001\"",
-          "41: error.e.value: found \"0.001\" in quotes and without a unit, expected a number without quotes, or a "
+          "41: error.e: found \"0.001\" in quotes and without a unit, expected a number without quotes, or a "
           "text with "
           "its unit");
   refused("drive = \"R\"", "39: error.e.drive: found \"R\", which is not driven, expected the name of a driven joint");
