@@ -68,7 +68,6 @@ class Calibrator {
   // Side by side. rough: as where the horizon goes on growing.
   std::vector<FitResult> fits_from(const CalibrationProblem& part, const std::vector<Globals>& starts,
                                    const std::string& stage, bool rough);
-  bool same_place(const Globals& a, const Globals& b, const Inference& known) const;
   // Of fits, the lowest first: their places, each once, without those that are hopeless beside it.
   std::vector<Globals> distinct_places(const std::vector<FitResult>& ended, const Inference& at_lowest) const;
 

@@ -17,10 +17,11 @@
 namespace boresight {
 namespace {
 
-// By how much the horizon grows at most, of each path: which valley one ends in hangs on where its horizons fall. Paths are gone until two of them
-// have ended in the lowest place that any has found. And least, before other places are looked at.
-constexpr double kMostGrowth[] = {1.3, 1.2, 1.14, 1.25}, kLeastGrowth = 1.04;
-constexpr int kConfirm = 2;
+// By how much the horizon grows at most, of each path: which valley one ends in hangs on where its horizons fall. Two paths are gone, and further
+// ones where runs contradict each other by more than this at the lowest place that was found, as they do in wrong valleys. And least, before
+// other places are looked at. (Paths end in one place too seldom to confirm each other: of four with ten runs of the four-bar no two did.)
+constexpr double kMostGrowth[] = {1.3, 1.2, 1.14, 1.25}, kContradicted = 1.5, kLeastGrowth = 1.04;
+constexpr std::size_t kPaths = 2;
 // A mean square of what came in beyond this many times that of what was there. Noise alone does so with a hundred values once in a dozen times,
 // which costs a look and no more.
 constexpr double kRise = 1.2;
@@ -77,23 +78,20 @@ std::vector<FitResult> Calibrator::fits_from(const CalibrationProblem& part, con
   return ended;
 }
 
-bool Calibrator::same_place(const Globals& a, const Globals& b, const Inference& known) const {
-  for (int p = 0; p < problem_.parameter_count(); ++p) {
-    const double error = std::sqrt(known.covariance(p, p));
-    if (!result_.fixed[p] && std::isfinite(error) && std::abs(a.u[p] - b.u[p]) > kSame * error) return false;
-  }
-  return true;
-}
-
 std::vector<Globals> Calibrator::distinct_places(const std::vector<FitResult>& ended,
                                                  const Inference& at_lowest) const {
+  const VecX error = at_lowest.covariance.diagonal().cwiseSqrt();
+  const auto same = [&](const Globals& a, const Globals& b) {
+    for (int p = 0; p < problem_.parameter_count(); ++p)
+      if (!result_.fixed[p] && std::isfinite(error[p]) && std::abs(a.u[p] - b.u[p]) > kSame * error[p]) return false;
+    return true;
+  };
   std::vector<Globals> places;
   for (const FitResult& one : ended) {
     if (static_cast<int>(places.size()) == kMostKept ||
         !(one.cost < ended.front().cost + kLikely * at_lowest.variance_factor))
       break;
-    if (std::none_of(places.begin(), places.end(),
-                     [&](const Globals& p) { return same_place(p, one.globals, at_lowest); }))
+    if (std::none_of(places.begin(), places.end(), [&](const Globals& p) { return same(p, one.globals); }))
       places.push_back(one.globals);
   }
   return places;
@@ -151,21 +149,20 @@ bool Calibrator::grow(const Globals& at, bool give_up) {
   std::vector<Globals> places = {at};
   if (follows_from_rest(problem_)) {
     std::vector<FitResult> ended;
-    std::vector<Globals> lowest_of_paths;
-    int given_up = 0;
+    std::size_t paths = 0;
     for (const double most_growth : kMostGrowth) {
       std::vector<FitResult> more = grown(at, most_growth, give_up);
-      if (more.empty() && ++given_up == kConfirm && ended.empty()) break;
-      if (more.empty()) continue;
-      lowest_of_paths.push_back(more.front().globals);
       ended.insert(ended.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
       std::stable_sort(ended.begin(), ended.end(),
                        [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
-      const Inference known =
-          infer(searched_up_to(problem_, 1.0), ended.front(), options_.confidence, result_.fixed, options_.jobs);
+      if (++paths < kPaths) continue;
+      if (ended.empty()) break;
+      const CalibrationProblem whole = searched_up_to(problem_, 1.0);
+      const Inference known = infer(whole, ended.front(), options_.confidence, result_.fixed, options_.jobs);
       places = distinct_places(ended, known);
-      const auto there = [&](const Globals& end) { return same_place(end, ended.front().globals, known); };
-      if (std::count_if(lowest_of_paths.begin(), lowest_of_paths.end(), there) >= kConfirm) break;
+      if (!(model_error(whole, ended.front(), {}, {}, result_.fixed, known.variance_factor, options_.jobs)
+                .disagreement > kContradicted))
+        break;
     }
     if (ended.empty() && give_up) return false;
   }
