@@ -52,8 +52,8 @@ void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mech
       header += fmt::format(",{}.{}", quantity.name, statistic.name);
   header += ",acceleration_max_x,acceleration_max_y,acceleration_max_z,constraint_drift";
   for (int c = 0; c < mechanism.clearances(); ++c)
-    for (const char* name : {"contact_fraction", "impacts", "max_penetration", "max_force", "max_load",
-                             "max_impact_speed", "impact_speed_above_validity"})
+    for (const char* name : {"contact_fraction", "impacts", "max_penetration", "max_force", "max_impact_speed",
+                             "impact_speed_above_validity"})
       header += "," + csv_field(joint_of_clearance(mechanism, c) + "." + name);
   out << header << ",status\n";
 
@@ -76,7 +76,6 @@ void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mech
       add(static_cast<double>(s.impacts));
       add(s.max_penetration);
       add(s.max_force);
-      add(s.max_load);
       add(s.max_impact_speed);
       add(static_cast<double>(s.impact_speed_above_validity));
     }

@@ -1,6 +1,6 @@
-// What the forces that the perturbation rung leaves out do to its indices: the motion again with what they miss as a load, once
-// added and once taken away; twice what that moves is stated. Where much hangs on little (when a journal lets go, which end of its sleeve it strikes, which of two rests
-// it finds) that is more than the share of the forces which is missed.
+// What the forces that the perturbation rung leaves out do to its indices: the motion again with what they miss as a load, once added and
+// once taken away; twice what that moves is stated. Where much hangs on little (when a journal lets go, which end of its sleeve it strikes,
+// which of two rests it finds) that is more than the share of the forces which is missed.
 //
 // Where motions go their own ways, any load makes another one of many: what neighbouring steps scatter by as much is not taken for an error
 // of the model. measured_error.hpp states it.
