@@ -304,7 +304,7 @@ class Trial {
     const bool recut = asked.rung == "multibody" && stage.ends_with("reordered"),
                restepped = std::abs(other.step / base.step - 1.0) > 1e-6;
     const bool by_error = !base.taken.empty() || !other.taken.empty();
-    if (asked.rung == "quasistatic" || !(recut || restepped || by_error)) return false;
+    if (!(recut || restepped || by_error)) return false;
     if (!base.steps_measured) know_steps(base, asked, mechanism_);
     if (!other.steps_measured) know_steps(other, asked, mechanism);
     return base.steps_measured && other.steps_measured && apart <= base.by_steps[figure] + other.by_steps[figure];

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "boresight/formulations/ideal_simulation.hpp"
-#include "boresight/ladder/ladder.hpp"
 #include "boresight/scene/standing_errors.hpp"
+#include "boresight/statics/quasistatic.hpp"
 
 namespace boresight {
 namespace {
@@ -167,7 +167,7 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
                                       double& misfit) {
   index.title();  // throws where the quantity or the statistic is unknown
   const PointingQuantity quantity = index.kind();
-  const auto rung = make_rung("quasistatic", mechanism);
+  const auto rung = make_rests(mechanism);
   RunOptions options;
   options.events = false;
   options.start = index.start;

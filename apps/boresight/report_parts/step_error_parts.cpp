@@ -15,6 +15,9 @@ double relative_step_error(const MeasuredError& measured, const PointingIndices&
 
 namespace {
 
+// Of an index: what is computed in another order differs by as much.
+constexpr double kOfRounding = 1e-9;
+
 // Neighbouring steps lie as far from each other as from finer ones.
 bool scatters(const MeasuredError& measured, const IndexChoice& of) {
   for (const QuantityName& quantity : quantity_names())
@@ -30,16 +33,20 @@ std::string steps_mislead(const MeasuredError& measured, const PointingIndices& 
   if (!measured.measured || measured.runs == 0 || scatters(measured, of)) return "";
   const double relative = relative_step_error(measured, index, of);
   if (!(relative > 1.0)) return "";
-  return fmt::format(
-      "{}: what the steps leave out is {} of what is found: this motion is not followed; take a smaller --step",
-      of.title(), readable_share(relative));
+  return fmt::format("{}: what {} leave out is {} of what is found: {}", of.title(),
+                     measured.by_instants ? "the instants" : "the steps", readable_share(relative),
+                     measured.by_instants
+                         ? "where journals rest is not followed from one instant to the next; take another rung"
+                         : "this motion is not followed; take a smaller --step");
 }
 
 std::string step_error_sentence(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of) {
   if (!measured.measured) return "what the steps do to the indices was not measured: " + measured.why_not;
   if (measured.runs == 0) return measured.basis;
   const double relative = relative_step_error(measured, index, of);
-  return fmt::format("{}: within {} of what smaller steps give{}; {}, {} of CPU", of.title(), readable_share(relative),
+  return fmt::format("{}: within {} of what {} give{}; {}, {} of CPU", of.title(),
+                     relative < kOfRounding ? "rounding" : readable_share(relative),
+                     measured.by_instants ? "closer instants" : "smaller steps",
                      relative > 1e-3 && scatters(measured, of)
                          ? ", as far as neighbouring steps lie from each other: one motion of many"
                          : "",

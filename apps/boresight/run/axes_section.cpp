@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
-#include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/interruption.hpp"
+#include "boresight/statics/quasistatic.hpp"
+#include "terminal/interruption.hpp"
 #include "terminal/readable.hpp"
 
 namespace boresight::app {
@@ -16,7 +18,10 @@ PointingIndices at_rest(MechanismDescription description, JournalAxes axes) {
   const auto mechanism = std::make_shared<const Mechanism>(std::move(description));
   RunOptions options;
   options.sample_spacing = 0.0;
-  return make_rung("quasistatic", mechanism)->run(mechanism->parameters(), options).index;
+  options.progress = [](const RunProgress&) { return !interrupted(); };
+  const RunResult result = make_rests(mechanism)->run(mechanism->parameters(), options);
+  if (result.interrupted) throw Interrupted{};
+  return result.index;
 }
 
 }  // namespace

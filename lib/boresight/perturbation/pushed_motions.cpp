@@ -128,18 +128,21 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
   if (by_steps && result.cost.steps > 0) beside.step = result.end_time / static_cast<double>(result.cost.steps);
 
   const double length = mechanism.characteristic_length();
-  PerQuantity by_pushes = {}, by_chance = {};
+  PerQuantity measured = {}, by_pushes = {}, by_chance = {};
+  bool more = false;
   try {
     for (const double times : {1.0, -1.0}) {
       const RunResult pushed = follow(pushed_by(beyond.missed, times, mechanism.duration(), *tables), beside);
       if (pushed.interrupted) return;
       raise(by_pushes, moved(result.index, pushed.index, length));
     }
-    for (double& share : by_pushes) share *= kWithTheRest;
-    bool more = false;
-    for (int k = 0; k < kPointingQuantities; ++k) more = more || beyond.pose[k] + by_pushes[k] > beyond.whole[k];
-    if (!more) return;
+    for (int k = 0; k < kPointingQuantities; ++k) {
+      by_pushes[k] *= kWithTheRest;
+      measured[k] = std::min(1.0, beyond.pose[k] + by_pushes[k]);
+      more = more || measured[k] > beyond.whole[k];
+    }
     for (const double share : kNeighbours) {
+      if (!more) break;
       RunOptions neighbour = beside;
       if (by_steps || beside.step > 0.0) neighbour.step *= share;
       if (!by_steps) neighbour.tolerance = share * tolerance;
@@ -151,8 +154,8 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
     return;
   }
   for (int k = 0; k < kPointingQuantities; ++k)
-    if (by_pushes[k] > kWithTheRest * by_chance[k])
-      result.error.model[k] = std::max(result.error.model[k], std::min(1.0, beyond.pose[k] + by_pushes[k]));
+    if (measured[k] <= beyond.whole[k] || by_pushes[k] > kWithTheRest * by_chance[k])
+      result.error.model[k] = measured[k];
 }
 
 }  // namespace boresight

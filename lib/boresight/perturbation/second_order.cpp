@@ -256,14 +256,15 @@ class LeftOut {
       const double least = k == kMoved ? next_to_nothing : k == kSighted ? 0.0 : next_to_nothing / length;
       const double size = std::max(miss_[k].size(), least);
       double of_kind = miss_[k].value(least);
-      found.pose[k] = of_all(of_kind);
+      const double by_rest = size > 0.0 ? at_rest[k] / size : 0.0;
+      found.pose[k] = of_all(std::max(of_kind, by_rest));
       // A force that is off early shows in where the journal gets to later: all of its part counts by the share of all forces. And where
       // next to nothing pushes for a while, all of its part counts for that while. Together no more than all of it by the largest share.
       for (std::size_t g = 0; g < groups_.size(); ++g) {
         const double part = part_[g][k].value(least), by_forces = part * std::min(1.0, push_[g].mean_value(0.0));
         of_kind += std::min(part * pushed_off_[g], by_forces + astray_[g][k].mean_value(least));
       }
-      found.whole[k] = of_all(std::max(of_kind, size > 0.0 ? at_rest[k] / size : 0.0));
+      found.whole[k] = of_all(std::max(of_kind, by_rest));
     }
     return found;
   }

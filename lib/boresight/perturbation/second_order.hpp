@@ -62,7 +62,7 @@ struct Missed {
 };
 
 struct SecondOrder {
-  PerQuantity pose = {};  // by pose and contacts, relative to the rung's own indices
+  PerQuantity pose = {};  // by pose, contacts and rest, relative to the rung's own indices
   PerQuantity whole =
       {};  // by all of it; 1 where a deviation cannot be made exactly (a singular pose within its reach)
   std::vector<Missed> missed;  // in the order of time

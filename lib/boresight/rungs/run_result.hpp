@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -74,10 +75,13 @@ struct RunCost {
   double cpu_seconds = 0.0, wall_seconds = 0.0;
 };
 
+// ErrorEstimate::discretisation: what steps, or the instants of a rung without steps, do to its indices no single run can tell.
+inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
 // What a rung thinks its own indices are wrong by, relative, before anything else has checked it.
 struct ErrorEstimate {
   PerQuantity model = {};       // by what the rung leaves out
-  double discretisation = 0.0;  // by its steps
+  double discretisation = 0.0;  // by its steps or instants
   std::string basis;            // in words
 
   double model_of(PointingQuantity quantity) const { return model[static_cast<std::size_t>(quantity)]; }

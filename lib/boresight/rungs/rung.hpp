@@ -35,7 +35,8 @@ struct RunOptions {
   std::string
       integrator;  // "rk4", "dopri5", "rosenbrock", multibody also "generalized-alpha"; "" is the rung's own, rk4
   double tolerance = 0.0;  // of error control: error of one step over the smallest clearance; 0: the rung's own
-  double share_of_longest_step = 1.0;  // of the longest step that error control takes on this motion
+  // Of the longest step that error control takes on this motion, or of the spacing of the instants that rungs without steps look at.
+  double share_of_longest_step = 1.0;
 
   // Perturbation only: every coordinate starts this much off the ideal motion [m, or rad], to see how fast neighbours
   // part.

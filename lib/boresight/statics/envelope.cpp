@@ -32,7 +32,7 @@ class Envelope final : public SceneRung {
  private:
   RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
-    const ReactionTable reactions(mechanism(), prepared, standing, parameters);
+    const ReactionTable reactions(mechanism(), prepared, standing, parameters, options.share_of_longest_step);
     const std::vector<JointPlay>& joints = reactions.joints();
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     std::vector<ContactSummary> summary = reactions.summaries();

@@ -207,16 +207,17 @@ class MeasuredByDynamics final : public Rung {
     }
     if (stopped) why_not = "following the motion takes too long";
     if (!why_not.empty() || motions.size() < kShares.size())
-      return {{all_of_it(), 0.0, "not measured, so anything up to the whole: on the perturbation rung " + why_not},
-              0.0,
-              {},
-              !asked_to};
+      return {
+          {all_of_it(), kNotMeasured, "not measured, so anything up to the whole: on the perturbation rung " + why_not},
+          0.0,
+          {},
+          !asked_to};
     return compared(index, motions);
   }
 
   Measured compared(const PointingIndices& index, const std::vector<RunResult>& motions) const {
     Measured measured;
-    measured.error.discretisation = 0.0;  // instants are many
+    measured.error.discretisation = kNotMeasured;
     measured.error.basis =
         "measured against the perturbation rung, which knows impacts, vibration, friction and the start: "
         "largest over maximum, "

@@ -34,7 +34,7 @@ class Quasistatic final : public SceneRung {
  private:
   RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
-    const ReactionTable reactions(mechanism(), prepared, standing, parameters);
+    const ReactionTable reactions(mechanism(), prepared, standing, parameters, options.share_of_longest_step);
     std::optional<TiedRest> tied;
     if (reactions.tied()) tied.emplace(prepared, standing, parameters, reactions);
     const auto balance_at = [&](double t, const Balance* before) {
@@ -61,7 +61,8 @@ class Quasistatic final : public SceneRung {
         const double shortest = reactions.spacing() / kMostBetween, t = ahead.back();
         Balance balance = balance_at(t, &before);
         if (t - before.now.t > shortest &&
-            (balance.decided != before.decided || (balance.moved - before.moved).norm() > kTurns * largest)) {
+            (balance.decided != before.decided ||
+             (balance.moved - before.moved).norm() > kTurns * options.share_of_longest_step * largest)) {
           ahead.push_back(0.5 * (before.now.t + t));
           continue;
         }
@@ -154,8 +155,12 @@ class Quasistatic final : public SceneRung {
 }  // namespace
 
 std::unique_ptr<Rung> make_quasistatic(std::shared_ptr<const Mechanism> mechanism) {
-  auto rung = std::make_unique<Quasistatic>(mechanism);
+  std::unique_ptr<Rung> rung = make_rests(mechanism);
   return with_error_measured_by_dynamics(std::move(rung), std::move(mechanism), false);
+}
+
+std::unique_ptr<Rung> make_rests(std::shared_ptr<const Mechanism> mechanism) {
+  return std::make_unique<Quasistatic>(std::move(mechanism));
 }
 
 }  // namespace boresight

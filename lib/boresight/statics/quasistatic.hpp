@@ -7,4 +7,7 @@ namespace boresight {
 
 std::unique_ptr<Rung> make_quasistatic(std::shared_ptr<const Mechanism> mechanism);
 
+// The same figures for those who want nothing else: what dynamics say of their error, which takes some motions, is not looked for.
+std::unique_ptr<Rung> make_rests(std::shared_ptr<const Mechanism> mechanism);
+
 }  // namespace boresight

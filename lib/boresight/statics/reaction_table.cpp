@@ -30,7 +30,7 @@ double size(const PlayOffsets& load, const JointPlay& joint) {
 }  // namespace
 
 ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& prepared,
-                             const StandingDisplacement& standing, const Parameters& parameters)
+                             const StandingDisplacement& standing, const Parameters& parameters, double share)
     : mechanism_(mechanism), layout_(prepared.scene().layout()), tied_(standing.shifts()) {
   const ClearanceScene& scene = prepared.scene();
   if (scene.coordinates().leftover() > 0)
@@ -41,7 +41,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
       kFewestInstants,
       std::min(mechanism.duration() / kSpacing, std::max<double>(kManyInstants, kInstantsPerKnot * scene.knots())));
   // Whatever the knots of the scene: how fine these are may be decided by rounding.
-  instants_ = static_cast<int>(std::ceil(wanted)) + 1;
+  instants_ = static_cast<int>(std::ceil(wanted / share)) + 1;
   spacing_ = mechanism.duration() / (instants_ - 1);
   const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters);
   change_ = prepared.changed_loads(parameters, standing).table(layout_.n);

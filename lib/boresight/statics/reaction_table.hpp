@@ -13,9 +13,10 @@ namespace boresight {
 
 class ReactionTable {
  public:
-  // Throws ComputationError where the mechanism has freedoms that nothing drives, which do not rest at all.
+  // share: of the spacing that instants have by default. Throws ComputationError where the mechanism has freedoms that nothing drives,
+  // which do not rest at all.
   ReactionTable(const Mechanism& mechanism, const PreparedScene& prepared, const StandingDisplacement& standing,
-                const Parameters& parameters);
+                const Parameters& parameters, double share = 1.0);
 
   struct Load {
     PlayOffsets force;   // on the journal's offsets; zero where an offset is none [N, N m]

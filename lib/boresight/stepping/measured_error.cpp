@@ -41,7 +41,11 @@ class FurtherRuns {
  public:
   FurtherRuns(const Rung& rung, const Parameters& parameters, const RunOptions& options, const RunResult& result,
               const MeasureErrorOptions& measure)
-      : rung_(rung), parameters_(parameters), options_(options), measure_(measure) {
+      : rung_(rung),
+        parameters_(parameters),
+        options_(options),
+        measure_(measure),
+        longest_(options.share_of_longest_step) {
     options_.sample_spacing = 0.0;
     options_.frame_spacing = 0.0;
     options_.events = false;
@@ -51,6 +55,8 @@ class FurtherRuns {
     };
     options_.measure_model = false;
     if (options.integrator.empty()) options_.integrator = result.integrator_taken;
+    by_instants_ = integrator_names(rung.name()).empty();
+    if (by_instants_) return;
     by_tolerance_ = controls_error(options_);
     tolerance_ = by_tolerance_ ? tolerance_of(options_, rung.name()) : 0.0;
     // Steps that locate contacts are shortened by these: what was asked for counts, not their mean.
@@ -64,7 +70,7 @@ class FurtherRuns {
   PointingIndices at(double share, bool finer = false) {
     options_.step = share * (finer ? kFinerStep : 1.0) * step_;
     options_.tolerance = share * (finer ? kFinerTolerance : 1.0) * tolerance_;
-    options_.share_of_longest_step = share * (finer ? kFinerStep : 1.0);
+    options_.share_of_longest_step = share * (finer ? kFinerStep : 1.0) * longest_;
     const RunResult result = rung_.run(parameters_, options_);
     cpu_seconds += result.cost.cpu_seconds;
     ++runs;
@@ -93,13 +99,24 @@ class FurtherRuns {
   double cpu_seconds = 0.0;
   // What a step may leave out unseen, over the smallest clearance; 0 where steps are given.
   double tolerance() const { return tolerance_; }
+  bool by_instants() const { return by_instants_; }
+  const char* neighbours() const {
+    return by_instants_ ? "spacings of instants" : by_tolerance_ ? "tolerances" : "steps";
+  }
+  const char* neighbour() const { return by_instants_ ? "spacing of instants" : by_tolerance_ ? "tolerance" : "step"; }
+  const char* fineness() const {
+    return by_instants_    ? "half the spacing of instants"
+           : by_tolerance_ ? "a tenth of the tolerance and half the longest step"
+                           : "half the step";
+  }
 
  private:
   const Rung& rung_;
   const Parameters& parameters_;
   RunOptions options_;
   const MeasureErrorOptions& measure_;
-  bool by_tolerance_ = false, stopped_ = false;
+  double longest_;
+  bool by_instants_ = false, by_tolerance_ = false, stopped_ = false;
   double step_ = 0.0, tolerance_ = 0.0;
   std::size_t next_ = 0;
 };
@@ -150,11 +167,10 @@ bool all_agree(const std::vector<PointingIndices>& runs) {
 MeasuredError measure_discretisation(const Rung& rung, const Parameters& parameters, const RunOptions& options,
                                      const RunResult& result, const MeasureErrorOptions& measure) {
   MeasuredError error;
-  // A rung that takes steps states nothing of them; it states 0 where no play can move and there are none.
-  const bool stepless = integrator_names(rung.name()).empty();
-  if (stepless || result.error.discretisation == 0.0) {
+  // A rung states nothing of its own steps or instants; it states 0 where no play can move and there are none.
+  if (result.error.discretisation == 0.0) {
     error.measured = true;
-    error.basis = stepless ? "this rung takes no steps" : "no play can move, so there are no steps to err";
+    error.basis = "no play can move, so there are no steps to err";
     error.stated.has_line_of_sight = error.spread.has_line_of_sight = error.shift.has_line_of_sight =
         result.index.has_line_of_sight;
     return error;
@@ -189,6 +205,7 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
   }
   error.runs = further.runs;
   error.cpu_seconds = further.cpu_seconds;
+  error.by_instants = further.by_instants();
   if (!error.why_not.empty()) return error;
 
   error.measured = true;
@@ -215,17 +232,14 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
     error.spread.*quantity.*statistic = spread;
     error.shift.*quantity.*statistic = shift;
   });
-  const bool by_tolerance = further.tolerance() > 0.0;
-  const char* fineness = by_tolerance ? "a tenth of the tolerance and half the longest step" : "half the step";
-  const char* alike = by_tolerance ? "tolerances" : "steps";
   if (own.size() > 1)
     std::snprintf(text, sizeof text, "%s: %zu of them at neighbouring %s, %zu at %s",
-                  settled ? "measured by further runs that agree" : "measured by further runs", own.size() - 1, alike,
-                  finer.size(), fineness);
+                  settled ? "measured by further runs that agree" : "measured by further runs", own.size() - 1,
+                  further.neighbours(), finer.size(), further.fineness());
   else
     std::snprintf(text, sizeof text,
                   "no neighbouring %s can be followed, so this one is by chance; measured by %zu at %s",
-                  by_tolerance ? "tolerance" : "step", finer.size(), fineness);
+                  further.neighbour(), finer.size(), further.fineness());
   error.basis = text;
   return error;
 }

@@ -1,4 +1,5 @@
-// How far the indices of a run are off because time advances in steps: measured by further runs of the same motion.
+// How far the indices of a run are off because time advances in steps, or is looked at in instants: measured by further runs of the same
+// motion. What is said of steps here holds of the spacing of instants.
 //
 //   neighbours   the same rung at steps (or tolerances) 1.5 and 3 percent smaller: as good as the run itself
 //   finer        the same at half the step (a tenth of the tolerance and half the longest step it allows), with neighbours of its own
@@ -19,23 +20,20 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <string>
 
 #include "boresight/rungs/rung.hpp"
 
 namespace boresight {
 
-// ErrorEstimate::discretisation of a rung that takes steps: what they do to its indices no single run can tell.
-inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
-
 struct MeasuredError {
   bool measured = false;
-  std::string why_not;     // where not measured
-  PointingIndices stated;  // by how much each index may be off, in its own unit [m, rad]
-  PointingIndices spread;  // standard deviation of an index among neighbours [m, rad]
-  PointingIndices shift;   // |mean of the finer runs - mean of the neighbours| [m, rad]
-  int runs = 0;            // besides the one that was measured
+  std::string why_not;       // where not measured
+  PointingIndices stated;    // by how much each index may be off, in its own unit [m, rad]
+  PointingIndices spread;    // standard deviation of an index among neighbours [m, rad]
+  PointingIndices shift;     // |mean of the finer runs - mean of the neighbours| [m, rad]
+  int runs = 0;              // besides the one that was measured
+  bool by_instants = false;  // of a rung that takes no steps
   double cpu_seconds = 0.0;
   std::string basis;  // in words
 

@@ -68,7 +68,7 @@ TEST(PushedMotions, AreAskedForAndLeaveTheMotionAsItIs) {
   const RunResult plain = rung->run(mechanism->parameters(), options);
   EXPECT_EQ(asked.index.position_error.max, plain.index.position_error.max);
   EXPECT_EQ(asked.index.boresight_error.rms, plain.index.boresight_error.rms);
-  for (int k = 0; k < kPointingQuantities; ++k) EXPECT_GE(asked.error.model[k], plain.error.model[k]);
+  EXPECT_NE(asked.error.model, plain.error.model);
   EXPECT_NE(asked.error.basis, plain.error.basis);
 }
 
