@@ -50,13 +50,14 @@ class Perturbation final : public SceneRung {
   RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
     const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters, standing);
-    LargestDeviations largest(mechanism().duration());
+    LargestDeviations largest(mechanism().duration(),
+                              options.measure_model ? LargestDeviations::kMany : LargestDeviations::kFew);
     RunResult result = follow_on(tables, prepared, standing, parameters, options, largest);
     if (result.interrupted) return result;
     const SecondOrder beyond = second_order(mechanism(), prepared, parameters, largest);
     result.error = {beyond.whole, kNotMeasured, basis(mechanism(), options.measure_model)};
     if (!options.measure_model) return result;
-    LargestDeviations unused(mechanism().duration());
+    LargestDeviations unused(mechanism().duration(), 1);
     state_what_pushes_move(
         beyond, mechanism(), tables, options, tolerance_of(options, name()),
         [&](const std::shared_ptr<const SceneTables>& on, const RunOptions& beside) {
@@ -108,7 +109,7 @@ class Perturbation final : public SceneRung {
     MatX compliance;
     DampingWatch damping(mechanism, h, limit);
     const long damping_every = std::max(1L, steps / 50);
-    largest = LargestDeviations(duration);
+    largest.forget();
     // Not the Integrator's loop, as in multibody/fixed_steps.cpp; that one closes joints and balances energy besides.
     for (long i = 0;; ++i) {
       const double t = course.start(i);
@@ -159,7 +160,7 @@ class Perturbation final : public SceneRung {
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, 2.0 * duration / kPaperStep);
     std::string start_warning;
     VecX y = system.start_state(mechanism(), options.start_offset, start_warning), slope = y;
-    largest = LargestDeviations(duration);
+    largest.forget();
     bool interrupted = false;
     long points = 0;
     system.start_located(0.0, y);
@@ -279,7 +280,8 @@ class Perturbation final : public SceneRung {
     BodyAcceleration a;
     BodyMotion body = displaced.moving(mechanism().boresight_body(), y.segment(n, n), slope.segment(n, n), a);
     const PoseError& error = recorder.accept(t, body, a);
-    largest.add(t, std::max(error.position / mechanism().characteristic_length(), error.orientation), y.head(n));
+    largest.add(t, std::max(error.position / mechanism().characteristic_length(), error.orientation), y.head(n),
+                y.segment(n, n));
     if (!recorder.sampling()) return;
     for (std::size_t k = 0; k < recorder.bodies_wanted().size(); ++k) {
       body = displaced.moving(recorder.bodies_wanted()[k], y.segment(n, n), slope.segment(n, n), a);

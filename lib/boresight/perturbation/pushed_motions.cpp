@@ -9,7 +9,7 @@
 namespace boresight {
 namespace {
 
-constexpr int kCells = 192;  // of the load's table, where no finer one is there: four to a part of LargestDeviations
+constexpr int kCells = 4 * LargestDeviations::kMany;  // of the load's table, where no finer one is there
 // What is smaller than this share of the largest, on the mechanism's size, is next to nothing: it counts against a little of that.
 constexpr double kNextToNothing = 1e-4;
 // Neighbouring steps, as measured_error.hpp has them.

@@ -199,7 +199,7 @@ class LeftOut {
 
     IdealState state;
     prepared_.ideal().state(deviation.t, state);
-    const std::vector<BodyMotion> bodies = made_exactly(state, T * deviation.z);
+    const std::vector<BodyMotion> bodies = made_exactly(state, deviation, T);
     VecX z, z_dot, z_ddot;
     coordinates_.coordinate_rates(bodies, z_dot, z);
     coordinates_.coordinate_accelerations(bodies, formulation_->acceleration(), z_ddot);
@@ -270,11 +270,19 @@ class LeftOut {
   }
 
  private:
-  // The bodies displaced by `by` and all joints closed around them.
-  std::vector<BodyMotion> made_exactly(const IdealState& ideal, const VecX& by) {
+  // The bodies displaced by T z, as fast as that goes on, and all joints closed around them.
+  std::vector<BodyMotion> made_exactly(const IdealState& ideal, const LargestDeviations::Deviation& deviation,
+                                       const MatX& T) {
     std::vector<BodyMotion> displaced = ideal.bodies;
-    for (std::size_t b = 0; b < displaced.size(); ++b)
-      displace(displaced[b], by.segment<6>(static_cast<Eigen::Index>(6 * b)));
+    Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> E_dot(6, deviation.z.size());
+    for (std::size_t b = 0; b < displaced.size(); ++b) {
+      prepared_.pose_gain_rate(static_cast<int>(b)).at(deviation.t, E_dot.data());
+      const auto E = T.middleRows<6>(static_cast<Eigen::Index>(6 * b));
+      const Vec6 x = E * deviation.z, rate = E * deviation.z_dot + E_dot * deviation.z;
+      displaced[b].v += rate.head<3>();
+      displaced[b].w += rate.tail<3>() + x.tail<3>().cross(displaced[b].w);
+      displace(displaced[b], x);
+    }
     VecX y;
     if (!begun_) formulation_->start(ideal, y);  // which rows are redundant is the same in every pose
     begun_ = true;

@@ -5,9 +5,8 @@
 //   contacts   |E dz| / |E z|                    nor are the offsets that others decide (redundant joints): where such a journal is
 //                                                farther in or out than B z says, its contact takes the others along by dz, B dz =
 //                                                -(xi_exact - B z)
-//   forces     |dr| / |r|                        what pushes the journals changes with the offsets
-//   themselves: dr is what
-//                                                remains of the forces at z when M_r, C, K and r have had
+//   forces     |dr| / |r|                        what pushes the journals changes with the offsets themselves and with the square of their
+//                                                rates: dr is what remains of the forces at z and z_dot when M_r, C, K and r have had
 //                                                their part
 // The first two shift every index by as much, maximum or mean square; the last turns, deepens and delays where journals go. It is
 // taken for each journal across and along its axis apart, weighted by its part of the displacement: along
@@ -16,12 +15,11 @@
 //   rest       |x_rest,exact - E z_rest| / |E z|  the balance on the mechanism's own geometry lies elsewhere
 //
 //   LargestDeviations largest(duration);
-//   largest.add(t, size, z);                    // along the motion
+//   largest.add(t, size, z, z_dot);             // along the motion
 //   second_order(mechanism, prepared, parameters, largest).whole;
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "boresight/scene/scene_rung.hpp"
@@ -31,27 +29,30 @@ namespace boresight {
 // The largest deviation of each part of a motion: what is next to nothing where the loads are large may not be where they are small.
 class LargestDeviations {
  public:
-  explicit LargestDeviations(double duration) : duration_(duration) {}
+  // Enough for a share, and to follow what changes with a motion's speed.
+  static constexpr int kFew = 48, kMany = 384;
+  explicit LargestDeviations(double duration, int parts = kFew) : duration_(duration), parts_(parts) {}
 
   struct Deviation {
     double t = 0.0, size = 0.0;
-    VecX z;
+    VecX z, z_dot;
   };
   // size: of the deviation, against the mechanism's.
-  void add(double t, double size, const Eigen::Ref<const VecX>& z) {
-    const int part = std::clamp(static_cast<int>(kParts * t / duration_), 0, kParts - 1);
-    Deviation& largest = parts_[part];
+  void add(double t, double size, const Eigen::Ref<const VecX>& z, const Eigen::Ref<const VecX>& z_dot) {
+    const int last = static_cast<int>(parts_.size()) - 1;
+    Deviation& largest = parts_[std::clamp(static_cast<int>((last + 1) * t / duration_), 0, last)];
     if (!(size > largest.size)) return;
     largest.t = t;
     largest.size = size;
     largest.z = z;
+    largest.z_dot = z_dot;
   }
-  const auto& parts() const { return parts_; }
+  const std::vector<Deviation>& parts() const { return parts_; }
+  void forget() { parts_.assign(parts_.size(), {}); }
 
  private:
-  static constexpr int kParts = 48;
   double duration_;
-  std::array<Deviation, kParts> parts_;
+  std::vector<Deviation> parts_;
 };
 
 // What the linear rung misses at one instant of what acts.

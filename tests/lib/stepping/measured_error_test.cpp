@@ -160,8 +160,8 @@ TEST(MeasuredError, IsThatOfInstantsWhereARungTakesNoSteps) {
     EXPECT_TRUE(std::isnan(coarse.error.discretisation)) << name;
     const MeasuredError error = measure_discretisation(*rung, mechanism->parameters(), few, coarse);
     EXPECT_TRUE(error.measured && error.by_instants) << name;
-    const double off = std::abs(coarse.index.position_error.rms -
-                                rung->run(mechanism->parameters(), many).index.position_error.rms);
+    const double off =
+        std::abs(coarse.index.position_error.rms - rung->run(mechanism->parameters(), many).index.position_error.rms);
     EXPECT_GT(off, 1e-9 * coarse.index.position_error.rms) << name;
     EXPECT_LE(off, error.stated.position_error.rms) << name;
     EXPECT_LE(error.stated.position_error.rms, 0.01 * coarse.index.position_error.rms) << name;
