@@ -54,7 +54,7 @@ class Perturbation final : public SceneRung {
                               options.measure_model ? LargestDeviations::kMany : LargestDeviations::kFew);
     RunResult result = follow_on(tables, prepared, standing, parameters, options, largest);
     if (result.interrupted) return result;
-    const SecondOrder beyond = second_order(mechanism(), prepared, parameters, largest);
+    const SecondOrder beyond = second_order(mechanism(), prepared, parameters, largest, options.measure_model);
     result.error = {beyond.whole, kNotMeasured, basis(mechanism(), options.measure_model)};
     if (!options.measure_model) return result;
     LargestDeviations unused(mechanism().duration(), 1);

@@ -44,6 +44,7 @@ struct Between {
   double share;
 
   VecX acceleration() const { return (1.0 - share) * from.acceleration + share * to.acceleration; }
+  MatX inverse_mass() const { return (1.0 - share) * from.inverse_mass + share * to.inverse_mass; }
   VecX offset() const { return (1.0 - share) * from.offset + share * to.offset; }
   VecX offset_rate() const {
     const double gap = to.t - from.t;
@@ -56,6 +57,26 @@ Between between(const std::vector<Missed>& missed, double t) {
   const Missed& to = next == missed.end() ? missed.back() : *next;
   const Missed& from = next == missed.begin() ? to : *(next - 1);
   return {from, to, to.t > from.t ? (t - from.t) / (to.t - from.t) : 0.0};
+}
+
+void change_inverse_mass(const std::vector<Missed>& missed, double times, const SceneTables& tables,
+                         SceneTables& changed) {
+  const TimeTable& dynamics = tables.dynamics;
+  const SceneLayout& at = tables.layout;
+  const auto change = [&](double t, double* row) {
+    const MatX more = times * between(missed, t).inverse_mass();
+    for (int i = 0; i < at.n; ++i)
+      for (int j = i; j < at.n; ++j) row[at.inverse_mass(i, j)] += more(i, j);
+  };
+  const int width = at.n * (at.n + 1) / 2;
+  std::vector<double> row(static_cast<std::size_t>(dynamics.width())), values;
+  for (int k = 0; k <= dynamics.cells(); ++k) {
+    dynamics.at(k * dynamics.spacing(), row.data());
+    change(k * dynamics.spacing(), row.data());
+    values.insert(values.end(), &row[at.A], &row[at.A] + width);
+  }
+  changed.dynamics.replace(at.A, TimeTable(dynamics.spacing(), width, values));
+  change(0.0, changed.start.row.data());
 }
 
 void shift_offsets(const std::vector<Missed>& missed, double times, const SceneTables& tables, SceneTables& shifted) {
@@ -107,6 +128,7 @@ std::shared_ptr<const SceneTables> pushed_by(const std::vector<Missed>& missed, 
   auto pushed = std::make_shared<SceneTables>(tables);
   pushed->load_change = TimeTable(spacing, n, values);
   Eigen::Map<VecX>(&pushed->start.row[tables.layout.Ar], n) += times * missed.front().acceleration;
+  change_inverse_mass(missed, times, tables, *pushed);
   if (missed.front().offset.size() > 0) shift_offsets(missed, times, tables, *pushed);
   return pushed;
 }

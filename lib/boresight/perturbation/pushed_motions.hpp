@@ -1,5 +1,5 @@
-// What the forces that the perturbation rung leaves out do to its indices: the motion again with what they miss as a load, once added and
-// once taken away; twice what that moves is stated. Where much hangs on little (when a journal lets go, which end of its sleeve it strikes,
+// What the forces that the perturbation rung leaves out do to its indices: the motion again with what they miss as a load, and with what they
+// accelerate more or less in the inverse mass, once added and once taken away; twice what that moves is stated. Where much hangs on little (when a journal lets go, which end of its sleeve it strikes,
 // which of two rests it finds) that is more than the share of the forces which is missed; where contacts hold journals where they are, far
 // less. So it takes that share's place.
 //
@@ -18,8 +18,8 @@
 
 namespace boresight {
 
-// The tables with `times` what is missed, by straight lines between its instants, added to their loads and to where offsets are that
-// others decide.
+// The tables with `times` what is missed, by straight lines between its instants, added to their loads, to their inverse masses and to where
+// offsets are that others decide.
 std::shared_ptr<const SceneTables> pushed_by(const std::vector<Missed>& missed, double times, double duration,
                                              const SceneTables& tables);
 

@@ -170,8 +170,9 @@ std::array<double, kKinds> missed_at_rest(const Mechanism& mechanism, const Prep
 // What is found out, one deviation after the other.
 class LeftOut {
  public:
-  LeftOut(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters)
-      : mechanism_(mechanism),
+  LeftOut(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters, bool want_missed)
+      : want_missed_(want_missed),
+        mechanism_(mechanism),
         prepared_(prepared),
         parameters_(parameters),
         tables_(prepared.tables(parameters)),
@@ -216,7 +217,9 @@ class LeftOut {
 
     VecX left = z_ddot + Rows(row_.data() + at_.AC, at_.n, at_.n) * z_dot;
     if (at_.stiff) left += Rows(row_.data() + at_.AK, at_.n, at_.n) * z;
-    missed_.push_back({deviation.t, left, dependent.beyond.cwiseQuotient(dependent.length)});
+    if (want_missed_)
+      missed_.push_back(missed(deviation.t, left, reaction, A, coordinates_.offsets_per_coordinate(T),
+                               dependent.beyond.cwiseQuotient(dependent.length)));
     const VecX push = reaction.cwiseQuotient(unit_), push_off = solve_positive(A, left).cwiseQuotient(unit_);
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       double size = 0.0, size_off = 0.0;
@@ -283,16 +286,46 @@ class LeftOut {
       displaced[b].w += rate.tail<3>() + x.tail<3>().cross(displaced[b].w);
       displace(displaced[b], x);
     }
-    VecX y;
-    if (!begun_) formulation_->start(ideal, y);  // which rows are redundant is the same in every pose
+    if (!begun_) formulation_->start(ideal, y_);  // which rows are redundant is the same in every pose
     begun_ = true;
-    formulation_->place_bodies(displaced, y);
-    formulation_->stabilise(ideal.t, y);
-    VecX dy(y.size());
-    formulation_->derivative(ideal.t, y, memory_, dy);
-    return formulation_->bodies(ideal.t, y);
+    formulation_->place_bodies(displaced, y_);
+    formulation_->stabilise(ideal.t, y_);
+    dy_.resize(y_.size());
+    formulation_->derivative(ideal.t, y_, memory_, dy_);
+    return formulation_->bodies(ideal.t, y_);
   }
 
+  // Of the coordinates, where the bodies have been placed and `loads` push all offsets.
+  VecX acceleration_under(double t, const std::vector<PlayOffsets>& loads) {
+    formulation_->forces().replace_contact(loads);
+    formulation_->derivative(t, y_, memory_, dy_);
+    VecX z, z_dot, z_ddot;
+    const std::vector<BodyMotion>& bodies = formulation_->bodies(t, y_);
+    coordinates_.coordinate_rates(bodies, z_dot, z);
+    coordinates_.coordinate_accelerations(bodies, formulation_->acceleration(), z_ddot);
+    return z_ddot;
+  }
+
+  // left: what is missed where contacts carry the ideal reactions. They do on the average only: a journal that strikes is pushed by far more,
+  // and where its offset is largest. So how forces accelerate is looked at apart, one by one.
+  Missed missed(double t, const VecX& left, const VecX& reaction, const MatX& A, const MatX& B, VecX offset) {
+    const auto under = [&](const VecX& load) {
+      return acceleration_under(t, shared_reactions(prepared_.scene().offsets(), parameters_, B, load));
+    };
+    const double push = reaction.cwiseAbs().maxCoeff();
+    if (!(push > 0.0)) return {t, left, MatX::Zero(at_.n, at_.n), std::move(offset)};  // nothing pushes at all
+    const VecX balanced = under(reaction);
+    MatX change(at_.n, at_.n);
+    for (int i = 0; i < at_.n; ++i) {
+      VecX more = reaction;
+      more[i] += push;
+      change.col(i) = (balanced - under(more)) / push - A.col(i);
+    }
+    change = 0.5 * (change + change.transpose()).eval();
+    return {t, left + change * reaction, change, std::move(offset)};
+  }
+
+  bool want_missed_;
   const Mechanism& mechanism_;
   const PreparedScene& prepared_;
   const Parameters& parameters_;
@@ -311,14 +344,15 @@ class LeftOut {
   std::vector<Share> push_;
   std::vector<double> pushed_off_;
   std::vector<Missed> missed_;
+  VecX y_, dy_;  // the formulation's state at the last deviation
 };
 
 }  // namespace
 
 SecondOrder second_order(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,
-                         const LargestDeviations& largest) {
+                         const LargestDeviations& largest, bool want_missed) {
   try {
-    LeftOut left_out(mechanism, prepared, parameters);
+    LeftOut left_out(mechanism, prepared, parameters, want_missed);
     for (const LargestDeviations::Deviation& deviation : largest.parts())
       if (deviation.size > 0.0) left_out.look(deviation);
     return left_out.shares(missed_at_rest(mechanism, prepared, parameters));

@@ -16,7 +16,7 @@
 //
 //   LargestDeviations largest(duration);
 //   largest.add(t, size, z, z_dot);             // along the motion
-//   second_order(mechanism, prepared, parameters, largest).whole;
+//   second_order(mechanism, prepared, parameters, largest, false).whole;
 #pragma once
 
 #include <algorithm>
@@ -58,7 +58,8 @@ class LargestDeviations {
 // What the linear rung misses at one instant of what acts.
 struct Missed {
   double t = 0.0;     // [s]
-  VecX acceleration;  // of the coordinates, by what pushes them beyond the linear forces and the reduced mass
+  VecX acceleration;  // of the coordinates where nothing touches: beyond that of the linear forces and the reduced mass
+  MatX inverse_mass;  // by what forces on the coordinates accelerate them more there
   VecX offset;        // of the offsets that others decide, in the order of joints: beyond B z
 };
 
@@ -66,10 +67,10 @@ struct SecondOrder {
   PerQuantity pose = {};  // by pose, contacts and rest, relative to the rung's own indices
   PerQuantity whole =
       {};  // by all of it; 1 where a deviation cannot be made exactly (a singular pose within its reach)
-  std::vector<Missed> missed;  // in the order of time
+  std::vector<Missed> missed;  // in the order of time, where it is wanted
 };
 
 SecondOrder second_order(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,
-                         const LargestDeviations& largest);
+                         const LargestDeviations& largest, bool want_missed);
 
 }  // namespace boresight

@@ -25,7 +25,8 @@ TEST(PushedMotions, AreLoadedByStraightLinesBetweenTheInstantsBesideTheLoadsThat
   const double T = mechanism->duration(), first = 0.25 * T, second = 0.75 * T;
   const VecX a = VecX::LinSpaced(at.n, 1.0, 2.0), b = VecX::LinSpaced(at.n, -3.0, 1.0);
   const VecX c = VecX::LinSpaced(dependent, 1e-6, 2e-6), d = VecX::LinSpaced(dependent, -1e-6, 5e-6);
-  const std::vector<Missed> missed = {{first, a, c}, {second, b, d}};
+  const MatX e = MatX::Identity(at.n, at.n), f = MatX::Constant(at.n, at.n, 0.5);
+  const std::vector<Missed> missed = {{first, a, e, c}, {second, b, f, d}};
 
   const std::size_t width = static_cast<std::size_t>(tables.dynamics.width());
   std::vector<double> plain(width), row(width), twice(width);
@@ -41,6 +42,13 @@ TEST(PushedMotions, AreLoadedByStraightLinesBetweenTheInstantsBesideTheLoadsThat
       EXPECT_NEAR(row[at.Ar + i] - plain[at.Ar + i], load, 1e-9 * (1.0 + std::abs(plain[at.Ar + i]))) << share;
       EXPECT_NEAR(twice[at.Ar + i] - plain[at.Ar + i], -2.0 * load, 1e-9 * (1.0 + std::abs(plain[at.Ar + i]))) << share;
     }
+    for (int i = 0; i < at.n; ++i)
+      for (int j = i; j < at.n; ++j) {
+        const int k = at.inverse_mass(i, j);
+        const double more_so = (1.0 - along) * e(i, j) + along * f(i, j);
+        EXPECT_NEAR(row[k] - plain[k], more_so, 1e-9 * (1.0 + std::abs(plain[k]))) << share;
+        EXPECT_NEAR(twice[k] - plain[k], -2.0 * more_so, 1e-9 * (1.0 + std::abs(plain[k]))) << share;
+      }
     int next = 0;
     for (const SceneLayout::Joint& joint : at.joints)
       for (int k = 0; k < joint.offsets; ++k) {
@@ -54,7 +62,11 @@ TEST(PushedMotions, AreLoadedByStraightLinesBetweenTheInstantsBesideTheLoadsThat
         ++next;
       }
   }
-  for (int i = 0; i < at.n; ++i) EXPECT_NEAR(once->start.row[at.Ar + i] - tables.start.row[at.Ar + i], a[i], 1e-12);
+  for (int i = 0; i < at.n; ++i) {
+    EXPECT_NEAR(once->start.row[at.Ar + i] - tables.start.row[at.Ar + i], a[i], 1e-12);
+    EXPECT_NEAR(once->start.row[at.inverse_mass(i, i)] - tables.start.row[at.inverse_mass(i, i)], 1.0,
+                1e-9 * (1.0 + tables.start.row[at.inverse_mass(i, i)]));
+  }
 }
 
 // A study's samples do not look for it, and are followed by the same motion.
