@@ -241,6 +241,7 @@ void Calibrator::weigh_model_error() {
       others.push_back(optimum);
   result_.model_error = model_error(problem_, result_.fit, suspects_, others, result_.fixed,
                                     result_.inference.variance_factor, options_.jobs);
+  if (result_.model_error->contradicted()) span(path_ends_, problem_, result_.fit.globals, *result_.model_error);
   take_model_error(*result_.model_error, options_.confidence, problem_, result_.fit.globals, result_.inference);
 }
 

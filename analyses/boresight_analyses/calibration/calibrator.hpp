@@ -104,7 +104,8 @@ class Calibrator {
   const CalibrationOptions& options_;
   CalibrationResult result_;
   std::vector<std::pair<int, std::string>> held_;
-  std::vector<Globals> optima_;  // where fits to the whole data have ended
+  std::vector<Globals> optima_;     // where fits to the whole data have ended
+  std::vector<Globals> path_ends_;  // of the search
   std::vector<Suspect> suspects_;
   std::uint64_t looked_beside_ = 0;  // how many places, while horizons grew
   std::mutex mutex_;

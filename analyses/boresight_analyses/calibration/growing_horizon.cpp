@@ -150,8 +150,10 @@ bool Calibrator::grow(const Globals& at, bool give_up) {
   if (follows_from_rest(problem_)) {
     std::vector<FitResult> ended;
     std::size_t paths = 0;
+    path_ends_.clear();
     for (const double most_growth : kMostGrowth) {
       std::vector<FitResult> more = grown(at, most_growth, give_up);
+      if (!more.empty()) path_ends_.push_back(more.front().globals);
       ended.insert(ended.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
       std::stable_sort(ended.begin(), ended.end(),
                        [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });

@@ -56,6 +56,10 @@ struct CalibrationModelError {
   int optima = 1;             // how many weigh more than a hundredth of all
   double disagreement = 1.0;  // Birge's ratio of the groups, as a standard deviation
   int groups = 0;             // runs, or windows where they start freely
+  int ends = 0;               // of the search's paths, that the errors span
+
+  // Beyond what noise does.
+  bool contradicted() const { return groups > 1 && disagreement > 1.5; }
 };
 
 // The fit's windows with what the suspects change. optima: other places where fits have ended; those that such a model may as well have
@@ -63,6 +67,11 @@ struct CalibrationModelError {
 CalibrationModelError model_error(const CalibrationProblem& problem, const FitResult& fit,
                                   const std::vector<Suspect>& suspects, const std::vector<Globals>& optima,
                                   const std::vector<bool>& fixed, double variance_factor, int jobs);
+
+// Where runs contradict each other in the lowest valley that was found, it need not be the truth's: what the ends of further paths of the
+// search are away from it is as likely its own distance, and widens the errors. ends: with its own.
+void span(const std::vector<Globals>& ends, const CalibrationProblem& problem, const Globals& fitted,
+          CalibrationModelError& error);
 
 // Moves the estimates and widens their errors and intervals, profiles' included; nothing becomes narrower.
 void take_model_error(const CalibrationModelError& error, double confidence, const CalibrationProblem& problem,

@@ -34,12 +34,16 @@ std::string in_words(const SuspectFound& s) {
 std::vector<std::string> in_words(const CalibrationModelError& error, const CalibrationProblem& problem,
                                   const Inference& inference) {
   std::vector<std::string> words;
-  const bool contradict = error.groups > 1 && error.disagreement > 1.5, jumps = error.jump_gain > kDecides;
+  const bool contradict = error.contradicted(), jumps = error.jump_gain > kDecides;
   if (contradict)
     words.push_back(std::string(jumps || problem.windows.front().from_rest ? "The runs" : "The windows") +
                     " contradict each other: what they say of the parameters differs by " +
                     text("%.2g", error.disagreement) +
                     " times what their noise allows. Errors are widened by as much.");
+  if (error.ends > 1)
+    words.push_back("This may not be the true valley of the loss: " + std::to_string(error.ends) +
+                    " paths of the search ended in valleys of their own, and in the lowest of them the runs still do "
+                    "not agree. Errors span them all.");
   if (jumps)
     words.push_back(
         "Stretches of a run contradict each other: the motion departs from the model on the way. Late readings of a "

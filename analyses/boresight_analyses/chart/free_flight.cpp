@@ -59,6 +59,7 @@ FreeFlight fly(const Mechanism& mechanism, const Parameters& parameters, double 
   const auto shortened = std::make_shared<const Mechanism>(std::move(description));
   const auto run = [&](const Rung& rung, const RungSetup& setup) {
     RunOptions options = setup.options();
+    options.model_look = ModelLook::none;
     options.sample_spacing =
         flight.end / 16.0;  // samples may lie a thousandth of this early: less than the finest step
     return rung.run(parameters, options);

@@ -15,7 +15,7 @@ RunResult run(const Rung& rung, const Mechanism& mechanism, double until) {
   RunOptions options;
   options.sample_spacing = std::min(1e-3, mechanism.duration() / 1000.0);
   options.events = false;
-  options.measure_model = false;
+  options.model_look = ModelLook::shares;
   options.integrator = "rk4";
   if (until < mechanism.duration()) options.progress = [until](const RunProgress& p) { return p.t < until; };
   return rung.run(mechanism.parameters(), options);
@@ -28,7 +28,7 @@ RunOptions FollowedMotion::options(double at_step) const {
   options.step = at_step;
   options.sample_spacing = 0.0;
   options.events = false;
-  options.measure_model = false;
+  options.model_look = ModelLook::shares;
   options.progress = [until = until](const RunProgress& p) { return p.t < until; };
   return options;
 }

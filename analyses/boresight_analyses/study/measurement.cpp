@@ -64,7 +64,7 @@ Measurement measure(const Rung& rung, const Parameters& parameters, const RungSe
       const double share = 1.0 - kBetweenNeighbours * neighbour;
       if (options.advance && !options.advance()) throw MeasurementInterrupted{};
       RunOptions run = setup.options();
-      run.measure_model = neighbour == 0;
+      run.model_look = neighbour == 0 ? ModelLook::motions : ModelLook::none;
       run.start = options.index.start;
       // Where another integrator took over, the neighbours are neighbours of that: its mean step is none of rk4's.
       if (!out.integrator.empty()) run.integrator = out.integrator;

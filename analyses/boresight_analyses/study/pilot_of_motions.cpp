@@ -155,6 +155,7 @@ class PilotOfMotions {
       first.sample_spacing = 0.0;
       first.events = false;
       first.integrator = "rk4";
+      first.model_look = ModelLook::none;
       const RunResult trial = rung->run(motions_[0], first);
       own = mechanism_->duration() / static_cast<double>(trial.cost.steps);
       result_.cpu_seconds += trial.cost.cpu_seconds;

@@ -98,7 +98,7 @@ RunResult RungSampleModel::run(const Rung& rung, const Parameters& parameters, R
 void RungSampleModel::evaluate_one(const Rung& rung, const Sample& sample, Outcome& outcome,
                                    const std::atomic<bool>& stop) const {
   RunOptions options = options_;
-  options.measure_model = false;
+  options.model_look = ModelLook::shares;
   options.progress = [&stop](const RunProgress&) { return !stop.load(std::memory_order_relaxed); };
   try {
     const RunResult result = run(rung, parameters_of_(sample.values), options, outcome.message);

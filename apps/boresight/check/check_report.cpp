@@ -196,6 +196,7 @@ void add_cost_note(const std::shared_ptr<const Mechanism>& mechanism, CheckResul
   RunOptions options;
   options.sample_spacing = 0.0;
   options.events = false;
+  options.model_look = ModelLook::none;
   // From the first look on: what is prepared before it is prepared once.
   std::optional<Stopwatch> watch;
   double first = 0.0, reached = 0.0;

@@ -50,13 +50,14 @@ class Perturbation final : public SceneRung {
   RunResult follow(const PreparedScene& prepared, const StandingDisplacement& standing, const Parameters& parameters,
                    const RunOptions& options) const override {
     const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters, standing);
-    LargestDeviations largest(mechanism().duration(),
-                              options.measure_model ? LargestDeviations::kMany : LargestDeviations::kFew);
+    const bool further = options.model_look == ModelLook::motions;
+    LargestDeviations largest(mechanism().duration(), further ? LargestDeviations::kMany : LargestDeviations::kFew);
     RunResult result = follow_on(tables, prepared, standing, parameters, options, largest);
-    if (result.interrupted) return result;
-    const SecondOrder beyond = second_order(mechanism(), prepared, parameters, largest, options.measure_model);
-    result.error = {beyond.whole, kNotMeasured, basis(mechanism(), options.measure_model)};
-    if (!options.measure_model) return result;
+    result.error = {{}, kNotMeasured, "not looked at"};
+    if (result.interrupted || options.model_look == ModelLook::none) return result;
+    const SecondOrder beyond = second_order(mechanism(), prepared, parameters, largest, further);
+    result.error = {beyond.whole, kNotMeasured, basis(mechanism(), further)};
+    if (!further) return result;
     LargestDeviations unused(mechanism().duration(), 1);
     state_what_pushes_move(
         beyond, mechanism(), tables, options, tolerance_of(options, name()),

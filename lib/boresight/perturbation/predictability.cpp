@@ -26,6 +26,7 @@ Predictability measure_predictability(std::shared_ptr<const Mechanism> mechanism
   options.sample_spacing = mechanism->duration() / kLooks;
   options.events = false;
   options.integrator = "rk4";
+  options.model_look = ModelLook::none;
   options.progress = [](const RunProgress& p) {
     work_reached("comparing with a motion that starts a little off", p.t / p.duration);
     return true;

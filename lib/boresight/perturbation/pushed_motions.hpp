@@ -1,7 +1,7 @@
 // What the forces that the perturbation rung leaves out do to its indices: the motion again with what they miss as a load, and with what they
-// accelerate more or less in the inverse mass, once added and once taken away; twice what that moves is stated. Where much hangs on little (when a journal lets go, which end of its sleeve it strikes,
-// which of two rests it finds) that is more than the share of the forces which is missed; where contacts hold journals where they are, far
-// less. So it takes that share's place.
+// accelerate more or less in the inverse mass, once added and once taken away; twice what that moves is stated. Where much hangs on little
+// (when a journal lets go, which end of its sleeve it strikes, which of two rests it finds) that is more than the share of the forces which
+// is missed; where contacts hold journals where they are, far less. So it takes that share's place.
 //
 // Where motions go their own ways, any load makes another one of many: what neighbouring steps scatter by as much is not taken for an error
 // of the model beyond that share. measured_error.hpp states it.
@@ -25,8 +25,8 @@ std::shared_ptr<const SceneTables> pushed_by(const std::vector<Missed>& missed, 
 
 using FollowOn = std::function<RunResult(const std::shared_ptr<const SceneTables>&, const RunOptions&)>;
 
-// Sets result.error.model to what the pose misses and such motions show. options: of `result`; tolerance: as error control had it. Motions that cannot be
-// followed show nothing: result.error stays as it is.
+// Sets result.error.model to what the pose misses and such motions show. options: of `result`; tolerance: as error control had it. Motions
+// that cannot be followed show nothing: result.error stays as it is.
 void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanism,
                             const std::shared_ptr<const SceneTables>& tables, const RunOptions& options,
                             double tolerance, const FollowOn& follow, RunResult& result);

@@ -23,6 +23,10 @@ struct RunProgress {
   double position_error_max_so_far = 0.0;  // running estimate of the index [m]
 };
 
+// How closely a rung looks at what it leaves out (ErrorEstimate::model): not at all, where nobody asks; by shares of what acts at some
+// instants of its motion, for one of many samples; or by further motions besides, for one that stands alone.
+enum class ModelLook { none, shares, motions };
+
 struct RunOptions {
   double step = 0.0;             // [s]; 0: the rung's own choice
   double sample_spacing = 1e-3;  // spacing of the histories [s]; 0: no histories
@@ -42,9 +46,7 @@ struct RunOptions {
   // part.
   double start_offset = 0.0;
 
-  // Perturbation: further motions show what forces that it leaves out do to the indices, where these are sensitive to them. For one
-  // motion that stands alone; in studies the pilot asks.
-  bool measure_model = true;
+  ModelLook model_look = ModelLook::motions;  // perturbation only
 
   // Multibody only.
   std::string formulation;  // "tree" or "paper"; "" is the rung's default, the tree

@@ -189,7 +189,7 @@ class MeasuredByDynamics final : public Rung {
     try {
       for (double share : kShares) {
         motions.push_back(dynamics_->run(parameters, options));
-        options.measure_model = false;  // the first has
+        options.model_look = ModelLook::none;  // the first has
         cost.cpu_seconds += motions.back().cost.cpu_seconds;
         cost.wall_seconds += motions.back().cost.wall_seconds;
         if (stopped) break;

@@ -53,7 +53,7 @@ class FurtherRuns {
     options_.progress = [this](const RunProgress&) {
       return !(stopped_ = stopped_ || (measure_.advance && !measure_.advance()));
     };
-    options_.measure_model = false;
+    options_.model_look = ModelLook::none;
     if (options.integrator.empty()) options_.integrator = result.integrator_taken;
     by_instants_ = integrator_names(rung.name()).empty();
     if (by_instants_) return;

@@ -76,7 +76,7 @@ TEST(PushedMotions, AreAskedForAndLeaveTheMotionAsItIs) {
   RunOptions options;
   options.sample_spacing = 0.0;
   const RunResult asked = rung->run(mechanism->parameters(), options);
-  options.measure_model = false;
+  options.model_look = ModelLook::shares;
   const RunResult plain = rung->run(mechanism->parameters(), options);
   EXPECT_EQ(asked.index.position_error.max, plain.index.position_error.max);
   EXPECT_EQ(asked.index.boresight_error.rms, plain.index.boresight_error.rms);

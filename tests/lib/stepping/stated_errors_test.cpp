@@ -164,12 +164,14 @@ TEST(StatedErrors, OfRestingJournalsHoldWhereNothingSettles) {
   EXPECT_LE(v.stated, 3.0 * v.actual);
 }
 
-// A plane mechanism's offsets across its plane hang on nothing but rounding: no share of the error.
+// A plane mechanism's offsets across its plane hang on nothing but rounding: no share of the error. (What missed forces were seen to move is
+// another matter: impacts make that large in the plane.)
 TEST(StatedErrors, OfThePerturbationRungInAPlaneComeOfThePlane) {
   for (const char* example : {"3-rrr", "flores-slider-crank"}) {
     const auto mechanism = mechanism_of({example, {{"motion.duration", "0.02 s"}}});
     RunOptions options;
     options.sample_spacing = 0.0;
+    options.model_look = ModelLook::shares;
     EXPECT_LT(make_rung("perturbation", mechanism)->run(mechanism->parameters(), options).error.largest_model(), 0.05)
         << example;
   }

@@ -1,0 +1,56 @@
+// What a search whose paths do not agree tells of its errors.
+#include "boresight_analyses/calibration/model_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "four_bar_rig.hpp"
+
+namespace boresight {
+namespace model_error_test {
+
+// Two ends: the lowest and another. How far that is, the errors are too, and errors as small as they were elsewhere stay so.
+TEST(CalibrationModelError, SpansWhatTheEndsOfASearchAreApart) {
+  const four_bar::Bench bench({2.0, 2.6}, 0.02, false);
+  CalibrationProblem problem = bench.problem({}, four_bar::kFour);
+  problem.prepare(10.0, true);
+  const Globals lowest = problem.start();
+  Globals other = lowest;
+  other.u[1] += 0.3;
+  const Eigen::Index n = problem.packed(lowest).size();
+  CalibrationModelError error;
+  error.covariance = 1e-4 * MatX::Identity(n, n);
+  error.covariance(3, 3) = std::numeric_limits<double>::quiet_NaN();  // held
+  other.u[3] += 0.1;
+  const CalibrationModelError before = error;
+
+  span({lowest}, problem, lowest, error);  // one path has nothing to say
+  EXPECT_EQ(error.ends, 0);
+  EXPECT_EQ(error.covariance(1, 1), 1e-4);
+
+  span({lowest, other}, problem, lowest, error);
+  EXPECT_EQ(error.ends, 2);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if (i == 3 && j == 3) continue;
+      EXPECT_NEAR(error.covariance(i, j), before.covariance(i, j) + (i == 1 && j == 1 ? 0.09 : 0.0), 1e-15) << i << j;
+    }
+  EXPECT_TRUE(std::isnan(error.covariance(3, 3)));
+}
+
+// They are asked where runs contradict each other, and nowhere else.
+TEST(CalibrationModelError, IsOfRunsThatContradictEachOtherBeyondTheirNoise) {
+  CalibrationModelError error;
+  error.groups = 10;
+  error.disagreement = 1.4;
+  EXPECT_FALSE(error.contradicted());
+  error.disagreement = 1.6;
+  EXPECT_TRUE(error.contradicted());
+  error.groups = 1;
+  EXPECT_FALSE(error.contradicted());
+}
+
+}  // namespace model_error_test
+}  // namespace boresight
