@@ -82,6 +82,12 @@ TEST(PushedMotions, AreAskedForAndLeaveTheMotionAsItIs) {
   EXPECT_EQ(asked.index.boresight_error.rms, plain.index.boresight_error.rms);
   EXPECT_NE(asked.error.model, plain.error.model);
   EXPECT_NE(asked.error.basis, plain.error.basis);
+
+  options.model_look = ModelLook::none;
+  const RunResult bare = rung->run(mechanism->parameters(), options);
+  EXPECT_EQ(bare.index.position_error.max, plain.index.position_error.max);
+  EXPECT_EQ(bare.error.largest_model(), 0.0);
+  EXPECT_EQ(bare.error.basis, "not looked at");
 }
 
 }  // namespace pushed_motions_test
