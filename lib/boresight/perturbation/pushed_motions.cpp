@@ -16,6 +16,9 @@ constexpr double kNextToNothing = 1e-4;
 constexpr double kNeighbours[] = {0.985, 0.97};
 // A second look would move the indices again, by less than the first did where linear forces are of use at all: as much is stated.
 constexpr double kWithTheRest = 2.0;
+// A pushed motion that takes this many times the steps of the motion itself is another one: it is given up. The rung asks whether to go on
+// after so many steps.
+constexpr double kMostSteps = 4.0, kStepsBetweenLooks = 4096.0;
 
 // What the indices of `other` differ by, relative to those of `index`.
 PerQuantity moved(const PointingIndices& index, const PointingIndices& other, double length) {
@@ -109,6 +112,18 @@ void shift_offsets(const std::vector<Missed>& missed, double times, const SceneT
   }
 }
 
+// Whether inverse masses are such with what is missed added and taken away: where that is as large as they are, no small push shows anything.
+bool all_stay_masses(const std::vector<Missed>& missed, const SceneTables& tables) {
+  std::vector<double> row(static_cast<std::size_t>(tables.dynamics.width()));
+  MatX A;
+  return std::all_of(missed.begin(), missed.end(), [&](const Missed& m) {
+    tables.dynamics.at(m.t, row.data());
+    tables.layout.inverse_mass(row.data(), A);
+    return Eigen::LLT<MatX>(A + m.inverse_mass).info() == Eigen::Success &&
+           Eigen::LLT<MatX>(A - m.inverse_mass).info() == Eigen::Success;
+  });
+}
+
 }  // namespace
 
 std::shared_ptr<const SceneTables> pushed_by(const std::vector<Missed>& missed, double times, double duration,
@@ -136,14 +151,16 @@ std::shared_ptr<const SceneTables> pushed_by(const std::vector<Missed>& missed, 
 void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanism,
                             const std::shared_ptr<const SceneTables>& tables, const RunOptions& options,
                             double tolerance, const FollowOn& follow, RunResult& result) {
-  if (beyond.missed.empty()) return;
+  if (beyond.missed.empty() || !all_stay_masses(beyond.missed, *tables)) return;
   RunOptions beside = options;
   beside.sample_spacing = beside.frame_spacing = 0.0;
   beside.pose_bodies.clear();
   beside.events = false;
+  double looks = 0.0;
+  const double most_looks = 2.0 + kMostSteps * static_cast<double>(result.cost.steps) / kStepsBetweenLooks;
   beside.progress = [&](const RunProgress&) {
-    return !options.progress ||
-           options.progress({mechanism.duration(), mechanism.duration(), result.index.position_error.max});
+    return ++looks <= most_looks && (!options.progress || options.progress({mechanism.duration(), mechanism.duration(),
+                                                                            result.index.position_error.max}));
   };
   if (!result.integrator_taken.empty()) beside.integrator = result.integrator_taken;
   const bool by_steps = beside.integrator.empty() || beside.integrator == "rk4";
@@ -154,6 +171,7 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
   bool more = false;
   try {
     for (const double times : {1.0, -1.0}) {
+      looks = 0.0;
       const RunResult pushed = follow(pushed_by(beyond.missed, times, mechanism.duration(), *tables), beside);
       if (pushed.interrupted) return;
       raise(by_pushes, moved(result.index, pushed.index, length));
@@ -168,6 +186,7 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
       RunOptions neighbour = beside;
       if (by_steps || beside.step > 0.0) neighbour.step *= share;
       if (!by_steps) neighbour.tolerance = share * tolerance;
+      looks = 0.0;
       const RunResult scattered = follow(tables, neighbour);
       if (scattered.interrupted) return;
       raise(by_chance, moved(result.index, scattered.index, length));
