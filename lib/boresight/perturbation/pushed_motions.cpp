@@ -196,7 +196,9 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
   }
   for (int k = 0; k < kPointingQuantities; ++k)
     if (measured[k] <= beyond.whole[k] || by_pushes[k] > kWithTheRest * by_chance[k])
-      result.error.model[k] = measured[k];
+      // What standing errors and play do together is in the share alone.
+      result.error.model[k] =
+          mechanism.description().errors.empty() ? measured[k] : std::max(measured[k], beyond.whole[k]);
 }
 
 }  // namespace boresight
