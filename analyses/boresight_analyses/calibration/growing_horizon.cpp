@@ -18,9 +18,9 @@ namespace boresight {
 namespace {
 
 // By how much the horizon grows at most, of each path: which valley one ends in hangs on where its horizons fall. Two paths are gone, and further
-// ones where runs contradict each other by more than this at the lowest place that was found, as they do in wrong valleys. And least, before
+// ones where runs contradict each other at the lowest place that was found, as they do in wrong valleys. And least, before
 // other places are looked at. (Paths end in one place too seldom to confirm each other: of four with ten runs of the four-bar no two did.)
-constexpr double kMostGrowth[] = {1.3, 1.2, 1.14, 1.25}, kContradicted = 1.5, kLeastGrowth = 1.04;
+constexpr double kMostGrowth[] = {1.3, 1.2, 1.14, 1.25}, kLeastGrowth = 1.04;
 constexpr std::size_t kPaths = 2;
 // A mean square of what came in beyond this many times that of what was there. Noise alone does so with a hundred values once in a dozen times,
 // which costs a look and no more.
@@ -162,8 +162,8 @@ bool Calibrator::grow(const Globals& at, bool give_up) {
       const CalibrationProblem whole = searched_up_to(problem_, 1.0);
       const Inference known = infer(whole, ended.front(), options_.confidence, result_.fixed, options_.jobs);
       places = distinct_places(ended, known);
-      if (!(model_error(whole, ended.front(), {}, {}, result_.fixed, known.variance_factor, options_.jobs)
-                .disagreement > kContradicted))
+      if (!model_error(whole, ended.front(), {}, {}, result_.fixed, known.variance_factor, options_.jobs)
+               .contradicted())
         break;
     }
     if (ended.empty() && give_up) return false;

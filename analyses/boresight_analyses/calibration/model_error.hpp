@@ -56,7 +56,7 @@ struct CalibrationModelError {
   int optima = 1;             // how many weigh more than a hundredth of all
   double disagreement = 1.0;  // Birge's ratio of the groups, as a standard deviation
   int groups = 0;             // runs, or windows where they start freely
-  int ends = 0;               // of the search's paths, that the errors span
+  int ends = 0;               // of the search's paths, each beyond the errors of the fit, that the errors span
 
   // Beyond what noise does.
   bool contradicted() const { return groups > 1 && disagreement > 1.5; }

@@ -40,10 +40,10 @@ std::vector<std::string> in_words(const CalibrationModelError& error, const Cali
                     " contradict each other: what they say of the parameters differs by " +
                     text("%.2g", error.disagreement) +
                     " times what their noise allows. Errors are widened by as much.");
-  if (error.ends > 1)
-    words.push_back("This may not be the true valley of the loss: " + std::to_string(error.ends) +
-                    " paths of the search ended in valleys of their own, and in the lowest of them the runs still do "
-                    "not agree. Errors span them all.");
+  if (error.ends > 0)
+    words.push_back("This may not be the true valley of the loss: the search also ended in " +
+                    std::to_string(error.ends) + (error.ends == 1 ? " other" : " others") +
+                    ", and in the lowest of them the runs still do not agree. Errors span them all.");
   if (jumps)
     words.push_back(
         "Stretches of a run contradict each other: the motion departs from the model on the way. Late readings of a "

@@ -9,15 +9,15 @@ namespace boresight {
 void span(const std::vector<Globals>& ends, const CalibrationProblem& problem, const Globals& fitted,
           CalibrationModelError& error) {
   if (ends.size() < 2) return;
-  const VecX at = problem.packed(fitted);
+  const VecX at = problem.packed(fitted), known = error.covariance.diagonal().cwiseSqrt();
   for (const Globals& end : ends) {
     VecX off = problem.packed(end) - at;
     for (Eigen::Index g = 0; g < off.size(); ++g)
-      if (!std::isfinite(error.covariance(g, g))) off[g] = 0.0;
+      if (!std::isfinite(known[g])) off[g] = 0.0;
+    if ((off.array().abs() > known.array()).any()) ++error.ends;
     // One of them is the lowest itself, or all but.
     error.covariance += off * off.transpose() / static_cast<double>(ends.size() - 1);
   }
-  error.ends = static_cast<int>(ends.size());
 }
 
 void take_model_error(const CalibrationModelError& error, double confidence, const CalibrationProblem& problem,

@@ -131,7 +131,8 @@ class Perturbation final : public SceneRung {
       }
       record(prepared, standing, t, y, method.first_slope(), system, recorder, largest);
       if (i == steps) break;
-      if (options.progress && i % 4096 == 0 && !options.progress({t, duration, recorder.position_error_max()})) {
+      if (options.progress && i % kStepsBetweenLooks == 0 &&
+          !options.progress({t, duration, recorder.position_error_max()})) {
         interrupted = true;
         break;
       }
@@ -172,7 +173,7 @@ class Perturbation final : public SceneRung {
           system.derivative(t, state, slope);
           system.observe(t);
           record(prepared, standing, t, state, slope, system, recorder, largest);
-          interrupted = ++points % 4096 == 0 && options.progress &&
+          interrupted = ++points % kStepsBetweenLooks == 0 && options.progress &&
                         !options.progress({t, duration, recorder.position_error_max()});
           return !interrupted;
         },

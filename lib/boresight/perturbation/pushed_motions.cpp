@@ -16,9 +16,8 @@ constexpr double kNextToNothing = 1e-4;
 constexpr double kNeighbours[] = {0.985, 0.97};
 // A second look would move the indices again, by less than the first did where linear forces are of use at all: as much is stated.
 constexpr double kWithTheRest = 2.0;
-// A pushed motion that takes this many times the steps of the motion itself is another one: it is given up. The rung asks whether to go on
-// after so many steps.
-constexpr double kMostSteps = 4.0, kStepsBetweenLooks = 4096.0;
+// A pushed motion that takes this many times the steps of the motion itself is another one: it is given up.
+constexpr double kMostSteps = 4.0;
 
 // What the indices of `other` differ by, relative to those of `index`.
 PerQuantity moved(const PointingIndices& index, const PointingIndices& other, double length) {

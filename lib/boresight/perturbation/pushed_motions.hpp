@@ -18,6 +18,9 @@
 
 namespace boresight {
 
+// So many steps after each other the rung asks whether to go on.
+inline constexpr int kStepsBetweenLooks = 4096;
+
 // The tables with `times` what is missed, by straight lines between its instants, added to their loads, to their inverse masses and to where
 // offsets are that others decide.
 std::shared_ptr<const SceneTables> pushed_by(const std::vector<Missed>& missed, double times, double duration,

@@ -30,8 +30,12 @@ TEST(CalibrationModelError, SpansWhatTheEndsOfASearchAreApart) {
   EXPECT_EQ(error.ends, 0);
   EXPECT_EQ(error.covariance(1, 1), 1e-4);
 
+  span({lowest, lowest}, problem, lowest, error);  // nor have two that end in one place
+  EXPECT_EQ(error.ends, 0);
+  EXPECT_EQ(error.covariance(1, 1), 1e-4);
+
   span({lowest, other}, problem, lowest, error);
-  EXPECT_EQ(error.ends, 2);
+  EXPECT_EQ(error.ends, 1);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
       if (i == 3 && j == 3) continue;

@@ -69,6 +69,42 @@ TEST(PushedMotions, AreLoadedByStraightLinesBetweenTheInstantsBesideTheLoadsThat
   }
 }
 
+// What is missed as large as the inverse mass itself is no small push; and a pushed motion that goes on and on is another one. Neither is
+// followed to its end, and what was stated stays.
+TEST(PushedMotions, AreGivenUpWhereTheyShowNothing) {
+  const auto mechanism = scenes::build(scenes::gimbal({"A1", "A2", "E1", "E2"}, JournalAxes::free));
+  const Parameters& parameters = mechanism->parameters();
+  const PreparedScene prepared(*mechanism, ideal_motion(*mechanism, parameters), parameters);
+  const auto tables = prepared.tables(parameters);
+  const int n = tables->layout.n;
+  std::vector<double> row(static_cast<std::size_t>(tables->dynamics.width()));
+  MatX A;
+  tables->at(0.0, row.data());
+  tables->layout.inverse_mass(row.data(), A);
+  int dependent = 0;
+  for (const SceneLayout::Joint& joint : tables->layout.joints)
+    for (int k = 0; k < joint.offsets; ++k) dependent += joint.source[k] == DeviationCoordinates::kDependent;
+  int followed = 0, looks = 0;
+  const FollowOn endless = [&](const std::shared_ptr<const SceneTables>&, const RunOptions& options) {
+    ++followed;
+    RunResult result;
+    while (looks < 1000 && options.progress({})) ++looks;
+    result.interrupted = looks < 1000;
+    return result;
+  };
+  for (const double share : {2.0, 0.01}) {
+    SecondOrder beyond;
+    beyond.whole.fill(0.25);
+    beyond.missed = {{0.0, VecX::Zero(n), share * A, VecX::Zero(dependent)}};
+    RunResult result;
+    result.error.model = beyond.whole;
+    state_what_pushes_move(beyond, *mechanism, tables, {}, 1e-3, endless, result);
+    EXPECT_EQ(result.error.model, beyond.whole) << share;
+    EXPECT_EQ(followed, share > 1.0 ? 0 : 1);
+  }
+  EXPECT_LT(looks, 10);
+}
+
 // A study's samples do not look for it, and are followed by the same motion.
 TEST(PushedMotions, AreAskedForAndLeaveTheMotionAsItIs) {
   const auto mechanism = scenes::build(scenes::gimbal({"A1", "A2", "E1", "E2"}, JournalAxes::free));
