@@ -77,13 +77,21 @@ class GeneralizedAlpha {
     jacobian_known_ = false;
   }
 
+  // df/dy at the state that the next attempt starts from, or of the steps before, where it is kept.
+  template <System S>
+  const MatX& jacobian(const S& system, double t, const VecX& y) {
+    if (!jacobian_known_) partial_.evaluate_jacobian(system, t, y, start_slope_, cost_);
+    jacobian_known_ = true;
+    return partial_.jacobian;
+  }
+
   template <System S>
   Attempt attempt(const S& system, double t, double h, const VecX& y) {
     start_ = y;
     // Each attempt starts from the end of the last accepted step.
     algorithmic_ = accepted_ + ((alpha_m_ - alpha_f_) * (h - h_accepted_)) * algorithmic_rate_;
     h_ = h;
-    if (!jacobian_known_) partial_.evaluate_jacobian(system, t, y, start_slope_, cost_);
+    jacobian(system, t, y);
     // Known to the next attempt only if this one ends well: iterations that run away leave derivatives from anywhere.
     jacobian_known_ = false;
     if (!decompose()) return Attempt::singular_matrix;

@@ -25,6 +25,9 @@ struct IntegrationOptions {
   double smallest_step = 0.0;        // [s]; below it the run stops. 0: some roundings of t
   double largest_step = std::numeric_limits<double>::infinity();  // [s]
   long most_steps = 10'000'000;                                   // attempts, rejected ones included
+  // Methods that take df/dy, under error control: no step is too long for a vibration that grows (growth_watch.hpp), which starts
+  // as large as the tolerance lets it go unseen. Costs the steps, and the eigenvalues of df/dy now and then.
+  bool follow_growth = false;
   // Proportional-integral control: h_new = h safety error^-(1/k - 3/4 gain) error_before^gain, kept between smallest
   // and largest factor, k = order of the error estimate. Hairer and Wanner (1996), equation IV.2.43.
   double safety = 0.9, smallest_factor = 0.2, largest_factor = 5.0, gain = 0.04;

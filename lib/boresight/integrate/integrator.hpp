@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "boresight/integrate/gap_watch.hpp"
+#include "boresight/integrate/growth_watch.hpp"
 #include "boresight/integrate/step_control.hpp"
 
 namespace boresight {
@@ -72,6 +73,14 @@ class Integrator {
       if (fixed) h = fixed_step(t_end, h_before, options);
       const double remaining = t_end - t_;
       double wanted = std::min(h, options.largest_step);
+      if constexpr (requires { method_.jacobian(std::as_const(system), t_, y); })
+        if (!fixed && options.follow_growth) {
+          if (t_ >= next_look_at_growth_) {
+            look_at_growth(std::as_const(system), y, options, remaining);
+            next_look_at_growth_ = t_ + (t_end - t0) / kLooksAtGrowth;
+          }
+          wanted = std::min(wanted, growth_step_);
+        }
       // A last step that would leave a crumb is stretched or halved.
       if (!fixed && wanted > 0.99 * remaining)
         wanted = remaining;
@@ -188,6 +197,8 @@ class Integrator {
     summary_.smallest_step = std::numeric_limits<double>::infinity();
     method_.cost() = {};
     t_ = t0;
+    growth_step_ = std::numeric_limits<double>::infinity();
+    next_look_at_growth_ = t0;
   }
 
   template <typename S>
@@ -294,6 +305,18 @@ class Integrator {
     return std::pow(0.01 / largest, 1.0 / (method_.error_order() + 1.0));
   }
 
+  // Steps up to here may have damped what now grows, down from any size that the tolerance does not see: it starts from that.
+  template <typename S>
+  void look_at_growth(const S& system, VecX& y, const IntegrationOptions& options, double rest) {
+    const bool followed = std::isfinite(growth_step_);
+    const GrowingVibration grows = growing_vibration(method_.jacobian(system, t_, y), rest);
+    growth_step_ = grows.step;
+    if (followed || !std::isfinite(grows.step) || !(grows.step < options.largest_step)) return;
+    y += grows.shape / error_norm(grows.shape, y, y, options);
+    method_.begin(system, t_, y);
+    if constexpr (HasGaps<S>) watch_.restart(system, t_, y);
+  }
+
   // Returns whether the problem was told of anything.
   template <HasGaps S>
   bool report_events(S& system, VecX& y, const IntegrationOptions& options, bool& stop) {
@@ -332,6 +355,9 @@ class Integrator {
   int gaps_, looks_;
   VecX state_, probe_, probe_slope_;
   double t_ = 0.0;
+  // The longest step that follows what grows [s]. It is looked for so often in a run: eigenvalues are dear.
+  static constexpr double kLooksAtGrowth = 64.0;
+  double growth_step_ = 0.0, next_look_at_growth_ = 0.0;
   IntegrationSummary summary_;
 };
 

@@ -49,11 +49,18 @@ class RosenbrockMethod {
     partial_known_ = false;
   }
 
+  // df/dy at the state that the next attempt starts from.
+  template <System S>
+  const MatX& jacobian(const S& system, double t, const VecX& y) {
+    if (!partial_known_) partial_.evaluate(system, t, y, start_slope_, cost_);
+    partial_known_ = true;
+    return partial_.jacobian;
+  }
+
   template <System S>
   Attempt attempt(const S& system, double t, double h, const VecX& y) {
     start_ = y;
-    if (!partial_known_) partial_.evaluate(system, t, y, start_slope_, cost_);
-    partial_known_ = true;
+    jacobian(system, t, y);
     matrix_ = -partial_.jacobian;
     matrix_.diagonal().array() += 1.0 / (table_.gamma * h);
     lu_.compute(matrix_);

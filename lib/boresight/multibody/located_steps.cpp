@@ -50,6 +50,7 @@ IntegrationOptions integration_options(const MultibodyMotion& run, const Formula
   elements.tolerances(tolerance_of(options, kMultibody), integration.absolute_tolerances.tail(elements.size()));
   scales.apply(run.mechanism.duration(), slowest_impact, integration);
   integration.largest_step *= options.share_of_longest_step;
+  integration.follow_growth = options.follow_growth;
   return integration;
 }
 

@@ -219,6 +219,7 @@ class Perturbation final : public SceneRung {
     system.elements().tolerances(asked, integration.absolute_tolerances.tail(system.elements().size()));
     scales.apply(mechanism().duration(), slowest_impact, integration);
     integration.largest_step *= options.share_of_longest_step;
+    integration.follow_growth = options.follow_growth;
     return integration;
   }
 

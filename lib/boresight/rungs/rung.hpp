@@ -41,6 +41,9 @@ struct RunOptions {
   double tolerance = 0.0;  // of error control: error of one step over the smallest clearance; 0: the rung's own
   // Of the longest step that error control takes on this motion, or of the spacing of the instants that rungs without steps look at.
   double share_of_longest_step = 1.0;
+  // Error control follows vibrations that grow from the first (IntegrationOptions::follow_growth): implicit methods otherwise step over
+  // them, and so may hold a motion that friction would drive apart.
+  bool follow_growth = false;
 
   // Perturbation only: every coordinate starts this much off the ideal motion [m, or rad], to see how fast neighbours
   // part.

@@ -20,11 +20,30 @@ constexpr int kManyInstants = 200000, kInstantsPerKnot = 4;
 constexpr double kNothing = 1e-6;
 // Of the largest load: its direction is then known to two thousandths of a radian.
 constexpr double kDecides = 500.0 * ClearanceScene::kAccuracy;
+// Of what the bodies weigh and resist: far above what rounding leaves where these cancel, far below any load that is read.
+constexpr double kCancelled = 1e-10;
 
 // Of a load: its force, and its couple as forces at the sleeve's ends [N].
 double size(const PlayOffsets& load, const JointPlay& joint) {
   const double couple = load.tail<3>().norm();
   return load.head<3>().norm() + (couple > 0.0 ? couple / joint.lever() : 0.0);
+}
+
+// The largest sum of the bodies' weights and inertial forces along the motion [N].
+double acting_forces(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
+  constexpr int kLooks = 41;
+  const std::vector<MassProperties> masses = mechanism.mass_properties(parameters);
+  double largest = 0.0;
+  for (int i = 0; i < kLooks; ++i) {
+    double sum = 0.0;
+    for (std::size_t b = 0; b < masses.size(); ++b) {
+      BodyAcceleration acceleration;
+      ideal.body(mechanism.duration() * i / (kLooks - 1), static_cast<int>(b), &acceleration);
+      sum += masses[b].mass * (acceleration.head<3>().norm() + mechanism.description().gravity.norm());
+    }
+    largest = std::max(largest, sum);
+  }
+  return largest;
 }
 
 }  // namespace
@@ -78,6 +97,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
     for (const SceneLayout::Joint& j : layout_.joints) values.push_back(j.slides == 1 ? row[j.slide] : 0.0);
   }
   table_ = EightPointTable(scene.spacing(), width, std::move(values));
+  cancelled_ = kCancelled * acting_forces(mechanism, parameters, prepared.ideal());
   largest_load_.assign(joints_.size(), 0.0);
   for (int i = 0; i < instants_; ++i) {
     const Instant now = at(i);
@@ -104,10 +124,13 @@ ReactionTable::Instant ReactionTable::at_time(double t) const {
     Load load{PlayOffsets::Zero(), row[7 * n + c]};
     for (int k = 0; k < layout_.joints[c].offsets; ++k)
       if (const int source = layout_.joints[c].source[k]; source >= 0) load.force[k] = now.reaction[source];
-    // Beside what carries it, along its axis and in tilt, next to nothing would push a journal all the way that its play leaves.
-    for (std::size_t g = 1; g < groups_[c].size(); ++g) {
+    // Beside what carries it, along its axis and in tilt, next to nothing would push a journal all the way that its play leaves; and where
+    // nothing carries any, so would what rounding leaves.
+    for (std::size_t g = 0; g < groups_[c].size(); ++g) {
       const std::vector<int>& group = groups_[c][g];
-      const double least = kRounding * largest_of_all_ * (group.front() < 3 ? 1.0 : joints_[c].lever());
+      if (group.empty()) continue;
+      const double least = std::max(g > 0 ? kRounding * largest_of_all_ : 0.0, cancelled_) *
+                           (group.front() < 3 ? 1.0 : joints_[c].lever());
       if (load.force(group).norm() < least) load.force(group).setZero();
     }
     now.load.push_back(load);

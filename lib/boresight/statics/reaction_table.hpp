@@ -61,6 +61,7 @@ class ReactionTable {
   std::vector<OffsetGroups> groups_;  // of each
   std::vector<double> largest_load_;  // per clearance [N]
   double largest_of_all_ = 0.0;       // the largest of these [N]
+  double cancelled_ = 0.0;            // what rounding may leave of loads that cancel [N]
   bool tied_ = false;
 };
 

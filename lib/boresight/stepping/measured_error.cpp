@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/stepping/unstable_step.hpp"
 
@@ -20,7 +21,14 @@ constexpr std::array kStatistics = {&Statistics::max, &Statistics::rms, &Statist
 
 // The second and third neighbour, and further ones for those that cannot be followed: near the largest stable step it is chance which can.
 constexpr double kNeighbours[] = {0.985, 0.97, 0.955, 0.94, 0.91, 0.88};
-constexpr double kFinerStep = 0.5, kFinerTolerance = 0.1;
+constexpr double kFinerStep = 0.5;
+// Steps grow with the fourth or fifth root of the tolerance, and what they step over hides at a tenth of it too: there motions agreed that
+// were off by four times what they stated.
+constexpr double kFinerTolerance = 0.01;
+// How much more a finer run costs: twice the steps, or what a method of third order takes for its tolerance.
+constexpr double kCostOfFinerStep = 2.0, kCostOfFinerTolerance = 3.2;
+// Times the CPU that further runs may take, as foreseen: steps that follow what grows may be far shorter than those of the run.
+constexpr double kOverrun = 3.0;
 // Rounding of a motion integrated in metres [m or rad].
 constexpr double kRounding = 1e-12;
 // Where the first three runs agree to this share of an index, further ones are not worth their time.
@@ -51,7 +59,9 @@ class FurtherRuns {
     options_.events = false;
     options_.pose_bodies.clear();
     options_.progress = [this](const RunProgress&) {
-      return !(stopped_ = stopped_ || (measure_.advance && !measure_.advance()));
+      stopped_ = stopped_ || (measure_.advance && !measure_.advance());
+      too_long_ = measure_.most_seconds > 0.0 && thread_cpu_seconds() - began_ > kOverrun * measure_.most_seconds;
+      return !stopped_ && !too_long_;
     };
     options_.model_look = ModelLook::none;
     if (options.integrator.empty()) options_.integrator = result.integrator_taken;
@@ -71,9 +81,11 @@ class FurtherRuns {
     options_.step = share * (finer ? kFinerStep : 1.0) * step_;
     options_.tolerance = share * (finer ? kFinerTolerance : 1.0) * tolerance_;
     options_.share_of_longest_step = share * (finer ? kFinerStep : 1.0) * longest_;
+    options_.follow_growth = finer;
     const RunResult result = rung_.run(parameters_, options_);
     cpu_seconds += result.cost.cpu_seconds;
     ++runs;
+    if (too_long_) throw ComputationError("it took longer than foreseen, in steps that follow vibrations as they grow");
     if (result.interrupted || stopped_) throw ComputationError("it was stopped");
     return result.index;
   }
@@ -100,13 +112,14 @@ class FurtherRuns {
   // What a step may leave out unseen, over the smallest clearance; 0 where steps are given.
   double tolerance() const { return tolerance_; }
   bool by_instants() const { return by_instants_; }
+  double cost_of_finer() const { return by_tolerance_ ? kCostOfFinerTolerance : kCostOfFinerStep; }
   const char* neighbours() const {
     return by_instants_ ? "spacings of instants" : by_tolerance_ ? "tolerances" : "steps";
   }
   const char* neighbour() const { return by_instants_ ? "spacing of instants" : by_tolerance_ ? "tolerance" : "step"; }
   const char* fineness() const {
     return by_instants_    ? "half the spacing of instants"
-           : by_tolerance_ ? "a tenth of the tolerance and half the longest step"
+           : by_tolerance_ ? "a hundredth of the tolerance and half the longest step"
                            : "half the step";
   }
 
@@ -116,7 +129,8 @@ class FurtherRuns {
   RunOptions options_;
   const MeasureErrorOptions& measure_;
   double longest_;
-  bool by_instants_ = false, by_tolerance_ = false, stopped_ = false;
+  bool by_instants_ = false, by_tolerance_ = false, stopped_ = false, too_long_ = false;
+  double began_ = thread_cpu_seconds();
   double step_ = 0.0, tolerance_ = 0.0;
   std::size_t next_ = 0;
 };
@@ -180,8 +194,10 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
     return error;
   }
   FurtherRuns further(rung, parameters, options, result, measure);
-  // A finer run costs twice the first; the first four runs of both stages cost 3 times as much as it, all of them 8.
-  const double first_stage = 3.0 * result.cost.cpu_seconds, all = 8.0 * result.cost.cpu_seconds;
+  // One neighbour and one finer run; two and three where these do not agree.
+  const double finer_cost = further.cost_of_finer();
+  const double first_stage = (1.0 + finer_cost) * result.cost.cpu_seconds,
+               all = (2.0 + 3.0 * finer_cost) * result.cost.cpu_seconds;
   char text[200];
   if (measure.most_seconds > 0.0 && first_stage > measure.most_seconds) {
     std::snprintf(text, sizeof text, "further runs would take %.3g s of CPU, more than the %.3g s that they may",
