@@ -183,7 +183,9 @@ Found one_set(const Asked& asked, const Scene& scene, int set) {
       const MechanismDescription with = read_mechanism(file, made);
       for (const BodyDescription& body : with.bodies) {
         const double share = 1.0 + 0.01 * (uniform(signs) < 0.5 ? -1.0 : 1.0);
-        made.push_back({"body." + body.name + ".mass", text(body.mass * share, "kg")});
+        const Setting mass = {"body." + body.name + ".mass", text(body.mass * share, "kg")};
+        made.push_back(mass);
+        if (asked.from_truth) told.push_back(mass);
       }
     }
     MechanismDescription description = read_mechanism(file, made);
