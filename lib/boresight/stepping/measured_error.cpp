@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <limits>
 #include <vector>
 
 #include "boresight/mechanism/error.hpp"
@@ -27,8 +28,9 @@ constexpr double kFinerStep = 0.5;
 constexpr double kFinerTolerance = 0.01;
 // How much more a finer run costs: twice the steps, or what a method of third order takes for its tolerance.
 constexpr double kCostOfFinerStep = 2.0, kCostOfFinerTolerance = 3.2;
-// Times the CPU that further runs may take, as foreseen: steps that follow what grows may be far shorter than those of the run.
-constexpr double kOverrun = 3.0;
+// Steps that follow what grows may be far shorter than those of the run: up to this share of the time that all further runs may take, or
+// so many times what a finer run was foreseen to take, whichever is more.
+constexpr double kShareOfFollowing = 0.5, kOverrun = 3.0;
 // Rounding of a motion integrated in metres [m or rad].
 constexpr double kRounding = 1e-12;
 // Where the first three runs agree to this share of an index, further ones are not worth their time.
@@ -60,7 +62,7 @@ class FurtherRuns {
     options_.pose_bodies.clear();
     options_.progress = [this](const RunProgress&) {
       stopped_ = stopped_ || (measure_.advance && !measure_.advance());
-      too_long_ = measure_.most_seconds > 0.0 && thread_cpu_seconds() - began_ > kOverrun * measure_.most_seconds;
+      too_long_ = options_.follow_growth && thread_cpu_seconds() - began_ > most_following_;
       return !stopped_ && !too_long_;
     };
     options_.model_look = ModelLook::none;
@@ -70,6 +72,9 @@ class FurtherRuns {
     by_tolerance_ = controls_error(options_);
     tolerance_ = by_tolerance_ ? tolerance_of(options_, rung.name()) : 0.0;
     // Steps that locate contacts are shortened by these: what was asked for counts, not their mean.
+    if (measure.most_seconds > 0.0)
+      most_following_ = std::max(kShareOfFollowing * measure.most_seconds,
+                                 kOverrun * kCostOfFinerTolerance * result.cost.cpu_seconds);
     step_ = by_tolerance_        ? 0.0
             : options.step > 0.0 ? options.step
                                  : result.end_time / static_cast<double>(result.cost.steps);
@@ -81,11 +86,15 @@ class FurtherRuns {
     options_.step = share * (finer ? kFinerStep : 1.0) * step_;
     options_.tolerance = share * (finer ? kFinerTolerance : 1.0) * tolerance_;
     options_.share_of_longest_step = share * (finer ? kFinerStep : 1.0) * longest_;
-    options_.follow_growth = finer;
+    options_.follow_growth = finer && by_tolerance_ && follows_;
+    began_ = thread_cpu_seconds();
     const RunResult result = rung_.run(parameters_, options_);
     cpu_seconds += result.cost.cpu_seconds;
     ++runs;
-    if (too_long_) throw ComputationError("it took longer than foreseen, in steps that follow vibrations as they grow");
+    if (too_long_) {
+      too_long_ = follows_ = false;
+      return at(share, finer);
+    }
     if (result.interrupted || stopped_) throw ComputationError("it was stopped");
     return result.index;
   }
@@ -112,6 +121,8 @@ class FurtherRuns {
   // What a step may leave out unseen, over the smallest clearance; 0 where steps are given.
   double tolerance() const { return tolerance_; }
   bool by_instants() const { return by_instants_; }
+  // Whether vibrations that grow were followed as they do, where steps are by an error estimate.
+  bool follows() const { return follows_; }
   double cost_of_finer() const { return by_tolerance_ ? kCostOfFinerTolerance : kCostOfFinerStep; }
   const char* neighbours() const {
     return by_instants_ ? "spacings of instants" : by_tolerance_ ? "tolerances" : "steps";
@@ -130,7 +141,8 @@ class FurtherRuns {
   const MeasureErrorOptions& measure_;
   double longest_;
   bool by_instants_ = false, by_tolerance_ = false, stopped_ = false, too_long_ = false;
-  double began_ = thread_cpu_seconds();
+  bool follows_ = true;
+  double began_ = 0.0, most_following_ = std::numeric_limits<double>::infinity();
   double step_ = 0.0, tolerance_ = 0.0;
   std::size_t next_ = 0;
 };
@@ -257,6 +269,7 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
                   "no neighbouring %s can be followed, so this one is by chance; measured by %zu at %s",
                   further.neighbour(), finer.size(), further.fineness());
   error.basis = text;
+  if (!further.follows()) error.basis += ", in too little time to follow vibrations that begin to grow";
   return error;
 }
 
