@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
@@ -33,7 +35,32 @@ std::string text_of(const std::filesystem::path& file) {
   return text.str();
 }
 
-// Several scenes at once, each in its own process; verdicts in the order of the scenes.
+volatile std::sig_atomic_t asked_to_end = 0;
+
+// To a terminal or a log, now and then: how far it is.
+class Progress {
+ public:
+  explicit Progress(std::size_t all) : all_(all) {}
+  void done(const Verdict& v) {
+    ++done_;
+    wrong_ += has_new_fault(v);
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told_ < std::chrono::seconds(kSecondsBetween) || done_ == all_) return;
+    told_ = now;
+    const double minutes = std::chrono::duration<double>(now - began_).count() / 60.0;
+    fmt::print(stderr, "{} of {} scenes, {} wrong; {:.0f} min so far, {:.0f} min left\n", done_, all_, wrong_, minutes,
+               minutes / static_cast<double>(done_) * static_cast<double>(all_ - done_));
+  }
+
+ private:
+  static constexpr int kSecondsBetween = 30;
+  std::size_t all_, done_ = 0;
+  int wrong_ = 0;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(), told_ = began_;
+};
+
+// Several scenes at once, each in its own process; verdicts of those that were tried, in the order of the scenes. Ctrl-C ends it with the
+// scenes under way.
 std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, const TrialOptions& options, int jobs,
                              KnownFaults& known) {
   std::vector<Verdict> verdicts(scenes.size());
@@ -45,14 +72,18 @@ std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, 
   };
   std::vector<Running> running;
   std::size_t next = 0;
-  while (next < scenes.size() || !running.empty()) {
-    while (next < scenes.size() && static_cast<int>(running.size()) < jobs) {
+  Progress progress(scenes.size());
+  const auto begins = [&] { return next < scenes.size() && asked_to_end == 0; };
+  while (begins() || !running.empty()) {
+    while (begins() && static_cast<int>(running.size()) < jobs) {
       int ends[2];
       if (pipe(ends) != 0) throw std::runtime_error("no pipe");
       fflush(nullptr);
       const pid_t child = fork();
       if (child < 0) throw std::runtime_error("no process");
       if (child == 0) {
+        std::signal(SIGINT, SIG_IGN);
+        std::signal(SIGTERM, SIG_DFL);
         close(ends[0]);
         const Entry entry = scenes[next]();
         const std::string text = to_json(try_scene(entry.name, entry.family, entry.text, options)).dump();
@@ -68,7 +99,7 @@ std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, 
     }
     std::vector<pollfd> waits;
     for (const Running& r : running) waits.push_back({r.file, POLLIN, 0});
-    poll(waits.data(), waits.size(), -1);
+    if (poll(waits.data(), waits.size(), -1) < 0) continue;  // a signal
     for (std::size_t k = waits.size(); k-- > 0;) {
       if (waits[k].revents == 0) continue;
       Running& r = running[k];
@@ -92,9 +123,11 @@ std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, 
       known.mark(v);
       print_faults(v);
       fflush(stdout);
+      progress.done(v);
       running.erase(running.begin() + static_cast<std::ptrdiff_t>(k));
     }
   }
+  verdicts.resize(next);
   return verdicts;
 }
 
@@ -156,7 +189,7 @@ int run(int argc, char** argv) {
   for (const std::string& gone : known.gone()) fmt::print("mended, take it off the list: {}\n", gone);
   if (!save.empty()) {
     std::filesystem::create_directories(save);
-    for (std::size_t k = 0; k < scenes.size(); ++k)
+    for (std::size_t k = 0; k < verdicts.size(); ++k)
       if (!verdicts[k].faults.empty()) {
         const Entry entry = scenes[k]();
         std::string name = std::filesystem::path(entry.name).stem().string();
@@ -164,6 +197,7 @@ int run(int argc, char** argv) {
         std::ofstream(std::filesystem::path(save) / (name + ".toml")) << entry.text;
       }
   }
+  if (asked_to_end != 0) return 130;
   const bool wrong = std::any_of(verdicts.begin(), verdicts.end(), has_new_fault);
   return wrong ? 1 : 0;
 }
@@ -172,6 +206,7 @@ int run(int argc, char** argv) {
 }  // namespace boresight::gauntlet
 
 int main(int argc, char** argv) {
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { boresight::gauntlet::asked_to_end = 1; });
   try {
     return boresight::gauntlet::run(argc, argv);
   } catch (const std::exception& e) {

@@ -3,10 +3,16 @@
 # processors that have none. Square roots need not set errno, which would keep them out of registers.
 # There are only finite numbers and one zero, so that what is multiplied by a derivative known to be zero falls away; whether a
 # step has left them is told by the bits (is_finite()).
-set(kernels scalar sse2 avx2 avx512)
-foreach(kernel IN LISTS kernels)
-  list(APPEND kernel_files ${CMAKE_CURRENT_LIST_DIR}/lanes_${kernel}.cpp)
-endforeach()
+set(kernels scalar)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  list(APPEND kernels sse4 avx2 avx512)
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64|ARM64")
+  list(APPEND kernels neon)
+endif()
+file(GLOB kernel_files ${CMAKE_CURRENT_LIST_DIR}/lanes_*.cpp)
+# Registers and what is done with them are Highway's; headers alone (Debian: libhwy-dev).
+find_path(BORESIGHT_HIGHWAY_INCLUDE hwy/highway.h REQUIRED)
+mark_as_advanced(BORESIGHT_HIGHWAY_INCLUDE)
 # A kernel takes minutes to compile. "native" builds this machine's widest and the one that every machine runs; packages, which go to
 # other machines, say "all".
 set(BORESIGHT_LANES native CACHE STRING "Kernels of the lanes that are built: native, all, or any of ${kernels}")
@@ -20,8 +26,9 @@ elseif(BORESIGHT_LANES STREQUAL "native")
     # As lane_kernels.cpp asks the processor.
     set(needs_avx512 avx512f avx512dq avx512vl avx512bw avx512cd fma)
     set(needs_avx2 avx2 fma bmi2)
-    set(widest sse2)
-    foreach(kernel avx2 avx512)
+    set(needs_sse4 sse4_2 ssse3)
+    set(widest)
+    foreach(kernel sse4 avx2 avx512)
       set(has_all TRUE)
       foreach(flag IN LISTS needs_${kernel})
         if(NOT flags MATCHES " ${flag}( |$)")
@@ -34,7 +41,7 @@ elseif(BORESIGHT_LANES STREQUAL "native")
     endforeach()
     list(APPEND built ${widest})
   else()
-    set(built ${kernels})  # nothing is known of it
+    set(built ${kernels})  # two at most, or nothing is known of it
   endif()
   message(STATUS "Kernels of the lanes, for this machine: ${built}")
 endif()
@@ -52,6 +59,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND kernel_options -fno-gnu-unique)  # a kind of symbol that objcopy cannot make local
 endif()
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set(options_sse4 -march=x86-64-v2)
   set(options_avx2 -march=x86-64-v3)
   set(options_avx512 -march=x86-64-v4 -mtune=icelake-server -mprefer-vector-width=512)
   include(CheckCXXCompilerFlag)
@@ -60,7 +68,8 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND options_avx512 -mmove-max=512 -mstore-max=512)
   endif()
   target_compile_definitions(boresight_lanes PRIVATE BORESIGHT_X86_LANES)
-endif()  # elsewhere the compiler's generic vectors serve, and the wide kernels are built but not offered
+endif()
+set(options_neon -march=armv8-a+crypto)
 get_target_property(sources boresight_lanes SOURCES)
 list(REMOVE_ITEM sources ${kernel_files})
 set_property(TARGET boresight_lanes PROPERTY SOURCES ${sources})
@@ -72,6 +81,7 @@ foreach(kernel IN LISTS built)
   add_library(boresight_lanes_${kernel} OBJECT ${CMAKE_CURRENT_LIST_DIR}/lanes_${kernel}.cpp)
   set_target_properties(boresight_lanes_${kernel} PROPERTIES UNITY_BUILD OFF)  # one file, and known by its name
   target_link_libraries(boresight_lanes_${kernel} PRIVATE boresight::scene)
+  target_include_directories(boresight_lanes_${kernel} SYSTEM PRIVATE ${BORESIGHT_HIGHWAY_INCLUDE})
   target_compile_options(boresight_lanes_${kernel} PRIVATE ${kernel_options} ${options_${kernel}})
   boresight_one_entry(boresight_lanes boresight_lanes_${kernel} run_lanes_${kernel} run_lanes_${kernel}_single)
 endforeach()

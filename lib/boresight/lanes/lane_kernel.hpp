@@ -19,15 +19,21 @@ class NoSubnormals {
 #endif
 };
 
+// Of the form that one revolute joint with play has. T: Lanes, or what has their interface.
+template <typename T>
+void accelerations_kernel(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
+  if (count == 0) return;
+  [[maybe_unused]] const NoSubnormals here;
+  LaneIntegrator<T, LaneRowStep<T, SingleRevoluteLayout>>(jobs[0], settings).run(jobs, count, outcomes);
+}
+
 template <int W, typename Target, typename Real>
 void lane_kernel(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes) {
   if (count == 0) return;
   using T = Lanes<W, Target, Real>;
+  if (jobs[0].scene->form == SceneForm::accelerations) return accelerations_kernel<T>(jobs, count, settings, outcomes);
   [[maybe_unused]] const NoSubnormals here;
-  if (jobs[0].scene->form == SceneForm::accelerations)
-    LaneIntegrator<T, LaneRowStep<T, SingleRevoluteLayout>>(jobs[0], settings).run(jobs, count, outcomes);
-  else
-    LaneIntegrator<T, LaneWindowStep<T>>(jobs[0], settings).run(jobs, count, outcomes);
+  LaneIntegrator<T, LaneWindowStep<T>>(jobs[0], settings).run(jobs, count, outcomes);
 }
 
 }  // namespace boresight

@@ -1,5 +1,10 @@
 #include "boresight/lanes/lane_kernels.hpp"
 
+#if defined(BORESIGHT_LANES_NEON)
+#include <asm/hwcap.h>
+#include <sys/auxv.h>
+#endif
+
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
@@ -20,10 +25,16 @@ std::vector<LaneTarget> targets_of([[maybe_unused]] bool single) {
     found.push_back(single ? LaneTarget{"AVX2", 8, true, run_lanes_avx2_single}
                            : LaneTarget{"AVX2", 4, true, run_lanes_avx2});
 #endif
-#if defined(BORESIGHT_LANES_SSE2)
-  found.push_back(single ? LaneTarget{"SSE2", 4, false, run_lanes_sse2_single}
-                         : LaneTarget{"SSE2", 2, false, run_lanes_sse2});
+#if defined(BORESIGHT_LANES_SSE4)
+  if (__builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("ssse3"))
+    found.push_back(single ? LaneTarget{"SSE4", 4, false, run_lanes_sse4_single}
+                           : LaneTarget{"SSE4", 2, false, run_lanes_sse4});
 #endif
+#endif
+#if defined(BORESIGHT_LANES_NEON)
+  if (getauxval(AT_HWCAP) & HWCAP_AES)  // it is compiled with what encrypts, for Highway asks for that
+    found.push_back(single ? LaneTarget{"NEON", 4, true, run_lanes_neon_single}
+                           : LaneTarget{"NEON", 2, true, run_lanes_neon});
 #endif
 #if defined(BORESIGHT_LANES_SCALAR)
   found.push_back({"scalar", 1, false, single ? run_lanes_scalar_single : run_lanes_scalar});

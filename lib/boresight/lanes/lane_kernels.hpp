@@ -9,11 +9,13 @@ namespace boresight {
 enum class LanePrecision { single_precision, double_precision };
 
 void run_lanes_scalar(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
-void run_lanes_sse2(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
+void run_lanes_sse4(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
+void run_lanes_neon(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
 void run_lanes_avx2(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
 void run_lanes_avx512(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
 void run_lanes_scalar_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
-void run_lanes_sse2_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
+void run_lanes_sse4_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
+void run_lanes_neon_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
 void run_lanes_avx2_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
 void run_lanes_avx512_single(const LaneJob* jobs, long count, const LaneSettings& settings, LaneOutcome* outcomes);
 

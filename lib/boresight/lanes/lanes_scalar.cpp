@@ -1,3 +1,4 @@
+#define HWY_COMPILE_ONLY_SCALAR
 #include "boresight/lanes/lane_kernel.hpp"
 #include "boresight/lanes/lane_kernels.hpp"
 
