@@ -82,8 +82,6 @@ std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, 
       const pid_t child = fork();
       if (child < 0) throw std::runtime_error("no process");
       if (child == 0) {
-        std::signal(SIGINT, SIG_IGN);
-        std::signal(SIGTERM, SIG_DFL);
         close(ends[0]);
         const Entry entry = scenes[next]();
         const std::string text = to_json(try_scene(entry.name, entry.family, entry.text, options)).dump();
@@ -206,6 +204,7 @@ int run(int argc, char** argv) {
 }  // namespace boresight::gauntlet
 
 int main(int argc, char** argv) {
+  // Inherited by the scenes' processes, which go on where a signal is sent to all of them, and not by the programs that these run.
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { boresight::gauntlet::asked_to_end = 1; });
   try {
     return boresight::gauntlet::run(argc, argv);
