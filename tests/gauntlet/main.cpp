@@ -160,7 +160,8 @@ int run(int argc, char** argv) {
                "the drawing moved, turned, renamed, reordered, in other units");
   CLI11_PARSE(app, argc, argv);
   // It is called from other folders.
-  if (options.program.find('/') != std::string::npos) options.program = std::filesystem::absolute(options.program).string();
+  if (options.program.find('/') != std::string::npos)
+    options.program = std::filesystem::absolute(options.program).string();
 
   const auto dressed = [errors, plays](std::string text) {
     if (plays) text = with_plays(text);
