@@ -28,6 +28,8 @@ constexpr double kFinerStep = 0.5;
 constexpr double kFinerTolerance = 0.01;
 // How much more a finer run costs: twice the steps, or what a method of third order takes for its tolerance.
 constexpr double kCostOfFinerStep = 2.0, kCostOfFinerTolerance = 3.2;
+// A run that took more than this part of the time is not tried again to learn what it takes.
+constexpr double kTriedForItsCost = 2.0;
 // Steps that follow what grows may be far shorter than those of the run: up to this share of the time that all further runs may take, or
 // so many times what a finer run was foreseen to take, whichever is more.
 constexpr double kShareOfFollowing = 0.5, kOverrun = 3.0;
@@ -46,6 +48,11 @@ constexpr double kOfTolerance = 2.0;
 constexpr double kOfScatteredRange = 3.0;
 // Student's t at 97.5 percent, four degrees of freedom: two groups of three.
 constexpr double kStudent4 = 2.776;
+
+class TooDear : public ComputationError {
+ public:
+  using ComputationError::ComputationError;
+};
 
 class FurtherRuns {
  public:
@@ -206,14 +213,19 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
     return error;
   }
   FurtherRuns further(rung, parameters, options, result, measure);
-  // One neighbour and one finer run; two and three where these do not agree.
+  // One neighbour and one finer run; two and three where these do not agree. What the run took may be its look at its own model for the
+  // most part, which further runs do without: the first neighbour tells.
   const double finer_cost = further.cost_of_finer();
-  const double first_stage = (1.0 + finer_cost) * result.cost.cpu_seconds,
-               all = (2.0 + 3.0 * finer_cost) * result.cost.cpu_seconds;
+  double one = result.cost.cpu_seconds;
   char text[200];
-  if (measure.most_seconds > 0.0 && first_stage > measure.most_seconds) {
+  const auto too_dear = [&](double runs) {
+    if (!(measure.most_seconds > 0.0) || runs * one <= measure.most_seconds) return false;
     std::snprintf(text, sizeof text, "further runs would take %.3g s of CPU, more than the %.3g s that they may",
-                  first_stage, measure.most_seconds);
+                  runs * one, measure.most_seconds);
+    return true;
+  };
+  if (too_dear(kTriedForItsCost)) {
+    too_dear(1.0 + finer_cost);
     error.why_not = text;
     return error;
   }
@@ -221,13 +233,17 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
   bool settled = false, whole = false;
   try {
     further.add_neighbour(own);
+    if (further.runs > 0) one = std::min(one, further.cpu_seconds / further.runs);
+    if (too_dear(1.0 + finer_cost)) throw TooDear(text);
     finer.push_back(further.at(1.0, true));
     settled = own.size() > 1 && all_agree({own[0], own[1], finer[0]});
-    if (!settled && !(measure.most_seconds > 0.0 && all > measure.most_seconds)) {
+    if (!settled && !too_dear(2.0 + 3.0 * finer_cost)) {
       further.add_neighbour(own);
       for (const double share : {kNeighbours[0], kNeighbours[1]}) further.add_followed(finer, share, true);
     }
     whole = own.size() == 3 && finer.size() == 3;
+  } catch (const TooDear& dear) {
+    error.why_not = dear.what();
   } catch (const ComputationError& failure) {
     error.why_not = std::string("a further run failed: ") + failure.what();
   }
