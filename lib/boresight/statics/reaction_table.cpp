@@ -39,7 +39,7 @@ double acting_forces(const Mechanism& mechanism, const Parameters& parameters, c
     for (std::size_t b = 0; b < masses.size(); ++b) {
       BodyAcceleration acceleration;
       ideal.body(mechanism.duration() * i / (kLooks - 1), static_cast<int>(b), &acceleration);
-      sum += masses[b].mass * (acceleration.head<3>().norm() + mechanism.description().gravity.norm());
+      sum += masses[b].mass * (acceleration.head<3>().norm() + parameters.gravity.norm());
     }
     largest = std::max(largest, sum);
   }
