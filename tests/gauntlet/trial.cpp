@@ -304,10 +304,7 @@ class Trial {
     const bool recut = asked.rung == "multibody" && stage.ends_with("reordered"),
                restepped = std::abs(other.step / base.step - 1.0) > 1e-6;
     const bool by_error = !base.taken.empty() || !other.taken.empty();
-    // Where neighbours part by more than rounding, one motion is a draw of many, and so is that of the other drawing.
-    const bool chaotic =
-        asked.rung != "quasistatic" && neighbours_spread(asked, figure, 5) > kDraws * base.figure[figure];
-    if (!(recut || restepped || by_error || chaotic)) return false;
+    if (!(recut || restepped || by_error)) return false;
     if (!base.steps_measured) know_steps(base, asked, mechanism_);
     if (!other.steps_measured) know_steps(other, asked, mechanism);
     return base.steps_measured && other.steps_measured && apart <= base.by_steps[figure] + other.by_steps[figure];
@@ -352,8 +349,7 @@ class Trial {
     return center(runs, figure).spread;
   }
 
-  static constexpr double kTabled = 1e-5;  // what tables of time may do to a motion's figure
-  static constexpr double kDraws = 1e-3;  // spread of neighbours from which on what steps state is the scatter of draws
+  static constexpr double kTabled = 1e-5;      // what tables of time may do to a motion's figure
   static constexpr double kFurtherRuns = 4.0;  // times the limit, for the runs that measure what steps do
   static constexpr double kMostOfLimit = 0.8;  // of the CPU limit, after which a run is asked to end
   static constexpr double kDearRun = 1.5;      // [s]: variants of dearer runs are left out
