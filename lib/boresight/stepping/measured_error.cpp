@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
-#include <limits>
 #include <vector>
 
 #include "boresight/mechanism/error.hpp"
@@ -28,11 +27,8 @@ constexpr double kFinerStep = 0.5;
 constexpr double kFinerTolerance = 0.01;
 // How much more a finer run costs: twice the steps, or what a method of third order takes for its tolerance.
 constexpr double kCostOfFinerStep = 2.0, kCostOfFinerTolerance = 3.2;
-// A run that took more than this part of the time is not tried again to learn what it takes.
+// A neighbour is followed, to learn what further runs take, where twice the time of the run is in the time for them.
 constexpr double kTriedForItsCost = 2.0;
-// Steps that follow what grows may be far shorter than those of the run: up to this share of the time that all further runs may take, or
-// so many times what a finer run was foreseen to take, whichever is more.
-constexpr double kShareOfFollowing = 0.5, kOverrun = 3.0;
 // Rounding of a motion integrated in metres [m or rad].
 constexpr double kRounding = 1e-12;
 // Where the first three runs agree to this share of an index, further ones are not worth their time.
@@ -49,11 +45,6 @@ constexpr double kOfScatteredRange = 3.0;
 // Student's t at 97.5 percent, four degrees of freedom: two groups of three.
 constexpr double kStudent4 = 2.776;
 
-class TooDear : public ComputationError {
- public:
-  using ComputationError::ComputationError;
-};
-
 class FurtherRuns {
  public:
   FurtherRuns(const Rung& rung, const Parameters& parameters, const RunOptions& options, const RunResult& result,
@@ -69,7 +60,9 @@ class FurtherRuns {
     options_.pose_bodies.clear();
     options_.progress = [this](const RunProgress&) {
       stopped_ = stopped_ || (measure_.advance && !measure_.advance());
-      too_long_ = options_.follow_growth && thread_cpu_seconds() - began_ > most_following_;
+      // Steps that follow what grows may be far shorter than those of the run.
+      too_long_ = options_.follow_growth && measure_.most_seconds > 0.0 &&
+                  thread_cpu_seconds() - began_ > measure_.most_seconds;
       return !stopped_ && !too_long_;
     };
     options_.model_look = ModelLook::none;
@@ -79,9 +72,6 @@ class FurtherRuns {
     by_tolerance_ = controls_error(options_);
     tolerance_ = by_tolerance_ ? tolerance_of(options_, rung.name()) : 0.0;
     // Steps that locate contacts are shortened by these: what was asked for counts, not their mean.
-    if (measure.most_seconds > 0.0)
-      most_following_ = std::max(kShareOfFollowing * measure.most_seconds,
-                                 kOverrun * kCostOfFinerTolerance * result.cost.cpu_seconds);
     step_ = by_tolerance_        ? 0.0
             : options.step > 0.0 ? options.step
                                  : result.end_time / static_cast<double>(result.cost.steps);
@@ -96,7 +86,8 @@ class FurtherRuns {
     options_.follow_growth = finer && by_tolerance_ && follows_;
     began_ = thread_cpu_seconds();
     const RunResult result = rung_.run(parameters_, options_);
-    cpu_seconds += result.cost.cpu_seconds;
+    last_cpu_seconds = result.cost.cpu_seconds;
+    cpu_seconds += last_cpu_seconds;
     ++runs;
     if (too_long_) {
       too_long_ = follows_ = false;
@@ -124,7 +115,7 @@ class FurtherRuns {
   }
 
   int runs = 0;
-  double cpu_seconds = 0.0;
+  double cpu_seconds = 0.0, last_cpu_seconds = 0.0;
   // What a step may leave out unseen, over the smallest clearance; 0 where steps are given.
   double tolerance() const { return tolerance_; }
   bool by_instants() const { return by_instants_; }
@@ -149,7 +140,7 @@ class FurtherRuns {
   double longest_;
   bool by_instants_ = false, by_tolerance_ = false, stopped_ = false, too_long_ = false;
   bool follows_ = true;
-  double began_ = 0.0, most_following_ = std::numeric_limits<double>::infinity();
+  double began_ = 0.0;
   double step_ = 0.0, tolerance_ = 0.0;
   std::size_t next_ = 0;
 };
@@ -215,35 +206,30 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
   FurtherRuns further(rung, parameters, options, result, measure);
   // One neighbour and one finer run; two and three where these do not agree. What the run took may be its look at its own model for the
   // most part, which further runs do without: the first neighbour tells.
-  const double finer_cost = further.cost_of_finer();
+  const double first_stage = 1.0 + further.cost_of_finer();
   double one = result.cost.cpu_seconds;
   char text[200];
-  const auto too_dear = [&](double runs) {
-    if (!(measure.most_seconds > 0.0) || runs * one <= measure.most_seconds) return false;
+  const auto fits = [&](double seconds) { return measure.most_seconds <= 0.0 || seconds <= measure.most_seconds; };
+  const auto too_dear = [&] {
     std::snprintf(text, sizeof text, "further runs would take %.3g s of CPU, more than the %.3g s that they may",
-                  runs * one, measure.most_seconds);
-    return true;
-  };
-  if (too_dear(kTriedForItsCost)) {
-    too_dear(1.0 + finer_cost);
+                  first_stage * one, measure.most_seconds);
     error.why_not = text;
     return error;
-  }
+  };
+  if (!fits(kTriedForItsCost * one)) return too_dear();
   std::vector<PointingIndices> own = {result.index}, finer;
   bool settled = false, whole = false;
   try {
     further.add_neighbour(own);
-    if (further.runs > 0) one = std::min(one, further.cpu_seconds / further.runs);
-    if (too_dear(1.0 + finer_cost)) throw TooDear(text);
+    if (further.runs > 0) one = std::min(one, further.last_cpu_seconds);
+    if (!fits(first_stage * one)) return too_dear();
     finer.push_back(further.at(1.0, true));
     settled = own.size() > 1 && all_agree({own[0], own[1], finer[0]});
-    if (!settled && !too_dear(2.0 + 3.0 * finer_cost)) {
+    if (!settled && fits(further.cpu_seconds + one + 2.0 * further.last_cpu_seconds)) {
       further.add_neighbour(own);
       for (const double share : {kNeighbours[0], kNeighbours[1]}) further.add_followed(finer, share, true);
     }
     whole = own.size() == 3 && finer.size() == 3;
-  } catch (const TooDear& dear) {
-    error.why_not = dear.what();
   } catch (const ComputationError& failure) {
     error.why_not = std::string("a further run failed: ") + failure.what();
   }
