@@ -1,6 +1,7 @@
 # No kernel of the lanes, compiled for another processor and for finite numbers only, offers a symbol that other code could be
 # linked to, besides its entry points; none runs code before main; no other source of the tree is compiled with such flags.
-# Called by ctest with ARCHIVE, BENCHMARKS (a folder that holds further kernels, if they were built), NM, READELF, COMPILER, COMMANDS, WORK, and LANE_ENTRIES, a pattern of what may be offered.
+# Called by ctest with ARCHIVE, BENCHMARKS (a folder that holds further kernels, if they were built), NM, READELF, COMPILER,
+# COMMANDS, WORK, and LANE_ENTRIES, a pattern of what may be offered.
 cmake_minimum_required(VERSION 3.25)
 
 function(call)
