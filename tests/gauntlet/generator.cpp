@@ -20,6 +20,7 @@ const std::vector<Family>& families() {
       {"pendulum", 1.0, draw_pendulum},
       {"sprung slide", 0.5, draw_sprung_slide},
       {"free chain", 0.8, draw_free_chain},
+      {"stage", 1.5, draw_stage, 100'001},
   };
   return all;
 }
@@ -58,10 +59,12 @@ Scene generate(std::uint64_t seed) {
   scene.size = draw.chance(0.6) ? draw.log_between(0.1, 1.0) : draw.log_between(0.01, 10.0);
   scene.duration = std::clamp(0.12 * std::sqrt(scene.size / 0.3) * draw.between(0.6, 1.6), 0.02, 0.3);
   double total = 0.0;
-  for (const Family& f : families()) total += f.weight;
+  for (const Family& f : families())
+    if (seed >= f.first_seed) total += f.weight;
   double at = draw.between(0.0, total);
   const Family* family = &families().front();
   for (const Family& f : families()) {
+    if (seed < f.first_seed) continue;
     family = &f;
     if ((at -= f.weight) < 0.0) break;
   }
