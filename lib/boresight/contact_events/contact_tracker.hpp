@@ -44,6 +44,8 @@ class ContactTracker {
 
   const ContactMemory& memory() const { return memory_; }
   bool touching() const;
+  // Whether the joint has been touched without a break since before this time [s].
+  bool touching_since(double t) const { return touching() && touched_since_ <= t; }
 
   // Closes contacts still in force and returns what was seen.
   ContactSummary finish(double t_end, std::vector<ContactEvent>& events);

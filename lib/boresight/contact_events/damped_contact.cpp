@@ -76,15 +76,17 @@ void DampingWatch::look(double t, const OffsetLayout& layout, const std::vector<
     }
   }
   const DampedContact now = most_damped_contact(layout, joints, t == 0.0 ? at_rest : motion, trackers, compliance);
+  const double before = last_look_;
+  last_look_ = t;
   if (now.clearance < 0) return;
   ++looks_;
   if (!(now.rate * step_ > limit_)) return;
   ++beyond_;
-  from_the_start_ = from_the_start_ || t == 0.0;
+  rested_ = rested_ || trackers[static_cast<std::size_t>(now.clearance)].touching_since(before);
   if (now.rate > fastest_.rate) fastest_ = now;
 }
 
-bool DampingWatch::beyond() const { return from_the_start_ || beyond_ > kAsARule * looks_; }
+bool DampingWatch::beyond() const { return rested_ || beyond_ > kAsARule * looks_; }
 
 std::string DampingWatch::warning() const {
   if (!beyond()) return "";
