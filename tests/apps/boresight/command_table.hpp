@@ -31,12 +31,16 @@ struct TableCommand {
   int status = 0;
 };
 
-std::vector<TableCommand> commands();
-// Those of them that are about standing errors of lengths, axes, drives and temperature.
+std::vector<TableCommand> commands();  // all of those below
+std::vector<TableCommand> commands_on_the_paper();
+std::vector<TableCommand> commands_on_calibration();
+// On the starter template and on the other examples.
+std::vector<TableCommand> commands_on_other_examples();
+// About standing errors of lengths, axes, drives and temperature.
 std::vector<TableCommand> commands_on_errors();
-// And about bearing pairs.
+// About bearing pairs.
 std::vector<TableCommand> commands_on_two_bearings();
-// And about mechanisms from other programs.
+// About mechanisms from other programs.
 std::vector<TableCommand> commands_on_imports();
 
 }  // namespace boresight::app
