@@ -9,6 +9,9 @@
 
 namespace boresight::app {
 
+// Options for the whole motion in multibody and perturbation, without further runs for the steps' error.
+inline const std::vector<std::string> kOnce = {"--step-error", "off"};
+
 double largest(const nlohmann::json& summary, const char* quantity);
 // Rows of a CSV by the time in their first column.
 std::map<long, std::vector<double>> rows_by_millisecond(const std::string& table);

@@ -15,9 +15,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-// The whole motion in multibody and perturbation, without further runs for the steps' error.
-const std::vector<std::string> kOnce = {"--step-error", "off"};
-
 }  // namespace
 
 std::vector<TableCommand> commands_on_other_examples() {

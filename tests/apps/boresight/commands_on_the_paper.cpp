@@ -12,9 +12,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// The whole motion in multibody and perturbation, without further runs for the steps' error.
-const std::vector<std::string> kOnce = {"--step-error", "off"};
-
 }  // namespace
 
 std::vector<TableCommand> commands_on_the_paper() {
