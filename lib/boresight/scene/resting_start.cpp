@@ -327,10 +327,23 @@ void RestingBalance::keep_stiffness(const VecX& z) {
   kept_ = moved ? MatX(unit_ * *moved) : MatX(unit_ * pseudo_inverse(H, kSoft) * unit_.transpose());
 }
 
-RestingStart RestingBalance::solve_near(const VecX& before, double undecided) {
+// Coordinates whose offsets, over clearances, are least far from these; what is not held by play stays where it was.
+VecX RestingBalance::nearest(const VecX& coordinates, const std::vector<PlayOffsets>& offsets) const {
+  VecX there = VecX::Zero(at_.n);
+  for (int k = 0; k < at_.n; ++k)
+    if (!held_[static_cast<std::size_t>(k)]) there[k] = coordinates[k] / (widest_ * widest_);
+  for (std::size_t c = 0; c < joints_.size(); ++c)
+    there += over_widths_[c].transpose() * (offsets[c] - shift_[c]).cwiseQuotient(widths_[c]);
+  return unit_ * (unit_.transpose() * there);
+}
+
+RestingStart RestingBalance::solve_near(const VecX& before, const std::vector<PlayOffsets>& offsets, double undecided) {
   RestingStart rest{before, ""};
-  if (at_.n == 0 || !(load_ > undecided) || follow(rest.z, undecided)) return rest;
-  rest.z = before;
+  if (at_.n == 0) return rest;
+  const VecX near = nearest(before, offsets);
+  rest.z = near;
+  if (!(load_ > undecided) || follow(rest.z, undecided)) return rest;
+  rest.z = near;
   const double size_left = descend(rest.z, undecided);
   if (!rest.z.allFinite() || size_left > std::max(kAcceptable * load_, undecided)) rest = solve();
   if (rest.refusal.empty()) keep_stiffness(rest.z);

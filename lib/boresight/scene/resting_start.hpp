@@ -40,9 +40,9 @@ class RestingBalance {
   void take(const double* row, const VecX& reaction, const MatX& stiffness);
 
   RestingStart solve() const;
-  // The same from where the journals were a moment before: what nothing pushes stays there. undecided: a load (size()) below which it is not
-  // known which way it points.
-  RestingStart solve_near(const VecX& before, double undecided);
+  // The same from where the journals were a moment before, at coordinates and offsets: what nothing pushes stays there, as nearly as all joints'
+  // offsets together can, whichever of them are coordinates. undecided: a load (size()) below which it is not known which way it points.
+  RestingStart solve_near(const VecX& before, const std::vector<PlayOffsets>& offsets, double undecided);
 
   // What is left unbalanced with the offsets of z, F = r + f - K z, and its change with z: n, n x n [N, N m; per m, per slope].
   VecX left(const VecX& offsets) const;
@@ -84,6 +84,7 @@ class RestingBalance {
   // Along what holds nothing, from a balance to the nearest one to where the ideal motion has the journals: which of them Newton's method finds
   // hangs on rounding.
   void settle(VecX& z) const;
+  VecX nearest(const VecX& coordinates, const std::vector<PlayOffsets>& offsets) const;
 
   const SceneLayout& at_;
   std::vector<JointPlay> joints_;

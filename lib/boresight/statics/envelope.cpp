@@ -157,7 +157,8 @@ class Envelope final : public SceneRung {
   static Bounded bound_of_all(const ReactionTable& reactions, TiedRest& tied, TiedGaps& gaps,
                               const ReactionTable::Instant& now, const Directions& directions, const Bounded* before) {
     const std::vector<JointPlay>& joints = reactions.joints();
-    TiedRest::Rest rest = tied.at(now, before ? &before->z : nullptr);
+    const TiedRest::Rest was = before ? TiedRest::Rest{before->z, before->rest} : TiedRest::Rest{};
+    TiedRest::Rest rest = tied.at(now, before ? &was : nullptr);
     Bounded bounded{now.t, {}, std::move(rest.joint), std::vector<RestingPlay>(joints.size()), std::move(rest.z), {}};
     gaps.take(tied.balance(), bounded.rest);
     const TiedGaps::Gain moves = now.pose_gain.topRows<3>(), turns = now.pose_gain.bottomRows<3>();

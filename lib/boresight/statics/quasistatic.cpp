@@ -109,7 +109,8 @@ class Quasistatic final : public SceneRung {
   // Where redundant joints tie their offsets together.
   static Balance balance_of_all(const ReactionTable& reactions, TiedRest& tied, double t, const Balance* before) {
     Balance balance{reactions.at_time(t), {}, {}, {}, {}};
-    TiedRest::Rest rest = tied.at(balance.now, before ? &before->z : nullptr);
+    const TiedRest::Rest was = before ? TiedRest::Rest{before->z, before->rest} : TiedRest::Rest{};
+    TiedRest::Rest rest = tied.at(balance.now, before ? &was : nullptr);
     balance.z = std::move(rest.z);
     balance.rest = std::move(rest.joint);
     balance.moved = (balance.now.pose_gain * balance.z).head<3>();

@@ -49,10 +49,13 @@ void TiedRest::take(double t, const VecX& reaction) {
   balance_.take(row_.data(), reaction, stiffness_);
 }
 
-TiedRest::Rest TiedRest::at(const ReactionTable::Instant& now, const VecX* before) {
+TiedRest::Rest TiedRest::at(const ReactionTable::Instant& now, const Rest* before) {
   take(now.t, now.reaction);
+  std::vector<PlayOffsets> offsets;
+  for (std::size_t c = 0; before && c < before->joint.size(); ++c)
+    offsets.push_back(offsets_of(before->joint[c].motion));
   const RestingStart rest =
-      before ? balance_.solve_near(*before, ReactionTable::kRounding * largest_) : balance_.solve();
+      before ? balance_.solve_near(before->z, offsets, ReactionTable::kRounding * largest_) : balance_.solve();
   if (!rest.refusal.empty())
     throw ComputationError(
         "redundant joints tie the offsets of clearance joints together, and no position was found in which the " +

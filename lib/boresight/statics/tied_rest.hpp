@@ -27,8 +27,8 @@ class TiedRest {
     VecX z;
     std::vector<RestingPlay> joint;
   };
-  // before: z a moment before; null at the start. Throws ComputationError, naming the time, where there is no balance.
-  Rest at(const ReactionTable::Instant& now, const VecX* before);
+  // before: a moment before; null at the start. Throws ComputationError, naming the time, where there is no balance.
+  Rest at(const ReactionTable::Instant& now, const Rest* before);
   // The joints' offsets at the instant last asked for.
   const RestingBalance& balance() const { return balance_; }
 

@@ -67,11 +67,11 @@ TEST(TiedGaps, TheBoundHoldsForEveryPlaceInTheGapsAndIsNearTheWorst) {
   ASSERT_TRUE(reactions.tied());
   TiedRest tied(prepared, none, parameters, reactions);
   TiedGaps gaps;
-  VecX before;
+  TiedRest::Rest before;
   for (const double t : {0.0, 0.02, 0.05}) {
     const ReactionTable::Instant now = reactions.at_time(t);
     const TiedRest::Rest rest = tied.at(now, t == 0.0 ? nullptr : &before);
-    before = rest.z;
+    before = rest;
     gaps.take(tied.balance(), rest.joint);
     const auto overrun_by = [&](const VecX& z) { return overrun(tied.balance(), rest.joint, parameters.clearance, z); };
     EXPECT_LT(overrun_by(rest.z), 1.001);
