@@ -44,10 +44,16 @@ CalibrationResult Calibrator::run() {
     } else {
       fit_poses();
     }
-    result_.inference = infer_now();
+    weigh_fit();
+    if (result_.model_error && (result_.model_error->contradicted() || result_.model_error->departs()) &&
+        leads_lower()) {
+      stabilise("windows joined");
+      set_noise(noise_from_residuals(problem_, result_.fit));
+      correct();
+      refit("last");
+      weigh_fit();
+    }
     name_outliers();
-    profile();
-    weigh_model_error();
     explain_what_is_held();
     judge_fit();
     result_.hold_out = score_held_out(problem_, result_.fit.globals, options_.jobs);
@@ -220,6 +226,12 @@ void Calibrator::explain_what_is_held() {
     e.identifiable = false;
     e.reason = why;
   }
+}
+
+void Calibrator::weigh_fit() {
+  result_.inference = infer_now();
+  profile();
+  weigh_model_error();
 }
 
 void Calibrator::weigh_model_error() {

@@ -100,9 +100,8 @@ void CalibrationProblem::prepare(double window_length, bool from_rest) {
       int last = first;
       while (last + 1 < samples && data.time[last + 1] < data.time[first] + window_length) ++last;
       Window w{static_cast<int>(r), first, last, 0.0, 0.0, false};
-      // A lag looks back; behind five of them hardly anything is left.
-      w.start = std::max(0.0, data.time[first] - largest_time_offset - (fit_lag ? 5.0 * lag_prior : 0.0));
-      w.end = std::min(duration, data.time[last] + largest_time_offset);
+      w.start = start_of(w);
+      w.end = end_of(w);
       // Poses have no state to start with.
       w.from_rest = (from_rest && first == 0) || !follows_play();
       if (w.from_rest && first == 0) w.start = 0.0;
@@ -113,6 +112,15 @@ void CalibrationProblem::prepare(double window_length, bool from_rest) {
     }
   }
   prepare_errors();
+}
+
+double CalibrationProblem::start_of(const Window& w) const {
+  // A lag looks back; behind five of them hardly anything is left.
+  return std::max(0.0, runs[w.run].data.time[w.first] - largest_time_offset - (fit_lag ? 5.0 * lag_prior : 0.0));
+}
+
+double CalibrationProblem::end_of(const Window& w) const {
+  return std::min(runs[w.run].mechanism->duration(), runs[w.run].data.time[w.last] + largest_time_offset);
 }
 
 void CalibrationProblem::prepare_errors() {

@@ -139,6 +139,9 @@ class CalibrationProblem {
   // does, its journals where the mechanism's file has them. Throws InputError where the data reach beyond the motion or do not tell an
   // error's sign; ComputationError where no play can move, or where errors meet a motion that is simulated.
   void prepare(double window_length, bool from_rest);
+  // When the motion of a window that is not from rest begins, so that an offset and a lag may look back; when that of any ends [s].
+  double start_of(const Window& window) const;
+  double end_of(const Window& window) const;
   // Whether a contact's parameter is fitted, so that the motion of the play matters.
   bool follows_play() const;
   bool fits_errors() const;

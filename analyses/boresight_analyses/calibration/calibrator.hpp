@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,8 @@ class Calibrator {
   void search();
 
   static constexpr double kStartsShare = 0.125;  // of the horizon
+  // A place lower by this share of s^2 is gone to. Below it intervals are at most a tenth too wide.
+  static constexpr double kLower = 1.0;
 
   struct Descent {
     Globals from, to;
@@ -65,6 +68,10 @@ class Calibrator {
   bool grow(const Globals& at, bool give_up);
   // One such path: fits to the whole data, the lowest first; none where it is lost.
   std::vector<FitResult> grown(const Globals& at, double most_growth, bool give_up);
+  // By all data from the first, in windows that grow until they are half of a run (growing_windows.cpp); none where one cannot be followed.
+  std::optional<Globals> joined(const Globals& at);
+  // Whether that leads to a lower place; goes there.
+  bool leads_lower();
   // Side by side. rough: as where the horizon goes on growing.
   std::vector<FitResult> fits_from(const CalibrationProblem& part, const std::vector<Globals>& starts,
                                    const std::string& stage, bool rough);
@@ -81,6 +88,8 @@ class Calibrator {
   // optimum.
   void profile();
 
+  // What the fit's answer is worth.
+  void weigh_fit();
   // Errors and intervals of a model that may be wrong.
   void weigh_model_error();
 

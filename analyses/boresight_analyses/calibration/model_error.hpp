@@ -38,6 +38,9 @@ struct Suspect {
   double coordinate = 0.0;
 };
 
+// Twice the logarithm of a likelihood ratio that decides, as between contact laws.
+inline constexpr double kDecides = 10.0;
+
 struct SuspectFound {
   std::string name, says;
   double deviation = 0.0;  // Suspect's, and its unit
@@ -60,6 +63,8 @@ struct CalibrationModelError {
 
   // Beyond what noise does.
   bool contradicted() const { return groups > 1 && disagreement > 1.5; }
+  // Whether stretches of a run contradict each other: the data ask for jumps on the way.
+  bool departs() const { return jump_gain > kDecides; }
 };
 
 // The fit's windows with what the suspects change. optima: other places where fits have ended; those that such a model may as well have

@@ -7,8 +7,6 @@
 namespace boresight {
 namespace {
 
-// A likelihood ratio of exp(5) decides, as between contact laws.
-constexpr double kDecides = 10.0;
 // An error so many times that of the data alone has to be explained.
 constexpr double kMuchMore = 2.0;
 
@@ -34,7 +32,7 @@ std::string in_words(const SuspectFound& s) {
 std::vector<std::string> in_words(const CalibrationModelError& error, const CalibrationProblem& problem,
                                   const Inference& inference) {
   std::vector<std::string> words;
-  const bool contradict = error.contradicted(), jumps = error.jump_gain > kDecides;
+  const bool contradict = error.contradicted(), jumps = error.departs();
   if (contradict)
     words.push_back(std::string(jumps || problem.windows.front().from_rest ? "The runs" : "The windows") +
                     " contradict each other: what they say of the parameters differs by " +

@@ -15,10 +15,6 @@ namespace {
 constexpr int kMostStarts = 24;
 constexpr int kMostFollowed = 6;
 
-// A place lower by this share of s^2, come by along a profile, is gone to, and the profile taken anew. Below
-// it the interval is at most a tenth too wide.
-constexpr double kLower = 1.0;
-
 // Rounds of looking into other valleys, and descents in each.
 constexpr int kMostSettlings = 4, kDescents = 2;
 
