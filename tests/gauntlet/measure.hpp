@@ -32,10 +32,10 @@ struct Measured {
   std::array<double, kFigures.size()> model = {};  // what the rung states of its model, relative
   std::array<double, kFigures.size()>
       by_steps{};  // what further runs show that steps do, of each figure; zero until measured
-  bool steps_measured = false;
-  double step = 0.0;                     // mean [s]
-  std::string taken;                     // the integrator that took over, if one did
-  double deepest = 0.0;                  // deepest penetration over the smallest play [-]
+  bool steps_measured = false, steps_refused = false;  // refused: the run says that they were not measured, and why
+  double step = 0.0;                                   // mean [s]
+  std::string taken;                                   // the integrator that took over, if one did
+  double deepest = 0.0;                                // deepest penetration over the smallest play [-]
   std::string basis, start, not_finite;  // start: what the run says of how its journals start, if anything
   double cpu_seconds = 0.0;
 };

@@ -28,7 +28,11 @@ double ratio(const Claim& claim) {
 
 void print_faults(const Verdict& v) {
   for (const Fault& f : v.faults)
-    fmt::print("  {} ({}): {}{} in {}: {}\n", v.scene, v.family, f.known ? "known: " : "", f.kind, f.stage, f.text);
+    fmt::print("  {} ({}): {}{} in {}: {}\n", v.scene, v.family,
+               f.known       ? "known: "
+               : f.unclaimed ? "error not measured: "
+                             : "",
+               f.kind, f.stage, f.text);
   if (v.faults.empty()) return;
   const bool seeded = v.scene.rfind("seed ", 0) == 0;
   fmt::print("    again: boresight_gauntlet {}\n",
@@ -37,7 +41,7 @@ void print_faults(const Verdict& v) {
 }
 
 void print_table(const std::vector<Verdict>& verdicts) {
-  int agreed = 0, refused = 0, wrong = 0, known = 0;
+  int agreed = 0, refused = 0, wrong = 0, known = 0, unclaimed = 0;
   double cpu = 0.0;
   std::map<std::string, int> wrong_kinds, scene_refusals, stage_refusals, families, wrong_families;
   std::map<std::string, std::vector<double>> ratios;
@@ -50,7 +54,8 @@ void print_table(const std::vector<Verdict>& verdicts) {
     for (const Refusal& r : v.refusals) ++stage_refusals[r.stage + ": " + normalised(r.reason)];
     for (const Claim& c : v.claims) ratios[c.stage].push_back(ratio(c));
     if (!v.faults.empty()) {
-      ++(has_new_fault(v) ? wrong : known);
+      const bool some_known = std::any_of(v.faults.begin(), v.faults.end(), [](const Fault& f) { return f.known; });
+      ++(has_new_fault(v) ? wrong : some_known ? known : unclaimed);
       ++wrong_families[v.family];
     } else if (v.compared == 0) {
       ++refused;
@@ -59,8 +64,11 @@ void print_table(const std::vector<Verdict>& verdicts) {
       ++agreed;
     }
   }
-  fmt::print("\n{} scenes: {} agreed, {} refused, {} wrong{}; {:.1f} s of CPU\n", verdicts.size(), agreed, refused,
-             wrong, known > 0 ? fmt::format(", {} with known faults only", known) : "", cpu);
+  fmt::print(
+      "\n{} scenes: {} agreed, {} refused, {} wrong{}{}; {:.1f} s of CPU\n", verdicts.size(), agreed, refused, wrong,
+      known > 0 ? fmt::format(", {} with known faults only", known) : "",
+      unclaimed > 0 ? fmt::format(", {} off only where the run says that its error was not measured", unclaimed) : "",
+      cpu);
   fmt::print("\nscenes by family (wrong of all)\n");
   for (const auto& [family, count] : families)
     fmt::print("  {:<20} {:4} of {:4}\n", family, wrong_families[family], count);

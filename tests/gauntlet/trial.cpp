@@ -198,12 +198,14 @@ class Trial {
       }
     }
     note_claims(asked, runs);
-    if (gap.beyond > 0.0)
+    if (gap.beyond > 0.0) {
       verdict_.fault(
           "disagreement", asked.label(),
           fmt::format("{}: {:.4g}, reference {:.4g} ({:.2g} % apart, {:.2g} % stated, {:.2g} % spread)",
                       kFigures[gap.figure], gap.value, gap.reference, 100 * std::abs(gap.value / gap.reference - 1),
                       100 * gap.stated / gap.reference, 100 * gap.spread / gap.reference));
+      verdict_.faults.back().unclaimed = runs.front().steps_refused;
+    }
   }
 
   void know_steps(Measured& run, const Asked& asked, const std::shared_ptr<const Mechanism>& mechanism) {
@@ -217,7 +219,7 @@ class Trial {
     if (run.steps_measured)
       for (std::size_t k = 0; k < kFigures.size(); ++k)
         run.by_steps[k] = outcome.answer["by_steps"][k].is_number() ? outcome.answer["by_steps"][k].get<double>() : 0.0;
-    else if (outcome.end == Outcome::End::answered)
+    else if (run.steps_refused = outcome.end == Outcome::End::answered; run.steps_refused)
       verdict_.refusals.push_back({asked.label() + ", steps not measured", outcome.answer["why_not"]});
   }
 

@@ -16,7 +16,7 @@ Json to_json(const Verdict& v) {
                {"refused", v.refused},
                {"cpu", v.cpu_seconds}};
   json["faults"] = json["refusals"] = json["claims"] = Json::array();
-  for (const Fault& f : v.faults) json["faults"].push_back({f.kind, f.stage, f.text});
+  for (const Fault& f : v.faults) json["faults"].push_back({f.kind, f.stage, f.text, f.unclaimed});
   for (const Refusal& r : v.refusals) json["refusals"].push_back({r.stage, r.reason});
   for (const Claim& c : v.claims) json["claims"].push_back({c.stage, c.figure, c.actual, c.stated});
   return json;
@@ -29,7 +29,8 @@ Verdict verdict_from(const Json& json) {
   v.compared = json.at("compared");
   v.refused = json.at("refused");
   v.cpu_seconds = json.at("cpu");
-  for (const Json& f : json.at("faults")) v.faults.push_back({.kind = f[0], .stage = f[1], .text = f[2]});
+  for (const Json& f : json.at("faults"))
+    v.faults.push_back({.unclaimed = f[3], .kind = f[0], .stage = f[1], .text = f[2]});
   for (const Json& r : json.at("refusals")) v.refusals.push_back({r[0], r[1]});
   for (const Json& c : json.at("claims"))
     v.claims.push_back(
@@ -38,7 +39,7 @@ Verdict verdict_from(const Json& json) {
 }
 
 bool has_new_fault(const Verdict& v) {
-  return std::any_of(v.faults.begin(), v.faults.end(), [](const Fault& f) { return !f.known; });
+  return std::any_of(v.faults.begin(), v.faults.end(), [](const Fault& f) { return !f.known && !f.unclaimed; });
 }
 
 KnownFaults::KnownFaults(const std::string& file) {

@@ -9,9 +9,10 @@
 namespace boresight::gauntlet {
 
 struct Fault {
-  bool known = false;  // on the list of faults not mended yet
-  std::string kind;    // crash, hang, not finite, disagreement, bound, invariance, momentum, energy, auto, verb
-  std::string stage;   // "perturbation rosenbrock"
+  bool known = false;      // on the list of faults not mended yet
+  bool unclaimed = false;  // a figure that is off, and of which the run says that its error was not measured
+  std::string kind;        // crash, hang, not finite, disagreement, bound, invariance, momentum, energy, auto, verb
+  std::string stage;       // "perturbation rosenbrock"
   std::string text;
 };
 
@@ -36,13 +37,14 @@ struct Verdict {
   double cpu_seconds = 0.0;
 
   void fault(std::string kind, std::string stage, std::string text) {
-    faults.push_back({false, std::move(kind), std::move(stage), std::move(text)});
+    faults.push_back({.kind = std::move(kind), .stage = std::move(stage), .text = std::move(text)});
   }
 };
 
 Json to_json(const Verdict& verdict);
 Verdict verdict_from(const Json& json);
 
+// Neither known nor unclaimed.
 bool has_new_fault(const Verdict& verdict);
 
 // Faults that are known and not mended yet, one a line: "scene | kind | stage | why"; # begins a comment. A scene that is a

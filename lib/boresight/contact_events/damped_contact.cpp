@@ -1,6 +1,7 @@
 #include "boresight/contact_events/damped_contact.hpp"
 
 #include <cstdio>
+#include <utility>
 
 #include "boresight/contact_events/contact_jacobian.hpp"
 #include "boresight/math/eigenvalues.hpp"
@@ -8,7 +9,8 @@
 namespace boresight {
 namespace {
 
-// Of the looks that met a contact: more than this share of them beyond the limit is a rule.
+// Of the looks that met a contact: more than this share of them beyond the limit is a rule. And a contact that lasts for this share of the motion
+// is no impact.
 constexpr double kAsARule = 0.1;
 
 using OffsetMatrix = Eigen::Matrix<double, kMostOffsets, kMostOffsets>;
@@ -76,13 +78,14 @@ void DampingWatch::look(double t, const OffsetLayout& layout, const std::vector<
     }
   }
   const DampedContact now = most_damped_contact(layout, joints, t == 0.0 ? at_rest : motion, trackers, compliance);
-  const double before = last_look_;
-  last_look_ = t;
+  const bool last_one = std::exchange(rests_beyond_, false);
   if (now.clearance < 0) return;
   ++looks_;
   if (!(now.rate * step_ > limit_)) return;
   ++beyond_;
-  rested_ = rested_ || trackers[static_cast<std::size_t>(now.clearance)].touching_since(before);
+  const double long_ago = t - kAsARule * mechanism_.duration();
+  rests_beyond_ = long_ago >= 0.0 && trackers[static_cast<std::size_t>(now.clearance)].touching_since(long_ago);
+  rested_ = rested_ || t == 0.0 || (last_one && rests_beyond_);
   if (now.rate > fastest_.rate) fastest_ = now;
 }
 

@@ -36,8 +36,9 @@ class DampingWatch {
   void look(double t, const OffsetLayout& layout, const std::vector<JointPlay>& joints,
             const std::vector<PlayMotion<double>>& motion, const std::vector<ContactTracker>& trackers,
             const Eigen::Ref<const MatX>& compliance);
-  // Whether a contact was damped beyond the limit as a rule, not in single impacts; or one that rested, at the start of the motion or from one
-  // look to the next: the steps then throw the journal off, and what it strikes later on is damped less.
+  // Whether a contact was damped beyond the limit as a rule, not in single impacts; or one that rested, at the start of the motion or for long
+  // and at two looks on end (a journal that comes to rest swings, and its damping with it): the steps then throw the journal off, and what it
+  // strikes later on is damped less.
   bool beyond() const;
   // Then a sentence; else empty.
   std::string warning() const;
@@ -46,8 +47,7 @@ class DampingWatch {
   const Mechanism& mechanism_;
   double step_, limit_;
   int looks_ = 0, beyond_ = 0;
-  double last_look_ = 0.0;  // [s]
-  bool rested_ = false;
+  bool rests_beyond_ = false, rested_ = false;  // at the last look, for long; ever
   DampedContact fastest_;
 };
 
