@@ -27,11 +27,11 @@ std::string bearing(Draw& draw, const Sizes& s) {
          meters("journal_radius", s.journal) + meters("cap_radius", (s.journal + s.gap) * draw.between(1.2, 1.8));
 }
 
-// A ball takes laws for points and springs, and no friction that remembers directions.
-std::string contact_of(Draw& draw, double smallest_mass, double gap, bool ball) {
+// Balls and pads take laws for points and springs; a ball no friction that remembers directions.
+std::string contact_of(Draw& draw, double smallest_mass, double gap, bool ball, bool pad) {
   std::vector<std::string> laws, frictions;
   for (const NormalLawEntry& law : normal_laws())
-    if (!ball || law.geometry != ContactGeometry::line) laws.push_back(law.name);
+    if (!(ball || pad) || law.geometry != ContactGeometry::line) laws.push_back(law.name);
   for (const FrictionLawEntry& law : friction_laws())
     if (!ball || law.kind != FrictionKind::lugre) frictions.push_back(law.name);
   const std::string law = draw.chance(0.5) ? "flores" : draw.one_of(laws);
@@ -104,7 +104,7 @@ std::string with_plays(const std::string& toml) {
       text += fmt::format("journal = \"{}\"\n", journal == kGround ? "ground" : m.bodies[journal].name);
     text += sizes;
     if (joint.type != JointType::spherical) text += tilts ? "axes = \"free\"\n" : "axes = \"parallel\"\n";
-    text += contact_of(draw, smallest_mass, s.gap, joint.type == JointType::spherical);
+    text += contact_of(draw, smallest_mass, s.gap, joint.type == JointType::spherical, joint.type == JointType::planar);
   }
   return text;
 }
