@@ -33,7 +33,7 @@ TEST(Generator, GivesTheSameTextForASeed) {
   }
 }
 
-TEST(Generator, DrawsWhatItDrewBeforeThereWasAnotherFamily) {
+TEST(Generator, DrawsNoFamilyThatIsYoungerThanTheSeed) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) EXPECT_NE(generate(seed).family, "stage") << seed;
 }
 

@@ -54,8 +54,9 @@ void print_table(const std::vector<Verdict>& verdicts) {
     for (const Refusal& r : v.refusals) ++stage_refusals[r.stage + ": " + normalised(r.reason)];
     for (const Claim& c : v.claims) ratios[c.stage].push_back(ratio(c));
     if (!v.faults.empty()) {
-      const bool some_known = std::any_of(v.faults.begin(), v.faults.end(), [](const Fault& f) { return f.known; });
-      ++(has_new_fault(v) ? wrong : some_known ? known : unclaimed);
+      const bool claimed =
+          std::any_of(v.faults.begin(), v.faults.end(), [](const Fault& f) { return !f.known && !f.unclaimed; });
+      ++(!has_new_fault(v) ? known : claimed ? wrong : unclaimed);
       ++wrong_families[v.family];
     } else if (v.compared == 0) {
       ++refused;

@@ -39,7 +39,7 @@ Verdict verdict_from(const Json& json) {
 }
 
 bool has_new_fault(const Verdict& v) {
-  return std::any_of(v.faults.begin(), v.faults.end(), [](const Fault& f) { return !f.known && !f.unclaimed; });
+  return std::any_of(v.faults.begin(), v.faults.end(), [](const Fault& f) { return !f.known; });
 }
 
 KnownFaults::KnownFaults(const std::string& file) {

@@ -44,7 +44,6 @@ struct Verdict {
 Json to_json(const Verdict& verdict);
 Verdict verdict_from(const Json& json);
 
-// Neither known nor unclaimed.
 bool has_new_fault(const Verdict& verdict);
 
 // Faults that are known and not mended yet, one a line: "scene | kind | stage | why"; # begins a comment. A scene that is a

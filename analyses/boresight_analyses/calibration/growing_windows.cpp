@@ -16,14 +16,14 @@ namespace {
 constexpr int kValuesPerState = 5;
 constexpr int kMostHalvings = 6;
 
-// Each window from rest in 2^halvings: those of any number of halvings end where those of fewer do.
+// Each window from rest that counts in 2^halvings: those of any number of halvings end where those of fewer do.
 CalibrationProblem in_pieces(const CalibrationProblem& whole, int halvings) {
   CalibrationProblem part = whole;
   part.windows.clear();
   part.corrections.clear();  // they are of motions from rest
   const int pieces = 1 << halvings;
   for (const Window& w : whole.windows) {
-    if (!w.from_rest) {
+    if (!w.from_rest || w.held_out) {
       part.windows.push_back(w);
       continue;
     }
@@ -50,7 +50,8 @@ int most_halvings(const CalibrationProblem& whole) {
     if (!w.from_rest || w.held_out) continue;
     const auto values =
         whole.runs[w.run].data.value.middleRows(w.first, w.last - w.first + 1).array().isFinite().count();
-    const double windows = static_cast<double>(values) / (kValuesPerState * std::max(1, whole.state_size(w)));
+    const double windows = std::min(static_cast<double>(values) / (kValuesPerState * std::max(1, whole.state_size(w))),
+                                    0.5 * (w.last - w.first + 1));  // each has two samples or more
     halvings = std::min(halvings, windows < 1.0 ? 0 : static_cast<int>(std::floor(std::log2(windows))));
   }
   return halvings;
