@@ -5,6 +5,7 @@
 
 #include "boresight/math/orthogonal_factors.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/generic_instant.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 
 namespace boresight {
@@ -47,6 +48,11 @@ ErrorInfluence::ErrorInfluence(const Mechanism& mechanism, const IdealMotion& co
     released_.emplace_back(mechanism_, mechanism.description().clearances[c].joint, ClearanceRows::released, false);
   released_rows_.resize(released_.size());
   for (int k = 0; k < closed_.blocks(); ++k) block_of_[closed_.joints()[k].joint()] = k;
+  if (closed_.row_count() != 6 * mechanism.bodies()) return;
+  commanded_.state(generic_instant(0.0, commanded_.duration()), state_);
+  commanded_.drive_laws(state_.t, laws_);
+  closed_.evaluate(state_.bodies, laws_);
+  rows_tell_motion_ = constraint_rank(mechanism_, closed_) == closed_.row_count();
 }
 
 Vec6 ErrorInfluence::seen(const JointConstraint& constraint, const JointRows& rows, std::size_t e) const {
@@ -99,7 +105,7 @@ void ErrorInfluence::at(double t, const std::vector<bool>& wanted, MatX& G) {
   shift_.setZero(shifts() ? offsets_.size() : 0, count());
   for (std::size_t c = 0; c < released_.size(); ++c) released_[c].evaluate(state_.bodies, {}, released_rows_[c]);
   closed_.evaluate(state_.bodies, laws_);
-  if (closed_.row_count() != 6 * mechanism_.bodies() || !closed_.factor(weight_)) return solve_dense(wanted, t, G);
+  if (!rows_tell_motion_ || !closed_.factor(weight_)) return solve_dense(wanted, t, G);
   for (int e = 0; e < count(); ++e) {
     if (!wanted.empty() && !wanted[e]) continue;
     right_side(static_cast<std::size_t>(e), t);

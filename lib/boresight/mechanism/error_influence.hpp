@@ -47,6 +47,7 @@ class ErrorInfluence {
   const Mechanism& mechanism_;
   const IdealMotion& commanded_;
   ConstraintSystem closed_;
+  bool rows_tell_motion_ = false;  // as many closed rows as the bodies have freedoms, and independent
   std::vector<Mat6> weight_;
   VecX scale_;  // kinematic weight of the stacked velocities
   OffsetLayout offsets_;

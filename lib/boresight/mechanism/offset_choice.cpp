@@ -98,7 +98,8 @@ OffsetChoice choose_offsets(const Mechanism& mechanism, const IdealMotion& ideal
   ideal.state(generic_instant(0.0, ideal.duration()), state);
   ideal.drive_laws(state.t, laws);
   closed.evaluate(state.bodies, laws);
-  choice.all = closed.row_count() == 6 * mechanism.bodies() && closed.factor(kinematic_weight(mechanism));
+  // By rank: factors of J W J^T exist for rows that depend on each other too, as rounding has it.
+  choice.all = closed.row_count() == 6 * mechanism.bodies() && constraint_rank(mechanism, closed) == closed.row_count();
   choice.source.assign(layout.size(), OffsetChoice::kDependent);
   if (choice.all) {
     for (int c = 0; c < layout.clearances(); ++c)

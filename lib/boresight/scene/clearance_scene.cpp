@@ -37,6 +37,9 @@ constexpr const char* kBuilding = "opening the mechanism at its clearances";
 
 const BodyMotion kGroundMotion;
 
+// What sums of rates cancel to is noise, which no finer grid makes smooth.
+void drop_rounding(const MatX& rounding, MatX& sum) { sum = (sum.array().abs() > rounding.array()).select(sum, 0.0); }
+
 }  // namespace
 
 ClearanceScene::ClearanceScene(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal)
@@ -217,6 +220,7 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
 void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
   const MechanismDescription& m = mechanism_.description();
   const int n = layout_.n;
+  const MatX rounding = coordinates_.rounding_of_rates(knot.T);
   for (int c = 0; c < mechanism_.clearances(); ++c) {
     const SceneLayout::Joint& at = layout_.joints[c];
     const ClearanceDescription& d = m.clearances[c];
@@ -230,6 +234,7 @@ void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
       return body == kGround ? MatX(MatX::Zero(6, n)) : MatX(of.middleRows<6>(6 * body));
     };
     const BodyMotion &S = motion(sleeve.body), &J = motion(journal.body);
+    const MatX roundS = gain(rounding, sleeve.body), roundJ = gain(rounding, journal.body);
     const MatX TS = gain(knot.T, sleeve.body), TJ = gain(knot.T, journal.body);
     const MatX TdS = gain(knot.T_rate, sleeve.body), TdJ = gain(knot.T_rate, journal.body);
     const Mat3 R_WS = S.R * sleeve.R;
@@ -244,8 +249,9 @@ void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
     }
     if (at.gains_move) {
       // w of a body turned by theta = T_w z is w_ideal + thetadot + theta x w_ideal, and the sleeve's axes turn with it.
-      const MatX drift = R_WS.transpose() * (TdJ.bottomRows<3>() - TdS.bottomRows<3>() -
-                                             cross_matrix(J.w) * (TJ.bottomRows<3>() - TS.bottomRows<3>()));
+      MatX drift = R_WS.transpose() * (TdJ.bottomRows<3>() - TdS.bottomRows<3>() -
+                                       cross_matrix(J.w) * (TJ.bottomRows<3>() - TS.bottomRows<3>()));
+      drop_rounding(R_WS.transpose().cwiseAbs() * (roundJ + roundS).bottomRows<3>(), drift);
       if (at.spins == 3)
         append(knot.joints, drift);
       else
@@ -271,8 +277,12 @@ void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
                                  cross_matrix(rS + distance) * TdS.bottomRows<3>();
         for (const int axis : axes) {
           const Vec3 along = R_WS.col(axis);
-          append(knot.joints,
-                 Eigen::RowVectorXd(S.w.cross(along).transpose() * across + along.transpose() * across_rate));
+          MatX drift = S.w.cross(along).transpose() * across + along.transpose() * across_rate;
+          drop_rounding(along.cwiseAbs().transpose() *
+                            (roundJ.topRows<3>() + cross_matrix(rJ).cwiseAbs() * roundJ.bottomRows<3>() +
+                             roundS.topRows<3>() + cross_matrix(rS + distance).cwiseAbs() * roundS.bottomRows<3>()),
+                        drift);
+          append(knot.joints, drift);
         }
       }
     }

@@ -177,6 +177,7 @@ void DeviationCoordinates::rates(const MatX& T, MatX& T_rate, MatX& T_second, Ma
     const BodyAcceleration& a = state_.acceleration[b];
     speed = std::max({speed, std::sqrt(a.tail<3>().norm()), std::sqrt(a.head<3>().norm() / length_)});
   }
+  speed_ = speed;
   if (count_ == 0 || speed == 0.0) return;
   const double step = kMoved / speed;
   const MatX x = scale_.cwiseInverse().asDiagonal() * T * unit_.asDiagonal();
@@ -245,6 +246,10 @@ void DeviationCoordinates::rates(const MatX& T, MatX& T_rate, MatX& T_second, Ma
       B_rate.row(joint.first + k) = (now.row(i).array().abs() > bound.row(i).array()).select(now.row(i), 0.0);
     }
   }
+}
+
+MatX DeviationCoordinates::rounding_of_rates(const MatX& T) const {
+  return kCancelled * speed_ * sizes_of_columns(T, length_);
 }
 
 MatX DeviationCoordinates::offsets_per_coordinate(const MatX& T) const {

@@ -41,6 +41,8 @@ class DeviationCoordinates {
   MatX offsets_per_coordinate(const MatX& T) const;
   // How fast T and B change there along the ideal motion; where offsets depend on others also how T_rate changes, else 0 x 0.
   void rates(const MatX& T, MatX& T_rate, MatX& T_second, MatX& B_rate);
+  // After rates(): what of each entry of T_rate may be rounding, size of T.
+  MatX rounding_of_rates(const MatX& T) const;
   // The chosen rows at the pose of the last gain(), in the order of the coordinates: acceleration of z = rows . v' - gamma.
   void coordinate_accelerations(const std::vector<BodyMotion>& bodies,
                                 const std::vector<BodyAcceleration>& acceleration, VecX& z_ddot) const;
@@ -62,6 +64,8 @@ class DeviationCoordinates {
   bool sparse_;  // OffsetChoice::all
   std::vector<Mat6> weight_;
   double length_;
+  double speed_ =
+      0.0;      // of the fastest body at the last rates(), in turns and lengths of the mechanism's size a second
   VecX scale_;  // kinematic weight of the stacked velocities
   VecX unit_;   // of each coordinate: the characteristic length of a distance, 1 of a turn or a slope
   std::vector<JointConstraint> rows_;  // that may be chosen

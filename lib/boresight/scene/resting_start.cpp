@@ -29,6 +29,8 @@ constexpr double kShrinks = 0.3, kLongestStride = 0.5, kArrived = 1e-7;
 constexpr double kRoundedEnergy = 1e-14;
 // Stiffness below this share of the largest holds nothing.
 constexpr double kSoft = 1e-11;
+// The same where something is left that no place balances: it makes stiffness of its own, of either sign. How much may be left then of what was.
+constexpr double kSoftBeside = 1e-9, kAsBefore = 1.001;
 // What pulls journals to where the ideal motion has them, of the load over a clearance: of what may be left unbalanced. The steps that it takes,
 // and what of the pull these may leave.
 constexpr double kPull = 0.1 * kAcceptable, kPulled = 1e-3;
@@ -308,13 +310,21 @@ void RestingBalance::settle(VecX& z) const {
   }
   if (!at.allFinite() || !(size(this->left(at)) <= kAcceptable * load_)) return;
   z = at;
-  // The pull tells places along a valley apart to a hundred-thousandth of a clearance. Which contacts carry is known now: of the balances that
-  // they allow, the shortest.
+  // The pull tells places along a valley apart to a hundred-thousandth of a clearance. Which contacts carry is known now.
+  shorten(z, kAcceptable * load_, kSoft);
+}
+
+// Of the balances that the contacts at z allow, to the shortest. allowed: what may be left; soft: stiffness below this share of the largest
+// holds nothing.
+void RestingBalance::shorten(VecX& z, double allowed, double soft) const {
+  VecX at = z, F(at_.n);
+  MatX J(at_.n, at_.n);
   for (int step = 0; step < kShortened; ++step) {
     evaluate(at, F, J);
     const MatX H = -(unit_.transpose() * J * unit_);
-    at = unit_ * solve_least(H, VecX(unit_.transpose() * F + H * over_widths(at)), kSoft);
-    if (!at.allFinite() || !(size(this->left(at)) <= kAcceptable * load_)) return;
+    const VecX y = unit_.triangularView<Eigen::Upper>().solve(at);
+    at = unit_ * solve_least(H, VecX(unit_.transpose() * F + H * y), soft);
+    if (!at.allFinite() || !(size(left(at)) <= allowed)) return;
     z = at;
   }
 }
@@ -363,7 +373,10 @@ RestingStart RestingBalance::solve() const {
     if (rest.z.allFinite()) {
       const double remains = size(left(rest.z));
       if (remains <= kAcceptable * load_ || (length <= kSettledRest && remains <= kLeftToMotion * load_)) {
-        if (remains <= kAcceptable * load_) settle(rest.z);
+        if (remains <= kAcceptable * load_)
+          settle(rest.z);
+        else
+          shorten(rest.z, kAsBefore * remains, kSoftBeside);
         rest.z = completed(rest.z);
         return rest;
       }

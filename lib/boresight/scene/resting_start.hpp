@@ -84,6 +84,7 @@ class RestingBalance {
   // Along what holds nothing, from a balance to the nearest one to where the ideal motion has the journals: which of them Newton's method finds
   // hangs on rounding.
   void settle(VecX& z) const;
+  void shorten(VecX& z, double allowed, double soft) const;
   VecX nearest(const VecX& coordinates, const std::vector<PlayOffsets>& offsets) const;
 
   const SceneLayout& at_;
