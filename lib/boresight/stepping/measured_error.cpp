@@ -25,6 +25,8 @@ constexpr double kFinerStep = 0.5;
 // Steps grow with the fourth or fifth root of the tolerance, and what they step over hides at a tenth of it too: there motions agreed that
 // were off by four times what they stated.
 constexpr double kFinerTolerance = 0.01;
+// What a method damps of fast modes it damps at finer tolerances too, over decades of them: another one shows it.
+constexpr const char *kDamping = "generalized-alpha", *kUndamped = "rosenbrock";
 // How much more a finer run costs: twice the steps, or what a method of third order takes for its tolerance.
 constexpr double kCostOfFinerStep = 2.0, kCostOfFinerTolerance = 3.2;
 // A neighbour is followed, to learn what further runs take, where twice the time of the run is in the time for them.
@@ -67,9 +69,11 @@ class FurtherRuns {
     };
     options_.model_look = ModelLook::none;
     if (options.integrator.empty()) options_.integrator = result.integrator_taken;
+    integrator_ = options_.integrator;
     by_instants_ = integrator_names(rung.name()).empty();
     if (by_instants_) return;
     by_tolerance_ = controls_error(options_);
+    damps_ = by_tolerance_ && integrator_ == kDamping;
     tolerance_ = by_tolerance_ ? tolerance_of(options_, rung.name()) : 0.0;
     // Steps that locate contacts are shortened by these: what was asked for counts, not their mean.
     step_ = by_tolerance_        ? 0.0
@@ -84,6 +88,7 @@ class FurtherRuns {
     options_.tolerance = share * (finer ? kFinerTolerance : 1.0) * tolerance_;
     options_.share_of_longest_step = share * (finer ? kFinerStep : 1.0) * longest_;
     options_.follow_growth = finer && by_tolerance_ && follows_;
+    options_.integrator = finer && damps_ ? kUndamped : integrator_;
     began_ = thread_cpu_seconds();
     const RunResult result = rung_.run(parameters_, options_);
     last_cpu_seconds = result.cost.cpu_seconds;
@@ -128,6 +133,7 @@ class FurtherRuns {
   const char* neighbour() const { return by_instants_ ? "spacing of instants" : by_tolerance_ ? "tolerance" : "step"; }
   const char* fineness() const {
     return by_instants_    ? "half the spacing of instants"
+           : damps_        ? "a hundredth of the tolerance and half the longest step, by rosenbrock"
            : by_tolerance_ ? "a hundredth of the tolerance and half the longest step"
                            : "half the step";
   }
@@ -139,7 +145,8 @@ class FurtherRuns {
   const MeasureErrorOptions& measure_;
   double longest_;
   bool by_instants_ = false, by_tolerance_ = false, stopped_ = false, too_long_ = false;
-  bool follows_ = true;
+  bool follows_ = true, damps_ = false;
+  std::string integrator_;
   double began_ = 0.0;
   double step_ = 0.0, tolerance_ = 0.0;
   std::size_t next_ = 0;

@@ -2,7 +2,8 @@
 // motion. What is said of steps here holds of the spacing of instants.
 //
 //   neighbours   the same rung at steps (or tolerances) 1.5 and 3 percent smaller: as good as the run itself
-//   finer        the same at half the step (a hundredth of the tolerance and half the longest step it allows), with neighbours of its own
+//   finer        the same at half the step (a hundredth of the tolerance and half the longest step it allows), with neighbours of its own;
+//                in place of generalized-alpha, which damps what is fast at any tolerance, by rosenbrock
 //
 // Two things are told apart. Steps err: then the finer runs lie elsewhere than the run and its neighbours. And impacts
 // amplify every difference until motions that began alike go their own ways: then neighbours lie as far from each other
