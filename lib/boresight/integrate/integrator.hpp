@@ -127,7 +127,7 @@ class Integrator {
           count_failure(shorter);
           if (fixed) return ended(StopReason::attempt_failed, "");
           if constexpr (HasGaps<S>) watch_.restore();
-          h = length * control.reject(std::numeric_limits<double>::infinity());
+          h = std::min(h, length) * control.reject(std::numeric_limits<double>::infinity());
           continue;
         }
         // The whole step may have passed by luck, with a contact begun and ended inside it.
@@ -135,7 +135,8 @@ class Integrator {
         if (!fixed && !(cut_error <= 1.0)) {
           ++summary_.rejected_by_error;
           if constexpr (HasGaps<S>) watch_.restore();
-          h = length * control.reject(cut_error);
+          // Mended, it may be longer than the step that found it: that one again would find it for ever.
+          h = std::min(h, length) * control.reject(cut_error);
           continue;
         }
         // A fixed step is judged by what is taken of it; under error control the whole step's error sets the next one.

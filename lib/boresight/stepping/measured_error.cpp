@@ -31,6 +31,8 @@ constexpr const char *kDamping = "generalized-alpha", *kUndamped = "rosenbrock";
 constexpr double kCostOfFinerStep = 2.0, kCostOfFinerTolerance = 3.2;
 // A neighbour is followed, to learn what further runs take, where twice the time of the run is in the time for them.
 constexpr double kTriedForItsCost = 2.0;
+// What further runs may take of the time for them, where one turns out dearer than foreseen.
+constexpr double kOverrun = 2.0;
 // Rounding of a motion integrated in metres [m or rad].
 constexpr double kRounding = 1e-12;
 // Where the first three runs agree to this share of an index, further ones are not worth their time.
@@ -46,6 +48,9 @@ constexpr double kOfTolerance = 2.0;
 constexpr double kOfScatteredRange = 3.0;
 // Student's t at 97.5 percent, four degrees of freedom: two groups of three.
 constexpr double kStudent4 = 2.776;
+
+// Further runs took more than kOverrun times what they may.
+class OutOfTime {};
 
 class FurtherRuns {
  public:
@@ -63,9 +68,11 @@ class FurtherRuns {
     options_.progress = [this](const RunProgress&) {
       stopped_ = stopped_ || (measure_.advance && !measure_.advance());
       // Steps that follow what grows may be far shorter than those of the run.
-      too_long_ = options_.follow_growth && measure_.most_seconds > 0.0 &&
-                  thread_cpu_seconds() - began_ > measure_.most_seconds;
-      return !stopped_ && !too_long_;
+      const double run = thread_cpu_seconds() - began_, most = measure_.most_seconds;
+      too_long_ = options_.follow_growth && most > 0.0 && run > most;
+      // And what runs on end take is foreseen from one of them.
+      out_of_time_ = most > 0.0 && cpu_seconds + run > kOverrun * most;
+      return !stopped_ && !too_long_ && !out_of_time_;
     };
     options_.model_look = ModelLook::none;
     if (options.integrator.empty()) options_.integrator = result.integrator_taken;
@@ -89,8 +96,13 @@ class FurtherRuns {
     options_.share_of_longest_step = share * (finer ? kFinerStep : 1.0) * longest_;
     options_.follow_growth = finer && by_tolerance_ && follows_;
     options_.integrator = finer && damps_ ? kUndamped : integrator_;
+    out_of_time_ = false;
     began_ = thread_cpu_seconds();
     const RunResult result = rung_.run(parameters_, options_);
+    if (out_of_time_ && !too_long_ && !stopped_) {
+      cpu_seconds += thread_cpu_seconds() - began_;
+      throw OutOfTime();
+    }
     last_cpu_seconds = result.cost.cpu_seconds;
     cpu_seconds += last_cpu_seconds;
     ++runs;
@@ -102,9 +114,11 @@ class FurtherRuns {
     return result.index;
   }
 
+  bool out_of_time() const { return out_of_time_; }
+
   // The next neighbour that can be followed, if there is one.
   void add_neighbour(std::vector<PointingIndices>& to) {
-    while (next_ < std::size(kNeighbours) && !add_followed(to, kNeighbours[next_++], false)) {
+    while (next_ < std::size(kNeighbours) && !out_of_time_ && !add_followed(to, kNeighbours[next_++], false)) {
     }
   }
   // Whether it could be followed.
@@ -115,6 +129,7 @@ class FurtherRuns {
     } catch (const UnstableStep&) {
     } catch (const StepFailed&) {
     } catch (const SingularPose&) {  // what a motion that blows up may meet on its way
+    } catch (const OutOfTime&) {     // this once: the next one would be as dear
     }
     return false;
   }
@@ -144,7 +159,7 @@ class FurtherRuns {
   RunOptions options_;
   const MeasureErrorOptions& measure_;
   double longest_;
-  bool by_instants_ = false, by_tolerance_ = false, stopped_ = false, too_long_ = false;
+  bool by_instants_ = false, by_tolerance_ = false, stopped_ = false, too_long_ = false, out_of_time_ = false;
   bool follows_ = true, damps_ = false;
   std::string integrator_;
   double began_ = 0.0;
@@ -234,9 +249,13 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
     settled = own.size() > 1 && all_agree({own[0], own[1], finer[0]});
     if (!settled && fits(further.cpu_seconds + one + 2.0 * further.last_cpu_seconds)) {
       further.add_neighbour(own);
-      for (const double share : {kNeighbours[0], kNeighbours[1]}) further.add_followed(finer, share, true);
+      for (const double share : {kNeighbours[0], kNeighbours[1]})
+        if (!further.out_of_time()) further.add_followed(finer, share, true);
     }
     whole = own.size() == 3 && finer.size() == 3;
+  } catch (const OutOfTime&) {
+    std::snprintf(text, sizeof text, "a finer run takes more than %.3g s of CPU", kOverrun * measure.most_seconds);
+    error.why_not = text;
   } catch (const ComputationError& failure) {
     error.why_not = std::string("a further run failed: ") + failure.what();
   }
