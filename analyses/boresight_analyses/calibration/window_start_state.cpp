@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight_analyses/calibration/calibration_problem.hpp"
 
@@ -14,7 +15,11 @@ double CalibrationProblem::refine_state(const Window& w, const Globals& globals,
   if (!std::isfinite(here)) return here;
   WindowResiduals at;
   for (int k = 0; k < most_iterations; ++k) {
-    evaluate(w, globals, state, true, at);
+    try {
+      evaluate(w, globals, state, true, at);
+    } catch (const ComputationError&) {
+      break;  // with slopes, which steps have to follow too, a motion may not be followed that is without
+    }
     MatX H = prior.cwiseAbs2().cwiseInverse().asDiagonal();
     VecX g = -state.cwiseQuotient(prior.cwiseAbs2());
     for (Eigen::Index i = 0; i < at.r.size(); ++i) {
