@@ -104,7 +104,11 @@ std::vector<Study> studies(const Mechanism& mechanism, double typical, const std
     std::string& text = all.back().text;
     const std::size_t at = text.find("[[random]]"), next = text.find("[[random]]", at + 1);
     text.erase(at, (next == std::string::npos ? text.find("[match]") : next) - at);
-    if (next == std::string::npos) text.replace(text.find("over = \"mean\""), 13, "over = \"nominal\"");
+    if (next == std::string::npos) {  // one motion then, without samples
+      const std::string sampled = "over = \"mean\"\nsamples = 4\nseed = 3\n", confirmed = "confirm = 4\n";
+      text.replace(text.find(sampled), sampled.size(), "over = \"nominal\"\n");
+      text.erase(text.find(confirmed), confirmed.size());
+    }
   }
   // Fits are of journals and balls.
   const auto fitted = std::find_if(m.clearances.begin(), m.clearances.end(),

@@ -75,6 +75,7 @@ struct Window {
   double start = 0.0, end = 0.0;  // of the motion followed [s]
   bool held_out = false;
   bool from_rest = false;  // starts as the mechanism's file says; no start state is estimated
+  long most_steps = 0;     // of its motion, attempts; 0: any
 };
 
 // What all windows share, in the coordinates of the fit.

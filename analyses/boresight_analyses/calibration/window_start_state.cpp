@@ -59,7 +59,18 @@ VecX CalibrationProblem::state_at(const Window& w, const Globals& globals, const
       .cwiseQuotient(state_scale(w));
 }
 
-VecX CalibrationProblem::guess_state(const Window& w, const Globals& globals, const VecX& carried) const {
+VecX CalibrationProblem::guess_state(const Window& window, const Globals& globals, const VecX& carried) const {
+  // Some fits lead deep into a contact, and what it throws back goes to and fro for as many steps as one lets it.
+  constexpr long kFewSteps = 20'000, kTimesAtRest = 20;
+  Window w = window;
+  if (!w.from_rest) {
+    w.most_steps = kFewSteps;
+    try {
+      w.most_steps +=
+          kTimesAtRest * follow(window, values(globals), VecX::Zero(state_size(window)), {window.end}, false).steps;
+    } catch (const ComputationError&) {
+    }
+  }
   const CalibrationRun& run = runs[w.run];
   const int n = freedoms(w.run), samples = w.last - w.first + 1;
   const VecX scale = state_scale(w), prior = prior_deviation(w);

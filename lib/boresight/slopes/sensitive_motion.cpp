@@ -13,8 +13,8 @@ namespace {
 
 // As the perturbation rung's own; columns of sensitivity have no say in the step.
 IntegrationOptions integration_options(const SceneLayout& at, const Parameters& parameters,
-                                       const ContactNumbers& numbers, double asked, double duration,
-                                       Eigen::Index size) {
+                                       const ContactNumbers& numbers, double asked, double duration, Eigen::Index size,
+                                       long most_steps) {
   const double clearance = smallest_clearance(parameters);
   const double length = clearance > 0.0 ? clearance : 1e-6;
   VecX tolerance = VecX::Constant(at.n, asked * length);
@@ -28,11 +28,12 @@ IntegrationOptions integration_options(const SceneLayout& at, const Parameters& 
   // The norm is a mean over all unknowns.
   options.absolute_tolerances.head(2 * at.n) *= std::sqrt(2.0 * at.n / static_cast<double>(size));
   options.largest_step = duration / 100.0;
+  if (most_steps > 0) options.most_steps = most_steps;
   return options;
 }
 
 template <typename S, typename Keep>
-void follow(S& system, const MotionRequest& request, const IntegrationOptions& options, VecX& Y, Keep&& keep) {
+long follow(S& system, const MotionRequest& request, const IntegrationOptions& options, VecX& Y, Keep&& keep) {
   Integrator<ExplicitMethod> integrator(ExplicitMethod(dormand_prince54(), Y.size()), system.gap_count(),
                                         options.looks_inside_step);
   std::size_t k = 0;
@@ -48,6 +49,7 @@ void follow(S& system, const MotionRequest& request, const IntegrationOptions& o
       });
   if (!summary.completed()) throw ComputationError(summary.message);
   for (; k < request.times.size(); ++k) keep(k, Y);
+  return summary.steps;
 }
 
 struct Follower {
@@ -58,7 +60,8 @@ struct Follower {
   const MotionRequest& request;
 
   IntegrationOptions options(Eigen::Index size) const {
-    return integration_options(tables->layout, parameters, numbers, request.tolerance, mechanism.duration(), size);
+    return integration_options(tables->layout, parameters, numbers, request.tolerance, mechanism.duration(), size,
+                               request.most_steps);
   }
 
   // W of the directions, from `first` on.
@@ -87,7 +90,7 @@ struct Follower {
         for (int k = 0; k < n2; ++k) held.absolute_tolerances[n2 + W * k + d] = share * own[k] / size;
       }
     }
-    follow(system, request, held, Y, [&](std::size_t k, const VecX& at) {
+    out.steps += follow(system, request, held, Y, [&](std::size_t k, const VecX& at) {
       out.state.col(static_cast<Eigen::Index>(k)) = at.head(n2);
       for (int d = 0; d < W && first + d < count; ++d)
         for (int i = 0; i < n2; ++i) out.by[k](i, first + d) = at[n2 + W * i + d];
@@ -126,8 +129,8 @@ SensitiveMotion follow_with_sensitivity(const Mechanism& mechanism, const Parame
   if (count == 0) {
     PerturbationSystem system(mechanism, parameters, tables, false);
     VecX y = request.start_state;
-    follow(system, request, follower.options(n2), y,
-           [&](std::size_t k, const VecX& at) { out.state.col(static_cast<Eigen::Index>(k)) = at; });
+    out.steps = follow(system, request, follower.options(n2), y,
+                       [&](std::size_t k, const VecX& at) { out.state.col(static_cast<Eigen::Index>(k)) = at; });
     return out;
   }
   out.by.assign(request.times.size(), MatX::Zero(n2, count));

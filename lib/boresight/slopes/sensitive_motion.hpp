@@ -51,6 +51,7 @@ struct SensitiveMotion {
   std::vector<double> impact_speed;  // of the contacts begun inside, above the least speed [m/s]
   std::vector<int> impact_joint;     // their clearances
   std::vector<Grazing> grazing;
+  long steps = 0;
 };
 
 struct MotionRequest {
@@ -64,6 +65,7 @@ struct MotionRequest {
   double tolerance = 1e-3;            // of a step, over the smallest clearance
   double derivative_tolerance = 0.0;  // of S times each quantity's own size, as tolerance; 0: S has no say in the steps
   double grazing_speed = 0.0;         // approaches slower than this graze; 0: twice the least impact speed [m/s]
+  long most_steps = 0;                // attempts of steps; 0: any that one run may take
 };
 
 // parameters: the mechanism's at this point, for clearances and least impact speeds.
