@@ -64,8 +64,8 @@ class DeviationCoordinates {
   bool sparse_;  // OffsetChoice::all
   std::vector<Mat6> weight_;
   double length_;
-  double speed_ =
-      0.0;      // of the fastest body at the last rates(), in turns and lengths of the mechanism's size a second
+  // Of the fastest body at the last rates(), in turns and lengths of the mechanism's size a second.
+  double speed_ = 0.0;
   VecX scale_;  // kinematic weight of the stacked velocities
   VecX unit_;   // of each coordinate: the characteristic length of a distance, 1 of a turn or a slope
   std::vector<JointConstraint> rows_;  // that may be chosen

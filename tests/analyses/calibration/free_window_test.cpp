@@ -1,6 +1,8 @@
 // Windows that begin anywhere: their residuals' derivatives, their start states, and what they find together.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "boresight_analyses/calibration/law_comparison.hpp"
 #include "four_bar_rig.hpp"
 
@@ -63,6 +65,19 @@ TEST(FreeWindow, AStartStateIsGuessedFromItsData) {
     const double values = 6.0 * (window.last - window.first + 1);
     EXPECT_LT(problem.cost(window, at, state), 1.5 * values) << "from " << window.start << " s";
   }
+}
+
+TEST(FreeWindow, AStartStateWhoseMotionTakesTooManyStepsHasNoCostAndIsLeft) {
+  const Bench bench({2.4}, 0.06, false);
+  const CalibrationProblem problem = windows_of(bench, 0.012);
+  const Globals at = truth_of(bench, problem);
+  Window window = problem.windows.back();
+  ASSERT_FALSE(window.from_rest);
+  const VecX guess = problem.guess_state(window, at);
+  VecX state = guess;
+  window.most_steps = 3;
+  EXPECT_EQ(problem.refine_state(window, at, state, 4), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(state, guess);
 }
 
 // Of the residuals of a window that starts freely, as many as its start state has numbers are used up by it.

@@ -5,6 +5,7 @@
 
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/io/mechanism_file.hpp"
+#include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/parameter_path.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/scene/scene_rung.hpp"
@@ -176,6 +177,20 @@ TEST(SensitiveMotion, TheSameMotionWithAndWithoutDerivatives) {
   const MatX with = scene.follow(scene.values, request, true).state,
              without = scene.follow(scene.values, request, false).state;
   EXPECT_LT((with - without).norm(), 1e-9 * with.norm());
+}
+
+TEST(SensitiveMotion, EndsWhereItTakesMoreStepsThanItMay) {
+  const Scene scene;
+  MotionRequest request = flight_to(8e-3);
+  request.tolerance = 1e-3;
+  request.derivative_tolerance = 0.0;
+  const SensitiveMotion whole = scene.follow(scene.values, request, false);
+  ASSERT_GT(whole.steps, 20);
+  request.most_steps = whole.steps / 2;
+  EXPECT_THROW(scene.follow(scene.values, request, false), ComputationError);
+  EXPECT_THROW(scene.follow(scene.values, request, true), ComputationError);
+  request.most_steps = 2 * whole.steps;
+  EXPECT_EQ(scene.follow(scene.values, request, false).state, whole.state);
 }
 
 TEST(SensitiveMotion, GrazingIsNoticed) {
