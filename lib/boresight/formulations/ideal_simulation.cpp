@@ -55,7 +55,7 @@ void close_joints(const Mechanism& mechanism, const std::vector<TimeValue>& laws
   for (int step = 0; step < kMostSteps; ++step) {
     system.evaluate(state.bodies, laws);
     if (system.violation(mechanism.characteristic_length()) < kClosed) return;
-    system.set_redundant(constraint_rank(mechanism, system) < system.row_count());
+    if (step == 0) system.set_redundant(constraint_rank(mechanism, system) < system.row_count());
     system.factor(weight);
     for (int k = 0; k < system.blocks(); ++k) rows[k] = -system.rows(k).value;
     system.least_motion(rows, motion);

@@ -220,7 +220,9 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
 void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
   const MechanismDescription& m = mechanism_.description();
   const int n = layout_.n;
-  const MatX rounding = coordinates_.rounding_of_rates(knot.T);
+  const bool gains_move =
+      std::any_of(layout_.joints.begin(), layout_.joints.end(), [](const auto& at) { return at.gains_move; });
+  const MatX rounding = gains_move ? coordinates_.rounding_of_rates(knot.T) : MatX();
   for (int c = 0; c < mechanism_.clearances(); ++c) {
     const SceneLayout::Joint& at = layout_.joints[c];
     const ClearanceDescription& d = m.clearances[c];
@@ -234,7 +236,8 @@ void ClearanceScene::add_joints(const MatX& B_rate, Knot& knot) const {
       return body == kGround ? MatX(MatX::Zero(6, n)) : MatX(of.middleRows<6>(6 * body));
     };
     const BodyMotion &S = motion(sleeve.body), &J = motion(journal.body);
-    const MatX roundS = gain(rounding, sleeve.body), roundJ = gain(rounding, journal.body);
+    MatX roundS, roundJ;
+    if (at.gains_move) roundS = gain(rounding, sleeve.body), roundJ = gain(rounding, journal.body);
     const MatX TS = gain(knot.T, sleeve.body), TJ = gain(knot.T, journal.body);
     const MatX TdS = gain(knot.T_rate, sleeve.body), TdJ = gain(knot.T_rate, journal.body);
     const Mat3 R_WS = S.R * sleeve.R;

@@ -16,6 +16,12 @@ namespace boresight {
 // Where a journal rests, to be called so, in clearances; and where it is still taken: a hundredth of what a contact is pressed in by that
 // gives way by a thousandth of its clearance.
 inline constexpr double kSettledRest = 1e-8, kAcceptableRest = 1e-5;
+// What may be left unbalanced of the load.
+inline constexpr double kAcceptableLoad = 1e-8;
+// Of an energy, which loads and clearances make: what rounding leaves of it.
+inline constexpr double kRoundedEnergy = 1e-14;
+// Stiffness below this share of the largest holds nothing.
+inline constexpr double kSoftContact = 1e-11;
 
 // left(z): what is unbalanced with the journals at z [N, N m]. unit: z = unit y, with y in clearances (RestingBalance::unit). z: from where;
 // then the best place met. Returns the length of the full step left there, in clearances.

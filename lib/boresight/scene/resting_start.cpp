@@ -15,7 +15,7 @@ namespace {
 // A load below this share of the largest is what rounding leaves of none.
 constexpr double kNoLoad = 1e-9;
 // What may be left unbalanced, as a share of the load: less than kNoLoad of it is balanced, lest a journal crosses its clearance for it.
-constexpr double kBalanced = kNoLoad, kAcceptable = 1e-8;
+constexpr double kBalanced = kNoLoad;
 // What may be left that no place of the journals balances, likewise: it sets off the motion.
 constexpr double kLeftToMotion = 1e-4;
 constexpr int kMostSteps = 400;
@@ -25,16 +25,8 @@ constexpr double kLeastDamping = 1e-8;
 // length of one that ends them, in clearances.
 constexpr int kMostStrides = 12;
 constexpr double kShrinks = 0.3, kLongestStride = 0.5, kArrived = 1e-7;
-// Of an energy, which loads and clearances make: what rounding leaves of it.
-constexpr double kRoundedEnergy = 1e-14;
-// Stiffness below this share of the largest holds nothing.
-constexpr double kSoft = 1e-11;
 // The same where something is left that no place balances: it makes stiffness of its own, of either sign. How much may be left then of what was.
 constexpr double kSoftBeside = 1e-9, kAsBefore = 1.001;
-// What pulls journals to where the ideal motion has them, of the load over a clearance: of what may be left unbalanced. The steps that it takes,
-// and what of the pull these may leave.
-constexpr double kPull = 0.1 * kAcceptable, kPulled = 1e-3;
-constexpr int kMostPulls = 100, kShortened = 3;
 
 // z per offset: M_r of the other coordinates pulls them to where the bodies move least, T z in the metric of their masses.
 MatX carried_along(const MatX& mass, const std::vector<bool>& held) {
@@ -200,7 +192,7 @@ double RestingBalance::energy(const VecX& offsets) const {
 
 VecX RestingBalance::correction(const MatX& by_z, const VecX& F) const {
   const MatX H = -(unit_.transpose() * by_z * unit_);
-  return unit_ * solve_least(H, VecX(unit_.transpose() * F), kSoft);
+  return unit_ * solve_least(H, VecX(unit_.transpose() * F), kSoftContact);
 }
 
 // Each journal where its own offsets' loads alone would have it; where redundant joints tie offsets together, the loads that are least,
@@ -251,7 +243,7 @@ double RestingBalance::descend(VecX& z, double undecided, bool downhill) const {
       J.swap(J_trial);
       damping = damping > kLeastDamping * load_ ? 0.1 * damping : 0.0;
     } else {
-      if (size(F) <= std::max(kAcceptable * load_, undecided)) break;  // rounding decides which is lower
+      if (size(F) <= std::max(kAcceptableLoad * load_, undecided)) break;  // rounding decides which is lower
       damping = std::max(10.0 * damping, kLeastDamping * load_);
     }
   }
@@ -267,74 +259,18 @@ bool RestingBalance::follow(VecX& z, double undecided) {
     const double by = length(dz);
     if (!(by <= (step < 2 ? 1.0 : kShrinks) * before)) return false;
     z += dz;
-    if (by <= kArrived) return size(F) <= std::max(kAcceptable * load_, undecided);
+    if (by <= kArrived) return size(F) <= std::max(kAcceptableLoad * load_, undecided);
     before = by;
   }
   return false;
-}
-
-// Newton's method, damped, for the energy with kPull |y|^2 / 2 added: that has one minimum where the energy has a valley.
-void RestingBalance::settle(VecX& z) const {
-  const int n = at_.n;
-  const double pull = kPull * load_;
-  const auto over_widths = [&](const VecX& at) { return VecX(unit_.triangularView<Eigen::Upper>().solve(at)); };
-  const auto pulled_energy = [&](const VecX& at) { return energy(at) + 0.5 * pull * over_widths(at).squaredNorm(); };
-  VecX at = z, F(n);
-  MatX J(n, n);
-  const auto left_at = [&](const VecX& place) {
-    evaluate(place, F, J);
-    return VecX(unit_.transpose() * F - pull * over_widths(place));
-  };
-  VecX left = left_at(at);
-  double E = pulled_energy(at), damping = 0.0;
-  for (int step = 0; step < kMostPulls && left.norm() > kPulled * pull; ++step) {
-    const MatX H = (damping + pull) * MatX::Identity(n, n) - MatX(unit_.transpose() * J * unit_);
-    VecX dy = solve_square(H, left);
-    const double reach = dy.norm();
-    if (!std::isfinite(reach) || reach <= kSettledRest) break;
-    if (reach > 1.0) dy /= reach;
-    const VecX trial = at + unit_ * dy;
-    const double E_trial = pulled_energy(trial), rounding = kRoundedEnergy * (std::abs(E) + load_);
-    const MatX J_before = J;
-    const VecX left_trial = left_at(trial);
-    if (E_trial < E - rounding || (E_trial <= E + rounding && left_trial.norm() < left.norm())) {
-      at = trial;
-      E = E_trial;
-      left = left_trial;
-      damping = damping > pull ? 0.1 * damping : 0.0;
-    } else {
-      J = J_before;
-      if (damping > load_) break;
-      damping = std::max(10.0 * damping, pull);
-    }
-  }
-  if (!at.allFinite() || !(size(this->left(at)) <= kAcceptable * load_)) return;
-  z = at;
-  // The pull tells places along a valley apart to a hundred-thousandth of a clearance. Which contacts carry is known now.
-  shorten(z, kAcceptable * load_, kSoft);
-}
-
-// Of the balances that the contacts at z allow, to the shortest. allowed: what may be left; soft: stiffness below this share of the largest
-// holds nothing.
-void RestingBalance::shorten(VecX& z, double allowed, double soft) const {
-  VecX at = z, F(at_.n);
-  MatX J(at_.n, at_.n);
-  for (int step = 0; step < kShortened; ++step) {
-    evaluate(at, F, J);
-    const MatX H = -(unit_.transpose() * J * unit_);
-    const VecX y = unit_.triangularView<Eigen::Upper>().solve(at);
-    at = unit_ * solve_least(H, VecX(unit_.transpose() * F + H * y), soft);
-    if (!at.allFinite() || !(size(left(at)) <= allowed)) return;
-    z = at;
-  }
 }
 
 void RestingBalance::keep_stiffness(const VecX& z) {
   std::vector<PlayMotion<double>> journals;
   for (std::size_t c = 0; c < joints_.size(); ++c) journals.push_back(motion_of(c, z));
   const MatX H = -(unit_.transpose() * stiffness_at(journals) * unit_);
-  const std::optional<MatX> moved = solve_if_positive(H, unit_.transpose(), kSoft);
-  kept_ = moved ? MatX(unit_ * *moved) : MatX(unit_ * pseudo_inverse(H, kSoft) * unit_.transpose());
+  const std::optional<MatX> moved = solve_if_positive(H, unit_.transpose(), kSoftContact);
+  kept_ = moved ? MatX(unit_ * *moved) : MatX(unit_ * pseudo_inverse(H, kSoftContact) * unit_.transpose());
 }
 
 // Coordinates whose offsets, over clearances, are least far from these; what is not held by play stays where it was.
@@ -355,7 +291,7 @@ RestingStart RestingBalance::solve_near(const VecX& before, const std::vector<Pl
   if (!(load_ > undecided) || follow(rest.z, undecided)) return rest;
   rest.z = near;
   const double size_left = descend(rest.z, undecided);
-  if (!rest.z.allFinite() || size_left > std::max(kAcceptable * load_, undecided)) rest = solve();
+  if (!rest.z.allFinite() || size_left > std::max(kAcceptableLoad * load_, undecided)) rest = solve();
   if (rest.refusal.empty()) keep_stiffness(rest.z);
   return rest;
 }
@@ -367,13 +303,13 @@ RestingStart RestingBalance::solve() const {
   VecX z = guess();
   if (!(energy(z) < energy(VecX::Zero(n)))) z.setZero();
   const double size_left = descend(z, 0.0);
-  if (size_left > kAcceptable * load_ || !z.allFinite()) {
+  if (size_left > kAcceptableLoad * load_ || !z.allFinite()) {
     rest.z = guess();
     const double length = search_rest([&](const VecX& at) { return left(at); }, unit_, rest.z);
     if (rest.z.allFinite()) {
       const double remains = size(left(rest.z));
-      if (remains <= kAcceptable * load_ || (length <= kSettledRest && remains <= kLeftToMotion * load_)) {
-        if (remains <= kAcceptable * load_)
+      if (remains <= kAcceptableLoad * load_ || (length <= kSettledRest && remains <= kLeftToMotion * load_)) {
+        if (remains <= kAcceptableLoad * load_)
           settle(rest.z);
         else
           shorten(rest.z, kAsBefore * remains, kSoftBeside);
@@ -383,7 +319,7 @@ RestingStart RestingBalance::solve() const {
     }
     // Contacts that take turns lead both in circles, and the energy does not.
     rest.z.setZero();
-    if (descend(rest.z, 0.0, true) <= kAcceptable * load_) {
+    if (descend(rest.z, 0.0, true) <= kAcceptableLoad * load_) {
       settle(rest.z);
       rest.z = completed(rest.z);
       return rest;

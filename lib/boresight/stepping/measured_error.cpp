@@ -254,7 +254,7 @@ MeasuredError measure_discretisation(const Rung& rung, const Parameters& paramet
     }
     whole = own.size() == 3 && finer.size() == 3;
   } catch (const OutOfTime&) {
-    std::snprintf(text, sizeof text, "a finer run takes more than %.3g s of CPU", kOverrun * measure.most_seconds);
+    std::snprintf(text, sizeof text, "further runs take more than %.3g s of CPU", kOverrun * measure.most_seconds);
     error.why_not = text;
   } catch (const ComputationError& failure) {
     error.why_not = std::string("a further run failed: ") + failure.what();
