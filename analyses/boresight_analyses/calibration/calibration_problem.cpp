@@ -112,6 +112,25 @@ void CalibrationProblem::prepare(double window_length, bool from_rest) {
     }
   }
   prepare_errors();
+  for (std::size_t r = 0; r < runs.size(); ++r) choose_steps(static_cast<int>(r));
+}
+
+void CalibrationProblem::choose_steps(int run) {
+  if (freedoms(run) == 0) return;
+  Window whole;
+  whole.run = run;
+  whole.end = runs[run].data.time.empty() ? runs[run].mechanism->duration() : runs[run].data.time.back();
+  whole.from_rest = true;
+  const std::vector<double> theta = values(start());
+  MotionRequest request;
+  request.end = whole.end;
+  request.tolerance = tolerance;
+  try {
+    set_start(whole, theta, VecX::Zero(state_size(whole)), false, request);
+    runs[run].implicit_steps = implicit_steps_pay(*runs[run].mechanism, parameters_at(run, theta),
+                                                  tables_at(run, theta), contact_numbers_at(run, theta), request);
+  } catch (const ComputationError&) {  // that it cannot be followed, the fit says
+  }
 }
 
 double CalibrationProblem::start_of(const Window& w) const {

@@ -45,6 +45,7 @@ struct CalibrationRun {
   std::shared_ptr<const SceneTables> tables;      // where a play can move
   std::shared_ptr<const StandingPoses> standing;  // where errors are fitted, or other than zero; by prepare()
   MeasuredData data;
+  bool implicit_steps = false;  // of its motions: where they pay at the start; by prepare()
 
   std::shared_ptr<const Parameters> taken;  // in place of the mechanism's own; none: these
 
@@ -211,6 +212,7 @@ class CalibrationProblem {
   std::shared_ptr<const SceneTables> tables_at(int run, const std::vector<double>& values) const;
   // Of those of bodies.
   std::vector<TablesBeside> tables_beside(int run, const std::vector<double>& values) const;
+  void choose_steps(int run);
   SensitiveMotion follow(const Window& window, const std::vector<double>& values, const VecX& state,
                          const std::vector<double>& times, bool derivatives) const;
   Vec6 play_displaces(const CalibrationRun& run, double t, const VecX& z) const;

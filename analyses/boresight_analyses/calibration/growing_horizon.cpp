@@ -88,8 +88,9 @@ std::vector<Globals> Calibrator::distinct_places(const std::vector<FitResult>& e
   };
   std::vector<Globals> places;
   for (const FitResult& one : ended) {
+    // The lowest is one of them even where data without noise leave nothing to judge costs by.
     if (static_cast<int>(places.size()) == kMostKept ||
-        !(one.cost < ended.front().cost + kLikely * at_lowest.variance_factor))
+        (!places.empty() && !(one.cost < ended.front().cost + kLikely * at_lowest.variance_factor)))
       break;
     if (std::none_of(places.begin(), places.end(), [&](const Globals& p) { return same(p, one.globals); }))
       places.push_back(one.globals);

@@ -28,6 +28,7 @@ MatX CalibrationProblem::by_jumps(const Window& w, const Globals& globals, int j
   MotionRequest request;
   set_start(w, theta, VecX::Zero(n2), false, request);
   request.tolerance = tolerance;
+  request.implicit = run.implicit_steps;
   const auto stretch = [&](int from, int to, bool derivatives) {
     MotionRequest part = request;
     if (from > 0) {

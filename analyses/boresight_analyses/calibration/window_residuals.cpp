@@ -237,6 +237,7 @@ SensitiveMotion CalibrationProblem::follow(const Window& w, const std::vector<do
   request.derivative_tolerance = derivatives ? derivative_tolerance : 0.0;
   request.times = times;
   request.most_steps = w.most_steps;
+  request.implicit = run.implicit_steps;
   return follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), tables_at(w.run, theta),
                                  contact_numbers_at(w.run, theta), request);
 }

@@ -53,6 +53,7 @@ VecX CalibrationProblem::state_at(const Window& w, const Globals& globals, const
   request.times = {t};
   set_start(w, theta, state, false, request);
   request.tolerance = tolerance;
+  request.implicit = run.implicit_steps;
   return follow_with_sensitivity(*run.mechanism, parameters_at(w.run, theta), tables_at(w.run, theta),
                                  contact_numbers_at(w.run, theta), request)
       .state.col(0)

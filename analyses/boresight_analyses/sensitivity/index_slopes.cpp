@@ -57,8 +57,9 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
   request.by_parameters = !values.empty();
   for (int k = 0; k <= options.points; ++k)
     request.times.push_back(index.start + (request.end - index.start) * k / options.points);
-  const SensitiveMotion motion = follow_with_sensitivity(mechanism, parameters, tables,
-                                                         contact_numbers(mechanism, parameters_at, values), request);
+  const ContactNumbers numbers = contact_numbers(mechanism, parameters_at, values);
+  request.implicit = request.by_parameters && implicit_steps_pay(mechanism, parameters, tables, numbers, request);
+  const SensitiveMotion motion = follow_with_sensitivity(mechanism, parameters, tables, numbers, request);
 
   // The pose's error is a closed-form function of z and of the standing errors.
   const std::size_t count = request.times.size();

@@ -6,22 +6,21 @@
 // into n, without pivots, in the lanes' own precision. The folding is what makes a lane's step cheap; here y' = f(t, y) may be any.
 #pragma once
 
-#include <Eigen/LU>
 #include <limits>
 #include <vector>
 
-#include "boresight/integrate/partial_derivatives.hpp"
 #include "boresight/integrate/rosenbrock_tables.hpp"
+#include "boresight/integrate/shifted_jacobian.hpp"
 
 namespace boresight {
 
-class RosenbrockMethod {
+// Shifted: what holds df/dy and solves with it, as ShiftedJacobian does.
+template <typename Shifted>
+class RosenbrockWith {
  public:
-  RosenbrockMethod(const RosenbrockTable& table, Eigen::Index size)
+  RosenbrockWith(const RosenbrockTable& table, Eigen::Index size)
       : table_(table),
-        partial_(size),
-        matrix_(size, size),
-        lu_(size),
+        shifted_(size),
         u_(table.stages, VecX::Zero(size)),
         start_(VecX::Zero(size)),
         proposed_(start_),
@@ -52,21 +51,17 @@ class RosenbrockMethod {
   // df/dy at the state that the next attempt starts from.
   template <System S>
   const MatX& jacobian(const S& system, double t, const VecX& y) {
-    if (!partial_known_) partial_.evaluate(system, t, y, start_slope_, cost_);
+    if (!partial_known_) shifted_.evaluate(system, t, y, start_slope_, cost_);
     partial_known_ = true;
-    return partial_.jacobian;
+    return shifted_.jacobian();
   }
 
   template <System S>
   Attempt attempt(const S& system, double t, double h, const VecX& y) {
     start_ = y;
     jacobian(system, t, y);
-    matrix_ = -partial_.jacobian;
-    matrix_.diagonal().array() += 1.0 / (table_.gamma * h);
-    lu_.compute(matrix_);
     ++cost_.decompositions;
-    // A zero or a not-a-number on the diagonal of U; products of pivots could overflow.
-    if (!(lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > 0.0)) return Attempt::singular_matrix;
+    if (!shifted_.decompose(1.0 / (table_.gamma * h))) return Attempt::singular_matrix;
     slope_ = start_slope_;
     for (int i = 0; i < table_.stages; ++i) {
       if (i > 0 && moves(i)) {
@@ -77,8 +72,8 @@ class RosenbrockMethod {
       }
       stage_ = slope_;
       for (int j = 0; j < i; ++j) add(stage_, RosenbrockTable::entry(table_.c, i, j) / h, u_[j]);
-      if constexpr (!Autonomous<S>) add(stage_, table_.d[i] * h, partial_.time);
-      u_[i] = lu_.solve(stage_);
+      if constexpr (!Autonomous<S>) add(stage_, table_.d[i] * h, shifted_.time());
+      shifted_.solve(stage_, u_[i]);
     }
     proposed_ = y;
     error_.setZero();
@@ -128,13 +123,13 @@ class RosenbrockMethod {
   }
 
   const RosenbrockTable& table_;
-  PartialDerivatives partial_;
+  Shifted shifted_;
   bool partial_known_ = false;
-  MatX matrix_;
-  Eigen::PartialPivLU<MatX> lu_;
   std::vector<VecX> u_;
   VecX start_, proposed_, error_, start_slope_, end_slope_, slope_, stage_;
   MethodCost cost_;
 };
+
+using RosenbrockMethod = RosenbrockWith<ShiftedJacobian>;
 
 }  // namespace boresight

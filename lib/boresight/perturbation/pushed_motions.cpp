@@ -78,7 +78,6 @@ void change_inverse_mass(const std::vector<Missed>& missed, double times, const 
     values.insert(values.end(), &row[at.A], &row[at.A] + width);
   }
   changed.dynamics.replace(at.A, TimeTable(dynamics.spacing(), width, values));
-  change(0.0, changed.start.row.data());
 }
 
 void shift_offsets(const std::vector<Missed>& missed, double times, const SceneTables& tables, SceneTables& shifted) {
@@ -106,7 +105,6 @@ void shift_offsets(const std::vector<Missed>& missed, double times, const SceneT
       values.insert(values.end(), &row[joint.shift], &row[joint.shift] + width);
     }
     shifted.dynamics.replace(joint.shift, TimeTable(dynamics.spacing(), width, values));
-    shift(0.0, &shifted.start.row[joint.shift]);
     first += static_cast<int>(dependent.size());
   }
 }
@@ -125,8 +123,9 @@ bool all_stay_masses(const std::vector<Missed>& missed, const SceneTables& table
 
 }  // namespace
 
-std::shared_ptr<const SceneTables> pushed_by(const std::vector<Missed>& missed, double times, double duration,
+std::shared_ptr<const SceneTables> pushed_by(const SecondOrder& beyond, double times, double duration,
                                              const SceneTables& tables) {
+  const std::vector<Missed>& missed = beyond.missed;
   const int n = tables.layout.n;
   const TimeTable& before = tables.load_change;
   double spacing = duration / kCells;
@@ -141,9 +140,12 @@ std::shared_ptr<const SceneTables> pushed_by(const std::vector<Missed>& missed, 
   }
   auto pushed = std::make_shared<SceneTables>(tables);
   pushed->load_change = TimeTable(spacing, n, values);
-  Eigen::Map<VecX>(&pushed->start.row[tables.layout.Ar], n) += times * missed.front().acceleration;
   change_inverse_mass(missed, times, tables, *pushed);
   if (missed.front().offset.size() > 0) shift_offsets(missed, times, tables, *pushed);
+  if (beyond.start.size() > 0) {
+    VecX& beside = pushed->start.beside;
+    beside = VecX((beside.size() > 0 ? beside : VecX::Zero(2 * n)) + times * beyond.start);
+  }
   return pushed;
 }
 
@@ -171,7 +173,7 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
   try {
     for (const double times : {1.0, -1.0}) {
       looks = 0.0;
-      const RunResult pushed = follow(pushed_by(beyond.missed, times, mechanism.duration(), *tables), beside);
+      const RunResult pushed = follow(pushed_by(beyond, times, mechanism.duration(), *tables), beside);
       if (pushed.interrupted) return;
       raise(by_pushes, moved(result.index, pushed.index, length));
     }

@@ -22,8 +22,8 @@ namespace boresight {
 inline constexpr int kStepsBetweenLooks = 4096;
 
 // The tables with `times` what is missed, by straight lines between its instants, added to their loads, to their inverse masses and to where
-// offsets are that others decide.
-std::shared_ptr<const SceneTables> pushed_by(const std::vector<Missed>& missed, double times, double duration,
+// offsets are that others decide; and to where motions start. What pushes journals once they move is no part of the balance they start in.
+std::shared_ptr<const SceneTables> pushed_by(const SecondOrder& beyond, double times, double duration,
                                              const SceneTables& tables);
 
 using FollowOn = std::function<RunResult(const std::shared_ptr<const SceneTables>&, const RunOptions&)>;

@@ -10,6 +10,7 @@
 #include "boresight/math/dense_solves.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/multibody/multibody_start.hpp"
+#include "boresight/scene/resting_start.hpp"
 
 namespace boresight {
 namespace {
@@ -152,10 +153,14 @@ Vec6 displacement(const BodyMotion& from, const BodyMotion& to) {
   return x;
 }
 
+struct MissedAtRest {
+  std::array<double, kKinds> pose = {};
+  VecX start;  // of the coordinates, then of their rates; empty where nothing is missed
+};
+
 // What the linear balance of resting journals misses of the one on the mechanism's own geometry, which knows how the loads change as
 // journals move: with them, where a journal goes that next to nothing pushes.
-std::array<double, kKinds> missed_at_rest(const Mechanism& mechanism, const PreparedScene& prepared,
-                                          const Parameters& parameters) {
+MissedAtRest missed_at_rest(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters) {
   if (mechanism.description().journals == JournalStart::centred) return {};
   const RestingBodies resting = resting_bodies(mechanism, parameters, prepared.ideal());
   if (resting.linear.size() == 0) return {};  // then this rung starts centred, and says so
@@ -163,8 +168,21 @@ std::array<double, kKinds> missed_at_rest(const Mechanism& mechanism, const Prep
   IdealState state;
   prepared.ideal().state(0.0, state);
   const int body = mechanism.boresight_body();
-  return Sizes(mechanism, state.bodies[body])(displacement(state.bodies[body], resting.exact[body]) -
-                                              Vec6(resting.linear.segment<6>(6 * body)));
+  MissedAtRest missed;
+  missed.pose = Sizes(mechanism, state.bodies[body])(displacement(state.bodies[body], resting.exact[body]) -
+                                                     Vec6(resting.linear.segment<6>(6 * body)));
+  const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters);
+  std::string warning;
+  missed.start = -start_coordinates(mechanism, tables->layout, tables->start,
+                                    joint_plays(mechanism.description(), parameters), warning);
+  DeviationCoordinates coordinates = prepared.scene().coordinates();
+  MatX T;
+  coordinates.gain(0.0, T);
+  VecX z, z_dot;
+  coordinates.coordinate_rates(resting.exact, z_dot, z);
+  missed.start.head(z.size()) += z;
+  missed.start.tail(z.size()) += z_dot;
+  return missed;
 }
 
 // What is found out, one deviation after the other.
@@ -245,7 +263,7 @@ class LeftOut {
   }
 
   // at_rest: what the balance at the start misses, of each kind.
-  SecondOrder shares(const std::array<double, kKinds>& at_rest) const {
+  SecondOrder shares(const MissedAtRest& at_rest) const {
     // What turns miss that are next to nothing against the displacement, on the mechanism's size, counts against a little of that; and the
     // other way round. The line of sight counts against itself: how small an angle a displacement is depends on the target's distance.
     constexpr double kNextToNothing = 1e-4;
@@ -255,11 +273,12 @@ class LeftOut {
     const auto of_all = [](double share) { return std::isfinite(share) ? std::min(share, 1.0) : 1.0; };
     SecondOrder found;
     found.missed = missed_;
+    if (want_missed_) found.start = at_rest.start;
     for (int k = 0; k < kKinds; ++k) {
       const double least = k == kMoved ? next_to_nothing : k == kSighted ? 0.0 : next_to_nothing / length;
       const double size = std::max(miss_[k].size(), least);
       double of_kind = miss_[k].value(least);
-      const double by_rest = size > 0.0 ? at_rest[k] / size : 0.0;
+      const double by_rest = size > 0.0 ? at_rest.pose[k] / size : 0.0;
       found.pose[k] = of_all(std::max(of_kind, by_rest));
       // A force that is off early shows in where the journal gets to later: all of its part counts by the share of all forces. And where
       // next to nothing pushes for a while, all of its part counts for that while. Together no more than all of it by the largest share.

@@ -68,6 +68,7 @@ struct SecondOrder {
   PerQuantity whole =
       {};  // by all of it; 1 where a deviation cannot be made exactly (a singular pose within its reach)
   std::vector<Missed> missed;  // in the order of time, where it is wanted
+  VecX start;  // likewise: of the coordinates and their rates as journals rest, beyond the linear balance
 };
 
 SecondOrder second_order(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,

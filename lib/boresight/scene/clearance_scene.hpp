@@ -40,6 +40,7 @@ class ExactStates;
 struct SceneStart {
   std::vector<double> row;
   MatX rates;
+  VecX beside = {};  // where journals rest: what motions start beside that balance, z, then zdot; empty: nothing
 };
 
 // The scene for one set of masses and one gravity, ready to integrate.

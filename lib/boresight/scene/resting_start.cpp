@@ -349,6 +349,7 @@ VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, co
     return state;
   }
   state << rest.z, start.rates * rest.z;
+  if (start.beside.size() > 0) state += start.beside;
   return state;
 }
 

@@ -4,9 +4,11 @@
 
 #include "boresight/integrate/explicit_method.hpp"
 #include "boresight/integrate/integrator.hpp"
+#include "boresight/integrate/rosenbrock_method.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/slopes/sensitive_system.hpp"
+#include "boresight/slopes/shifted_sensitivities.hpp"
 
 namespace boresight {
 namespace {
@@ -32,10 +34,10 @@ IntegrationOptions integration_options(const SceneLayout& at, const Parameters& 
   return options;
 }
 
-template <typename S, typename Keep>
-long follow(S& system, const MotionRequest& request, const IntegrationOptions& options, VecX& Y, Keep&& keep) {
-  Integrator<ExplicitMethod> integrator(ExplicitMethod(dormand_prince54(), Y.size()), system.gap_count(),
-                                        options.looks_inside_step);
+template <typename M, typename S, typename Keep>
+IntegrationSummary follow_by(M method, S& system, const MotionRequest& request, const IntegrationOptions& options,
+                             VecX& Y, Keep&& keep) {
+  Integrator<M> integrator(std::move(method), system.gap_count(), options.looks_inside_step);
   std::size_t k = 0;
   for (; k < request.times.size() && request.times[k] <= request.start; ++k) keep(k, Y);
   VecX inside = Y;
@@ -49,7 +51,16 @@ long follow(S& system, const MotionRequest& request, const IntegrationOptions& o
       });
   if (!summary.completed()) throw ComputationError(summary.message);
   for (; k < request.times.size(); ++k) keep(k, Y);
-  return summary.steps;
+  return summary;
+}
+
+// Shifted: what implicit steps solve with.
+template <typename Shifted, typename S, typename Keep>
+IntegrationSummary follow(S& system, const MotionRequest& request, const IntegrationOptions& options, VecX& Y,
+                          Keep&& keep) {
+  if (request.implicit)
+    return follow_by(RosenbrockWith<Shifted>(rodas4(), Y.size()), system, request, options, Y, keep);
+  return follow_by(ExplicitMethod(dormand_prince54(), Y.size()), system, request, options, Y, keep);
 }
 
 struct Follower {
@@ -90,11 +101,11 @@ struct Follower {
         for (int k = 0; k < n2; ++k) held.absolute_tolerances[n2 + W * k + d] = share * own[k] / size;
       }
     }
-    out.steps += follow(system, request, held, Y, [&](std::size_t k, const VecX& at) {
-      out.state.col(static_cast<Eigen::Index>(k)) = at.head(n2);
-      for (int d = 0; d < W && first + d < count; ++d)
-        for (int i = 0; i < n2; ++i) out.by[k](i, first + d) = at[n2 + W * i + d];
-    });
+    out.steps += follow<ShiftedSensitivities<W>>(system, request, held, Y, [&](std::size_t k, const VecX& at) {
+                   out.state.col(static_cast<Eigen::Index>(k)) = at.head(n2);
+                   for (int d = 0; d < W && first + d < count; ++d)
+                     for (int i = 0; i < n2; ++i) out.by[k](i, first + d) = at[n2 + W * i + d];
+                 }).steps;
     if (first == 0) note_impacts(system, out);
   }
 
@@ -129,8 +140,9 @@ SensitiveMotion follow_with_sensitivity(const Mechanism& mechanism, const Parame
   if (count == 0) {
     PerturbationSystem system(mechanism, parameters, tables, false);
     VecX y = request.start_state;
-    out.steps = follow(system, request, follower.options(n2), y,
-                       [&](std::size_t k, const VecX& at) { out.state.col(static_cast<Eigen::Index>(k)) = at; });
+    out.steps = follow<ShiftedJacobian>(system, request, follower.options(n2), y, [&](std::size_t k, const VecX& at) {
+                  out.state.col(static_cast<Eigen::Index>(k)) = at;
+                }).steps;
     return out;
   }
   out.by.assign(request.times.size(), MatX::Zero(n2, count));
@@ -153,6 +165,40 @@ SensitiveMotion follow_with_sensitivity(const Mechanism& mechanism, const Parame
     }
   }
   return out;
+}
+
+bool implicit_steps_pay(const Mechanism& mechanism, const Parameters& parameters,
+                        const std::shared_ptr<const SceneTables>& tables, const ContactNumbers& numbers,
+                        const MotionRequest& request) {
+  const int n2 = 2 * tables->layout.n;
+  if (n2 == 0) return false;
+  const Follower follower{mechanism, parameters, tables, numbers, request};
+  const auto followed = [&](bool implicit, long most_steps) {
+    MotionRequest plain = request;
+    plain.implicit = implicit;
+    plain.times.clear();
+    IntegrationOptions options = follower.options(n2);
+    options.most_steps = most_steps;
+    PerturbationSystem system(mechanism, parameters, tables, false);
+    VecX y = request.start_state;
+    return follow<ShiftedJacobian>(system, plain, options, y, [](std::size_t, const VecX&) {});
+  };
+  // With directions an implicit step evaluates all of it once a coordinate more. Where so many are needed, it is not damping that keeps steps
+  // short.
+  constexpr double kOthers = 8.0, kExplicit = 6.0;
+  constexpr long kMany = 200'000;
+  long most = 0;
+  try {
+    most = static_cast<long>((kOthers + n2) / kExplicit * static_cast<double>(followed(true, kMany).steps));
+  } catch (const ComputationError&) {
+    return false;
+  }
+  try {
+    followed(false, std::max(most, 1L));
+  } catch (const ComputationError&) {
+    return true;
+  }
+  return false;
 }
 
 }  // namespace boresight

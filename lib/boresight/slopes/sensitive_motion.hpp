@@ -66,6 +66,8 @@ struct MotionRequest {
   double derivative_tolerance = 0.0;  // of S times each quantity's own size, as tolerance; 0: S has no say in the steps
   double grazing_speed = 0.0;         // approaches slower than this graze; 0: twice the least impact speed [m/s]
   long most_steps = 0;                // attempts of steps; 0: any that one run may take
+  // Steps that no stiff or damped contact keeps short (RODAS4), each as dear as some of the explicit ones: implicit_steps_pay().
+  bool implicit = false;
 };
 
 // parameters: the mechanism's at this point, for clearances and least impact speeds.
@@ -73,5 +75,11 @@ struct MotionRequest {
 SensitiveMotion follow_with_sensitivity(const Mechanism& mechanism, const Parameters& parameters,
                                         const std::shared_ptr<const SceneTables>& tables, const ContactNumbers& numbers,
                                         const MotionRequest& request);
+
+// Whether the motion, followed without directions by either kind of steps, asks for less work by implicit ones; not where these cannot follow
+// it. Where journals lie in their contacts damping keeps explicit steps short, to a hundredth and less of what the motion needs.
+bool implicit_steps_pay(const Mechanism& mechanism, const Parameters& parameters,
+                        const std::shared_ptr<const SceneTables>& tables, const ContactNumbers& numbers,
+                        const MotionRequest& request);
 
 }  // namespace boresight

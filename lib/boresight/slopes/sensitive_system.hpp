@@ -74,6 +74,12 @@ class SensitiveSystem {
     }
   }
 
+  // Of y' by y.
+  void state_jacobian(double t, const VecX& Y, MatX& J) const {
+    J.resize(plain_.size(), plain_.size());
+    plain_.jacobian(t, Y.head(plain_.size()), J);
+  }
+
   void start_located(double t, const VecX& Y) {
     y_ = Y.head(plain_.size());
     plain_.start_located(t, y_);
