@@ -126,7 +126,7 @@ void Calibrator::fit_poses() {
 
 void Calibrator::judge_fit() {
   if (!problem_.follows_play()) return judge_poses();
-  const VecX rough = noise_from_differences(problem_);
+  const VecX rough = noise_from_differences(problem_).cwiseMax(noise_of_steps(problem_));
   double worst = 0.0;
   int channel = 0;
   for (Eigen::Index c = 0; c < rough.size(); ++c)
@@ -173,7 +173,7 @@ void Calibrator::judge_poses() {
 }
 
 void Calibrator::set_noise(const VecX& sigma) {
-  problem_.sigma = sigma;
+  problem_.sigma = problem_.follows_play() ? VecX(sigma.cwiseMax(noise_of_steps(problem_))) : sigma;
   for (std::size_t c = 0; c < problem_.channels.size(); ++c)
     if (options_.noise.size() > 0 && std::isfinite(options_.noise[problem_.channels[c]]))
       problem_.sigma[static_cast<Eigen::Index>(c)] = options_.noise[problem_.channels[c]];

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "boresight/rungs/integrator_choice.hpp"
+
 namespace boresight {
 
 VecX noise_from_differences(const CalibrationProblem& problem) {
@@ -56,6 +58,19 @@ bool is_angle(const CalibrationProblem& problem, int c) {
 }
 
 }  // namespace
+
+VecX noise_of_steps(const CalibrationProblem& problem) {
+  constexpr double kLeft = 1e-6;
+  double clearance = 0.0, length = 0.0;
+  for (const CalibrationRun& run : problem.runs) {
+    clearance = std::max(clearance, smallest_clearance(run.mechanism->parameters()));
+    length = std::max(length, run.mechanism->characteristic_length());
+  }
+  VecX sigma = VecX::Constant(static_cast<Eigen::Index>(problem.channels.size()), kLeft * clearance);
+  for (int c = 0; c < sigma.size(); ++c)
+    if (is_angle(problem, c)) sigma[c] /= length;
+  return sigma;
+}
 
 VecX noise_from_sizes(const CalibrationProblem& problem) {
   const int count = static_cast<int>(problem.channels.size());

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "boresight/math/eigenvalues.hpp"
+#include "boresight_analyses/calibration/channel_noise.hpp"
 #include "boresight_analyses/statistics/effective_samples.hpp"
 
 namespace boresight {
@@ -147,6 +148,9 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   const double freedom = std::max(1.0, static_cast<double>(out.values - out.unknowns));
   const double mean_slope = psi_slope / static_cast<double>(out.values);
   out.variance_factor = psi_square / freedom / std::max(mean_slope, 1e-3);
+  if (problem.follows_play())
+    out.variance_factor =
+        std::max(out.variance_factor, std::pow(noise_of_steps(problem).cwiseQuotient(problem.sigma).maxCoeff(), 2));
 
   // Do residuals follow one another?
   int longest = 0;

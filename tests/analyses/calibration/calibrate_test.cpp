@@ -42,6 +42,28 @@ TEST(Calibrate, RecoversWhatMadeItsOwnRungsData) {
   EXPECT_EQ(result.inference.rank, problem.parameter_count());
 }
 
+// The boresight on the crank, which the rocker's play does not move: all readings and all residuals are zero, and no place is likelier than
+// another.
+TEST(Calibrate, OfReadingsThatNothingMovesSaysThatTheyTellNothing) {
+  MechanismDescription description = four_bar::mechanism(2.0, 0.16)->description();
+  for (BodyDescription& body : description.bodies) body.boresight.reset();
+  for (BodyDescription& body : description.bodies)
+    if (body.name == "crank") body.boresight = Vec3::UnitZ();
+  const auto mechanism = std::make_shared<const Mechanism>(description);
+  const std::vector<double> t = four_bar::times(0.16);
+  SyntheticRig rig;
+  rig.noise = 0.0;
+  const MatX clean = four_bar::own_readings(mechanism, t, rig.channels);
+  ASSERT_LT(clean.norm(), 1e-25);  // gains that rounding leaves
+  CalibrationProblem problem;
+  problem.runs.emplace_back("still", mechanism, with_rig_errors(rig, t, clean, 0));
+  problem.parameters.push_back(fitted_parameter(mechanism->description(), kFour[0], 2.4e-4));
+  problem.prepare(10.0, true);
+  const CalibrationResult result = calibrate(problem, options_with(0));
+  EXPECT_EQ(result.inference.rank, 0);
+  EXPECT_FALSE(result.inference.parameters.front().identifiable);
+}
+
 TEST(Calibrate, FindsClearanceToOnePercentAndFrictionToTenInMultibodyData) {
   const Bench bench({2.0, 2.6}, 0.12, true);
   CalibrationProblem problem = bench.problem({}, kFour);
