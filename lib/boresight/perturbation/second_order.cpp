@@ -97,6 +97,8 @@ class Share {
   void add(double size, double part) {
     size_ = std::max(size_, size);
     part_ = std::max(part_, part);
+    sum_ += size;
+    part_sum_ += part;
     square_ += size * size;
     part_square_ += part * part;
     ++instants_;
@@ -108,14 +110,23 @@ class Share {
     if (square > 0.0) return std::sqrt(part_square_ / square);
     return part_square_ > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
   }
-  // The larger of both ratios; what is smaller than `least` is held against that.
-  double value(double least) const {
+  // The largest of the ratios of maxima, root mean squares and means; what is smaller than `least` is held against that. The instants are those of
+  // large deviations, and a mean over them is more than the motion's own, by index: what is missed all along counts against that.
+  double value(double least, const Statistics& index) const {
     const double size = std::max(size_, least);
-    return size > 0.0 ? std::max(part_ / size, mean_value(least)) : 0.0;
+    if (!(size > 0.0)) return 0.0;
+    const double n = instants_, rms = std::max(std::min(std::sqrt(square_ / n), index.rms), least),
+                 mean = std::max(std::min(sum_ / n, index.mean), least);
+    const double by_rms = std::sqrt(part_square_ / n), by_mean = part_sum_ / n;
+    return std::max({part_ / size, ratio(by_rms, rms), ratio(by_mean, mean)});
   }
 
  private:
-  double size_ = 0.0, part_ = 0.0, square_ = 0.0, part_square_ = 0.0;
+  static double ratio(double part, double of) {
+    return of > 0.0 ? part / of : part > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
+  }
+
+  double size_ = 0.0, part_ = 0.0, sum_ = 0.0, part_sum_ = 0.0, square_ = 0.0, part_square_ = 0.0;
   int instants_ = 0;
 };
 
@@ -263,7 +274,8 @@ class LeftOut {
   }
 
   // at_rest: what the balance at the start misses, of each kind.
-  SecondOrder shares(const MissedAtRest& at_rest) const {
+  // index: of the motion.
+  SecondOrder shares(const MissedAtRest& at_rest, const PointingIndices& index) const {
     // What turns miss that are next to nothing against the displacement, on the mechanism's size, counts against a little of that; and the
     // other way round. The line of sight counts against itself: how small an angle a displacement is depends on the target's distance.
     constexpr double kNextToNothing = 1e-4;
@@ -277,13 +289,14 @@ class LeftOut {
     for (int k = 0; k < kKinds; ++k) {
       const double least = k == kMoved ? next_to_nothing : k == kSighted ? 0.0 : next_to_nothing / length;
       const double size = std::max(miss_[k].size(), least);
-      double of_kind = miss_[k].value(least);
+      double of_kind = miss_[k].value(least, index.of(PointingQuantity(k)));
       const double by_rest = size > 0.0 ? at_rest.pose[k] / size : 0.0;
       found.pose[k] = of_all(std::max(of_kind, by_rest));
       // A force that is off early shows in where the journal gets to later: all of its part counts by the share of all forces. And where
       // next to nothing pushes for a while, all of its part counts for that while. Together no more than all of it by the largest share.
       for (std::size_t g = 0; g < groups_.size(); ++g) {
-        const double part = part_[g][k].value(least), by_forces = part * std::min(1.0, push_[g].mean_value(0.0));
+        const double part = part_[g][k].value(least, index.of(PointingQuantity(k))),
+                     by_forces = part * std::min(1.0, push_[g].mean_value(0.0));
         of_kind += std::min(part * pushed_off_[g], by_forces + astray_[g][k].mean_value(least));
       }
       found.whole[k] = of_all(std::max(of_kind, by_rest));
@@ -369,12 +382,12 @@ class LeftOut {
 }  // namespace
 
 SecondOrder second_order(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,
-                         const LargestDeviations& largest, bool want_missed) {
+                         const LargestDeviations& largest, const PointingIndices& index, bool want_missed) {
   try {
     LeftOut left_out(mechanism, prepared, parameters, want_missed);
     for (const LargestDeviations::Deviation& deviation : largest.parts())
       if (deviation.size > 0.0) left_out.look(deviation);
-    return left_out.shares(missed_at_rest(mechanism, prepared, parameters));
+    return left_out.shares(missed_at_rest(mechanism, prepared, parameters), index);
   } catch (const ComputationError&) {
     SecondOrder all;
     all.pose.fill(1.0);
