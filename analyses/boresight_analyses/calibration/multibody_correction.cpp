@@ -28,9 +28,10 @@ MatX window_readings(const CalibrationProblem& problem, const Window& w, const G
   std::vector<double> times = problem.reading_times(w, at);
   return kept_or_computed<MatX>(
       problem.kept, CalibrationKey("multibody", problem).add(w.run, w.first, w.last, at).value(), [&] {
-        return problem.mean_readings(w, at,
-                                     multibody_readings(run.mechanism, problem.parameters_at(w.run, problem.values(at)),
-                                                        times, run.data.channels, run.data.place_B));
+        return problem.mean_readings(
+            w, at,
+            multibody_readings(run.mechanism, problem.parameters_at(w.run, problem.values(at)), times,
+                               run.data.channels, run.data.place_B, run.implicit_steps));
       });
 }
 

@@ -24,11 +24,11 @@ double channel_reading(int channel, const PoseSample& s, const Vec3& boresight_B
 
 MatX multibody_readings(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters,
                         const std::vector<double>& times, const std::vector<int>& channels,
-                        const std::vector<Vec3>& places_B) {
+                        const std::vector<Vec3>& places_B, bool implicit) {
   double spacing = times.front() > 0.0 ? times.front() : 1e-3;
   for (std::size_t i = 1; i < times.size(); ++i) spacing = std::min(spacing, times[i] - times[i - 1]);
   RunOptions options;
-  options.integrator = "dopri5";
+  options.integrator = implicit ? "rosenbrock" : "dopri5";
   options.tolerance = 1e-7;
   options.sample_spacing = std::max(spacing, 1e-5);
   options.events = false;

@@ -12,10 +12,10 @@ double channel_reading(int channel, const PoseSample& sample, const Vec3& boresi
                        const Vec3& place_B = Vec3::Zero());
 
 // Readings at `times` (rising, from 0) of the multibody rung's motion, contacts located: times x channels.
-// places_B: where each is measured; empty: at the body's origin. Throws ComputationError.
+// places_B: where each is measured; empty: at the body's origin. implicit: by steps that no damped contact keeps short. Throws ComputationError.
 MatX multibody_readings(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters,
                         const std::vector<double>& times, const std::vector<int>& channels,
-                        const std::vector<Vec3>& places_B = {});
+                        const std::vector<Vec3>& places_B = {}, bool implicit = false);
 
 struct SyntheticRig {
   std::vector<int> channels = {0, 1, 2, 3, 4, 5};

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "boresight/formulations/formulation.hpp"
 #include "boresight/formulations/shared_reactions.hpp"
 #include "boresight/math/dense_solves.hpp"
 #include "boresight/mechanism/error.hpp"
-#include "boresight/multibody/multibody_start.hpp"
-#include "boresight/scene/resting_start.hpp"
+#include "boresight/perturbation/displacement_sizes.hpp"
+#include "boresight/perturbation/missed_at_rest.hpp"
+#include "boresight/perturbation/missed_share.hpp"
 
 namespace boresight {
 namespace {
@@ -90,111 +90,10 @@ VecX taken_along(const DependentOffsets& offsets, const VecX& unit) {
   return -(unit.asDiagonal() * solve_least(B, offsets.beyond));
 }
 
-// Of one kind of displacement over the instants: the largest and the mean square of what the rung has, and of what it misses or of
-// what a group of coordinates contributes.
-class Share {
- public:
-  void add(double size, double part) {
-    size_ = std::max(size_, size);
-    part_ = std::max(part_, part);
-    sum_ += size;
-    part_sum_ += part;
-    square_ += size * size;
-    part_square_ += part * part;
-    ++instants_;
-  }
-  double size() const { return size_; }
-  // Of the root mean squares.
-  double mean_value(double least) const {
-    const double square = std::max(square_, instants_ * least * least);
-    if (square > 0.0) return std::sqrt(part_square_ / square);
-    return part_square_ > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
-  }
-  // The largest of the ratios of maxima, root mean squares and means; what is smaller than `least` is held against that. The instants are those of
-  // large deviations, and a mean over them is more than the motion's own, by index: what is missed all along counts against that.
-  double value(double least, const Statistics& index) const {
-    const double size = std::max(size_, least);
-    if (!(size > 0.0)) return 0.0;
-    const double n = instants_, rms = std::max(std::min(std::sqrt(square_ / n), index.rms), least),
-                 mean = std::max(std::min(sum_ / n, index.mean), least);
-    const double by_rms = std::sqrt(part_square_ / n), by_mean = part_sum_ / n;
-    return std::max({part_ / size, ratio(by_rms, rms), ratio(by_mean, mean)});
-  }
-
- private:
-  static double ratio(double part, double of) {
-    return of > 0.0 ? part / of : part > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
-  }
-
-  double size_ = 0.0, part_ = 0.0, sum_ = 0.0, part_sum_ = 0.0, square_ = 0.0, part_square_ = 0.0;
-  int instants_ = 0;
-};
-
 // One a PointingQuantity.
 constexpr int kKinds = kPointingQuantities;
 constexpr int kMoved = int(PointingQuantity::position_error), kTurned = int(PointingQuantity::orientation_error),
               kAimed = int(PointingQuantity::boresight_error), kSighted = int(PointingQuantity::line_of_sight_error);
-
-// How much of each kind a displacement is of the body that carries the boresight.
-class Sizes {
- public:
-  Sizes(const Mechanism& mechanism, const BodyMotion& body) {
-    const auto& line = mechanism.pointing().line_of_sight;
-    for (int k = 0; k < kKinds; ++k) {
-      gain_[k].setZero();
-      if (k == kSighted && !line) continue;
-      gain_[k] =
-          error_gain(PointingQuantity(k), {body.p, Quat(body.R)}, body.R * mechanism.pointing().boresight_B, line);
-    }
-  }
-  std::array<double, kKinds> operator()(const Vec6& x) const {
-    std::array<double, kKinds> size = {};
-    for (int k = 0; k < kKinds; ++k) size[k] = (gain_[k] * x).norm();
-    return size;
-  }
-
- private:
-  std::array<Eigen::Matrix<double, 3, 6>, kKinds> gain_;
-};
-
-Vec6 displacement(const BodyMotion& from, const BodyMotion& to) {
-  const Eigen::AngleAxisd turn(to.R * from.R.transpose());
-  Vec6 x;
-  x << to.p - from.p, turn.angle() * turn.axis();
-  return x;
-}
-
-struct MissedAtRest {
-  std::array<double, kKinds> pose = {};
-  VecX start;  // of the coordinates, then of their rates; empty where nothing is missed
-};
-
-// What the linear balance of resting journals misses of the one on the mechanism's own geometry, which knows how the loads change as
-// journals move: with them, where a journal goes that next to nothing pushes.
-MissedAtRest missed_at_rest(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters) {
-  if (mechanism.description().journals == JournalStart::centred) return {};
-  const RestingBodies resting = resting_bodies(mechanism, parameters, prepared.ideal());
-  if (resting.linear.size() == 0) return {};  // then this rung starts centred, and says so
-  if (resting.exact.empty()) throw ComputationError(resting.refusal);
-  IdealState state;
-  prepared.ideal().state(0.0, state);
-  const int body = mechanism.boresight_body();
-  MissedAtRest missed;
-  missed.pose = Sizes(mechanism, state.bodies[body])(displacement(state.bodies[body], resting.exact[body]) -
-                                                     Vec6(resting.linear.segment<6>(6 * body)));
-  const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters);
-  std::string warning;
-  missed.start = -start_coordinates(mechanism, tables->layout, tables->start,
-                                    joint_plays(mechanism.description(), parameters), warning);
-  DeviationCoordinates coordinates = prepared.scene().coordinates();
-  MatX T;
-  coordinates.gain(0.0, T);
-  VecX z, z_dot;
-  coordinates.coordinate_rates(resting.exact, z_dot, z);
-  missed.start.head(z.size()) += z;
-  missed.start.tail(z.size()) += z_dot;
-  return missed;
-}
 
 // What is found out, one deviation after the other.
 class LeftOut {
@@ -240,7 +139,7 @@ class LeftOut {
     // What the contacts of dependent offsets make of their own misses comes on top, whichever way it points.
     const DependentOffsets dependent = dependent_offsets(at_, row_.data(), parameters_, formulation_->forces(), z);
     const Vec6 along = E * taken_along(dependent, unit_);
-    const Sizes sizes(mechanism_, state.bodies[body]);
+    const DisplacementSizes sizes(mechanism_, state.bodies[body]);
     const auto whole = sizes(linear), bent = sizes(off), taken = sizes(along);
     for (int k = 0; k < kKinds; ++k) miss_[k].add(whole[k], bent[k] + taken[k]);
 
@@ -370,10 +269,10 @@ class LeftOut {
   std::vector<ContactMemory> memory_;
   std::vector<double> row_;
   bool begun_ = false;
-  std::array<Share, kKinds> miss_;
+  std::array<MissedShare, kKinds> miss_;
   // Of each group, over the instants: its part of each kind, that times how much of its forces is off then, these forces, and the most of them.
-  std::vector<std::array<Share, kKinds>> part_, astray_;
-  std::vector<Share> push_;
+  std::vector<std::array<MissedShare, kKinds>> part_, astray_;
+  std::vector<MissedShare> push_;
   std::vector<double> pushed_off_;
   std::vector<Missed> missed_;
   VecX y_, dy_;  // the formulation's state at the last deviation
