@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "boresight/mechanism/body_motion.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight/pointing/indices.hpp"
 
