@@ -62,10 +62,11 @@ VecX CalibrationProblem::state_at(const Window& w, const Globals& globals, const
 
 VecX CalibrationProblem::guess_state(const Window& window, const Globals& globals, const VecX& carried) const {
   // Some fits lead deep into a contact, and what it throws back goes to and fro for as many steps as one lets it.
-  constexpr long kFewSteps = 20'000, kTimesAtRest = 20;
+  // An implicit step is as dear as several.
+  constexpr long kFewSteps = 20'000, kFewImplicit = 5'000, kTimesAtRest = 20;
   Window w = window;
   if (!w.from_rest) {
-    w.most_steps = kFewSteps;
+    w.most_steps = runs[w.run].implicit_steps ? kFewImplicit : kFewSteps;
     try {
       w.most_steps +=
           kTimesAtRest * follow(window, values(globals), VecX::Zero(state_size(window)), {window.end}, false).steps;

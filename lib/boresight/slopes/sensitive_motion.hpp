@@ -22,6 +22,9 @@
 // Where contact only grazes, g_t + g_y f -> 0 and dt*/dq grows without bound: derivatives there hold for ever
 // smaller changes of q only. Such impacts are counted.
 //
+// Explicit steps stand at the limit of stability where a journal lies in a damped contact; S, which has no say in them, then grows without
+// bound unless derivative_tolerance keeps it small. Implicit ones do not, and cost less there: shifted_sensitivities.hpp.
+//
 // Steps are chosen by the error of y alone, as if S were not there, unless derivative_tolerance asks for
 // more: the derivatives are then those of the numerical motion with its steps held fixed (internal
 // differentiation; Bock 1981), and y is the same with and without them. Inside an impact S is some thousand
