@@ -55,7 +55,8 @@ class Perturbation final : public SceneRung {
     RunResult result = follow_on(tables, prepared, standing, parameters, options, largest);
     result.error = {{}, kNotMeasured, "not looked at"};
     if (result.interrupted || options.model_look == ModelLook::none) return result;
-    const SecondOrder beyond = second_order(mechanism(), prepared, parameters, largest, result.index, further);
+    const SecondOrder beyond =
+        second_order(mechanism(), prepared, parameters, largest, result.index, result.start, further);
     result.error = {beyond.whole, kNotMeasured, basis(mechanism(), further)};
     if (!further) return result;
     LargestDeviations unused(mechanism().duration(), 1);

@@ -116,8 +116,9 @@ class LeftOut {
         push_(groups_.size()),
         pushed_off_(groups_.size(), 0.0) {}
 
-  // Throws ComputationError where it cannot be made exactly.
-  void look(const LargestDeviations::Deviation& deviation) {
+  // counts: whether the indices know of that time; what is missed before moves journals all the same. Throws ComputationError where it cannot be
+  // made exactly.
+  void look(const LargestDeviations::Deviation& deviation, bool counts) {
     tables_->dynamics.at(deviation.t, row_.data());
     MatX T, A;
     coordinates_.gain(deviation.t, T);
@@ -141,7 +142,7 @@ class LeftOut {
     const Vec6 along = E * taken_along(dependent, unit_);
     const DisplacementSizes sizes(mechanism_, state.bodies[body]);
     const auto whole = sizes(linear), bent = sizes(off), taken = sizes(along);
-    for (int k = 0; k < kKinds; ++k) miss_[k].add(whole[k], bent[k] + taken[k]);
+    for (int k = 0; counts && k < kKinds; ++k) miss_[k].add(whole[k], bent[k] + taken[k]);
 
     VecX left = z_ddot + Rows(row_.data() + at_.AC, at_.n, at_.n) * z_dot;
     if (at_.stiff) left += Rows(row_.data() + at_.AK, at_.n, at_.n) * z;
@@ -162,7 +163,7 @@ class LeftOut {
         for (int k = 0; k < kKinds; ++k) gain[k] += of_one[k] * of_one[k];
       }
       const double share_off = size_off > 0.0 ? std::min(1.0, std::sqrt(size_off / std::max(size, 1e-300))) : 0.0;
-      for (int k = 0; k < kKinds; ++k) {
+      for (int k = 0; counts && k < kKinds; ++k) {
         const double part = std::sqrt(gain[k] * reach);
         part_[g][k].add(whole[k], part);
         astray_[g][k].add(whole[k], part * share_off);
@@ -281,11 +282,12 @@ class LeftOut {
 }  // namespace
 
 SecondOrder second_order(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,
-                         const LargestDeviations& largest, const PointingIndices& index, bool want_missed) {
+                         const LargestDeviations& largest, const PointingIndices& index, double start,
+                         bool want_missed) {
   try {
     LeftOut left_out(mechanism, prepared, parameters, want_missed);
     for (const LargestDeviations::Deviation& deviation : largest.parts())
-      if (deviation.size > 0.0) left_out.look(deviation);
+      if (deviation.size > 0.0) left_out.look(deviation, deviation.t >= start || &deviation == &largest.parts().back());
     return left_out.shares(missed_at_rest(mechanism, prepared, parameters), index);
   } catch (const ComputationError&) {
     SecondOrder all;

@@ -16,7 +16,7 @@
 //
 //   LargestDeviations largest(duration);
 //   largest.add(t, size, z, z_dot);             // along the motion
-//   second_order(mechanism, prepared, parameters, largest, result.index, false).whole;
+//   second_order(mechanism, prepared, parameters, largest, result.index, result.start, false).whole;
 #pragma once
 
 #include <algorithm>
@@ -71,8 +71,9 @@ struct SecondOrder {
   VecX start;  // likewise: of the coordinates and their rates as journals rest, beyond the linear balance
 };
 
-// index: of the motion.
+// index: of the motion from start [s] on.
 SecondOrder second_order(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,
-                         const LargestDeviations& largest, const PointingIndices& index, bool want_missed);
+                         const LargestDeviations& largest, const PointingIndices& index, double start,
+                         bool want_missed);
 
 }  // namespace boresight

@@ -46,19 +46,23 @@ TEST(SecondOrderShare, CountsAgainstTheMotionsOwnMeansWhereTheseAreLess) {
   prepared.pose_gain(body).at(0.5 * mechanism->duration(), gain.data());
   const Vec6 x = Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>>(gain.data(), 6, n) * z;
 
-  const auto position = [&](double rms, double mean) {
+  const auto position = [&](double rms, double mean, double start = 0.0) {
     PointingIndices index;
     index.position_error = {
         .max = x.head<3>().norm(), .rms = rms * x.head<3>().norm(), .mean = mean * x.head<3>().norm()};
-    return second_order(*mechanism, prepared, parameters, largest, index, false).pose[0];
+    return second_order(*mechanism, prepared, parameters, largest, index, start, false).pose[0];
   };
   const double alone = position(1.0, 1.0);
   ASSERT_GT(alone, 1e-6);
   ASSERT_LT(alone, 0.1);
   EXPECT_NEAR(position(0.5, 1.0) / alone, 2.0, 1e-5);  // closing the joints moves z a little
   EXPECT_NEAR(position(0.5, 0.25) / alone, 4.0, 1e-5);
-  EXPECT_EQ(position(3.0, 2.0),
-            alone);  // errors besides the play's make the index larger, and not what is missed smaller
+  // Errors besides the play's make the index larger, and not what is missed smaller.
+  EXPECT_EQ(position(3.0, 2.0), alone);
+  // What is missed before the indices begin to count is none of theirs.
+  largest.add(0.1 * mechanism->duration(), 2.0, 3.0 * z, VecX::Zero(n));
+  EXPECT_GT(position(3.0, 2.0), 2.0 * alone);
+  EXPECT_EQ(position(3.0, 2.0, 0.3 * mechanism->duration()), alone);
 }
 
 }  // namespace second_order_test
