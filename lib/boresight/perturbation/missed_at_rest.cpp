@@ -6,7 +6,8 @@
 
 namespace boresight {
 
-MissedAtRest missed_at_rest(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters) {
+MissedAtRest missed_at_rest(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters,
+                            bool want_start) {
   if (mechanism.description().journals == JournalStart::centred) return {};
   const RestingBodies resting = resting_bodies(mechanism, parameters, prepared.ideal());
   if (resting.linear.size() == 0) return {};  // then this rung starts centred, and says so
@@ -17,6 +18,7 @@ MissedAtRest missed_at_rest(const Mechanism& mechanism, const PreparedScene& pre
   MissedAtRest missed;
   missed.pose = DisplacementSizes(mechanism, state.bodies[body])(displacement(state.bodies[body], resting.exact[body]) -
                                                                  Vec6(resting.linear.segment<6>(6 * body)));
+  if (!want_start) return missed;
   const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters);
   std::string warning;
   missed.start = -start_coordinates(mechanism, tables->layout, tables->start,

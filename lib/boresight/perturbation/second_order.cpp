@@ -185,7 +185,7 @@ class LeftOut {
     const auto of_all = [](double share) { return std::isfinite(share) ? std::min(share, 1.0) : 1.0; };
     SecondOrder found;
     found.missed = missed_;
-    if (want_missed_) found.start = at_rest.start;
+    found.start = at_rest.start;
     for (int k = 0; k < kKinds; ++k) {
       const double least = k == kMoved ? next_to_nothing : k == kSighted ? 0.0 : next_to_nothing / length;
       const double size = std::max(miss_[k].size(), least);
@@ -288,7 +288,7 @@ SecondOrder second_order(const Mechanism& mechanism, const PreparedScene& prepar
     LeftOut left_out(mechanism, prepared, parameters, want_missed);
     for (const LargestDeviations::Deviation& deviation : largest.parts())
       if (deviation.size > 0.0) left_out.look(deviation, deviation.t >= start || &deviation == &largest.parts().back());
-    return left_out.shares(missed_at_rest(mechanism, prepared, parameters), index);
+    return left_out.shares(missed_at_rest(mechanism, prepared, parameters, want_missed), index);
   } catch (const ComputationError&) {
     SecondOrder all;
     all.pose.fill(1.0);

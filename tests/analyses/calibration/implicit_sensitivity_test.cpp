@@ -1,38 +1,23 @@
 // Slopes carried by implicit steps: those of explicit ones, at a cost that damping does not drive up.
 #include <gtest/gtest.h>
 
-#include "boresight/formulations/ideal_simulation.hpp"
-#include "boresight/io/mechanism_file.hpp"
-#include "boresight/mechanism/error.hpp"
-#include "boresight/mechanism/parameter_path.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
-#include "boresight/scene/scene_rung.hpp"
 #include "boresight/slopes/sensitive_motion.hpp"
 #include "boresight/slopes/start_slopes.hpp"
+#include "crank_slider_scene.hpp"
 
 namespace boresight {
 namespace implicit_sensitivity_test {
 
-class Scene {
+class Scene : public crank_slider::Scene {
  public:
-  Scene(const std::vector<Setting>& settings, const std::vector<std::string>& varied)
-      : mechanism(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", settings)),
-        prepared(mechanism, ideal_motion(mechanism, mechanism.parameters()), mechanism.parameters()),
-        tables(prepared.tables(mechanism.parameters())) {
-    for (const std::string& path : varied) paths.emplace_back(mechanism.description(), path);
-    for (const ParameterPath& path : paths) values.push_back(path.get(mechanism.parameters()));
-  }
-  Parameters at(const std::vector<double>& v) const {
-    Parameters p = mechanism.parameters();
-    for (std::size_t k = 0; k < paths.size(); ++k) paths[k].set(p, v[k]);
-    return p;
-  }
-  ContactNumbers numbers() const {
-    return contact_numbers(
-        mechanism, [&](const auto& x) { return at(x); }, values);
-  }
+  using crank_slider::Scene::Scene;
+
   SensitiveMotion follow(const MotionRequest& request) const {
-    return follow_with_sensitivity(mechanism, at(values), tables, numbers(), request);
+    return follow_with_sensitivity(mechanism, at(values), tables, numbers(values), request);
+  }
+  bool implicit_steps_pay(const MotionRequest& request) const {
+    return boresight::implicit_steps_pay(mechanism, at(values), tables, numbers(values), request);
   }
   // To `end`, begun where journals rest.
   MotionRequest from_rest(double end) const {
@@ -45,15 +30,9 @@ class Scene {
     request.start_by_parameters = start.by;
     return request;
   }
-
-  Mechanism mechanism;
-  PreparedScene prepared;
-  std::shared_ptr<const SceneTables> tables;
-  std::vector<ParameterPath> paths;
-  std::vector<double> values;
 };
 
-// Per row: of a derivative's columns, over the largest column, rates times the flight's time.
+// Of the columns of two derivatives, each over its size, rates times the flight's time: the largest difference.
 double apart(const MatX& a, const MatX& b) {
   const auto scaled = [](MatX m) {
     m.bottomRows(m.rows() / 2) *= kFlightTime;
@@ -95,7 +74,7 @@ TEST(ImplicitSensitivity, PaysWhereDampingKeepsExplicitStepsShort) {
                      {"clearance.A.radial"});
   MotionRequest request = damped.from_rest(5e-3);
   request.tolerance = 1e-7;
-  EXPECT_TRUE(implicit_steps_pay(damped.mechanism, damped.at(damped.values), damped.tables, damped.numbers(), request));
+  EXPECT_TRUE(damped.implicit_steps_pay(request));
   request.by_parameters = true;
   request.derivative_tolerance = 1e-4;
   const SensitiveMotion by_explicit = damped.follow(request);
@@ -107,7 +86,7 @@ TEST(ImplicitSensitivity, PaysWhereDampingKeepsExplicitStepsShort) {
   const Scene light({}, {"clearance.A.radial"});
   request = light.from_rest(8e-3);
   request.tolerance = 1e-7;
-  EXPECT_FALSE(implicit_steps_pay(light.mechanism, light.at(light.values), light.tables, light.numbers(), request));
+  EXPECT_FALSE(light.implicit_steps_pay(request));
 }
 
 }  // namespace implicit_sensitivity_test

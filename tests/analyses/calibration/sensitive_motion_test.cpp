@@ -10,6 +10,7 @@
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/scene/scene_rung.hpp"
 #include "boresight/slopes/start_slopes.hpp"
+#include "crank_slider_scene.hpp"
 
 namespace boresight {
 namespace sensitive_motion_test {
@@ -17,34 +18,15 @@ namespace sensitive_motion_test {
 const std::vector<std::string> kFlores = {"clearance.A.radial", "clearance.A.contact.restitution",
                                           "clearance.A.contact.stiffness_scale", "clearance.A.friction.coefficient"};
 
-class Scene {
+class Scene : public crank_slider::Scene {
  public:
   explicit Scene(const std::vector<Setting>& settings = {}, const std::vector<std::string>& varied = kFlores)
-      : mechanism(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/crank-slider/crank-slider.toml", settings)),
-        prepared(mechanism, ideal_motion(mechanism, mechanism.parameters()), mechanism.parameters()),
-        tables(prepared.tables(mechanism.parameters())) {
-    for (const std::string& path : varied) paths.emplace_back(mechanism.description(), path);
-    for (const ParameterPath& path : paths) values.push_back(path.get(mechanism.parameters()));
-  }
+      : crank_slider::Scene(settings, varied) {}
 
-  Parameters at(const std::vector<double>& v) const {
-    Parameters p = mechanism.parameters();
-    for (std::size_t k = 0; k < paths.size(); ++k) paths[k].set(p, v[k]);
-    return p;
-  }
   SensitiveMotion follow(const std::vector<double>& v, MotionRequest request, bool derivatives) const {
     request.by_parameters = request.by_start_state = derivatives;
-    return follow_with_sensitivity(mechanism, at(v), tables,
-                                   contact_numbers(
-                                       mechanism, [&](const auto& x) { return at(x); }, v),
-                                   request);
+    return follow_with_sensitivity(mechanism, at(v), tables, numbers(v), request);
   }
-
-  Mechanism mechanism;
-  PreparedScene prepared;
-  std::shared_ptr<const SceneTables> tables;
-  std::vector<ParameterPath> paths;
-  std::vector<double> values;
 };
 
 MotionRequest flight_to(double end) {
