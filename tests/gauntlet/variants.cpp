@@ -45,6 +45,7 @@ MechanismDescription drawn_elsewhere(MechanismDescription m, const Mat3& R, cons
     turn(j.axis);
     turn(j.second_axis);
   }
+  for (ClearanceDescription& c : m.clearances) turn(c.width_direction);
   for (SpringDescription& s : m.springs) {
     place(s.first_point);
     place(s.second_point);

@@ -251,11 +251,17 @@ double RestingBalance::descend(VecX& z, double undecided, bool downhill) const {
 }
 
 bool RestingBalance::follow(VecX& z, double undecided) {
+  const VecX from = z;
   double before = kLongestStride;
   for (int step = 0; step < kMostStrides; ++step) {
+    MatX valley;  // of a displacement, the part along which the contacts hold nothing; 0 x 0: not asked
     // The first step turns the contacts as far as they turn; from there on their stiffness is what it will be.
-    if (step == 1 || kept_.rows() != at_.n) keep_stiffness(z);
-    const VecX F = left(z), dz = kept_ * F;
+    if (step == 1 || kept_.rows() != at_.n) valley = keep_stiffness(z);
+    const VecX F = left(z);
+    VecX dz = kept_ * F;
+    // The stiffness of the instant before knows the valleys of then, in offsets that coordinates of then give: what it moved along those of now
+    // is taken back.
+    if (step == 1) dz -= valley * (z - from);
     const double by = length(dz);
     if (!(by <= (step < 2 ? 1.0 : kShrinks) * before)) return false;
     z += dz;
@@ -265,12 +271,17 @@ bool RestingBalance::follow(VecX& z, double undecided) {
   return false;
 }
 
-void RestingBalance::keep_stiffness(const VecX& z) {
+MatX RestingBalance::keep_stiffness(const VecX& z) {
   std::vector<PlayMotion<double>> journals;
   for (std::size_t c = 0; c < joints_.size(); ++c) journals.push_back(motion_of(c, z));
-  const MatX H = -(unit_.transpose() * stiffness_at(journals) * unit_);
+  const MatX by_z = stiffness_at(journals), H = -(unit_.transpose() * by_z * unit_);
   const std::optional<MatX> moved = solve_if_positive(H, unit_.transpose(), kSoftContact);
-  kept_ = moved ? MatX(unit_ * *moved) : MatX(unit_ * pseudo_inverse(H, kSoftContact) * unit_.transpose());
+  if (moved) {
+    kept_ = unit_ * *moved;
+    return MatX::Zero(at_.n, at_.n);
+  }
+  kept_ = unit_ * pseudo_inverse(H, kSoftContact) * unit_.transpose();
+  return MatX::Identity(at_.n, at_.n) + kept_ * by_z;
 }
 
 // Coordinates whose offsets, over clearances, are least far from these; what is not held by play stays where it was.

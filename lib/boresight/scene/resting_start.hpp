@@ -80,7 +80,8 @@ class RestingBalance {
   // The same where little has changed since the instant before: one step by its stiffness, then by one of now as long as they shrink fast.
   // Whether that found the balance.
   bool follow(VecX& z, double undecided);
-  void keep_stiffness(const VecX& z);
+  // Keeps the contacts' stiffness at z for follow(). Of a displacement, the part along which they hold nothing: n x n.
+  MatX keep_stiffness(const VecX& z);
   // Along what holds nothing, from a balance to the nearest one to where the ideal motion has the journals: which of them Newton's method finds
   // hangs on rounding.
   void settle(VecX& z) const;

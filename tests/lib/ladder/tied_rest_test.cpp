@@ -2,6 +2,7 @@
 // quasistatic rung, held against closed forms and against the rungs with dynamics.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "boresight/ladder/ladder.hpp"
@@ -133,6 +134,61 @@ TEST(TiedRest, WithoutALoadJournalsStayInTheMiddle) {
   MechanismDescription m = shaft("30", "20 um", "20 um");
   m.gravity.setZero();
   EXPECT_LT(run(m, "quasistatic").index.position_error.max, 1e-12);
+}
+
+// A plane loop of five bars without gravity, every journal free in its sleeve: its inertia turns where the journals lie, and nothing holds them
+// along the pins but their own tilt.
+MechanismDescription five_bars(bool backwards) {
+  std::vector<std::string> bars, pins, plays;
+  const Vec3 at[] = {{0, 0, 0}, {-0.3, 0.5, 0}, {0.4, 0.9, 0}, {1.1, 0.5, 0}, {0.8, 0, 0}};
+  const auto vector = [](double x, double y, double z) {
+    return "[\"" + std::to_string(x) + " m\", \"" + std::to_string(y) + " m\", \"" + std::to_string(z) + " m\"]";
+  };
+  for (int k = 0; k < 4; ++k) {
+    const Vec3 middle = 0.5 * (at[k] + at[k + 1]);
+    bars.push_back("[[body]]\nname = \"bar" + std::to_string(k) + "\"\nmass = \"" + std::to_string(10 + 15 * k) +
+                   " kg\"\ncenter_of_mass = " + vector(middle.x(), middle.y(), 0.05 * k - 0.1) +
+                   "\ninertia = [\"0.5 kg m^2\", \"1 kg m^2\", \"1.2 kg m^2\"]\n" +
+                   (k == 3 ? "boresight = [1, 0, 0]\n" : ""));
+  }
+  for (int k = 0; k < 5; ++k) {
+    const std::string name = "j" + std::to_string(k);
+    std::string first = k == 0 ? "ground" : "bar" + std::to_string(k - 1),
+                second = k == 4 ? "ground" : "bar" + std::to_string(k);
+    const bool driven = k == 0 || k == 4;
+    if (backwards && !driven) std::swap(first, second);
+    if (k == 4) std::swap(first, second);
+    pins.push_back("[[joint]]\nname = \"" + name + "\"\ntype = \"revolute\"\nconnects = [\"" + first + "\", \"" +
+                   second + "\"]\npoint = " + vector(at[k].x(), at[k].y(), 0.0) + "\naxis = [0, 0, 1]\n" +
+                   (driven ? "driven = true\n" : ""));
+    plays.push_back("[[clearance]]\njoint = \"" + name + "\"\njournal = \"bar" + std::to_string(std::min(k, 3)) +
+                    "\"\nradial = \"" + std::to_string(60 + 40 * k) +
+                    " um\"\naxial = \"80 um\"\ncap_radius = \"60 mm\"\njournal_radius = \"40 mm\"\nsleeve_length = "
+                    "\"120 mm\"\naxes = \"free\"\n" +
+                    scenes::kContactAndFriction);
+  }
+  std::string text = "format = 1\nname = \"five bars\"\ngravity = [\"0 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\n";
+  for (std::vector<std::string>* list : {&bars, &pins, &plays}) {
+    if (backwards) std::reverse(list->begin(), list->end());
+    for (const std::string& part : *list) text += part;
+  }
+  return read_mechanism_text(text + "[motion]\nduration = \"0.2 s\"\ndrives = { j0 = \"0.3*t\", j4 = \"-0.2*t^2\" }\n",
+                             "five.toml");
+}
+
+TEST(TiedRest, SlidesAlongWhatNothingHoldsByTheSameInAnyOrderOfTheParts) {
+  const RunResult drawn = run(five_bars(false), "quasistatic"), backwards = run(five_bars(true), "quasistatic");
+  ASSERT_EQ(drawn.boresight.samples.size(), backwards.boresight.samples.size());
+  const double along = drawn.boresight.samples.front().error.displacement.z();
+  double slides = 0.0, apart = 0.0;
+  for (std::size_t k = 0; k < drawn.boresight.samples.size(); ++k) {
+    const Vec3 &one = drawn.boresight.samples[k].error.displacement,
+               &other = backwards.boresight.samples[k].error.displacement;
+    slides = std::max(slides, std::abs(one.z() - along));
+    apart = std::max(apart, (one - other).norm());
+  }
+  EXPECT_GT(slides, 1e-6);
+  EXPECT_LT(apart, 1e-11);
 }
 
 TEST(TiedRest, IsWhereTheRungsWithDynamicsStart) {
