@@ -124,14 +124,15 @@ const KeyTable& tail_keys() {
       .name = "montecarlo.tail",
       .says =
           "A rare excess: found on a cheap rung, measured there by importance sampling, corrected on the exact one.",
-      .keys = {
-          choice("cheap", rung_names()).otherwise("perturbation").says("The rung on which the excess is looked for."),
-          choice("exact", rung_names())
-              .otherwise("multibody")
-              .says("The rung for which the probability is unbiased; another one than cheap."),
-          budget_key("CPU time of the estimate; search and pilot come before it."),
-          pilot_key(static_cast<double>(q.pilot),
-                    "Samples on both rungs that decide how far to lean on the cheap one.")}};
+      .keys = {choice("cheap", rung_names())
+                   .otherwise("perturbation")
+                   .says("The rung on which the excess is looked for, if it costs less than the exact one."),
+               choice("exact", rung_names())
+                   .otherwise("multibody")
+                   .says("The rung for which the probability is unbiased; another one than cheap."),
+               budget_key("CPU time of the estimate; search and pilot come before it."),
+               pilot_key(static_cast<double>(q.pilot),
+                         "Samples on both rungs that decide how far to lean on the cheap one.")}};
   return table_of_keys;
 }
 

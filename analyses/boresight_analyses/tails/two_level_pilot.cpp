@@ -13,7 +13,7 @@ constexpr std::uint64_t kMarginSet = ~0ull - 1000, kPilotSet = ~0ull - 1001;  //
 
 struct Pair {
   WeightedDraws drawn;
-  std::vector<double> cheap, exact;
+  std::vector<double> cheap, exact;  // cheap: none where it is left alone
 };
 
 // Standard deviations of one point's contribution: of the exact model less `control` times the cheap one, and of the cheap.
@@ -25,7 +25,7 @@ struct Scatter {
 Scatter scatter(const Pair& pair, double limit, double control) {
   RunningMoments corrected, cheap, squares;
   for (std::size_t k = 0; k < pair.exact.size(); ++k) {
-    const double c = is_beyond(pair.cheap[k], limit), e = is_beyond(pair.exact[k], limit);
+    const double c = !pair.cheap.empty() && is_beyond(pair.cheap[k], limit), e = is_beyond(pair.exact[k], limit);
     corrected.add(pair.drawn.weights[k] * (e - control * c));
     cheap.add(pair.drawn.weights[k] * c);
     if (c + e > 0.0) squares.add(pair.drawn.weights[k] * pair.drawn.weights[k]);
@@ -43,27 +43,31 @@ TwoLevelPlan two_level_pilot(const BatchModel& cheap, const BatchModel& exact, i
     throw std::invalid_argument("costs and budget must be positive");
   if (pilot_points < 10) throw std::invalid_argument("the pilot needs ten points");
   const CounterStream stream(options.subset.seed, StreamPurpose::proposal);
-  TwoLevelPlan plan{tail_proposal(cheap, dimensions, limit, options), limit};
+  const bool on_exact = !(costs.cheap < costs.exact);
+  TwoLevelPlan plan{tail_proposal(on_exact ? exact : cheap, dimensions, limit, options), on_exact, limit};
   const auto run = [&](std::uint64_t set) {
     Pair pair{weighted_draws(plan.proposal.mixture, stream, set, 0, pilot_points), {}, {}};
-    pair.cheap = cheap(pair.drawn.points);
     pair.exact = exact(pair.drawn.points);
-    plan.cheap_evaluations += pilot_points;
     plan.exact_evaluations += pilot_points;
+    if (on_exact) return pair;
+    pair.cheap = cheap(pair.drawn.points);
+    plan.cheap_evaluations += pilot_points;
     return pair;
   };
-  plan.cheap_evaluations = plan.proposal.evaluations;
+  (on_exact ? plan.exact_evaluations : plan.cheap_evaluations) = plan.proposal.evaluations;
 
-  // How far the exact model lies above the cheap one near the tail: mean and two sd.
-  RunningMoments above;
-  const Pair first = run(kMarginSet);
-  for (std::size_t k = 0; k < first.exact.size(); ++k)
-    if (std::isfinite(first.exact[k]) && std::isfinite(first.cheap[k])) above.add(first.exact[k] - first.cheap[k]);
-  const double margin = std::max(0.0, above.mean() + 2.0 * above.sd());
-  if (margin > 0.0) {
-    plan.cheap_limit = limit - margin;
-    plan.proposal = tail_proposal(cheap, dimensions, plan.cheap_limit, options);
-    plan.cheap_evaluations += plan.proposal.evaluations;
+  if (!on_exact) {
+    // How far the exact model lies above the cheap one near the tail: mean and two sd.
+    RunningMoments above;
+    const Pair first = run(kMarginSet);
+    for (std::size_t k = 0; k < first.exact.size(); ++k)
+      if (std::isfinite(first.exact[k]) && std::isfinite(first.cheap[k])) above.add(first.exact[k] - first.cheap[k]);
+    const double margin = std::max(0.0, above.mean() + 2.0 * above.sd());
+    if (margin > 0.0) {
+      plan.cheap_limit = limit - margin;
+      plan.proposal = tail_proposal(cheap, dimensions, plan.cheap_limit, options);
+      plan.cheap_evaluations += plan.proposal.evaluations;
+    }
   }
 
   const Pair pair = run(kPilotSet);
@@ -83,7 +87,7 @@ TwoLevelPlan two_level_pilot(const BatchModel& cheap, const BatchModel& exact, i
     const Scatter s = scatter(pair, limit, control);
     return s.corrected * std::sqrt(control > 0.0 ? both : costs.exact) + control * s.cheap * std::sqrt(costs.cheap);
   };
-  for (double control = 0.0; control < 1.21; control += 0.05)
+  for (double control = 0.0; control < 1.21 && !on_exact; control += 0.05)
     if (price(control) < price(plan.control)) plan.control = control;
   const Scatter s = scatter(pair, limit, plan.control);
   const double total = price(plan.control);

@@ -1,6 +1,7 @@
 // Before the exact model is run in earnest: some points of both models around the tail tell how far the proposal must reach
 // beyond what the cheap model calls the tail, how much of the cheap model to lean on, how many points to give to each, and
-// what standard error to expect of that.
+// what standard error to expect of that. A cheap model that costs no less than the exact one buys nothing: the tail is then looked for on the exact
+// one, and the cheap one is left alone.
 #pragma once
 
 #include "boresight_analyses/tails/tail_estimate.hpp"
@@ -13,7 +14,8 @@ struct TwoLevelCosts {
 };
 
 struct TwoLevelPlan {
-  TailProposal proposal;     // fitted to the cheap model beyond `cheap_limit`
+  TailProposal proposal;     // fitted to the model that was searched beyond `cheap_limit`
+  bool on_exact = false;     // the exact model was searched: the cheap one costs no less
   double cheap_limit = 0.0;  // the limit, less what the exact model was seen to lie above the cheap one
   double control = 0.0;      // a of tail_estimate.hpp; 0: the exact model alone is the better buy
   std::int64_t cheap_points = 0, exact_points = 0;

@@ -17,15 +17,15 @@
 namespace boresight::app {
 namespace {
 
-report::Chart levels_chart(const SeveralRungs& s, const SubsetResult& subset) {
+report::Chart levels_chart(const SeveralRungs& s, const SubsetResult& subset, const std::string& rung) {
   double most = 0.0;
   for (const SubsetLevel& level : subset.levels) most = std::max(most, std::abs(level.threshold));
   const DisplayUnit unit = display_unit(s.question.study.index.si_unit(), most);
-  report::Chart chart{
-      .title = "How the excess was found",
-      .caption = "Subset simulation on the cheap rung: each level starts from the worst tenth of the one before.",
-      .x = {"index", unit.name},
-      .y = {"probability of exceeding it, cheap rung", "", true}};
+  report::Chart chart{.title = "How the excess was found",
+                      .caption = "Subset simulation on the " + rung +
+                                 " rung: each level starts from the worst tenth of the one before.",
+                      .x = {"index", unit.name},
+                      .y = {"probability of exceeding it, " + rung, "", true}};
   report::Numbers x, y;
   double p = 1.0;
   for (const SubsetLevel& level : subset.levels) {
@@ -42,6 +42,13 @@ std::string forecast_sentence(const TwoLevelPlan& pilot, const TailQuestion& ask
   if (!pilot.informed)
     return fmt::format("no point of the pilot exceeds the limit on {}: no forecast, the budget goes to {} points there",
                        asked.exact, pilot.exact_points);
+  if (pilot.on_exact)
+    return fmt::format(
+        "about {:.2g} exceed; forecast: standard error {:.2g} with {} points on {} ({:.2g} by plain Monte Carlo for "
+        "the "
+        "same CPU); {} costs more and was left alone",
+        pilot.probability, pilot.standard_error, pilot.exact_points, asked.exact, pilot.plain_standard_error,
+        asked.cheap);
   return fmt::format(
       "about {:.2g} exceed; forecast: standard error {:.2g} with {} points on {} and {} on {} "
       "({:.2g} on {} alone, {:.2g} by plain Monte Carlo for the same CPU)",
@@ -70,8 +77,9 @@ int run_tail(const SeveralRungs& s) {
 
   const IndependentInterval &p = estimate.bounds, &central = estimate.probability;
   std::vector<std::string> warnings;
+  const std::string& searched = pilot.on_exact ? asked.exact : asked.cheap;
   if (!pilot.proposal.subset.reached)
-    warnings.push_back("the search on the " + asked.cheap +
+    warnings.push_back("the search on the " + searched +
                        " rung did not reach the limit: the points are drawn from the whole scatter");
   if (estimate.effective_exceedances < 20.0)
     warnings.push_back(
@@ -128,7 +136,8 @@ int run_tail(const SeveralRungs& s) {
                    {{"cheap_points", pilot.cheap_evaluations},
                     {"exact_points", pilot.exact_evaluations},
                     {"cpu_seconds", before},
-                    {"cheap_probability", pilot.proposal.subset.probability},
+                    {"rung", searched},
+                    {pilot.on_exact ? "exact_probability" : "cheap_probability", pilot.proposal.subset.probability},
                     {"limit_searched", pilot.cheap_limit}}},
                   {"forecast",
                    {{"standard_error", pilot.standard_error},
@@ -170,11 +179,16 @@ int run_tail(const SeveralRungs& s) {
                 {asked.exact + " alone, plain Monte Carlo", pilot.plain_standard_error}};
   if (pilot.control > 0.0)
     table.rows.insert(table.rows.begin(), {"both rungs, importance sampling (taken)", pilot.standard_error});
+  else if (pilot.on_exact)
+    table.caption +=
+        fmt::format(" A sample takes {} on {} and {} on {}, which was left alone.", readable(found.costs.exact, "s"),
+                    asked.exact, readable(found.costs.cheap, "s"), asked.cheap);
   else
     table.caption += " The cheap rung found the tail; measuring it on the exact rung alone is the better buy here.";
   document.sections.insert(
       document.sections.begin(),
-      report::Section{.id = "tail", .title = "The tail", .items = {levels_chart(s, pilot.proposal.subset), table}});
+      report::Section{
+          .id = "tail", .title = "The tail", .items = {levels_chart(s, pilot.proposal.subset, searched), table}});
   write_report(s.own.out(), document);
   s.own.out().publish();
   for (const std::string& store : stores_of_tail(asked)) s.own.run().forget(store);

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <stdexcept>
+
 #include "boresight_analyses/statistics/binomial.hpp"
 #include "boresight_analyses/statistics/running.hpp"
 #include "boresight_analyses/tails/two_level_pilot.hpp"
@@ -122,6 +124,23 @@ TEST(TwoLevelPilot, LeansOnTheCheapModelAsFarAsItAgrees) {
   EXPECT_NEAR(0.01 * double(good.cheap_points) + 1.01 * double(good.exact_points), 300.0, 3.0);
   const TwoLevelPlan poor = two_level_pilot(other, kExact, 2, 3.5, 200, {0.01, 1.0}, 300.0, {});
   EXPECT_LT(poor.control, 0.2);
+}
+
+TEST(TwoLevelPilot, LooksForTheTailOnTheExactModelWhereTheCheapOneCostsMore) {
+  const BatchModel dear = [](const Points&) -> std::vector<double> { throw std::logic_error("it is not asked"); };
+  const TwoLevelPlan plan = two_level_pilot(dear, kExact, 2, 3.5, 200, {5.0, 1.0}, 2000.0, {});
+  EXPECT_TRUE(plan.on_exact);
+  EXPECT_EQ(plan.control, 0.0);
+  EXPECT_EQ(plan.cheap_evaluations + plan.cheap_points, 0);
+  EXPECT_EQ(plan.exact_evaluations, plan.proposal.evaluations + 200);
+  EXPECT_NEAR(double(plan.exact_points), 2000.0, 1.0);
+  EXPECT_EQ(plan.standard_error, plan.exact_standard_error);
+  RunningMoments values;
+  for (std::uint64_t k = 0; k < 100; ++k)
+    values.add(
+        importance_sampling(kExact, 3.5, plan.proposal.mixture, plan.exact_points, {0.95, 1, k}).probability.value);
+  EXPECT_NEAR(values.mean(), phi(-3.5), 3.0 * values.sd() / std::sqrt(100.0));
+  EXPECT_NEAR(values.sd() / plan.standard_error, 1.0, 0.3);
 }
 
 // Repeated runs of the plan scatter as the pilot said.

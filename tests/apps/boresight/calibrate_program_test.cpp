@@ -70,7 +70,7 @@ mechanism = "rig.toml"
 [calibrate]
 starts = 1
 mounting_bias = true
-corrections = 0
+corrections = 1
 profile = false
 [[calibrate.parameter]]
 path = "clearance.D.radial"

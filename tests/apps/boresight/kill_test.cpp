@@ -91,7 +91,7 @@ std::vector<StudyToKill> cases() {
        .resumes = true,
        .statuses = {0, 1}},
       {.verb = "calibrate",
-       .study = "[calibrate]\nstarts = 1\ncorrections = 0\nprofile = false\n[[calibrate.parameter]]\npath = "
+       .study = "[calibrate]\nstarts = 1\ncorrections = 1\nprofile = false\n[[calibrate.parameter]]\npath = "
                 "\"clearance.D.radial\"\nstart = \"0.24 mm\"\n"
                 "[[calibrate.run]]\ndata = \"" BORESIGHT_EXAMPLES
                 "/calibration/slow.csv\"\nset = [\"motion.drives.A=2*pi*2*t\"]\n",
