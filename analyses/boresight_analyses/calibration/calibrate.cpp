@@ -36,11 +36,13 @@ CalibrationResult Calibrator::run() {
       set_noise(noise_from_differences(problem_));
       fit_masses_that_show();
       search();
+      reach(Done::whole_data);
       hold_what_no_impact_shows();
       set_noise(noise_from_residuals(problem_, result_.fit));
       refit("noise estimated from the residuals");
       correct();
       refit("last");
+      reach(Done::corrections);
     } else {
       fit_poses();
     }
@@ -58,7 +60,7 @@ CalibrationResult Calibrator::run() {
     judge_fit();
     result_.hold_out = score_held_out(problem_, result_.fit.globals, options_.jobs);
     for (const std::string& law : options_.laws) {
-      tell("contact laws", 0.0, law);
+      tell("contact laws", law);
       result_.laws.push_back(
           law_score(problem_, law, result_.fit.globals, fit_options("law " + law, 25, options_.jobs)));
       result_.evaluations += result_.laws.back().evaluations;
@@ -66,7 +68,7 @@ CalibrationResult Calibrator::run() {
     compare(result_.laws);
     draw();
     for (const Candidate& candidate : options_.candidates) {
-      tell("candidates of a next test", 0.0, candidate.name);
+      tell("candidates of a next test", candidate.name);
       result_.next_tests.push_back(
           judge_candidate(problem_, result_.inference, result_.fit.globals, result_.fixed, candidate));
     }
@@ -179,8 +181,24 @@ void Calibrator::set_noise(const VecX& sigma) {
       problem_.sigma[static_cast<Eigen::Index>(c)] = options_.noise[problem_.channels[c]];
 }
 
-void Calibrator::tell(const std::string& stage, double share, const std::string& estimate) {
-  if (options_.progress && !options_.progress(stage, share, estimate)) throw CalibrationInterrupted{};
+double Calibrator::share_at(Done what) {
+  switch (what) {
+    case Done::starts:
+      return 0.1;
+    case Done::horizon:
+      return 0.7;
+    case Done::whole_data:
+      return 0.8;
+    case Done::corrections:
+      return 0.9;
+    case Done::all:
+      break;
+  }
+  return 1.0;
+}
+
+void Calibrator::tell(const std::string& stage, const std::string& estimate) {
+  if (options_.progress && !options_.progress(stage, reached_, estimate)) throw CalibrationInterrupted{};
 }
 
 void Calibrator::note(FitResult fit) {
@@ -236,7 +254,7 @@ void Calibrator::weigh_fit() {
 
 void Calibrator::weigh_model_error() {
   if (!options_.discrepancy || !problem_.follows_play()) return;
-  tell("what the model may be wrong by", 0.0, "");
+  tell("what the model may be wrong by", "");
   suspects_ = suspects(problem_, result_.fit, *options_.discrepancy, options_.jobs);
   // Places within three errors of one another are one: the curvature of its loss knows of it.
   std::vector<Globals> others;
@@ -263,7 +281,8 @@ void Calibrator::draw() {
     result_.verdict.push_back("No posterior is drawn: every parameter is held.");
     return;
   }
-  tell("draws of the posterior", 0.0, "");
+  reach(Done::all);
+  tell(kDrawsStage, "");
   const PosteriorDensity density(problem_, result_.fit, result_.fixed, suspects_, result_.inference.variance_factor,
                                  result_.model_error ? result_.model_error->disagreement : 1.0, options_.jobs);
   // Where other optima count, the errors of the fit span them.
@@ -272,7 +291,8 @@ void Calibrator::draw() {
     spread = result_.inference.covariance(density.sampled(), density.sampled());
   result_.draws = posterior_draws(problem_, density, spread, options_.confidence, *options_.draws, options_.seed,
                                   options_.jobs, [&](double share, const std::string& stage) {
-                                    tell("draws of the posterior", share, stage);
+                                    if (options_.progress && !options_.progress(kDrawsStage, share, stage))
+                                      throw CalibrationInterrupted{};
                                     return true;
                                   });
   result_.evaluations += result_.draws->evaluations;
@@ -286,7 +306,7 @@ void Calibrator::correct() {
   bool settled = false;
   for (int step = 0;; ++step) {
     const Globals at = result_.fit.globals;
-    tell("multibody at the optimum", 0.0, "correction " + std::to_string(step + 1));
+    tell("multibody at the optimum", "correction " + std::to_string(step + 1));
     MultibodyAt multibody = multibody_at(problem_, at, options_.jobs);
     const CorrectionSize size = size_of(problem_, at, multibody);
     result_.confirmation = size.confirmation;

@@ -31,8 +31,10 @@ struct CalibrationOptions {
   std::optional<DrawOptions> draws;                        // of the posterior; none: by the fit's curvature alone
   std::vector<std::string> laws;                           // compared by the same data
   std::vector<Candidate> candidates;                       // of a next test
+  // share: of the fit that is done, about; of the draws in their stage. False ends it.
   std::function<bool(const std::string& stage, double share, const std::string& estimate)> progress;
 };
+inline constexpr const char* kDrawsStage = "draws of the posterior";
 
 struct StartFound {
   std::vector<double> from, to;

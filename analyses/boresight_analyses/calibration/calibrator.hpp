@@ -1,6 +1,8 @@
 // One calibration under way: what calibrate() goes through, step by step.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -36,7 +38,13 @@ class Calibrator {
 
   void set_noise(const VecX& sigma);
 
-  void tell(const std::string& stage, double share, const std::string& estimate);
+  // How far the fit has come, of 1, by what its stages take as a rule: a horizon that grows takes as long as what it has reached. Nothing is
+  // done twice: it goes back only where windows are gone that nobody could foresee.
+  enum class Done { starts, horizon, whole_data, corrections, all };
+  static double share_at(Done what);
+  void reach(double share) { reached_ = std::max(reached_.load(), share); }
+  void reach(Done what) { reach(share_at(what)); }
+  void tell(const std::string& stage, const std::string& estimate);
 
   FitOptions fit_options(const std::string& stage, int iterations, int jobs);
 
@@ -66,10 +74,10 @@ class Calibrator {
   // On a horizon that grows from that of the starts to the whole (growing_horizon.cpp). give_up: returns false as soon as the place is
   // lost.
   bool grow(const Globals& at, bool give_up);
-  // One such path: fits to the whole data, the lowest first; none where it is lost.
-  std::vector<FitResult> grown(const Globals& at, double most_growth, bool give_up);
-  // By all data from the first, in windows that grow until they are half of a run (growing_windows.cpp); none where one cannot be followed.
-  std::optional<Globals> joined(const Globals& at);
+  // One such path: fits to the whole data, the lowest first; none where it is lost. path: of those that are always gone, or none of them.
+  std::vector<FitResult> grown(const Globals& at, double most_growth, bool give_up, std::size_t path);
+  // By all data from the first, in windows that grow until they are half of a run (growing_windows.cpp); none where one cannot be followed. from, to: the share of the fit that it is.
+  std::optional<Globals> joined(const Globals& at, double from, double to);
   // Whether that leads to a lower place; goes there.
   bool leads_lower();
   // Side by side. rough: as where the horizon goes on growing.
@@ -116,7 +124,8 @@ class Calibrator {
   std::vector<Globals> optima_;     // where fits to the whole data have ended
   std::vector<Globals> path_ends_;  // of the search
   std::vector<Suspect> suspects_;
-  std::uint64_t looked_beside_ = 0;  // how many places, while horizons grew
+  std::uint64_t looked_beside_ = 0;    // how many places, while horizons grew
+  std::atomic<double> reached_ = 0.0;  // see reach()
   std::mutex mutex_;
 };
 

@@ -55,7 +55,7 @@ void Calibrator::fit_masses_that_show() {
   masses.lag = 0.0;
   masses.law = false;
   for (int number = 0; number < std::max(1, options_.starts); ++number) {
-    tell("masses that the data know", 0.0, "");
+    tell("masses that the data know", "");
     FitResult at_start;
     at_start.globals = start(number);
     at_start.windows = windows_of(problem_, {});

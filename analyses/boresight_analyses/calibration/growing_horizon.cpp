@@ -98,7 +98,7 @@ std::vector<Globals> Calibrator::distinct_places(const std::vector<FitResult>& e
   return places;
 }
 
-std::vector<FitResult> Calibrator::grown(const Globals& at, double most_growth, bool give_up) {
+std::vector<FitResult> Calibrator::grown(const Globals& at, double most_growth, bool give_up, std::size_t path) {
   std::vector<Globals> places = {at};
   std::vector<FitResult> ended;
   const CounterStream stream(options_.seed, StreamPurpose::proposal);
@@ -139,6 +139,8 @@ std::vector<FitResult> Calibrator::grown(const Globals& at, double most_growth, 
     before = ended.front();
     values_before = values;
     reached = share;
+    const double done = (static_cast<double>(path) + (reached - kStartsShare) / (1.0 - kStartsShare)) / kPaths;
+    reach(std::lerp(share_at(Done::starts), share_at(Done::horizon), std::min(1.0, done)));
     beside = 0;
     growth = std::min(most_growth, std::pow(growth, 1.5));
     if (give_up && leaves_more_than_noise(part, places.front())) return {};
@@ -153,7 +155,7 @@ bool Calibrator::grow(const Globals& at, bool give_up) {
     std::size_t paths = 0;
     path_ends_.clear();
     for (const double most_growth : kMostGrowth) {
-      std::vector<FitResult> more = grown(at, most_growth, give_up);
+      std::vector<FitResult> more = grown(at, most_growth, give_up, paths);
       if (!more.empty()) path_ends_.push_back(more.front().globals);
       ended.insert(ended.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
       std::stable_sort(ended.begin(), ended.end(),

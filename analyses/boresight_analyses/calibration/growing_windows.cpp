@@ -72,11 +72,13 @@ std::vector<VecX> carried_on(const CalibrationProblem& part, const FitResult& fo
 
 }  // namespace
 
-std::optional<Globals> Calibrator::joined(const Globals& at) {
+std::optional<Globals> Calibrator::joined(const Globals& at, double from, double to) {
   const CalibrationProblem whole = searched_up_to(problem_, 1.0);
   Globals place = at;
   std::vector<VecX> states;  // the first ones are guessed
-  for (int halvings = most_halvings(whole); halvings > 0; --halvings) {
+  const int most = most_halvings(whole);
+  for (int halvings = most; halvings > 0; --halvings) {
+    reach(std::lerp(from, to, static_cast<double>(most - halvings) / most));
     const CalibrationProblem part = in_pieces(whole, halvings);
     FitResult found =
         fit(part, place, std::move(states),
@@ -95,6 +97,9 @@ bool Calibrator::leads_lower() {
   // Multibody's corrections hold about one place: two are compared without.
   CalibrationProblem plain = searched_up_to(problem_, 1.0);
   plain.corrections.clear();
+  // It takes as long as all before it.
+  reached_ = 0.5 * reached_;
+  const double from = reached_, to = share_at(Done::corrections);
   const auto fitted = [&](const Globals& at) {
     return std::move(fits_from(plain, {at}, "windows joined", true).front());
   };
@@ -103,8 +108,11 @@ bool Calibrator::leads_lower() {
   std::vector<Globals> starts = path_ends_;
   starts.push_back(result_.fit.globals);
   std::optional<FitResult> lowest;
-  for (const Globals& start : starts) {
-    const std::optional<Globals> place = joined(start);
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    const auto share = [&](std::size_t done) {
+      return std::lerp(from, to, static_cast<double>(done) / static_cast<double>(starts.size()));
+    };
+    const std::optional<Globals> place = joined(starts[k], share(k), share(k + 1));
     if (!place) continue;
     FitResult found = fitted(*place);
     path_ends_.push_back(found.globals);

@@ -40,7 +40,7 @@ FitOptions Calibrator::fit_options(const std::string& stage, int iterations, int
       text += number;
     }
     const std::lock_guard lock(mutex_);
-    return !options_.progress || options_.progress(stage, 0.0, text);
+    return !options_.progress || options_.progress(stage, reached_, text);
   };
   return o;
 }
@@ -90,6 +90,7 @@ void Calibrator::try_starts(const CalibrationProblem& part, int count, std::vect
   const int before = static_cast<int>(tried.size()), side_by_side = std::min(options_.jobs, count);
   std::vector<Descent> more(count);
   std::atomic<bool> stop{false};
+  std::atomic<int> done{0};
   for_each_on_threads(count, side_by_side, [&](int s) {
     Descent& d = more[s];
     d.from = d.to = start(before + s);
@@ -108,6 +109,7 @@ void Calibrator::try_starts(const CalibrationProblem& part, int count, std::vect
       d.to = found.globals;
       d.cost = found.cost;
     }
+    reach(share_at(Done::starts) * ++done / count);
   });
   if (stop) throw CalibrationInterrupted{};
   for (const Descent& d : more) {
@@ -139,7 +141,7 @@ void Calibrator::stabilise(const std::string& stage) {
 void Calibrator::profile() {
   if (!options_.profile) return;
   for (int round = 0; round < kMostSettlings; ++round) {
-    tell("profile likelihood", 0.0, "");
+    tell("profile likelihood", "");
     FitResult lower = result_.fit;
     result_.profiles = profile_likelihood(problem_, result_.fit, result_.inference, result_.fixed, options_.confidence,
                                           options_.jobs, lower);

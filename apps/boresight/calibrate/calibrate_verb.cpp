@@ -1,5 +1,6 @@
 // boresight calibrate STUDY: contact parameters and standing errors from measured pointing data.
 #include <fmt/format.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,9 +106,17 @@ class CalibrateVerb : public Verb {
                         identity_of(command, mechanism->description().content_hash, study.content_hash,
                                     {{"data", data.hexadecimal()}}));
     const OutputDirectory& out = own.out();
-    const std::unique_ptr<Stage> stage = own.run().stage(1.0, "of the fit");
+    // A fit that fails is told of in the results, and once is enough: Ceres says it on the terminal as well.
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    std::unique_ptr<Stage> stage = own.run().stage(1.0, "");
+    bool draws = false;
     options.progress = [&](const std::string& of, double share, const std::string& estimate) {
-      stage->update(share, of + ": " + estimate);
+      if (!draws && of == kDrawsStage) {  // with a clock of their own
+        draws = true;
+        stage->clear();
+        stage = own.run().stage(1.0, "");
+      }
+      stage->update(share, of + (estimate.empty() ? "" : ": " + estimate));
       return !interrupted();
     };
     RungChoice rung;

@@ -37,12 +37,14 @@ std::string progress_line(double done, double total, const std::string& unit, do
   const int filled = static_cast<int>(share * kBar);
   const double rate = elapsed_seconds > 0.0 ? (done - before) / elapsed_seconds : 0.0;
   // Before the first of them is done nothing is known of the rate; after the last one something else goes on.
-  const std::string pace = rate > 0.0 && done < total
-                               ? fmt::format("{:.3g}/s, {}", rate, time_left((total - done) / rate))
-                               : fmt::format("{:.0f} s so far", elapsed_seconds);
-  return fmt::format("[{}{}] {:3.0f} %  {:.3g} of {:.3g} {}, {}{}{}", std::string(filled, '#'),
-                     std::string(kBar - filled, '-'), 100.0 * share, done, total, unit, pace,
-                     estimate.empty() ? "" : "; ", estimate);
+  const bool paced = rate > 0.0 && done < total;
+  const std::string time = paced ? time_left((total - done) / rate) : fmt::format("{:.0f} s so far", elapsed_seconds);
+  const std::string bar = fmt::format("[{}{}] {:3.0f} %", std::string(filled, '#'), std::string(kBar - filled, '-'),
+                                      100.0 * share),
+                    more = estimate.empty() ? "" : "; " + estimate;
+  if (unit.empty()) return fmt::format("{}  {}{}", bar, time, more);
+  return fmt::format("{}  {:.3g} of {:.3g} {}, {}{}{}", bar, done, total, unit,
+                     paced ? fmt::format("{:.3g}/s, ", rate) : "", time, more);
 }
 
 Progress::Progress(bool quiet, double total, std::string unit)

@@ -19,7 +19,8 @@ class Progress {
  public:
   enum class Style { silent, plain, terminal };
 
-  // `what` is being counted in `total` units: "s of motion", "points", ...; the rate is given in them.
+  // `what` is being counted in `total` units: "s of motion", "points", ...; the rate is given in them. "": a share that
+  // counts nothing.
   Progress(bool quiet, double total, std::string unit);
   Progress(Style style, double total, std::string unit, std::FILE* stream);
   ~Progress();

@@ -86,8 +86,9 @@ class ClearanceScene {
   TimeTable pose_gain(int body) const;
   // Its rate of change, likewise.
   TimeTable pose_gain_rate(int body) const;
-  // What springs and dampers oppose to z at a knot: T^T K T, with the part of dampers whose stretch rate z changes.
-  MatX spring_stiffness(const Parameters& parameters, int knot) const;
+  // What springs oppose to z at a knot, of what lies still there: T^T K T, without the part of dampers whose stretch rate z changes. (Which z do
+  // not change hangs on the coordinates: with that part alone, and not what z' adds, journals would rest elsewhere by others.)
+  MatX stiffness_at_rest(const Parameters& parameters, int knot) const;
   // M_r, C and r of these parameters at a knot.
   void assemble(const Parameters& parameters, int knot, MatX& M, MatX& C, VecX& r) const;
   // E of the boresight body at a knot, 6 x n; offsets per coordinate there, B.
@@ -110,6 +111,7 @@ class ClearanceScene {
   void add_joints(const MatX& B_rate, Knot& knot) const;
   void add_element(const RidingMass& element, const Knot& knot, double* out) const;
   void assemble(const Parameters& parameters, const Knot& knot, MatX& M, MatX& C, VecX& r) const;
+  // What springs and dampers oppose to z, with the part of dampers whose stretch rate z changes.
   MatX spring_stiffness(const Parameters& parameters, const Knot& knot) const;
   // What T'' takes, where offsets depend on others: a load on z of -K z.
   MatX moving_stiffness(const Parameters& parameters, const Knot& knot) const;

@@ -76,8 +76,11 @@ MatX ClearanceScene::spring_stiffness(const Parameters& parameters, const Knot& 
   return K;
 }
 
-MatX ClearanceScene::spring_stiffness(const Parameters& parameters, int knot) const {
-  return spring_stiffness(parameters, knots_[knot]);
+MatX ClearanceScene::stiffness_at_rest(const Parameters& parameters, int knot) const {
+  MatX K = MatX::Zero(layout_.n, layout_.n);
+  const std::vector<SpringGain>& springs = knots_[knot].springs;
+  for (std::size_t s = 0; s < springs.size(); ++s) K += springs[s].stiffness_at_rest(parameters.spring[s]);
+  return K;
 }
 
 void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row, bool at_rest,

@@ -61,7 +61,11 @@ SpringGain spring_gain(const MechanismDescription& mechanism, const SpringDescri
 }
 
 MatX SpringGain::stiffness(const SpringParameters& p) const {
-  return p.pull(length, speed) * W + g * (p.stiffness * g + p.damping * g_rate).transpose();
+  return stiffness_at_rest(p) + p.damping * g * g_rate.transpose();
+}
+
+MatX SpringGain::stiffness_at_rest(const SpringParameters& p) const {
+  return p.pull(length, speed) * W + p.stiffness * g * g.transpose();
 }
 
 }  // namespace boresight

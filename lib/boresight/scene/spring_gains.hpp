@@ -23,6 +23,8 @@ struct SpringGain {
   MatX W;
 
   MatX stiffness(const SpringParameters& p) const;
+  // The same of what lies still: f W + k g g^T.
+  MatX stiffness_at_rest(const SpringParameters& p) const;
   MatX damping(const SpringParameters& p) const { return p.damping * g * g.transpose(); }
 };
 

@@ -26,7 +26,7 @@ TiedRest::TiedRest(const PreparedScene& prepared, const StandingDisplacement& st
   if (!parameters.spring.empty()) {
     std::vector<double> values;
     for (int k = 0; k < scene.knots(); ++k) {
-      const MatX K = scene.spring_stiffness(parameters, k);
+      const MatX K = scene.stiffness_at_rest(parameters, k);
       for (int i = 0; i < layout_.n; ++i)
         for (int j = 0; j < layout_.n; ++j) values.push_back(K(i, j));
     }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -62,6 +63,25 @@ TEST(Calibrate, OfReadingsThatNothingMovesSaysThatTheyTellNothing) {
   const CalibrationResult result = calibrate(problem, options_with(0));
   EXPECT_EQ(result.inference.rank, 0);
   EXPECT_FALSE(result.inference.parameters.front().identifiable);
+}
+
+TEST(Calibrate, SaysHowFarItHasComeAndNeverGoesBack) {
+  const Bench bench({2.0}, 0.06, false);
+  CalibrationProblem problem = bench.problem({}, {kFour[0]});
+  CalibrationOptions options = options_with(0);
+  std::vector<double> shares;
+  options.progress = [&](const std::string&, double share, const std::string&) {
+    shares.push_back(share);
+    return true;
+  };
+  calibrate(problem, options);
+  ASSERT_FALSE(shares.empty());
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.front(), 0.0);
+  EXPECT_GE(shares.back(), 0.9);
+  EXPECT_LE(shares.back(), 1.0);
+  const auto between = std::count_if(shares.begin(), shares.end(), [](double s) { return s > 0.1 && s < 0.7; });
+  EXPECT_GT(between, 3) << "while the horizon grows";
 }
 
 TEST(Calibrate, FindsClearanceToOnePercentAndFrictionToTenInMultibodyData) {

@@ -19,6 +19,12 @@ TEST(ProgressLine, SaysHowLongItHasTakenBeforeTheFirstIsDone) {
             "[####################] 100 %  2 of 2 points, 7 s so far; checking");
 }
 
+TEST(ProgressLine, OfAShareThatCountsNothingIsShareAndTimeLeft) {
+  EXPECT_EQ(progress_line(0.25, 1.0, "", 10.0, "horizon 30 %"),
+            "[#####---------------]  25 %  30 s left; horizon 30 %");
+  EXPECT_EQ(progress_line(0.0, 1.0, "", 7.2, ""), "[--------------------]   0 %  7 s so far");
+}
+
 TEST(ProgressLine, NeverLeavesTheBar) {
   EXPECT_THAT(progress_line(3.0, 2.0, "points", 1.0, ""), HasSubstr("[####################] 100 %"));
 }
