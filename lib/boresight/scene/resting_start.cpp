@@ -320,10 +320,7 @@ RestingStart RestingBalance::solve() const {
     if (rest.z.allFinite()) {
       const double remains = size(left(rest.z));
       if (remains <= kAcceptableLoad * load_ || (length <= kSettledRest && remains <= kLeftToMotion * load_)) {
-        if (remains <= kAcceptableLoad * load_)
-          settle(rest.z);
-        else
-          shorten(rest.z, kAsBefore * remains, kSoftBeside);
+        if (!settle(rest.z) && remains > kAcceptableLoad * load_) shorten(rest.z, kAsBefore * remains, kSoftBeside);
         rest.z = completed(rest.z);
         return rest;
       }

@@ -83,8 +83,8 @@ class RestingBalance {
   // Keeps the contacts' stiffness at z for follow(). Of a displacement, the part along which they hold nothing: n x n.
   MatX keep_stiffness(const VecX& z);
   // Along what holds nothing, from a balance to the nearest one to where the ideal motion has the journals: which of them Newton's method finds
-  // hangs on rounding.
-  void settle(VecX& z) const;
+  // hangs on rounding. What pushes along it next to not at all moves the journals in proportion. Whether that was found; else z is as it was.
+  bool settle(VecX& z) const;
   void shorten(VecX& z, double allowed, double soft) const;
   VecX nearest(const VecX& coordinates, const std::vector<PlayOffsets>& offsets) const;
 

@@ -136,6 +136,23 @@ TEST(TiedRest, WithoutALoadJournalsStayInTheMiddle) {
   EXPECT_LT(run(m, "quasistatic").index.position_error.max, 1e-12);
 }
 
+// Rounding must not decide whether a shaft lies in the middle of its play or at its end.
+TEST(TiedRest, NextToNoPushMovesAShaftAlongItsAxisInProportion) {
+  const auto along = [](double share) {
+    MechanismDescription m = shaft("40", "20 um", "20 um");
+    m.gravity.x() = share * 9.81;
+    return run(m, "quasistatic").boresight.samples.back().error.displacement.x();
+  };
+  const double nothing = along(0.0), little = along(1e-7) - nothing;
+  EXPECT_LT(std::abs(nothing), 1e-3 * kAxial);
+  EXPECT_GT(little, 0.01 * kAxial);
+  EXPECT_NEAR(along(3e-7) - nothing, 3.0 * little, 3e-3 * little);
+  EXPECT_NEAR(along(-3e-7) - nothing, -3.0 * little, 3e-3 * little);
+  EXPECT_LT(along(3e-7), 0.9 * kAxial);
+  EXPECT_GT(along(1e-4), 0.999 * kAxial);
+  EXPECT_LT(along(-1e-4), -0.999 * kAxial);
+}
+
 // A plane loop of five bars without gravity, every journal free in its sleeve: its inertia turns where the journals lie, and nothing holds them
 // along the pins but their own tilt.
 MechanismDescription five_bars(bool backwards, const std::string& more = "") {
