@@ -119,8 +119,9 @@ class LaneForces : public LanePlay<T, AnyLayout> {
           const T *B = row + joint.dependent + k * n, *B_rate = B + offsets * n;
           number[k] = sum_of_products(n, B, x);
           number[offsets + k] = sum_of_products(n, B_rate, x);
-        } else if (joint.gains_move) {
-          number[offsets + k] = sum_of_products(n, row + joint.slide_drift, x);
+        } else {
+          number[k] = sum_of_products(n, row + joint.slide_gain, x);
+          if (joint.gains_move) number[offsets + k] = sum_of_products(n, row + joint.slide_drift, x);
         }
       }
       for (int s = 0; joint.gains_move && s < joint.spins; ++s)
@@ -243,7 +244,7 @@ class LaneForces : public LanePlay<T, AnyLayout> {
           for (int j = 0; j < n; ++j) along[j] = fused(by_both, B[j], fused(by_drift, B_rate[j], along[j]));
         } else {
           const T by_drift = by_rate * inverse;
-          for (int j = 0; j < n; ++j) along[j] = fused(by_rate, row[joint.slide_gain + j], along[j]);
+          for (int j = 0; j < n; ++j) along[j] = fused(by_both, row[joint.slide_gain + j], along[j]);
           for (int j = 0; joint.gains_move && j < n; ++j)
             along[j] = fused(by_drift, row[joint.slide_drift + j], along[j]);
         }
@@ -280,7 +281,8 @@ class LaneForces : public LanePlay<T, AnyLayout> {
         rate = fused(by[k], sum_of_products(n, B, z), rate);
         rate = fused(by[offsets + k], sum_of_products(n, B, v) + sum_of_products(n, B_rate, z), rate);
       } else {
-        rate = fused(by[k], change[joint.slide], fused(by[offsets + k], change[joint.slide + 1], rate));
+        const T slide = sum_of_products(n, change + joint.slide_gain, z, change[joint.slide]);
+        rate = fused(by[k], slide, fused(by[offsets + k], change[joint.slide + 1], rate));
       }
     }
     for (int s = 0; s < spins; ++s) rate = fused(by[2 * offsets + s], change[joint.spin + s], rate);

@@ -3,8 +3,8 @@
 // A row grows with the square of the coordinates, and a step of many joints is short: to read rows of four cubics for every step
 // would cost several times what the step itself does. So a lane reads the rows at both ends of a window, and takes straight lines
 // between them: what is left out is an eighth of the window squared times the second derivative. Within a step
-//   at every stage's own time   what drives the motion (r, ideal spins and slides) and what places it (ties of offsets, the index's
-//                               gain),
+//   at every stage's own time   what drives the motion (r, ideal spins and slides) and what places it (ties of offsets, gains of slides, the
+//                               index's gain),
 //   at the step's middle        the matrices that multiply it (M, C, K, the gains of spins): of second order in the step.
 #pragma once
 
@@ -36,7 +36,7 @@ class LaneWindow {
     line(at.Ar, at.n);
     for (const SceneLayout::Joint& joint : at.joints) {
       line(joint.spin, joint.spins);
-      if (joint.slides) line(joint.slide, 2);
+      if (joint.slides) line(joint.slide, 2 + at.n);  // and how coordinates move them
       if (joint.has_dependent) line(joint.dependent, 2 * joint.offsets * at.n);
     }
     motion_lines_ = lines_.size();

@@ -44,7 +44,7 @@ void motion_gain(const SceneLayout& at, const SceneLayout::Joint& joint, const d
       }
     } else {
       const int slide = slide_number(k) * n;
-      for (int j = 0; j < n; ++j) gain(rate, n + j) = scene[joint.slide_gain + slide + j];
+      for (int j = 0; j < n; ++j) gain(value, j) = gain(rate, n + j) = scene[joint.slide_gain + slide + j];
       for (int j = 0; joint.gains_move && j < n; ++j) gain(rate, j) = scene[joint.slide_drift + slide + j];
     }
   }

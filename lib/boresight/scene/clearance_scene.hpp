@@ -17,10 +17,11 @@
 // Where redundant joints tie offsets together, which of them are coordinates is the drawing's choice, and must not matter: T^T [M T'' +
 // (gyroscopic - w x) T'] is then kept, which says that it is the bodies' motion T z that has no force of its own, and not z.
 // The generalised contact force of a joint is its whole wrench on the journal: the force along the offset, the moment
-// through what z does to the relative spin, w_rel = w_ideal + S zdot, and on a cylindrical joint the axial friction through
-// what it does to the slide's rate, slide_ideal' + Y zdot; where T'' is kept so are S' z and Y' z. No number of a contact changes any of this. Masses and gravity enter
-// M_r, C and r affinely, so a payload, body-mass or gravity sweep needs no new scene (unless the ideal motion itself hangs on
-// them).
+// through what z does to the relative spin, w_rel = w_ideal + S zdot, and on a cylindrical joint the axial friction through what
+// it does to the slide, s_ideal + Y z, and its rate, s_ideal' + Y zdot. Where a sleeve's ends push along a tilted journal is of second order in
+// z, yet as large as the play where the sleeve is short. Where T'' is kept so are S' z and Y' z. No number of a contact changes any of this.
+// Masses and gravity enter M_r, C and r affinely, so a payload, body-mass or gravity sweep needs no new scene (unless the ideal motion
+// itself hangs on them).
 // Derived for this program; held against the multibody rung in a test.
 #pragma once
 

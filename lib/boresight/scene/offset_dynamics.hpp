@@ -32,7 +32,10 @@ PlayMotion<T> play_motion(const Layout& at, const Joint& joint, const S* scene, 
       const S *gain = scene + joint.slide_gain + slide * at.n, *drift = scene + joint.slide_drift + slide * at.n;
       offset[k] = T(scene[joint.slide + 2 * slide]);
       offset_rate[k] = T(scene[joint.slide + 2 * slide + 1]);
-      for (int j = 0; j < at.n; ++j) offset_rate[k] += T(gain[j]) * rate[j];
+      for (int j = 0; j < at.n; ++j) {
+        offset[k] += T(gain[j]) * z[j];
+        offset_rate[k] += T(gain[j]) * rate[j];
+      }
       if (joint.gains_move)
         for (int j = 0; j < at.n; ++j) offset_rate[k] += T(drift[j]) * z[j];
     }

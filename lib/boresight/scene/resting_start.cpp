@@ -83,10 +83,6 @@ void RestingBalance::take(const double* row, const VecX& reaction, const MatX& s
   reaction_ = reaction;
   stiffness_ = stiffness;
   read(row);
-  // Where a journal of a joint that slides comes to along its axis decides how far apart its ends push: to second order, without which forces
-  // would not be those of the energy.
-  for (std::size_t c = 0; c < joints_.size(); ++c)
-    if (at_.joints[c].slides == 1) offsets_of_[c].row(1) = works_on_[c].row(1);
   weigh();
 }
 
@@ -109,6 +105,8 @@ void RestingBalance::read(const double* row) {
       }
       if (k < 3 && source != DeviationCoordinates::kSlides) V.row(k) = G.row(k);
     }
+    // Where a journal of a joint that slides comes to along its axis decides where its ends push.
+    if (joint.slides == 1) G.row(1) = V.row(1);
     for (int i = 0; i < joint.spins; ++i)
       V.row(3 + (joint.spins == 3 ? i : 1)) = Eigen::Map<const Eigen::RowVectorXd>(row + joint.spin_gain + i * n, n);
   }

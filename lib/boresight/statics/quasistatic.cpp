@@ -15,6 +15,9 @@ namespace boresight {
 namespace {
 
 constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
+// Where journals rest moves those that slide along their axes, and that moves where these rest by their tilt times it: each look leaves that
+// share of what the one before left.
+constexpr int kLooksAtSlides = 3;
 // From one instant to the next the body moves by no more than this share of its largest error, and the same loads are large enough to decide
 // where their journals rest; else there are instants between, as close as this share of their spacing. Closer (2^26 was tried) resolves
 // jumps that only rounding decides.
@@ -92,17 +95,23 @@ class Quasistatic final : public SceneRung {
   };
   static Balance balance_of_each(const ReactionTable& reactions, double t, const Balance* before) {
     Balance balance{reactions.at_time(t), std::vector<RestingPlay>(reactions.joints().size()), {}, {}, {}};
-    for (std::size_t c = 0; c < balance.rest.size(); ++c) {
-      const ReactionTable::Load& load = balance.now.load[c];
-      // Where next to nothing pushes it, a journal stays where it was.
+    for (std::size_t c = 0; c < balance.rest.size(); ++c)
       balance.decided.push_back(reactions.decides(balance.now, static_cast<int>(c)));
-      if (before && !balance.decided.back())
-        balance.rest[c] = before->rest[c];
-      else
-        balance.rest[c] =
-            reactions.joints()[c].rest_under(load.force, load.slide, before ? before->rest[c] : RestingPlay{});
+    balance.z = VecX::Zero(balance.now.reaction.size());
+    for (int look = 0; look < (reactions.slides() ? kLooksAtSlides : 1); ++look) {
+      for (std::size_t c = 0; c < balance.rest.size(); ++c) {
+        const ReactionTable::Load& load = balance.now.load[c];
+        const double slide = load.slide + load.slide_gain.dot(balance.z);
+        // Where next to nothing pushes it, a journal stays where it was.
+        if (before && !balance.decided[c])
+          balance.rest[c] = before->rest[c];
+        else
+          balance.rest[c] =
+              reactions.joints()[c].rest_under(load.force, slide, before ? before->rest[c] : RestingPlay{});
+        if (load.slides) balance.rest[c].motion.e.y() = slide;
+      }
+      balance.z = reactions.coordinates(balance.rest);
     }
-    balance.z = reactions.coordinates(balance.rest);
     balance.moved = (balance.now.pose_gain * balance.z).head<3>();
     return balance;
   }

@@ -64,7 +64,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
   spacing_ = mechanism.duration() / (instants_ - 1);
   const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters);
   change_ = prepared.changed_loads(parameters, standing).table(layout_.n);
-  const int n = layout_.n, width = 7 * n + mechanism.clearances();
+  const int n = layout_.n, width = 7 * n + (1 + n) * mechanism.clearances();
   joints_ = joint_plays(mechanism.description(), parameters);
   for (const JointPlay& joint : joints_) groups_.push_back(joint.pushed_together());
   // Across its axis, or in tilt, a journal that is free in one direction alone is tied in most others, and so is a ball: which of them are
@@ -94,7 +94,11 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < n; ++j) values.push_back(E(i, j));
     tables->dynamics.at(k * scene.spacing(), row.data());
-    for (const SceneLayout::Joint& j : layout_.joints) values.push_back(j.slides == 1 ? row[j.slide] : 0.0);
+    for (const SceneLayout::Joint& j : layout_.joints) {
+      slides_ = slides_ || j.slides == 1;
+      values.push_back(j.slides == 1 ? row[j.slide] : 0.0);
+      for (int i = 0; i < n; ++i) values.push_back(j.slides == 1 ? row[j.slide_gain + i] : 0.0);
+    }
   }
   table_ = EightPointTable(scene.spacing(), width, std::move(values));
   cancelled_ = kCancelled * acting_forces(mechanism, parameters, prepared.ideal());
@@ -113,7 +117,7 @@ bool ReactionTable::decides(const Instant& instant, int clearance) const {
 
 ReactionTable::Instant ReactionTable::at_time(double t) const {
   const int n = layout_.n;
-  std::vector<double> row(7 * n + joints_.size());
+  std::vector<double> row(7 * n + (1 + n) * joints_.size());
   Instant now;
   now.t = t;
   table_.at(now.t, row.data());
@@ -121,7 +125,8 @@ ReactionTable::Instant ReactionTable::at_time(double t) const {
   now.reaction = Eigen::Map<const VecX>(row.data(), n);
   now.pose_gain = Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>>(row.data() + n, 6, n);
   for (std::size_t c = 0; c < joints_.size(); ++c) {
-    Load load{PlayOffsets::Zero(), row[7 * n + c]};
+    const double* slide = row.data() + 7 * n + (1 + n) * c;
+    Load load{PlayOffsets::Zero(), layout_.joints[c].slides == 1, *slide, Eigen::Map<const VecX>(slide + 1, n)};
     for (int k = 0; k < layout_.joints[c].offsets; ++k)
       if (const int source = layout_.joints[c].source[k]; source >= 0) load.force[k] = now.reaction[source];
     // Beside what carries it, along its axis and in tilt, next to nothing would push a journal all the way that its play leaves; and where

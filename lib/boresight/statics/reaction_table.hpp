@@ -19,8 +19,10 @@ class ReactionTable {
                 const Parameters& parameters, double share = 1.0);
 
   struct Load {
-    PlayOffsets force;   // on the journal's offsets; zero where an offset is none [N, N m]
-    double slide = 0.0;  // displacement of a cylindrical joint [m]
+    PlayOffsets force;    // on the journal's offsets; zero where an offset is none [N, N m]
+    bool slides = false;  // along its axis:
+    double slide = 0.0;   // by so much in the ideal motion [m]
+    VecX slide_gain;      // and what coordinates add to it
   };
   struct Instant {
     double t;
@@ -36,6 +38,8 @@ class ReactionTable {
   // Whether offsets hang on each other (redundant joints, or standing errors that use up their play), so that no joint rests on its own:
   // tied_rest.hpp.
   bool tied() const { return tied_; }
+  // Whether joints with play slide along their axes: where their journals rest moves those of others, by second order.
+  bool slides() const { return slides_; }
   // Loads that are known no better than zero, as a share of the largest.
   static constexpr double kRounding = 10.0 * ClearanceScene::kAccuracy;
   // Whether a load is known well enough for its direction: the tables are accurate to a hundred-thousandth of the largest.
@@ -55,14 +59,14 @@ class ReactionTable {
   SceneLayout layout_;
   int instants_;
   double spacing_;
-  EightPointTable table_;  // r (n), E (6 x n), slides (one per clearance)
+  EightPointTable table_;  // r (n), E (6 x n), and per clearance its slide and what coordinates add to it (n)
   TimeTable change_;       // of r by standing errors (n, or no functions)
   std::vector<JointPlay> joints_;
   std::vector<OffsetGroups> groups_;  // of each
   std::vector<double> largest_load_;  // per clearance [N]
   double largest_of_all_ = 0.0;       // the largest of these [N]
   double cancelled_ = 0.0;            // what rounding may leave of loads that cancel [N]
-  bool tied_ = false;
+  bool tied_ = false, slides_ = false;
 };
 
 }  // namespace boresight
