@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -76,6 +77,9 @@ class Calibrator {
   bool grow(const Globals& at, bool give_up);
   // One such path: fits to the whole data, the lowest first; none where it is lost. path: of those that are always gone, or none of them.
   std::vector<FitResult> grown(const Globals& at, double most_growth, bool give_up, std::size_t path);
+  // While the horizon grows: data that the motion at a place no longer foretells are left out from there on (foretold_data.cpp). Whether none were.
+  bool keep_what_is_foretold(const CalibrationProblem& part, const Globals& at);
+  void say_what_is_left_out();
   // By all data from the first, in windows that grow until they are half of a run (growing_windows.cpp); none where one cannot be followed. from, to: the share of the fit that it is.
   std::optional<Globals> joined(const Globals& at, double from, double to);
   // Whether that leads to a lower place; goes there.
@@ -124,6 +128,7 @@ class Calibrator {
   std::vector<Globals> optima_;     // where fits to the whole data have ended
   std::vector<Globals> path_ends_;  // of the search
   std::vector<Suspect> suspects_;
+  std::map<int, int> left_out_;        // by window, its last sample before data were left out
   std::uint64_t looked_beside_ = 0;    // how many places, while horizons grew
   std::atomic<double> reached_ = 0.0;  // see reach()
   std::mutex mutex_;

@@ -60,13 +60,12 @@ bool is_angle(const CalibrationProblem& problem, int c) {
 }  // namespace
 
 VecX noise_of_steps(const CalibrationProblem& problem) {
-  constexpr double kLeft = 1e-6;
   double clearance = 0.0, length = 0.0;
   for (const CalibrationRun& run : problem.runs) {
     clearance = std::max(clearance, smallest_clearance(run.mechanism->parameters()));
     length = std::max(length, run.mechanism->characteristic_length());
   }
-  VecX sigma = VecX::Constant(static_cast<Eigen::Index>(problem.channels.size()), kLeft * clearance);
+  VecX sigma = VecX::Constant(static_cast<Eigen::Index>(problem.channels.size()), kNoiseOfSteps * clearance);
   for (int c = 0; c < sigma.size(); ++c)
     if (is_angle(problem, c)) sigma[c] /= length;
   return sigma;

@@ -9,7 +9,8 @@ namespace boresight {
 // against the few that an impact or an outlier bends: 1.4826 median |d2| / sqrt(6).
 VecX noise_from_differences(const CalibrationProblem& problem);
 
-// What the steps of a model's motion leave in its readings, ten tolerances of one of them: a millionth of the smallest clearance, as an angle over
+inline constexpr double kNoiseOfSteps = 1e-6;
+// What the steps of a model's motion leave in its readings, ten tolerances of one of them: this share of the smallest clearance, as an angle over
 // the mechanism's size. No data where a play is followed tell more, however quiet they are.
 VecX noise_of_steps(const CalibrationProblem& problem);
 

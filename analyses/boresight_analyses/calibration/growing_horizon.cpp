@@ -107,10 +107,15 @@ std::vector<FitResult> Calibrator::grown(const Globals& at, double most_growth, 
   long values_before = 0;
   MatX covariance;
   int beside = 0;
+  bool closely = false;  // by the steps of the fit itself: where the search's lead elsewhere
   while (reached < 1.0) {
     // The last stretch is no sliver.
     const double share = reached * growth < 0.98 ? reached * growth : 1.0;
-    const CalibrationProblem part = searched_up_to(problem_, share);
+    CalibrationProblem part = searched_up_to(problem_, share);
+    if (closely) {
+      part.tolerance = problem_.tolerance;
+      part.derivative_tolerance = problem_.derivative_tolerance;
+    }
     std::vector<Globals> starts = places;
     for (int k = 0; k < beside; ++k)
       starts.push_back(moved_along(part, places[static_cast<std::size_t>(k) % places.size()],
@@ -121,6 +126,10 @@ std::vector<FitResult> Calibrator::grown(const Globals& at, double most_growth, 
     std::stable_sort(ended.begin(), ended.end(),
                      [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
     if (!std::isfinite(ended.front().cost)) return {};
+    if (!closely && !steps_suffice(part, ended.front().globals)) {
+      closely = true;
+      continue;
+    }
     const long values = values_in(part, ended.front().windows);
     const bool rises = values_before > 0 &&
                        ended.front().cost - before.cost > kRise * before.cost / static_cast<double>(values_before) *
@@ -141,6 +150,7 @@ std::vector<FitResult> Calibrator::grown(const Globals& at, double most_growth, 
     reached = share;
     const double done = (static_cast<double>(path) + (reached - kStartsShare) / (1.0 - kStartsShare)) / kPaths;
     reach(std::lerp(share_at(Done::starts), share_at(Done::horizon), std::min(1.0, done)));
+    if (!keep_what_is_foretold(part, places.front())) values_before = 0;
     beside = 0;
     growth = std::min(most_growth, std::pow(growth, 1.5));
     if (give_up && leaves_more_than_noise(part, places.front())) return {};

@@ -101,6 +101,8 @@ MatX CalibrationProblem::mean_readings(const Window& w, const Globals& globals, 
 
 void CalibrationProblem::evaluate(const Window& w, const Globals& globals, const VecX& state, bool derivatives,
                                   WindowResiduals& out) const {
+  // Contacts whose gaps are no numbers never touch, and that motion is followed.
+  if (!packed(globals).allFinite() || !state.allFinite()) throw ComputationError("a place of the fit is no number");
   const CalibrationRun& run = runs[w.run];
   const int n = freedoms(w.run), P = parameter_count();
   const ModelCorrection* correction = corrections.empty() || !w.from_rest ? nullptr : &corrections[w.run];
