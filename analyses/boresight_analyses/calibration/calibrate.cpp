@@ -16,6 +16,8 @@ namespace {
 
 // A correction that moves no parameter by more than this many standard errors is the last one.
 constexpr double kSettledShift = 0.1;
+// Each leaves out some data that the one before could not follow.
+constexpr int kMostSearches = 3;
 // Slopes of multibody are taken over a standard error, but no wider than this.
 constexpr double kWidestSlope = 0.05;
 
@@ -36,8 +38,10 @@ CalibrationResult Calibrator::run() {
       set_noise(noise_from_differences(problem_));
       fit_masses_that_show();
       // Where it ends in what no step foretells it has lost its way: once more, without those data.
-      do search();
-      while (!keep_what_is_foretold(problem_, result_.fit.globals));
+      for (int searches = 0; searches < kMostSearches; ++searches) {
+        search();
+        if (keep_what_is_foretold(problem_, result_.fit.globals)) break;
+      }
       say_what_is_left_out();
       reach(Done::whole_data);
       hold_what_no_impact_shows();

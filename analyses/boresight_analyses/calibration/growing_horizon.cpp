@@ -25,6 +25,8 @@ constexpr std::size_t kPaths = 2;
 // A mean square of what came in beyond this many times that of what was there. Noise alone does so with a hundred values once in a dozen times,
 // which costs a look and no more.
 constexpr double kRise = 1.2;
+// A cost of a value, in s^2, that no noise is needed for: data without any leave that.
+constexpr double kNextToNothing = 0.01;
 // Places looked at, and led on. On 18 sets of the four-bar (multibody's data, axial gaps and masses off) five beside three ended once 720 above
 // what eight beside four found.
 constexpr int kBeside = 8, kMostKept = 4;
@@ -131,9 +133,10 @@ std::vector<FitResult> Calibrator::grown(const Globals& at, double most_growth, 
       continue;
     }
     const long values = values_in(part, ended.front().windows);
-    const bool rises = values_before > 0 &&
-                       ended.front().cost - before.cost > kRise * before.cost / static_cast<double>(values_before) *
-                                                              static_cast<double>(values - values_before);
+    const auto came_in = static_cast<double>(values - values_before);
+    const double per_value = before.cost / static_cast<double>(std::max(values_before, 1L));
+    const bool rises =
+        values_before > 0 && ended.front().cost - before.cost > std::max(kRise * per_value, kNextToNothing) * came_in;
     if (rises && growth > kLeastGrowth) {
       growth = std::max(kLeastGrowth, std::sqrt(growth));
       continue;
