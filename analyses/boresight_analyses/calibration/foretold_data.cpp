@@ -5,20 +5,23 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <vector>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/calibration/calibrator.hpp"
 #include "boresight_analyses/calibration/landscape.hpp"
+#include "boresight_analyses/threads/on_threads.hpp"
 
 namespace boresight {
 namespace {
 
 // How far apart steps of a tenth of the tolerance may lead, in play and in standard deviations of the noise.
-constexpr double kFiner = 0.1, kOfPlay = 0.001, kOfNoise = 1.0;
+// A search finds its way by steps that lead ten times as far apart.
+constexpr double kFiner = 0.1, kOfPlay = 0.001, kOfNoise = 1.0, kOfSearch = 10.0;
 
-// Whether a window's motion at a place can be followed, by steps as fine as the problem's and finer ones; and its last sample up to which these
+// times: how much farther apart is near enough. Whether a window's motion at a place can be followed, by steps as fine as the problem's and finer ones; and its last sample up to which these
 // agree.
-std::optional<int> last_alike(const CalibrationProblem& problem, const Window& w, const Globals& at) {
+std::optional<int> last_alike(const CalibrationProblem& problem, const Window& w, const Globals& at, double times) {
   CalibrationProblem finer = problem;
   finer.tolerance *= kFiner;
   WindowResiduals here, there;
@@ -35,41 +38,50 @@ std::optional<int> last_alike(const CalibrationProblem& problem, const Window& w
   for (Eigen::Index i = 0; i < here.r.size(); ++i) {
     const int c = here.channel[i];
     const double apart = problem.sigma[c] * std::abs(here.r[i] - there.r[i]);
-    if (!(apart <= std::max(kOfPlay * play[c], kOfNoise * problem.sigma[c]))) last = std::min(last, here.sample[i] - 1);
+    if (!(apart <= times * std::max(kOfPlay * play[c], kOfNoise * problem.sigma[c])))
+      last = std::min(last, here.sample[i] - 1);
   }
   return last;
 }
 
 // The last sample of a window that the motion at a place foretells: two at least.
-int last_foretold(const CalibrationProblem& problem, const Window& w, const Globals& at) {
+int last_foretold(const CalibrationProblem& problem, const Window& w, const Globals& at, double times) {
   Window followed = w;
-  std::optional<int> last = last_alike(problem, w, at);
+  std::optional<int> last = last_alike(problem, w, at, times);
   while (!last && followed.last > w.first + 1) {
     followed.last = w.first + 1 + (followed.last - w.first - 1) / 2;
     followed.end = problem.end_of(followed);
-    last = last_alike(problem, followed, at);
+    last = last_alike(problem, followed, at, times);
   }
   return std::max(last.value_or(w.first), w.first + 1);
 }
 
+// The same of every window of `part` from rest, by the steps of `problem`; of the others their own.
+std::vector<int> all_last_foretold(const CalibrationProblem& problem, const CalibrationProblem& part, const Globals& at,
+                                   double times, int jobs) {
+  std::vector<int> last(part.windows.size());
+  for_each_on_threads(static_cast<int>(last.size()), jobs, [&](int k) {
+    const Window& w = part.windows[static_cast<std::size_t>(k)];
+    last[static_cast<std::size_t>(k)] = w.from_rest && !w.held_out ? last_foretold(problem, w, at, times) : w.last;
+  });
+  return last;
+}
+
 }  // namespace
 
-bool steps_suffice(const CalibrationProblem& part, const Globals& at) {
-  return std::all_of(part.windows.begin(), part.windows.end(), [&](const Window& w) {
-    return !w.from_rest || w.held_out || last_foretold(part, w, at) == w.last;
-  });
+bool steps_suffice(const CalibrationProblem& part, const Globals& at, int jobs) {
+  const std::vector<int> last = all_last_foretold(part, part, at, kOfSearch, jobs);
+  return std::equal(last.begin(), last.end(), part.windows.begin(), [](int k, const Window& w) { return k == w.last; });
 }
 
 bool Calibrator::keep_what_is_foretold(const CalibrationProblem& part, const Globals& at) {
+  const std::vector<int> last = all_last_foretold(problem_, part, at, 1.0, options_.jobs);
   bool all = true;
-  for (std::size_t k = 0; k < problem_.windows.size(); ++k) {
-    const Window& of_part = part.windows[k];
-    if (!of_part.from_rest || of_part.held_out) continue;
-    const int last = last_foretold(problem_, of_part, at);
-    if (last == of_part.last) continue;
+  for (std::size_t k = 0; k < last.size(); ++k) {
+    if (last[k] == part.windows[k].last) continue;
     Window& w = problem_.windows[k];
     left_out_.try_emplace(static_cast<int>(k), w.last);
-    w.last = last;
+    w.last = last[k];
     w.end = problem_.end_of(w);
     all = false;
   }

@@ -128,7 +128,7 @@ std::vector<FitResult> Calibrator::grown(const Globals& at, double most_growth, 
     std::stable_sort(ended.begin(), ended.end(),
                      [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
     if (!std::isfinite(ended.front().cost)) return {};
-    if (!closely && !steps_suffice(part, ended.front().globals)) {
+    if (!closely && !steps_suffice(part, ended.front().globals, options_.jobs)) {
       closely = true;
       continue;
     }
@@ -153,7 +153,8 @@ std::vector<FitResult> Calibrator::grown(const Globals& at, double most_growth, 
     reached = share;
     const double done = (static_cast<double>(path) + (reached - kStartsShare) / (1.0 - kStartsShare)) / kPaths;
     reach(std::lerp(share_at(Done::starts), share_at(Done::horizon), std::min(1.0, done)));
-    if (!keep_what_is_foretold(part, places.front())) values_before = 0;
+    // Where the search's own steps suffice, finer ones do.
+    if (closely && !keep_what_is_foretold(part, places.front())) values_before = 0;
     beside = 0;
     growth = std::min(most_growth, std::pow(growth, 1.5));
     if (give_up && leaves_more_than_noise(part, places.front())) return {};

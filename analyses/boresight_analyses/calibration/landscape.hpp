@@ -17,7 +17,7 @@ void loosen(CalibrationProblem& problem);
 CalibrationProblem searched_up_to(const CalibrationProblem& problem, double share);
 
 // Whether steps as fine as the problem's lead where finer ones do, of all runs from rest, as closely as a search needs (foretold_data.cpp).
-bool steps_suffice(const CalibrationProblem& part, const Globals& at);
+bool steps_suffice(const CalibrationProblem& part, const Globals& at, int jobs);
 
 // A place a step of the packed globals away, within bounds. Not finite (a held parameter has no covariance): no step.
 Globals moved_along(const CalibrationProblem& problem, const Globals& from, const VecX& step);

@@ -19,6 +19,15 @@ Statistics of_the_rung(const std::shared_ptr<const Mechanism>& mechanism, double
   return make_rung("perturbation", mechanism)->run(mechanism->parameters(), options).index.position_error;
 }
 
+Statistics of_the_rung_closely(const std::shared_ptr<const Mechanism>& mechanism) {
+  RunOptions options;
+  options.integrator = "rosenbrock";
+  options.tolerance = 1e-7;
+  options.share_of_longest_step = 0.1;  // means over time are sums over steps
+  options.sample_spacing = 0.0;
+  return make_rung("perturbation", mechanism)->run(mechanism->parameters(), options).index.position_error;
+}
+
 LaneOutcome on_lanes(const std::shared_ptr<const Mechanism>& mechanism, double tolerance) {
   LaneOutcome out;
   PerturbationLanes(mechanism, PointingQuantity::position_error)
@@ -38,19 +47,19 @@ TEST(ManyJoints, FollowTheRungWithPlayInAllJoints) {
   EXPECT_NEAR(std::sqrt(out.mean_square), expected.rms, 1e-3 * expected.rms);
 }
 
-// Gimbals with bearing pairs, whose offsets are tied; loops without drives; springs and dampers; planar linkages. No longer than journals that
-// rattle can be foretold: after 20 ms a ten-millionth of its play moves the maximum of the gimbal in bearing pairs by a thousandth.
+// Gimbals with bearing pairs, whose offsets are tied; loops without drives; springs and dampers; planar linkages.
+// Against steps under control: of the gimbal in bearing pairs rk4's of 2 us leave 0.2 % of the maximum, and those of 1 us 0.5 %.
 TEST(ManyJoints, FollowTheRungOnTheGauntletsArchetypes) {
   int followed = 0, moved = 0;
   for (const auto& file : std::filesystem::directory_iterator(BORESIGHT_CORPUS)) {
     if (file.path().extension() != ".toml") continue;
     const std::string name = file.path().filename();
     const auto mechanism =
-        scenes::build(read_mechanism(file.path(), {{"motion.duration", "0.01 s"}, {"initial.journals", "centred"}}));
+        scenes::build(read_mechanism(file.path(), {{"motion.duration", "0.02 s"}, {"initial.journals", "centred"}}));
     if (!PerturbationLanes::serve(*mechanism)) continue;
     Statistics expected;
     try {
-      expected = of_the_rung(mechanism, 2e-6);
+      expected = of_the_rung_closely(mechanism);
     } catch (const ComputationError& refused) {  // the rung has no scene of it, and lanes have none either
       EXPECT_THROW(on_lanes(mechanism, 1e-6), ComputationError) << name << ": " << refused.what();
       continue;
