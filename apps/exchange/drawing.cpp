@@ -23,7 +23,7 @@ int part_named(const Drawing& drawing, const std::string& name) {
   return -1;
 }
 
-void set_mass(Part& part, double mass, const Pose& X_PC, const Mat3& inertia_C, const Origin& origin) {
+void set_mass(Part& part, double mass, const Placement& X_PC, const Mat3& inertia_C, const Origin& origin) {
   if (!(mass >= 0.0))
     throw InputError(origin, part.name + ": mass", fmt::format("{} kg", mass), "a mass of zero or more");
   const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat3>(inertia_C, Eigen::EigenvaluesOnly).eigenvalues();
@@ -37,7 +37,7 @@ void set_mass(Part& part, double mass, const Pose& X_PC, const Mat3& inertia_C, 
   if (principal[0] + principal[1] < principal[2] * (1.0 - 1e-2))
     throw InputError(origin, part.name + ": inertia", in_words(),
                      "moments that a real body can have: none larger than the sum of the other two");
-  const Pose X_WC = part.X_WP * X_PC;
+  const Placement X_WC = part.X_WP * X_PC;
   part.mass = mass;
   part.p_WC = X_WC.p;
   part.inertia = X_WC.R * inertia_C * X_WC.R.transpose();

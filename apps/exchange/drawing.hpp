@@ -12,12 +12,12 @@
 namespace boresight::app {
 
 // A frame's place in another.
-struct Pose {
+struct Placement {
   Mat3 R = Mat3::Identity();
   Vec3 p = Vec3::Zero();
 
-  Pose operator*(const Pose& inner) const { return {R * inner.R, R * inner.p + p}; }
-  Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
+  Placement operator*(const Placement& inner) const { return {R * inner.R, R * inner.p + p}; }
+  Placement inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 };
 
 // Turns about the fixed axes x, y, z, in this order, by roll, pitch and yaw [rad].
@@ -28,7 +28,7 @@ Mat3 turned_by(double w, double x, double y, double z);
 // A link, or a body of a tree: rigid, with a frame of its own.
 struct Part {
   std::string name;
-  Pose X_WP;
+  Placement X_WP;
   double mass = 0.0;            // 0: a frame without mass [kg]
   Vec3 p_WC = Vec3::Zero();     // its centre of mass [m]
   Mat3 inertia = Mat3::Zero();  // about the centre of mass, world axes [kg m^2]
@@ -77,6 +77,6 @@ int part_named(const Drawing& drawing, const std::string& name);
 
 // Mass, centre of mass and inertia of a part, given in its frame. X_PC: the frame that the inertia is given in, at the centre of mass.
 // Throws InputError, with the part's origin, for what no body can have.
-void set_mass(Part& part, double mass, const Pose& X_PC, const Mat3& inertia_C, const Origin& origin);
+void set_mass(Part& part, double mass, const Placement& X_PC, const Mat3& inertia_C, const Origin& origin);
 
 }  // namespace boresight::app

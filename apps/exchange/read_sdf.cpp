@@ -13,7 +13,7 @@ namespace boresight::app {
 namespace {
 
 // A pose as it is written: in what, and about which element.
-Pose raw_pose(const XmlElement& pose) {
+Placement raw_pose(const XmlElement& pose) {
   const std::vector<double> v = pose.content_numbers();
   if (v.empty()) return {};
   const std::string format = pose.text("rotation_format", "euler_rpy");
@@ -66,7 +66,7 @@ class SdfReader {
       }
       const std::string name = model.text("name");
       if (drawing_.name.empty()) drawing_.name = name;
-      add_model(model, "", moving > 1 ? name : "", Pose(), true);
+      add_model(model, "", moving > 1 ? name : "", Placement(), true);
     }
     if (!worlds.empty())
       for (const XmlElement& joint : place.children("joint"))
@@ -82,15 +82,15 @@ class SdfReader {
   struct Frame {
     XmlElement element;
     std::string in;  // "__model__" or another frame's name
-    Pose X;
+    Placement X;
     bool placed = false;
     bool in_work = false;
-    Pose X_M;  // in the model
+    Placement X_M;  // in the model
   };
   struct Model {
     std::map<std::string, Frame> frames;
     std::string prefix;  // of its parts' names
-    Pose X_WM;
+    Placement X_WM;
   };
 
   void leave_out(const XmlElement& at, const std::string& what) { drawing_.left_out.push_back({at.line(), what}); }
@@ -116,7 +116,7 @@ class SdfReader {
   }
 
   // outer: the name of the model that this one stands in, of a nested one; prefix: of its parts' names.
-  void add_model(const XmlElement& element, const std::string& outer, const std::string& prefix, const Pose& X_WO,
+  void add_model(const XmlElement& element, const std::string& outer, const std::string& prefix, const Placement& X_WO,
                  bool with_pose) {
     Model model;
     model.prefix = prefix.empty() ? "" : prefix + "::";
@@ -149,14 +149,14 @@ class SdfReader {
         if (in.empty() && named.tag() == "joint") in = named.needed("child").content();
         if (in.empty() && named.tag() == "frame") in = named.text("attached_to", "");
         if (in.empty()) in = "__model__";
-        const Pose X = pose ? raw_pose(*pose) : Pose();
-        if (!model.frames.emplace(name, Frame{named, in, X, false, false, Pose()}).second)
+        const Placement X = pose ? raw_pose(*pose) : Placement();
+        if (!model.frames.emplace(name, Frame{named, in, X, false, false, Placement()}).second)
           named.fail(named.tag() + ".name", "\"" + name + "\" a second time", "a name of its own");
       }
   }
 
   // Of the frame of this name in the model.
-  Pose frame_in_model(Model& model, const std::string& name, const XmlElement& asks, const std::string& key) {
+  Placement frame_in_model(Model& model, const std::string& name, const XmlElement& asks, const std::string& key) {
     if (name == "__model__" || name.empty()) return {};
     const auto found = model.frames.find(name);
     if (found == model.frames.end()) {
@@ -187,7 +187,7 @@ class SdfReader {
     part.X_WP = model.X_WM * frame_in_model(model, name, link, "link.name");
     double mass = 1.0;
     Mat3 inertia = Mat3::Identity();
-    Pose X_PC;
+    Placement X_PC;
     Origin origin = link.origin();
     if (const auto inertial = link.child("inertial")) {
       origin = inertial->origin();
@@ -224,7 +224,7 @@ class SdfReader {
 
   void add_nested(const XmlElement& inner, Model& model) {
     const std::string name = inner.text("name");
-    const Pose X_WM = model.X_WM * frame_in_model(model, name, inner, "model.name");
+    const Placement X_WM = model.X_WM * frame_in_model(model, name, inner, "model.name");
     add_model(inner, model.prefix + name, model.prefix + name, X_WM, false);
   }
 
@@ -265,7 +265,7 @@ class SdfReader {
     made.first = part_connected(joint, "parent", model);
     made.second = part_connected(joint, "child", model);
     if (made.first == made.second) joint.fail("joint.child", "the link that is the parent, too", "another link");
-    const Pose X_MJ = frame_in_model(model, name, joint, "joint.name");
+    const Placement X_MJ = frame_in_model(model, name, joint, "joint.name");
     made.p_WJ = (model.X_WM * X_MJ).p;
     if (made.type != JointType::fixed && made.type != JointType::spherical) {
       made.axis = axis_of(joint, "axis", X_MJ, model);
@@ -279,7 +279,7 @@ class SdfReader {
   }
 
   // World axes. Up to 1.4 given in the model's frame, from 1.5 on in the joint's, or that which it names.
-  Vec3 axis_of(const XmlElement& joint, const std::string& tag, const Pose& X_MJ, Model& model) {
+  Vec3 axis_of(const XmlElement& joint, const std::string& tag, const Placement& X_MJ, Model& model) {
     const auto axis = joint.child(tag);
     Vec3 given = Vec3::UnitZ();
     Mat3 R_MA = version_.second <= 4 ? Mat3(Mat3::Identity()) : X_MJ.R;

@@ -8,7 +8,7 @@
 namespace boresight::app {
 namespace {
 
-Pose origin_in(const XmlElement& parent) {
+Placement origin_in(const XmlElement& parent) {
   const std::optional<XmlElement> origin = parent.child("origin");
   if (!origin) return {};
   return {turned_by(origin->vector("rpy", Vec3::Zero())), origin->vector("xyz", Vec3::Zero())};
@@ -18,7 +18,7 @@ Pose origin_in(const XmlElement& parent) {
 struct UrdfJoint {
   XmlElement element;
   std::string name, type, parent, child;
-  Pose X_PC;  // of the child link in the parent link, at home
+  Placement X_PC;  // of the child link in the parent link, at home
 };
 
 class UrdfReader {
@@ -170,7 +170,7 @@ class UrdfReader {
     made.origin = joint.element.origin();
     made.first = part_named(drawing_, joint.parent);
     made.second = part_named(drawing_, joint.child);
-    const Pose& X_WC = drawing_.parts[made.second].X_WP;
+    const Placement& X_WC = drawing_.parts[made.second].X_WP;
     made.p_WJ = X_WC.p;
     if (made.type == JointType::fixed) return;
     const auto axis = joint.element.child("axis");

@@ -40,6 +40,11 @@ struct Windows {
 
   double observation_in(double duration) const { return observation > 0.0 ? observation : duration; }
   double revisit_after() const { return revisit > 0.0 ? revisit : observation; }
+  // From the beginning of an index' first window to that of its second one; 0: it has one.
+  double apart(ErrorIndex index) const {
+    if (index == ErrorIndex::pde) return separation;
+    return index == ErrorIndex::pre ? revisit_after() : 0.0;
+  }
   // Whether a history of this length has the index; if not, what is missing, in a few words.
   std::string missing_for(ErrorIndex index, double duration) const;
 };

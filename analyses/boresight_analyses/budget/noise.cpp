@@ -22,11 +22,6 @@ std::vector<Cosine> cosines_of_difference(double window, double apart) {
   return {{4.0, 0.0}, {-4.0, window}, {-4.0, apart}, {2.0, apart + window}, {2.0, std::abs(apart - window)}};
 }
 
-double separation_of(ErrorIndex index, const Windows& w) {
-  if (index == ErrorIndex::pde) return w.separation;
-  return index == ErrorIndex::pre ? w.revisit_after() : 0.0;
-}
-
 }  // namespace
 
 Noise::Noise(PowerDensity density, std::vector<TransferFunction> through)
@@ -94,7 +89,7 @@ double Noise::power_from(double from) const {
 double Noise::variance(ErrorIndex index, const Windows& w) const {
   if (index == ErrorIndex::ape) return power_from(0.0);
   const bool relative = index == ErrorIndex::rpe;
-  const double apart = separation_of(index, w);
+  const double apart = w.apart(index);
   const std::vector<Cosine> cosines = apart > 0.0 ? cosines_of_difference(w.window, apart) : cosines_of_mean(w.window);
   // Below the first frequency the filter turns less than once, and is as smooth as the density; above, the cosines.
   const double turns = std::min(most(), 1.0 / (w.window + apart));

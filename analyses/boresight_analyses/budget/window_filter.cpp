@@ -5,10 +5,6 @@
 namespace boresight {
 namespace {
 
-double separation_of(ErrorIndex index, const Windows& windows) {
-  return index == ErrorIndex::pre ? windows.revisit_after() : windows.separation;
-}
-
 // 2 (1 - cos x) / x^2
 double mean_of_sinusoid(double x) {
   const double half = 0.5 * x;
@@ -35,7 +31,7 @@ double kept_of_sinusoid(ErrorIndex index, double angular_frequency, const Window
   const double mean = mean_of_sinusoid(angular_frequency * windows.window);
   if (index == ErrorIndex::mpe) return mean;
   if (index == ErrorIndex::rpe) return 1.0 - mean;
-  const double sine = std::sin(0.5 * angular_frequency * separation_of(index, windows));
+  const double sine = std::sin(0.5 * angular_frequency * windows.apart(index));
   return 4.0 * sine * sine * mean;
 }
 
@@ -54,7 +50,7 @@ double kept_of_noise(ErrorIndex index, double correlation_time, const Windows& w
   const double mean = covariance_of_means(0.0, x);
   if (index == ErrorIndex::mpe) return mean;
   if (index == ErrorIndex::rpe) return 1.0 - mean;
-  return 2.0 * (mean - covariance_of_means(separation_of(index, windows) / correlation_time, x));
+  return 2.0 * (mean - covariance_of_means(windows.apart(index) / correlation_time, x));
 }
 
 }  // namespace boresight

@@ -12,7 +12,7 @@ namespace {
 
 // Points on each side, and how much farther than the last the next may be.
 constexpr int kMostPoints = 5;
-constexpr double kFarther = 2.5;
+constexpr double kFartherAtMost = 2.5;
 constexpr double kClose = 0.1;  // relative, of the root of the rise: from there on it is taken as straight
 
 struct Side {
@@ -80,7 +80,7 @@ struct Side {
       if (std::abs(root - wanted) < kClose * wanted) return distance * wanted / root;
       const bool bracketed = std::isfinite(outside);
       if (bracketed && outside - inside < kClose * outside) break;
-      at = bracketed ? between() : std::min(kFarther, wanted / std::max(root, 1e-3)) * distance;
+      at = bracketed ? between() : std::min(kFartherAtMost, wanted / std::max(root, 1e-3)) * distance;
     }
     return std::isfinite(outside) ? between() : std::numeric_limits<double>::quiet_NaN();
   }

@@ -9,7 +9,7 @@ namespace {
 
 // A motion that is begun anew amid a contact has forgotten how fast that contact began. Where it then ends farther from the unbroken one
 // than this, in the scales of the state, it is begun at an earlier sample. Steps of 1e-7 leave a tenth of it.
-constexpr double kSame = 1e-5;
+constexpr double kSamePlace = 1e-5;
 
 }  // namespace
 
@@ -47,7 +47,7 @@ MatX CalibrationProblem::by_jumps(const Window& w, const Globals& globals, int j
     for (int from = wanted; from > wanted - step / 2; from -= std::max(1, step / 6)) {
       const int to = std::min(wanted + step, samples - 1);
       const VecX reached = stretch(from, to, false).state.rightCols(1);
-      if (!((reached - unbroken.col(to)).cwiseQuotient(scale).lpNorm<Eigen::Infinity>() < kSame)) continue;
+      if (!((reached - unbroken.col(to)).cwiseQuotient(scale).lpNorm<Eigen::Infinity>() < kSamePlace)) continue;
       begins.push_back(from);
       break;
     }

@@ -16,11 +16,6 @@ namespace {
 
 nlohmann::json cell(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
 
-std::string short_name(const std::string& path) {
-  const std::size_t first = path.find('.');
-  return path.starts_with("clearance.") || path.starts_with("error.") ? path.substr(first + 1) : path;
-}
-
 std::string known_to(double value, const ParameterEstimate& e) {
   return readable_to(value, e.standard_error, e.si_unit, e.written_unit);
 }
@@ -41,12 +36,12 @@ report::Table estimate_table(const CalibrationStudy& s) {
       return p.parameter == static_cast<int>(k) && std::isfinite(p.low) && std::isfinite(p.high);
     });
     if (e.identifiable)
-      table.rows.push_back({short_name(e.name), readable_as(e.value, e.si_unit, e.written_unit),
+      table.rows.push_back({name_of_path(e.name), readable_as(e.value, e.si_unit, e.written_unit),
                             readable_as(e.standard_error, e.si_unit, e.written_unit),
                             std::isfinite(e.data_error) ? readable_as(e.data_error, e.si_unit, e.written_unit) : "",
                             interval_of(e), profiled ? "profile" : "curvature", e.reason});
     else
-      table.rows.push_back({short_name(e.name), "none", "", "", "", "", "not identifiable: " + e.reason});
+      table.rows.push_back({name_of_path(e.name), "none", "", "", "", "", "not identifiable: " + e.reason});
   }
   return table;
 }
@@ -76,7 +71,7 @@ report::Table suspects_table(const CalibrationStudy& s) {
                           "parameter, in percent of it.",
                       .columns = {{"Suspect"}, {"Found"}, {"Error"}, {"Gain"}}};
   const int count = s.problem.parameter_count();
-  for (int p = 0; p < count; ++p) table.columns.push_back({short_name(s.problem.parameters[p].path), "%"});
+  for (int p = 0; p < count; ++p) table.columns.push_back({name_of_path(s.problem.parameters[p].path), "%"});
   for (const SuspectFound& found : s.result.model_error->suspects) {
     std::vector<nlohmann::json> row = {found.name, cell(found.mean), cell(found.error), cell(found.gain)};
     for (int p = 0; p < count; ++p) {
@@ -94,7 +89,7 @@ report::Chart correlation_chart(const CalibrationStudy& s) {
   report::Chart chart{.title = "Correlation of the estimates", .x = {"estimate"}, .y = {"estimate"}};
   report::Heatmap map{.label = "correlation", .diverging = true};
   report::Names names;
-  for (const ParameterEstimate& e : s.result.inference.parameters) names.push_back(short_name(e.name));
+  for (const ParameterEstimate& e : s.result.inference.parameters) names.push_back(name_of_path(e.name));
   map.x = map.y = names;
   const MatX& C = s.result.inference.correlation;
   for (Eigen::Index a = 0; a < C.rows(); ++a) {
@@ -206,7 +201,7 @@ report::Panels profile_panels(const CalibrationStudy& s) {
   const double rise = boost::math::quantile(boost::math::chi_squared(1.0), s.plan.confidence);
   for (const Profile& p : s.result.profiles) {
     const double estimate = s.result.inference.parameters[p.parameter].value;
-    report::Chart chart{.title = short_name(s.problem.parameters[p.parameter].path),
+    report::Chart chart{.title = name_of_path(s.problem.parameters[p.parameter].path),
                         .x = {"change of the value", "%"},
                         .y = {"root of the rise"},
                         .lines = {{'y', std::sqrt(rise), readable_share(s.plan.confidence)}}};
@@ -227,7 +222,7 @@ report::Table starts_table(const CalibrationStudy& s) {
   report::Table table{.title = "Starts",
                       .caption = "Tried on the first part of every run: where from, where to. The cheapest went on.",
                       .columns = {{"Start"}}};
-  for (const FittedParameter& p : s.problem.parameters) table.columns.push_back({short_name(p.path)});
+  for (const FittedParameter& p : s.problem.parameters) table.columns.push_back({name_of_path(p.path)});
   table.columns.push_back({"Cost"});
   for (std::size_t k = 0; k < s.result.starts.size(); ++k) {
     const StartFound& start = s.result.starts[k];
@@ -272,7 +267,7 @@ report::Document calibrate_report(const CalibrationStudy& s) {
                                                     : s.result.verdict.front()};
   for (const ParameterEstimate& e : inference.parameters)
     if (e.name.starts_with("clearance.") || e.name.starts_with("error."))
-      document.facts.push_back({short_name(e.name),
+      document.facts.push_back({name_of_path(e.name),
                                 e.identifiable ? known_to(e.value, e) : std::string("not identifiable"), "",
                                 e.identifiable ? interval_of(e) : e.reason});
   report::Section answer{.id = "answer", .title = "What the data say"};

@@ -13,11 +13,7 @@ namespace {
 
 // A page shows no more of them well.
 constexpr std::size_t kMostShown = 5;
-constexpr Eigen::Index kMostPoints = 500;
-
-std::string short_name(const std::string& path) {
-  return path.starts_with("clearance.") || path.starts_with("error.") ? path.substr(path.find('.') + 1) : path;
-}
+constexpr Eigen::Index kMostDrawn = 500;
 
 struct Shown {
   DisplayUnit unit;
@@ -28,20 +24,24 @@ struct Shown {
 Shown shown(const PosteriorDraws& draws, std::size_t k) {
   const DrawnQuantity& q = draws.quantities[k];
   Shown s{display_unit_as(q.si_unit, std::max(std::abs(q.mean), q.deviation), q.written_unit), {}, {}};
-  s.axis = {short_name(q.name), s.unit.name};
+  s.axis = {name_of_path(q.name), s.unit.name};
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i)
     s.values.push_back(draws.values(i, static_cast<Eigen::Index>(k)) * s.unit.per_si);
   return s;
 }
 
 report::Numbers some_of(const report::Numbers& all) {
-  const std::size_t every = std::max<std::size_t>(1, all.size() / static_cast<std::size_t>(kMostPoints));
+  const std::size_t every = std::max<std::size_t>(1, all.size() / static_cast<std::size_t>(kMostDrawn));
   report::Numbers some;
   for (std::size_t i = 0; i < all.size(); i += every) some.push_back(all[i]);
   return some;
 }
 
 }  // namespace
+
+std::string name_of_path(const std::string& path) {
+  return path.starts_with("clearance.") || path.starts_with("error.") ? path.substr(path.find('.') + 1) : path;
+}
 
 std::string readable_to(double value, double error, const std::string& si_unit, const std::string& written_unit) {
   const DisplayUnit unit = display_unit_as(si_unit, std::abs(value), written_unit);
@@ -63,7 +63,7 @@ report::Section draws_section(const PosteriorDraws& draws, double confidence) {
       .columns = {{"Parameter"}, {"Mean"}, {"Standard deviation"}, {"Interval"}, {"R-hat"}, {"Size"}, {"Size, tails"}}};
   for (const DrawnQuantity& q : draws.quantities) {
     const auto to = [&](double value) { return readable_to(value, q.deviation, q.si_unit, q.written_unit); };
-    table.rows.push_back({short_name(q.name), to(q.mean), readable_as(q.deviation, q.si_unit, q.written_unit),
+    table.rows.push_back({name_of_path(q.name), to(q.mean), readable_as(q.deviation, q.si_unit, q.written_unit),
                           to(q.low) + " to " + to(q.high),
                           std::isfinite(q.r_hat) ? nlohmann::json(fmt::format("{:.3f}", q.r_hat)) : nlohmann::json(),
                           std::round(q.bulk_ess), std::round(q.tail_ess)});

@@ -22,7 +22,7 @@
 namespace boresight::app {
 namespace {
 
-constexpr std::size_t kMostPoints = 2000;  // points of a scatter plot
+constexpr std::size_t kMostOfPlot = 2000;  // points of a scatter plot
 
 void write_local(std::ostream& out, const LocalResult& local) {
   out << "parameter,unit,median,sd,low,high,index_at_low,index_at_high";
@@ -118,7 +118,7 @@ class SensitivityVerb : public Verb {
                             .warnings = {},
                             .leaves_out = model.leaves_out(),
                             .failures = {}};
-    const std::uint64_t every = plan.runs_per_row() * (plan.rows / kMostPoints + 1);
+    const std::uint64_t every = plan.runs_per_row() * (plan.rows / kMostOfPlot + 1);
     store.read(plan.runs(), [&](const SampleRecord& r) {
       result.failures.see(r.number, r.outcome);
       if (r.number % every == 0 && r.outcome.status == Outcome::Status::done) result.shown.push_back(r);
