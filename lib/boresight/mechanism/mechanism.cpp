@@ -27,7 +27,7 @@ Mat3 joint_axes(const Vec3& axis, const ClearanceDescription* clearance) {
 }
 
 // Cosine of two directions that are perpendicular, as far as they are typed.
-constexpr double kAcross = 1e-3;
+constexpr double kMostAlongAxis = 1e-3;
 
 JointFrame frame_in(const MechanismDescription& mechanism, int body, const Vec3& point, const Mat3& R_WJ) {
   if (body == kGround) return {kGround, point, R_WJ};
@@ -85,7 +85,7 @@ void check_clearances(const MechanismDescription& m) {
       if (j.type != JointType::prismatic)
         throw InputError(c.origin, key + ".guide", std::string("\"rectangular\" on a ") + to_string(j.type) + " joint",
                          "a prismatic joint");
-      if (!(std::abs(c.width_direction.dot(j.axis)) < kAcross))
+      if (!(std::abs(c.width_direction.dot(j.axis)) < kMostAlongAxis))
         throw InputError(c.origin, key + ".width_direction",
                          "a direction that is not perpendicular to the joint's axis", "perpendicular directions");
     }

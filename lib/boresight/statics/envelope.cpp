@@ -16,8 +16,6 @@ namespace {
 
 using Gain = Eigen::Matrix<double, 3, 3>;
 
-constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
-
 class Envelope final : public SceneRung {
  public:
   explicit Envelope(std::shared_ptr<const Mechanism> mechanism) : SceneRung(std::move(mechanism)) {}

@@ -14,7 +14,6 @@
 namespace boresight {
 namespace {
 
-constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
 // Where journals rest moves those that slide along their axes, and that moves where these rest by their tilt times it: each look leaves that
 // share of what the one before left.
 constexpr int kLooksAtSlides = 3;

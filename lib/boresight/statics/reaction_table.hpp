@@ -11,6 +11,8 @@
 
 namespace boresight {
 
+inline constexpr int kInstantsBetweenLooks = 256;  // at whether to go on
+
 class ReactionTable {
  public:
   // share: of the spacing that instants have by default. Throws ComputationError where the mechanism has freedoms that nothing drives,

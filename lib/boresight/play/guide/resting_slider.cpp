@@ -8,17 +8,12 @@
 #include <cmath>
 
 #include "boresight/play/guide/slider_in_guide.hpp"
+#include "boresight/play/search_for_rest.hpp"
 
 namespace boresight {
 namespace {
 
-constexpr int kIterations = 200;
-// Balance asked for: force left over, relative to the load.
-constexpr double kBalance = 1e-10;
-// Steps shorter than this share of the gap are rounding.
-constexpr double kShortestStep = 1e-13;
-
-using Stiffness = Eigen::Matrix<double, kMostOffsets, kMostOffsets>;
+using SliderStiffness = Eigen::Matrix<double, kMostOffsets, kMostOffsets>;
 
 class PressedSlider {
  public:
@@ -33,9 +28,9 @@ class PressedSlider {
     const double room = std::max({slider_.gap[0], slider_.gap[1], size_ / slider_.law.stiffness});
     double damping = size_ > 0.0 ? size_ / room : slider_.law.stiffness;
     set(at);
-    for (int k = 0; k < kIterations && gradient_.norm() > kBalance * size_; ++k) {
+    for (int k = 0; k < rest::kIterations && gradient_.norm() > rest::kBalance * size_; ++k) {
       const double value = value_, residual = gradient_.norm();
-      Stiffness damped = curvature_;
+      SliderStiffness damped = curvature_;
       damped.diagonal().array() += damping;
       const PlayOffsets step = -damped.ldlt().solve(gradient_);
       const PlayOffsets next = at + unit_.cwiseProduct(step);
@@ -48,7 +43,7 @@ class PressedSlider {
         damping = std::max(10.0 * damping, 1e-6 * size_ / room);
         set(at);
       }
-      if (step.norm() <= kShortestStep * room) break;
+      if (step.norm() <= rest::kShortestStep * room) break;
     }
     return at;
   }
@@ -66,7 +61,7 @@ class PressedSlider {
 
   const SliderInGuide& slider_;
   PlayOffsets load_, unit_, gradient_;
-  Stiffness curvature_;
+  SliderStiffness curvature_;
   double size_ = 0.0, value_ = 0.0;
 };
 

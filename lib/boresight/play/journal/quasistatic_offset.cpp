@@ -16,6 +16,7 @@
 #include <limits>
 
 #include "boresight/play/journal/journal_in_sleeve.hpp"
+#include "boresight/play/search_for_rest.hpp"
 
 namespace boresight {
 namespace {
@@ -25,16 +26,11 @@ using Vec2 = Vec2T<double>;
 using Offsets = Eigen::Matrix<double, 5, 1>;
 using Stiffness = Eigen::Matrix<double, 5, 5>;
 
-constexpr int kIterations = 200;
-// Balance asked for: force left over, relative to the load.
-constexpr double kBalance = 1e-10;
-// Of a place: a few units in its last digit. Under small loads a stiff contact makes more of these than kBalance.
+// Of a place: a few units in its last digit. Under small loads a stiff contact makes more of these than rest::kBalance.
 constexpr double kRoundingOfPlace = 8.0 * std::numeric_limits<double>::epsilon();
 // Steps that follow it, and the share of the largest stiffness that holds nothing.
 constexpr int kLastSteps = 2;
 constexpr double kSoft = 1e-12;
-// Where nothing holds the journal a step may be no shorter than this share of the clearance.
-constexpr double kShortestStep = 1e-13;
 
 Vec2 rest_along(const Vec2& force, double clearance, const NormalLaw& law, double& reach) {
   const double size = force.norm();
@@ -128,7 +124,7 @@ class PressedJournal {
     for (int side : {-1, 1}) {
       const Vec2 share = (side * couple + (t.half_length + side * along) * force) / span;
       const double size = share.norm();
-      if (!(size > kBalance * size_)) return false;
+      if (!(size > rest::kBalance * size_)) return false;
       place[side < 0 ? 0 : 1] = (t.radial_clearance + t.end_law.depth_under(size)) / size * share;
     }
     const Vec2 slope = (place[1] - place[0]) / span, middle = 0.5 * (place[0] + place[1]) + along * slope;
@@ -160,7 +156,7 @@ class PressedJournal {
     const double room = std::max(joint_.radial_clearance, joint_.tilted.end_law.depth_under(size_));
     double damping = size_ > 0.0 ? size_ / room : 1.0;
     set(at);
-    for (int k = 0; k < kIterations && !balanced(); ++k) {
+    for (int k = 0; k < rest::kIterations && !balanced(); ++k) {
       const double value = value_, residual = gradient_.norm();
       Stiffness damped = curvature_;
       damped.diagonal().array() += damping;
@@ -171,12 +167,12 @@ class PressedJournal {
       if (value_ < value - rounding || (value_ <= value + rounding && gradient_.norm() < residual)) {
         at = next;
         damping *= 0.1;
-        if (step.norm() <= kShortestStep * room) break;
+        if (step.norm() <= rest::kShortestStep * room) break;
         continue;
       }
       damping = std::max(10.0 * damping, 1e-6 * size_ / room);
       set(at);
-      if (step.norm() <= kShortestStep * room) break;
+      if (step.norm() <= rest::kShortestStep * room) break;
     }
     return balanced() ? polished(at) : at;
   }
@@ -201,7 +197,7 @@ class PressedJournal {
   // To what digits of the place leave of the forces.
   bool balanced() const {
     const double place = unit_.cwiseInverse().cwiseProduct(offsets_).norm();
-    return gradient_.norm() <= kBalance * size_ + kRoundingOfPlace * place * curvature_.norm();
+    return gradient_.norm() <= rest::kBalance * size_ + kRoundingOfPlace * place * curvature_.norm();
   }
   double end_force(int end) const { return end_force_[end]; }
   double face_force(int face) const { return face_force_[face]; }
