@@ -4,6 +4,14 @@
 # time; so what is not in a header stands in a namespace of its file's name.
 include(GoogleTest)
 
+# boresight_in_batches(TARGET SIZE): its files are compiled so many at once in a new build folder.
+function(boresight_in_batches name size)
+  if(BORESIGHT_TESTS_IN_BATCHES)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${size})
+    target_compile_options(${name} PRIVATE -Wno-shadow -Wshadow=local -Wno-subobject-linkage)
+  endif()
+endfunction()
+
 function(boresight_test name)
   cmake_parse_arguments(PARSE_ARGV 1 test "" "TIMEOUT;LONG" "SOURCES;LINKS")
   if(NOT test_SOURCES)
@@ -17,10 +25,7 @@ function(boresight_test name)
   target_include_directories(${name} PRIVATE ${boresight_SOURCE_DIR}/tests ${boresight_SOURCE_DIR}/tests/lib ${boresight_SOURCE_DIR}/tests/analyses)
   target_link_libraries(${name} PRIVATE ${links} GTest::gmock_main)
   target_compile_definitions(${name} PRIVATE BORESIGHT_EXAMPLES="${boresight_SOURCE_DIR}/examples")
-  if(BORESIGHT_TESTS_IN_BATCHES)
-    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-    target_compile_options(${name} PRIVATE -Wno-shadow -Wshadow=local -Wno-subobject-linkage)
-  endif()
+  boresight_in_batches(${name} 6)
   if(test_LONG)
     gtest_discover_tests(${name} TEST_FILTER "-*Long*" PROPERTIES TIMEOUT ${test_TIMEOUT})
     gtest_discover_tests(${name} TEST_FILTER "*Long*" TEST_LIST ${name}_long PROPERTIES TIMEOUT ${test_LONG} LABELS long COST 30)

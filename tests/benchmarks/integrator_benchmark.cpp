@@ -26,8 +26,8 @@ namespace {
 
 constexpr double kGrid = 1e-4;
 
-struct Scene {
-  explicit Scene(int payload)
+struct DrivenScene {
+  explicit DrivenScene(int payload)
       : mechanism(scenes::build(scenes::rrcpr({{"payload.mass", std::to_string(payload) + " kg"}}))),
         prepared(*mechanism, ideal_motion(*mechanism, mechanism->parameters()), mechanism->parameters()),
         tables(prepared.tables(mechanism->parameters())),
@@ -54,18 +54,18 @@ struct Scene {
   mutable std::vector<double> row;
 };
 
-const Scene& scene(int payload) {
-  static std::map<int, Scene> scenes;
+const DrivenScene& scene(int payload) {
+  static std::map<int, DrivenScene> scenes;
   return scenes.try_emplace(payload, payload).first->second;
 }
 
-struct Outcome {
+struct Reached {
   double largest = 0.0;
   long evaluations = 0;
 };
 
 template <typename M>
-Outcome ours(const Scene& s, M method, double tolerance) {
+Reached ours(const DrivenScene& s, M method, double tolerance) {
   PerturbationSystem system(*s.mechanism, s.mechanism->parameters(), s.tables, false);
   VecX y = VecX::Zero(system.size()), inside = y;
   system.start_located(0.0, y);
@@ -73,7 +73,7 @@ Outcome ours(const Scene& s, M method, double tolerance) {
   IntegrationOptions options{.relative_tolerance = 0.0};
   options.absolute_tolerances = s.tolerances(tolerance);
   options.largest_step = 0.01;
-  Outcome outcome;
+  Reached outcome;
   long point = 1;
   const IntegrationSummary summary =
       integrator.run(system, 0.0, s.mechanism->duration(), y, options, [&](const auto& step) {
@@ -86,19 +86,19 @@ Outcome ours(const Scene& s, M method, double tolerance) {
   return outcome;
 }
 
-Outcome dopri5(const Scene& s, double tolerance) {
+Reached dopri5(const DrivenScene& s, double tolerance) {
   return ours(s, ExplicitMethod(dormand_prince54(), 2 * s.tables->layout.n), tolerance);
 }
-Outcome rosenbrock(const Scene& s, double tolerance) {
+Reached rosenbrock(const DrivenScene& s, double tolerance) {
   return ours(s, RosenbrockMethod(rodas4(), 2 * s.tables->layout.n), tolerance);
 }
 
 // Fixed steps of the paper's size that do not stop at contact: no tolerance.
-Outcome rk4(const Scene& s, double) {
+Reached rk4(const DrivenScene& s, double) {
   PerturbationSystem system(*s.mechanism, s.mechanism->parameters(), s.tables, false);
   VecX y = VecX::Zero(system.size());
   ExplicitRungeKutta method(classical_rk4(), system.size());
-  Outcome outcome;
+  Reached outcome;
   const long steps = std::lround(s.mechanism->duration() / kGrid);
   for (long i = 0; i < steps; ++i) {
     const double t = kGrid * i;
@@ -114,12 +114,12 @@ Outcome rk4(const Scene& s, double) {
 #ifdef BORESIGHT_SUNDIALS
 
 template <peers::SundialsMethod method>
-Outcome sundials(const Scene& s, double tolerance) {
+Reached sundials(const DrivenScene& s, double tolerance) {
   PerturbationSystem system(*s.mechanism, s.mechanism->parameters(), s.tables, false);
   const VecX y = VecX::Zero(system.size());
   system.start_located(0.0, y);
   peers::SundialsRun<PerturbationSystem> run(system, y, s.tolerances(tolerance));
-  Outcome outcome;
+  Reached outcome;
   run.follow(method, s.mechanism->duration(), kGrid, [&](double t, const double* state) {
     outcome.largest = std::max(outcome.largest, s.position_error(t, state));
     return true;
@@ -130,12 +130,12 @@ Outcome sundials(const Scene& s, double tolerance) {
 
 #endif
 
-void integrator(benchmark::State& state, Outcome (*method)(const Scene&, double), double tolerance) {
-  const Scene& s = scene(static_cast<int>(state.range(0)));
+void integrator(benchmark::State& state, Reached (*method)(const DrivenScene&, double), double tolerance) {
+  const DrivenScene& s = scene(static_cast<int>(state.range(0)));
   static std::map<long, double> references;
   const auto [reference, fresh] = references.try_emplace(state.range(0), 0.0);
   if (fresh) reference->second = rosenbrock(s, 1e-7).largest;
-  Outcome outcome;
+  Reached outcome;
   for (auto _ : state) outcome = method(s, tolerance);
   state.counters["evaluations"] = static_cast<double>(outcome.evaluations);
   state.counters["index_error_%"] = 100.0 * std::abs(outcome.largest / reference->second - 1.0);

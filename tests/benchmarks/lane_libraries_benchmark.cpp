@@ -52,7 +52,7 @@ namespace {
 }
 
 #ifdef BORESIGHT_XSIMD
-[[maybe_unused]] const bool registered = [] {
+[[maybe_unused]] const bool libraries_registered = [] {
   for (const LanePrecision precision : {LanePrecision::single_precision, LanePrecision::double_precision}) {
     const bool single = precision == LanePrecision::single_precision;
     const LaneTarget own = lane_targets(precision).front();

@@ -63,7 +63,7 @@ void sample_on_lanes(benchmark::State& state, const LaneTarget& target) {
   state.counters["attempts"] = attempts / static_cast<double>(all.size());
 }
 
-[[maybe_unused]] const bool registered = [] {
+[[maybe_unused]] const bool lanes_registered = [] {
   for (const LanePrecision precision : {LanePrecision::single_precision, LanePrecision::double_precision})
     for (const LaneTarget& target : lane_targets(precision)) {
       const char* digits = precision == LanePrecision::single_precision ? "single" : "double";

@@ -9,20 +9,20 @@
 namespace boresight {
 namespace {
 
-struct Scene {
+struct Instant {
   std::shared_ptr<const Mechanism> mechanism = scenes::build(scenes::rrcpr());
   IdealMotion ideal = IdealMotion::kinematic(*mechanism);
   IdealState state;
-  Scene() { ideal.state(0.23, state); }
+  Instant() { ideal.state(0.23, state); }
 };
-const Scene& scene() {
-  static const Scene s;
+const Instant& instant() {
+  static const Instant s;
   return s;
 }
 
 void dense_right_hand_side(benchmark::State& state) {
-  benchmarks::DenseBaseline dense(*scene().mechanism, scene().mechanism->parameters(), scene().ideal);
-  for (auto _ : state) benchmark::DoNotOptimize(dense.acceleration(0.23, scene().state.bodies));
+  benchmarks::DenseBaseline dense(*instant().mechanism, instant().mechanism->parameters(), instant().ideal);
+  for (auto _ : state) benchmark::DoNotOptimize(dense.acceleration(0.23, instant().state.bodies));
 }
 BENCHMARK(dense_right_hand_side)->Unit(benchmark::kMicrosecond);
 
@@ -30,15 +30,15 @@ void right_hand_side(benchmark::State& state, bool paper, JournalAxes axes) {
   MechanismDescription description = scenes::rrcpr();
   description.clearances[0].axes = axes;
   const Mechanism mechanism(description);
-  const auto formulation = paper ? make_paper_formulation(mechanism, mechanism.parameters(), &scene().ideal, {})
-                                 : make_tree_formulation(mechanism, mechanism.parameters(), &scene().ideal, {});
+  const auto formulation = paper ? make_paper_formulation(mechanism, mechanism.parameters(), &instant().ideal, {})
+                                 : make_tree_formulation(mechanism, mechanism.parameters(), &instant().ideal, {});
   VecX y, dy;
-  formulation->start(scene().state, y);
+  formulation->start(instant().state, y);
   dy.resize(y.size());
   const std::vector<ContactMemory> memory(1);
-  benchmarks::DenseBaseline dense(*scene().mechanism, scene().mechanism->parameters(), scene().ideal);
+  benchmarks::DenseBaseline dense(*instant().mechanism, instant().mechanism->parameters(), instant().ideal);
   formulation->derivative(0.23, y, memory, dy);
-  const VecX exact = dense.acceleration(0.23, scene().state.bodies);
+  const VecX exact = dense.acceleration(0.23, instant().state.bodies);
   double difference = 0.0;
   for (int b = 0; b < mechanism.bodies(); ++b)
     difference = std::max(difference, (formulation->acceleration()[b] - exact.segment<6>(6 * b)).norm());
@@ -58,12 +58,12 @@ BENCHMARK_CAPTURE(right_hand_side, paper_free_axes, true, JournalAxes::free)->Un
 BENCHMARK_CAPTURE(right_hand_side, tree_free_axes, false, JournalAxes::free)->Unit(benchmark::kMicrosecond);
 
 void second_of_motion(benchmark::State& state, const char* name) {
-  const auto rung = make_rung(name, scene().mechanism);
+  const auto rung = make_rung(name, instant().mechanism);
   RunOptions options;
   options.step = 1e-4;
   options.sample_spacing = 0.0;
-  rung->run(scene().mechanism->parameters(), options);  // what is computed once for a mechanism is not timed
-  for (auto _ : state) benchmark::DoNotOptimize(rung->run(scene().mechanism->parameters(), options).index);
+  rung->run(instant().mechanism->parameters(), options);  // what is computed once for a mechanism is not timed
+  for (auto _ : state) benchmark::DoNotOptimize(rung->run(instant().mechanism->parameters(), options).index);
 }
 BENCHMARK_CAPTURE(second_of_motion, multibody, "multibody")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(second_of_motion, perturbation, "perturbation")->Unit(benchmark::kMillisecond);
@@ -72,8 +72,8 @@ BENCHMARK_CAPTURE(second_of_motion, envelope, "envelope")->Unit(benchmark::kMill
 
 void precomputation(benchmark::State& state) {
   for (auto _ : state) {
-    const auto rung = make_rung("envelope", scene().mechanism);
-    benchmark::DoNotOptimize(rung->run(scene().mechanism->parameters(), {}).index);
+    const auto rung = make_rung("envelope", instant().mechanism);
+    benchmark::DoNotOptimize(rung->run(instant().mechanism->parameters(), {}).index);
   }
 }
 BENCHMARK(precomputation)->Unit(benchmark::kMillisecond);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <regex>
 #include <sstream>
 
@@ -16,6 +17,8 @@ namespace {
 
 constexpr double kAutoAccuracy = 0.05;
 constexpr int kInterrupted = 130;
+constexpr double kNoise = 0.01;
+constexpr int kNoiseSeed = 5;
 
 void write(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
 
@@ -135,7 +138,9 @@ void ProgramTrial::verbs() {
   for (const auto& [status, out] : {std::pair{ran, "quasistatic"}, std::pair{motion, "data"}})
     if (status == 0) typical = std::max(1e-12, summary(out)["index"]["position_error"]["rms"].get<double>());
   if (motion == 0) {
-    // The first columns of a run's own series, as a rig would measure them.
+    // The first columns of a run's own series, as a rig would measure them: with noise, a hundredth of what there is to see.
+    std::mt19937_64 bits(kNoiseSeed);
+    std::normal_distribution<double> noise(0.0, kNoise * typical);
     std::stringstream in(read(path("data/timeseries.csv"))), out;
     std::string line;
     for (bool first = true; std::getline(in, line); first = false) {
@@ -143,6 +148,8 @@ void ProgramTrial::verbs() {
       std::stringstream row(line);
       for (std::string cell; std::getline(row, cell, ',') && cells.size() < 4;) cells.push_back(cell);
       if (cells.size() < 4) continue;
+      for (std::size_t k = 1; k < cells.size() && !first; ++k)
+        cells[k] = fmt::format("{:.9g}", std::stod(cells[k]) + noise(bits));
       out << (first ? "t [s], dx [m], dy [m], dz [m]" : fmt::format("{}", fmt::join(cells, ", "))) << '\n';
     }
     write(path("measured.csv"), out.str());

@@ -35,7 +35,7 @@ void limit_self(const Limits& limits, double patience = 0.0) {
 
 void write_all(int file, const std::string& text) {
   for (std::size_t done = 0; done < text.size();) {
-    const ssize_t n = write(file, text.data() + done, text.size() - done);
+    const ssize_t n = ::write(file, text.data() + done, text.size() - done);
     if (n <= 0) return;
     done += static_cast<std::size_t>(n);
   }
@@ -76,7 +76,7 @@ Ended listen(int file, pid_t child, double wall_seconds, std::optional<double> p
       kill(child, SIGINT);
     }
     if (poll(&wait, 1, static_cast<int>(1e3 * nap) + 1) <= 0) continue;
-    const ssize_t n = read(file, buffer, sizeof buffer);
+    const ssize_t n = ::read(file, buffer, sizeof buffer);
     if (n <= 0) break;
     ended.text.append(buffer, static_cast<std::size_t>(n));
   }

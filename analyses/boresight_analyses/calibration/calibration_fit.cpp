@@ -81,6 +81,11 @@ std::vector<VecX> guess_states(const CalibrationProblem& problem, const std::vec
 
 namespace {
 
+// The first of the solver's iterations is the start; it has none where that cannot be followed.
+int steps_of(const ceres::Solver::Summary& summary) {
+  return std::max(0, static_cast<int>(summary.iterations.size()) - 1);
+}
+
 // key: what it is kept under.
 FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, std::vector<VecX> states,
                        const FitOptions& options, std::uint64_t key) {
@@ -196,13 +201,13 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
     if (round == 0) result.start_cost = 2.0 * summary.initial_cost;
     if (all.refused() && !bounded && !result.interrupted) {
       bounded = true;
-      result.iterations += static_cast<int>(summary.iterations.size()) - 1;
+      result.iterations += steps_of(summary);
       result.evaluations += summary.num_residual_evaluations + summary.num_jacobian_evaluations;
       set_bounds();
       ceres::Solve(solver, &ceres_problem, &summary);
     }
     take();
-    result.iterations += static_cast<int>(summary.iterations.size()) - 1;
+    result.iterations += steps_of(summary);
     result.evaluations += summary.num_residual_evaluations + summary.num_jacobian_evaluations;
     if (round + 1 == rounds || result.interrupted || !summary.IsSolutionUsable()) break;
     for_each_on_threads(static_cast<int>(states.size()), options.jobs, [&](int k) {
@@ -213,10 +218,14 @@ FitResult computed_fit(const CalibrationProblem& problem, const Globals& start, 
       state_of[k] = state;
     });
   }
+  // The solver asks nobody where the start itself cannot be followed: a search over such starts would be deaf.
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  if (!result.interrupted && summary.iterations.empty() && options.progress)
+    result.interrupted = !options.progress({0, options.most_iterations, kNone, result.globals});
   for (std::size_t k = 0; k < states.size(); ++k) states[k] = state_of[k];
   result.states = std::move(states);
   // A start whose motion cannot be followed has no cost.
-  result.cost = summary.IsSolutionUsable() ? 2.0 * summary.final_cost : std::numeric_limits<double>::infinity();
+  result.cost = summary.IsSolutionUsable() ? 2.0 * summary.final_cost : kNone;
   result.converged = summary.termination_type == ceres::CONVERGENCE || summary.termination_type == ceres::USER_SUCCESS;
   if (result.interrupted)
     result.reason = "interrupted";

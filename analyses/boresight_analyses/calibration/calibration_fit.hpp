@@ -15,7 +15,7 @@ namespace boresight {
 
 struct FitProgress {
   int iteration = 0, most_iterations = 0;
-  double cost = 0.0;
+  double cost = 0.0;  // infinite: the motion of the start cannot be followed
   Globals globals;
 };
 

@@ -33,7 +33,7 @@ FitOptions Calibrator::fit_options(const std::string& stage, int iterations, int
     const std::vector<double> values = problem_.values(p.globals);
     char number[160];
     std::snprintf(number, sizeof number, "iteration %d, cost %.6g", p.iteration, p.cost);
-    text = number;
+    text = std::isfinite(p.cost) ? number : "a start that cannot be followed";
     for (std::size_t k = 0; k < std::min<std::size_t>(4, values.size()); ++k) {
       const std::string& path = problem_.parameters[k].path;
       std::snprintf(number, sizeof number, ", %s %.4g", path.substr(path.rfind('.') + 1).c_str(), values[k]);

@@ -1,6 +1,9 @@
 // Fits of one parameter whose truth is known, and what is said of them.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
+
 #include "boresight_analyses/calibration/landscape.hpp"
 #include "boresight_analyses/calibration/profile_likelihood.hpp"
 #include "four_bar_rig.hpp"
@@ -31,6 +34,29 @@ TEST(Fit, CountsTheIterationsThatItHasReported) {
   EXPECT_LT(result.cost, result.start_cost);
   options.most_iterations = 1;
   EXPECT_EQ(fit(problem, problem.start(), {}, options).iterations, 1);
+}
+
+TEST(Fit, AsksWhetherToGoOnAlsoWhereItsStartCannotBeFollowed) {
+  const Bench bench({2.0}, 0.03, false);
+  CalibrationProblem problem = bench.problem({}, kRadial);
+  problem.sigma = noise_from_differences(problem);
+  Globals nowhere = problem.start();
+  nowhere.u[0] = std::numeric_limits<double>::quiet_NaN();
+  FitOptions options;
+  int asked = 0;
+  options.progress = [&](const FitProgress& p) {
+    EXPECT_TRUE(std::isinf(p.cost)) << p.cost;
+    return ++asked > 1;
+  };
+  const FitResult stopped = fit(problem, nowhere, {}, options);
+  EXPECT_EQ(asked, 1);
+  EXPECT_TRUE(stopped.interrupted);
+  EXPECT_EQ(stopped.iterations, 0);
+  const FitResult failed = fit(problem, nowhere, {}, options);
+  EXPECT_EQ(asked, 2);
+  EXPECT_FALSE(failed.interrupted);
+  EXPECT_TRUE(std::isinf(failed.cost));
+  EXPECT_EQ(failed.iterations, 0);
 }
 
 TEST(Calibrate, StartsWithinAFactorOfTwoOfWhatItIsGiven) {

@@ -18,6 +18,7 @@
 #include <cstdlib>
 #include <map>
 #include <random>
+#include <set>
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
@@ -326,7 +327,9 @@ int cover(const Asked& asked) {
 
 int main(int count, char** words) {
   boresight::Asked asked;
-  if (count < 2) return std::printf("calibration_coverage none|step|axial|law|masses|lag|simbody [--sets N] ...\n"), 2;
+  static const std::set<std::string> kinds = {"none", "step", "axial", "law", "masses", "lag", "simbody"};
+  if (count < 2 || !kinds.contains(words[1]))
+    return std::printf("calibration_coverage none|step|axial|law|masses|lag|simbody [--sets N] ...\n"), 2;
   asked.kind = words[1];
   for (int k = 2; k < count; ++k) {
     const std::string option = words[k];
