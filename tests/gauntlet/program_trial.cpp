@@ -123,9 +123,9 @@ void ProgramTrial::automatic(const AutoReference& reference) {
   double error = 0.0;
   if (json.contains("pilot") && json["pilot"]["reference_error"].is_number()) error = json["pilot"]["reference_error"];
   if (json.contains("pilot") && json["pilot"]["reference_error"].is_null()) return;  // it says that it knows none
-  // As it is of what steps leave out, which is all that there is where nothing deviates.
+  // Where there is no play and no error there is no rung to choose, and all that there is is what steps leave out: of that too its word holds.
   const Json& steps = json["error_estimate"]["discretisation"];
-  const double by_steps = steps.is_number() ? steps.get<double>() * value : 0.0;
+  const double by_steps = !json.contains("pilot") && steps.is_number() ? steps.get<double>() * value : 0.0;
   const double allowed = (kAutoAccuracy + error) * reference.value + by_steps + reference.slack;
   if (std::abs(value - reference.value) > allowed)
     verdict_.fault(

@@ -19,8 +19,8 @@ namespace {
 // A search finds its way by steps that lead ten times as far apart.
 constexpr double kFiner = 0.1, kOfPlay = 0.001, kOfNoise = 1.0, kOfSearch = 10.0;
 
-// times: how much farther apart is near enough. Whether a window's motion at a place can be followed, by steps as fine as the problem's and finer ones; and its last sample up to which these
-// agree.
+// Whether a window's motion at a place can be followed, by steps as fine as the problem's and finer ones; and its last sample up to which
+// these agree. times: how much farther apart is near enough.
 std::optional<int> last_alike(const CalibrationProblem& problem, const Window& w, const Globals& at, double times) {
   CalibrationProblem finer = problem;
   finer.tolerance *= kFiner;
