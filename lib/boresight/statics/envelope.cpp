@@ -7,6 +7,7 @@
 #include "boresight/scene/scene_rung.hpp"
 #include "boresight/statics/measured_by_dynamics.hpp"
 #include "boresight/statics/reaction_table.hpp"
+#include "boresight/statics/resting_contacts.hpp"
 #include "boresight/statics/tied_gaps.hpp"
 #include "boresight/statics/tied_rest.hpp"
 #include "boresight/statics/worst_offset.hpp"
@@ -33,7 +34,7 @@ class Envelope final : public SceneRung {
     const ReactionTable reactions(mechanism(), prepared, standing, parameters, options.share_of_longest_step);
     const std::vector<JointPlay>& joints = reactions.joints();
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
-    std::vector<ContactSummary> summary = reactions.summaries();
+    RestingContacts contacts(reactions, options.start);
     std::optional<TiedRest> tied;
     if (reactions.tied()) tied.emplace(prepared, standing, parameters, reactions);
     TiedGaps gaps;
@@ -58,7 +59,7 @@ class Envelope final : public SceneRung {
       return bounded;
     };
     const auto record = [&](const Bounded& bounded) {
-      for (std::size_t c = 0; c < joints.size(); ++c) reactions.note(bounded.rest[c], bounded.load[c], summary[c]);
+      contacts.note(bounded.time, bounded.rest, bounded.load);
       const DisplacedBodies displaced(prepared, standing, bounded.time, bounded.worst_z);
       BodyAcceleration acceleration;
       const BodyMotion boresight = displaced.at_rest(mechanism().boresight_body(), acceleration);
@@ -86,7 +87,7 @@ class Envelope final : public SceneRung {
     RunResult result = recorder.finish();
     result.interrupted = interrupted;
     result.integrator = "none: the worst offset an instant";
-    result.contact = std::move(summary);
+    result.contact = contacts.finish();
     result.cost.steps = result.cost.evaluations = instants;
     return result;
   }

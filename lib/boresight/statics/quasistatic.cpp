@@ -9,6 +9,7 @@
 #include "boresight/scene/scene_rung.hpp"
 #include "boresight/statics/measured_by_dynamics.hpp"
 #include "boresight/statics/reaction_table.hpp"
+#include "boresight/statics/resting_contacts.hpp"
 #include "boresight/statics/tied_rest.hpp"
 
 namespace boresight {
@@ -43,7 +44,7 @@ class Quasistatic final : public SceneRung {
       return tied ? balance_of_all(reactions, *tied, t, before) : balance_of_each(reactions, t, before);
     };
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
-    std::vector<ContactSummary> summary = reactions.summaries();
+    RestingContacts contacts(reactions, options.start);
     const auto placed = [&](Balance balance) { return place(prepared, standing, std::move(balance)); };
     bool interrupted = false;
     double largest = 0.0;  // position error [m]
@@ -51,7 +52,7 @@ class Quasistatic final : public SceneRung {
     PeakSeeker<Placed> seeker(
         options.start,
         [&](double t, const Placed& before) { return ++instants, placed(balance_at(t, &before.balance)); },
-        [&](const Placed& at) { record(prepared, standing, at, summary, recorder, reactions); });
+        [&](const Placed& at) { record(prepared, standing, at, contacts, recorder); });
     Balance before = balance_at(0.0, nullptr);
     seeker.accept(placed(before));
     for (int i = 1; i < reactions.instants() && !interrupted; ++i) {
@@ -79,7 +80,7 @@ class Quasistatic final : public SceneRung {
     RunResult result = recorder.finish();
     result.interrupted = interrupted;
     result.integrator = "none: one static balance an instant";
-    result.contact = std::move(summary);
+    result.contact = contacts.finish();
     result.cost.steps = result.cost.evaluations = instants;
     return result;
   }
@@ -145,9 +146,9 @@ class Quasistatic final : public SceneRung {
   }
 
   void record(const PreparedScene& prepared, const StandingDisplacement& standing, const Placed& placed,
-              std::vector<ContactSummary>& summary, MotionRecorder& recorder, const ReactionTable& reactions) const {
+              RestingContacts& contacts, MotionRecorder& recorder) const {
     const Balance& balance = placed.balance;
-    for (std::size_t c = 0; c < summary.size(); ++c) reactions.note(balance.rest[c], balance.now.load[c], summary[c]);
+    contacts.note(balance.now.t, balance.rest, balance.now.load);
     recorder.accept(balance.now.t, placed.body, placed.acceleration, &placed.error);
     if (!recorder.sampling()) return;
     const DisplacedBodies displaced(prepared, standing, balance.now.t, balance.z);
@@ -156,7 +157,7 @@ class Quasistatic final : public SceneRung {
       const BodyMotion body = displaced.at_rest(recorder.bodies_wanted()[k], acceleration);
       recorder.sample_body(static_cast<int>(k), body, acceleration);
     }
-    for (std::size_t c = 0; c < summary.size(); ++c)
+    for (std::size_t c = 0; c < balance.rest.size(); ++c)
       recorder.sample_clearance(static_cast<int>(c), balance.rest[c].motion, balance.rest[c].contact);
   }
 };

@@ -161,20 +161,9 @@ VecX ReactionTable::coordinates(const std::vector<RestingPlay>& rest) const {
   return z;
 }
 
-std::vector<ContactSummary> ReactionTable::summaries() const {
-  std::vector<ContactSummary> result(joints_.size());
-  for (std::size_t c = 0; c < joints_.size(); ++c) {
-    result[c].joint = mechanism_.description().joints[mechanism_.description().clearances[c].joint].name;
-    result[c].contact_fraction = 1.0;
-    result[c].validity_speed = joints_[c].validity_speed;
-  }
-  return result;
-}
-
-void ReactionTable::note(const RestingPlay& rest, const Load& load, ContactSummary& summary) {
-  summary.max_load = std::max(summary.max_load, load.force.head<3>().norm());
-  for (const ContactState<double>& c : rest.contact) summary.max_force = std::max(summary.max_force, c.normal_force);
-  summary.max_penetration = std::max(summary.max_penetration, rest.penetration());
+const std::string& ReactionTable::joint_name(int clearance) const {
+  const MechanismDescription& description = mechanism_.description();
+  return description.joints[description.clearances[clearance].joint].name;
 }
 
 }  // namespace boresight

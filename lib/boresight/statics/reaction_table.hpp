@@ -51,10 +51,7 @@ class ReactionTable {
   // Coordinates of journals at rest.
   VecX coordinates(const std::vector<RestingPlay>& rest) const;
 
-  // One per joint, named, in lasting contact.
-  std::vector<ContactSummary> summaries() const;
-  // Adds a rest's forces and deflections, and the load that it carries, to a summary.
-  static void note(const RestingPlay& rest, const Load& load, ContactSummary& summary);
+  const std::string& joint_name(int clearance) const;
 
  private:
   const Mechanism& mechanism_;
