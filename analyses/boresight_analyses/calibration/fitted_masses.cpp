@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 #include "boresight_analyses/calibration/calibrator.hpp"

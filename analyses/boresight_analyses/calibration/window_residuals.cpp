@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "boresight/math/cross_matrix.hpp"
+#include "boresight/mechanism/error.hpp"
 #include "boresight/slopes/start_slopes.hpp"
 #include "boresight_analyses/calibration/calibration_problem.hpp"
 #include "boresight_analyses/calibration/rig.hpp"
