@@ -161,10 +161,10 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
   LaneScene& lane = p->lane;
   lane.form = lane_form(p->scene->scene().layout());
   p->tables = std::make_shared<const SceneTables>(p->scene->scene().tables(parameters, lane.form));
-  const TimeTable &dynamics = p->tables->dynamics, &gain = *gain_table;
   const int n = p->tables->layout.n;
-  if (n == 0) return p;  // no play can move: nothing to follow
+  if (n == 0) return p;  // no play can move: nothing to follow, and no gain either
 
+  const TimeTable &dynamics = p->tables->dynamics, &gain = *gain_table;
   lane.gain = dynamics.width();
   lane.width = (dynamics.width() + 3 * n + kPad - 1) / kPad * kPad;
   lane.cells = dynamics.cells();

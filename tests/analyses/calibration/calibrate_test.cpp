@@ -272,7 +272,7 @@ TEST(CalibrateLong, TruthIsInsideTheIntervalOfMultibodyDataAsOftenAsStated) {
     const char* asked = std::getenv(name);
     return asked ? std::atoi(asked) : otherwise;
   };
-  const int sets = number("BORESIGHT_CALIBRATION_SETS", 14), first = number("BORESIGHT_CALIBRATION_SEED", 2000);
+  const int sets = number("BORESIGHT_CALIBRATION_SETS", 8), first = number("BORESIGHT_CALIBRATION_SEED", 2000);
   const Bench bench({2.0, 2.4, 2.8}, 0.2, true);
   std::vector<std::vector<ParameterEstimate>> found(sets);
   for_each_on_threads(sets, 2, [&](int set) {

@@ -160,7 +160,7 @@ TEST(PosteriorDrawsLong, AgreeWithAFitThatIsSure) {
   const four_bar::Bench bench({2.0, 2.6}, 0.12, false);
   CalibrationProblem to_fit = bench.problem({}, four_bar::kFour);
   const Fitted fitted(std::move(to_fit), false);
-  const std::optional<PosteriorDraws> drawn = draws_of(fitted, {.draws = 1600});
+  const std::optional<PosteriorDraws> drawn = draws_of(fitted, {.draws = 1000});
   ASSERT_TRUE(drawn);
   EXPECT_TRUE(drawn->settled) << drawn->says;
   for (const DrawnQuantity& q : drawn->quantities) {
@@ -179,7 +179,7 @@ TEST(PosteriorDrawsLong, AreAsWideAsTheFitWhereALawIsInDoubt) {
   options.jobs = 2;
   options.starts = 1;
   options.corrections = 0;
-  options.draws = DrawOptions{.draws = 1600};
+  options.draws = DrawOptions{.draws = 1000};
   CalibrationProblem to_fit = four_parameters(bench);
   const CalibrationResult result = calibrate(to_fit, options);
   ASSERT_TRUE(result.draws && result.model_error);
