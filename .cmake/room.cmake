@@ -1,8 +1,9 @@
-# boresight_room(NAME [INLINED] [LINKS target...] [PRIVATE target...] [INCLUDES folder...]): the library boresight::NAME from the .cpp and .hpp files of the
+# boresight_room(NAME [INLINED | COLD] [LINKS target...] [PRIVATE target...] [INCLUDES folder...]): the library boresight::NAME from the .cpp and .hpp files of the
 # folder that calls for it. A header is included by its path below lib/ or analyses/, in this tree as after installation. LINKS and PRIVATE name
 # rooms (math) or imported targets (Eigen3::Eigen); INCLUDES is where headers of other libraries lie that only the .cpp files see. INLINED: Eigen's
 # operations are inlined whatever GCC thinks that they cost, where calls of four additions are a large part of what is spent (a fit by slopes takes a
-# quarter less); so these files take no precompiled headers, with which GCC 12 keeps Eigen as it was. The global
+# quarter less); so these files take no precompiled headers, with which GCC 12 keeps Eigen as it was. COLD: nothing of what takes long runs through
+# it, so that half an optimisation is enough. The global
 # property BORESIGHT_ROOMS_OF_analyses (or _lib) names all of them.
 function(boresight_rooms_of variable)
   set(found)
@@ -16,7 +17,7 @@ function(boresight_rooms_of variable)
 endfunction()
 
 function(boresight_room name)
-  cmake_parse_arguments(PARSE_ARGV 1 room "INLINED" "" "LINKS;PRIVATE;INCLUDES")
+  cmake_parse_arguments(PARSE_ARGV 1 room "INLINED;COLD" "" "LINKS;PRIVATE;INCLUDES")
   set(target boresight_${name})
   set(folder ${CMAKE_CURRENT_SOURCE_DIR}/${BORESIGHT_ROOMS}/${name})
   file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*/*.cpp)
@@ -25,6 +26,9 @@ function(boresight_room name)
     add_library(${target} STATIC ${sources})
     if(room_INLINED AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
       target_compile_definitions(${target} PRIVATE "EIGEN_STRONG_INLINE=__attribute__((always_inline)) inline")
+    elseif(room_COLD)
+      target_compile_options(${target} PRIVATE ${BORESIGHT_HALF_OPTIMISED})
+      boresight_precompiled(${target} headers_of_cold_rooms)
     else()
       boresight_precompiled(${target} headers_of_rooms)
     endif()

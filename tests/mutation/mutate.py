@@ -191,10 +191,15 @@ PROGRAMS = ("program_tests", "montecarlo_program_tests", "several_rungs_program_
 CALL_THE_PROGRAM = set(PROGRAMS)
 
 
+def own_program(path):
+    """The test program of a file's room; of rooms without one, that of all rungs."""
+    own = pathlib.PurePath(path).parts[2] + "_tests"
+    return own if own in LIBRARY + ANALYSES else "ladder_tests"
+
+
 def programs_for(path, known):
     """Test programs in the order in which a mutation of this file meets them."""
-    own = pathlib.PurePath(path).parts[2] + "_tests"
-    own = own if own in LIBRARY + ANALYSES else "ladder_tests"
+    own = own_program(path)
     order = [own] + [p for p in (*LIBRARY, *ANALYSES, *PROGRAMS) if p != own]
     if path.startswith("analyses/"):
         order = [own] + [p for p in (*ANALYSES, *PROGRAMS) if p != own]

@@ -197,7 +197,7 @@ def main():
         before = last.get(name(what))
         if before and not (options.again and before["verdict"] == "survived"):
             counted += before["verdict"] != "not switched"
-        elif pathlib.PurePath(mutation[0]).parts[1] + "_tests" not in wanted:
+        elif mutate.own_program(mutation[0]) not in wanted:
             continue  # without its own room's tests nothing would be said of it
         elif id not in met and (id in not_valid or levels.get(id, VARIABLE) > VARIABLE):
             last[name(what)] = {**what, "verdict": "not switched", "by": None, "ran": 0, "not_run": 0, "seconds": 0.0}
