@@ -160,7 +160,7 @@ TEST(PosteriorDrawsLong, AgreeWithAFitThatIsSure) {
   const four_bar::Bench bench({2.0, 2.6}, 0.12, false);
   CalibrationProblem to_fit = bench.problem({}, four_bar::kFour);
   const Fitted fitted(std::move(to_fit), false);
-  const std::optional<PosteriorDraws> drawn = draws_of(fitted, {.draws = 1000});
+  const std::optional<PosteriorDraws> drawn = draws_of(fitted, {.draws = 1600});
   ASSERT_TRUE(drawn);
   EXPECT_TRUE(drawn->settled) << drawn->says;
   for (const DrawnQuantity& q : drawn->quantities) {

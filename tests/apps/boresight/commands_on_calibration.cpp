@@ -36,8 +36,8 @@ std::vector<TableCommand> commands_on_calibration() {
            },
        .edits = {{"calibration/posterior.toml", "starts = ", "starts = 1 # "},
                  {"calibration/posterior.toml", "draws = 1600", "draws = 64"},
-                 {"calibration/posterior.toml", "warm_up = 150", "warm_up = 20"},
-                 {"calibration/posterior.toml", "temperatures = 5", "temperatures = 2"}},
+                 {"calibration/posterior.toml", "warm_up = 150", "warm_up = 50"},
+                 {"calibration/posterior.toml", "temperatures = 5", "temperatures = 3"}},
        .status = 1},
       // Half of the data that the example above takes: the truth lies within twice its errors.
       {.text = "boresight calibrate examples/calibration/sensors.toml",

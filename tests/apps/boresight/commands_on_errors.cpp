@@ -55,7 +55,7 @@ std::vector<TableCommand> commands_on_errors() {
              EXPECT_GT(square, 0.7 * sum);
              EXPECT_THAT(left.file("report.html"), HasSubstr("Tornado"));
            },
-       .edits = {{"3-rrcpr/tolerances-study.toml", "samples = 64", "samples = 8"}}},
+       .edits = {{"3-rrcpr/tolerances-study.toml", "samples = 64", "samples = 16"}}},
       {.text = "boresight montecarlo examples/3-rrcpr/tolerances-study.toml",
        .shorter = {"--rung", "quasistatic", "--set", "motion.duration=20ms"},
        .claims = [](const Left& left) { EXPECT_TRUE(left.summary["requirement"]["met"].get<bool>()); },
@@ -82,7 +82,7 @@ std::vector<TableCommand> commands_on_errors() {
              EXPECT_LT(share["lengths"], 0.08);
              EXPECT_TRUE(left.summary["requirements"][0]["met"].get<bool>());
            },
-       .edits = {{"3-rrcpr/tolerances-budget.toml", "members = 200", "members = 40"},
+       .edits = {{"3-rrcpr/tolerances-budget.toml", "members = 200", "members = 60"},
                  {"3-rrcpr/tolerances-budget.toml", "attribution = 40", "attribution = 12"}}},
       {.text = "boresight run examples/altaz-gimbal/altaz-gimbal.toml",
        .shorter = {"--step-error", "off"},

@@ -42,8 +42,7 @@ std::vector<TableCommand> commands_on_imports() {
              EXPECT_GT(zeros, 0.5);
              EXPECT_LT(std::abs(play), 0.05);
            },
-       .edits = {{"from-urdf/budget.toml", "members = 100", "members = 40"},
-                 {"from-urdf/budget.toml", "attribution = 32", "attribution = 12"}}},
+       .edits = {{"from-urdf/budget.toml", "attribution = 32", "attribution = 12"}}},
       {.text = "boresight convert examples/from-urdf/gimbal.toml --to gimbal.sdf",
        .claims = [](const Left& left) { EXPECT_THAT(left.ended.out, HasSubstr("play: joints are ideal")); }},
   };
