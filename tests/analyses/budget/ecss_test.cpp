@@ -177,5 +177,18 @@ TEST(EcssAnnexB, TheTablesOfShortAndLongPeriodsAreLimitsOfTheFilters) {
   table_5.expect("sd", 0.0, of(1e-5, ErrorIndex::mpe, Interpretation::mixed).sd);
 }
 
+// Small errors are as Gaussian as large ones: the radius scales with them, also where axes are correlated.
+TEST(ClassicalTotal, HasARadiusInProportionToItsErrors) {
+  for (const double size : {1.0, 1e-6}) {
+    ClassicalTotal alike{.axes = {{.mean = 0.0, .sd = size}, {.mean = 0.0, .sd = size}}};
+    alike.covariance.diagonal() << size * size, size * size, 0.0;
+    EXPECT_NEAR(alike.radius_integrated(0.95) / size, std::sqrt(-2.0 * std::log(0.05)), 1e-6);
+    // Wholly correlated: one error along the diagonal of the two axes, sqrt(2) as large. 1.959964: 97.5 % of a normal.
+    ClassicalTotal together = alike;
+    together.covariance(0, 1) = together.covariance(1, 0) = size * size;
+    EXPECT_NEAR(together.radius_integrated(0.95) / size, std::sqrt(2.0) * 1.959964, 1e-5);
+  }
+}
+
 }  // namespace ecss_test
 }  // namespace boresight

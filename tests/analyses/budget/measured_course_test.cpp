@@ -141,6 +141,16 @@ TEST(MeasuredCourse, WithTheMotionIsTheSameInEveryMemberButForItsFactor) {
   EXPECT_THROW(course(c, 1, 0, 0, 0.5, 8, {}), std::invalid_argument);
 }
 
+// A ramp that begins long before the motion does: what a first-order loop sees of it has settled one time constant behind.
+TEST(MeasuredCourse, ThroughALoopHasSettledWhereItsRecordBeginsBeforeTheMotion) {
+  const double slope = 3.0, bandwidth = 2.0, lag = 1.0 / (2.0 * M_PI * bandwidth), start = 5.0, spacing = 0.02;
+  MeasuredCourse::Record ramp{.time = {0.0, 10.0}, .value = {std::vector{1.0, 1.0 + 10.0 * slope}, {}, {}}};
+  const MeasuredCourse course(ramp, TransferFunction::first_order(bandwidth), spacing, 100, start);
+  const std::vector<double> seen = values_of(course.history(0.5));
+  for (std::size_t k = 0; k < seen.size(); k += 9)
+    EXPECT_NEAR(seen[k], 1.0 + slope * (start + spacing * double(k) - lag), 1e-5) << k;
+}
+
 // Half the gain and a lag of 0.2 s, once settled.
 TEST(Contributor, OfAClassIsSeenThroughATransferFunctionAsItSettles) {
   const TransferFunction lag({1.0}, {2.0, 0.4});

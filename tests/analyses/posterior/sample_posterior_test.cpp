@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "boresight_analyses/posterior/chain_diagnostics.hpp"
+#include "boresight_analyses/posterior/temperature_ladder.hpp"
 #include "known_densities.hpp"
 
 namespace boresight {
@@ -186,6 +187,21 @@ TEST(PosteriorSampler, RefusesWhatIsNoCovarianceAndWhatHasNoDensity) {
   const auto density = known::bent(1.0, 1.0);
   EXPECT_THROW(PosteriorSampler(density, {VecX::Zero(2), MatX::Constant(2, 2, 1.0)}), std::domain_error);
   EXPECT_THROW(PosteriorSampler(nowhere, {VecX::Zero(2), MatX::Identity(2, 2)}).run({}), std::runtime_error);
+}
+
+// Steps of barrier 0.6, 0.1, 0.1 in three: a third of it lies below the first exponent, two thirds at 0.533, still below it; from the reference on
+// exponents differ by differences, elsewhere by factors.
+TEST(TemperatureLadder, IsEvenedWhereSwapsAreRejectedAlike) {
+  const std::vector<double> low = evened_ladder({0.0, 0.1, 0.4, 1.0}, {0.6, 0.1, 0.1});
+  ASSERT_EQ(low.size(), 4u);
+  EXPECT_EQ(low[0], 0.0);
+  EXPECT_NEAR(low[1], 0.1 * (0.8 / 3.0) / 0.6, 1e-12);
+  EXPECT_NEAR(low[2], 0.1 * (1.6 / 3.0) / 0.6, 1e-12);
+  EXPECT_EQ(low[3], 1.0);
+  const std::vector<double> high = evened_ladder({0.0, 0.1, 0.4, 1.0}, {0.1, 0.1, 0.6});
+  EXPECT_NEAR(high[1], 0.4 * std::pow(2.5, (0.8 / 3.0 - 0.2) / 0.6), 1e-12);
+  EXPECT_NEAR(high[2], 0.4 * std::pow(2.5, (1.6 / 3.0 - 0.2) / 0.6), 1e-12);
+  EXPECT_NEAR(communication_barrier({0.1, 0.1, 0.6}), 0.8, 1e-15);
 }
 
 }  // namespace sample_posterior_test

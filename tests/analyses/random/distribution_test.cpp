@@ -107,6 +107,9 @@ TEST(Distribution, ADiscreteOneTakesItsValuesWithTheirProbabilities) {
   EXPECT_EQ(x->quantile(0.21), 2.0);
   EXPECT_EQ(x->quantile(0.51), 3.0);
   EXPECT_EQ(x->cdf(2.5), 0.5);
+  EXPECT_EQ(x->cdf(0.9), 0.0);
+  EXPECT_EQ(x->cdf(3.0), 1.0);
+  EXPECT_EQ(x->survival(0.9), 1.0);
   EXPECT_NEAR(x->mean(), 2.3, 1e-15);
   EXPECT_NEAR(x->sd(), std::sqrt(0.2 * 1.69 + 0.3 * 0.09 + 0.5 * 0.49), 1e-15);
   EXPECT_EQ(x->truncated(1.5, 9.0)->quantile(0.3), 2.0);  // 0.3 / 0.8 = 0.375
