@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
 
@@ -258,6 +261,27 @@ TEST_F(BudgetPlanTest, WithoutRequirementsIsAboutThePointingErrorOfAllAxesWithou
   EXPECT_EQ(headline.interpretation, Interpretation::mixed);
   EXPECT_EQ(headline.limit, 0.0);
   EXPECT_EQ(headline.probability, 0.95);
+}
+
+TEST_F(BudgetPlanTest, ReadsTheColumnsOfAMeasuredCourseForTheAxesThatItActsOn) {
+  const std::string file = testing::TempDir() + "boresight_floor.csv";
+  std::ofstream(file) << "t,a,b\n0,1,-4\n10,3,-8\n";
+  const auto contributor = [&](const std::string& axes, const std::string& columns) {
+    return read(R"([[budget.contributor]]
+name = "floor"
+axes = )" + axes + R"(
+measured = { file = ")" + file + R"(", time = "t", columns = )" + columns + R"(, unit = "arcsec", ends = "held" })")
+        .contributors.at(0);
+  };
+  const Contributor both = contributor(R"(["x", "y"])", R"(["a", "b"])");
+  ASSERT_TRUE(both.measured);
+  EXPECT_TRUE(both.measured->acts_on(0) && both.measured->acts_on(1) && !both.measured->acts_on(2));
+  EXPECT_NEAR(both.measured->record().value[0][1], 3.0 * arcsec_, 1e-18);
+  EXPECT_NEAR(both.measured->record().value[1][1], -8.0 * arcsec_, 1e-18);
+  const Contributor across = contributor(R"(["y"])", R"(["a"])");
+  EXPECT_FALSE(across.measured->acts_on(0));
+  EXPECT_NEAR(across.measured->record().value[1][0], 1.0 * arcsec_, 1e-18);
+  std::filesystem::remove(file);
 }
 
 }  // namespace budget_plan_test
