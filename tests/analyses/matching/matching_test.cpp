@@ -222,6 +222,23 @@ TEST(Matching, SaysThatNoDesignKeepsTheConstraintsAndGivesTheOneThatBreaksThemLe
   EXPECT_NEAR(r.violation, 0.25, 1e-3);
 }
 
+// Of a free flight of at most L the most accurate design is x = 7 - sqrt((L - 0.1) / 0.02).
+TEST(Matching, FrontHoldsTheMostAccurateDesignOfEveryLevelThatItWasAskedFor) {
+  const Valley model;
+  MatchingPlan p = plan();
+  p.front = 6;
+  DesignEvaluator evaluator(model, nullptr, nullptr, {});
+  const MatchingResult r = run_matching(p, evaluator, nullptr, "", {});
+  for (int k = 1; k <= p.front; ++k) {
+    const double level = 0.1 + 0.32 * k / (p.front + 1.0);
+    const double best = 0.9 + std::pow(4.0 - std::sqrt((level - 0.1) / 0.02), 2);  // no scatter: -0.1
+    double found = 1e300;
+    for (const FrontPoint& f : r.front)
+      if (f.free_flight_share <= level + 1e-3) found = std::min(found, f.index);
+    EXPECT_NEAR(found, best, 0.05 * best) << level;
+  }
+}
+
 TEST(Matching, FrontHoldsDesignsBetweenTheTwoOptimaOnly) {
   const Valley model;
   const MatchingPlan p = plan();
