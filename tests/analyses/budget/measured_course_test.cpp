@@ -151,6 +151,16 @@ TEST(MeasuredCourse, ThroughALoopHasSettledWhereItsRecordBeginsBeforeTheMotion) 
     EXPECT_NEAR(seen[k], 1.0 + slope * (start + spacing * double(k) - lag), 1e-5) << k;
 }
 
+// A motion of 2 s in a record of 10 s that begins anywhere in it: from its beginning to where the motion ends as the record does.
+TEST(MeasuredCourse, ThatBeginsAnywhereEndsWithinItsRecord) {
+  MeasuredCourse::Record ramp{.time = {3.0, 13.0}, .value = {std::vector{0.0, 10.0}, {}, {}}, .begin = Begin::anywhere};
+  const MeasuredCourse course(ramp, std::nullopt, 0.5, 5, 0.0);
+  EXPECT_NEAR(values_of(course.history(0.0)).front(), 0.0, 1e-12);
+  EXPECT_NEAR(values_of(course.history(0.25)).front(), 2.0, 1e-12);
+  EXPECT_NEAR(values_of(course.history(1.0)).front(), 8.0, 1e-12);
+  EXPECT_NEAR(values_of(course.history(1.0)).back(), 10.0, 1e-12);
+}
+
 // Half the gain and a lag of 0.2 s, once settled.
 TEST(Contributor, OfAClassIsSeenThroughATransferFunctionAsItSettles) {
   const TransferFunction lag({1.0}, {2.0, 0.4});

@@ -186,5 +186,19 @@ TEST(TransferFunction, RefusesWhatIsNone) {
   EXPECT_NO_THROW(TransferFunction({1.0, 1.0, 0.0}, {1.0, 1.0}));
 }
 
+// Half the density of first order is at 1 / (2 pi tau); flicker and white noise are alike where f^e is their ratio; a band turns at its ends.
+TEST(PowerDensity, TurnsAtItsCorners) {
+  const PowerDensity first{.deviation = 2.0, .correlation_time = 0.5};
+  ASSERT_EQ(first.corners().size(), 1u);
+  EXPECT_NEAR(first.corners()[0], 1.0 / M_PI, 1e-12);
+  EXPECT_NEAR(first.at(first.corners()[0]), 0.5 * first.at(1e-9), 1e-6 * first.at(1e-9));
+  const PowerDensity pink{.white = 0.1, .flicker = 0.9, .exponent = 2.0, .lower = 0.01, .upper = 50.0};
+  const std::vector<double> turns = pink.corners();
+  ASSERT_EQ(turns.size(), 3u);
+  EXPECT_EQ(turns[0], 0.01);
+  EXPECT_EQ(turns[1], 50.0);
+  EXPECT_NEAR(turns[2], 3.0, 1e-12);
+}
+
 }  // namespace noise_test
 }  // namespace boresight
