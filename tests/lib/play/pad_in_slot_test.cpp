@@ -165,7 +165,7 @@ TEST(PadInSlot, TangentIsTheCurvatureOfItsEnergy) {
   const JointPlay law = pad(JournalAxes::free, "hertz");
   for (const double share : {0.3, 0.9}) {
     PlayOffsets load = PlayOffsets::Zero();
-    load << 0.0, 500.0, 0.0, 500.0 * share * kRadius, 0.0;
+    load << 0.0, 500.0, 0.0, 500.0 * share * kRadius, 0.0, 0.0;
     const PlayMotion<double> m = law.rest_under(load, 0.0, {}).motion;
     const ContactTangent tangent = law.tangent(m);
     Eigen::Matrix<double, kMostOffsets, kMostOffsets> K;
