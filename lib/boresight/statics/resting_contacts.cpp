@@ -23,7 +23,8 @@ void RestingContacts::note(double t, const std::vector<RestingPlay>& rest,
     ContactSummary& of = summary_[c];
     of.max_load = std::max(of.max_load, load[c].force.head<3>().norm());
     of.max_penetration = std::max(of.max_penetration, rest[c].penetration());
-    for (const ContactState<double>& contact : rest[c].contact) of.max_force = std::max(of.max_force, contact.normal_force);
+    for (const ContactState<double>& contact : rest[c].contact)
+      of.max_force = std::max(of.max_force, contact.normal_force);
     // Half of a step in which a contact begins or ends.
     const bool touches = rest[c].normal_force() > 0.0;
     touching_[c] += 0.5 * (t - last_) * ((noted_ && touches_[c]) + touches);

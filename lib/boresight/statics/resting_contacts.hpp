@@ -22,7 +22,7 @@ class RestingContacts {
   double start_, first_ = 0.0, last_ = 0.0;  // the first and the last instant noted [s]
   bool noted_ = false;
   std::vector<ContactSummary> summary_;
-  std::vector<bool> touches_;      // at the last instant
+  std::vector<bool> touches_;     // at the last instant
   std::vector<double> touching_;  // time in contact [s]
 };
 

@@ -269,8 +269,10 @@ TEST_F(BudgetPlanTest, ReadsTheColumnsOfAMeasuredCourseForTheAxesThatItActsOn) {
   const auto contributor = [&](const std::string& axes, const std::string& columns) {
     return read(R"([[budget.contributor]]
 name = "floor"
-axes = )" + axes + R"(
-measured = { file = ")" + file + R"(", time = "t", columns = )" + columns + R"(, unit = "arcsec", ends = "held" })")
+axes = )" + axes +
+                R"(
+measured = { file = ")" +
+                file + R"(", time = "t", columns = )" + columns + R"(, unit = "arcsec", ends = "held" })")
         .contributors.at(0);
   };
   const Contributor both = contributor(R"(["x", "y"])", R"(["a", "b"])");

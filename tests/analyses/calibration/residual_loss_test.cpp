@@ -18,8 +18,10 @@ TEST(ResidualLoss, HasTheSlopeScoreAndWeightOfItsOwnResidual) {
         const double slope = (loss.residual(r + kStep) - loss.residual(r - kStep)) / (2.0 * kStep);
         const double curvature = (loss.score(r + kStep) - loss.score(r - kStep)) / (2.0 * kStep);
         EXPECT_NEAR(loss.slope(r), slope, 1e-8) << static_cast<int>(kind) << ", " << scale << ", " << r;
-        EXPECT_NEAR(loss.score(r), loss.residual(r) * slope, 1e-7) << static_cast<int>(kind) << ", " << scale << ", " << r;
-        EXPECT_NEAR(loss.weight(r), std::max(0.0, curvature), 1e-7) << static_cast<int>(kind) << ", " << scale << ", " << r;
+        EXPECT_NEAR(loss.score(r), loss.residual(r) * slope, 1e-7)
+            << static_cast<int>(kind) << ", " << scale << ", " << r;
+        EXPECT_NEAR(loss.weight(r), std::max(0.0, curvature), 1e-7)
+            << static_cast<int>(kind) << ", " << scale << ", " << r;
       }
 }
 

@@ -291,9 +291,11 @@ TEST(DesignSlopes, AreOfNumbersOfContactsAboveZeroInOneMotionsIndexWithoutLimits
     return why_no_slopes(other);
   };
   using testing::HasSubstr;
-  EXPECT_THAT(why_not([](MatchingPlan& q) { q.variables[0].paths[1] = "payload.mass"; }), HasSubstr("payload.mass is none"));
+  EXPECT_THAT(why_not([](MatchingPlan& q) { q.variables[0].paths[1] = "payload.mass"; }),
+              HasSubstr("payload.mass is none"));
   EXPECT_THAT(why_not([](MatchingPlan& q) { q.variables[0].from = 0.0; }), HasSubstr("may be zero"));
-  EXPECT_THAT(why_not([](MatchingPlan& q) { q.objective.measure = Measure::free_flight_share; }), HasSubstr("only the index"));
+  EXPECT_THAT(why_not([](MatchingPlan& q) { q.objective.measure = Measure::free_flight_share; }),
+              HasSubstr("only the index"));
   EXPECT_THAT(why_not([](MatchingPlan& q) { q.objective.over = Over::mean; }), HasSubstr("one motion"));
   EXPECT_THAT(why_not([](MatchingPlan& q) { q.constraints.push_back({q.objective, 1.0}); }), HasSubstr("limits"));
 }
