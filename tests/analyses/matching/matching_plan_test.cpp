@@ -34,6 +34,7 @@ std::string fault(const std::string& table, const std::string& starts = "0.1 mm"
 TEST(MatchingPlan, TakesNumbersUpToTheEndsThatItNames) {
   EXPECT_EQ(read("front = 0").front, 0);
   EXPECT_EQ(read("front = 100").front, 100);
+  EXPECT_EQ(read("map = 0").map, 0);
   EXPECT_EQ(read("map = 200").map, 200);
   EXPECT_THAT(fault("front = 101"), testing::HasSubstr("0 to 100"));
   EXPECT_THAT(fault("front = -1"), testing::HasSubstr("0 to 100"));
