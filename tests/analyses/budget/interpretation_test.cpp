@@ -29,8 +29,8 @@ TEST(Interpretation, CountsMembersOrTimeOrBoth) {
   EXPECT_DOUBLE_EQ(share(Interpretation::temporal), 0.01);        // the worst is at 2 for 99 % of the time
   EXPECT_DOUBLE_EQ(share(Interpretation::temporal, 0.25), 0.26);  // without the 25 worst
   EXPECT_DOUBLE_EQ(share(Interpretation::mixed), 0.505);
-  EXPECT_EQ(e.level(Interpretation::ensemble, 0.01, 0.9).value, 1.0);  // the one that never exceeds
-  EXPECT_EQ(e.level(Interpretation::ensemble, 0.02, 0.9).value, 2.0);
+  EXPECT_EQ(e.level(Interpretation::temporal, 0.01, 0.9).value, 1.0);  // of the worst, its one instant at 1
+  EXPECT_EQ(e.level(Interpretation::temporal, 0.02, 0.9).value, 2.0);
   EXPECT_EQ(e.level(Interpretation::mixed, 0.5, 0.9).value, 1.0);
   EXPECT_EQ(e.level(Interpretation::mixed, 0.51, 0.9).value, 2.0);
   EXPECT_EQ(e.level(Interpretation::temporal, 0.5, 0.9, 0.6).value, 1.0);
