@@ -3,9 +3,12 @@
 #include <sqlite3.h>
 #include <time.h>
 
+#include <algorithm>
 #include <bit>
 #include <fstream>
+#include <map>
 #include <random>
+#include <set>
 
 #include "closed_form.hpp"
 
@@ -116,6 +119,36 @@ TEST(DamagedStore, OneFlippedBitOfAValueCostsThatSampleOnly) {
   EXPECT_EQ(run_sum(model, sum_plan(kSamples), *store, folder).values, uninterrupted());
   EXPECT_EQ(model.evaluated, 1u);
   EXPECT_NE(store->fact("damage"), "") << "it is not forgotten";
+}
+
+// SQLite's pages are read block by block; around a lost one, sample by sample.
+TEST(DamagedStore, APageThatIsLostCostsTheSamplesOnItOnly) {
+  const Folder folder("lost-page");
+  std::map<std::uint64_t, std::string> stored;  // the bytes of each sample's value, as SQLite writes numbers
+  {
+    auto store = open_sum_store(folder);
+    run_sum(SumModel(), sum_plan(kSamples), *store, folder);
+    store->read(kSamples, [&](const SampleRecord& r) {
+      const auto bits = std::bit_cast<std::uint64_t>(r.outcome.value);
+      for (int k = 0; k < 8; ++k) stored[r.number] += static_cast<char>(bits >> (56 - 8 * k));
+    });
+  }
+  std::string bytes = bytes_of(folder.path() / "samples.db");
+  const std::size_t size = static_cast<unsigned char>(bytes[16]) * 256u + static_cast<unsigned char>(bytes[17]);
+  const std::size_t lost = bytes.find(stored.at(150)) / size;
+  std::set<std::uint64_t> on_it;
+  for (const auto& [number, value] : stored)
+    if (bytes.find(value) / size == lost) on_it.insert(number);
+  ASSERT_GT(on_it.size(), 5u);
+  ASSERT_LT(on_it.size(), 200u);
+  std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(lost * size), size, '\0');
+  put_bytes(folder.path() / "samples.db", bytes);
+  auto store = open_sum_store(folder);
+  EXPECT_EQ(store->count(), kSamples - on_it.size());
+  store->read(kSamples, [&](const SampleRecord& r) { EXPECT_FALSE(on_it.contains(r.number)) << r.number; });
+  const SumModel model;
+  EXPECT_EQ(run_sum(model, sum_plan(kSamples), *store, folder).values, uninterrupted());
+  EXPECT_EQ(model.evaluated, on_it.size());
 }
 
 TEST(DamagedStore, ADamagedStoreOfAnotherStudyIsRefusedAndLeftAsItIs) {
