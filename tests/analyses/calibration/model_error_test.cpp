@@ -44,6 +44,37 @@ TEST(CalibrationModelError, SpansWhatTheEndsOfASearchAreApart) {
   EXPECT_TRUE(std::isnan(error.covariance(3, 3)));
 }
 
+// A clock is said to be late or early where its offset is more than four of its standard errors, and it had been told to be right.
+TEST(CalibrationModelError, SaysWhichWayAClockIsOffWhereTheDataKnow) {
+  const four_bar::Bench bench({2.0}, 0.02, false);
+  CalibrationProblem problem = bench.problem({}, {four_bar::kFour[0]});
+  problem.fit_time_offset = true;
+  problem.time_offset_prior = 1e-4;
+  problem.prepare(10.0, true);
+  Inference inference;
+  for (const FittedParameter& p : problem.parameters) {
+    ParameterEstimate e;
+    e.name = p.path;
+    e.value = p.start;
+    e.standard_error = 0.1 * p.start;
+    inference.parameters.push_back(e);
+  }
+  inference.parameters.resize(static_cast<std::size_t>(problem.time_offset_column()) + 1);
+  ParameterEstimate& clock = inference.parameters.back();
+  clock.standard_error = 2e-5;
+  const auto says = [&](double offset) {
+    clock.value = offset;
+    std::string all;
+    for (const std::string& s : in_words(CalibrationModelError{}, problem, inference)) all += s;
+    return all;
+  };
+  EXPECT_NE(says(-8.1e-5).find("0.081 ms late"), std::string::npos) << says(-8.1e-5);
+  EXPECT_NE(says(8.1e-5).find("0.081 ms early"), std::string::npos);
+  EXPECT_EQ(says(7.9e-5), "");
+  problem.time_offset_prior = 0.0;
+  EXPECT_EQ(says(8.1e-5), "") << "it was asked for";
+}
+
 // They are asked where runs contradict each other, and nowhere else.
 TEST(CalibrationModelError, IsOfRunsThatContradictEachOtherBeyondTheirNoise) {
   CalibrationModelError error;

@@ -92,6 +92,23 @@ TEST_F(SensitivityTest, GivesSlopesWhereThereAreSome) {
   EXPECT_FALSE(local_sensitivity(rough, p.inputs, 1, [] { return false; }).parameters[0].meaningful);
 }
 
+// The median of a distribution with a long tail may be nearer to its end than half a standard deviation: Weibull's of shape k has its median
+// at scale (ln 2)^(1/k), and for k = 1/2 the variance 20 scale^2.
+TEST_F(SensitivityTest, StepsStayInsideTheSupportAndHalve) {
+  const SensitivityPlan p = plan("[sensitivity]\nsamples = 64\n", R"(
+[[random]]
+parameter = "payload.mass"
+distribution = { weibull = { shape = 0.5, scale = "2 kg" } }
+)");
+  const LocalSensitivity mass = local_sensitivity(ClosedForm{}, p.inputs, 1, [] { return false; }).parameters[3];
+  const double median = 2.0 * std::pow(M_LN2, 2);
+  EXPECT_NEAR(mass.median, median, 1e-12);
+  EXPECT_NEAR(mass.sd, 2.0 * std::sqrt(20.0), 1e-9);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(mass.step[k], median * std::pow(0.5, k), 1e-12) << k;
+  const LocalSensitivity gap = local_sensitivity(ClosedForm{}, p.inputs, 1, [] { return false; }).parameters[0];
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(gap.step[k], gap.sd * std::pow(0.5, k + 1), 1e-18) << k;
+}
+
 TEST_F(SensitivityTest, RefusesWhatContradictsItself) {
   expect_refused("[sensitivity]\nsamples = 100\n", "128");
   expect_refused("[sensitivity]\nsamples = 8\n", "16 to");

@@ -7,6 +7,8 @@
 
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/ladder/ladder.hpp"
+#include "boresight_analyses/study/measurement.hpp"
 #include "boresight_analyses/study/pilot_choice.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
 
@@ -75,6 +77,28 @@ TEST(Pilot, ClimbsWhereClearanceIsLarge) {
   for (const PilotTrial& trial : result.trials)
     perturbation_failed = perturbation_failed || (trial.rung == "perturbation" && !trial.accepted);
   EXPECT_TRUE(perturbation_failed);
+}
+
+// By the deviation within the groups of three neighbours each at multibody's own step and at half of it: four degrees of freedom.
+TEST(Pilot, SaysByHowMuchSingleMotionsScatterWithinTheirGroups) {
+  const auto mechanism = rrcpr({{"motion.duration", "0.1 s"}});
+  const IndexChoice index{"position_error", "max"};
+  const PilotResult result = fly(mechanism, 0.9, index);  // an accuracy that three neighbours show
+  const auto multibody = make_rung("multibody", mechanism);
+  MeasureOptions options;
+  options.index = index;
+  RungSetup setup{.rung = "multibody"};
+  double squares = 0.0, mean = 0.0;
+  for (int group = 0; group < 2; ++group) {
+    const Measurement m = measure(*multibody, mechanism->parameters(), setup, options);
+    ASSERT_EQ(m.values.size(), 3u);
+    ASSERT_EQ(m.integrator, "");
+    mean = (m.values[0] + m.values[1] + m.values[2]) / 3.0;
+    for (const double v : m.values) squares += (v - mean) * (v - mean);
+    setup.step = 0.5 * m.step;
+  }
+  ASSERT_GT(squares, 0.0);
+  EXPECT_NEAR(result.scatter, std::sqrt(squares / 4.0) / mean, 1e-9 * result.scatter);
 }
 
 TEST(Pilot, PassesOverRungsThatCannotFollowTheMotion) {

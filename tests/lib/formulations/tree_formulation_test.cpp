@@ -108,6 +108,14 @@ TEST(TreeFormulation, AcceleratesAsThePapersOnTheExamples) {
   }
 }
 
+// The clearances of a file may stand in another order than its joints.
+TEST(TreeFormulation, AcceleratesAsThePapersWhereClearancesStandInAnyOrder) {
+  MechanismDescription m = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/twelve-joints.toml");
+  std::reverse(m.clearances.begin(), m.clearances.end());
+  const auto mechanism = scenes::build(std::move(m));
+  compare_along(*mechanism, IdealMotion::kinematic(*mechanism), mechanism->parameters(), true, 4);
+}
+
 TEST(TreeFormulation, AcceleratesAsThePapersWithEveryTypeOfJoint) {
   struct Case {
     const char* what;

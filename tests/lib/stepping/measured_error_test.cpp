@@ -136,6 +136,45 @@ TEST(MeasuredError, TakesTheNeighboursThatCanBeFollowed) {
   EXPECT_GT(edge.stated.position_error.max, 0.5e-4) << "half the step moves it by as much";
 }
 
+// A rung of which every run is another draw; keeps what it gave.
+class Scattering final : public Rung {
+ public:
+  std::string name() const override { return "perturbation"; }
+  std::string leaves_out() const override { return ""; }
+  RunResult run(const Parameters&, const RunOptions& options) const override {
+    const double step = options.step > 0.0 ? options.step : 1e-4;
+    RunResult result;
+    result.end_time = 1.0;
+    result.error.discretisation = kNotMeasured;
+    result.cost.steps = static_cast<std::int64_t>(1.0 / step);
+    result.index.position_error.max = 1e-3 * (1.0 + 0.3 * std::sin(1e7 * step + static_cast<double>(gave.size())));
+    (step > 0.7e-4 ? gave : finer).push_back(result.index.position_error.max);
+    return result;
+  }
+  mutable std::vector<double> gave, finer;
+};
+
+// Of two groups of three draws, the deviation within them has four degrees of freedom; the draw at hand is off its group's mean, and that one
+// uncertain by sqrt(1/3) of it: Student's t of four degrees at 95 percent is 2.776.
+TEST(MeasuredError, OfScatteringRunsIsByTheDeviationWithinBothGroups) {
+  const Scattering rung;
+  const RunResult run = rung.run({}, {});
+  const MeasuredError error = measure_discretisation(rung, {}, {}, run);
+  ASSERT_TRUE(error.measured) << error.why_not;
+  ASSERT_EQ(rung.gave.size(), 3u);
+  ASSERT_EQ(rung.finer.size(), 3u);
+  const auto mean = [](const std::vector<double>& x) { return (x[0] + x[1] + x[2]) / 3.0; };
+  double squares = 0.0;
+  for (const auto* group : {&rung.gave, &rung.finer})
+    for (const double x : *group) squares += std::pow(x - mean(*group), 2);
+  const double spread = std::sqrt(squares / 4.0), shift = std::abs(mean(rung.gave) - mean(rung.finer));
+  EXPECT_NEAR(error.spread.position_error.max, spread, 1e-12 * spread);
+  EXPECT_NEAR(error.shift.position_error.max, shift, 1e-12 * spread);
+  ASSERT_LT(shift, 2.776 * spread * std::sqrt(2.0 / 3.0)) << "no shift that stands out";
+  EXPECT_NEAR(error.stated.position_error.max,
+              std::abs(rung.gave[0] - mean(rung.gave)) + shift + 2.776 * spread * std::sqrt(4.0 / 3.0), 1e-3 * spread);
+}
+
 // A run whose neighbours all fail went through by chance: what smaller steps give says what it is worth.
 TEST(MeasuredError, IsThatOfFinerRunsWhereNoNeighbourCanBeFollowed) {
   const RunResult run = OnTheEdge(1.0).run({}, {});
