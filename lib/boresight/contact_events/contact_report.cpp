@@ -49,11 +49,36 @@ std::vector<Mat6> free_mobility(const Mechanism& mechanism, const Parameters& pa
   return result;
 }
 
-// Of reactions, and what of them may be shared in other ways (columns), the least one, weighted. What is held carries none.
-VecX least_of(const VecX& reaction, const MatX& shared, const VecX& weight) {
-  if (shared.cols() == 0) return reaction;
-  return reaction -
-         shared * solve_least(MatX(weight.asDiagonal() * shared), VecX(weight.cwiseProduct(reaction)), kHeld);
+// What joints carry that do not let their offsets accelerate, and the compliance as far as it is more than rounding.
+struct Carried {
+  VecX reaction;
+  MatX compliance;
+};
+
+// A: compliance of the offsets; free: the same of each were its bodies free; over_levers: what makes their reactions forces. Offsets that
+// cannot move are left out before any load is shared: a share of nothing among them is rounding, and no load may be hung on it.
+Carried carried_by(const MatX& A, const VecX& offset, const VecX& free, const VecX& over_levers) {
+  Carried result{VecX::Zero(A.rows()), MatX::Zero(A.rows(), A.cols())};
+  std::vector<Eigen::Index> moves;
+  for (Eigen::Index i = 0; i < A.rows(); ++i)
+    if (A(i, i) > kHeld * free[i]) moves.push_back(i);
+  const VecX root = free(moves).cwiseSqrt(), scale = root.cwiseInverse();
+  const MatX of_moves = A(moves, moves);
+  const Eigen::SelfAdjointEigenSolver<MatX> eigen(scale.asDiagonal() * (0.5 * (of_moves + of_moves.transpose())) *
+                                                  scale.asDiagonal());
+  const VecX kept = eigen.eigenvalues().unaryExpr([](double x) { return x > kHeld ? x : 0.0; });
+  const VecX weight = kept.unaryExpr([](double x) { return x > 0.0 ? 1.0 / x : 0.0; });
+  const MatX& V = eigen.eigenvectors();
+  VecX reaction =
+      scale.asDiagonal() * (V * (weight.asDiagonal() * (V.transpose() * VecX(scale.asDiagonal() * offset(moves)))));
+  // What may be shared in other ways: of them all the least, as forces.
+  if (const MatX shared = scale.asDiagonal() * V.leftCols((kept.array() == 0.0).count()); shared.cols() > 0) {
+    const VecX forces = over_levers(moves);
+    reaction -= shared * solve_least(MatX(forces.asDiagonal() * shared), VecX(forces.cwiseProduct(reaction)), kHeld);
+  }
+  result.reaction(moves) = reaction;
+  result.compliance(moves, moves) = root.asDiagonal() * V * kept.asDiagonal() * V.transpose() * root.asDiagonal();
+  return result;
 }
 
 AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal, int samples) {
@@ -107,19 +132,9 @@ AlongMotion follow(const Mechanism& mechanism, const Parameters& parameters, con
           free[at.first + k] = mobility[at.released_row(k)];
         }
     }
-    const VecX scale = free.cwiseSqrt().cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<MatX> eigen(scale.asDiagonal() * (0.5 * (A + A.transpose())) *
-                                                    scale.asDiagonal());
-    const VecX weight = eigen.eigenvalues().unaryExpr([](double x) { return x > kHeld ? 1.0 / x : 0.0; });
-    const VecX kept = eigen.eigenvalues().unaryExpr([](double x) { return x > kHeld ? x : 0.0; });
-    const MatX& V = eigen.eigenvectors();
-    const VecX moves = A.diagonal().cwiseQuotient(free).unaryExpr([](double x) { return x > kHeld ? 1.0 : 0.0; });
-    const VecX of_moves = moves.cwiseProduct(scale);
-    const VecX reaction = least_of(
-        of_moves.asDiagonal() * (V * (weight.asDiagonal() * (V.transpose() * VecX(scale.asDiagonal() * offset)))),
-        of_moves.asDiagonal() * V.leftCols((kept.array() == 0.0).count()), over_levers);
-    const VecX back = scale.cwiseInverse();
-    along.compliance.push_back(back.asDiagonal() * (V * kept.asDiagonal() * V.transpose()) * back.asDiagonal());
+    const Carried carried = carried_by(A, offset, free, over_levers);
+    const VecX& reaction = carried.reaction;
+    along.compliance.push_back(carried.compliance);
     for (int c = 0; c < n; ++c) {
       const double size = radial_load(reaction, layout.joint(c), joints[c]);
       along.reaction_rms[c] += size * size / samples;

@@ -205,6 +205,10 @@ TEST(Allocation, FindsTheWiderGapThatWorksAgainstAnother) {
   EXPECT_FALSE(none.feasible);
   EXPECT_NEAR(none.best_reachable, (2.0 - 0.05) * kMilli, 0.006 * kMilli);
   EXPECT_EQ(none.chosen.choice, (std::vector<int>{5, 0}));
+
+  // Nor the tightest alone where none of the search's samples may exceed the limit: of 22 within, 90 percent are with 90 percent confidence.
+  plan.samples = 22;
+  EXPECT_EQ(run_allocation(plan, opposed, 0.0, exact, "synthetic", {}).chosen.choice, (std::vector<int>{5, 0}));
 }
 
 TEST(Allocation, TriesTheTightestGapsOnTheConfirmingRungBeforeItSaysThatNothingDoes) {

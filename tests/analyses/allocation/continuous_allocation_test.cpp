@@ -100,6 +100,23 @@ TEST(ContinuousAllocation, WithSamplesPutsTheRequiredOrderStatisticOnTheLimit) {
   EXPECT_NEAR(found.tolerance[0], (1e-4 / 2.0 - 1e-5) / (190.5 / 200.0), 1e-11);
 }
 
+// Where gaps work against each other the least is inside: here at 30 um and 2 mm, in the logarithms of both.
+TEST(ContinuousAllocation, FindsTheToleranceBetweenItsEndsThatPointsBest) {
+  const std::vector<double> best = {3e-5, 2e-3};
+  const ToleranceRequirement valley = [&](std::span<const double> t, std::span<double> g) {
+    const double a = std::log(t[0] / best[0]), b = std::log(t[1] / best[1]);
+    if (!g.empty()) {
+      g[0] = 1e-4 * (2.0 * a + b) / t[0];
+      g[1] = 1e-4 * (a + 4.0 * b) / t[1];
+    }
+    return 1e-4 * (1.0 + a * a + a * b + 2.0 * b * b);
+  };
+  std::vector<ContinuousTolerance> all = joints(1.0);
+  all.resize(2);
+  const std::vector<double> found = least_tolerances(all, valley);
+  for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(found[j] / best[j], 1.0, 1e-3) << j;
+}
+
 TEST(CostCurve, HasTheSlopeOfItsPrice) {
   for (const std::string& law : cost_law_names()) {
     const CostCurve curve = make_cost_curve(law, 2.0, 0.3, 1.7, 1e-3);

@@ -39,8 +39,8 @@ TEST(NextTest, SumsRelativeVariances) {
   Inference inference;
   inference.information = VecX::Constant(problem.global_count(), 0.2).asDiagonal();
   inference.information(0, 0) = 400.0;
-  const NextTest test = judge_candidate(problem, inference, at, std::vector<bool>(4, false),
-                                        {"faster", four_bar::mechanism(2.5, 0.06)});
+  const NextTest test =
+      judge_candidate(problem, inference, at, std::vector<bool>(4, false), {"faster", four_bar::mechanism(2.5, 0.06)});
   ASSERT_EQ(test.refusal, "");
   ASSERT_EQ(test.error_ratio.size(), 4u);
   double before = 0.0, after = 0.0;

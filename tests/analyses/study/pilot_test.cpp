@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "boresight/io/mechanism_file.hpp"
-#include "boresight/mechanism/error.hpp"
 #include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/study/measurement.hpp"
 #include "boresight_analyses/study/pilot_choice.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"

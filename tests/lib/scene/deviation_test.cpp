@@ -109,6 +109,29 @@ TEST(ContactReport, AsksForSmallerStepsWhereTwoContactsShareALightLink) {
   EXPECT_NO_THROW(run("perturbation", all, 0.0));
 }
 
+// A radio telescope weighs a million times what a gimbal does: loads, and the masses that contacts feel, are as many times larger, whatever
+// the unit in which a body's own mobility is compared with its joint's.
+TEST(ContactReport, GrowsWithTheMassesOfAllBodies) {
+  const auto scaled = [](double by) {
+    MechanismDescription d =
+        read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/twelve-joints.toml", {{"motion.duration", "0.1 s"}});
+    for (BodyDescription& b : d.bodies) {
+      b.mass *= by;
+      b.inertia *= by;
+    }
+    d.payload->mass *= by;
+    const auto mechanism = scenes::build(std::move(d));
+    return analyse_contacts(*mechanism, mechanism->parameters());
+  };
+  const std::vector<ContactFrequency> light = scaled(1.0), heavy = scaled(1e6);
+  ASSERT_EQ(light.size(), 12u);
+  for (std::size_t c = 0; c < light.size(); ++c) {
+    EXPECT_GT(light[c].effective_mass, 0.0) << light[c].joint;
+    EXPECT_NEAR(heavy[c].effective_mass / light[c].effective_mass / 1e6, 1.0, 1e-6) << light[c].joint;
+    EXPECT_NEAR(heavy[c].typical_load / light[c].typical_load / 1e6, 1.0, 1e-6) << light[c].joint;
+  }
+}
+
 // With play at one or both pins of its coupler.
 std::shared_ptr<const Mechanism> driven_four_bar(int opened) {
   MechanismDescription d = scenes::planar_four_bar();
