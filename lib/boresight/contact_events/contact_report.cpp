@@ -62,6 +62,7 @@ Carried carried_by(const MatX& A, const VecX& offset, const VecX& free, const Ve
   std::vector<Eigen::Index> moves;
   for (Eigen::Index i = 0; i < A.rows(); ++i)
     if (A(i, i) > kHeld * free[i]) moves.push_back(i);
+  if (moves.empty()) return result;
   const VecX root = free(moves).cwiseSqrt(), scale = root.cwiseInverse();
   const MatX of_moves = A(moves, moves);
   const Eigen::SelfAdjointEigenSolver<MatX> eigen(scale.asDiagonal() * (0.5 * (of_moves + of_moves.transpose())) *

@@ -84,7 +84,9 @@ ContactTangent JointPlay::tangent(const PlayMotion<double>& motion) const {
   return std::visit([&](const auto& k) { return k.tangent(motion); }, kind);
 }
 RestingPlay JointPlay::rest_under(const PlayOffsets& load, double slide, const RestingPlay& before) const {
-  return std::visit([&](const auto& k) { return k.rest_under(load, slide, before); }, kind);
+  RestingPlay rest = std::visit([&](const auto& k) { return k.rest_under(load, slide, before); }, kind);
+  rest.carried = load.head<3>().norm();
+  return rest;
 }
 std::vector<GapPart> JointPlay::gap_parts(const RestingPlay& rest, double slide) const {
   return std::visit([&](const auto& k) { return k.gap_parts(rest, slide); }, kind);

@@ -12,6 +12,7 @@ struct RestingPlay {
   std::array<double, 2> radial_reach = {0.0, 0.0};
   double axial_reach = 0.0;  // along the axis; 0 where nothing limits it [m]
   ContactStates<double> contact{};
+  double carried = 0.0;  // resultant of its contacts [N]
 
   double normal_force() const;  // sum over the contacts [N]
   double penetration() const;   // the deepest [m]

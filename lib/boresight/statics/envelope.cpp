@@ -45,7 +45,6 @@ class Envelope final : public SceneRung {
       const Directions directions = directions_at(prepared, t);
       Bounded bounded = tied ? bound_of_all(reactions, *tied, gaps, now, directions, before)
                              : bound_of_each(reactions, now, directions, before);
-      bounded.load = now.load;
       // What the errors displace is known, and not bounded: the play adds to it in the worst way.
       const Vec6 errors = standing.at(t, mechanism().boresight_body());
       if (standing) {
@@ -59,7 +58,7 @@ class Envelope final : public SceneRung {
       return bounded;
     };
     const auto record = [&](const Bounded& bounded) {
-      contacts.note(bounded.time, bounded.rest, bounded.load);
+      contacts.note(bounded.time, bounded.rest);
       const DisplacedBodies displaced(prepared, standing, bounded.time, bounded.worst_z);
       BodyAcceleration acceleration;
       const BodyMotion boresight = displaced.at_rest(mechanism().boresight_body(), acceleration);
@@ -115,7 +114,6 @@ class Envelope final : public SceneRung {
     std::vector<RestingPlay> rest,
         worst;        // per joint: where it rests, and the place that stands for its worst one in the pictures
     VecX z, worst_z;  // the same in coordinates; z where joints are tied
-    std::vector<ReactionTable::Load> load = {};  // per joint
     double t() const { return time; }
   };
 

@@ -148,7 +148,7 @@ class Quasistatic final : public SceneRung {
   void record(const PreparedScene& prepared, const StandingDisplacement& standing, const Placed& placed,
               RestingContacts& contacts, MotionRecorder& recorder) const {
     const Balance& balance = placed.balance;
-    contacts.note(balance.now.t, balance.rest, balance.now.load);
+    contacts.note(balance.now.t, balance.rest);
     recorder.accept(balance.now.t, placed.body, placed.acceleration, &placed.error);
     if (!recorder.sampling()) return;
     const DisplacedBodies displaced(prepared, standing, balance.now.t, balance.z);

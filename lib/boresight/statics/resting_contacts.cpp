@@ -15,13 +15,12 @@ RestingContacts::RestingContacts(const ReactionTable& reactions, double start)
   }
 }
 
-void RestingContacts::note(double t, const std::vector<RestingPlay>& rest,
-                           const std::vector<ReactionTable::Load>& load) {
+void RestingContacts::note(double t, const std::vector<RestingPlay>& rest) {
   if (t < start_) return;
   if (!noted_) first_ = last_ = t;
   for (std::size_t c = 0; c < summary_.size(); ++c) {
     ContactSummary& of = summary_[c];
-    of.max_load = std::max(of.max_load, load[c].force.head<3>().norm());
+    of.max_load = std::max(of.max_load, rest[c].carried);
     of.max_penetration = std::max(of.max_penetration, rest[c].penetration());
     for (const ContactState<double>& contact : rest[c].contact)
       of.max_force = std::max(of.max_force, contact.normal_force);

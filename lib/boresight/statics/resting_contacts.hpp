@@ -13,7 +13,7 @@ class RestingContacts {
   RestingContacts(const ReactionTable& reactions, double start);
 
   // Where the joints rest at time t and the loads that put them there; in order of time.
-  void note(double t, const std::vector<RestingPlay>& rest, const std::vector<ReactionTable::Load>& load);
+  void note(double t, const std::vector<RestingPlay>& rest);
 
   // One per joint, named. A journal that nothing presses on its sleeve is not in contact, whatever it may lie near.
   std::vector<ContactSummary> finish() const;

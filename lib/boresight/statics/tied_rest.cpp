@@ -73,6 +73,7 @@ RestingPlay TiedRest::resting(std::size_t joint, const VecX& z) const {
   PlayWrench<double> wrench;
   law.wrench(rest.motion, kSlowImpacts, wrench);
   rest.contact = wrench.contact;
+  rest.carried = wrench.force.norm();
   const std::vector<double> gaps = law.clearances();
   rest.radial_reach.fill(gaps[0]);
   if (gaps.size() > 1) rest.axial_reach = gaps[1];

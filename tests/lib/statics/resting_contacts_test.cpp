@@ -29,6 +29,26 @@ TEST(RestingContacts, OfAJournalThatNothingPressesAreNone) {
   EXPECT_GT(free, 0);
 }
 
+// Two bearings of one shaft carry what hangs on it together: neither of them all, and none of them nothing.
+TEST(RestingContacts, OfABearingPairShareItsLoad) {
+  const auto mechanism = example("altaz-gimbal/bearing-pairs.toml");
+  std::vector<std::unique_ptr<Rung>> rungs;
+  rungs.push_back(make_rests(mechanism));
+  rungs.push_back(make_envelope(mechanism));
+  for (const auto& rung : rungs) {
+    double load[2] = {0.0, 0.0};
+    for (const ContactSummary& c : rung->run(mechanism->parameters(), {}).contact)
+      if (c.joint == "elevation" || c.joint == "far") load[c.joint == "far"] = c.max_load;
+    EXPECT_NEAR(load[0] / load[1], 1.0, 0.1) << rung->name();
+    // The tube with its trunnions is all that they carry, and hardly moves: its mass times g.
+    double weight = 0.0;
+    for (std::size_t b = 0; b < mechanism->description().bodies.size(); ++b)
+      if (mechanism->description().bodies[b].name == "tube" || mechanism->description().bodies[b].name == "trunnions")
+        weight += mechanism->parameters().body_mass[b] * mechanism->parameters().gravity.norm();
+    EXPECT_NEAR((load[0] + load[1]) / weight, 1.0, 0.05) << rung->name();
+  }
+}
+
 TEST(RestingContacts, LeaveOutWhatComesBeforeTheStart) {
   const auto mechanism = example("3-rrcpr/3-rrcpr.toml");
   std::vector<std::unique_ptr<Rung>> rungs;
