@@ -208,6 +208,27 @@ TEST(StatedErrors, OfTheLinearDeviationGrowWithTheClearanceAndHoldInFlight) {
   }
 }
 
+// A linkage that stands still in its play, wide enough that the pose is not linear in it: the rungs agree, being linear both, and the static
+// one states of every quantity what the dynamic one is off by that.
+TEST(StatedErrors, OfRestingJournalsTakeInWhatTheLinearDeviationIsOffBy) {
+  const auto mechanism = std::make_shared<const Mechanism>(
+      read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml", {{"motion.duration", "0.02 s"},
+                                                                                   {"motion.drives.A", "0.4"},
+                                                                                   {"initial.journals", "rest"},
+                                                                                   {"clearance.D.cap_radius", "20 mm"},
+                                                                                   {"clearance.D.radial", "5 mm"}}));
+  const RunResult rest = make_rung("quasistatic", mechanism)->run(mechanism->parameters(), {});
+  const RunResult motion = make_rung("perturbation", mechanism)->run(mechanism->parameters(), {});
+  ASSERT_NEAR(rest.index.position_error.max / motion.index.position_error.max, 1.0, 1e-4);
+  for (const auto quantity : {PointingQuantity::position_error, PointingQuantity::orientation_error}) {
+    const double of_linearity = motion.error.model_of(quantity);
+    EXPECT_GT(of_linearity, 1e-3);
+    // Or what its forces' share says, where that is more.
+    EXPECT_GE(rest.error.model_of(quantity), 0.999 * of_linearity);
+    EXPECT_LE(rest.error.model_of(quantity), 3.0 * of_linearity);
+  }
+}
+
 // The envelope bounds journals that stay in contact; those that strike leave it, by what the warning says of the position. The slider
 // does not turn.
 TEST(Envelope, SaysByHowMuchImpactsExceedIt) {
