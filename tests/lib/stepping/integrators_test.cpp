@@ -2,9 +2,13 @@
 // statistics that do not depend on how long the steps are.
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <filesystem>
+#include <random>
 #include <stdexcept>
 
 #include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/perturbation/perturbation_system.hpp"
 #include "boresight/perturbation/predictability.hpp"
@@ -184,6 +188,69 @@ TEST(PerturbationJacobian, IsThatOfTheRightHandSideInContact) {
   tilted << 2e-5, -0.9e-4, 1e-5, 1.6e-3, 0.4e-3, 0.01, 0.02, -0.03, 0.2, -0.1;
   expect_exact_jacobian(JournalAxes::parallel, parallel);
   expect_exact_jacobian(JournalAxes::free, tilted);
+}
+
+// Every kind of play, of tie and of element that the gauntlet's archetypes have, pressed and rubbing: of a state beside rest, as far as two
+// differences agree with each other (next to a kink they do not).
+TEST(PerturbationJacobian, IsThatOfTheRightHandSideOfEveryArchetype) {
+  int scenes = 0, touching = 0, columns = 0, kinks = 0;
+  for (const auto& file : std::filesystem::directory_iterator(BORESIGHT_CORPUS)) {
+    if (file.path().extension() != ".toml") continue;
+    const auto mechanism =
+        std::make_shared<const Mechanism>(read_mechanism(file.path(), {{"motion.duration", "0.05 s"}}));
+    if (mechanism->clearances() == 0) continue;
+    const std::string name = file.path().filename();
+    const Parameters& parameters = mechanism->parameters();
+    const PreparedScene prepared(*mechanism, ideal_motion(*mechanism, parameters), parameters);
+    PerturbationSystem system(*mechanism, parameters, prepared.tables(parameters), false);
+    std::string warning;
+    const VecX start = system.start_state(*mechanism, 0.0, warning);
+    double widest = 0.0;
+    for (const JointPlay& joint : system.joints()) widest = std::max(widest, joint.widest());
+    const int n = system.layout().n;
+    const Eigen::Index size = start.size();
+    const double t = 0.037;
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> share(-1.0, 1.0);
+    ++scenes;
+    bool pressed = false;
+    // Where journals hardly slide, friction grows with the speed.
+    for (const auto& [far, rate] : {std::pair{0.02, 0.02}, {0.7, 0.02}, {1.1, 0.02}, {1.1, 5e-5}}) {
+      VecX y = start;
+      for (int i = 0; i < n; ++i) {
+        y[i] += far * widest * share(random);
+        y[n + i] += rate * share(random);
+      }
+      system.start_located(t, y);
+      MatX J(size, size);
+      system.jacobian(t, y, J);
+      const auto difference = [&](Eigen::Index k, double h) {
+        VecX plus(size), minus(size), shifted = y;
+        shifted[k] = y[k] + h;
+        system.derivative(t, shifted, plus);
+        shifted[k] = y[k] - h;
+        system.derivative(t, shifted, minus);
+        return VecX((plus - minus) / (2.0 * h));
+      };
+      pressed = pressed || system.touching();
+      for (Eigen::Index k = 0; k < 2 * n; ++k) {
+        const double h = k < n ? 1e-4 * widest : 1e-4 * rate;
+        const VecX coarse = difference(k, h), fine = difference(k, 0.25 * h);
+        const double size_of_it = fine.norm() + 1e-7 * J.norm() + 1e-5;  // in flight, rounding
+        ++columns;
+        if ((coarse - fine).norm() > 1e-3 * size_of_it)
+          ++kinks;
+        else
+          EXPECT_LT((J.col(k) - fine).norm(), 3e-3 * size_of_it)
+              << name << ", column " << k << " of " << n << ", " << far;
+      }
+    }
+    touching += pressed;
+  }
+  std::printf("%d scenes, %d of them pressed; %d columns, %d of them next to a kink\n", scenes, touching, columns,
+              kinks);
+  EXPECT_GT(touching, 25);
+  EXPECT_LT(kinks, columns / 10);
 }
 
 TEST(Predictability, IsTheTimeUpToWhichTwinsStayTogether) {
