@@ -49,7 +49,7 @@ struct RunOptions {
   // part.
   double start_offset = 0.0;
 
-  ModelLook model_look = ModelLook::motions;  // perturbation only
+  ModelLook model_look = ModelLook::motions;  // all but multibody, which is what the others are held against
 
   // Multibody only.
   std::string formulation;  // "tree" or "paper"; "" is the rung's default, the tree

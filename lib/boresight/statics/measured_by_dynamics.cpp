@@ -124,6 +124,11 @@ class MeasuredByDynamics final : public Rung {
     // Without play there are no dynamics that it could miss.
     if (result.interrupted || mechanism_->clearances() == 0) return result;
     RunCost cost;
+    // Whoever wants no look at what the model leaves out wants none at what the static one does.
+    if (options.model_look == ModelLook::none) {
+      result.error = {{}, kNotMeasured, "not looked at"};
+      return result;
+    }
     const Measured measured = measure(parameters, options, cost);
     const ErrorEstimate of_errors = result.error;
     result.error = measured.error;
@@ -158,7 +163,7 @@ class MeasuredByDynamics final : public Rung {
     // A bound holds whatever its journals do: one measure without errors serves all samples.
     if (bounds_) std::fill(at.error.begin(), at.error.end(), 0.0);
     std::vector<double> key = numbers_of(at);
-    key.push_back(options.start);
+    key.insert(key.end(), {options.start, static_cast<double>(options.model_look)});
     const std::lock_guard lock(mutex_);
     if (const auto known = measured_.find(key); known != measured_.end()) return known->second;
     RunOptions plain;
@@ -176,6 +181,7 @@ class MeasuredByDynamics final : public Rung {
     options.start = asked.start;
     options.sample_spacing = 0.0;
     options.events = false;
+    options.model_look = asked.model_look;
     std::vector<RunResult> motions;
     int looks = 0;
     bool stopped = false, asked_to = false;
@@ -190,7 +196,8 @@ class MeasuredByDynamics final : public Rung {
       for (double share : kShares) {
         motions.push_back(dynamics_->run(parameters, options));
         // Steps of the dynamic rung err too, and where its forces' share says more than what they move, that covers these.
-        options.model_look = motions.size() == 1 ? ModelLook::shares : ModelLook::none;
+        const bool shares_are_next = motions.size() == 1 && asked.model_look == ModelLook::motions;
+        options.model_look = shares_are_next ? ModelLook::shares : ModelLook::none;
         cost.cpu_seconds += motions.back().cost.cpu_seconds;
         cost.wall_seconds += motions.back().cost.wall_seconds;
         if (stopped) break;
@@ -273,7 +280,8 @@ class MeasuredByDynamics final : public Rung {
   std::shared_ptr<const Mechanism> mechanism_;
   bool bounds_;
   mutable std::mutex mutex_;
-  mutable std::map<std::vector<double>, Measured> measured_;  // by numbers_of the parameters, and the index's start
+  // By numbers_of the parameters, the index's start and how closely the dynamic rung looks at its own model.
+  mutable std::map<std::vector<double>, Measured> measured_;
 };
 
 }  // namespace
