@@ -40,7 +40,9 @@ const KeyTable& budget_keys() {
           quantity("start", kDuration).usually("that of [index]").says("What the motion does before is left out."),
           time_key("window")
               .sometimes("needed for MPE, RPE, PDE and PRE")
-              .says("Length of the window over which MPE, RPE, PDE and PRE take their means."),
+              .says("Length of the window over which MPE, RPE, PDE and PRE take their means. Windows begin at every "
+                    "sample, those of "
+                    "RPE at every sixteenth of their length."),
           time_key("separation")
               .sometimes("needed for PDE")
               .says("Time between the beginnings of the two windows of PDE."),

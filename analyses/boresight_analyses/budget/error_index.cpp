@@ -8,6 +8,9 @@ namespace boresight {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of a duration
+// Windows of RPE that begin within the length of one: a change that falls between two of them is seen whole but for a thirty-second. Fewer,
+// down to two, of a history so long that its index would have more values than kMany.
+constexpr std::size_t kPlaces = 16, kFewestPlaces = 2, kMany = 400'000;
 
 std::size_t samples_in(double time, double spacing) {
   return static_cast<std::size_t>(std::max(0.0, std::round(time / spacing)));
@@ -79,7 +82,8 @@ std::vector<Vec3> index_values(ErrorIndex index, const PointingHistory& history,
     return values;
   }
   const std::size_t apart = index == ErrorIndex::pde ? samples_in(windows.separation, history.spacing) : 0;
-  const std::size_t stride = index == ErrorIndex::rpe ? std::max<std::size_t>(1, width / 2) : 1;
+  const std::size_t places = std::clamp(kMany / std::max<std::size_t>(1, e.size()), kFewestPlaces, kPlaces);
+  const std::size_t stride = index == ErrorIndex::rpe ? std::max<std::size_t>(1, width / places) : 1;
   for (std::size_t start = 0; start < e.size(); start += observed) {
     const std::size_t end = std::min(start + observed, e.size());
     for (std::size_t begin = start; begin + apart + width <= end; begin += stride) {

@@ -21,7 +21,9 @@ double probability_within(double radius, std::span<const double> mean, std::span
   const auto rest = [&](double x) {
     return probability_within(std::sqrt(std::max(0.0, radius * radius - x * x)), mean.subspan(1), sd.subspan(1));
   };
-  if (s <= 0.0) return std::abs(m) <= radius ? rest(m) : 0.0;
+  // A deviation that rounding leaves of an axis that does not scatter is none: no integral resolves it.
+  constexpr double kNoScatter = 1e-12;
+  if (s <= kNoScatter * std::max(std::abs(m), radius)) return std::abs(m) <= radius ? rest(m) : 0.0;
   if (mean.size() == 1) return below((radius - m) / s) - below((-radius - m) / s);
   // x = r sin(angle) takes away the corner of the circle; nothing is beyond nine deviations.
   constexpr double kFar = 9.0;

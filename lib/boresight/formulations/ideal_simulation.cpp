@@ -6,6 +6,7 @@
 
 #include "boresight/formulations/formulation.hpp"
 #include "boresight/formulations/own_modes.hpp"
+#include "boresight/formulations/starting_state.hpp"
 #include "boresight/integrate/explicit_runge_kutta.hpp"
 #include "boresight/integrate/integrator.hpp"
 #include "boresight/integrate/rosenbrock_method.hpp"
@@ -17,94 +18,6 @@
 
 namespace boresight {
 namespace {
-
-IdealState home_state(const Mechanism& mechanism) {
-  IdealState state;
-  const MechanismDescription& m = mechanism.description();
-  state.bodies.resize(m.bodies.size());
-  state.acceleration.assign(m.bodies.size(), Vec6::Zero());
-  for (std::size_t b = 0; b < m.bodies.size(); ++b) {
-    state.bodies[b].p = m.bodies[b].center_of_mass;
-    state.bodies[b].R = m.bodies[b].axes;
-  }
-  return state;
-}
-
-// The row of a joint's freedom in the stacked velocities of all bodies, at home where both joint frames coincide.
-Eigen::RowVectorXd freedom_row(const Mechanism& mechanism, const InitialRateDescription& rate) {
-  const JointDescription& joint = mechanism.description().joints[rate.joint];
-  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(6 * mechanism.bodies());
-  for (const auto& [body, sign] : {std::pair{joint.first, -1.0}, std::pair{joint.second, 1.0}}) {
-    if (body == kGround) continue;
-    const Vec3 r = joint.point - mechanism.description().bodies[body].center_of_mass;
-    if (rate.freedom == InitialRateDescription::Freedom::angle)
-      row.segment<3>(6 * body + 3) = sign * joint.axis.transpose();
-    else
-      row.segment<6>(6 * body) << sign * joint.axis.transpose(), sign * r.cross(joint.axis).transpose();
-  }
-  return row;
-}
-
-// Brings a built mechanism's joints together at home, its bodies moved as little as that takes; a drawn one's are.
-void close_joints(const Mechanism& mechanism, const std::vector<TimeValue>& laws, IdealState& state) {
-  constexpr int kMostSteps = 20;
-  constexpr double kClosed = 1e-14;  // of the characteristic length, or rad
-  ConstraintSystem system(mechanism, {.clearance = ClearanceRows::closed});
-  const std::vector<Mat6> weight = kinematic_weight(mechanism);
-  std::vector<Vec6> rows = system.block_vector(), motion = system.body_vector();
-  for (int step = 0; step < kMostSteps; ++step) {
-    system.evaluate(state.bodies, laws);
-    if (system.violation(mechanism.characteristic_length()) < kClosed) return;
-    if (step == 0) system.set_redundant(constraint_rank(mechanism, system) < system.row_count());
-    system.factor(weight);
-    for (int k = 0; k < system.blocks(); ++k) rows[k] = -system.rows(k).value;
-    system.least_motion(rows, motion);
-    for (int b = 0; b < mechanism.bodies(); ++b) displace(state.bodies[b], motion[b]);
-  }
-}
-
-// Velocities at home: constraints and starting rates satisfied, everything else as slow as they allow.
-void set_starting_rates(const Mechanism& mechanism, const std::vector<TimeValue>& laws, IdealState& state) {
-  ConstraintSystem system(mechanism, {.clearance = ClearanceRows::closed});
-  system.evaluate(state.bodies, laws);
-  if (system.violation(mechanism.characteristic_length()) > 1e-6)
-    throw ComputationError("the joints do not close at home, where a mechanism with free freedoms starts");
-  const MatX J = system.dense_jacobian();
-  const std::vector<InitialRateDescription>& rates = mechanism.description().initial_rates;
-  MatX A(J.rows() + static_cast<Eigen::Index>(rates.size()), J.cols());
-  VecX b = VecX::Zero(A.rows());
-  A.topRows(J.rows()) = J;
-  int row = 0;
-  for (int k = 0; k < system.blocks(); ++k)
-    for (int i = 0; i < system.joints()[k].count(); ++i) b[row++] = -system.rows(k).rate[i];
-  for (const InitialRateDescription& rate : rates) {
-    A.row(row) = freedom_row(mechanism, rate);
-    b[row++] = rate.rate;
-  }
-  if (b.isZero(0.0)) {  // at rest: no need to solve for the least of all motions
-    for (BodyMotion& body : state.bodies) body.v = body.w = Vec3::Zero();
-    return;
-  }
-  // Lengths in units of the mechanism's own, so that its size is of no account.
-  const double length = mechanism.characteristic_length();
-  for (Eigen::Index k = 0; k < A.rows(); ++k)
-    for (int body = 0; body < mechanism.bodies(); ++body)
-      if (A.block(k, 6 * body, 1, 3).cwiseAbs().maxCoeff() > 0.0) {
-        b[k] /= length;
-        break;
-      }
-  A = scaled_rows(std::move(A), length);
-  VecX u = solve_least(A, b);
-  if ((A * u - b).norm() > 1e-8 * b.norm())
-    throw InputError(rates.empty() ? mechanism.description().motion.origin : rates.front().origin,
-                     rates.empty() ? "motion" : "initial.rates", "rates that contradict each other or the joints",
-                     "rates that the joints allow together");
-  for (int k = 0; k < mechanism.bodies(); ++k) u.segment<3>(6 * k) *= length;
-  for (int k = 0; k < mechanism.bodies(); ++k) {
-    state.bodies[k].v = u.segment<3>(6 * k);
-    state.bodies[k].w = u.segment<3>(6 * k + 3);
-  }
-}
 
 // Of a mode's phase or decay, covered by one step of RK4 that is stable: its limit is 2.785.
 constexpr double kStableAngle = 2.5;
@@ -327,8 +240,7 @@ IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& param
                                           }()});
   std::vector<TimeValue> laws(mechanism.joints());
   laws_only.drive_laws(0.0, laws);
-  if (mechanism.built()) close_joints(mechanism, laws, start);
-  set_starting_rates(mechanism, laws, start);
+  start = starting_state(mechanism, laws);
   const Task task{mechanism, parameters, laws_only, start};
   ClosedMechanism closed(task);
   // How many steps an explicit method needs to be stable, to begin with.

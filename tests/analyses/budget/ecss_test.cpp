@@ -76,6 +76,17 @@ TEST(HalfCone, HoldsForUnequalAxesFixedValuesAndThreeAxes) {
   EXPECT_NEAR(three, 2.0 * 2.795483, 1e-5);  // chi with three degrees of freedom: sqrt(7.814728)
 }
 
+// An axis whose values differ by rounding does not scatter, whatever is made of its deviation.
+TEST(HalfCone, TakesADeviationOfRoundingForNone) {
+  for (const double probability : {0.7, 0.95}) {
+    EXPECT_NEAR(radius_of(probability, std::vector{1.92e-4, 2e-6}, std::vector{1e-20, 4e-21}),
+                std::hypot(1.92e-4, 2e-6), 1e-12);
+    const double beside = radius_of(probability, std::vector{1.92e-4, 0.0}, std::vector{1e-19, 1e-4});
+    const double alone = radius_of(probability, std::vector{0.0}, std::vector{1e-4});
+    EXPECT_NEAR(beside, std::hypot(1.92e-4, alone), 1e-10);
+  }
+}
+
 // Annex C: a satellite with a star tracker; arcsec; mixed interpretation, 95 %; window of RPE 30 s.
 // The bias of the star tracker is printed as G(0, 6.67), G(0, 3.33): a third of 20 and of 10, its three sigma.
 struct AnnexC {

@@ -79,6 +79,18 @@ TEST(ErrorIndexOfAHistory, OfABiasIsTheBiasInApeAndMpeAndNothingInTheOthers) {
     }
 }
 
+// An exposure that ends just after a step sees all of it but its own share in the mean, whenever the step comes.
+TEST(ErrorIndexOfAHistory, OfAStepIsAsLargeWheneverItComes) {
+  for (const double window : {1.0, 0.5})
+    for (const double at : {2.25, 2.49, 2.5, 2.031, 3.2}) {
+      const PointingHistory h = history_of(5.0, 5000, [&](double t) { return Vec3(t < at ? 0.0 : 1.0, 0, 0); });
+      double most = 0.0;
+      for (const Vec3& v : index_values(ErrorIndex::rpe, h, {.window = window})) most = std::max(most, std::abs(v.x()));
+      EXPECT_GT(most, 1.0 - 1.0 / 16.0) << window << ", " << at;
+      EXPECT_LE(most, 1.0);
+    }
+}
+
 TEST(ErrorIndexOfAHistory, OfADriftIsTheDriftOverTheSeparation) {
   const PointingHistory h = history_of(1.0, 1000, [](double t) { return Vec3(2.0 * t, 0, 0); });
   const Windows windows{.window = 0.1, .separation = 0.2, .observation = 0.5, .revisit = 0.6};
