@@ -14,6 +14,7 @@
 #include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
+#include "boresight/mechanism/load_time.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
 
 namespace boresight {
@@ -113,7 +114,7 @@ std::optional<Knots> follow_implicit(const Task& task, double tolerance, Failure
       VecX::Constant(y.size(), tolerance * std::min(1.0, task.mechanism.characteristic_length()));
   for (int k = 0; k < y.size(); ++k)
     if (closed.formulation().is_speed(k)) options.absolute_tolerances[k] *= std::max(1.0, 100.0 / duration);
-  options.largest_step = duration / 200.0;
+  options.largest_step = std::min(duration / 200.0, kStepOfLoads * load_time(task.mechanism));
   options.most_steps = kMostSteps;
   Knots knots{closed.bodies(0.0, y, dy)};
   Integrator<RosenbrockMethod> integrator(RosenbrockMethod(rodas4(), y.size()));
@@ -246,6 +247,8 @@ IdealMotion simulated_motion(const Mechanism& mechanism, const Parameters& param
   // How many steps an explicit method needs to be stable, to begin with.
   const double rate = fastest_own_rate(closed.formulation(), 0.0, closed.start());
   int steps = kFewestSteps;
+  const double of_loads = kStepOfLoads * load_time(mechanism);
+  while (steps < kMostSteps && steps * of_loads < mechanism.duration()) steps *= 2;
   while (steps < kMostSteps && steps * kStableAngle < rate * mechanism.duration()) steps *= 2;
   const bool few = steps <= kManySteps;
   std::optional<IdealMotion> motion;

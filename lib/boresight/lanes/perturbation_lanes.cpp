@@ -10,6 +10,7 @@
 #include "boresight/lanes/scene_for_lanes.hpp"
 #include "boresight/math/dense_solves.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/load_time.hpp"
 #include "boresight/scene/resting_start.hpp"
 #include "boresight/scene/standing_columns.hpp"
 #include "boresight/scene/standing_curvature.hpp"
@@ -328,7 +329,8 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
   settings.method = &rodas4();
   settings.start = start_;
   // Across a step the scene's numbers are straight lines: a hundredth of the time in which they turn.
-  settings.longest_step = std::min(settings.longest_step, mechanism_->duration() / 100.0);
+  settings.longest_step =
+      std::min({settings.longest_step, mechanism_->duration() / 100.0, kStepOfLoads * load_time(*mechanism_)});
   settings.longest_held_step =
       std::min(settings.longest_step, kHeldShare * settings.longest_step * std::sqrt(tolerance / kLaneTolerance));
   settings.stop = watch.stop;

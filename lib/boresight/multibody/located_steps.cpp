@@ -4,6 +4,7 @@
 #include "boresight/contact_events/contact_report.hpp"
 #include "boresight/formulations/energy_balance.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/load_time.hpp"
 #include "boresight/multibody/multibody_motion.hpp"
 #include "boresight/multibody/multibody_start.hpp"
 #include "boresight/multibody/multibody_system.hpp"
@@ -24,6 +25,7 @@ MotionScales scales_of(const MultibodyMotion& run) {
       scales.add_joint(run.parameters.clearance[c], contacts[c].typical_load / contacts[c].effective_mass,
                        contacts[c].largest_load / contacts[c].effective_mass);
   scales.own_time = own_time(run.ideal, run.mechanism.bodies(), run.mechanism.characteristic_length());
+  scales.load_time = load_time(run.mechanism);
   scales.close(run.mechanism.duration());
   return scales;
 }

@@ -243,6 +243,7 @@ class Perturbation final : public SceneRung {
     MotionScales scales;
     for (std::size_t c = 0; c < n; ++c) scales.add_joint(parameters.clearance[c], std::sqrt(square[c]), largest[c]);
     scales.own_time = prepared.own_time();
+    scales.load_time = prepared.load_time();
     scales.close(mechanism().duration());
     return scales;
   }

@@ -10,6 +10,7 @@
 #include "boresight/math/dense_solves.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
+#include "boresight/mechanism/load_time.hpp"
 #include "boresight/mechanism/motion_density.hpp"
 #include "boresight/scene/deviation_stiffness.hpp"
 #include "boresight/scene/start_rates.hpp"
@@ -73,6 +74,8 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
   double first_cells = std::max<double>(kFewestCellsOfMotion, std::ceil(mechanism.duration() / kCoarsestSpacing));
   if (first_cells > kManyCells)
     first_cells = std::max<double>(kManyCells, std::min(first_cells, 1.0 * kCellsOfKnot * ideal.knots()));
+  // What a load does within a cell is seen by no knot.
+  first_cells = std::max(first_cells, std::ceil(mechanism.duration() / (kCellOfLoads * load_time(mechanism))));
   // A knot's matrices, and its row in the tables.
   const double numbers = (6.0 * mechanism.bodies() + offsets_.size()) * layout_.n +
                          static_cast<double>(groups_.size()) * element_size() + 3.0 * layout_.width;

@@ -6,6 +6,7 @@
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
+#include "boresight/mechanism/load_time.hpp"
 #include "boresight/play/play_words.hpp"
 
 namespace boresight {
@@ -60,7 +61,8 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
       kFewestInstants,
       std::min(mechanism.duration() / kSpacing, std::max<double>(kManyInstants, kInstantsPerKnot * scene.knots())));
   // Whatever the knots of the scene: how fine these are may be decided by rounding.
-  instants_ = static_cast<int>(std::ceil(wanted / share)) + 1;
+  const double of_loads = mechanism.duration() / (kCellOfLoads * prepared.load_time());
+  instants_ = static_cast<int>(std::ceil(std::max(wanted, of_loads) / share)) + 1;
   spacing_ = mechanism.duration() / (instants_ - 1);
   const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters);
   change_ = prepared.changed_loads(parameters, standing).table(layout_.n);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/mechanism/load_time.hpp"
+
 namespace boresight {
 namespace {
 
@@ -43,7 +45,8 @@ void MotionScales::close(double duration) {
 
 void MotionScales::apply(double duration, double slowest_impact, IntegrationOptions& options) const {
   // A step that was asked for is taken as it is.
-  if (options.step == 0.0) options.largest_step = std::min(duration / kLeastSteps, kTurnOfAStep * own_time);
+  if (options.step == 0.0)
+    options.largest_step = std::min({duration / kLeastSteps, kTurnOfAStep * own_time, kStepOfLoads * load_time});
   // A flight this short ends below the slowest impact speed that a contact latches: nothing is lost by not locating it.
   if (largest_acceleration > 0.0 && slowest_impact > 0.0)
     options.event_floor = std::min(options.event_floor, 2.0 * slowest_impact / largest_acceleration);

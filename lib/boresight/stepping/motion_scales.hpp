@@ -19,7 +19,9 @@ struct MotionScales {
   double flight_time = std::numeric_limits<double>::infinity();
   // In which the fastest body of the ideal motion turns by a radian or moves by the mechanism's size, or would from rest [s].
   double own_time = std::numeric_limits<double>::infinity();
-  double largest_acceleration = 0.0;  // of a journal that is let go [m/s^2]
+  double load_time =
+      std::numeric_limits<double>::infinity();  // in which a load changes by all that it does: load_time.hpp [s]
+  double largest_acceleration = 0.0;            // of a journal that is let go [m/s^2]
 
   // Of one joint: its gaps, and the mean square and largest acceleration of its journal when let go [m/s^2].
   void add_joint(const ClearanceParameters& play, double acceleration_rms, double acceleration_max);

@@ -4,6 +4,7 @@
 
 #include "boresight/formulations/own_modes.hpp"
 #include "boresight/integrate/explicit_runge_kutta.hpp"
+#include "boresight/mechanism/load_time.hpp"
 #include "boresight/stepping/motion_scales.hpp"
 #include "boresight/stepping/unstable_step.hpp"
 
@@ -13,6 +14,7 @@ double own_step(const Mechanism& mechanism, const Parameters& parameters, const 
   double step = longest_step(mechanism.duration());
   // A motion that is fast for a moment is not stepped over.
   step = std::min(step, kTurnOfAStep * own_time(ideal, mechanism.bodies(), mechanism.characteristic_length()));
+  step = std::min(step, kStepOfLoads * load_time(mechanism));
   // The joints' contacts taken together, at twice the largest ideal reaction: what a load suddenly applied to an elastic
   // contact reaches.
   for (const ContactFrequency& c : analyse_contacts(mechanism, parameters, ideal))

@@ -1,0 +1,19 @@
+// How fast the loads of a mechanism change: what no grid and no step may be longer than, since neither sees what begins and ends within it.
+#pragma once
+
+#include "boresight/mechanism/mechanism.hpp"
+
+namespace boresight {
+
+// The shortest time in which one of the loads changes by all that it ever does: its range over its largest rate [s]; of a sinusoid 2 / omega,
+// of a bell 1.65 standard deviations. Infinite where no load changes. Looked for at instants kLookedAt apart, or more of a motion that
+// is longer than 65,536 of them: a blow that is over within one of these may not be seen.
+double load_time(const Mechanism& mechanism);
+
+inline constexpr double kLookedAt = 50e-6;  // [s], or a 1,024th of a shorter motion
+
+// Of that time: what a grid of cubics takes of it at most to begin with, and what a step takes. A bell is then met at every 0.4 of its
+// standard deviations, where cubics are off by 0.1 percent of its height.
+inline constexpr double kCellOfLoads = 0.5, kStepOfLoads = 0.25;
+
+}  // namespace boresight
