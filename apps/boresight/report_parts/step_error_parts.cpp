@@ -18,6 +18,13 @@ namespace {
 // Of an index: what is computed in another order differs by as much.
 constexpr double kOfRounding = 1e-9;
 
+// An index of an ideal motion, or its error, that is smaller than this share of the mechanism's size, or this angle, is what rounding and the
+// tolerances of an integrator leave: no clearance and no error of a drawing is as small.
+constexpr double kNothing = 1e-9;
+bool is_nothing(double value, const IndexChoice& of, double size) {
+  return std::abs(value) <= kNothing * (of.kind() == PointingQuantity::position_error ? size : 1.0);
+}
+
 // Neighbouring steps lie as far from each other as from finer ones.
 bool scatters(const MeasuredError& measured, const IndexChoice& of) {
   for (const QuantityName& quantity : quantity_names())
@@ -29,10 +36,12 @@ bool scatters(const MeasuredError& measured, const IndexChoice& of) {
 
 }  // namespace
 
-std::string steps_mislead(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of) {
+std::string steps_mislead(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of,
+                          double size) {
   if (!measured.measured || measured.runs == 0 || scatters(measured, of)) return "";
   const double relative = relative_step_error(measured, index, of);
-  if (!(relative > 1.0)) return "";
+  if (!(relative > 1.0) || (is_nothing(of.of(index), of, size) && is_nothing(of.of(measured.stated), of, size)))
+    return "";
   return fmt::format("{}: what {} leave out is {} of what is found: {}", of.title(),
                      measured.by_instants ? "the instants" : "the steps", readable_share(relative),
                      measured.by_instants
@@ -40,17 +49,33 @@ std::string steps_mislead(const MeasuredError& measured, const PointingIndices& 
                          : "this motion is not followed; take a smaller --step");
 }
 
-std::string step_error_sentence(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of) {
+std::string step_error_sentence(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of,
+                                double size) {
   if (!measured.measured) return "what the steps do to the indices was not measured: " + measured.why_not;
   if (measured.runs == 0) return measured.basis;
   const double relative = relative_step_error(measured, index, of);
   return fmt::format("{}: within {} of what {} give{}; {}, {} of CPU", of.title(),
-                     relative < kOfRounding ? "rounding" : readable_share(relative),
+                     relative < kOfRounding || (relative > 1.0 && is_nothing(of.of(measured.stated), of, size))
+                         ? "rounding"
+                         : readable_share(relative),
                      measured.by_instants ? "closer instants" : "smaller steps",
                      relative > 1e-3 && scatters(measured, of)
                          ? ", as far as neighbouring steps lie from each other: one motion of many"
                          : "",
                      measured.basis, readable(measured.cpu_seconds, "s"));
+}
+
+ModelErrorSaid model_error_said(const RunResult& result, const IndexChoice& of, double size) {
+  // A tenth of what is asked for is more than any reader would take for granted.
+  constexpr double kMuch = 0.1;
+  const double share = result.error.model_of(of.kind());
+  if (result.error.basis.empty() || !(share > kOfRounding) || is_nothing(of.of(result.index), of, size)) return {};
+  const std::string about = share < 1.0 ? fmt::format("about {} of it", readable_share(share))
+                                        : std::string("anything up to the whole of it");
+  ModelErrorSaid said{
+      fmt::format("{}: what the {} rung leaves out is {}, by its own estimate", of.title(), result.rung, about), ""};
+  if (share > kMuch) said.warning = said.sentence + "; --rung multibody leaves nothing of that out";
+  return said;
 }
 
 Json step_error_json(const MeasuredError& measured) {

@@ -13,10 +13,20 @@ namespace boresight::app {
 double relative_step_error(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of);
 
 // "the steps put the position error, maximum, off by up to 1.2 % (measured by further runs ...)", or why nobody knows.
-std::string step_error_sentence(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of);
+// size: of the mechanism [m]; what is rounding of it is said to be.
+std::string step_error_sentence(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of,
+                                double size);
 
 // A warning where the steps leave out as much as there is, or more, and it is not that one motion is unlike the next; else empty.
-std::string steps_mislead(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of);
+std::string steps_mislead(const MeasuredError& measured, const PointingIndices& index, const IndexChoice& of,
+                          double size);
+
+// What the rung leaves out by its own estimate, of the index that is asked for, and whether that is enough for a warning. Empty where nothing
+// is left out, or nothing deviates.
+struct ModelErrorSaid {
+  std::string sentence, warning;
+};
+ModelErrorSaid model_error_said(const RunResult& result, const IndexChoice& of, double size);
 
 // Per quantity and statistic what is stated, in its own unit; whether neighbours scatter; what it cost.
 Json step_error_json(const MeasuredError& measured);

@@ -58,7 +58,12 @@ void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult
          readable_share(c.contact_fraction), c.impacts, readable(c.max_penetration, "m"), readable(c.max_force, "N"));
   if (parts)
     for (const std::string& line : parts_lines(*parts)) tell("  {}\n", line);
-  if (!result.interrupted) tell("  {}\n", step_error_sentence(measured, result.index, wanted));
+  const double size = mechanism.characteristic_length();
+  // A warning says the same with what to do about it.
+  if (const ModelErrorSaid said = model_error_said(result, wanted, size);
+      !result.interrupted && said.warning.empty() && !said.sentence.empty())
+    tell("  {}\n", said.sentence);
+  if (!result.interrupted) tell("  {}\n", step_error_sentence(measured, result.index, wanted, size));
   if (predictability && predictability->parted) tell("  {}\n", predictability_sentence(*predictability));
   for (const Compared& other : others) {
     if (!other.refusal.empty())
@@ -231,16 +236,21 @@ class RunVerb : public Verb {
         predictability = measure_predictability(mechanism, mechanism->parameters());
       if (!cut_short) measured = step_error(*rung, mechanism->parameters(), options, result, progress);
       if (measured.measured) result.error.discretisation = relative_step_error(measured, result.index, index);
-      if (const std::string warning = steps_mislead(measured, result.index, index); !warning.empty())
+      if (const std::string warning = steps_mislead(measured, result.index, index, mechanism->characteristic_length());
+          !warning.empty())
         result.warnings.push_back(warning);
+      if (const ModelErrorSaid said = model_error_said(result, index, mechanism->characteristic_length());
+          !cut_short && !said.warning.empty())
+        result.warnings.push_back(said.warning);
     } catch (const Interrupted&) {  // the motion itself is there, and is kept
       cut_short = interrupted();
     }
 
     Json summary =
         summary_of(command, *mechanism, choice, result, others, axes, predictability, measured, index, watch, out);
-    report::Document document = run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes,
-                                           predictability, step_error_sentence(measured, result.index, index));
+    report::Document document =
+        run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability,
+                   step_error_sentence(measured, result.index, index, mechanism->characteristic_length()));
     for (const std::string& warning : material_warnings(assumed_by(command, *mechanism)))
       document.warnings.push_back(warning);
     if (parts) {
