@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "boresight/formulations/ideal_simulation.hpp"
+#include "boresight/mechanism/error.hpp"
 #include "boresight/scene/standing_errors.hpp"
 #include "boresight/statics/quasistatic.hpp"
+#include "boresight_analyses/study/error_parts.hpp"
 
 namespace boresight {
 namespace {
@@ -206,6 +208,11 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
   if (std::find(wanted.begin(), wanted.end(), true) != wanted.end()) {
     const IdealMotion commanded = ideal_motion(*mechanism, mechanism->parameters());
     const StandingErrors standing(*mechanism, commanded, wanted);
+    for (std::size_t e = 0; e < wanted.size(); ++e)
+      if (wanted[e] && standing.uses_play(e))
+        throw ComputationError(
+            taken_up_by_play(mechanism->description(), e) +
+            "; no deviation that is linear in it can share its tolerance out: scatter it by [[random]]");
     const TimeTable& table = standing.gain(mechanism->boresight_body());
     Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> at(6, standing.count());
     columns.resize(static_cast<Eigen::Index>(whole.size()), standing.count());

@@ -91,7 +91,8 @@ std::vector<std::string> follow_errors(BudgetPlan& plan, const Mechanism& mechan
     if (!c.of_error) continue;
     const std::size_t error = place_of(mechanism.description(), c.of_error->error);
     if (const std::string why = columns->refusal(error); !why.empty())
-      throw ComputationError("the contributor \"" + c.name + "\": " + why);
+      throw ComputationError("the contributor \"" + c.name + "\" cannot be followed beside the members: " + why +
+                             "; as [[random]] parameter its error is followed with them");
     std::vector<Vec3>&by_value = c.of_error->by_value, &by_course = c.of_error->by_course;
     by_value = columns->of(error);
     by_course.assign(by_value.size(), Vec3::Zero());

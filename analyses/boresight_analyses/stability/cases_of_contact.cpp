@@ -19,11 +19,16 @@ double deepest(const RunResult& result) {
   return depth;
 }
 
-// All clearances times a factor, on the cheapest rung that follows: quasistatic, else the one with dynamics.
+// All clearances times a factor, on the cheapest rung that follows: quasistatic, else the one with dynamics. Friction in the play likewise: it
+// would stay as the play goes, and the ideal motion knows none.
 RunResult with_clearance(const Scene& scene, const Rung& rung, double factor) {
   Parameters parameters = scene.mechanism->parameters();
   for (ClearanceParameters& c : parameters.clearance)
     for (const auto gap : kGaps) c.*gap *= factor;
+  for (ClearanceParameters& c : parameters.clearance)
+    for (const auto friction :
+         {&FrictionParameters::coefficient, &FrictionParameters::static_coefficient, &FrictionParameters::viscosity})
+      c.friction.*friction *= factor;
   RunOptions options = scene.followed->options(0.0);
   return rung.run(parameters, options);
 }
@@ -33,7 +38,7 @@ RunResult with_clearance(const Scene& scene, const Rung& rung, double factor) {
 FailureCase case_of_vanishing_clearance(const Scene& scene) {
   FailureCase c{.name = "Clearance towards zero",
                 .happens = "the contact stiffness grows without bound, the depth goes to zero",
-                .program = "tends to the ideal motion plus the Hertz deflection",
+                .program = "tends to the ideal motion plus the Hertz deflection, friction going with it",
                 .measured = {}};
   if (!scene.followed || scene.contacts.empty()) {
     c.measured = "no joint has clearance, or no rung follows the motion";
@@ -80,14 +85,20 @@ FailureCase case_of_vanishing_restitution(const Scene& scene) {
     c.measured = "no joint has clearance";
     return c;
   }
-  const double stiffness = scene.contacts.front().hertz_stiffness;
+  const auto point = std::find_if(scene.contacts.begin(), scene.contacts.end(),
+                                  [](const ContactFrequency& contact) { return contact.hertz_stiffness > 0.0; });
+  if (point == scene.contacts.end()) {
+    c.measured = "no joint's contact is Hertz's, which the law is for";
+    return c;
+  }
+  const double stiffness = point->hertz_stiffness;
   const NormalLaw law{stiffness, normal_law("flores").damping_factor(1e-6)};
   const double depth = 1e-6, force = law.force(depth, 0.1, 1e-3);
   c.measured = text("at e = 1e-6 and 0.1 m/s a depth of 1 um gives %.3g N (elastic %.3g N), finite", force,
                     stiffness * std::pow(depth, 1.5));
   bool refused = !scene.reread;
   if (scene.reread) {
-    const std::string& joint = scene.contacts.front().joint;
+    const std::string& joint = point->joint;
     try {
       scene.reread({"clearance." + joint + ".contact.restitution", "0"});
       c.measured += "; zero was taken";

@@ -29,8 +29,19 @@ Vec6 stacked(const PoseError& error) {
 
 }  // namespace
 
+std::string taken_up_by_play(const MechanismDescription& mechanism, std::size_t error) {
+  const ErrorDescription& e = mechanism.errors[error];
+  const std::string name = "error." + e.name, unit = unit_of(e, mechanism.joints);
+  return name +
+         " is taken up by play, so that what it does hangs on where all journals rest; a run with it and one with "
+         "--set " +
+         name + "=0" + (unit == "rad" ? "mrad" : unit) + " tell";
+}
+
 ErrorColumns::ErrorColumns(const Mechanism& mechanism, const IdealMotion& commanded)
-    : influence_(StandingErrors::of_all(mechanism, commanded)), body_(mechanism.boresight_body()) {}
+    : mechanism_(mechanism),
+      influence_(StandingErrors::of_all(mechanism, commanded)),
+      body_(mechanism.boresight_body()) {}
 
 std::string ErrorColumns::refusal(std::size_t error) const {
   std::vector<double> alone(static_cast<std::size_t>(influence_->count()), 0.0);
@@ -40,7 +51,7 @@ std::string ErrorColumns::refusal(std::size_t error) const {
   } catch (const ComputationError& strained) {
     return strained.what();
   }
-  return "";
+  return influence_->uses_play(error) ? taken_up_by_play(mechanism_.description(), error) : "";
 }
 
 MatX ErrorColumns::at(double t) const {

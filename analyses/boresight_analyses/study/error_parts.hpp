@@ -20,7 +20,8 @@ class ErrorColumns {
   // Throws ComputationError where nothing is known of any of them: freedoms that nothing drives, a singular pose.
   ErrorColumns(const Mechanism& mechanism, const IdealMotion& commanded);
 
-  // Why an error, by its place in the file, has no column: the mechanism cannot take it up without straining; "": it has one.
+  // Why an error, by its place in the file, has no column that tells what it does: the mechanism cannot take it up without straining, or its
+  // play takes it up, and then where all journals rest says what it does; "": it has one.
   std::string refusal(std::size_t error) const;
   // Displacement and turn, world axes, per unit of each error [m and rad, per m, rad or K]: 6 x errors.
   MatX at(double t) const;
@@ -28,9 +29,13 @@ class ErrorColumns {
   std::vector<double> times(double start, double end) const;
 
  private:
+  const Mechanism& mechanism_;
   std::shared_ptr<const StandingErrors> influence_;
   int body_;
 };
+
+// Why such an error has no column, in words.
+std::string taken_up_by_play(const MechanismDescription& mechanism, std::size_t error);
 
 // A small displacement and turn of the body, world axes, as error_vector() of pointing/indices.hpp counts them, to first order.
 Vec3 linear_error_vector(PointingQuantity quantity, const Vec6& displacement, const Pose& ideal,

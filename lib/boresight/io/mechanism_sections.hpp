@@ -58,5 +58,10 @@ TimeFunctionPtr read_motion_law(Cursor& cursor, const std::string& key, double d
                                 const NamedExpressions& named = {}, double scale = 1.0);
 TimeFunctionPtr compile_expression(const Cursor& cursor, const std::string& key, const std::string& text,
                                    double duration, const NamedExpressions& named = {}, double scale = 1.0);
+// Of any function of time that a key stands for: that it is finite and within what is real, and that neither it nor its rate jumps.
+void require_finite(const Cursor& cursor, const std::string& key, const std::string& text, const TimeFunction& function,
+                    double duration);
+void require_continuous(const Cursor& cursor, const std::string& key, const std::string& text,
+                        const TimeFunction& function, double duration);
 
 }  // namespace boresight

@@ -103,16 +103,28 @@ TimeFunctionPtr compile_expression(const Cursor& cursor, const std::string& key,
   } catch (const ValueFault& fault) {
     cursor.fail_found(key, fault.found, fault.expected, fault.nearest);
   }
+  require_finite(cursor, key, text, *function, duration);
+  return function;
+}
+
+void require_finite(const Cursor& cursor, const std::string& key, const std::string& text, const TimeFunction& function,
+                    double duration) {
   const auto fail = [&](double t, const char* found, const char* expected) {
     cursor.fail_found(key, in_quotes(text) + found + at_time(t), expected);
   };
-  if (const double t = first_time_not_finite(*function, duration); t >= 0.0)
+  if (const double t = first_time_not_finite(function, duration); t >= 0.0)
     fail(t, ", which is not finite or not smooth",
          "an expression that is finite with its first two derivatives during the motion");
-  if (const double t = first_time_too_large(*function, duration); t >= 0.0)
+  if (const double t = first_time_too_large(function, duration); t >= 0.0)
     fail(t, ", which is beyond anything real",
          "an expression of at most 1e15, its first two derivatives of at most 1e18 (SI)");
-  return function;
+}
+
+void require_continuous(const Cursor& cursor, const std::string& key, const std::string& text,
+                        const TimeFunction& function, double duration) {
+  if (const double t = first_jump(function, duration); t >= 0.0)
+    cursor.fail_found(key, in_quotes(text) + ", which jumps or has a corner" + at_time(t),
+                      "a law whose value and rate are continuous: round a corner off, as abs(x) to sqrt(x^2 + e^2)");
 }
 
 TimeFunctionPtr read_expression(Cursor& cursor, const std::string& key, double duration, const NamedExpressions& named,
@@ -123,9 +135,7 @@ TimeFunctionPtr read_expression(Cursor& cursor, const std::string& key, double d
 TimeFunctionPtr read_motion_law(Cursor& cursor, const std::string& key, double duration, const NamedExpressions& named,
                                 double scale) {
   TimeFunctionPtr law = read_expression(cursor, key, duration, named, scale);
-  if (const double t = first_jump(*law, duration); t >= 0.0)
-    cursor.fail_found(key, in_quotes(cursor.text(key)) + ", which jumps or has a corner" + at_time(t),
-                      "a law whose value and rate are continuous: round a corner off, as abs(x) to sqrt(x^2 + e^2)");
+  require_continuous(cursor, key, cursor.text(key), *law, duration);
   return law;
 }
 

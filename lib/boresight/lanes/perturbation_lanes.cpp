@@ -121,7 +121,13 @@ bool PerturbationLanes::serve(const Mechanism& mechanism) {
 PerturbationLanes::PerturbationLanes(std::shared_ptr<const Mechanism> mechanism, PointingQuantity quantity,
                                      double start)
     : mechanism_(std::move(mechanism)), quantity_(quantity), start_(start), cache_(std::make_unique<Cache>()) {
-  prepared_for(mechanism_->parameters());
+  // A step takes a quarter of a radian of what is fastest in a motion that drives tell, as its own table has found it out.
+  constexpr double kKnotsOfStep = 4.0;
+  const auto prepared = prepared_for(mechanism_->parameters());
+  const IdealMotion& ideal = prepared->scene->ideal();
+  longest_step_ = kStepOfLoads * load_time(*mechanism_);
+  if (prepared->scene->scene().coordinates().leftover() == 0)
+    longest_step_ = std::min(longest_step_, kKnotsOfStep * ideal.duration() / std::max(1, ideal.knots() - 1));
 }
 PerturbationLanes::~PerturbationLanes() = default;
 
@@ -329,8 +335,7 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
   settings.method = &rodas4();
   settings.start = start_;
   // Across a step the scene's numbers are straight lines: a hundredth of the time in which they turn.
-  settings.longest_step =
-      std::min({settings.longest_step, mechanism_->duration() / 100.0, kStepOfLoads * load_time(*mechanism_)});
+  settings.longest_step = std::min({settings.longest_step, mechanism_->duration() / 100.0, longest_step_});
   settings.longest_held_step =
       std::min(settings.longest_step, kHeldShare * settings.longest_step * std::sqrt(tolerance / kLaneTolerance));
   settings.stop = watch.stop;

@@ -75,6 +75,7 @@ class PerturbationLanes {
   std::shared_ptr<const Mechanism> mechanism_;
   PointingQuantity quantity_;
   double start_;
+  double longest_step_ = 0.0;  // across which loads and motion change little [s]
   struct Cache;
   std::unique_ptr<Cache> cache_;
 };

@@ -23,6 +23,8 @@ namespace {
 // many cells as its own table needs; one that is over, or turns, within the finest spacing is looked at more finely.
 constexpr int kFewestCellsOfMotion = 8, kManyCells = 4096, kCellsOfKnot = 4;
 constexpr double kCoarsestSpacing = 16e-3, kFinestSpacing = 1e-5;
+// Knots of a kinematic motion's own table in a first cell: half a radian of what is fastest in it.
+constexpr double kKnotsOfCell = 8.0;
 // The finest spacing is bounded by a share of that of the ideal motion's table, which is about a sixteenth of a radian of the fastest
 // motion.
 constexpr double kFinestOfKnot = 1e-3;
@@ -74,6 +76,9 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
   double first_cells = std::max<double>(kFewestCellsOfMotion, std::ceil(mechanism.duration() / kCoarsestSpacing));
   if (first_cells > kManyCells)
     first_cells = std::max<double>(kManyCells, std::min(first_cells, 1.0 * kCellsOfKnot * ideal.knots()));
+  // Nor is a motion that is fast for a moment passed over: where drives tell all of it, its own table has found that out.
+  if (coordinates_.leftover() == 0)
+    first_cells = std::max(first_cells, std::ceil((ideal.knots() - 1.0) / kKnotsOfCell));
   // What a load does within a cell is seen by no knot.
   first_cells = std::max(first_cells, std::ceil(mechanism.duration() / (kCellOfLoads * load_time(mechanism))));
   // A knot's matrices, and its row in the tables.

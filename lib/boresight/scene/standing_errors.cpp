@@ -172,6 +172,22 @@ const TimeTable& StandingDisplacement::table(std::map<int, TimeTable>& kept, int
   return kept.emplace(body, gain.contracted(errors_)).first->second;
 }
 
+bool StandingErrors::uses_play(std::size_t error) const {
+  if (!shifts_) return false;
+  std::vector<double> alone(static_cast<std::size_t>(count()), 0.0);
+  alone[error] = 1.0;
+  const TimeTable of_unit = shift_.contracted(alone);
+  std::vector<double> values(static_cast<std::size_t>(of_unit.width()));
+  // Of a unit, a metre or a radian: what is below is rounding.
+  constexpr double kRounding = 1e-9;
+  for (int k = 0; k < of_unit.cells(); ++k) {
+    of_unit.at(k * of_unit.spacing(), values.data());
+    for (const double value : values)
+      if (std::abs(value) > kRounding) return true;
+  }
+  return false;
+}
+
 bool StandingDisplacement::shifts() const {
   if (!influence_ || !influence_->shifts()) return false;
   if (shift_) return shifts_;

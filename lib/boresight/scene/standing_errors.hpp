@@ -38,6 +38,8 @@ class StandingErrors {
   // errors, row by row, over time.
   bool shifts() const { return shifts_; }
   const TimeTable& shift() const { return shift_; }
+  // Whether that is so of one error: then its gain alone does not tell what it does, for that hangs on where all journals rest.
+  bool uses_play(std::size_t error) const;
   int cells() const { return static_cast<int>(knots_.size()) - 1; }
   // Of one body at knot k: 6 x errors.
   Eigen::Block<const MatX> at_knot(int k, int body) const {

@@ -17,6 +17,8 @@ constexpr double kSpacing = 5e-4;
 constexpr int kFewestInstants = 400;
 // More than so many only as far as the scene is tabled that finely.
 constexpr int kManyInstants = 200000, kInstantsPerKnot = 4;
+// Knots of the ideal motion's own table between two instants: a quarter of a radian of what is fastest in it.
+constexpr double kKnotsOfInstant = 4.0;
 // Share of the offsets that counts as none.
 constexpr double kNothing = 1e-6;
 // Of the largest load: its direction is then known to two thousandths of a radian.
@@ -62,7 +64,8 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
       std::min(mechanism.duration() / kSpacing, std::max<double>(kManyInstants, kInstantsPerKnot * scene.knots())));
   // Whatever the knots of the scene: how fine these are may be decided by rounding.
   const double of_loads = mechanism.duration() / (kCellOfLoads * prepared.load_time());
-  instants_ = static_cast<int>(std::ceil(std::max(wanted, of_loads) / share)) + 1;
+  const double of_motion = (prepared.ideal().knots() - 1.0) / kKnotsOfInstant;
+  instants_ = static_cast<int>(std::ceil(std::max({wanted, of_loads, of_motion}) / share)) + 1;
   spacing_ = mechanism.duration() / (instants_ - 1);
   const std::shared_ptr<const SceneTables> tables = prepared.tables(parameters);
   change_ = prepared.changed_loads(parameters, standing).table(layout_.n);

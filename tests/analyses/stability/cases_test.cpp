@@ -216,5 +216,35 @@ TEST(VanishingRestitution, IsSaidWithTheForcesOfTheDepthItNames) {
       << c.measured;
 }
 
+TEST(VanishingRestitution, IsLookedAtWhereAContactIsHertzsAndNowhereElse) {
+  Scene scene;
+  scene.contacts.push_back({.joint = "pad"});
+  EXPECT_EQ(case_of_vanishing_restitution(scene).standing, FailureCase::Standing::not_here);
+  scene.contacts.push_back({.joint = "A", .hertz_stiffness = 1e11});
+  std::string asked;
+  scene.reread = [&](const Setting& setting) {
+    asked = setting.path;
+    throw InputError({"f.toml", 1}, setting.path, "0", "more");
+  };
+  EXPECT_EQ(case_of_vanishing_restitution(scene).standing, FailureCase::Standing::behaves);
+  EXPECT_EQ(asked, "clearance.A.contact.restitution");
+}
+
+// A swinging linkage whose play rubs: without play nothing rubs, and the motion is the ideal one.
+TEST(VanishingClearance, TendsToTheIdealMotionWhereNothingIsDrivenAndPlayRubs) {
+  MechanismDescription m = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/four-bar/four-bar.toml",
+                                          {{"motion.duration", "0.1 s"}, {"clearance.D.friction.coefficient", "0.2"}});
+  for (JointDescription& joint : m.joints) joint.driven = false;
+  m.motion.drives.clear();
+  m.initial_rates = {{0, InitialRateDescription::Freedom::angle, 6.0, {}}};
+  Scene scene;
+  scene.mechanism = scenes::build(std::move(m));
+  scene.contacts = analyse_contacts(*scene.mechanism, scene.mechanism->parameters());
+  const FollowedMotion followed = follow(scene.mechanism);
+  scene.followed = &followed;
+  const FailureCase c = case_of_vanishing_clearance(scene);
+  EXPECT_EQ(c.standing, FailureCase::Standing::behaves) << c.measured;
+}
+
 }  // namespace cases_test
 }  // namespace boresight

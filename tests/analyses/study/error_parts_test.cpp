@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "bearing_pair_scenes.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "error_scenes.hpp"
 #include "scenes.hpp"
@@ -84,6 +85,24 @@ TEST(ErrorParts, AddUpWithPlayToAllOfTheMotion) {
   EXPECT_NEAR(sum, 1.0, 1e-9);
   const double play = follow(drawn(true), "quasistatic", {0.0, 0.0, 0.0, 0.0}).run.index.position_error.max;
   EXPECT_NEAR(found.parts.rest.index.position_error.max, play, 0.01 * play);
+}
+
+// A seat of the second of two bearings, built aside within their play: where the shaft rests then says what that does, and no column does.
+TEST(ErrorParts, OfAnErrorThatPlayTakesUpAreNotSaidToBeNothing) {
+  MechanismDescription m = scenes::gimbal({"E1", "E2"}, JournalAxes::free);
+  m.errors = {scenes::frame_error(m, Kind::translation, "E2", "yoke", Vec3::UnitZ()),
+              scenes::drive_error(m, "A1", "1")};
+  m.errors[0].name = "seat";
+  m.errors[1].name = "zero";
+  m.motion.duration = 0.05;
+  const Followed without = follow(m, "quasistatic", {0.0, 1e-4}), with = follow(m, "quasistatic", {5e-5, 1e-4});
+  ASSERT_GT(std::abs(with.run.index.boresight_error.max - without.run.index.boresight_error.max), 1e-5);
+  ASSERT_EQ(with.parts.parts.size(), 1u);
+  EXPECT_EQ(with.parts.parts[0].name, "error.zero");
+  ASSERT_EQ(with.parts.without_part.size(), 1u);
+  EXPECT_THAT(with.parts.without_part[0], testing::HasSubstr("error.seat is taken up by play"));
+  EXPECT_THAT(with.parts.without_part[0], testing::HasSubstr("--set error.seat=0m tell"));
+  EXPECT_TRUE(without.parts.without_part.empty());
 }
 
 TEST(ErrorParts, OfErrorsWithoutValueAreNotThere) {

@@ -106,6 +106,13 @@ TEST(ErrorTable, IsRefusedInOneLineThatSaysWhy) {
           "40: error.e.law: found the unknown name \"x\" in \"sin(x)\", expected q, t, pi or a function such as sin; "
           "did you "
           "mean q?");
+  refused("drive = \"P\"\nlaw = \"1/t\"",
+          "40: error.e.law: found \"1/t\", which is not finite or not smooth at t = 0.000000 s, expected an expression "
+          "that is finite with its first two derivatives during the motion");
+  refused("drive = \"P\"\nlaw = \"abs(t-0.3)\"",
+          "40: error.e.law: found \"abs(t-0.3)\", which jumps or has a corner at t = 0.300000 s, expected a law whose "
+          "value "
+          "and rate are continuous: round a corner off, as abs(x) to sqrt(x^2 + e^2)");
   refused("joint = \"P\"\nbody = \"arm\"\nrotation = [1, 0, 0]\nvalue = \"1 mm\"",
           "42: error.e: found \"1 mm\", expected an angle such as \"30 deg\"");
   refused("joint = \"P\"\nbody = \"arm\"\ntranslation = [1, 0, 0]\nvalue = 1e-3",

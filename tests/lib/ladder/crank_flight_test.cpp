@@ -71,7 +71,9 @@ State after(double t, const State& start = kStart, double lift = 0.0, const std:
   const RunResult result = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
   const PoseSample &crank = result.others[0].samples.back(), &rod = result.others[1].samples.back(),
                    &block = result.boresight.samples.back();
-  EXPECT_NEAR(block.w.z(), 0.0, 1e-8);  // nothing turns it
+  // Nothing turns it: it is the difference of speeds of hundreds of radians a second, which few large steps, by a Jacobian of differences, keep to
+  // nine digits.
+  EXPECT_NEAR(block.w.z(), 0.0, 1e-9 * std::max(std::abs(start.u1), 1.0));
   const auto turned = [](const PoseSample& s) { return 2.0 * std::atan2(s.pose.q.z(), s.pose.q.w()); };
   return {start.q1 + turned(crank), start.q2 + turned(rod), crank.w.z(), rod.w.z(), block.pose.p.y(), block.v.y()};
 }
