@@ -3,15 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace boresight {
 
 double load_time(const Mechanism& mechanism) {
   constexpr double kFewest = 1024.0, kMost = 65536.0;
+  constexpr double kNothing = 1e-6;  // a load that moves nothing that anybody sees may change as fast as it likes
   const double duration = mechanism.duration();
   const int looks = static_cast<int>(std::clamp(std::ceil(duration / kLookedAt), kFewest, kMost));
-  double shortest = std::numeric_limits<double>::infinity();
-  const auto look = [&](const TimeFunctionPtr& load) {
+  struct Change {
+    double range = 0.0, rate = 0.0;  // as forces [N, N/s]
+  };
+  std::vector<Change> changes;
+  // Beside the weight of all bodies and the largest of the loads.
+  double size = mechanism.description().payload ? mechanism.description().payload->mass : 0.0;
+  for (const BodyDescription& body : mechanism.description().bodies) size += body.mass;
+  size *= mechanism.description().gravity.norm();
+  const auto look = [&](const TimeFunctionPtr& load, double lever) {
     if (!load) return;
     double least = std::numeric_limits<double>::infinity(), largest = -least, rate = 0.0;
     for (int i = 0; i <= looks; ++i) {
@@ -20,12 +29,17 @@ double load_time(const Mechanism& mechanism) {
       largest = std::max(largest, f.value);
       rate = std::max(rate, std::abs(f.rate));
     }
-    if (rate > 0.0 && largest > least) shortest = std::min(shortest, (largest - least) / rate);
+    changes.push_back({(largest - least) / lever, rate / lever});
+    size = std::max({size, std::abs(least) / lever, std::abs(largest) / lever});
   };
   for (const LoadDescription& load : mechanism.description().loads) {
-    look(load.along_joint);
-    for (const TimeFunctionPtr& f : load.force) look(f);
+    const bool torque = load.joint && mechanism.description().joints[*load.joint].type == JointType::revolute;
+    look(load.along_joint, torque ? mechanism.characteristic_length() : 1.0);
+    for (const TimeFunctionPtr& f : load.force) look(f, 1.0);
   }
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Change& change : changes)
+    if (change.rate > 0.0 && change.range > kNothing * size) shortest = std::min(shortest, change.range / change.rate);
   return shortest;
 }
 

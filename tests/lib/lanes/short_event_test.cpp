@@ -72,6 +72,7 @@ TEST(LoadTime, IsTheRangeOverTheLargestRate) {
   EXPECT_NEAR(load_time(*arm("0.1*t", "4000*exp(-((t-0.41373)/0.0002)^2)")), 0.0002 / std::sqrt(2.0 / std::exp(1.0)),
               1e-6);
   EXPECT_EQ(load_time(*arm("0.1*t", "5")), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(load_time(*arm("0.1*t", "5+1e-9*sin(1e6*t)")), std::numeric_limits<double>::infinity());
 }
 
 void expect_seen_by_all(const std::shared_ptr<const Mechanism>& mechanism,
