@@ -61,7 +61,11 @@ EnsembleInTime::EnsembleInTime(std::vector<std::vector<double>> sizes, std::int6
   all.reserve(sizes_.size() * sizes_.front().size());
   for (std::uint32_t k = 0; k < sizes_.size(); ++k)
     for (const double value : sizes_[k]) all.emplace_back(value, k);
-  std::sort(all.begin(), all.end());
+  // Members are in order already: neighbouring runs are merged until there is one.
+  const auto at = [&](std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), i)); };
+  for (std::size_t run = sizes_.front().size(); run < all.size(); run *= 2)
+    for (std::size_t first = 0; first + run < all.size(); first += 2 * run)
+      std::inplace_merge(at(first), at(first + run), at(first + 2 * run));
   for (const auto& [value, member] : all) {
     pooled_.push_back(value);
     owner_.push_back(member);

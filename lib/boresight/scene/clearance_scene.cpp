@@ -23,8 +23,8 @@ namespace {
 // many cells as its own table needs; one that is over, or turns, within the finest spacing is looked at more finely.
 constexpr int kFewestCellsOfMotion = 8, kManyCells = 4096, kCellsOfKnot = 4;
 constexpr double kCoarsestSpacing = 16e-3, kFinestSpacing = 1e-5;
-// Knots of a kinematic motion's own table in a first cell: half a radian of what is fastest in it.
-constexpr double kKnotsOfCell = 8.0;
+// Knots of a kinematic motion's own table in a first cell: a radian of what is fastest in it.
+constexpr double kKnotsOfCell = 16.0;
 // The finest spacing is bounded by a share of that of the ideal motion's table, which is about a sixteenth of a radian of the fastest
 // motion.
 constexpr double kFinestOfKnot = 1e-3;
