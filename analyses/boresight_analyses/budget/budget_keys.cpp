@@ -42,7 +42,7 @@ const KeyTable& budget_keys() {
               .sometimes("needed for MPE, RPE, PDE and PRE")
               .says("Length of the window over which MPE, RPE, PDE and PRE take their means. Windows begin at every "
                     "sample, those of "
-                    "RPE at every eighth of their length."),
+                    "RPE at every sixteenth of their length."),
           time_key("separation")
               .sometimes("needed for PDE")
               .says("Time between the beginnings of the two windows of PDE."),

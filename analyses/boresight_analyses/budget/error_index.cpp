@@ -8,9 +8,9 @@ namespace boresight {
 namespace {
 
 constexpr double kRounding = 1e-9;  // of a duration
-// Windows of RPE that begin within the length of one: a change that falls between two of them is seen whole but for a sixteenth. Fewer,
+// Windows of RPE that begin within the length of one: a step counts for fifteen sixteenths of itself at least, whenever it comes. Fewer,
 // down to two, of a history so long that its index would have more values than kMany.
-constexpr std::size_t kPlaces = 8, kFewestPlaces = 2, kMany = 400'000;
+constexpr std::size_t kPlaces = 16, kFewestPlaces = 2, kMany = 400'000;
 
 std::size_t samples_in(double time, double spacing) {
   return static_cast<std::size_t>(std::max(0.0, std::round(time / spacing)));

@@ -86,7 +86,7 @@ TEST(ErrorIndexOfAHistory, OfAStepIsAsLargeWheneverItComes) {
       const PointingHistory h = history_of(5.0, 5000, [&](double t) { return Vec3(t < at ? 0.0 : 1.0, 0, 0); });
       double most = 0.0;
       for (const Vec3& v : index_values(ErrorIndex::rpe, h, {.window = window})) most = std::max(most, std::abs(v.x()));
-      EXPECT_GT(most, 1.0 - 1.0 / 8.0) << window << ", " << at;
+      EXPECT_GT(most, 1.0 - 1.0 / 15.0) << window << ", " << at;
       EXPECT_LE(most, 1.0);
     }
 }
