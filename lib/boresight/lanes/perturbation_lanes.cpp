@@ -125,7 +125,7 @@ PerturbationLanes::PerturbationLanes(std::shared_ptr<const Mechanism> mechanism,
   constexpr double kKnotsOfStep = 4.0;
   const auto prepared = prepared_for(mechanism_->parameters());
   const IdealMotion& ideal = prepared->scene->ideal();
-  longest_step_ = kStepOfLoads * load_time(*mechanism_);
+  longest_step_ = kStepOfLoads * prepared->scene->load_time();
   if (prepared->scene->scene().coordinates().leftover() == 0)
     longest_step_ = std::min(longest_step_, kKnotsOfStep * ideal.duration() / std::max(1, ideal.knots() - 1));
 }

@@ -23,7 +23,8 @@ double load_time(const Mechanism& mechanism) {
   const auto look = [&](const TimeFunctionPtr& load, double lever) {
     if (!load) return;
     double least = std::numeric_limits<double>::infinity(), largest = -least, rate = 0.0;
-    for (int i = 0; i <= looks; ++i) {
+    const int own = dynamic_cast<const ConstantFunction*>(load.get()) != nullptr ? 0 : looks;
+    for (int i = 0; i <= own; ++i) {
       const TimeValue f = load->at(duration * i / looks);
       least = std::min(least, f.value);
       largest = std::max(largest, f.value);

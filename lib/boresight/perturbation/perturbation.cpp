@@ -76,7 +76,8 @@ class Perturbation final : public SceneRung {
     const std::string integrator = integrator_of(options);
     if (integrator != "rk4")
       return integrate_located(tables, prepared, standing, parameters, options, integrator, largest);
-    const double own = options.step > 0.0 ? options.step : own_step(mechanism(), parameters, prepared.ideal());
+    const double own =
+        options.step > 0.0 ? options.step : own_step(mechanism(), parameters, prepared.ideal(), prepared.load_time());
     return follow_by_default(
         options, own,
         [&](const RunOptions& by_steps, double step) {

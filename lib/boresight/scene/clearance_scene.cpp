@@ -80,7 +80,8 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
   if (coordinates_.leftover() == 0)
     first_cells = std::max(first_cells, std::ceil((ideal.knots() - 1.0) / kKnotsOfCell));
   // What a load does within a cell is seen by no knot.
-  first_cells = std::max(first_cells, std::ceil(mechanism.duration() / (kCellOfLoads * load_time(mechanism))));
+  load_time_ = boresight::load_time(mechanism);
+  first_cells = std::max(first_cells, std::ceil(mechanism.duration() / (kCellOfLoads * load_time_)));
   // A knot's matrices, and its row in the tables.
   const double numbers = (6.0 * mechanism.bodies() + offsets_.size()) * layout_.n +
                          static_cast<double>(groups_.size()) * element_size() + 3.0 * layout_.width;

@@ -25,6 +25,7 @@
 // Derived for this program; held against the multibody rung in a test.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -81,6 +82,8 @@ class ClearanceScene {
   const SceneLayout& layout() const { return layout_; }
   int knots() const { return static_cast<int>(knots_.size()); }
   double spacing() const { return spacing_; }
+  // In which a load changes by all that it does [s]: load_time.hpp.
+  double load_time() const { return load_time_; }
 
   SceneTables tables(const Parameters& parameters, SceneForm form = SceneForm::accelerations) const;
   // E of one body: 6 x n, row by row, over time.
@@ -133,6 +136,7 @@ class ClearanceScene {
   SceneStart start_of(const Parameters& parameters, const Knot& first) const;
 
   double spacing_ = 0.0;
+  double load_time_ = std::numeric_limits<double>::infinity();
   std::vector<Knot> knots_;
 };
 

@@ -6,7 +6,6 @@
 
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/mechanism/error.hpp"
-#include "boresight/mechanism/load_time.hpp"
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/rungs/option_check.hpp"
 #include "boresight/scene/held_play.hpp"
@@ -35,8 +34,7 @@ PreparedScene::PreparedScene(const Mechanism& mechanism, IdealMotion ideal_motio
     : mechanism_(mechanism),
       ideal_(std::move(ideal_motion)),
       scene_(mechanism, ideal_, parameters, accuracy),
-      own_time_(boresight::own_time(ideal_, mechanism.bodies(), mechanism.characteristic_length())),
-      load_time_(boresight::load_time(mechanism)) {
+      own_time_(boresight::own_time(ideal_, mechanism.bodies(), mechanism.characteristic_length())) {
   if (scene_.coordinates().has_dependent()) held_ = held_plays(mechanism, ideal_);
 }
 

@@ -30,7 +30,7 @@ class PreparedScene {
   // In which the fastest body of the ideal motion turns by a radian or moves by the mechanism's size [s]: motion_scales.hpp.
   double own_time() const { return own_time_; }
   // In which a load changes by all that it does [s]: load_time.hpp.
-  double load_time() const { return load_time_; }
+  double load_time() const { return scene_.load_time(); }
   // Tables of these masses, gravity, springs; the last ones asked for are kept.
   std::shared_ptr<const SceneTables> tables(const Parameters& parameters) const;
   // The same with what this sample's errors change of the loads, and where they leave the offsets that redundant joints tie to others.
@@ -51,7 +51,7 @@ class PreparedScene {
   IdealMotion ideal_;
   ClearanceScene scene_;
   std::vector<std::string> held_;
-  double own_time_, load_time_;
+  double own_time_;
   mutable std::mutex mutex_;
   mutable Parameters tabled_;
   mutable std::shared_ptr<const SceneTables> tables_;

@@ -11,10 +11,14 @@
 namespace boresight {
 
 double own_step(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
+  return own_step(mechanism, parameters, ideal, load_time(mechanism));
+}
+
+double own_step(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal, double of_loads) {
   double step = longest_step(mechanism.duration());
   // A motion that is fast for a moment is not stepped over.
   step = std::min(step, kTurnOfAStep * own_time(ideal, mechanism.bodies(), mechanism.characteristic_length()));
-  step = std::min(step, kStepOfLoads * load_time(mechanism));
+  step = std::min(step, kStepOfLoads * of_loads);
   // The joints' contacts taken together, at twice the largest ideal reaction: what a load suddenly applied to an elastic
   // contact reaches.
   for (const ContactFrequency& c : analyse_contacts(mechanism, parameters, ideal))

@@ -6,7 +6,8 @@
 
 namespace boresight {
 
-// [s]
+// [s]. of_loads: load_time() of the mechanism, where the caller has it.
+double own_step(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal, double of_loads);
 double own_step(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal);
 
 }  // namespace boresight
