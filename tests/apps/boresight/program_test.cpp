@@ -11,6 +11,7 @@ namespace program_test {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 class ProgramTest : public Program {
  protected:
@@ -64,6 +65,19 @@ TEST_F(ProgramTest, BadInputIsOneLineAndStatusTwo) {
   expect_refused({"sweep", mechanism_}, "expected a study file");
   expect_refused({"chart", mechanism_, "--index", "position_error.biggest"}, "--index");
   expect_refused({"chart", mechanism_, "--time", "3 kg"}, "--time");
+}
+
+TEST_F(ProgramTest, TheTerminalSaysWhatTheRungLeavesOutAndWarnsWhereItIsMuch) {
+  const std::string fast = call(quick({"--rung", "perturbation"})).out;
+  EXPECT_THAT(fast, AllOf(HasSubstr("what the perturbation rung leaves out is about"),
+                          Not(HasSubstr("warning: position error, maximum: what the perturbation rung leaves out"))));
+  // 50 ms are a blow, at which a static rung does not look.
+  const Ended still =
+      call({"run", mechanism_, "--set", "motion.duration=50ms", "--rung", "quasistatic", "--out", "still"});
+  EXPECT_THAT(still.out, HasSubstr("warning: position error, maximum: what the quasistatic rung leaves out"));
+  const std::string exact =
+      call({"run", mechanism_, "--set", "motion.duration=50ms", "--rung", "multibody", "--out", "exact"}).out;
+  EXPECT_THAT(exact, Not(HasSubstr("leaves out")));
 }
 
 TEST_F(ProgramTest, AnOptionThatAVerbHasNoUseForIsRefusedByItsName) {

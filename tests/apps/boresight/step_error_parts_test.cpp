@@ -1,0 +1,80 @@
+#include "report_parts/step_error_parts.hpp"
+
+#include <gmock/gmock.h>
+
+namespace boresight::app {
+namespace step_error_parts_test {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const IndexChoice kMaximum{"position_error", "max"}, kTurn{"orientation_error", "rms"};
+
+PointingIndices indices(double position, double turn) {
+  PointingIndices of;
+  of.position_error.max = position;
+  of.orientation_error.rms = turn;
+  return of;
+}
+
+// Further runs that agree among each other, and lie off by this much.
+MeasuredError off_by(double position, double turn) {
+  MeasuredError measured;
+  measured.measured = true;
+  measured.runs = 2;
+  measured.basis = "measured by further runs";
+  measured.stated = indices(position, turn);
+  return measured;
+}
+
+RunResult left_out(double share, const PointingIndices& index) {
+  RunResult result;
+  result.rung = "quasistatic";
+  result.index = index;
+  result.error.model.fill(share);
+  result.error.basis = "what vibrates";
+  return result;
+}
+
+TEST(StepsMislead, WhereTheyLeaveOutMoreThanThereIs) {
+  EXPECT_THAT(steps_mislead(off_by(2e-4, 0.0), indices(1e-4, 0.0), kMaximum, 1.0), HasSubstr("not followed"));
+  EXPECT_THAT(steps_mislead(off_by(9e-5, 0.0), indices(1e-4, 0.0), kMaximum, 1.0), IsEmpty());
+  EXPECT_THAT(steps_mislead(off_by(0.0, 2e-6), indices(0.0, 1e-6), kTurn, 1.0), HasSubstr("not followed"));
+}
+TEST(StepsMislead, ButNotAboutTheRoundingOfAMotionWithoutError) {
+  EXPECT_THAT(steps_mislead(off_by(3e-13, 0.0), indices(1e-14, 0.0), kMaximum, 1.0), IsEmpty());
+  EXPECT_THAT(steps_mislead(off_by(0.0, 3e-13), indices(0.0, 1e-14), kTurn, 1.0), IsEmpty());
+  // Of a mechanism of a micrometre the same is no rounding.
+  EXPECT_THAT(steps_mislead(off_by(3e-13, 0.0), indices(1e-14, 0.0), kMaximum, 1e-6), HasSubstr("not followed"));
+  // Nor is it where what smaller steps give is large.
+  EXPECT_THAT(steps_mislead(off_by(1e-5, 0.0), indices(1e-14, 0.0), kMaximum, 1.0), HasSubstr("not followed"));
+}
+TEST(StepErrorSentence, CallsRoundingByItsName) {
+  EXPECT_THAT(step_error_sentence(off_by(3e-13, 0.0), indices(1e-14, 0.0), kMaximum, 1.0),
+              HasSubstr("within rounding of what smaller steps give"));
+  EXPECT_THAT(step_error_sentence(off_by(1e-6, 0.0), indices(1e-4, 0.0), kMaximum, 1.0),
+              HasSubstr("within 1 % of what smaller steps give"));
+}
+
+TEST(ModelErrorSaid, IsASentenceToATenthAndAWarningBeyond) {
+  const ModelErrorSaid little = model_error_said(left_out(0.02, indices(1e-4, 0.0)), kMaximum, 1.0);
+  EXPECT_EQ(little.sentence,
+            "position error, maximum: what the quasistatic rung leaves out is about 2 % of it, by its own estimate");
+  EXPECT_THAT(little.warning, IsEmpty());
+  const ModelErrorSaid much = model_error_said(left_out(0.39, indices(1e-4, 0.0)), kMaximum, 1.0);
+  EXPECT_THAT(much.warning, AllOf(HasSubstr("about 39 % of it"), HasSubstr("--rung multibody")));
+  const ModelErrorSaid all = model_error_said(left_out(3.0, indices(1e-4, 0.0)), kMaximum, 1.0);
+  EXPECT_THAT(all.warning, AllOf(HasSubstr("up to the whole of it"), Not(HasSubstr("300"))));
+}
+TEST(ModelErrorSaid, IsNothingWhereNothingIsLeftOutOrNothingDeviates) {
+  EXPECT_THAT(model_error_said(left_out(0.0, indices(1e-4, 0.0)), kMaximum, 1.0).sentence, IsEmpty());
+  EXPECT_THAT(model_error_said(left_out(0.5, indices(1e-14, 0.0)), kMaximum, 1.0).warning, IsEmpty());
+  RunResult exact = left_out(0.5, indices(1e-4, 0.0));  // of a rung that leaves nothing out, and so states nothing
+  exact.error.basis.clear();
+  EXPECT_THAT(model_error_said(exact, kMaximum, 1.0).sentence, IsEmpty());
+}
+
+}  // namespace step_error_parts_test
+}  // namespace boresight::app
