@@ -52,7 +52,7 @@ Json momentum_change(const std::shared_ptr<const Mechanism>& mechanism, const As
           {"step", mechanism->duration() / static_cast<double>(std::max<std::int64_t>(1, r.cost.steps))}};
 }
 
-Json energy_change(const std::shared_ptr<const Mechanism>& mechanism) {
+Json energy_change(const std::shared_ptr<const Mechanism>& mechanism, int steps) {
   Json out = Json::object();
   const IdealMotion ideal = ideal_motion(*mechanism, mechanism->parameters());
   IdealState start;
@@ -67,8 +67,7 @@ Json energy_change(const std::shared_ptr<const Mechanism>& mechanism) {
     f->start(start, y);
     ExplicitRungeKutta method(classical_rk4(), y.size());
     const auto derivative = [&](double t, const VecX& state, VecX& dy) { f->derivative(t, state, none, dy); };
-    constexpr int kSteps = 2000;
-    const double h = mechanism->duration() / kSteps, before = f->energy(0.0, y);
+    const double h = mechanism->duration() / steps, before = f->energy(0.0, y);
     double lowest = before, highest = before, rise = 0.0;
     // The scale: kinetic energy, and how far the potential goes up and down.
     double kinetic = 0.0;
@@ -83,7 +82,7 @@ Json energy_change(const std::shared_ptr<const Mechanism>& mechanism) {
       }
       return sum;
     };
-    for (int i = 0; i < kSteps; ++i) {
+    for (int i = 0; i < steps; ++i) {
       kinetic = std::max(kinetic, kinetic_of(i * h));
       derivative(i * h, y, method.first_slope());
       method.step(i * h, h, y, derivative);

@@ -52,6 +52,6 @@ Json momentum_change(const std::shared_ptr<const Mechanism>& mechanism, const As
 
 // Energy of the mechanism without play, by both formulations: the largest change over the largest kinetic energy and the
 // change that damping does not explain. Only for mechanisms that nothing drives and no load acts on.
-Json energy_change(const std::shared_ptr<const Mechanism>& mechanism);
+Json energy_change(const std::shared_ptr<const Mechanism>& mechanism, int steps);
 
 }  // namespace boresight::gauntlet
