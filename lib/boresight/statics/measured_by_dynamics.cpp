@@ -200,7 +200,7 @@ class MeasuredByDynamics final : public Rung {
         options.model_look = shares_are_next ? ModelLook::shares : ModelLook::none;
         cost.cpu_seconds += motions.back().cost.cpu_seconds;
         cost.wall_seconds += motions.back().cost.wall_seconds;
-        if (stopped) break;
+        if (stopped || says_nothing(motions[0])) break;
         const double next = kShares[std::min(motions.size(), kShares.size() - 1)];
         if (const std::string& taken = motions[0].integrator_taken; !taken.empty()) {
           options.integrator = taken;
@@ -214,13 +214,22 @@ class MeasuredByDynamics final : public Rung {
       why_not = failure.what();
     }
     if (stopped) why_not = "following the motion takes too long";
-    if (!why_not.empty() || motions.size() < kShares.size())
+    if (!why_not.empty() || (motions.size() < kShares.size() && !says_nothing(motions[0])))
       return {
           {all_of_it(), kNotMeasured, "not measured, so anything up to the whole: on the perturbation rung " + why_not},
           0.0,
           {},
           !asked_to};
     return compared(index, motions);
+  }
+
+  // Where the dynamic rung may itself be off by the whole, further motions of it tell no more.
+  static bool says_nothing(const RunResult& motion) {
+    // Of those that every mechanism has.
+    for (const auto quantity :
+         {PointingQuantity::position_error, PointingQuantity::orientation_error, PointingQuantity::boresight_error})
+      if (motion.error.model_of(quantity) < 1.0) return false;
+    return true;
   }
 
   Measured compared(const PointingIndices& index, const std::vector<RunResult>& motions) const {
@@ -270,8 +279,9 @@ class MeasuredByDynamics final : public Rung {
           measured.exceeded = high / index.of(quantity).max - 1.0;
       }
     }
-    for (int k = 0; k < kPointingQuantities; ++k)
-      measured.of_linearity[k] = std::max(motions[0].error.model[k], motions[1].error.model[k]);
+    for (const RunResult& motion : motions)
+      for (int k = 0; k < kPointingQuantities; ++k)
+        measured.of_linearity[k] = std::max(measured.of_linearity[k], motion.error.model[k]);
     for (int k = 0; k < kPointingQuantities; ++k) measured.error.model[k] += measured.of_linearity[k];
     return measured;
   }
