@@ -17,11 +17,14 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// The least value with at least this share at or below it.
+// Of the least value with at least this share at or below it, counted from zero.
+std::size_t rank_of(std::size_t values, double share) {
+  const auto n = static_cast<double>(values);
+  return static_cast<std::size_t>(std::clamp(std::ceil(share * n * (1.0 - 1e-12)), 1.0, n)) - 1;
+}
+
 double quantile_of(const std::vector<double>& ascending, double share) {
-  const double n = static_cast<double>(ascending.size());
-  const double rank = std::ceil(share * n * (1.0 - 1e-12));
-  return ascending[static_cast<std::size_t>(std::clamp(rank, 1.0, n)) - 1];
+  return ascending[rank_of(ascending.size(), share)];
 }
 
 double share_at_or_below(const std::vector<double>& ascending, double limit) {
@@ -57,19 +60,25 @@ EnsembleInTime::EnsembleInTime(std::vector<std::vector<double>> sizes, std::int6
     std::sort(member.begin(), member.end());
     maxima_.push_back(member.back());
   }
-  std::vector<std::pair<double, std::uint32_t>> all;
-  all.reserve(sizes_.size() * sizes_.front().size());
-  for (std::uint32_t k = 0; k < sizes_.size(); ++k)
-    for (const double value : sizes_[k]) all.emplace_back(value, k);
-  // Members are in order already: neighbouring runs are merged until there is one.
-  const auto at = [&](std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), i)); };
-  for (std::size_t run = sizes_.front().size(); run < all.size(); run *= 2)
-    for (std::size_t first = 0; first + run < all.size(); first += 2 * run)
-      std::inplace_merge(at(first), at(first + run), at(first + 2 * run));
-  for (const auto& [value, member] : all) {
-    pooled_.push_back(value);
-    owner_.push_back(member);
-  }
+}
+
+const EnsembleInTime::Pool& EnsembleInTime::pool() const {
+  std::call_once(pool_->made, [&] {
+    std::vector<std::pair<double, std::uint32_t>> all;
+    all.reserve(sizes_.size() * sizes_.front().size());
+    for (std::uint32_t k = 0; k < sizes_.size(); ++k)
+      for (const double value : sizes_[k]) all.emplace_back(value, k);
+    // Members are in order already: neighbouring runs are merged until there is one.
+    const auto at = [&](std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(std::min(all.size(), i)); };
+    for (std::size_t run = sizes_.front().size(); run < all.size(); run *= 2)
+      for (std::size_t first = 0; first + run < all.size(); first += 2 * run)
+        std::inplace_merge(at(first), at(first + run), at(first + 2 * run));
+    for (const auto& [value, member] : all) {
+      pool_->values.push_back(value);
+      pool_->owner.push_back(member);
+    }
+  });
+  return *pool_;
 }
 
 double EnsembleInTime::resampled_level(Interpretation interpretation, double probability, double leave_out,
@@ -84,7 +93,7 @@ double EnsembleInTime::resampled_level(Interpretation interpretation, double pro
   };
   if (interpretation == Interpretation::mixed)
     return at_share(
-        pooled_, [&](std::size_t i) { return static_cast<double>(times[owner_[i]]); },
+        pool().values, [&](std::size_t i) { return static_cast<double>(times[pool().owner[i]]); },
         drawn * static_cast<double>(sizes_.front().size()), probability);
   const bool ensemble = interpretation == Interpretation::ensemble;
   std::vector<std::pair<double, std::uint32_t>> members;
@@ -97,8 +106,6 @@ double EnsembleInTime::resampled_level(Interpretation interpretation, double pro
       values, [&](std::size_t i) { return static_cast<double>(times[members[i].second]); }, drawn,
       ensemble ? probability : 1.0 - leave_out);
 }
-
-double EnsembleInTime::pooled_quantile(double share) const { return quantile_of(pooled_, share); }
 
 std::vector<double> EnsembleInTime::quantiles_in_time(double probability) const {
   std::vector<double> quantiles;
@@ -132,6 +139,15 @@ ReportedInterval EnsembleInTime::level(Interpretation interpretation, double pro
   const double seen = static_cast<double>(members()) / all;
   const double high = mean_that_shows(probability, all, side) / seen;                   // failed ones above
   const double low = (mean_that_denies(probability, all, side) - (1.0 - seen)) / seen;  // failed ones below
+  std::vector<double> all_values;
+  all_values.reserve(sizes_.size() * sizes_.front().size());
+  for (const std::vector<double>& member : sizes_) all_values.insert(all_values.end(), member.begin(), member.end());
+  // A selection takes a tenth of what it takes to put them all in order.
+  const auto pooled_quantile = [&](double share) {
+    const auto nth = all_values.begin() + static_cast<std::ptrdiff_t>(rank_of(all_values.size(), share));
+    std::nth_element(all_values.begin(), nth, all_values.end());
+    return *nth;
+  };
   return {pooled_quantile(probability),
           low > 0.0 ? pooled_quantile(low) : 0.0,
           high <= 1.0 ? pooled_quantile(high) : kInfinity,
@@ -158,7 +174,8 @@ EnsembleInTime::Compliance EnsembleInTime::compliance(Interpretation interpretat
   Compliance c;
   c.fewest = fewest_samples(asked, judgement);
   if (interpretation == Interpretation::mixed) {
-    c.share = share_at_or_below(pooled_, limit) * static_cast<double>(members()) / static_cast<double>(all);
+    // Members are of equal length.
+    c.share = std::accumulate(shares.begin(), shares.end(), 0.0) / static_cast<double>(all);
     if (judgement.by == By::any_time)
       c.shown = betting_lower(shares, failed_, judgement.confidence);
     else if (judgement.by == By::first_bet)

@@ -15,6 +15,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "boresight_analyses/statistics/interval.hpp"
@@ -61,15 +63,21 @@ class EnsembleInTime {
                         double leave_out = 0.0) const;
 
  private:
-  double pooled_quantile(double share) const;
+  // The values of all members together, ascending, and the member of each, for bootstraps of the mixed interpretation: put in order when
+  // first asked for, which takes longer than all else here.
+  struct Pool {
+    std::once_flag made;
+    std::vector<double> values;
+    std::vector<std::uint32_t> owner;
+  };
+  const Pool& pool() const;
   std::vector<double> quantiles_in_time(double probability) const;                     // per member
   double share_of_members_shown(std::int64_t hits, const Judgement& judgement) const;  // failed ones among the others
 
   std::vector<std::vector<double>> sizes_;  // each ascending
   std::vector<double> maxima_;
-  std::vector<double> pooled_;        // ascending
-  std::vector<std::uint32_t> owner_;  // the member of each of them
   std::int64_t failed_;
+  std::shared_ptr<Pool> pool_ = std::make_shared<Pool>();
 };
 
 }  // namespace boresight
