@@ -24,6 +24,8 @@ class Allocating {
   void use_steps(Allocation& a) const;
   // ... and then let go of them: the tolerances of these entries at least price, the options of the others as they are.
   void refine(Allocation& a, double limit) const;
+  // Whether what the search says of all sets holds of all sets: of a linear deviation, with nothing else beside it that scatters.
+  bool is_exact() const;
   double price_of_set(const Allocation& a) const;
 
   // The cheapest set by the samples of the search, for a limit on the confirming rung's scale.

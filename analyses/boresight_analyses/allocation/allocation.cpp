@@ -92,6 +92,10 @@ void Allocating::progress(const std::string& stage, double share) const {
   if (options_.progress) options_.progress(stage, share);
 }
 
+bool Allocating::is_exact() const {
+  return !plan_.has_curves() && plan_.scattered() == 0 && result_.misfit <= kMostMisfit;
+}
+
 double Allocating::price_of_set(const Allocation& a) const {
   double sum = 0.0;
   for (std::size_t j = 0; j < plan_.entries.size(); ++j)
@@ -168,7 +172,7 @@ Allocation Allocating::cheapest(double limit, const std::vector<int>& start) {
     if (options_.interrupted && options_.interrupted()) throw EvaluationInterrupted{};
     a.feasible = d.feasible;
     a.finished = d.proven;
-    a.proven = d.proven && !plan_.has_curves() && result_.misfit <= kMostMisfit;
+    a.proven = d.proven && is_exact();
     a.choice = d.feasible ? d.choice : tightest_;
     use_steps(a);
     a.price = price_of_set(a);
@@ -178,7 +182,7 @@ Allocation Allocating::cheapest(double limit, const std::vector<int>& start) {
       a.why += ", tolerances with cost curves in " + std::to_string(kSteps) + " steps; then these by descent";
       if (d.feasible) refine(a, limit);
     } else if (d.feasible) {
-      a.bound = result_.misfit <= kMostMisfit ? d.bound : 0.0;
+      a.bound = is_exact() ? d.bound : 0.0;
     }
   }
   evaluate(a);
@@ -278,8 +282,10 @@ void Allocating::search_rounds(const ConfirmingModel& confirm, const std::string
     if (!a.feasible) break;
     if (result_.feasible && !(a.price < result_.chosen.price * (1.0 - 1e-9)) && !result_.confirmations.back().agrees) {
       // Nothing cheaper under the corrected factor than what was confirmed already.
-      result_.confirmations.back().sentence += ", but no cheaper set can be shown";
-      result_.confirmations.back().agrees = true;
+      AllocationConfirmation& last = result_.confirmations.back();
+      last.sentence +=
+          last.met ? ", but no cheaper set can be shown" : "; nothing between it and the set confirmed before is left";
+      last.agrees = last.met;
       break;
     }
     progress("confirming on the rung " + rung, 0.25 + 0.15 * round);
@@ -290,6 +296,7 @@ void Allocating::search_rounds(const ConfirmingModel& confirm, const std::string
     if (c.met && (!result_.feasible || a.price < result_.chosen.price)) {
       result_.feasible = true;
       result_.chosen = a;
+      result_.confirmed_by = result_.confirmations.size();
     }
     // What costs less and was refuted leaves others between the two.
     if (!c.met && result_.feasible && !go_on) result_.chosen.proven = result_.chosen.finished = false;

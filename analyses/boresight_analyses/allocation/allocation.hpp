@@ -58,7 +58,8 @@ struct CostPoint {
 };
 
 struct AllocationResult {
-  bool feasible = false;  // a set meets the requirement, confirmed
+  bool feasible = false;         // a set meets the requirement, confirmed
+  std::size_t confirmed_by = 0;  // which of the confirmations, where feasible
   bool interrupted = false;
   bool converged = false;       // the search ended by itself, and what it found is confirmed
   double misfit = 0.0;          // of the linear deviation against its own rung, relative

@@ -31,6 +31,7 @@ void Allocating::try_what_points_best(const Allocation& a, const ConfirmingModel
       evaluate(tried);
       tried.feasible = result_.feasible = true;
       result_.chosen = tried;
+      result_.confirmed_by = result_.confirmations.size();
       result_.confirmations.push_back(c);
       return;
     }
@@ -128,7 +129,7 @@ void Allocating::compare() {
     const DiscreteAllocation d = allocate_discrete(price_, tightest_, requirement, {.most_nodes = 100'000});
     a.feasible = d.feasible;
     a.finished = d.proven;
-    a.proven = d.proven && exact && !plan_.has_curves() && result_.misfit <= kMostMisfit;
+    a.proven = d.proven && exact && is_exact();
     a.choice = d.choice;
     if (d.feasible) use_steps(a);
     a.price = d.feasible ? d.price : 0.0;

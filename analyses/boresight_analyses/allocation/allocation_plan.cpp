@@ -7,6 +7,7 @@
 #include "boresight/keys/units.hpp"
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/parameter_path.hpp"
 #include "boresight_analyses/allocation/allocation_keys.hpp"
 #include "boresight_analyses/allocation/confirmation.hpp"
 #include "boresight_analyses/random/fit_size.hpp"
@@ -246,9 +247,10 @@ AllocationPlan read_allocation_plan(Cursor& root, const Study& study, const Mech
   std::set<std::string> taken;
   const auto take = [&](const Cursor& table_of, AllocationEntry entry) {
     for (const std::string& path : entry.paths)
-      if (!taken.insert(path).second)
-        table_of.fail_found("parameter", in_quotes(path) + " a second time",
-                            entry.is_error ? "each error once" : "each joint once");
+      for (const std::string& single : single_paths(mechanism, path))
+        if (!taken.insert(single).second)
+          table_of.fail_found("parameter", in_quotes(single) + " a second time",
+                              entry.is_error ? "each error once" : "each joint once");
     plan.entries.push_back(std::move(entry));
   };
   for (Cursor& entry : table.tables("joint")) take(entry, read_joint(entry, common, plan.zone, mechanism, accepts));
@@ -260,9 +262,10 @@ AllocationPlan read_allocation_plan(Cursor& root, const Study& study, const Mech
     plan.inputs = read_random_inputs(root, mechanism, accepts);
     for (const RandomParameter& p : plan.inputs->parameters)
       for (const std::string& path : p.paths)
-        if (taken.contains(path))
-          root.fail_found("random", "\"" + path + "\", which [allocate] gives a fit or a tolerance",
-                          "parameters other than those to be allocated");
+        for (const std::string& single : single_paths(mechanism, path))
+          if (taken.contains(single))
+            root.fail_found("random", "\"" + single + "\", which [allocate] gives a fit or a tolerance",
+                            "parameters other than those to be allocated");
   }
   return plan;
 }

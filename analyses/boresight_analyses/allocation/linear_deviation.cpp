@@ -5,8 +5,10 @@
 
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/load_time.hpp"
 #include "boresight/scene/standing_errors.hpp"
 #include "boresight/statics/quasistatic.hpp"
+#include "boresight/stepping/motion_scales.hpp"
 #include "boresight_analyses/study/error_parts.hpp"
 
 namespace boresight {
@@ -26,6 +28,33 @@ int error_named(const MechanismDescription& mechanism, const std::string& path) 
   for (std::size_t e = 0; e < mechanism.errors.size(); ++e)
     if (path == "error." + mechanism.errors[e].name) return static_cast<int>(e);
   return -1;
+}
+
+// Which samples of a run are kept: as many as `instants`, of those that the index counts. A motion that turns back and forth faster than
+// that would be met at equal angles by equal spacings; so each is then drawn from its own stretch of a finer history.
+struct Kept {
+  std::size_t finer = 1;  // samples of the history to one that is kept
+  std::vector<std::size_t> of(const std::vector<double>& time, double start) const {
+    // The fractions of the golden ratio's multiples come back to no period.
+    constexpr double kGolden = 0.6180339887498949;
+    std::vector<std::size_t> kept;
+    for (std::size_t k = 0; k * finer < time.size(); ++k) {
+      const double place = finer == 1 ? 0.0 : static_cast<double>(k) * kGolden;
+      const std::size_t i =
+          k * finer + static_cast<std::size_t>(static_cast<double>(finer) * (place - std::floor(place)));
+      if (i < time.size() && time[i] >= start) kept.push_back(i);
+    }
+    return kept;
+  }
+};
+
+Kept kept_of(const Mechanism& mechanism, const IdealMotion& ideal, std::size_t instants) {
+  constexpr double kResolved = 0.25;  // of the time in which a body turns by a radian, or a load changes
+  constexpr double kMostFiner = 61.0;
+  const double fastest = kResolved * std::min(own_time(ideal, mechanism.bodies(), mechanism.characteristic_length()),
+                                              load_time(mechanism));
+  const double spacing = mechanism.duration() / static_cast<double>(instants);
+  return {static_cast<std::size_t>(std::clamp(std::ceil(spacing / fastest), 1.0, kMostFiner))};
 }
 
 }  // namespace
@@ -173,7 +202,9 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
   RunOptions options;
   options.events = false;
   options.start = index.start;
-  options.sample_spacing = mechanism->duration() / static_cast<double>(instants);
+  const IdealMotion commanded = ideal_motion(*mechanism, mechanism->parameters());
+  const Kept kept = kept_of(*mechanism, commanded, instants);
+  options.sample_spacing = mechanism->duration() / static_cast<double>(instants * kept.finer);
   // Error vectors of a run, all instants in a row.
   std::vector<double> time;
   std::vector<Eigen::Matrix<double, 3, 6>> gains;
@@ -183,10 +214,12 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
       for (const ParameterPath& place : places[j]) place.set(parameters, gaps[j]);
     const RunResult result = rung->run(parameters, options);
     if (value) *value = index.of(result.index);
-    time = result.time;
+    time.clear();
     std::vector<double> out;
     gains.clear();
-    for (const PoseSample& sample : result.boresight.samples) {
+    for (const std::size_t i : kept.of(result.time, index.start)) {
+      const PoseSample& sample = result.boresight.samples[i];
+      time.push_back(result.time[i]);
       gains.push_back(gain_of(sample, quantity, mechanism->pointing()));
       const Vec3 e =
           gains.back().leftCols<3>() * sample.error.displacement + gains.back().rightCols<3>() * sample.error.rotation;
@@ -206,7 +239,6 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
   }
   MatX columns;  // of all wanted errors: 3 instants x errors
   if (std::find(wanted.begin(), wanted.end(), true) != wanted.end()) {
-    const IdealMotion commanded = ideal_motion(*mechanism, mechanism->parameters());
     const StandingErrors standing(*mechanism, commanded, wanted);
     for (std::size_t e = 0; e < wanted.size(); ++e)
       if (wanted[e] && standing.uses_play(e))
@@ -234,12 +266,21 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
     for (std::size_t i = 0; i < a.size(); ++i) offset[i] -= a[i] * probe[j];
   }
   LinearDeviation linear(time, offset, sensitivity, index.statistic);
-  // At the probe itself only the instants can differ; far from it the form is tried too.
+  // At the probe itself only the instants can differ; far from it the form is tried too: every other one narrow, and each alone.
   misfit = truth > 0.0 ? std::abs(linear.index(probe) - truth) / truth : 0.0;
-  std::vector<double> other = probe;
-  for (std::size_t j = 0; j < other.size(); ++j) other[j] *= j % 2 == 0 ? 0.25 : 0.75;
-  vectors(other, &truth);
-  if (truth > 0.0) misfit = std::max(misfit, std::abs(linear.index(other) - truth) / truth);
+  std::vector<std::vector<double>> others(1, probe);
+  for (std::size_t j = 0; j < probe.size(); ++j) others[0][j] *= j % 2 == 0 ? 0.25 : 0.75;
+  constexpr std::size_t kMostAlone = 12;
+  for (std::size_t j = 0; j < std::min(probe.size(), kMostAlone); ++j) {
+    std::vector<double>& alone = others.emplace_back(probe);
+    for (std::size_t k = 0; k < alone.size(); ++k) alone[k] *= k == j ? 1.0 : 0.1;
+  }
+  const double whole_truth = truth;
+  for (const std::vector<double>& other : others) {
+    vectors(other, &truth);
+    // Of what next to nothing is left of nothing hangs.
+    if (truth > 1e-3 * whole_truth) misfit = std::max(misfit, std::abs(linear.index(other) - truth) / truth);
+  }
   return linear;
 }
 

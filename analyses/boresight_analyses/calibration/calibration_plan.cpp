@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 
 #include "boresight/io/referred_file.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/parameter_path.hpp"
 #include "boresight/play/joint_play.hpp"
 #include "boresight_analyses/calibration/allowances.hpp"
 #include "boresight_analyses/calibration/calibration_keys.hpp"
@@ -149,6 +151,17 @@ void refuse_what_poses_have_not(const CalibrationPlan& plan, const CalibrationPr
                      "no laws, or a parameter of a clearance beside the errors");
 }
 
+// Which fitted parameter a setting would hold at a value of its own; "": none.
+std::string also_fitted(const MechanismDescription& mechanism, const std::set<std::string>& fitted,
+                        const std::string& path) {
+  try {
+    for (const std::string& single : single_paths(mechanism, path))
+      if (fitted.contains(single)) return single;
+  } catch (const InputError&) {  // no parameter: a drive, a law
+  }
+  return "";
+}
+
 }  // namespace
 
 CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const MechanismDescription& mechanism) {
@@ -194,11 +207,20 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
     }
     noise.finish();
   }
-  for (Cursor& parameter : table.tables("parameter")) plan.parameters.push_back(read_parameter(parameter, mechanism));
+  std::set<std::string> fitted;
+  for (Cursor& parameter : table.tables("parameter")) {
+    plan.parameters.push_back(read_parameter(parameter, mechanism));
+    for (const std::string& single : single_paths(mechanism, plan.parameters.back().path))
+      if (!fitted.insert(single).second)
+        parameter.fail_found("path", "\"" + single + "\" a second time", "each parameter once");
+  }
   table.require(!plan.parameters.empty(), "parameter", "at least one [[calibrate.parameter]]");
   for (Cursor& run : table.tables("run")) {
     run.only(calibrate_run_keys());
     plan.runs.push_back(read_run(run, study.file));
+    for (const Setting& setting : plan.runs.back().settings)
+      if (const std::string both = also_fitted(mechanism, fitted, setting.path); !both.empty())
+        run.fail_found("set", "\"" + both + "\", which is fitted", "settings of what is known");
   }
   table.require(!plan.runs.empty(), "run", "at least one [[calibrate.run]]");
   for (Cursor& candidate : table.tables("candidate")) {

@@ -21,8 +21,9 @@ class Matching {
   MatchingResult run(DesignEvaluator* confirm, const std::string& rung) {
     try {
       search();
-      judge_descents();
       draw_map();
+      take_from_map();
+      judge_descents();
       seek_front();
       if (confirm != nullptr) confirm_on(*confirm, rung);
     } catch (const EvaluationInterrupted&) {
@@ -205,8 +206,15 @@ class Matching {
   void judge_descents() {
     for (MatchingDescent& d : result_.descents)
       d.agrees = keeps_constraints(d.end) == result_.feasible && !is_worse(d.end, result_.design);
+    find_as_good(0);
+  }
+
+  // Of the visits from here on.
+  void find_as_good(std::size_t first) {
     result_.as_good_from = result_.as_good_to = result_.design;
-    for (const MatchingVisit& v : std::vector<MatchingVisit>(result_.visits)) {
+    const std::vector<MatchingVisit> visits(result_.visits.begin() + static_cast<std::ptrdiff_t>(first),
+                                            result_.visits.end());
+    for (const MatchingVisit& v : visits) {
       if (v.violation > result_.violation + 1e-6 || is_worse(v.design, result_.design)) continue;
       for (std::size_t i = 0; i < v.design.size(); ++i) {
         result_.as_good_from[i] = std::min(result_.as_good_from[i], v.design[i]);
@@ -246,12 +254,22 @@ class Matching {
       }
   }
 
-  // Points that no other one beats in both accuracy and stability.
+  // A narrow valley that the search went past may show there.
+  void take_from_map() {
+    if (plan_.map == 0) return;
+    const std::vector<double> before = result_.design;
+    best_of_visits();
+    if (result_.design == before) return;
+    descend(result_.design, "the map", plan_.evaluations);
+    best_of_visits();
+  }
+
+  // Points that no other one beats in both accuracy and stability, of designs that keep the constraints.
   void gather_front(const MeasureChoice& accuracy, const MeasureChoice& stability) {
     std::vector<FrontPoint> all;
     for (const auto& [design, outcomes] : evaluator_->all()) {
       const FrontPoint p{design, accuracy.of(outcomes), stability.of(outcomes)};
-      if (std::isfinite(p.index) && std::isfinite(p.free_flight_share)) all.push_back(p);
+      if (std::isfinite(p.index) && std::isfinite(p.free_flight_share) && keeps_constraints(design)) all.push_back(p);
     }
     std::sort(all.begin(), all.end(), [](const FrontPoint& l, const FrontPoint& r) {
       return l.index != r.index ? l.index < r.index : l.free_flight_share < r.free_flight_share;
@@ -290,6 +308,22 @@ class Matching {
     gather_front(accuracy, stability);
   }
 
+  // Whether two sets of samples of a design leave open that its objective is the same but for `further`. The worst of more samples is larger:
+  // both are asked for the quantile that the fewer can see.
+  bool may_be_alike(const std::vector<Outcome>& a, const std::vector<Outcome>& b, double further) const {
+    MeasureChoice compared = plan_.objective;
+    const std::size_t fewer = std::min(a.size(), b.size());
+    if (compared.over == Over::worst && fewer > 1) {
+      compared.over = Over::quantile;
+      compared.probability = 1.0 - 1.0 / static_cast<double>(fewer);
+    }
+    const ReportedInterval of_a = compared.interval(a, options_.confidence),
+                           of_b = compared.interval(b, options_.confidence);
+    // Means scatter by their intervals, of which both lie apart; order statistics know no more than whether these meet.
+    if (compared.over == Over::quantile) return of_a.low <= of_b.high + further && of_b.low <= of_a.high + further;
+    return std::abs(of_a.value - of_b.value) <= further + 0.5 * (of_a.high - of_a.low + of_b.high - of_b.low);
+  }
+
   void confirm_on(DesignEvaluator& confirm, const std::string& rung) {
     MatchingConfirmation c;
     c.rung = rung;
@@ -300,14 +334,11 @@ class Matching {
     c.interval = plan_.objective.interval(outcomes, options_.confidence);
     c.design = result_.design;
     c.objective = c.value;
-    const ReportedInterval here = plan_.objective.interval(evaluator_->at(result_.design), options_.confidence);
-    const double scatter = 0.5 * (c.interval.high - c.interval.low + here.high - here.low);
     const double off = std::abs(c.value - result_.objective);
     bool keeps = true;
     for (const MatchingConstraint& k : plan_.constraints) keeps = keeps && excess(k, outcomes) <= options_.accuracy;
-    c.agrees = std::isfinite(off) &&
-               off <= options_.accuracy * std::abs(c.value) + (std::isfinite(scatter) ? scatter : 0.0) &&
-               keeps == result_.feasible;
+    c.agrees = std::isfinite(off) && keeps == result_.feasible &&
+               may_be_alike(evaluator_->at(result_.design), outcomes, options_.accuracy * std::abs(c.value));
     char text[300];
     std::snprintf(text, sizeof text, "%s with seed %llu gives %.4g where the search had %.4g: %s", rung.c_str(),
                   static_cast<unsigned long long>(c.seed), c.value, result_.objective,
@@ -320,13 +351,16 @@ class Matching {
       if (options_.slopes) no_slopes_ = "slopes are those of the perturbation rung";
       const MatchingResult cheap = result_;
       result_.design.clear();
+      const std::size_t visits_before = result_.visits.size();
       descend(cheap.design, "the optimum, on " + rung, std::max(8, plan_.evaluations / 3));
       c.went_on = result_.design != cheap.design;
       c.design = result_.design;
       c.objective = result_.objective;
       c.sentence += c.went_on ? "; a descent there moved the optimum" : "; a descent there stays where it is";
+      // What was as good by the rung before says nothing of this one's.
+      find_as_good(visits_before);
       evaluator_ = before;
-      result_.descents.back().agrees = !c.went_on;
+      result_.descents.back().agrees = true;
       constraints_of(confirm);
       on_confirming_rung_ = true;
       result_.interval = plan_.objective.interval(confirm.at(result_.design), options_.confidence);
@@ -349,8 +383,9 @@ class Matching {
   void describe(DesignEvaluator& evaluator) {
     for (std::size_t i = 0; i < plan_.variables.size(); ++i) {
       const DesignVariable& v = plan_.variables[i];
-      const double margin = 1e-3 * (v.to - v.from);
-      result_.at_bound.push_back(result_.design[i] < v.from + margin || result_.design[i] > v.to - margin);
+      const double low = v.to_search(v.from), high = v.to_search(v.to), at = v.to_search(result_.design[i]);
+      const double margin = 1e-3 * (high - low);
+      result_.at_bound.push_back(at < low + margin || at > high - margin);
     }
     if (on_confirming_rung_) return;
     constraints_of(evaluator);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "boresight/keys/units.hpp"
+#include "boresight/mechanism/parameter_path.hpp"
 #include "boresight_analyses/matching/design_slopes.hpp"
 #include "boresight_analyses/matching/matching_keys.hpp"
 
@@ -95,8 +96,9 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
   for (Cursor& entry : table.tables("variable")) {
     plan.variables.push_back(read_design_variable(entry, mechanism, accepts));
     for (const std::string& path : plan.variables.back().paths)
-      if (!taken.insert(path).second)
-        entry.fail_found("parameter", "\"" + path + "\" a second time", "each parameter once");
+      for (const std::string& single : single_paths(mechanism, path))
+        if (!taken.insert(single).second)
+          entry.fail_found("parameter", "\"" + single + "\" a second time", "each parameter once");
   }
   if (plan.variables.empty()) table.fail("variable", "at least one [[match.variable]] table: what may be chosen");
   const std::size_t n = plan.variables.size();
@@ -114,9 +116,10 @@ MatchingPlan read_matching_plan(Cursor& root, const Study& study, const Mechanis
     plan.inputs = read_random_inputs(root, mechanism, accepts);
     for (const RandomParameter& p : plan.inputs->parameters)
       for (const std::string& path : p.paths)
-        if (taken.contains(path))
-          root.fail_found("random", "\"" + path + "\", which is a variable of [match] too",
-                          "parameters that are either chosen or scatter");
+        for (const std::string& single : single_paths(mechanism, path))
+          if (taken.contains(single))
+            root.fail_found("random", "\"" + single + "\", which is a variable of [match] too",
+                            "parameters that are either chosen or scatter");
   } else {
     plan.samples = plan.confirm = 1;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <nlopt.hpp>
 #include <stdexcept>
 
@@ -120,6 +121,11 @@ class Search {
       result_.interrupted = true;
       throw nlopt::forced_stop();
     }
+    // DIRECT divides all boxes of a round before it looks at what it was granted.
+    if (tried_++ >= granted_) {
+      spent_ = true;
+      throw nlopt::forced_stop();
+    }
     const std::vector<double> x = scaled(u);
     ++evaluations_;
     const double value = problem_.objective(x, gradient ? std::span<double>(gradient_) : std::span<double>());
@@ -197,6 +203,9 @@ class Search {
       optimiser.add_inequality_constraint(constraint_of, &bounds[k], options_.constraint_tolerance);
     }
     optimiser.set_maxeval(evaluations);
+    tried_ = 0;
+    granted_ = evaluations;
+    spent_ = false;
     if (a.plain == nlopt::G_MLSL_LDS) {
       const bool bobyqa = !problem_.gradients && n > 1;
       nlopt::opt descent(problem_.gradients ? nlopt::LD_SLSQP : bobyqa ? nlopt::LN_BOBYQA : nlopt::LN_COBYLA, n);
@@ -222,8 +231,8 @@ class Search {
       result_.converged = !global;
       result_.stopped = "rounding allows no further progress";
     } catch (const nlopt::forced_stop&) {
-      result_.converged = false;
-      result_.stopped = "interrupted";
+      result_.converged = spent_ && global && options_.local == "none";
+      result_.stopped = spent_ ? "the most evaluations were reached" : "interrupted";
     } catch (const std::runtime_error&) {
       // NLopt's plain failure (SLSQP where a gradient breaks off): the best place seen stands, unproven.
       result_.converged = false;
@@ -239,7 +248,8 @@ class Search {
   double best_value_ = 0.0, best_violation_ = 0.0, best_excess_ = 0.0;
   double scale_ = 0.0;  // of the objective, for algorithms that go by gradients; 0: not known yet
   int evaluations_ = 0;
-  bool seen_ = false;
+  int tried_ = 0, granted_ = std::numeric_limits<int>::max();  // of one attempt
+  bool seen_ = false, spent_ = false;
   std::exception_ptr fault_;
 };
 

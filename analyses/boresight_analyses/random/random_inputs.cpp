@@ -143,17 +143,6 @@ void read_rows_of(Cursor& entry, const MechanismDescription& mechanism,
   }
 }
 
-// The paths that a path with * stands for; of another one, itself.
-std::vector<std::string> meant_by(const MechanismDescription& mechanism, const std::string& path) {
-  if (path.find(".*.") == std::string::npos) return {path};
-  Parameters marked = nominal_parameters(mechanism);
-  ParameterPath(mechanism, path).set(marked, std::numeric_limits<double>::quiet_NaN());
-  std::vector<std::string> meant;
-  for (const std::string& single : parameter_paths(mechanism))
-    if (std::isnan(ParameterPath(mechanism, single).get(marked))) meant.push_back(single);
-  return meant;
-}
-
 double normal_correlation(Cursor& entry) {
   const double coefficient = entry.number("coefficient");
   const std::string measure = entry.choice("measure");
@@ -290,7 +279,7 @@ RandomInputs read_random_inputs(Cursor& root, const MechanismDescription& mechan
     entry.finish();
     for (std::size_t i = before; i < inputs.size(); ++i)
       for (const std::string& path : inputs.parameters[i].paths) {
-        for (const std::string& single : meant_by(mechanism, path))
+        for (const std::string& single : single_paths(mechanism, path))
           if (!taken.insert(single).second)
             entry.fail_found(entry.has("parameters") ? "parameters" : "parameter", "\"" + single + "\" a second time",
                              "each parameter once");

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/parameter_path.hpp"
 #include "boresight_analyses/sweep/paper_facts.hpp"
 #include "boresight_analyses/sweep/sweep_keys.hpp"
 
@@ -118,8 +119,9 @@ SweepPlan read_sweep_plan(Cursor& root, const MechanismDescription& mechanism,
   for (Cursor& axis : sweep.tables("axis")) {
     plan.axes.push_back(read_axis(axis, mechanism, accepts));
     for (const std::string& path : plan.axes.back().parameters)
-      if (!swept.insert(path).second)
-        axis.fail_found("parameter", "\"" + path + "\" a second time", "each parameter on one axis");
+      for (const std::string& single : single_paths(mechanism, path))
+        if (!swept.insert(single).second)
+          axis.fail_found("parameter", "\"" + single + "\" a second time", "each parameter on one axis");
     points *= plan.axes.back().values.size();
     if (points > kMostSweepPoints)
       axis.fail_found("values", std::to_string(points) + " points in all",

@@ -182,7 +182,12 @@ std::string allocate_sentence(const AllocateStudy& s) {
   return fmt::format(
       "The cheapest choice{} costs {:.5g} and keeps the {}. {}{}.", s.result.chosen.proven ? "" : " that was found",
       s.result.chosen.price, requirement_text(s),
-      s.result.chosen.proven     ? "Nothing cheaper keeps the limit with the room that this confirmation needs. "
+      s.result.chosen.proven ? "By the linear deviation, scaled as this rung's samples asked for, nothing cheaper "
+                               "keeps the limit with the "
+                               "room that a confirmation needs. "
+      : s.result.chosen.finished && s.plan.scattered() > 0
+          ? "Nothing cheaper was found; what scatters besides counts as one factor there, so that something cheaper "
+            "may keep the limit. "
       : s.result.chosen.finished ? "Nothing cheaper was found near it; that nothing is elsewhere is not proven. "
       : s.result.chosen.bound > 0.0
           ? fmt::format(
@@ -190,7 +195,7 @@ std::string allocate_sentence(const AllocateStudy& s) {
                 "two the search ended before it had looked everywhere. ",
                 s.result.chosen.bound)
           : "",
-      s.result.confirmations.back().sentence);
+      s.result.confirmations[s.result.confirmed_by].sentence);
 }
 
 report::Document allocate_report(const AllocateStudy& s) {

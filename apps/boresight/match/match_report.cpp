@@ -218,7 +218,7 @@ std::string match_sentence(const MatchStudy& s) {
                         value_text(s, r.interval.high), 100.0 * r.interval.confidence);
   text += ".";
   if (!r.feasible)
-    text += fmt::format(" The constraints cannot all be kept: this design breaks them least, by {:.3g} %.",
+    text += fmt::format(" No design was found that keeps all constraints: this one breaks them least, by {:.3g} %.",
                         100.0 * r.violation);
   if (!r.confirmation.empty()) text += " Confirmation: " + r.confirmation.front().sentence + ".";
   return text;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "boresight/rungs/integrator_choice.hpp"
 #include "boresight_analyses/matching/design_slopes.hpp"
 #include "boresight_analyses/matching/matching_keys.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
@@ -36,6 +37,13 @@ bool asks_peak_acceleration(const MatchingPlan& plan) {
   bool asks = plan.objective.measure == Measure::peak_acceleration;
   for (const MatchingConstraint& c : plan.constraints) asks = asks || c.measure.measure == Measure::peak_acceleration;
   return asks;
+}
+
+// What a rung without dynamics answers by zero, whatever the design.
+bool asks_how_contacts_move(const MatchingPlan& plan) {
+  const auto of_motion = [](const MeasureChoice& m) { return m.measure != Measure::index; };
+  return of_motion(plan.objective) || std::any_of(plan.constraints.begin(), plan.constraints.end(),
+                                                  [&](const MatchingConstraint& c) { return of_motion(c.measure); });
 }
 
 bool is_contact_only(const std::vector<std::string>& paths) {
@@ -105,6 +113,13 @@ class MatchVerb : public Verb {
 
     const std::vector<Parameters> corners = corners_of(plan, *mechanism);
     RungChoice choice = own.run().rung_of_corners(corners, "evaluations.db");
+    if (asks_how_contacts_move(plan) && integrator_names(choice.name).empty()) {
+      if (command.rung != "auto")
+        throw InputError({}, "--rung", in_quotes(command.rung),
+                         "perturbation, multibody or auto: journals at rest make no impacts and no flights");
+      choice = {.name = next_rung_up(choice.name, *mechanism),
+                .why = "impacts, flights and peaks are asked for, of which journals at rest know nothing"};
+    }
     const std::string upper = next_rung_up(choice.name, *mechanism);
     const auto parameters_of = [mechanism, &plan](std::span<const double> values) {
       return plan.parameters_with(*mechanism, values);

@@ -1,6 +1,8 @@
 #include "boresight/mechanism/parameter_path.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "boresight/mechanism/error.hpp"
@@ -160,6 +162,16 @@ std::vector<std::string> parameter_paths(const MechanismDescription& mechanism) 
   std::vector<std::string> paths;
   for (const Entry& e : all_entries(mechanism)) paths.push_back(e.path);
   return paths;
+}
+
+std::vector<std::string> single_paths(const MechanismDescription& mechanism, const std::string& path) {
+  if (path.find('*') == std::string::npos) return {path};
+  Parameters marked = nominal_parameters(mechanism);
+  ParameterPath(mechanism, path).set(marked, std::numeric_limits<double>::quiet_NaN());
+  std::vector<std::string> single;
+  for (const std::string& one : parameter_paths(mechanism))
+    if (std::isnan(ParameterPath(mechanism, one).get(marked))) single.push_back(one);
+  return single;
 }
 
 Parameters nominal_parameters(const MechanismDescription& mechanism) {

@@ -41,6 +41,9 @@ class ParameterPath {
 // Every path of this mechanism that names one number (no *), in order.
 std::vector<std::string> parameter_paths(const MechanismDescription& mechanism);
 
+// The paths of one number each that a path with * stands for; of another one, itself. Throws as ParameterPath does.
+std::vector<std::string> single_paths(const MechanismDescription& mechanism, const std::string& path);
+
 // The parameters as the file gives them.
 Parameters nominal_parameters(const MechanismDescription& mechanism);
 
