@@ -30,31 +30,37 @@ int error_named(const MechanismDescription& mechanism, const std::string& path) 
   return -1;
 }
 
-// Which samples of a run are kept: as many as `instants`, of those that the index counts. A motion that turns back and forth faster than
-// that would be met at equal angles by equal spacings; so each is then drawn from its own stretch of a finer history.
+// The instants that are kept: of what the index counts, equally spaced. A motion that turns back and forth faster than that would be met at
+// equal angles; of it each instant is drawn from its own stretch of the motion.
 struct Kept {
-  std::size_t finer = 1;  // samples of the history to one that is kept
-  std::vector<std::size_t> of(const std::vector<double>& time, double start) const {
-    // The fractions of the golden ratio's multiples come back to no period.
-    constexpr double kGolden = 0.6180339887498949;
-    std::vector<std::size_t> kept;
-    for (std::size_t k = 0; k * finer < time.size(); ++k) {
-      const double place = finer == 1 ? 0.0 : static_cast<double>(k) * kGolden;
-      const std::size_t i =
-          k * finer + static_cast<std::size_t>(static_cast<double>(finer) * (place - std::floor(place)));
-      if (i < time.size() && time[i] >= start) kept.push_back(i);
-    }
-    return kept;
+  double history_spacing = 0.0;    // of the runs that they are taken from [s]
+  std::vector<double> at;          // [s]
+  std::vector<double> stands_for;  // the middle of what an instant stands for [s]
+  std::size_t sample(std::size_t k, std::size_t samples) const {
+    return std::min(samples - 1, static_cast<std::size_t>(std::lround(at[k] / history_spacing)));
   }
 };
 
-Kept kept_of(const Mechanism& mechanism, const IdealMotion& ideal, std::size_t instants) {
-  constexpr double kResolved = 0.25;  // of the time in which a body turns by a radian, or a load changes
-  constexpr double kMostFiner = 61.0;
+Kept kept_of(const Mechanism& mechanism, const IdealMotion& ideal, double start, std::size_t instants) {
+  constexpr double kResolved = 0.25;              // of the time in which a body turns by a radian, or a load changes
+  constexpr double kGolden = 0.6180339887498949;  // whose multiples come back to no period
+  constexpr double kOfStart = 8.0,
+                   kMostFiner = 200.0;  // samples of the history to an instant, where they need not fall on it
   const double fastest = kResolved * std::min(own_time(ideal, mechanism.bodies(), mechanism.characteristic_length()),
                                               load_time(mechanism));
-  const double spacing = mechanism.duration() / static_cast<double>(instants);
-  return {static_cast<std::size_t>(std::clamp(std::ceil(spacing / fastest), 1.0, kMostFiner))};
+  const double whole = mechanism.duration(), counted = whole - start, spacing = counted / static_cast<double>(instants);
+  const bool resolved = spacing <= fastest;
+  double finer = 1.0;
+  if (start > 0.0) finer = kOfStart * whole / counted;
+  if (!resolved) finer = std::max(finer, whole / counted * std::ceil(spacing / fastest) * 4.0);
+  Kept kept;
+  kept.history_spacing = whole / (static_cast<double>(instants) * std::min(kMostFiner, std::ceil(finer)));
+  for (std::size_t k = 0; k < instants + (resolved ? 1 : 0); ++k) {
+    const double place = kGolden * static_cast<double>(k + 1);
+    kept.at.push_back(start + spacing * (static_cast<double>(k) + (resolved ? 0.0 : place - std::floor(place))));
+    kept.stands_for.push_back(start + spacing * (static_cast<double>(k) + (resolved ? 0.0 : 0.5)));
+  }
+  return kept;
 }
 
 }  // namespace
@@ -203,8 +209,8 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
   options.events = false;
   options.start = index.start;
   const IdealMotion commanded = ideal_motion(*mechanism, mechanism->parameters());
-  const Kept kept = kept_of(*mechanism, commanded, instants);
-  options.sample_spacing = mechanism->duration() / static_cast<double>(instants * kept.finer);
+  const Kept kept = kept_of(*mechanism, commanded, index.start, instants);
+  options.sample_spacing = kept.history_spacing;
   // Error vectors of a run, all instants in a row.
   std::vector<double> time;
   std::vector<Eigen::Matrix<double, 3, 6>> gains;
@@ -217,7 +223,8 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
     time.clear();
     std::vector<double> out;
     gains.clear();
-    for (const std::size_t i : kept.of(result.time, index.start)) {
+    for (std::size_t k = 0; k < kept.at.size(); ++k) {
+      const std::size_t i = kept.sample(k, result.time.size());
       const PoseSample& sample = result.boresight.samples[i];
       time.push_back(result.time[i]);
       gains.push_back(gain_of(sample, quantity, mechanism->pointing()));
@@ -265,7 +272,7 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
     }
     for (std::size_t i = 0; i < a.size(); ++i) offset[i] -= a[i] * probe[j];
   }
-  LinearDeviation linear(time, offset, sensitivity, index.statistic);
+  LinearDeviation linear(kept.stands_for, offset, sensitivity, index.statistic);
   // At the probe itself only the instants can differ; far from it the form is tried too: every other one narrow, and each alone.
   misfit = truth > 0.0 ? std::abs(linear.index(probe) - truth) / truth : 0.0;
   std::vector<std::vector<double>> others(1, probe);
