@@ -119,17 +119,23 @@ void Calibrator::name_outliers() {
 
 void Calibrator::fit_poses() {
   warn_of_play();
-  constexpr int kMostRounds = 40;
+  constexpr int kMostRounds = 60;
   constexpr double kSettled = 0.01;
+  constexpr double kApart = 3.0;  // standard deviations, from which on noises are unlike
   const VecX first = noise_from_sizes(problem_);
   set_noise(first);
   note(fit(problem_, problem_.start(), {}, fit_options("errors", 40, options_.jobs)));
+  // First each channel's own: with equal weights a noisy channel drowns a quiet one, and they look alike.
+  double apart_by = 0.0;
   for (int round = 0; round < kMostRounds; ++round) {
     const VecX before = problem_.sigma;
     // Data without any noise would weigh without bound.
-    set_noise(pooled_by_unit(problem_, noise_from_residuals(problem_, result_.fit)).cwiseMax(1e-6 * first));
+    set_noise(
+        pooled_where_alike(problem_, noise_from_residuals(problem_, result_.fit), apart_by).cwiseMax(1e-6 * first));
     refit("noise estimated from the residuals");
-    if ((problem_.sigma.cwiseQuotient(before).array() - 1.0).abs().maxCoeff() < kSettled) return;
+    if ((problem_.sigma.cwiseQuotient(before).array() - 1.0).abs().maxCoeff() >= kSettled) continue;
+    if (apart_by > 0.0) return;
+    apart_by = kApart;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "boresight_analyses/calibration/channel_noise.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -88,16 +89,69 @@ VecX noise_from_sizes(const CalibrationProblem& problem) {
   return sigma;
 }
 
-VecX pooled_by_unit(const CalibrationProblem& problem, const VecX& sigma) {
-  double sum[2] = {0.0, 0.0};
-  int count[2] = {0, 0};
-  for (int c = 0; c < sigma.size(); ++c) {
-    sum[is_angle(problem, c)] += sigma[c] * sigma[c];
-    ++count[is_angle(problem, c)];
-  }
+VecX pooled_where_alike(const CalibrationProblem& problem, const VecX& sigma, double apart_by) {
+  struct Group {
+    std::vector<int> channels;
+    double square = 0.0, readings = 0.0;  // square: mean over the readings
+    void add(const Group& other) {
+      square = (square * readings + other.square * other.readings) / (readings + other.readings);
+      readings += other.readings;
+      channels.insert(channels.end(), other.channels.begin(), other.channels.end());
+    }
+  };
+  // Of the logarithm of a noise that is estimated by the median size of n residuals: 1 / (2 n 0.368), Huber (1981), section 5.1.
+  constexpr double kVariance = 1.36;
+  constexpr double kReadingsOfUnknown = 3.0;  // below, a fit follows the noise itself, and takes it for less and less
   VecX pooled = sigma;
-  for (int c = 0; c < sigma.size(); ++c) pooled[c] = std::sqrt(sum[is_angle(problem, c)] / count[is_angle(problem, c)]);
+  for (const bool angle : {false, true}) {
+    std::vector<Group> groups;
+    for (int c = 0; c < sigma.size(); ++c) {
+      if (is_angle(problem, c) != angle) continue;
+      Group group{{c}, sigma[c] * sigma[c], 0.0};
+      for (std::size_t r = 0; r < problem.runs.size(); ++r)
+        if (const int column = problem.column(static_cast<int>(r), c); column >= 0)
+          for (const double v : problem.runs[r].data.value.col(column)) group.readings += std::isfinite(v) ? 1.0 : 0.0;
+      if (group.readings > 0.0) groups.push_back(group);
+    }
+    std::sort(groups.begin(), groups.end(), [](const Group& l, const Group& r) { return l.square < r.square; });
+    for (std::size_t k = 0; k + 1 < groups.size();) {
+      const double apart = 0.5 * std::log(groups[k + 1].square / groups[k].square),
+                   allowed = apart_by * std::sqrt(kVariance / groups[k].readings + kVariance / groups[k + 1].readings);
+      if (apart <= allowed || groups[k].readings < kReadingsOfUnknown * problem.global_count()) {
+        groups[k].add(groups[k + 1]);
+        groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+        k = k > 0 ? k - 1 : 0;
+      } else {
+        ++k;
+      }
+    }
+    for (const Group& group : groups)
+      for (const int c : group.channels) pooled[c] = std::sqrt(group.square);
+  }
   return pooled;
+}
+
+// How many unknowns each channel pays for: the trace of its share of the information, which add up to the unknowns that the data determine
+// (Foerstner 1979, variance components). A quiet channel among noisy ones pays for nearly all of them. Of poses, which have no start states.
+static VecX unknowns_of_channels(const CalibrationProblem& problem, const FitResult& fit) {
+  const auto channels = problem.channels.size();
+  const int G = problem.global_count();
+  std::vector<MatX> share(channels, MatX::Zero(G, G));
+  for (std::size_t k = 0; k < fit.windows.size(); ++k) {
+    WindowResiduals at;
+    problem.evaluate(problem.windows[fit.windows[k]], fit.globals, fit.states[k], true, at);
+    for (Eigen::Index i = 0; i < at.r.size(); ++i)
+      share[static_cast<std::size_t>(at.channel[i])].noalias() +=
+          problem.loss.weight(at.r[i]) * at.by_global.row(i).transpose() * at.by_global.row(i);
+  }
+  MatX all = problem.prior_information().asDiagonal();
+  for (const MatX& one : share) all += one;
+  constexpr double kOfRounding = 1e-12;  // what nothing determines costs nothing
+  all.diagonal().array() += kOfRounding * all.diagonal().maxCoeff();
+  const Eigen::LDLT<MatX> solver(all);
+  VecX unknowns(static_cast<Eigen::Index>(channels));
+  for (std::size_t c = 0; c < channels; ++c) unknowns[static_cast<Eigen::Index>(c)] = solver.solve(share[c]).trace();
+  return unknowns;
 }
 
 VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fit) {
@@ -113,11 +167,15 @@ VecX noise_from_residuals(const CalibrationProblem& problem, const FitResult& fi
   std::size_t all = 0;
   for (const auto& s : sizes) all += s.size();
   VecX sigma = problem.sigma;
+  const VecX own = problem.follows_play() ? VecX() : unknowns_of_channels(problem, fit);
   for (std::size_t c = 0; c < sizes.size(); ++c) {
     if (sizes[c].empty()) continue;
+    const auto n = static_cast<double>(sizes[c].size());
     std::nth_element(sizes[c].begin(), sizes[c].begin() + static_cast<std::ptrdiff_t>(sizes[c].size() / 2),
                      sizes[c].end());
-    const double freedom = static_cast<double>(all) / std::max(1.0, static_cast<double>(all) - unknowns);
+    const double freedom = own.size() > 0
+                               ? n / std::max(1.0, n - own[static_cast<Eigen::Index>(c)])
+                               : static_cast<double>(all) / std::max(1.0, static_cast<double>(all) - unknowns);
     // Never far below what differences say: a channel fitted too well is not a quiet one.
     sigma[static_cast<Eigen::Index>(c)] *= std::max(0.5, 1.4826 * sizes[c][sizes[c].size() / 2] * std::sqrt(freedom));
   }

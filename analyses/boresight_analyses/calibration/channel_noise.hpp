@@ -17,9 +17,10 @@ VecX noise_of_steps(const CalibrationProblem& problem);
 // A first guess for poses that have no neighbours: the median size of the readings of all channels of the same unit.
 VecX noise_from_sizes(const CalibrationProblem& problem);
 
-// The same of every channel of a unit: root mean square over its channels. Of few readings weights of each channel's own would follow
-// the noise itself, and intervals be too narrow.
-VecX pooled_by_unit(const CalibrationProblem& problem, const VecX& sigma);
+// The same of all channels of a unit whose noises their numbers of readings cannot tell apart, root mean square over the readings: weights of
+// each channel's own would follow the noise itself, and intervals be too narrow. What is a hundred times as quiet keeps its own.
+// apart_by: standard deviations of their estimates from which on they count as unlike; 0: all of them that have readings enough to tell.
+VecX pooled_where_alike(const CalibrationProblem& problem, const VecX& sigma, double apart_by);
 
 // From what a fit leaves, by the median, which outliers do not reach: a channel's sigma times 1.4826 median
 // |r|, and the unknowns made up for; at least half of the problem's own sigma.

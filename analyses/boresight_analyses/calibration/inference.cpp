@@ -163,7 +163,9 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
       lost_in_time ? out.autocorrelations : autocorrelations_of(out.residuals, std::max(1, longest / 2)), noise,
       static_cast<double>(out.values), out.unknowns);
   const MatX inverse = inverse_of(out.information, free);
-  out.covariance = out.variance_factor * inverse;
+  // s^2 is the data's: what was known before is known as well as it was told.
+  out.covariance =
+      inverse_of(data_information / out.variance_factor + MatX(problem.prior_information().asDiagonal()), free);
   out.white_covariance = inverse;
   if (out.autocorrelation > noise) {
     int lost = 1;

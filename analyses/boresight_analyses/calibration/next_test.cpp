@@ -1,5 +1,6 @@
 #include "boresight_analyses/calibration/next_test.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,15 @@
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {
+
+namespace {
+
+double log_determinant(const MatX& information) {
+  const Eigen::LLT<MatX> root(information);
+  return 2.0 * MatX(root.matrixL()).diagonal().array().log().sum();
+}
+
+}  // namespace
 
 NextTest judge_candidate(const CalibrationProblem& problem, const Inference& inference, const Globals& globals,
                          const std::vector<bool>& fixed, const Candidate& candidate) {
@@ -58,7 +68,8 @@ NextTest judge_candidate(const CalibrationProblem& problem, const Inference& inf
       more += window_information(one, w, at).information;
     }
     const MatX with = part(inference.information + more), after = with.inverse();
-    test.d_gain = std::log(with.determinant()) - std::log(H.determinant());
+    // Of many parameters the determinants themselves leave what a double holds.
+    test.d_gain = log_determinant(with) - log_determinant(H);
     double sum_before = 0.0, sum_after = 0.0;
     for (std::size_t a = 0; a < free.size(); ++a) {
       if (free[a] >= P) continue;

@@ -1,10 +1,75 @@
 #include "boresight_analyses/calibration/posterior.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 namespace boresight {
+namespace {
+
+// What is known of all parameters together, in the coordinates of the fit.
+struct Known {
+  VecX u, deviation;
+  MatX correlation;
+};
+
+// Standing errors at poses that the data cannot tell apart: combinations of them are known, and the errors are not. What nothing tells is
+// taken for what it may well be (FittedParameter::size, about the start), so that the combinations stay as well known as they are.
+bool tells_combinations(const CalibrationProblem& problem, const Inference& inference, int p) {
+  return !problem.follows_play() && problem.parameters[p].is_error() && !problem.parameters[p].has_prior &&
+         !inference.parameters[p].identifiable && std::isfinite(inference.parameters[p].standard_error);
+}
+
+Known known_of(const CalibrationProblem& problem, const Inference& inference) {
+  const int P = problem.parameter_count(), G = static_cast<int>(inference.information.rows());
+  Known known{VecX(P), VecX(P), inference.correlation.topLeftCorner(P, P)};
+  bool any = false;
+  for (int p = 0; p < P; ++p) {
+    known.u[p] = problem.parameters[p].coordinate(inference.parameters[p].value);
+    known.deviation[p] = inference.parameters[p].coordinate_error;
+    any = any || tells_combinations(problem, inference, p);
+  }
+  if (!any) return known;
+  std::vector<int> free;
+  double variance_factor = inference.variance_factor;
+  for (int g = 0; g < G; ++g) {
+    if (!std::isfinite(inference.covariance(g, g))) continue;
+    free.push_back(g);
+    // Residuals that follow one another have made variances larger.
+    if (inference.lags > 0)
+      variance_factor = std::max(variance_factor, inference.covariance(g, g) / inference.white_covariance(g, g));
+  }
+  const VecX prior = problem.prior_information();
+  MatX information = inference.information(free, free);
+  VecX told = VecX::Zero(information.rows()), away = told;
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const int g = free[k];
+    const auto i = static_cast<Eigen::Index>(k);
+    information(i, i) -= prior[g];
+    if (g >= P || !tells_combinations(problem, inference, g)) continue;
+    told[i] = 1.0;
+    away[i] = known.u[g] - problem.parameters[g].coordinate(problem.parameters[g].start);
+  }
+  information /= variance_factor;
+  information.diagonal() += prior(free) + told;
+  const Eigen::LDLT<MatX> solver(information);
+  const MatX covariance = solver.solve(MatX::Identity(information.rows(), information.cols()));
+  const VecX back = covariance * told.cwiseProduct(away);
+  for (std::size_t a = 0; a < free.size(); ++a) {
+    if (free[a] >= P) continue;
+    const auto i = static_cast<Eigen::Index>(a);
+    known.u[free[a]] -= back[i];
+    known.deviation[free[a]] = std::sqrt(covariance(i, i));
+    for (std::size_t b = 0; b < free.size(); ++b)
+      if (const auto j = static_cast<Eigen::Index>(b); free[b] < P)
+        known.correlation(free[a], free[b]) = covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
+  }
+  return known;
+}
+
+}  // namespace
 
 std::string posterior_toml(const CalibrationProblem& problem, const Inference& inference) {
   std::string out =
@@ -22,19 +87,26 @@ std::string posterior_toml(const CalibrationProblem& problem, const Inference& i
       std::snprintf(number, sizeof number, "\"%.17g %s\"", value, unit.c_str());
     return std::string(number);
   };
+  const Known known = known_of(problem, inference);
+  // What was known before bounds what the data do not know.
+  const auto is_told = [&](int p) {
+    return inference.parameters[p].identifiable || problem.parameters[p].has_prior ||
+           tells_combinations(problem, inference, p);
+  };
   for (int p = 0; p < P; ++p) {
     const ParameterEstimate& e = inference.parameters[p];
     const FittedParameter& parameter = problem.parameters[p];
     std::string distribution;
-    // What was known before bounds what the data do not know.
-    const bool known = e.identifiable || parameter.has_prior;
-    if (parameter.is_error() && !known) {
+    if (parameter.is_error() && !is_told(p)) {
       out += "\n# " + e.name + " is not identifiable (" + e.reason + "): it stays what the mechanism file says.\n";
       continue;
     }
     if (parameter.is_error()) {
-      distribution = "{ normal = { mean = " + quantity(e.value, e.si_unit) +
-                     ", sd = " + quantity(e.standard_error, e.si_unit) + " } }";
+      if (tells_combinations(problem, inference, p))
+        out += "\n# Not identifiable (" + e.reason + "): normal, of " + quantity(parameter.size, e.si_unit) +
+               " about its start, within what the data tell of it and others together.";
+      distribution = "{ normal = { mean = " + quantity(parameter.value(known.u[p]), e.si_unit) +
+                     ", sd = " + quantity(known.deviation[p] * parameter.size, e.si_unit) + " } }";
     } else if (!e.identifiable) {
       out += "\n# Not identifiable (" + e.reason + "): all that is allowed for it.";
       distribution = "{ uniform = { min = " + quantity(parameter.lower, e.si_unit) +
@@ -51,15 +123,15 @@ std::string posterior_toml(const CalibrationProblem& problem, const Inference& i
   }
   for (int a = 0; a < P; ++a)
     for (int b = a + 1; b < P; ++b) {
-      const double rho = inference.correlation(a, b);
-      const auto& first = inference.parameters[a];
-      const auto& second = inference.parameters[b];
-      if (!(first.identifiable || problem.parameters[a].has_prior) ||
-          !(second.identifiable || problem.parameters[b].has_prior) || !std::isfinite(rho))
-        continue;
+      const double rho = known.correlation(a, b);
+      if (!is_told(a) || !is_told(b) || !std::isfinite(rho)) continue;
+      // To the last digit, and a little less: what errors are together may be known ten thousand times as well as each of them, and the matrix
+      // stays positive definite.
+      constexpr double kOfRounding = 1e-12;
       std::snprintf(text, sizeof text,
-                    "\n[[correlation]]\nparameters = [\"%s\", \"%s\"]\ncoefficient = %.6f\nmeasure = \"normal\"\n",
-                    first.name.c_str(), second.name.c_str(), std::clamp(rho, -0.999, 0.999));
+                    "\n[[correlation]]\nparameters = [\"%s\", \"%s\"]\ncoefficient = %.17g\nmeasure = \"normal\"\n",
+                    inference.parameters[a].name.c_str(), inference.parameters[b].name.c_str(),
+                    (1.0 - kOfRounding) * rho);
       out += text;
     }
   return out;

@@ -119,9 +119,10 @@ IndependentInterval excess_bounds(const FidelityPlan& plan, const std::vector<st
     low += least + (most - least) * betting_lower(shares, 0, each);
     high += least + (most - least) * betting_upper(shares, 0, each);
   }
-  result.value = value;
   result.low = std::max(result.low, low);
   result.high = std::min(result.high, high);
+  // Differences of shares may leave what a probability can be, or what is shown of it.
+  result.value = std::clamp(value, std::min(result.low, result.high), std::max(result.low, result.high));
   result.basis = "the closer of Clopper-Pearson over the first rung's " + std::to_string(dear) +
                  " samples and of betting on all rungs', half of the risk each";
   return result;

@@ -62,6 +62,30 @@ TEST_F(InputProgram, OptionsOutOfAllProportionAreRefusedByName) {
     expect_refused({"chart", four_bar_, "--time", value}, "--time");
 }
 
+// A wildcard names a parameter as its own path does: which of two values would hold would hang on their order.
+TEST_F(InputProgram, AParameterGivenTwiceThroughAWildcardIsRefusedByEveryVerb) {
+  const std::string head =
+      "format = 1\nmechanism = \"" + mechanism_ + "\"\n[index]\nquantity = \"position_error\"\nstatistic = \"max\"\n";
+  const auto twice = [&](const std::string& verb, const std::string& before, const std::string& entry,
+                         const std::string& key, const std::string& rest) {
+    for (const bool turned : {false, true}) {
+      std::string study = head + before;
+      for (const bool wild : {turned, !turned})
+        study += "[[" + entry + "]]\n" + key + " = \"clearance." + (wild ? "*" : "F1") + ".radial\"\n" + rest;
+      std::ofstream(folder_ / "study.toml") << study;
+      expect_refused({verb, "study.toml"}, "found \"clearance.F1.radial\" a second time");
+    }
+  };
+  twice("sweep", "", "sweep.axis", "parameter", "values = [\"0.1 mm\", \"0.2 mm\"]\n");
+  twice("match", "", "match.variable", "parameter", "from = \"0.1 mm\"\nto = \"0.3 mm\"\n");
+  twice("allocate", "[allocate]\nrequirement = { limit = \"0.3 mm\", probability = 0.95, confidence = 0.9 }\n",
+        "allocate.joint", "parameter",
+        "least = \"2 um\"\nprocesses = [{ name = \"p\", tolerance = \"0.05 mm\", price = 1 }]\n");
+  twice("calibrate", "", "calibrate.parameter", "path", "");
+  twice("montecarlo", "[montecarlo]\nsamples = 10\n", "random", "parameter",
+        "distribution = { normal = { mean = \"0.2 mm\", sd = \"0.01 mm\" } }\n");
+}
+
 TEST_F(InputProgram, HistoriesThatMemoryCannotHoldAreRefusedWithTheirSize) {
   std::vector<std::string> arguments = {"run", mechanism_, "--sample", "0.6 us", "--rung", "perturbation"};
   for (const char* body : {"rod1", "rod2", "rod3", "tube1", "tube2", "crank1"})
