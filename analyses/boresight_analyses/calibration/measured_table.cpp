@@ -218,9 +218,15 @@ MeasuredData read_measured_table(const std::string& file, const ReadAs& as) {
     rows.emplace_back();
     for (std::size_t c = 0; c < columns.place.size(); ++c) {
       const auto place = static_cast<std::size_t>(columns.place[c]);
-      rows.back().push_back(is_missing(row[place])
-                                ? std::numeric_limits<double>::quiet_NaN()
-                                : number(row[place], columns.name[place], origin, columns) * columns.scale[c]);
+      const double value = is_missing(row[place])
+                               ? std::numeric_limits<double>::quiet_NaN()
+                               : number(row[place], columns.name[place], origin, columns) * columns.scale[c];
+      // A thousand kilometres, or as many radians: no deviation, and squares of it drown all others.
+      constexpr double kAbsurd = 1e6;
+      if (std::abs(value) > kAbsurd)
+        throw InputError(origin, columns.name[place], in_quotes(row[place]),
+                         "a deviation below a million metres or radians");
+      rows.back().push_back(value);
     }
   }
   if (readings == 0)
@@ -233,6 +239,9 @@ MeasuredData read_measured_table(const std::string& file, const ReadAs& as) {
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t c = 0; c < rows[i].size(); ++c)
       data.value(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) = rows[i][c];
+  if (!data.value.array().isFinite().any())
+    throw InputError({file, data.line.front()}, "data", "no value in any of " + std::to_string(rows.size()) + " rows",
+                     "readings; an empty field is one that is missing");
   return data;
 }
 

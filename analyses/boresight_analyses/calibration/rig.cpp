@@ -22,15 +22,30 @@ double channel_reading(int channel, const PoseSample& s, const Vec3& boresight_B
   return sizes[channel - 10];
 }
 
+namespace {
+
+// Of a history in which the readings' times lie, or lie close to: a clock that is off puts all of them between its samples, and a contact
+// turns the motion within one.
+double spacing_for(const std::vector<double>& times, double duration) {
+  constexpr double kFinest = 1e-5, kMostSamples = 2e5, kFiner = 50.0;
+  double spacing = duration;
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (times[i] > times[i - 1]) spacing = std::min(spacing, times[i] - times[i - 1]);
+  const bool on_grid = std::all_of(times.begin(), times.end(),
+                                   [&](double t) { return std::abs(t - spacing * std::round(t / spacing)) < 1e-9; });
+  if (on_grid) return std::max(spacing, kFinest);
+  return std::max({std::min(spacing, 1e-3) / kFiner, kFinest, duration / kMostSamples});
+}
+
+}  // namespace
+
 MatX multibody_readings(const std::shared_ptr<const Mechanism>& mechanism, const Parameters& parameters,
                         const std::vector<double>& times, const std::vector<int>& channels,
                         const std::vector<Vec3>& places_B, bool implicit) {
-  double spacing = times.front() > 0.0 ? times.front() : 1e-3;
-  for (std::size_t i = 1; i < times.size(); ++i) spacing = std::min(spacing, times[i] - times[i - 1]);
   RunOptions options;
   options.integrator = implicit ? "rosenbrock" : "dopri5";
   options.tolerance = 1e-7;
-  options.sample_spacing = std::max(spacing, 1e-5);
+  options.sample_spacing = spacing_for(times, mechanism->duration());
   options.events = false;
   const RunResult run = make_rung("multibody", mechanism)->run(parameters, options);
   MatX readings(static_cast<Eigen::Index>(times.size()), static_cast<Eigen::Index>(channels.size()));

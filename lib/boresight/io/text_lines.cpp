@@ -28,6 +28,8 @@ bool TextLines::next(std::string& line) {
       throw InputError({file_, number_}, "", "a line of more than 1 MiB", "a table in plain text");
     line += static_cast<char>(c);
   }
+  // The mark that Excel sets before what it writes in UTF-8.
+  if (number_ == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
   if (++read_ > kLargestFile) throw InputError({file_, 0}, "", "a file of more than 256 MiB", "a smaller file");
   return true;
 }

@@ -47,6 +47,28 @@ TEST_F(MeasuredDataTest, WithoutAUnitOrTwiceTheSameColumnAreRefused) {
   EXPECT_THROW(read("t [s], dx [um], dx [mm]\n0, 1, 2\n"), InputError);
 }
 
+TEST_F(MeasuredDataTest, MayBeginWithTheMarkThatSpreadsheetsSet) {
+  const MeasuredData data = read("\xEF\xBB\xBFt [s], dx [um]\n0, 3.5\n");
+  EXPECT_EQ(data.time, (std::vector<double>{0.0}));
+  EXPECT_NEAR(data.value(0, 0), 3.5e-6, 1e-18);
+}
+
+TEST_F(MeasuredDataTest, WithoutAnyValueOrWithAbsurdOnesAreRefusedWithTheirLine) {
+  const auto refusal = [&](const std::string& text) {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal("t [s], dx [um]\n0, \n1, NA\n").find(".csv:2: data: found no value in any of 2 rows"),
+            std::string::npos);
+  EXPECT_NE(refusal("t [s], dx [um]\n0, 1\n1, 1e300\n").find(".csv:3: dx: found \"1e300\""), std::string::npos);
+  EXPECT_NE(refusal("t [s], ry [rad]\n0, -1e7\n").find(".csv:2: ry"), std::string::npos);
+  EXPECT_EQ(refusal("t [s], dx [m]\n0, 1e5\n"), "");
+}
+
 TEST_F(MeasuredDataTest, MayHaveSemicolonsAndDecimalCommas) {
   const MeasuredData data = read("t [s]; dx [um]; ry [mrad]\n0; 3,5;\n0,0025; ; -0,2\n1; 1e1; 4\n");
   EXPECT_EQ(data.time, (std::vector<double>{0.0, 2.5e-3, 1.0}));

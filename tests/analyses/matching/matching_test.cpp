@@ -15,7 +15,7 @@ namespace matching_test {
 // index = 1 + (x - 3)^2 + scatter, free flight = 0.1 + 0.02 (x - 7)^2: accuracy is best at 3, stability at 7.
 class Valley final : public SampleModel {
  public:
-  explicit Valley(double shift = 0.0) : shift_(shift) {}
+  explicit Valley(double shift = 0.0, double width = 0.2) : shift_(shift), width_(width) {}
   std::string rung() const override { return "valley"; }
   double step() const override { return 0.0; }
   std::string leaves_out() const override { return ""; }
@@ -24,14 +24,14 @@ class Valley final : public SampleModel {
     for (std::size_t k = 0; k < samples.size(); ++k) {
       const double x = samples[k].values[0], scatter = samples[k].values.size() > 1 ? samples[k].values[1] : 0.0;
       outcomes[k].status = Outcome::Status::done;
-      outcomes[k].value = 1.0 + std::pow(x - 3.0 - shift_, 2) + 0.2 * (scatter - 0.5);
+      outcomes[k].value = 1.0 + std::pow(x - 3.0 - shift_, 2) + width_ * (scatter - 0.5);
       outcomes[k].motion = {
           .free_flight_share = 0.1 + 0.02 * std::pow(x - 7.0, 2), .impacts_per_second = 1.0, .peak_acceleration = 1.0};
     }
   }
 
  private:
-  double shift_;
+  double shift_, width_;
 };
 
 MatchingPlan plan(Over over = Over::nominal) {
@@ -255,6 +255,34 @@ TEST(Matching, FrontHoldsDesignsBetweenTheTwoOptimaOnly) {
   }
 }
 
+TEST(Matching, TakesABetterPlaceThatItsMapShows) {
+  // A descent from here stays in its own valley; the other one is deeper.
+  class TwoValleys final : public SampleModel {
+   public:
+    std::string rung() const override { return "two valleys"; }
+    double step() const override { return 0.0; }
+    std::string leaves_out() const override { return ""; }
+    std::size_t batch() const override { return 1; }
+    void evaluate(std::span<const Sample> samples, std::span<Outcome> outcomes,
+                  const std::atomic<bool>&) const override {
+      for (std::size_t k = 0; k < samples.size(); ++k) {
+        const double x = samples[k].values[0];
+        outcomes[k].status = Outcome::Status::done;
+        outcomes[k].value = std::min(2.0 + std::pow(x - 1.0, 2), 1.0 + std::pow(x - 8.0, 2));
+      }
+    }
+  } const model;
+  MatchingPlan p = plan();
+  p.global = "none";
+  p.variables[0].starts = {0.5};
+  p.map = 21;
+  p.front = 0;
+  DesignEvaluator evaluator(model, nullptr, nullptr, {});
+  const MatchingResult r = run_matching(p, evaluator, nullptr, "", {});
+  EXPECT_NEAR(r.design[0], 8.0, 1e-2);
+  EXPECT_NEAR(r.objective, 1.0, 1e-3);
+}
+
 TEST(Matching, AConfirmationThatAgreesLeavesTheOptimumAlone) {
   const Valley model;
   const MatchingPlan p = plan(Over::mean);
@@ -268,6 +296,31 @@ TEST(Matching, AConfirmationThatAgreesLeavesTheOptimumAlone) {
   EXPECT_GT(r.interval.high, r.objective);
 }
 
+// Sixty samples show no upper end of their 95 % quantile, and the worst of them is less than that of four hundred: neither contradicts the other.
+TEST(Matching, QuantilesAndWorstsOfFewerSamplesDoNotContradictThoseOfMore) {
+  const Valley model(0.0, 2.0), other(1.5, 2.0);
+  for (const Over over : {Over::quantile, Over::worst}) {
+    MatchingPlan p = plan(over);
+    p.map = p.front = 0;
+    p.variables[0].starts = {5.0};
+    int disagree = 0;
+    for (std::uint64_t seed = 2; seed < 12; ++seed) {
+      DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 400, .seed = 1});
+      DesignEvaluator confirm(model, &*p.inputs, nullptr, {.samples = 60, .seed = seed});
+      const MatchingResult r = run_matching(p, evaluator, &confirm, "valley", {});
+      disagree += !r.confirmation[0].agrees;
+      if (r.confirmation[0].agrees) {
+        EXPECT_NEAR(r.objective, 1.9, 0.11);
+      }
+    }
+    EXPECT_LE(disagree, 1) << over_names()[static_cast<std::size_t>(over)].name;
+    // A rung that says something else still disagrees.
+    DesignEvaluator evaluator(model, &*p.inputs, nullptr, {.samples = 400, .seed = 1});
+    DesignEvaluator confirm(other, &*p.inputs, nullptr, {.samples = 60, .seed = 2});
+    EXPECT_FALSE(run_matching(p, evaluator, &confirm, "other", {}).confirmation[0].agrees);
+  }
+}
+
 TEST(Matching, GoesOnOnTheRungThatDisagrees) {
   const Valley cheap, exact(1.5);
   const MatchingPlan p = plan(Over::mean);
@@ -278,6 +331,11 @@ TEST(Matching, GoesOnOnTheRungThatDisagrees) {
   EXPECT_FALSE(r.confirmation[0].agrees);
   EXPECT_TRUE(r.confirmation[0].went_on);
   EXPECT_NEAR(r.design[0], 4.5, 0.01);
+  // What is as good is so by the rung that the answer is of, and the descent that found it is no worse place than it.
+  EXPECT_LE(r.as_good_from[0], r.design[0]);
+  EXPECT_GE(r.as_good_to[0], r.design[0]);
+  EXPECT_GT(r.as_good_from[0], 3.5);
+  EXPECT_TRUE(r.descents.back().agrees);
 }
 
 TEST(DesignSlopes, AreOfNumbersOfContactsAboveZeroInOneMotionsIndexWithoutLimits) {
