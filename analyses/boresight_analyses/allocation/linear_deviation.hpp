@@ -67,9 +67,10 @@ class LinearDeviation {
   std::string statistic_;
 };
 
-// `places`: one radial clearance each, or several that share a value; or one standing error. `instants`: kept of
-// the motion. What the linear form misses against the rung itself, relative, is measured with all at `probe`,
-// none of them zero, and elsewhere; it is returned in `misfit`. Throws ComputationError, also where an error
+// `places`: one radial clearance each, or several that share a value; or one standing error. `instants`: kept of what
+// the index counts, from its start on; drawn from stretches of the motion where it is faster than they are. What the linear
+// form misses against the rung itself, relative, is measured with all at `probe`, none of them zero, with every other one
+// narrow, and with each alone; the largest is returned in `misfit`. Throws ComputationError, also where an error
 // strains the mechanism.
 LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& mechanism,
                                       const std::vector<std::vector<ParameterPath>>& places,
