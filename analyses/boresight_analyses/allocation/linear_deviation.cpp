@@ -285,8 +285,9 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
   const double whole_truth = truth;
   for (const std::vector<double>& other : others) {
     vectors(other, &truth);
-    // Of what next to nothing is left of nothing hangs.
-    if (truth > 1e-3 * whole_truth) misfit = std::max(misfit, std::abs(linear.index(other) - truth) / truth);
+    // Alone, one may do next to nothing, of which nothing hangs.
+    const double least = &other == &others.front() ? 0.0 : 1e-3 * whole_truth;
+    if (truth > least) misfit = std::max(misfit, std::abs(linear.index(other) - truth) / truth);
   }
   return linear;
 }

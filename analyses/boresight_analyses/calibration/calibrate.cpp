@@ -121,8 +121,8 @@ void Calibrator::fit_poses() {
   warn_of_play();
   constexpr int kMostRounds = 60;
   constexpr double kSettled = 0.01;
-  constexpr double kApart =
-      4.0;  // standard deviations, from which on noises are unlike: of many channels, one fit in a thousand by chance
+  // Standard deviations from which on noises are unlike. At three, one of a hundred sets of six alike channels was taken apart.
+  constexpr double kApart = 4.0;
   const VecX first = noise_from_sizes(problem_);
   set_noise(first);
   note(fit(problem_, problem_.start(), {}, fit_options("errors", 40, options_.jobs)));

@@ -308,22 +308,6 @@ class Matching {
     gather_front(accuracy, stability);
   }
 
-  // Whether two sets of samples of a design leave open that its objective is the same but for `further`. The worst of more samples is larger:
-  // both are asked for the quantile that the fewer can see.
-  bool may_be_alike(const std::vector<Outcome>& a, const std::vector<Outcome>& b, double further) const {
-    MeasureChoice compared = plan_.objective;
-    const std::size_t fewer = std::min(a.size(), b.size());
-    if (compared.over == Over::worst && fewer > 1) {
-      compared.over = Over::quantile;
-      compared.probability = 1.0 - 1.0 / static_cast<double>(fewer);
-    }
-    const ReportedInterval of_a = compared.interval(a, options_.confidence),
-                           of_b = compared.interval(b, options_.confidence);
-    // Means scatter by their intervals, of which both lie apart; order statistics know no more than whether these meet.
-    if (compared.over == Over::quantile) return of_a.low <= of_b.high + further && of_b.low <= of_a.high + further;
-    return std::abs(of_a.value - of_b.value) <= further + 0.5 * (of_a.high - of_a.low + of_b.high - of_b.low);
-  }
-
   void confirm_on(DesignEvaluator& confirm, const std::string& rung) {
     MatchingConfirmation c;
     c.rung = rung;
@@ -338,7 +322,8 @@ class Matching {
     bool keeps = true;
     for (const MatchingConstraint& k : plan_.constraints) keeps = keeps && excess(k, outcomes) <= options_.accuracy;
     c.agrees = std::isfinite(off) && keeps == result_.feasible &&
-               may_be_alike(evaluator_->at(result_.design), outcomes, options_.accuracy * std::abs(c.value));
+               plan_.objective.may_be_alike(evaluator_->at(result_.design), outcomes, options_.confidence,
+                                            options_.accuracy * std::abs(c.value));
     char text[300];
     std::snprintf(text, sizeof text, "%s with seed %llu gives %.4g where the search had %.4g: %s", rung.c_str(),
                   static_cast<unsigned long long>(c.seed), c.value, result_.objective,

@@ -97,4 +97,18 @@ ReportedInterval MeasureChoice::interval(std::span<const Outcome> outcomes, doub
   return {value, value, value, confidence, 0.0, false, "no scatter is asked for", "none"};
 }
 
+bool MeasureChoice::may_be_alike(std::span<const Outcome> a, std::span<const Outcome> b, double confidence,
+                                 double further) const {
+  MeasureChoice compared = *this;
+  const std::size_t fewer = std::min(a.size(), b.size());
+  if (over == Over::worst && fewer > 1) {
+    compared.over = Over::quantile;
+    compared.probability = 1.0 - 1.0 / static_cast<double>(fewer);
+  }
+  const ReportedInterval of_a = compared.interval(a, confidence), of_b = compared.interval(b, confidence);
+  // Order statistics know no more than whether their intervals meet, of which one may have no upper end.
+  if (compared.over == Over::quantile) return of_a.low <= of_b.high + further && of_b.low <= of_a.high + further;
+  return std::abs(of_a.value - of_b.value) <= further + 0.5 * (of_a.high - of_a.low + of_b.high - of_b.low);
+}
+
 }  // namespace boresight

@@ -44,6 +44,9 @@ struct MeasureChoice {
   // The same with its interval: Student's t of a mean, order statistics of a quantile; a nominal value or a
   // worst case has none (its ends are the value).
   ReportedInterval interval(std::span<const Outcome> outcomes, double confidence) const;
+  // Whether two sets of samples leave open that they are of one value, but for `further` in its unit. The worst of more samples is larger: of
+  // worst cases both are asked for the quantile that the fewer can see.
+  bool may_be_alike(std::span<const Outcome> a, std::span<const Outcome> b, double confidence, double further) const;
 };
 
 }  // namespace boresight

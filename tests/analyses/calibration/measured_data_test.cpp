@@ -19,6 +19,14 @@ class MeasuredDataTest : public testing::Test {
     std::ofstream(file_) << text;
     return read_measured_data(file_);
   }
+  std::string refusal(const std::string& text) const {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
   const std::string file_ =
       testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + std::string(".csv");
 };
@@ -54,14 +62,6 @@ TEST_F(MeasuredDataTest, MayBeginWithTheMarkThatSpreadsheetsSet) {
 }
 
 TEST_F(MeasuredDataTest, WithoutAnyValueOrWithAbsurdOnesAreRefusedWithTheirLine) {
-  const auto refusal = [&](const std::string& text) {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
   EXPECT_NE(refusal("t [s], dx [um]\n0, \n1, NA\n").find(".csv:2: data: found no value in any of 2 rows"),
             std::string::npos);
   EXPECT_NE(refusal("t [s], dx [um]\n0, 1\n1, 1e300\n").find(".csv:3: dx: found \"1e300\""), std::string::npos);
@@ -81,14 +81,6 @@ TEST_F(MeasuredDataTest, MayHaveSemicolonsAndDecimalCommas) {
 }
 
 TEST_F(MeasuredDataTest, WithBothKindsOfDecimalMarksAreRefused) {
-  const auto refusal = [&](const std::string& text) {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
   EXPECT_NE(refusal("t [s]; dx [um]\n0,1; 3\n0.2; 4\n").find("a decimal comma, as in the numbers before"),
             std::string::npos);
   EXPECT_NE(refusal("t [s]; dx [um]\n0.1; 3\n0.2; 1,234\n").find("a decimal point, as in the numbers before"),
