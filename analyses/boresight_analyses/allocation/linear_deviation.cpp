@@ -280,7 +280,7 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
   constexpr std::size_t kMostAlone = 12;
   for (std::size_t j = 0; j < std::min(probe.size(), kMostAlone); ++j) {
     std::vector<double>& alone = others.emplace_back(probe);
-    for (std::size_t k = 0; k < alone.size(); ++k) alone[k] *= k == j ? 1.0 : 0.1;
+    for (std::size_t k = 0; k < alone.size(); ++k) alone[k] *= k == j ? 1.0 : 0.25;
   }
   const double whole_truth = truth;
   for (const std::vector<double>& other : others) {
