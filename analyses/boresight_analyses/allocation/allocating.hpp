@@ -24,7 +24,8 @@ class Allocating {
   void use_steps(Allocation& a) const;
   // ... and then let go of them: the tolerances of these entries at least price, the options of the others as they are.
   void refine(Allocation& a, double limit) const;
-  // Whether what the search says of all sets holds of all sets: of a linear deviation, with nothing else beside it that scatters.
+  // Whether what the search says of all sets holds of all sets: of a linear deviation, with nothing beside it that scatters and is
+  // not in it.
   bool is_exact() const;
   double price_of_set(const Allocation& a) const;
 
@@ -34,6 +35,12 @@ class Allocating {
   DistributionPtr zone_of(const Allocation& a, std::size_t j) const;
   // Gaps and errors of a set at these coordinates: [sample][entry].
   std::vector<std::vector<double>> gaps_of(const Allocation& a, const UnitSamples& unit, std::size_t count) const;
+  // The linear inputs' values at these coordinates: [input][sample].
+  BesideValues beside_of(const UnitSamples& unit, std::size_t count) const;
+  // The linear deviation's index of each sample.
+  std::vector<double> linear_of(const std::vector<std::vector<double>>& gaps, const BesideValues& beside) const;
+  // The limit that the samples of the search hold tolerances of all entries to; least, z: of each.
+  ToleranceRequirement statistical(std::vector<double> least, std::vector<std::vector<double>> z) const;
 
   // By the samples of the search, on the confirming rung's scale.
   void evaluate(Allocation& a) const;
@@ -78,6 +85,7 @@ class Allocating {
   const LinearDeviation& deviation_;
   const AllocationOptions& options_;
   UnitSamples unit_;
+  BesideValues beside_;  // of the samples of the search
   std::int64_t allowed_;
   // Of each entry's options, or of the steps of its tolerance; empty where all entries have cost curves.
   std::vector<std::vector<double>> price_;

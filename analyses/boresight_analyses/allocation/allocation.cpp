@@ -41,6 +41,7 @@ Allocating::Allocating(const AllocationPlan& plan, const LinearDeviation& deviat
       deviation_(deviation),
       options_(options),
       unit_(unit_samples(plan.entries.size() + plan.scattered(), plan.samples, plan.seed)),
+      beside_(beside_of(unit_, plan.samples)),
       allowed_(allowed_in_search(plan)) {
   for (const AllocationEntry& entry : plan.entries) {
     price_.emplace_back();
@@ -67,7 +68,8 @@ Allocating::Allocating(const AllocationPlan& plan, const LinearDeviation& deviat
   places_ = plan.zone_places();
   if (!plan.is_continuous()) {
     tightest_ = tightest_options(gap_);
-    statistical_ = std::make_unique<StatisticalRequirement>(deviation_, gap_, unit_, allowed_, plan.requirement.limit);
+    statistical_ =
+        std::make_unique<StatisticalRequirement>(deviation_, gap_, unit_, allowed_, plan.requirement.limit, beside_);
   }
 }
 
@@ -93,7 +95,7 @@ void Allocating::progress(const std::string& stage, double share) const {
 }
 
 bool Allocating::is_exact() const {
-  return !plan_.has_curves() && plan_.scattered() == 0 && result_.misfit <= kMostMisfit;
+  return !plan_.has_curves() && plan_.scattered() == plan_.linear_inputs.size() && result_.misfit <= kMostMisfit;
 }
 
 double Allocating::price_of_set(const Allocation& a) const {
@@ -127,7 +129,7 @@ void Allocating::refine(Allocation& a, double limit) const {
     whole[j] = 1.0;
     for (const double u : unit_[j]) z[j].push_back(gap_[j][static_cast<std::size_t>(a.choice[j])]->quantile(u));
   }
-  const ToleranceRequirement of_all = statistical_tolerances(deviation_, std::move(least), std::move(z), allowed_);
+  const ToleranceRequirement of_all = statistical(std::move(least), std::move(z));
   std::vector<double> slope(whole.size());
   const ToleranceRequirement of_open = [&](std::span<const double> t, std::span<double> gradient) {
     for (std::size_t i = 0; i < open.size(); ++i) whole[open[i]] = t[i];
@@ -154,8 +156,7 @@ Allocation Allocating::cheapest(double limit, const std::vector<int>& start) {
   Allocation a;
   a.judged_by = "samples";
   if (plan_.is_continuous()) {
-    const ContinuousAllocation c = allocate_continuous(
-        curves_, statistical_tolerances(deviation_, places_.least, z_, allowed_), working_limit(limit));
+    const ContinuousAllocation c = allocate_continuous(curves_, statistical(places_.least, z_), working_limit(limit));
     a.feasible = c.feasible;
     a.finished = c.converged;
     a.tolerance = c.tolerance;
@@ -164,8 +165,8 @@ Allocation Allocating::cheapest(double limit, const std::vector<int>& start) {
   } else {
     statistical_->set_limit(working_limit(limit));
     DiscreteAllocationOptions o;
-    const auto entries = static_cast<double>(plan_.entries.size());
-    o.most_nodes = static_cast<std::int64_t>(kMostWork / (static_cast<double>(plan_.samples) * entries * entries)) + 1;
+    const auto entries = static_cast<double>(plan_.entries.size()), all = entries + static_cast<double>(beside_.size());
+    o.most_nodes = static_cast<std::int64_t>(kMostWork / (static_cast<double>(plan_.samples) * entries * all)) + 1;
     o.start = start;
     o.progress = [this](const DiscreteAllocation&) { return !(options_.interrupted && options_.interrupted()); };
     const DiscreteAllocation d = allocate_discrete(price_, tightest_, *statistical_, o);
@@ -205,9 +206,39 @@ std::vector<std::vector<double>> Allocating::gaps_of(const Allocation& a, const 
   return gaps;
 }
 
+BesideValues Allocating::beside_of(const UnitSamples& unit, std::size_t count) const {
+  BesideValues beside(plan_.linear_inputs.size(), std::vector<double>(count));
+  if (beside.empty()) return beside;
+  std::vector<std::vector<double>> others = others_of(unit, count);
+  for (std::size_t k = 0; k < count; ++k) {
+    plan_.inputs->values(others[k]);
+    for (std::size_t i = 0; i < beside.size(); ++i) beside[i][k] = others[k][plan_.linear_inputs[i]];
+  }
+  return beside;
+}
+
+std::vector<double> Allocating::linear_of(const std::vector<std::vector<double>>& gaps,
+                                          const BesideValues& beside) const {
+  std::vector<double> values, c;
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    c = gaps[k];
+    for (const std::vector<double>& of_input : beside) c.push_back(of_input[k]);
+    values.push_back(deviation_.index(c));
+  }
+  return values;
+}
+
+ToleranceRequirement Allocating::statistical(std::vector<double> least, std::vector<std::vector<double>> z) const {
+  // What scatters beside: values that are what they are, times a tolerance of one.
+  least.resize(least.size() + beside_.size(), 0.0);
+  z.insert(z.end(), beside_.begin(), beside_.end());
+  return with_fixed(statistical_tolerances(deviation_, std::move(least), std::move(z), allowed_),
+                    std::vector<double>(beside_.size(), 1.0));
+}
+
 void Allocating::evaluate(Allocation& a) const {
-  std::vector<double> values;
-  for (const auto& gaps : gaps_of(a, unit_, plan_.samples)) values.push_back(result_.factor * deviation_.index(gaps));
+  std::vector<double> values = linear_of(gaps_of(a, unit_, plan_.samples), beside_);
+  for (double& value : values) value *= result_.factor;
   std::sort(values.begin(), values.end(), std::greater<>());
   const auto above =
       std::count_if(values.begin(), values.end(), [&](double v) { return v > plan_.requirement.limit * (1.0 + 1e-9); });
@@ -236,8 +267,7 @@ AllocationConfirmation Allocating::confirmed(const Allocation& a, const Confirmi
   c.seed = seed;
   c.factor = result_.factor;
   c.price = a.price;
-  std::vector<double> linear;
-  for (const auto& g : gaps) linear.push_back(deviation_.index(g));
+  const std::vector<double> linear = linear_of(gaps, beside_of(unit, plan_.confirm));
   factor = c.reached / shown_limit(linear, plan_.requirement.probability, confidence);
   // Far below the limit is a disagreement too: a cheaper set may do.
   c.agrees = c.met && c.reached > (1.0 - options_.accuracy) * std::min(plan_.requirement.limit, a.reached);
@@ -256,11 +286,12 @@ AllocationConfirmation Allocating::confirmed(const Allocation& a, const Confirmi
 void Allocating::find_first_factor(const Allocation& a, const ConfirmingModel& confirm) {
   const auto gaps = gaps_of(a, unit_, kTrialSamples);
   const std::vector<double> values = values_of(confirm(gaps, others_of(unit_, kTrialSamples)));
+  const std::vector<double> linear_values = linear_of(gaps, beside_);
   double sum = 0.0, linear = 0.0;
   for (std::size_t k = 0; k < values.size(); ++k)
     if (std::isfinite(values[k])) {
       sum += values[k];
-      linear += deviation_.index(gaps[k]);
+      linear += linear_values[k];
     }
   if (linear > 0.0) result_.factor = sum / linear;
 }

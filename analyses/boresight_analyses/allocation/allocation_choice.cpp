@@ -59,9 +59,9 @@ Allocation Allocating::tightest_like(const Allocation& a) const {
 
 Allocation Allocating::best_like(const Allocation& a) const {
   Allocation best = tightest_like(a);
-  if (allowed_ < 0 || deviation_.rises_with_every_gap(lowest_gap(), highest_gap())) return best;
+  if (allowed_ < 0 || (beside_.empty() && deviation_.rises_with_every_gap(lowest_gap(), highest_gap()))) return best;
   if (plan_.is_continuous()) {
-    best.tolerance = least_tolerances(curves_, statistical_tolerances(deviation_, places_.least, z_, allowed_));
+    best.tolerance = least_tolerances(curves_, statistical(places_.least, z_));
     best.price = price_of_set(best);
     return best;
   }
@@ -120,8 +120,20 @@ void Allocating::compare() {
       a.price = c.price;
       finish(a, name);
     };
-    take(result_.worst_case, worst_case_tolerances(deviation_, places_), "worst case");
-    take(result_.root_sum_square, root_sum_square_tolerances(deviation_, places_, plan_.requirement.probability),
+    // What scatters beside: zones about its middle, as those of errors.
+    ZonePlaces places = places_, largest = places_;
+    std::vector<double> width, none(beside_.size(), 0.0);
+    for (const std::vector<double>& values : beside_) {
+      const auto [middle, half] = middle_and_half(values);
+      const auto [low, high] = std::minmax_element(values.begin(), values.end());
+      places.least.push_back(middle);
+      largest.least.push_back(std::max(std::abs(*low), std::abs(*high)));
+      for (ZonePlaces* of : {&places, &largest}) of->centred.push_back(true);
+      width.push_back(2.0 * half);
+    }
+    take(result_.worst_case, with_fixed(worst_case_tolerances(deviation_, largest), none), "worst case");
+    take(result_.root_sum_square,
+         with_fixed(root_sum_square_tolerances(deviation_, places, plan_.requirement.probability), width),
          "root-sum-square");
     return;
   }
@@ -136,15 +148,16 @@ void Allocating::compare() {
     a.nodes = d.nodes;
     finish(a, name);
   };
-  take(result_.worst_case, WorstCaseRequirement(deviation_, gap_, limit), "worst case", true);
+  take(result_.worst_case, WorstCaseRequirement(deviation_, gap_, limit, beside_), "worst case", true);
   take(result_.root_sum_square,
-       RootSumSquareRequirement(deviation_, gap_, plan_.requirement.probability, limit, places_.centred),
+       RootSumSquareRequirement(deviation_, gap_, plan_.requirement.probability, limit, places_.centred, beside_),
        "root-sum-square", false);
 }
 
 void Allocating::share_out() {
   const Allocation& a = result_.chosen;
-  std::vector<double> variance(plan_.entries.size()), mean(variance), slope(variance), g(variance);
+  std::vector<double> variance(plan_.entries.size()), mean(variance), slope(variance),
+      g(variance.size() + beside_.size());
   const auto gaps = gaps_of(a, unit_, plan_.samples);
   for (std::size_t j = 0; j < mean.size(); ++j) {
     for (const auto& c : gaps) mean[j] += c[j] / static_cast<double>(gaps.size());
@@ -152,9 +165,11 @@ void Allocating::share_out() {
   }
   // Squares of slopes, averaged over the samples: at the middle of all zones errors have none, being as likely to point
   // better as worse.
-  for (const auto& c : gaps) {
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    std::vector<double> c = gaps[k];
+    for (const std::vector<double>& of_input : beside_) c.push_back(of_input[k]);
     deviation_.index(c, g);
-    for (std::size_t j = 0; j < g.size(); ++j) slope[j] += g[j] * g[j];
+    for (std::size_t j = 0; j < slope.size(); ++j) slope[j] += g[j] * g[j];
   }
   double sum = 0.0;
   for (std::size_t j = 0; j < mean.size(); ++j) sum += variance[j] *= slope[j];

@@ -206,6 +206,18 @@ ZonePlaces AllocationPlan::zone_places() const {
   return places;
 }
 
+std::vector<std::size_t> AllocationPlan::inputs_to_be_linear_in() const {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < scattered(); ++i) {
+    const std::vector<std::string>& paths = inputs->parameters[i].paths;
+    const auto are = [&](auto&& of_kind) { return std::all_of(paths.begin(), paths.end(), of_kind); };
+    if (are([](const std::string& path) { return path.starts_with("error."); }) ||
+        are([](const std::string& path) { return path.starts_with("clearance.") && path.ends_with(".radial"); }))
+      found.push_back(i);
+  }
+  return found;
+}
+
 Parameters AllocationPlan::parameters_with(const Mechanism& mechanism, std::span<const double> values) const {
   Parameters p = inputs ? inputs->parameters_with(mechanism, values.subspan(entries.size())) : mechanism.parameters();
   for (std::size_t j = 0; j < entries.size(); ++j)

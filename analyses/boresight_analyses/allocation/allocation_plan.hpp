@@ -70,7 +70,9 @@ struct AllocationPlan {
   std::size_t samples = 1000, confirm = 120;
   std::uint64_t seed = 1;
   int front = 6;
-  std::optional<RandomInputs> inputs;  // what else scatters, in the confirmation
+  std::optional<RandomInputs> inputs;  // what else scatters
+  // Which of the inputs the linear deviation has behind the entries, in its order; the others count in the confirmation alone.
+  std::vector<std::size_t> linear_inputs = {};
 
   // Whether all entries have cost curves; whether any has.
   bool is_continuous() const;
@@ -79,6 +81,8 @@ struct AllocationPlan {
   // The gaps first, then the other random parameters.
   Parameters parameters_with(const Mechanism& mechanism, std::span<const double> gaps_then_random) const;
   std::size_t scattered() const { return inputs ? inputs->size() : 0; }  // other random parameters
+  // Those that a linear deviation may be linear in: radial clearances and errors, each by itself or all of one kind.
+  std::vector<std::size_t> inputs_to_be_linear_in() const;
   std::string sample_text(const Study& study) const;
 };
 

@@ -212,6 +212,17 @@ ToleranceRequirement statistical_tolerances(const LinearDeviation& deviation, st
   };
 }
 
+ToleranceRequirement with_fixed(ToleranceRequirement of_all, std::vector<double> fixed) {
+  if (fixed.empty()) return of_all;
+  return [of_all = std::move(of_all), fixed = std::move(fixed)](std::span<const double> t, std::span<double> gradient) {
+    std::vector<double> all(t.begin(), t.end()), slope(t.size() + fixed.size());
+    all.insert(all.end(), fixed.begin(), fixed.end());
+    const double value = of_all(all, gradient.empty() ? std::span<double>() : std::span<double>(slope));
+    std::copy_n(slope.begin(), gradient.size(), gradient.begin());
+    return value;
+  };
+}
+
 ToleranceRequirement worst_case_tolerances(const LinearDeviation& deviation, ZonePlaces places) {
   return [&deviation, places = std::move(places)](std::span<const double> t, std::span<double> gradient) {
     std::vector<double> c(t.size());

@@ -59,6 +59,8 @@ struct ZonePlaces {
 // ranks, as the order statistic itself has kinks wherever two samples change places.
 ToleranceRequirement statistical_tolerances(const LinearDeviation& deviation, std::vector<double> least,
                                             std::vector<std::vector<double>> z, std::int64_t allowed);
+// The requirement of the first of its tolerances, the last ones being `fixed`.
+ToleranceRequirement with_fixed(ToleranceRequirement of_all, std::vector<double> fixed);
 ToleranceRequirement worst_case_tolerances(const LinearDeviation& deviation, ZonePlaces places);
 ToleranceRequirement root_sum_square_tolerances(const LinearDeviation& deviation, ZonePlaces places,
                                                 double probability);

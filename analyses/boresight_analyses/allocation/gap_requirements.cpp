@@ -48,8 +48,10 @@ std::vector<int> tightest_options(const std::vector<std::vector<DistributionPtr>
 
 StatisticalRequirement::StatisticalRequirement(const LinearDeviation& deviation,
                                                const std::vector<std::vector<DistributionPtr>>& gap,
-                                               const UnitSamples& unit, std::int64_t allowed, double limit)
+                                               const UnitSamples& unit, std::int64_t allowed, double limit,
+                                               BesideValues beside)
     : deviation_(deviation),
+      beside_(std::move(beside)),
       tightest_(tightest_options(gap)),
       samples_(unit.front().size()),
       allowed_(allowed),
@@ -67,17 +69,24 @@ StatisticalRequirement::StatisticalRequirement(const LinearDeviation& deviation,
   for (std::size_t j = 0; j < gap.size(); ++j) most_per_gap_.push_back(deviation.most_per_gap(j));
 }
 
+void StatisticalRequirement::take(std::span<const int> choice, std::size_t k, std::vector<double>& c) const {
+  c.resize(size());
+  const std::size_t joints = gap_.size();
+  for (std::size_t j = 0; j < joints; ++j) c[j] = gap(j, choice[j] >= 0 ? choice[j] : tightest_[j], k);
+  for (std::size_t i = 0; i < beside_.size(); ++i) c[joints + i] = beside_[i][k];
+}
+
 // |e + a_j dc| <= |e| + |a_j| |dc|, and no statistic of sizes grows by more than the largest of them does.
 double StatisticalRequirement::quick_bound(std::span<const double> gaps, std::size_t k) const {
   double bound = tight_index_[k];
-  for (std::size_t j = 0; j < gaps.size(); ++j) bound += most_per_gap_[j] * std::abs(gaps[j] - gap(j, tightest_[j], k));
+  for (std::size_t j = 0; j < gap_.size(); ++j) bound += most_per_gap_[j] * std::abs(gaps[j] - gap(j, tightest_[j], k));
   return bound;
 }
 
 std::vector<double> StatisticalRequirement::indices(std::span<const int> choice) const {
-  std::vector<double> values(samples_), c(choice.size());
+  std::vector<double> values(samples_), c;
   for (std::size_t k = 0; k < samples_; ++k) {
-    for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j], k);
+    take(choice, k, c);
     values[k] = deviation_.index(c);
   }
   return values;
@@ -92,10 +101,10 @@ double StatisticalRequirement::reached(std::span<const int> choice) const {
 
 bool StatisticalRequirement::is_met(std::span<const int> choice) const {
   std::int64_t failed = 0;
-  std::vector<double> c(choice.size());
+  std::vector<double> c;
   for (std::size_t i = 0; i < samples_; ++i) {
     const std::uint32_t k = order_[i];
-    for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j], k);
+    take(choice, k, c);
     if (quick_bound(c, k) > limit_ && deviation_.index(c) > limit_) {
       std::swap(order_[i], order_[static_cast<std::size_t>(failed)]);
       if (++failed > allowed_) return false;
@@ -110,7 +119,7 @@ double StatisticalRequirement::least_of(std::span<const int> choice, std::span<c
                                         std::size_t k) const {
   if (!deviation_.is_convex()) {
     std::vector<double> low(c.begin(), c.end()), high(low);
-    for (std::size_t j = 0; j < c.size(); ++j)
+    for (std::size_t j = 0; j < choice.size(); ++j)
       if (choice[j] < 0)
         for (const auto& option : gap_[j]) {
           low[j] = std::min(low[j], option[k]);
@@ -119,7 +128,7 @@ double StatisticalRequirement::least_of(std::span<const int> choice, std::span<c
     return deviation_.least_index(c, low, high);
   }
   double least = deviation_.index(c, g);
-  for (std::size_t j = 0; j < c.size(); ++j) {
+  for (std::size_t j = 0; j < choice.size(); ++j) {
     if (choice[j] >= 0) continue;
     double gain = 0.0;
     for (const auto& option : gap_[j]) gain = std::min(gain, g[j] * (option[k] - c[j]));
@@ -131,10 +140,10 @@ double StatisticalRequirement::least_of(std::span<const int> choice, std::span<c
 bool StatisticalRequirement::may_be_met(std::span<const int> choice) const {
   if (allowed_ < 0) return false;
   std::int64_t failed = 0;
-  std::vector<double> c(choice.size()), g(choice.size());
+  std::vector<double> c, g(size());
   for (std::size_t i = 0; i < samples_; ++i) {
     const std::uint32_t k = order_[i];
-    for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j] >= 0 ? choice[j] : tightest_[j], k);
+    take(choice, k, c);
     if (quick_bound(c, k) <= limit_ || deviation_.index(c) <= limit_) continue;
     if (least_of(choice, c, g, k) > limit_) {
       std::swap(order_[i], order_[static_cast<std::size_t>(failed)]);
@@ -157,13 +166,14 @@ std::vector<AdditiveInequality> StatisticalRequirement::inequalities_near(std::s
   std::vector<std::uint32_t> hard(samples_);
   std::iota(hard.begin(), hard.end(), 0U);
   std::sort(hard.begin(), hard.end(), [&](auto l, auto r) { return values[l] > values[r]; });
-  std::vector<std::vector<double>> gradient(samples_, std::vector<double>(choice.size()));
-  std::vector<double> constant(samples_), c(choice.size());
+  std::vector<std::vector<double>> gradient(samples_, std::vector<double>(size()));
+  std::vector<double> constant(samples_), c;
   for (std::size_t i = 0; i < samples_; ++i) {
     const std::uint32_t k = hard[i];
-    for (std::size_t j = 0; j < c.size(); ++j) c[j] = gap(j, choice[j], k);
+    take(choice, k, c);
     constant[i] = deviation_.index(c, gradient[i]);
-    for (std::size_t j = 0; j < c.size(); ++j) constant[i] -= gradient[i][j] * c[j];
+    // What scatters beside is the same for all sets: of the constant.
+    for (std::size_t j = 0; j < choice.size(); ++j) constant[i] -= gradient[i][j] * c[j];
   }
   const auto allowed = static_cast<std::size_t>(allowed_);
   std::vector<AdditiveInequality> all;
@@ -189,8 +199,9 @@ std::vector<AdditiveInequality> StatisticalRequirement::inequalities_near(std::s
 }
 
 std::vector<double> StatisticalRequirement::error_shares(std::span<const int> choice) const {
-  std::vector<double> mean(choice.size()), variance(choice.size()), g(choice.size());
-  for (std::size_t j = 0; j < mean.size(); ++j) {
+  std::vector<double> mean(size()), variance(choice.size()), g(size());
+  for (std::size_t i = 0; i < beside_.size(); ++i) mean[choice.size() + i] = middle_and_half(beside_[i]).middle;
+  for (std::size_t j = 0; j < variance.size(); ++j) {
     const auto& values = gap_[j][static_cast<std::size_t>(choice[j])];
     // From the first value on: gaps that do not vary have a variance of zero, and none by rounding.
     double beyond = 0.0;
@@ -200,14 +211,19 @@ std::vector<double> StatisticalRequirement::error_shares(std::span<const int> ch
   }
   deviation_.index(mean, g);
   double sum = 0.0;
-  for (std::size_t j = 0; j < mean.size(); ++j) sum += variance[j] *= g[j] * g[j];
+  for (std::size_t j = 0; j < variance.size(); ++j) sum += variance[j] *= g[j] * g[j];
   for (double& v : variance) v = sum > 0.0 ? v / sum : 0.0;
   return variance;
 }
 
 WorstCaseRequirement::WorstCaseRequirement(const LinearDeviation& deviation,
-                                           const std::vector<std::vector<DistributionPtr>>& gap, double limit)
+                                           const std::vector<std::vector<DistributionPtr>>& gap, double limit,
+                                           const BesideValues& beside)
     : deviation_(deviation), limit_(limit) {
+  for (const std::vector<double>& values : beside) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    largest_beside_.push_back(std::max(std::abs(*low), std::abs(*high)));
+  }
   for (const auto& options : gap) {
     largest_.emplace_back();
     for (const DistributionPtr& d : options)
@@ -222,16 +238,19 @@ bool WorstCaseRequirement::may_be_met(std::span<const int> choice) const {
   for (std::size_t j = 0; j < c.size(); ++j)
     c[j] = choice[j] >= 0 ? largest_[j][static_cast<std::size_t>(choice[j])]
                           : *std::min_element(largest_[j].begin(), largest_[j].end());
+  c.insert(c.end(), largest_beside_.begin(), largest_beside_.end());
   return deviation_.worst_index(c) <= limit_;
 }
 
 // Convex in the sizes: it lies above its tangent, which is additive.
 std::vector<AdditiveInequality> WorstCaseRequirement::inequalities_near(std::span<const int> choice) const {
   if (!deviation_.is_convex()) return {};
-  std::vector<double> c(choice.size()), g(choice.size());
+  std::vector<double> c(choice.size());
   for (std::size_t j = 0; j < c.size(); ++j) c[j] = largest_[j][static_cast<std::size_t>(choice[j])];
+  c.insert(c.end(), largest_beside_.begin(), largest_beside_.end());
+  std::vector<double> g(c.size());
   AdditiveInequality tangent{.weight = {}, .budget = limit_ - deviation_.worst_index(c, g)};
-  for (std::size_t j = 0; j < c.size(); ++j) {
+  for (std::size_t j = 0; j < choice.size(); ++j) {
     tangent.budget += g[j] * c[j];
     std::vector<double>& weight = tangent.weight.emplace_back();
     for (const double size : largest_[j]) weight.push_back(g[j] * size);
@@ -241,7 +260,8 @@ std::vector<AdditiveInequality> WorstCaseRequirement::inequalities_near(std::spa
 
 RootSumSquareRequirement::RootSumSquareRequirement(const LinearDeviation& deviation,
                                                    const std::vector<std::vector<DistributionPtr>>& gap,
-                                                   double probability, double limit, std::vector<bool> centred)
+                                                   double probability, double limit, std::vector<bool> centred,
+                                                   const BesideValues& beside)
     : deviation_(deviation),
       tightest_(tightest_options(gap)),
       centred_(std::move(centred)),
@@ -259,6 +279,16 @@ RootSumSquareRequirement::RootSumSquareRequirement(const LinearDeviation& deviat
     least_.push_back(*low);
     largest_.push_back(j < centred_.size() && centred_[j] ? *low : *high);
   }
+  centred_.resize(gap.size(), false);
+  for (const std::vector<double>& values : beside) {
+    const auto [middle, half] = middle_and_half(values);
+    middle_beside_.push_back(middle);
+    half_beside_.push_back(half);
+    // Of no direction of its own against the others, as errors are.
+    centred_.push_back(true);
+  }
+  least_.insert(least_.end(), middle_beside_.begin(), middle_beside_.end());
+  largest_.insert(largest_.end(), middle_beside_.begin(), middle_beside_.end());
   rises_ = deviation.rises_with_every_gap(least_, largest_);
 }
 
@@ -275,6 +305,7 @@ bool RootSumSquareRequirement::may_be_met(std::span<const int> choice) const {
     at.push_back(middle_[j][static_cast<std::size_t>(choice[j] >= 0 ? choice[j] : tightest_[j])]);
     if (choice[j] >= 0) low[j] = high[j] = at[j];
   }
+  at.insert(at.end(), middle_beside_.begin(), middle_beside_.end());
   return deviation_.least_index(at, low, high) <= limit_;
 }
 
@@ -285,7 +316,19 @@ double RootSumSquareRequirement::index_with_open_at_tightest(std::span<const int
     c[j] = middle_[j][o];
     h[j] = half_[j][o];
   }
+  c.insert(c.end(), middle_beside_.begin(), middle_beside_.end());
+  h.insert(h.end(), half_beside_.begin(), half_beside_.end());
   return root_sum_square_index(deviation_, c, h, z_, centred_);
+}
+
+MiddleAndHalf middle_and_half(const std::vector<double>& values) {
+  // From the first value on: values that do not vary have a deviation of zero, and none by rounding.
+  double beyond = 0.0, squares = 0.0;
+  const auto count = static_cast<double>(values.size());
+  for (const double v : values) beyond += v - values.front();
+  const double mean = values.front() + beyond / count;
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  return {mean, 3.0 * std::sqrt(squares / count)};
 }
 
 double root_sum_square_index(const LinearDeviation& deviation, std::span<const double> middle,

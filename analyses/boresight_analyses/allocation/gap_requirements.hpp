@@ -26,11 +26,15 @@ std::int64_t allowed_failures(std::int64_t samples, double probability, double c
 using UnitSamples = std::vector<std::vector<double>>;
 UnitSamples unit_samples(std::size_t joints, std::size_t samples, std::uint64_t seed);
 
+// What scatters beside the entries that a set decides about, as the deviation has it behind them: [which][sample], of the search's
+// samples. By the two rules of thumb it counts with the largest of these sizes, and with their mean and deviation.
+using BesideValues = std::vector<std::vector<double>>;
+
 class StatisticalRequirement final : public AllocationRequirement {
  public:
   // gap[joint][option]: how the radial clearance scatters.
   StatisticalRequirement(const LinearDeviation& deviation, const std::vector<std::vector<DistributionPtr>>& gap,
-                         const UnitSamples& unit, std::int64_t allowed, double limit);
+                         const UnitSamples& unit, std::int64_t allowed, double limit, BesideValues beside = {});
 
   bool is_met(std::span<const int> choice) const override;
   bool may_be_met(std::span<const int> choice) const override;
@@ -54,9 +58,13 @@ class StatisticalRequirement final : public AllocationRequirement {
   double gap(std::size_t joint, int option, std::size_t sample) const {
     return gap_[joint][static_cast<std::size_t>(option)][sample];
   }
+  // c: of sample k, all that the deviation is linear in, with the open joints at their tightest.
+  void take(std::span<const int> choice, std::size_t k, std::vector<double>& c) const;
+  std::size_t size() const { return gap_.size() + beside_.size(); }
 
   const LinearDeviation& deviation_;
   std::vector<std::vector<std::vector<double>>> gap_;  // [joint][option][sample]
+  BesideValues beside_;
   std::vector<int> tightest_;
   std::size_t samples_;
   std::int64_t allowed_;
@@ -72,7 +80,7 @@ std::vector<int> tightest_options(const std::vector<std::vector<DistributionPtr>
 class WorstCaseRequirement final : public AllocationRequirement {
  public:
   WorstCaseRequirement(const LinearDeviation& deviation, const std::vector<std::vector<DistributionPtr>>& gap,
-                       double limit);
+                       double limit, const BesideValues& beside = {});
   bool is_met(std::span<const int> choice) const override;
   bool may_be_met(std::span<const int> choice) const override;
   std::vector<AdditiveInequality> inequalities_near(std::span<const int> choice) const override;
@@ -80,6 +88,7 @@ class WorstCaseRequirement final : public AllocationRequirement {
  private:
   const LinearDeviation& deviation_;
   std::vector<std::vector<double>> largest_;  // of sizes: an error's to either side
+  std::vector<double> largest_beside_;
   double limit_;
 };
 
@@ -89,7 +98,8 @@ class RootSumSquareRequirement final : public AllocationRequirement {
  public:
   // centred[j]: the zones of j lie about one middle, as those of errors do; none, if empty.
   RootSumSquareRequirement(const LinearDeviation& deviation, const std::vector<std::vector<DistributionPtr>>& gap,
-                           double probability, double limit, std::vector<bool> centred = {});
+                           double probability, double limit, std::vector<bool> centred = {},
+                           const BesideValues& beside = {});
   bool is_met(std::span<const int> choice) const override;
   bool may_be_met(std::span<const int> choice) const override;
 
@@ -99,11 +109,18 @@ class RootSumSquareRequirement final : public AllocationRequirement {
   const LinearDeviation& deviation_;
   std::vector<std::vector<double>> middle_, half_;
   std::vector<double> least_, largest_;  // of the middles
+  std::vector<double> middle_beside_, half_beside_;
   std::vector<int> tightest_;
   std::vector<bool> centred_;
   double z_, limit_;
   bool rises_ = false;  // with every gap: checked
 };
+
+// Half a zone whose mean and deviation a rule of thumb takes for those of these values: three standard deviations.
+struct MiddleAndHalf {
+  double middle = 0.0, half = 0.0;
+};
+MiddleAndHalf middle_and_half(const std::vector<double>& values);
 
 // index + z sqrt(sum (s_j half_j / 3)^2) at these gaps and errors; centred[j]: s_j is that of an error.
 double root_sum_square_index(const LinearDeviation& deviation, std::span<const double> middle,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -23,11 +24,47 @@ Eigen::Matrix<double, 3, 6> gain_of(const PoseSample& sample, PointingQuantity q
   return error_gain(quantity, sample.ideal, sample.ideal.q * pointing.boresight_B, pointing.line_of_sight);
 }
 
-// Which error of the description this path names; -1: none.
-int error_named(const MechanismDescription& mechanism, const std::string& path) {
-  for (std::size_t e = 0; e < mechanism.errors.size(); ++e)
-    if (path == "error." + mechanism.errors[e].name) return static_cast<int>(e);
-  return -1;
+// Which errors of the description these paths name; none where they name gaps.
+std::vector<std::size_t> errors_named(const MechanismDescription& mechanism, const std::vector<ParameterPath>& paths) {
+  std::vector<std::size_t> named;
+  for (const ParameterPath& path : paths)
+    for (const std::string& single : single_paths(mechanism, path.path()))
+      for (std::size_t e = 0; e < mechanism.errors.size(); ++e)
+        if (single == "error." + mechanism.errors[e].name) named.push_back(e);
+  return named;
+}
+
+// The columns of these errors, [place][..]; none where there are none. `may`: which places may be left out; `leaves_out`: which are,
+// as no linear form holds for them.
+std::unique_ptr<const StandingErrors> standing_errors(const Mechanism& mechanism, const IdealMotion& commanded,
+                                                      const std::vector<std::vector<std::size_t>>& errors_of,
+                                                      const std::vector<bool>& may, std::vector<bool>& leaves_out) {
+  std::vector<bool> needed(mechanism.description().errors.size(), false), all = needed;
+  for (std::size_t j = 0; j < errors_of.size(); ++j)
+    for (const std::size_t e : errors_of[j]) {
+      all[e] = true;
+      if (!may[j]) needed[e] = true;
+    }
+  const auto any = [](const std::vector<bool>& of) { return std::find(of.begin(), of.end(), true) != of.end(); };
+  std::unique_ptr<const StandingErrors> standing;
+  if (!any(all)) return standing;
+  try {
+    standing = std::make_unique<StandingErrors>(mechanism, commanded, all);
+  } catch (const ComputationError&) {  // one strains the mechanism
+    if (needed == all) throw;
+    if (any(needed)) standing = std::make_unique<StandingErrors>(mechanism, commanded, needed);
+    all = needed;
+  }
+  for (std::size_t j = 0; j < errors_of.size(); ++j)
+    for (const std::size_t e : errors_of[j]) {
+      if (all[e] && !standing->uses_play(e)) continue;
+      if (!may[j])
+        throw ComputationError(
+            taken_up_by_play(mechanism.description(), e) +
+            "; no deviation that is linear in it can share its tolerance out: scatter it by [[random]]");
+      leaves_out[j] = true;
+    }
+  return standing;
 }
 
 // The instants that are kept: of what the index counts, equally spaced. A motion that turns back and forth faster than that would be met at
@@ -83,6 +120,12 @@ LinearDeviation::LinearDeviation(std::vector<double> time, std::vector<double> o
     size_.emplace_back(n);
     for (std::size_t i = 0; i < n; ++i) size_.back()[i] = size_of(&a[3 * i]);
   }
+}
+
+LinearDeviation LinearDeviation::of_only(const std::vector<std::size_t>& kept) const {
+  std::vector<std::vector<double>> sensitivity;
+  for (const std::size_t j : kept) sensitivity.push_back(sensitivity_[j]);
+  return {time_, offset_, std::move(sensitivity), statistic_};
 }
 
 double LinearDeviation::statistic_of(const std::vector<double>& sizes, std::vector<double>* derivative) const {
@@ -201,7 +244,7 @@ double LinearDeviation::worst_index(std::span<const double> gaps, std::span<doub
 LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& mechanism,
                                       const std::vector<std::vector<ParameterPath>>& places,
                                       const std::vector<double>& probe, const IndexChoice& index, std::size_t instants,
-                                      double& misfit) {
+                                      double& misfit, std::vector<bool>* left_out) {
   index.title();  // throws where the quantity or the statistic is unknown
   const PointingQuantity quantity = index.kind();
   const auto rung = make_rests(mechanism);
@@ -211,13 +254,21 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
   const IdealMotion commanded = ideal_motion(*mechanism, mechanism->parameters());
   const Kept kept = kept_of(*mechanism, commanded, index.start, instants);
   options.sample_spacing = kept.history_spacing;
+  std::vector<std::vector<std::size_t>> errors_of;
+  for (const auto& place : places) errors_of.push_back(errors_named(mechanism->description(), place));
+  std::vector<bool> leaves_out(places.size(), false);
+  const std::unique_ptr<const StandingErrors> standing =
+      standing_errors(*mechanism, commanded, errors_of,
+                      left_out == nullptr ? std::vector<bool>(places.size(), false) : *left_out, leaves_out);
+  if (left_out != nullptr) *left_out = leaves_out;
   // Error vectors of a run, all instants in a row.
   std::vector<double> time;
   std::vector<Eigen::Matrix<double, 3, 6>> gains;
   const auto vectors = [&](const std::vector<double>& gaps, double* value) {
     Parameters parameters = mechanism->parameters();
     for (std::size_t j = 0; j < places.size(); ++j)
-      for (const ParameterPath& place : places[j]) place.set(parameters, gaps[j]);
+      if (!leaves_out[j])
+        for (const ParameterPath& place : places[j]) place.set(parameters, gaps[j]);
     const RunResult result = rung->run(parameters, options);
     if (value) *value = index.of(result.index);
     time.clear();
@@ -238,23 +289,11 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
   const std::vector<double> whole = vectors(probe, &truth);
   std::vector<std::vector<double>> sensitivity;
   std::vector<double> offset = whole;
-  std::vector<int> error_of;
-  std::vector<bool> wanted(mechanism->description().errors.size(), false);
-  for (const auto& place : places) {
-    error_of.push_back(error_named(mechanism->description(), place.front().path()));
-    if (error_of.back() >= 0) wanted[static_cast<std::size_t>(error_of.back())] = true;
-  }
   MatX columns;  // of all wanted errors: 3 instants x errors
-  if (std::find(wanted.begin(), wanted.end(), true) != wanted.end()) {
-    const StandingErrors standing(*mechanism, commanded, wanted);
-    for (std::size_t e = 0; e < wanted.size(); ++e)
-      if (wanted[e] && standing.uses_play(e))
-        throw ComputationError(
-            taken_up_by_play(mechanism->description(), e) +
-            "; no deviation that is linear in it can share its tolerance out: scatter it by [[random]]");
-    const TimeTable& table = standing.gain(mechanism->boresight_body());
-    Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> at(6, standing.count());
-    columns.resize(static_cast<Eigen::Index>(whole.size()), standing.count());
+  if (standing) {
+    const TimeTable& table = standing->gain(mechanism->boresight_body());
+    Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor> at(6, standing->count());
+    columns.resize(static_cast<Eigen::Index>(whole.size()), standing->count());
     for (std::size_t i = 0; i < time.size(); ++i) {
       table.at(time[i], at.data());
       columns.middleRows<3>(static_cast<Eigen::Index>(3 * i)) = gains[i] * at;
@@ -262,8 +301,10 @@ LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& me
   }
   for (std::size_t j = 0; j < places.size(); ++j) {
     std::vector<double>& a = sensitivity.emplace_back(whole.size());
-    if (error_of[j] >= 0) {
-      Eigen::Map<VecX>(a.data(), columns.rows()) = columns.col(error_of[j]);
+    if (leaves_out[j]) continue;
+    if (!errors_of[j].empty()) {
+      for (const std::size_t e : errors_of[j])
+        Eigen::Map<VecX>(a.data(), columns.rows()) += columns.col(static_cast<Eigen::Index>(e));
     } else {
       std::vector<double> less = probe;
       less[j] *= 0.5;

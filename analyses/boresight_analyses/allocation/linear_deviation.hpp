@@ -38,6 +38,8 @@ class LinearDeviation {
                   std::string statistic);
 
   std::size_t gaps() const { return sensitivity_.size(); }
+  // Of these of its gaps and errors, the others being zero.
+  LinearDeviation of_only(const std::vector<std::size_t>& kept) const;
   double most_per_gap(std::size_t j) const;  // the largest |a_j| over time
   double alone(std::size_t j) const {
     return statistic_of(size_[j], nullptr);
@@ -67,14 +69,15 @@ class LinearDeviation {
   std::string statistic_;
 };
 
-// `places`: one radial clearance each, or several that share a value; or one standing error. `instants`: kept of what
+// `places`: one radial clearance each, or several that share a value; or one standing error, or several that do. `instants`: kept of what
 // the index counts, from its start on; drawn from stretches of the motion where it is faster than they are. What the linear
 // form misses against the rung itself, relative, is measured with all at `probe`, none of them zero, with every other one
-// narrow, and with each alone; the largest is returned in `misfit`. Throws ComputationError, also where an error
-// strains the mechanism.
+// narrow, and with each alone; the largest is returned in `misfit`. `left_out`: which places may be left out, where play takes up
+// the error that they name and no linear form holds; then, which were. Throws ComputationError, also where an error strains the
+// mechanism, or is taken up and may not be left out.
 LinearDeviation find_linear_deviation(const std::shared_ptr<const Mechanism>& mechanism,
                                       const std::vector<std::vector<ParameterPath>>& places,
                                       const std::vector<double>& probe, const IndexChoice& index, std::size_t instants,
-                                      double& misfit);
+                                      double& misfit, std::vector<bool>* left_out = nullptr);
 
 }  // namespace boresight

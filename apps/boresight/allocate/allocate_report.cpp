@@ -185,8 +185,9 @@ std::string allocate_sentence(const AllocateStudy& s) {
       s.result.chosen.proven ? "By the linear deviation, scaled as this rung's samples asked for, nothing cheaper "
                                "keeps the limit with the "
                                "room that a confirmation needs. "
-      : s.result.chosen.finished && s.plan.scattered() > 0
-          ? "Nothing cheaper was found; what scatters besides counts as one factor there, so that something cheaper "
+      : s.result.chosen.finished && s.plan.scattered() > s.plan.linear_inputs.size()
+          ? "Nothing cheaper was found; part of what scatters besides counts as one factor there, so that something "
+            "cheaper "
             "may keep the limit. "
       : s.result.chosen.finished ? "Nothing cheaper was found near it; that nothing is elsewhere is not proven. "
       : s.result.chosen.bound > 0.0

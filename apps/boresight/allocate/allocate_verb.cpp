@@ -48,6 +48,35 @@ std::vector<std::vector<double>> corner_gaps(const AllocationPlan& plan) {
   return corners;
 }
 
+// Of the entries and, as far as it goes, of what scatters beside: the latter are named in the plan.
+LinearDeviation linear_deviation(const std::shared_ptr<const Mechanism>& mechanism, AllocationPlan& plan,
+                                 std::vector<double> probe, const IndexChoice& index, double& misfit) {
+  std::vector<std::vector<ParameterPath>> places;
+  for (const AllocationEntry& entry : plan.entries) places.push_back(entry.places);
+  std::vector<bool> left_out(places.size(), false);
+  std::vector<std::size_t> inputs;
+  for (const std::size_t i : plan.inputs_to_be_linear_in()) {
+    const RandomParameter& p = plan.inputs->parameters[i];
+    // Errors to one side, as entries are: in their middle nothing may show.
+    constexpr double kAside = 0.975;
+    const bool is_error = p.paths.front().starts_with("error.");
+    const double at = is_error ? p.distribution->quantile(kAside) : p.distribution->mean();
+    if (!is_error && !(at > 0.0)) continue;
+    inputs.push_back(i);
+    places.push_back(p.places);
+    left_out.push_back(true);
+    probe.push_back(at);
+  }
+  const LinearDeviation all = find_linear_deviation(mechanism, places, probe, index, kInstants, misfit, &left_out);
+  std::vector<std::size_t> kept;
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    if (left_out[j]) continue;
+    kept.push_back(j);
+    if (j >= plan.entries.size()) plan.linear_inputs.push_back(inputs[j - plan.entries.size()]);
+  }
+  return all.of_only(kept);
+}
+
 // What the entries are: "joints", "errors", "joints and errors".
 std::string entries_text(const AllocationPlan& plan) {
   const auto errors = std::count_if(plan.entries.begin(), plan.entries.end(), [](const auto& e) { return e.is_error; });
@@ -137,7 +166,7 @@ class AllocateVerb : public Verb {
     StudyInput input(command.file, command.settings);
     const Study& study = input.study;
     const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
-    const AllocationPlan plan = read_allocation_plan(input.root, study, mechanism->description(), input.trial);
+    AllocationPlan plan = read_allocation_plan(input.root, study, mechanism->description(), input.trial);
     check_rung_name(command.rung);
     const RunOptions asked = motion_.run_options(*mechanism, command.rung);
     const VerbStudy own(command, mechanism, study.index, study.accuracy, asked,
@@ -146,10 +175,8 @@ class AllocateVerb : public Verb {
 
     RungChoice choice = rung_for(command, *mechanism);
     const std::vector<std::vector<double>> gaps = corner_gaps(plan);
-    std::vector<std::vector<ParameterPath>> places;
-    for (const AllocationEntry& joint : plan.entries) places.push_back(joint.places);
     double misfit = 0.0;
-    const LinearDeviation deviation = find_linear_deviation(mechanism, places, gaps[0], study.index, kInstants, misfit);
+    const LinearDeviation deviation = linear_deviation(mechanism, plan, gaps[0], study.index, misfit);
 
     std::vector<Parameters> corners;
     for (std::vector<double> values : gaps) {

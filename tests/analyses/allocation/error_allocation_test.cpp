@@ -95,6 +95,64 @@ TEST(ErrorAllocation, NoSetOfFitsAndGradesIsCheaperByBruteForce) {
   EXPECT_GT(partly, 20);
 }
 
+// An error and a gap that scatter beside, of which no tolerance is asked: the sets are judged with their values, sample by sample.
+TEST(ErrorAllocation, NoSetIsCheaperByBruteForceWhereOthersScatterBeside) {
+  int partly = 0, other_than_alone = 0;
+  for (const char* statistic : {"max", "rms", "p99.73"}) {
+    const Small s(statistic);
+    const std::vector<std::vector<double>> price(s.price.begin(), s.price.begin() + 2);
+    const std::vector<std::vector<DistributionPtr>> zone(s.zone.begin(), s.zone.begin() + 2);
+    BesideValues beside(2);
+    const DistributionPtr squareness = make_normal(0.0, 60e-6), zero = make_normal(20e-6, 80e-6);
+    for (const double u : s.unit[2]) beside[0].push_back(zero->quantile(u));
+    for (const double u : s.unit[3]) beside[1].push_back(squareness->quantile(u));
+    for (const double limit : {0.05e-3, 0.07e-3, 0.09e-3, 0.12e-3, 0.16e-3}) {
+      const StatisticalRequirement statistical(s.deviation, zone, s.unit, 6, limit, beside);
+      const WorstCaseRequirement worst(s.deviation, zone, limit, beside);
+      const RootSumSquareRequirement root(s.deviation, zone, 0.95, limit, {false, true}, beside);
+      for (const AllocationRequirement* requirement :
+           {static_cast<const AllocationRequirement*>(&statistical), static_cast<const AllocationRequirement*>(&worst),
+            static_cast<const AllocationRequirement*>(&root)}) {
+        double best = std::numeric_limits<double>::infinity();
+        int meeting = 0, sets = 0;
+        for (const std::vector<int>& choice : all_sets(price)) {
+          ++sets;
+          if (requirement == &statistical) {
+            // By the samples themselves: no more than six above the limit.
+            int above = 0;
+            for (std::size_t k = 0; k < s.unit[0].size(); ++k)
+              above += s.deviation.index(
+                           std::vector<double>{zone[0][static_cast<std::size_t>(choice[0])]->quantile(s.unit[0][k]),
+                                               zone[1][static_cast<std::size_t>(choice[1])]->quantile(s.unit[1][k]),
+                                               beside[0][k], beside[1][k]}) > limit;
+            ASSERT_EQ(requirement->is_met(choice), above <= 6) << statistic << ' ' << limit;
+            const StatisticalRequirement alone(s.deviation.of_only({0, 1}), zone, s.unit, 6, limit);
+            other_than_alone += alone.is_met(choice) != (above <= 6);
+          }
+          if (!requirement->is_met(choice)) continue;
+          ++meeting;
+          best = std::min(best, price_of(price, choice));
+          for (const AdditiveInequality& i : requirement->inequalities_near(choice))
+            for (const std::vector<int>& other : all_sets(price)) {
+              if (!requirement->is_met(other)) continue;
+              double sum = 0.0;
+              for (std::size_t j = 0; j < other.size(); ++j) sum += i.weight[j][static_cast<std::size_t>(other[j])];
+              ASSERT_LE(sum, i.budget + 1e-12 * std::abs(i.budget)) << statistic << ' ' << limit;
+            }
+        }
+        partly += meeting > 0 && meeting < sets;
+        const DiscreteAllocation found = allocate_discrete(price, tightest_options(zone), *requirement);
+        ASSERT_TRUE(found.proven);
+        ASSERT_EQ(found.feasible, meeting > 0) << statistic << ' ' << limit;
+        if (meeting == 0) continue;
+        EXPECT_NEAR(found.price, best, 1e-9) << statistic << ' ' << limit;
+      }
+    }
+  }
+  EXPECT_GT(partly, 10);
+  EXPECT_GT(other_than_alone, 10);
+}
+
 // What sets that meet the requirement keep to, whatever they are.
 TEST(ErrorAllocation, TheInequalitiesHoldForEverySetThatMeetsTheRequirement) {
   const Small s("max");
