@@ -114,6 +114,9 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
   const std::string design = table.choice("design");
   for (const SamplingKind kind : {SamplingKind::random, SamplingKind::lhs, SamplingKind::sobol})
     if (design == to_string(kind)) plan.design.kind = kind;
+  if (by_budget && plan.design.kind != SamplingKind::random)
+    table.fail("design", "\"random\" with fidelities or tail: their intervals are for independent samples");
+  plan.samples_of_budget = by_budget && table.has("samples");
   if (table.has("strata") && plan.design.kind != SamplingKind::lhs)
     table.fail("strata", "strata with design = \"lhs\" only");
   if (table.has("replicates") && plan.design.kind != SamplingKind::sobol)
@@ -136,8 +139,6 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
   if (table.has("tail")) plan.tail = read_tail(table.table("tail"));
   if (by_budget) {
     if (plan.fidelities && plan.tail) table.fail("tail", "fidelities, or tail, not both");
-    if (plan.design.kind != SamplingKind::random)
-      table.fail("design", "\"random\" with fidelities or tail: their intervals are for independent samples");
     if (table.has("stop")) table.fail("stop", "no stop with fidelities or tail: their budget ends them");
     if (plan.tail && !plan.requirement)
       table.fail("requirement", "a requirement with tail: its limit is what is exceeded");

@@ -55,6 +55,7 @@ struct TailQuestion {
 
 struct MonteCarloPlan {
   std::uint64_t samples = 0;
+  bool samples_of_budget = false;  // `samples` was given, where fidelities or tail decide how many there are
   SamplingOptions design;
   double confidence = 0.95;
   std::optional<Requirement> requirement;

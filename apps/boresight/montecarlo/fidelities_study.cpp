@@ -97,7 +97,7 @@ int run_fidelities(const SeveralRungs& s) {
   }
   const StudySteps& steps = o.steps;
   const double sampling = 0.5 * (o.mean.value.high - o.mean.value.low) / std::abs(o.mean.value.value);
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = several_rungs_warnings(s);
   if (o.mean.failed > 0)
     warnings.push_back(fmt::format("{} samples failed on some rung and are left out of its mean", o.mean.failed) +
                        first_failure_text(o.failures, "sample"));

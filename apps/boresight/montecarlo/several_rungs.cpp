@@ -6,6 +6,14 @@ namespace boresight::app {
 
 RungChoice named_rung(const std::string& rung) { return {rung, "the study names its rungs", 0.0}; }
 
+std::vector<std::string> several_rungs_warnings(const SeveralRungs& s) {
+  const MonteCarloPlan& plan = s.question.plan;
+  if (!plan.samples_of_budget) return {};
+  const std::string key = plan.fidelities ? "fidelities" : "tail";
+  return {"samples = " + std::to_string(plan.samples) + " is not used: the budget of " + key +
+          " decides how many samples there are"};
+}
+
 Json several_rungs_summary(const SeveralRungs& s, const std::string& rung, const std::vector<std::string>& warnings,
                            const SampleStore::Cost& earlier) {
   Json json = s.own.head(s.question.study, named_rung(rung), s.watch, warnings, false, earlier);

@@ -76,7 +76,7 @@ int run_tail(const SeveralRungs& s) {
   const double before = found.search_seconds, spent = found.estimate_seconds;
 
   const IndependentInterval &p = estimate.bounds, &central = estimate.probability;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = several_rungs_warnings(s);
   const std::string& searched = pilot.on_exact ? asked.exact : asked.cheap;
   if (!pilot.proposal.subset.reached)
     warnings.push_back("the search on the " + searched +

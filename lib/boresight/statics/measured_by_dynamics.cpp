@@ -38,10 +38,13 @@ constexpr double kBent = 0.05;
 
 bool within_twice(double a, double b) { return a == b || (a > 0.0 && b > 0.0 && a <= 2.0 * b && b <= 2.0 * a); }
 
-// What stands for b: a itself within a factor of two of it, else a by the power of two that comes nearest to b.
+// What stands for b: a itself within a factor of two of it, else a by the power of two that comes nearest to b; where a is zero, as a
+// payload that comes and goes is, that power itself.
 double standing_for(double b, double a) {
   if (within_twice(a, b)) return a;
-  return a > 0.0 && b > 0.0 ? a * std::exp2(std::round(std::log2(b / a))) : b;
+  if (!(b > 0.0)) return b;
+  const double unit = a > 0.0 ? a : 1.0;
+  return unit * std::exp2(std::round(std::log2(b / unit)));
 }
 
 // What a sample's play is told apart by.
@@ -138,6 +141,7 @@ class MeasuredByDynamics final : public Rung {
     if (!of_errors.basis.empty()) result.error.basis += "; " + of_errors.basis;
     result.cost.cpu_seconds += cost.cpu_seconds;
     result.cost.wall_seconds += cost.wall_seconds;
+    result.cost.evaluations += cost.evaluations;
     if (bounds_ && measured.exceeded > 0.0) {
       char text[160];
       std::snprintf(text, sizeof text,
@@ -200,6 +204,7 @@ class MeasuredByDynamics final : public Rung {
         options.model_look = shares_are_next ? ModelLook::shares : ModelLook::none;
         cost.cpu_seconds += motions.back().cost.cpu_seconds;
         cost.wall_seconds += motions.back().cost.wall_seconds;
+        cost.evaluations += motions.back().cost.evaluations;
         if (stopped || says_nothing(motions[0])) break;
         const double next = kShares[std::min(motions.size(), kShares.size() - 1)];
         if (const std::string& taken = motions[0].integrator_taken; !taken.empty()) {

@@ -10,7 +10,7 @@
 // as far as these weigh against each other on the mechanism's size.
 //
 // Measured once, at the mechanism's own parameters; for samples that depart from them by more than a factor of two
-// in some number, once for all that share the nearest powers of two, at these. So it does not matter in which
+// in some number, or are not zero where these are, once for all that share the nearest powers of two, at these. So it does not matter in which
 // order, or on which thread, samples come.
 #pragma once
 

@@ -75,6 +75,17 @@ TEST_F(SeveralRungsProgram, FidelitiesForecastTheirGainAndAgreeWithThePilot) {
   EXPECT_EQ(json("out/summary.json")["index"]["mean"], mean);  // the plan it was begun with, all samples found again
 }
 
+TEST_F(SeveralRungsProgram, FidelitiesSayThatTheirBudgetDecidesHowManySamplesThereAre) {
+  study(
+      "[montecarlo]\nsamples = 400\nfidelities = { models = [\"perturbation\", \"quasistatic\"], budget = \"2 s\", "
+      "pilot = 10 "
+      "}\n");
+  const Ended ended = ask("montecarlo");
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("samples = 400 is not used: the budget of fidelities decides"));
+  EXPECT_THAT(json("out/summary.json")["warnings"].dump(), HasSubstr("samples = 400 is not used"));
+}
+
 // Quasistatic error grows with the clearance and knows no friction: what exceeds the error at a clearance of 0.12 mm are the clearances beyond
 // it, Phi(2) to Phi(5) of the distribution cut at five standard deviations.
 TEST_F(SeveralRungsProgram, TailSaysHowRareTheExcessIsAndAnswersByIt) {
@@ -146,6 +157,8 @@ TEST_F(SeveralRungsProgram, ContradictionsAreRefusedWithTheirLine) {
       {"[montecarlo]\ndesign = \"sobol\"\nsamples = 64\nfidelities = { models = [\"multibody\", \"envelope\"], budget "
        "= \"2 s\" }\n",
        "random"},
+      {"[montecarlo]\ndesign = \"sobol\"\nfidelities = { models = [\"multibody\", \"envelope\"], budget = \"2 s\" }\n",
+       "montecarlo.design"},
       {"[montecarlo]\ntail = { budget = \"2 s\" }\n", "requirement"},
       {"[sensitivity]\nsamples = 100\n", "power of two"}};
   for (const auto& c : cases) {

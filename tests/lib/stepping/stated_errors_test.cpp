@@ -197,6 +197,25 @@ TEST(StatedErrors, OfSamplesFarFromTheNominalAreThoseOfTheNearestFactorOfTwo) {
   EXPECT_EQ(stated(*other, 0.9), nominal);
 }
 
+// So do those of a payload that the mechanism as drawn has not.
+TEST(StatedErrors, OfSamplesWithWhatTheNominalHasNotAreThoseOfTheNearestPowerOfTwo) {
+  const auto mechanism = mechanism_of({"3-rrcpr", {{"motion.duration", "0.02 s"}}});
+  const auto stated = [&](const Rung& rung, double payload) {
+    Parameters parameters = mechanism->parameters();
+    parameters.payload_mass = payload;
+    RunOptions options;
+    options.sample_spacing = 0.0;
+    return rung.run(parameters, options).error.largest_model();
+  };
+  const auto one = make_rung("quasistatic", mechanism), other = make_rung("quasistatic", mechanism);
+  const double none = stated(*one, 0.0), four = stated(*one, 4.2), sixteen = stated(*one, 15.0);
+  EXPECT_EQ(stated(*one, 3.1), four);
+  EXPECT_EQ(stated(*other, 5.0), four);
+  EXPECT_EQ(stated(*other, 0.0), none);
+  EXPECT_NE(four, none);
+  EXPECT_NE(sixteen, four);
+}
+
 TEST(StatedErrors, OfTheLinearDeviationGrowWithTheClearanceAndHoldInFlight) {
   for (const char* clearance : {"0.5 mm", "5 mm"}) {
     const auto mechanism = mechanism_of(
