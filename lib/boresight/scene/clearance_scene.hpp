@@ -97,6 +97,8 @@ class ClearanceScene {
   void assemble(const Parameters& parameters, int knot, MatX& M, MatX& C, VecX& r) const;
   // E of the boresight body at a knot, 6 x n; offsets per coordinate there, B.
   MatX pose_gain_at(int knot) const { return knots_[knot].T.middleRows<6>(6 * mechanism_.boresight_body()); }
+  // E of all bodies there, one below the other: 6 bodies x n.
+  const MatX& pose_gains_at(int knot) const { return knots_[knot].T; }
   const MatX& offsets_per_coordinate(int knot) const { return knots_[knot].B; }
 
  private:

@@ -32,9 +32,10 @@ double size(const PlayOffsets& load, const JointPlay& joint) {
   return load.head<3>().norm() + (couple > 0.0 ? couple / joint.lever() : 0.0);
 }
 
+constexpr int kLooks = 41;  // along a motion, for the size of what acts
+
 // The largest sum of the bodies' weights and inertial forces along the motion [N].
 double acting_forces(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
-  constexpr int kLooks = 41;
   const std::vector<MassProperties> masses = mechanism.mass_properties(parameters);
   double largest = 0.0;
   for (int i = 0; i < kLooks; ++i) {
@@ -45,6 +46,37 @@ double acting_forces(const Mechanism& mechanism, const Parameters& parameters, c
       sum += masses[b].mass * (acceleration.head<3>().norm() + parameters.gravity.norm());
     }
     largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
+// What the bodies weigh and resist on each coordinate, without regard to sign, where it is largest [N, N m]. Each body is taken to be
+// accelerated as the fastest of them is: an acceleration is known as well as the largest is, whatever its own.
+VecX acting_loads(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters) {
+  const ClearanceScene& scene = prepared.scene();
+  const std::vector<MassProperties> masses = mechanism.mass_properties(parameters);
+  VecX largest = VecX::Zero(scene.layout().n);
+  const int stride = std::max(1, (scene.knots() - 1) / (kLooks - 1));
+  double linear = 0.0, angular = 0.0;
+  for (int k = 0; k < scene.knots(); k += stride)
+    for (std::size_t b = 0; b < masses.size(); ++b) {
+      BodyAcceleration acceleration;
+      const BodyMotion motion = prepared.ideal().body(k * scene.spacing(), static_cast<int>(b), &acceleration);
+      const double turning = acceleration.tail<3>().norm() + motion.w.squaredNorm();
+      linear = std::max(linear, acceleration.head<3>().norm() + masses[b].c.norm() * turning);
+      angular = std::max(angular, turning);
+    }
+  for (int k = 0; k < scene.knots(); k += stride) {
+    const MatX& T = scene.pose_gains_at(k);
+    VecX sum = VecX::Zero(largest.size());
+    for (std::size_t b = 0; b < masses.size(); ++b) {
+      const double force = masses[b].mass * (linear + parameters.gravity.norm());
+      const double couple = masses[b].inertia.norm() * angular + force * masses[b].c.norm();
+      const Eigen::Index row = 6 * static_cast<Eigen::Index>(b);
+      for (Eigen::Index j = 0; j < sum.size(); ++j)
+        sum[j] += force * T.col(j).segment<3>(row).norm() + couple * T.col(j).segment<3>(row + 3).norm();
+    }
+    largest = largest.cwiseMax(sum);
   }
   return largest;
 }
@@ -107,13 +139,37 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
   }
   table_ = EightPointTable(scene.spacing(), width, std::move(values));
   cancelled_ = kCancelled * acting_forces(mechanism, parameters, prepared.ideal());
+  for (std::size_t c = 0; c < joints_.size(); ++c) {
+    std::vector<double>& least = least_.emplace_back();
+    for (const std::vector<int>& group : groups_[c])
+      least.push_back(cancelled_ * (group.empty() || group.front() < 3 ? 1.0 : joints_[c].lever()));
+  }
   largest_load_.assign(joints_.size(), 0.0);
   for (int i = 0; i < instants_; ++i) {
     const Instant now = at(i);
     for (std::size_t c = 0; c < joints_.size(); ++c)
       largest_load_[c] = std::max(largest_load_[c], size(now.load[c].force, joints_[c]));
   }
-  for (double load : largest_load_) largest_of_all_ = std::max(largest_of_all_, load);
+  find_least_loads(prepared, parameters);
+}
+
+// Beside what carries a journal, along its axis and in tilt, next to nothing would push it all the way that its play leaves; and where
+// nothing carries any, so would what rounding leaves.
+void ReactionTable::find_least_loads(const PreparedScene& prepared, const Parameters& parameters) {
+  if (joints_.empty()) return;
+  const double largest = *std::max_element(largest_load_.begin(), largest_load_.end());
+  const VecX acting = acting_loads(mechanism_, prepared, parameters);
+  for (std::size_t c = 0; c < joints_.size(); ++c)
+    for (std::size_t g = 1; g < groups_[c].size(); ++g) {
+      double own = 0.0;
+      for (const int k : groups_[c][g]) {
+        const int source =
+            k < layout_.joints[c].offsets ? layout_.joints[c].source[k] : DeviationCoordinates::kDependent;
+        if (source >= 0) own = std::hypot(own, acting[source]);
+      }
+      const bool turns = !groups_[c][g].empty() && groups_[c][g].front() >= 3;
+      least_[c][g] = std::max(least_[c][g], kRounding * std::min(own, largest * (turns ? joints_[c].lever() : 1.0)));
+    }
 }
 
 bool ReactionTable::decides(const Instant& instant, int clearance) const {
@@ -134,15 +190,9 @@ ReactionTable::Instant ReactionTable::at_time(double t) const {
     Load load{PlayOffsets::Zero(), layout_.joints[c].slides == 1, *slide, Eigen::Map<const VecX>(slide + 1, n)};
     for (int k = 0; k < layout_.joints[c].offsets; ++k)
       if (const int source = layout_.joints[c].source[k]; source >= 0) load.force[k] = now.reaction[source];
-    // Beside what carries it, along its axis and in tilt, next to nothing would push a journal all the way that its play leaves; and where
-    // nothing carries any, so would what rounding leaves.
-    for (std::size_t g = 0; g < groups_[c].size(); ++g) {
-      const std::vector<int>& group = groups_[c][g];
-      if (group.empty()) continue;
-      const double least = std::max(g > 0 ? kRounding * largest_of_all_ : 0.0, cancelled_) *
-                           (group.front() < 3 ? 1.0 : joints_[c].lever());
-      if (load.force(group).norm() < least) load.force(group).setZero();
-    }
+    for (std::size_t g = 0; g < groups_[c].size(); ++g)
+      if (const std::vector<int>& group = groups_[c][g]; !group.empty() && load.force(group).norm() < least_[c][g])
+        load.force(group).setZero();
     now.load.push_back(load);
   }
   return now;

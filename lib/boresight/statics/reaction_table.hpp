@@ -42,7 +42,9 @@ class ReactionTable {
   bool tied() const { return tied_; }
   // Whether joints with play slide along their axes: where their journals rest moves those of others, by second order.
   bool slides() const { return slides_; }
-  // Loads that are known no better than zero, as a share of the largest.
+  // Loads that are known no better than zero, as a share of what the bodies that the coordinate moves weigh and resist on it (without
+  // regard to sign, so that what cancels counts), and no more than that of the largest load of all. A light part at the end of heavy ones
+  // has its loads told apart by its own weight.
   static constexpr double kRounding = 10.0 * ClearanceScene::kAccuracy;
   // Whether a load is known well enough for its direction: the tables are accurate to a hundred-thousandth of the largest.
   bool decides(const Instant& instant, int clearance) const;
@@ -54,6 +56,8 @@ class ReactionTable {
   const std::string& joint_name(int clearance) const;
 
  private:
+  void find_least_loads(const PreparedScene& prepared, const Parameters& parameters);
+
   const Mechanism& mechanism_;
   SceneLayout layout_;
   int instants_;
@@ -61,10 +65,10 @@ class ReactionTable {
   EightPointTable table_;  // r (n), E (6 x n), and per clearance its slide and what coordinates add to it (n)
   TimeTable change_;       // of r by standing errors (n, or no functions)
   std::vector<JointPlay> joints_;
-  std::vector<OffsetGroups> groups_;  // of each
-  std::vector<double> largest_load_;  // per clearance [N]
-  double largest_of_all_ = 0.0;       // the largest of these [N]
-  double cancelled_ = 0.0;            // what rounding may leave of loads that cancel [N]
+  std::vector<OffsetGroups> groups_;        // of each
+  std::vector<double> largest_load_;        // per clearance [N]
+  double cancelled_ = 0.0;                  // what rounding may leave of loads that cancel [N]
+  std::vector<std::vector<double>> least_;  // per clearance and group: a load below counts as none [N, N m]
   bool tied_ = false, slides_ = false;
 };
 
