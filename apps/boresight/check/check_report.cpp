@@ -139,6 +139,7 @@ void add_start_note(const Mechanism& mechanism, const IdealMotion& ideal, CheckR
     return;
   }
   result.start = starting_journals(mechanism, mechanism.parameters(), ideal);
+  if (!result.start.remark.empty()) result.notes.push_back(result.start.remark);
   if (!result.start.warning.empty()) {
     result.notes.push_back(result.start.warning);
     return;

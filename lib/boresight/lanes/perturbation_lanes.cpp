@@ -157,7 +157,8 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
         return cache_->prepared.front();
       }
     if (!cache_->scene || !same_centers(cache_->scene_parameters, parameters) ||
-        (!is_kinematic(*mechanism_) && !same_scene(cache_->scene_parameters, parameters))) {
+        ((!is_kinematic(*mechanism_) || cache_->scene->scene().tips()) &&
+         !same_scene(cache_->scene_parameters, parameters))) {
       cache_->scene = scene_for_lanes(*mechanism_, parameters);
       cache_->scene_parameters = parameters;
       if (cache_->scene->scene().layout().n > 0) cache_->gain = gain_over_time(*cache_->scene);

@@ -9,6 +9,7 @@
 #include "boresight/scene/clearance_scene.hpp"
 #include "boresight/scene/rest_search.hpp"
 #include "boresight/scene/resting_start.hpp"
+#include "boresight/scene/tipping.hpp"
 
 namespace boresight {
 namespace {
@@ -95,6 +96,12 @@ class ExactBalance {
   }
   // Of the last left(): its change with the offsets, were these where they are sent to.
   MatX stiffness() const { return balance_.stiffness_at(journals_); }
+  // Whether loads tip the journals over from z.
+  bool falls(const VecX& z) {
+    if (!scene_.layout.tips) return false;
+    left(z);
+    return balance_.falls(stiffness());
+  }
   double length(const VecX& dz) const { return balance_.length(dz); }
   const MatX& unit() const { return balance_.unit(); }
   VecX step(const MatX& by_z, const VecX& left) const { return balance_.correction(by_z, left); }
@@ -194,6 +201,7 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
   const ClearanceScene::Start scene = ClearanceScene::at_start(mechanism, ideal, parameters);
   RestingBodies resting;
   if (scene.layout.n == 0) return resting;
+  resting.remark = tipping_sentence(mechanism, scene.layout);
   // Whatever formulation follows the motion, it starts from the same place. This one closes joints by the bodies' least motion, whatever
   // order they are listed in; a tree of them closes its loops where it happens to be cut.
   const std::unique_ptr<Formulation> formulation = make_paper_formulation(mechanism, parameters, &ideal, {});
@@ -212,10 +220,11 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
   ExactBalance exact(mechanism, parameters, scene, balance, *formulation);
   VecX z = rest.z;
   double length = rest_nearly_linear(exact, z);
+  if (exact.falls(z)) length = std::numeric_limits<double>::infinity();
   if (!(length <= kSettledRest)) {
     VecX other;
     if (const double grown = rest_as_clearances_grow(mechanism, parameters, scene, *formulation, other);
-        grown < length) {
+        grown < length && !exact.falls(other)) {
       z = other;
       length = grown;
     }
@@ -225,7 +234,7 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
     if (length <= kSettledRest) break;
     VecX other = share * rest.z;
     const double other_length = search_rest([&](const VecX& at) { return exact.left(at); }, exact.unit(), other);
-    if (other_length < length) {
+    if (other_length < length && !exact.falls(other)) {
       z = other;
       length = other_length;
     }
@@ -250,6 +259,7 @@ VecX multibody_start(const Mechanism& mechanism, const Parameters& parameters, c
   if (formulation.forces().clearances() == 0 || mechanism.description().journals == JournalStart::centred) return y;
   try {
     const RestingBodies resting = resting_bodies(mechanism, parameters, ideal);
+    if (!resting.remark.empty()) warning = resting.remark;
     if (!resting.refusal.empty()) warning = centred_for_want_of(mechanism, resting.refusal);
     if (resting.exact.empty()) return y;
     formulation.place_bodies(resting.exact, y);

@@ -19,11 +19,12 @@ struct RestingBodies {
       exact;    // on the mechanism's own geometry, moving as motions start; empty: no play can move, or none was found
   VecX linear;  // T z [m, rad], 6 of each body: where the linear balance has displaced them; empty: it has none
   std::string refusal;  // why not, where none was found
+  std::string remark;   // that loads tip them over (tipping.hpp); else empty
 };
 // Throws ComputationError at a singular pose.
 RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal);
 
-// warning: a sentence where journals were to rest and do not; else left alone. Throws ComputationError at a singular pose.
+// warning: a sentence where journals were to rest and do not, or lean to a side that nothing decides; else left alone. Throws ComputationError at a singular pose.
 VecX multibody_start(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal,
                      Formulation& formulation, std::string& warning);
 

@@ -15,6 +15,7 @@
 #include "boresight/scene/deviation_stiffness.hpp"
 #include "boresight/scene/start_rates.hpp"
 #include "boresight/scene/table_row.hpp"
+#include "boresight/scene/tipping.hpp"
 
 namespace boresight {
 namespace {
@@ -51,7 +52,46 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const Parameters& par
       coordinates_(mechanism, ideal),
       layout_(offsets_, coordinates_,
               coordinates_.leftover() > 0 || moving() || !mechanism.description().springs.empty()),
-      groups_(riding_masses(mechanism, parameters)) {}
+      groups_(riding_masses(mechanism, parameters)) {
+  std::vector<int> tipped = tipped_at_start(ideal, parameters);
+  if (tipped.empty()) return;
+  layout_ = SceneLayout(offsets_, coordinates_, true);
+  layout_.tips = true;
+  layout_.tipped = std::move(tipped);
+}
+
+std::vector<int> ClearanceScene::tipped_at_start(const IdealMotion& ideal, const Parameters& parameters) {
+  // Where a load pushes on every coordinate, no tilt or shift within the play makes one that counts beside it.
+  constexpr double kPushes = 1e-3;
+  const int n = layout_.n;
+  if (coordinates_.leftover() > 0 || n == 0) return {};
+  ExactStates exact(mechanism_, ideal);
+  const Knot knot = knot_at(0.0, ideal, exact, parameters);
+  MatX M, C;
+  VecX r;
+  assemble(parameters, knot, M, C, r);
+  const std::vector<MassProperties> masses = mechanism_.mass_properties(parameters);
+  VecX acting = VecX::Zero(n);
+  for (std::size_t b = 0; b < masses.size(); ++b) {
+    const BodyAcceleration& a = knot.state.acceleration[b];
+    const double turning = a.tail<3>().norm() + knot.state.bodies[b].w.squaredNorm(), arm = masses[b].c.norm();
+    const double force = masses[b].mass * (a.head<3>().norm() + arm * turning + parameters.gravity.norm());
+    const double couple = masses[b].inertia.norm() * turning + arm * force;
+    const Eigen::Index row = 6 * static_cast<Eigen::Index>(b);
+    for (int j = 0; j < n; ++j)
+      acting[j] += force * knot.T.col(j).segment<3>(row).norm() + couple * knot.T.col(j).segment<3>(row + 3).norm();
+  }
+  // Springs and loads push too, and may do so along what no play gives way to.
+  const double most = r.size() > 0 ? r.cwiseAbs().maxCoeff() : 0.0;
+  if (most > 0.0 && (r.cwiseAbs().array() >= kPushes * acting.cwiseMax(most).array()).all()) return {};
+  acting = acting.cwiseMax(most);
+  std::vector<double> row;
+  append_row(parameters, knot, row, true);
+  const MatX AK = deviation_stiffness(mechanism_, ideal, parameters, coordinates_, knot.state, knot.T,
+                                      solve_positive(M, C), r);
+  return tipped_by_loads(RestingBalance(layout_, row.data(), joint_plays(mechanism_.description(), parameters)), layout_,
+                         M * AK, acting);
+}
 
 SceneStart ClearanceScene::start_of(const Parameters& parameters, const Knot& first) const {
   SceneStart start{{}, start_rates(mechanism_, parameters, first.state, first.T, first.T_rate)};
@@ -215,7 +255,7 @@ ClearanceScene::Knot ClearanceScene::knot_at(double t, const IdealMotion& ideal,
     for (const RidingMass& element : groups_[g]) add_element(element, knot, &knot.elements[g * element_size()]);
   for (const SpringDescription& spring : mechanism_.description().springs)
     knot.springs.push_back(spring_gain(mechanism_.description(), spring, knot.state, knot.T, knot.T_rate));
-  if (coordinates_.leftover() > 0) {
+  if (stiff_by_differences()) {
     MatX M, C;
     VecX r;
     assemble(parameters, knot, M, C, r);

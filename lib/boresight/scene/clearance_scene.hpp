@@ -100,6 +100,9 @@ class ClearanceScene {
   // E of all bodies there, one below the other: 6 bodies x n.
   const MatX& pose_gains_at(int knot) const { return knots_[knot].T; }
   const MatX& offsets_per_coordinate(int knot) const { return knots_[knot].B; }
+  // Whether loads tip journals that they push nowhere (tipping.hpp): then their own stiffness is kept, and the scene holds for `parameters`'
+  // masses, gravity, springs and loads only.
+  bool tips() const { return layout_.tips; }
 
  private:
   ClearanceScene(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal);  // without knots
@@ -126,6 +129,9 @@ class ClearanceScene {
                   SceneForm form = SceneForm::accelerations) const;
   double slowest_rate(const std::vector<double>& rows, const Parameters& parameters) const;
   double interpolation_error(const std::vector<double>& rows, const Parameters& parameters) const;
+  std::vector<int> tipped_at_start(const IdealMotion& ideal, const Parameters& parameters);
+  // A K by differences, of which all forces have their part.
+  bool stiff_by_differences() const { return coordinates_.leftover() > 0 || layout_.tips; }
   // Whether T'' has a part.
   bool moving() const { return coordinates_.has_dependent(); }
   int element_size() const { return (moving() ? 3 : 2) * layout_.n * layout_.n + 4 * layout_.n; }

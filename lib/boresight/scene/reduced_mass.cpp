@@ -77,6 +77,12 @@ MatX ClearanceScene::spring_stiffness(const Parameters& parameters, const Knot& 
 }
 
 MatX ClearanceScene::stiffness_at_rest(const Parameters& parameters, int knot) const {
+  if (stiff_by_differences()) {
+    MatX M, C;
+    VecX r;
+    assemble(parameters, knots_[knot], M, C, r);
+    return M * knots_[knot].stiffness - (moving() ? moving_stiffness(parameters, knots_[knot]) : MatX::Zero(layout_.n, layout_.n));
+  }
   MatX K = MatX::Zero(layout_.n, layout_.n);
   const std::vector<SpringGain>& springs = knots_[knot].springs;
   for (std::size_t s = 0; s < springs.size(); ++s) K += springs[s].stiffness_at_rest(parameters.spring[s]);
@@ -99,7 +105,7 @@ void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, 
     for (int j = i; j < n; ++j) row.push_back(mass(i, j));
   append(row, forces ? r : VecX(cholesky.solve(r)));
   append(row, divided(C));
-  if (coordinates_.leftover() > 0) {
+  if (stiff_by_differences()) {
     // Differences know what T'' takes.
     const MatX AK = moving() && at_rest ? MatX(knot.stiffness - cholesky.solve(moving_stiffness(parameters, knot)))
                                         : knot.stiffness;

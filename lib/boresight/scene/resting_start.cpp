@@ -1,5 +1,6 @@
 #include "boresight/scene/resting_start.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -137,6 +138,8 @@ void RestingBalance::weigh() {
   }
   unit_ = orthonormal_in(spread);
   load_ = size(reaction_);
+  // What loads make of a tilt is a load too.
+  if (at_.tips) load_ = std::max(load_, (unit_.transpose() * stiffness_ * unit_).norm());
 }
 
 PlayMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z) const {
@@ -305,13 +308,49 @@ RestingStart RestingBalance::solve_near(const VecX& before, const std::vector<Pl
   return rest;
 }
 
+VecX RestingBalance::steepest_way(const MatX& by_z) const {
+  constexpr double kFalls = 1e-4;  // of the loads' stiffness: less is what differences leave of none
+  const MatX H = -(unit_.transpose() * by_z * unit_);
+  const Eigen::SelfAdjointEigenSolver<MatX> bowl(MatX(0.5 * (H + H.transpose())));
+  if (!(bowl.eigenvalues()[0] < -kFalls * (unit_.transpose() * stiffness_ * unit_).norm())) return {};
+  return unit_ * bowl.eigenvectors().col(0);
+}
+
+double RestingBalance::off_the_saddle(VecX& z, double size_left) const {
+  constexpr double kStep = 0.5;  // in clearances
+  for (int saddle = 0; saddle < at_.n && z.allFinite(); ++saddle) {
+    VecX F;
+    MatX J;
+    evaluate(z, F, J);
+    const VecX away = steepest_way(J);
+    if (away.size() == 0) break;
+    VecX best = z;
+    double least = energy(z), left_best = size_left;
+    for (const double side : {1.0, -1.0}) {
+      VecX there = z + side * kStep * away;
+      const double left_there = descend(there, 0.0, true);
+      const double E = energy(there);
+      if (there.allFinite() && E < least - kRoundedEnergy * (std::abs(E) + load_)) {
+        best = there;
+        least = E;
+        left_best = left_there;
+      }
+    }
+    if (best == z) break;
+    z = best;
+    size_left = left_best;
+  }
+  return size_left;
+}
+
 RestingStart RestingBalance::solve() const {
   const int n = at_.n;
   RestingStart rest{VecX::Zero(n), ""};
   if (n == 0 || !(load_ > 0.0)) return rest;  // nothing presses anywhere
   VecX z = guess();
   if (!(energy(z) < energy(VecX::Zero(n)))) z.setZero();
-  const double size_left = descend(z, 0.0);
+  double size_left = descend(z, 0.0);
+  if (at_.tips) size_left = off_the_saddle(z, size_left);
   if (size_left > kAcceptableLoad * load_ || !z.allFinite()) {
     rest.z = guess();
     const double length = search_rest([&](const VecX& at) { return left(at); }, unit_, rest.z);

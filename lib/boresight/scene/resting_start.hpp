@@ -65,6 +65,8 @@ class RestingBalance {
   // Of a joint: its offsets are gain z + shift. 5 x n, 5.
   const MatX& offset_gain(std::size_t joint) const { return offsets_of_[joint]; }
   const PlayOffsets& offset_shift(std::size_t joint) const { return shift_[joint]; }
+  // Whether loads tip journals over from a place with this change of what is left unbalanced.
+  bool falls(const MatX& by_z) const { return at_.tips && steepest_way(by_z).size() > 0; }
   bool slides_along_axis(std::size_t joint) const { return at_.joints[joint].slides == 1; }
   double slide(std::size_t joint) const { return slide_[joint]; }  // along its axis, where it slides [m]
   double load() const { return load_; }                            // size() of the reactions [N m]
@@ -77,6 +79,11 @@ class RestingBalance {
   // Newton's method, damped, from z on; undecided: what may be left where no step is; downhill: every step lowers the energy. Returns the
   // size of what is left.
   double descend(VecX& z, double undecided, bool downhill = false) const;
+  // Where loads tip journals: from a balance that is a saddle of the energy to one that is none, of the two sides that it falls to the lower, and
+  // either where they are alike. Returns the size of what is left.
+  double off_the_saddle(VecX& z, double size_left) const;
+  // The way of one clearance along which the energy falls most about a balance; empty where it falls nowhere.
+  VecX steepest_way(const MatX& by_z) const;
   // The same where little has changed since the instant before: one step by its stiffness, then by one of now as long as they shrink fast.
   // Whether that found the balance.
   bool follow(VecX& z, double undecided);

@@ -10,6 +10,7 @@
 #include "boresight/rungs/option_check.hpp"
 #include "boresight/scene/held_play.hpp"
 #include "boresight/scene/standing_model_error.hpp"
+#include "boresight/scene/tipping.hpp"
 #include "boresight/stepping/motion_scales.hpp"
 
 namespace boresight {
@@ -166,7 +167,7 @@ std::shared_ptr<const PreparedScene> SceneRung::prepared_for(const Parameters& p
         "follows that");
   const std::lock_guard lock(mutex_);
   if (!prepared_ || !same_centers(prepared_parameters_, parameters) ||
-      (!is_kinematic(*mechanism_) && !same_scene(prepared_parameters_, parameters))) {
+      ((!is_kinematic(*mechanism_) || prepared_->scene().tips()) && !same_scene(prepared_parameters_, parameters))) {
     prepared_ = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
     prepared_parameters_ = parameters;
   }
@@ -208,6 +209,8 @@ RunResult SceneRung::run(const Parameters& parameters, const RunOptions& options
     result.error.basis += (result.error.basis.empty() ? "" : "; ") + std::string(kBasisOfErrors);
   }
   result.warnings.insert(result.warnings.begin(), prepared->held().begin(), prepared->held().end());
+  if (prepared->scene().tips())
+    result.warnings.push_back(tipping_sentence(*mechanism_, prepared->scene().layout()));
   result.rung = name();
   result.cost.cpu_seconds = thread_cpu_seconds() - cpu;
   result.cost.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();

@@ -4,6 +4,7 @@
 #include "boresight/scene/clearance_scene.hpp"
 #include "boresight/scene/offset_dynamics.hpp"
 #include "boresight/scene/resting_start.hpp"
+#include "boresight/scene/tipping.hpp"
 
 namespace boresight {
 
@@ -15,6 +16,7 @@ StartingJournals starting_journals(const Mechanism& mechanism, const Parameters&
   if (m.journals == JournalStart::centred || m.clearances.empty()) return start;
   try {
     const ClearanceScene::Start scene = ClearanceScene::at_start(mechanism, ideal, parameters);
+    start.remark = tipping_sentence(mechanism, scene.layout);
     const VecX state =
         start_coordinates(mechanism, scene.layout, scene.numbers, joint_plays(m, parameters), start.warning);
     for (std::size_t c = 0; c < start.journals.size(); ++c) {

@@ -16,6 +16,7 @@ struct StartingJournals {
   };
   std::vector<Journal> journals;  // per clearance
   std::string warning;            // where journals were to rest and do not
+  std::string remark;             // that loads tip them over (tipping.hpp)
 };
 
 StartingJournals starting_journals(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal);

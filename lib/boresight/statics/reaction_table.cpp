@@ -85,7 +85,7 @@ VecX acting_loads(const Mechanism& mechanism, const PreparedScene& prepared, con
 
 ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& prepared,
                              const StandingDisplacement& standing, const Parameters& parameters, double share)
-    : mechanism_(mechanism), layout_(prepared.scene().layout()), tied_(standing.shifts()) {
+    : mechanism_(mechanism), layout_(prepared.scene().layout()), tied_(standing.shifts() || layout_.tips) {
   const ClearanceScene& scene = prepared.scene();
   if (scene.coordinates().leftover() > 0)
     throw ComputationError(parts_in_play(mechanism.description()).inserts +

@@ -23,7 +23,7 @@ TiedRest::TiedRest(const PreparedScene& prepared, const StandingDisplacement& st
       row_(static_cast<std::size_t>(layout_.width)),
       stiffness_(MatX::Zero(layout_.n, layout_.n)) {
   const ClearanceScene& scene = prepared.scene();
-  if (!parameters.spring.empty()) {
+  if (!parameters.spring.empty() || layout_.tips) {
     std::vector<double> values;
     for (int k = 0; k < scene.knots(); ++k) {
       const MatX K = scene.stiffness_at_rest(parameters, k);
