@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "boresight/io/content_hash.hpp"
+#include "boresight_analyses/budget/between_samples.hpp"
 #include "boresight_analyses/budget/course_filter.hpp"
 
 namespace boresight {
@@ -44,6 +45,18 @@ MeasuredCourse::MeasuredCourse(Record record, std::optional<TransferFunction> th
   const std::size_t count = record_.begin == Begin::anywhere ? kStretches : 1;
   for (std::size_t k = 0; k < count; ++k)
     stretches_.push_back(history((static_cast<double>(k) + 0.5) / static_cast<double>(count)));
+}
+
+double MeasuredCourse::share_between_samples() const {
+  const auto whole = static_cast<std::size_t>(length() / spacing_) + 1;
+  return boresight::share_between_samples(
+      [this](double t) {
+        std::array<double, 3> value = {};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          if (!record_.value[axis].empty()) value[axis] = at(record_.value[axis], t);
+        return value;
+      },
+      record_.time.front(), spacing_, whole);
 }
 
 double MeasuredCourse::at(const std::vector<double>& values, double t) const {

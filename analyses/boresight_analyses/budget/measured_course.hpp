@@ -38,6 +38,8 @@ class MeasuredCourse {
   double length() const { return record_.time.back() - record_.time.front(); }
   // Where a record that is repeated begins again, the largest jump of an axis over that axis' range; 0 of others.
   double jump() const;
+  // Of the record as it is, whatever it passes through: between_samples.hpp.
+  double share_between_samples() const;
   // Numbers that equal records have alike, for a hash.
   std::string text() const;
 

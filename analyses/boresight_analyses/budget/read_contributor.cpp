@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "boresight/io/mechanism_sections.hpp"
@@ -184,6 +185,14 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuan
   if (table.has("correlation_time") && !random)
     table.fail("correlation_time", "a correlation time with class = \"random\" only");
   c.period = table.quantity("period", 0.0);
+  if (periodic && !(c.period > 2.0 * plan.sampling)) {
+    // It would be folded down to a slower one, or to none.
+    char found[80], expected[120];
+    std::snprintf(found, sizeof found, "%.6g s", c.period);
+    std::snprintf(expected, sizeof expected, "more than two samples of the histories, %.6g s; a finer sampling has more",
+                  2.0 * plan.sampling);
+    table.fail_found("period", found, expected);
+  }
   c.correlation_time = table.quantity("correlation_time", plan.sampling);
   c.recalibrated = table.boolean("recalibrated");
   if (c.recalibrated && (periodic || random))

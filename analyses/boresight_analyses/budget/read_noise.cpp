@@ -73,7 +73,12 @@ TransferFunction read_one(Cursor& table) {
                                 : TransferFunction::second_order(frequency, damping);
   } else {
     out = read_ratio(of);
-    if (kind == "loop") out = of.choice("seen_by") == "sensor" ? out.closed_on_sensor() : out.closed_on_disturbance();
+    if (kind == "loop") {
+      if (out.at_infinity() == -1.0)
+        of.fail_found("numerator", "an open loop that is -1 at the highest frequencies",
+                      "one that is not: closed, 1 / (1 + L) grows without bound there");
+      out = of.choice("seen_by") == "sensor" ? out.closed_on_sensor() : out.closed_on_disturbance();
+    }
   }
   if (!out.is_stable()) {
     const std::vector<std::complex<double>> poles = out.poles();

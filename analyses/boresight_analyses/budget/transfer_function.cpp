@@ -99,6 +99,10 @@ std::complex<double> TransferFunction::at(double f) const {
   return value(numerator_, s) / value(denominator_, s);
 }
 
+double TransferFunction::at_infinity() const {
+  return numerator_.size() < denominator_.size() ? 0.0 : numerator_.back() / denominator_.back();
+}
+
 double TransferFunction::standing() const { return numerator_.front() / denominator_.front(); }
 
 double TransferFunction::slope() const {

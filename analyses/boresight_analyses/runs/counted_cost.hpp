@@ -6,6 +6,7 @@
 //   microseconds an evaluation, with b bodies and c clearances (medians over the mechanisms under examples/):
 //   envelope 5 c      quasistatic c      perturbation 0.12 b + 0.32 c      multibody 0.3 b + 0.9 c
 //   perturbation on lanes 0.15 c a step tried
+//   errors alone, on all rungs but multibody: 3 a sample, and 0.06 a thousand operations
 #pragma once
 
 #include "boresight/mechanism/mechanism.hpp"

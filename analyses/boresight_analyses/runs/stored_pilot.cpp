@@ -1,6 +1,7 @@
 #include "boresight_analyses/runs/stored_pilot.hpp"
 
 #include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 namespace boresight {
@@ -22,7 +23,7 @@ struct ToJson {
 
 struct FromJson {
   const nlohmann::json& json;
-  void operator()(const char* key, double& value) const { value = std::stod(json.at(key).get<std::string>()); }
+  void operator()(const char* key, double& value) const { value = std::strtod(json.at(key).get<std::string>().c_str(), nullptr); }
   template <typename T>
   void operator()(const char* key, T& value) const {
     value = json.at(key).get<T>();

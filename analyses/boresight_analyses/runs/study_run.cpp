@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "boresight/io/content_hash.hpp"
 #include "boresight/mechanism/interruption.hpp"
@@ -174,7 +175,7 @@ double StudyRun::common_step_of_scatter(const std::string& rung, const RandomInp
   std::vector<double> known;
   for (std::size_t k = 0; k < samples.size(); ++k) {
     const std::string kept = store.fact(fact(k));
-    known.push_back(kept.empty() ? 0.0 : std::stod(kept));
+    known.push_back(kept.empty() ? 0.0 : std::strtod(kept.c_str(), nullptr));
   }
   return common_step(rung, mechanism_, samples, run, known,
                      [&](std::size_t k, double step) { store.note(fact(k), exact(step)); });
@@ -185,7 +186,7 @@ StudySteps StudyRun::steps_of_scatter(const ScatterAsked& asked, const RunOption
   if (store != nullptr)
     if (const std::string why = store->fact("discretisation_why"); !why.empty()) {
       const std::string relative = store->fact("discretisation");
-      return {relative.empty() ? kNotMeasured : std::stod(relative), why};
+      return {relative.empty() ? kNotMeasured : std::strtod(relative.c_str(), nullptr), why};
     }
   const RungSetup setup{
       .rung = rung,
@@ -247,7 +248,7 @@ std::optional<RungChoice> stored_choice(const SampleStore& store) {
                     .why = why.empty() ? "chosen when the study was begun" : why,
                     .step = stored.front().step,
                     .integrator = store.fact("integrator"),
-                    .tolerance = tolerance.empty() ? 0.0 : std::stod(tolerance),
+                    .tolerance = tolerance.empty() ? 0.0 : std::strtod(tolerance.c_str(), nullptr),
                     .pilot = pilot_of_text(store.fact("pilot"))};
 }
 

@@ -41,7 +41,7 @@ void GeometricSampleModel::evaluate(std::span<const Sample> samples, std::span<O
   for (std::size_t k = 0; k < done; ++k) {
     Outcome& outcome = outcomes[k];
     outcome.cpu_seconds = each;
-    outcome.evaluations = 1.0;
+    outcome.evaluations = geometry_.operations();
     if (!found[k].refusal.empty() || !std::isfinite(found[k].value)) {
       outcome.status = Outcome::Status::failed;
       outcome.message = found[k].refusal.empty() ? "the index is not a finite number" : found[k].refusal;

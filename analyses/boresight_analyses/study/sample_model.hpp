@@ -35,7 +35,7 @@ struct Outcome {
   std::string message = {};                                 // why it failed, or what was done that it did not
   double cpu_seconds = 0.0;
   double evaluations =
-      0.0;  // of its equations; on lanes steps tried. Counted: the same on every machine. Not kept in stores
+      0.0;  // of its equations; on lanes steps tried; of errors alone operations. Counted: the same on every machine. Not kept in stores
   double model_error = 0.0;           // what the rung thinks of itself, relative: by what it leaves out
   double discretisation_error = 0.0;  // and by its steps
   MotionMeasures motion = {};         // NaN where the model does not say

@@ -42,6 +42,8 @@ Json jitter_json(const BudgetStudy& study, const Budget& budget);
 report::Section spectra_section(const BudgetStudy& study, const Budget& budget);
 void write_spectra(std::ostream& out, const BudgetStudy& study, const Budget& budget);
 Json spectra_json(const Budget& budget);
+// Of contributors with a course of their own that the histories' samples do not tell.
+std::vector<std::string> courses_warnings(const BudgetStudy& study);
 std::vector<std::string> spectra_warnings(const BudgetStudy& study, const Budget& budget);
 
 }  // namespace boresight::app

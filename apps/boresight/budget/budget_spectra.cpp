@@ -5,6 +5,8 @@
 #include <cmath>
 #include <ostream>
 
+#include "boresight_analyses/budget/between_samples.hpp"
+#include "boresight_analyses/budget/budget_runs.hpp"
 #include "boresight_analyses/budget/window_filter.hpp"
 #include "budget/budget_parts.hpp"
 #include "report_parts/report_parts.hpp"
@@ -169,6 +171,25 @@ Json spectra_json(const Budget& b) {
                     {"differs", l.differs},
                     {"above_sampling", l.above_sampling}});
   return json;
+}
+
+std::vector<std::string> courses_warnings(const BudgetStudy& s) {
+  constexpr double kMuchBetween = 0.02;  // eight samples a period have 0.006, four 0.1
+  std::vector<std::string> out;
+  for (const Contributor& c : s.plan.contributors) {
+    double share = 0.0;
+    if (c.measured) share = c.measured->share_between_samples();
+    if (c.of_error && c.of_error->course)
+      share = share_between_samples(
+          [&](double t) { return std::array<double, 3>{c.of_error->course->at(t).value, 0.0, 0.0}; }, s.plan.start,
+          s.plan.sampling, samples_of(s.plan));
+    if (share > kMuchBetween)
+      out.push_back(
+          fmt::format("{} changes faster than the histories are sampled: between samples it departs from a straight line by {} of "
+                      "its own deviation, so that they have it slower than it is, or not at all; a finer `sampling` holds it",
+                      c.name, readable_share(std::min(1.0, std::sqrt(share)))));
+  }
+  return out;
 }
 
 std::vector<std::string> spectra_warnings(const BudgetStudy& s, const Budget& b) {

@@ -303,7 +303,7 @@ class BudgetVerb : public Verb {
     for (const RequirementAnswer& r : b.requirements)
       if (r.rule_says_met() && r.margin() < 0.0)
         warnings.push_back(fmt::format("{}: the classical rule would have said met", requirement_title(s, r.asked)));
-    for (const auto& more : {tree_warnings(s, b), spectra_warnings(s, b)})
+    for (const auto& more : {tree_warnings(s, b), spectra_warnings(s, b), courses_warnings(s)})
       warnings.insert(warnings.end(), more.begin(), more.end());
     return warnings;
   }

@@ -131,6 +131,25 @@ void add_play_findings(const Mechanism& mechanism, const IdealMotion& ideal, Che
                     ideal.error(), IdealMotion::kAccuracy));
 }
 
+// Parts that grow, and what is fixed to them but their joints.
+void add_growth_notes(const Mechanism& mechanism, CheckResult& result) {
+  const MechanismDescription& m = mechanism.description();
+  const auto name_of = [&](int body) { return body == kGround ? std::string("ground") : m.bodies[body].name; };
+  for (const ErrorDescription& error : m.errors) {
+    if (error.kind != ErrorDescription::Kind::expansion) continue;
+    const bool sprung = std::any_of(m.springs.begin(), m.springs.end(), [&](const SpringDescription& s) {
+      return s.preloads.empty() && (s.first == error.body || s.second == error.body);
+    });
+    const bool points = m.line_of_sight && error.body == mechanism.boresight_body();
+    if (!sprung && !points) continue;
+    const std::string what = sprung && points ? "its springs' points and the place that it points from stay where they are"
+                             : sprung         ? "its springs' points stay where they are"
+                                              : "the place that it points from stays where it is";
+    result.notes.push_back(
+        fmt::format("error {}: \"{}\" grows between its joints; {}", error.name, name_of(error.body), what));
+  }
+}
+
 // Where the journals start: centred as the file says, or how far off the middle of their sleeves.
 void add_start_note(const Mechanism& mechanism, const IdealMotion& ideal, CheckResult& result) {
   const PartsInPlay parts = parts_in_play(mechanism.description());
@@ -289,6 +308,7 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
     try {
       const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
       add_play_findings(mechanism, ideal, result);
+      add_growth_notes(mechanism, result);
       for (const std::string& sentence : overrun_plays(mechanism, mechanism.parameters(), ideal))
         result.findings.push_back(sentence);
       result.contacts = analyse_contacts(mechanism, mechanism.parameters(), ideal);

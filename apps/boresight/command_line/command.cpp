@@ -108,7 +108,9 @@ Command CommandOptions::command(const std::string& verb) const {
 
 void MotionOptions::declare(CLI::App& app, bool with_poses) {
   keeps_histories_ = true;
-  app.add_option("--sample", sample, "spacing of the time series")->type_name("TIME")->capture_default_str();
+  sample_option_ = app.add_option("--sample", sample, "spacing of the time series; of a long motion wider, unless given")
+                       ->type_name("TIME")
+                       ->capture_default_str();
   declare_model(app);
   if (with_poses)
     app.add_option("--pose", poses, "keep the pose of this body too (any number of times)")
@@ -137,14 +139,19 @@ void MotionOptions::declare_model(CLI::App& app) {
 void MotionOptions::set_sample_spacing(RunOptions& options, const Mechanism& mechanism, double most_samples) const {
   options.sample_spacing = quantity_between("--sample", sample, {kDuration, "1e-12 s", "1e9 s"});
   constexpr double kMostBytes = 2e9;
+  // Of every sample, the boresight body's and each --pose body's history and every clearance's.
+  const double bytes_of_sample = sizeof(double) + sizeof(PoseSample) * (1.0 + static_cast<double>(poses.size())) +
+                                 sizeof(ClearanceSample) * mechanism.clearances();
+  if (sample_option_ == nullptr || sample_option_->count() == 0) {
+    const double most = std::min(most_samples, kMostBytes / bytes_of_sample);
+    options.sample_spacing = std::max(options.sample_spacing, mechanism.duration() / most);
+    return;
+  }
   if (mechanism.duration() / options.sample_spacing > most_samples)
     throw InputError(kCommandLine, "--sample",
                      in_quotes(sample) + " for a motion of " + readable(mechanism.duration(), "s"),
                      "at most two million samples in all: a larger --sample, or a shorter motion.duration");
-  // Of every sample, the boresight body's and each --pose body's history and every clearance's.
-  const double bytes = mechanism.duration() / options.sample_spacing *
-                       (sizeof(double) + sizeof(PoseSample) * (1.0 + static_cast<double>(poses.size())) +
-                        sizeof(ClearanceSample) * mechanism.clearances());
+  const double bytes = mechanism.duration() / options.sample_spacing * bytes_of_sample;
   if (bytes > kMostBytes)
     throw InputError(kCommandLine, "--sample",
                      fmt::format("{}, {:.2g} GB of histories", in_quotes(sample), 1e-9 * bytes),

@@ -18,6 +18,7 @@
 
 namespace CLI {
 class App;
+class Option;
 }
 
 namespace boresight::app {
@@ -73,6 +74,7 @@ struct MotionOptions {
  private:
   void set_sample_spacing(RunOptions& options, const Mechanism& mechanism, double most_samples) const;
   bool keeps_histories_ = false;
+  const CLI::Option* sample_option_ = nullptr;
 };
 
 // Computes, and turns a rung's refusal of an option into an InputError that names it.

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
 #include <regex>
 
 #include "report_parts/report_parts.hpp"
@@ -218,10 +221,14 @@ std::string short_text(const std::string& text) {
   if (text.starts_with("fit(")) return text;
   std::string out;
   auto at = text.cbegin();
+  const auto is_of_a_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
   for (std::sregex_iterator m(text.begin(), text.end(), number), end; m != end; ++m) {
-    out.append(at, text.cbegin() + m->position());
-    out += fmt::format("{:.4g}", std::stod(m->str()));
-    at = text.cbegin() + m->position() + m->length();
+    const auto first = text.cbegin() + m->position(), last = first + m->length();
+    // Not within a word, as digits of a hash are.
+    if ((first != text.cbegin() && is_of_a_word(*std::prev(first))) || (last != text.cend() && is_of_a_word(*last))) continue;
+    out.append(at, first);
+    out += fmt::format("{:.4g}", std::strtod(m->str().c_str(), nullptr));
+    at = last;
   }
   out.append(at, text.cend());
   constexpr std::size_t kLong = 160;

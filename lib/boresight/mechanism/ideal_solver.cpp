@@ -113,6 +113,8 @@ bool IdealSolver::newton(IdealState& state) {
   for (const BodyMotion& body : state.bodies) farthest = std::max(farthest, body.p.lpNorm<Eigen::Infinity>());
   const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * farthest / length;
   const double exact = std::max(kExact, 0.25 * rounding), converged = std::max(kConverged, rounding);
+  // An open chain closes in one way.
+  const double largest = mechanism_.joints() == mechanism_.bodies() ? std::numeric_limits<double>::infinity() : kLargestCorrection;
   double previous = 1e300, corrected = 0.0;
   for (int step = 0; step < kNewtonSteps; ++step) {
     system_.evaluate(state.bodies, laws_);
@@ -127,7 +129,7 @@ bool IdealSolver::newton(IdealState& state) {
       corrected = std::max({corrected, motion_[b].head<3>().norm() / length, motion_[b].tail<3>().norm()});
       displace(state.bodies[b], motion_[b]);
     }
-    if (!(corrected < kLargestCorrection)) return false;
+    if (!(corrected < largest)) return false;
     previous = violation;
   }
   return previous < converged;

@@ -41,6 +41,8 @@ class GeometricErrors {
   // outcomes: as many as samples. Returns how many were computed: fewer where `stop` was set.
   std::size_t run(std::span<const Parameters> samples, std::span<GeometricOutcome> outcomes,
                   const std::atomic<bool>* stop = nullptr) const;
+  // That a sample takes, as counted above.
+  double operations() const;
 
  private:
   struct Prepared;

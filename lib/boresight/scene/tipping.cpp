@@ -6,8 +6,7 @@
 
 namespace boresight {
 
-std::vector<int> tipped_by_loads(const RestingBalance& balance, const SceneLayout& layout, const MatX& K,
-                                 const VecX& acting) {
+Tipping tipped_by_loads(const RestingBalance& balance, const SceneLayout& layout, const MatX& K, const VecX& acting) {
   // Of the contacts' stiffness: below, they hold nothing. Of the loads' own: below, it is what differences leave of none. And of what acts, over
   // a clearance: geometric stiffness is a clearance over a length of it, 1e-5 and more, and rounding of differences 1e-12.
   constexpr double kHoldsNothing = 1e-9, kNone = 1e-4, kOfActing = 1e-8, kTakesPart = 0.1;
@@ -29,14 +28,14 @@ std::vector<int> tipped_by_loads(const RestingBalance& balance, const SceneLayou
   const Eigen::SelfAdjointEigenSolver<MatX> valley(MatX(0.5 * (along + along.transpose())));
   if (!(valley.eigenvalues()[0] < -std::max(kNone * of_loads.norm(), kOfActing * (unit.transpose() * acting).norm())))
     return {};
-  const VecX way = N * valley.eigenvectors().col(0);
+  Tipping tipping{{}, N * valley.eigenvectors().col(0), -valley.eigenvalues()[0]};
   std::vector<double> share;
   for (std::size_t c = 0; c < layout.joints.size(); ++c)
-    share.push_back((balance.offset_gain(c) * way).cwiseQuotient(balance.joints()[c].widths(1.0)).norm());
-  std::vector<int> tipped;
+    share.push_back((balance.offset_gain(c) * tipping.way).cwiseQuotient(balance.joints()[c].widths(1.0)).norm());
   for (std::size_t c = 0; c < share.size(); ++c)
-    if (share[c] > kTakesPart * *std::max_element(share.begin(), share.end())) tipped.push_back(static_cast<int>(c));
-  return tipped;
+    if (share[c] > kTakesPart * *std::max_element(share.begin(), share.end()))
+      tipping.clearances.push_back(static_cast<int>(c));
+  return tipping;
 }
 
 std::string tipping_sentence(const Mechanism& mechanism, const SceneLayout& layout) {

@@ -15,10 +15,14 @@
 
 namespace boresight {
 
-// The clearances whose journals tip over; none where all stay. balance: without the loads' stiffness. acting: what weighs and resists on each
+struct Tipping {
+  std::vector<int> clearances;  // whose journals tip over; none where all stay
+  VecX way;                     // of the coordinates, a clearance long: along which the energy falls most
+  double fall = 0.0;            // -way^T K way [N m]: a load that pushes more along the way decides instead
+};
+// balance: without the loads' stiffness. acting: what weighs and resists on each
 // coordinate without regard to sign [N, N m]; what rounding leaves of K is small against it.
-std::vector<int> tipped_by_loads(const RestingBalance& balance, const SceneLayout& layout, const MatX& K,
-                                 const VecX& acting);
+Tipping tipped_by_loads(const RestingBalance& balance, const SceneLayout& layout, const MatX& K, const VecX& acting);
 
 // The same for people; empty where none is.
 std::string tipping_sentence(const Mechanism& mechanism, const SceneLayout& layout);

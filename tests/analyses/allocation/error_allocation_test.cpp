@@ -102,6 +102,7 @@ TEST(ErrorAllocation, NoSetIsCheaperByBruteForceWhereOthersScatterBeside) {
     const Small s(statistic);
     const std::vector<std::vector<double>> price(s.price.begin(), s.price.begin() + 2);
     const std::vector<std::vector<DistributionPtr>> zone(s.zone.begin(), s.zone.begin() + 2);
+    const LinearDeviation tolerances_alone = s.deviation.of_only({0, 1});
     BesideValues beside(2);
     const DistributionPtr squareness = make_normal(0.0, 60e-6), zero = make_normal(20e-6, 80e-6);
     for (const double u : s.unit[2]) beside[0].push_back(zero->quantile(u));
@@ -126,7 +127,7 @@ TEST(ErrorAllocation, NoSetIsCheaperByBruteForceWhereOthersScatterBeside) {
                                                zone[1][static_cast<std::size_t>(choice[1])]->quantile(s.unit[1][k]),
                                                beside[0][k], beside[1][k]}) > limit;
             ASSERT_EQ(requirement->is_met(choice), above <= 6) << statistic << ' ' << limit;
-            const StatisticalRequirement alone(s.deviation.of_only({0, 1}), zone, s.unit, 6, limit);
+            const StatisticalRequirement alone(tolerances_alone, zone, s.unit, 6, limit);
             other_than_alone += alone.is_met(choice) != (above <= 6);
           }
           if (!requirement->is_met(choice)) continue;
