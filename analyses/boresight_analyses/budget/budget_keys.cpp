@@ -225,7 +225,9 @@ const KeyTable& budget_contributor_keys() {
           numbers("axis_correlation")
               .sometimes("left out, its axes are independent; not with period, measured or error")
               .says("How its axes depend on each other: of two axes one coefficient, of three [xy, xz, yz]."),
-          time_key("period").sometimes("needed with class = \"periodic\" only").says("Period of the sinusoid, more than two samples of the histories."),
+          time_key("period")
+              .sometimes("needed with class = \"periodic\" only")
+              .says("Period of the sinusoid, more than two samples of the histories."),
           time_key("correlation_time")
               .usually("the sampling")
               .says("Correlation time of noise; with class = \"random\" only."),

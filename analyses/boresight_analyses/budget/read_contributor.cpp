@@ -189,8 +189,8 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuan
     // It would be folded down to a slower one, or to none.
     char found[80], expected[120];
     std::snprintf(found, sizeof found, "%.6g s", c.period);
-    std::snprintf(expected, sizeof expected, "more than two samples of the histories, %.6g s; a finer sampling has more",
-                  2.0 * plan.sampling);
+    std::snprintf(expected, sizeof expected,
+                  "more than two samples of the histories, %.6g s; a finer sampling has more", 2.0 * plan.sampling);
     table.fail_found("period", found, expected);
   }
   c.correlation_time = table.quantity("correlation_time", plan.sampling);

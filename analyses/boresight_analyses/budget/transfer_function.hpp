@@ -26,9 +26,9 @@ class TransferFunction {
 
   std::complex<double> at(double f) const;  // [Hz]
   double power(double f) const { return std::norm(at(f)); }
-  double standing() const;  // H(0)
+  double standing() const;     // H(0)
   double at_infinity() const;  // towards which H goes with the frequency
-  double slope() const;     // dH/ds at s = 0: what a ramp of 1/s is behind, once settled [s]
+  double slope() const;        // dH/ds at s = 0: what a ramp of 1/s is behind, once settled [s]
   // e of |H| ~ f^e towards zero and towards infinity.
   int order_at_zero() const;
   int order_at_infinity() const { return static_cast<int>(numerator_.size()) - static_cast<int>(denominator_.size()); }

@@ -36,7 +36,9 @@ const KeyTable& correlation_keys() {
               .inside_of(-1.0, 1.0, "more than -1 and less than 1")
               .says("Their correlation, in the measure below."),
           choice("measure", std::vector<KeyChoice>{{"normal", "correlation of the normal scores behind the values"},
-                                                   {"spearman", "Spearman's rank correlation of the values; of values that come back, as discrete ones do, it is less"},
+                                                   {"spearman",
+                                                    "Spearman's rank correlation of the values; of values that come "
+                                                    "back, as discrete ones do, it is less"},
                                                    {"kendall", "Kendall's tau of the values"}})
               .otherwise("normal")
               .says("What the coefficient measures.")}};

@@ -23,7 +23,9 @@ struct ToJson {
 
 struct FromJson {
   const nlohmann::json& json;
-  void operator()(const char* key, double& value) const { value = std::strtod(json.at(key).get<std::string>().c_str(), nullptr); }
+  void operator()(const char* key, double& value) const {
+    value = std::strtod(json.at(key).get<std::string>().c_str(), nullptr);
+  }
   template <typename T>
   void operator()(const char* key, T& value) const {
     value = json.at(key).get<T>();

@@ -181,13 +181,15 @@ std::vector<std::string> courses_warnings(const BudgetStudy& s) {
     if (c.measured) share = c.measured->share_between_samples();
     if (c.of_error && c.of_error->course)
       share = share_between_samples(
-          [&](double t) { return std::array<double, 3>{c.of_error->course->at(t).value, 0.0, 0.0}; }, s.plan.start,
-          s.plan.sampling, samples_of(s.plan));
+          [&](double t) {
+            return std::array<double, 3>{c.of_error->course->at(t).value, 0.0, 0.0};
+          },
+          s.plan.start, s.plan.sampling, samples_of(s.plan));
     if (share > kMuchBetween)
-      out.push_back(
-          fmt::format("{} changes faster than the histories are sampled: between samples it departs from a straight line by {} of "
-                      "its own deviation, so that they have it slower than it is, or not at all; a finer `sampling` holds it",
-                      c.name, readable_share(std::min(1.0, std::sqrt(share)))));
+      out.push_back(fmt::format(
+          "{} changes faster than the histories are sampled: between samples it departs from a straight line by {} of "
+          "its own deviation, so that they have it slower than it is, or not at all; a finer `sampling` holds it",
+          c.name, readable_share(std::min(1.0, std::sqrt(share)))));
   }
   return out;
 }

@@ -142,9 +142,10 @@ void add_growth_notes(const Mechanism& mechanism, CheckResult& result) {
     });
     const bool points = m.line_of_sight && error.body == mechanism.boresight_body();
     if (!sprung && !points) continue;
-    const std::string what = sprung && points ? "its springs' points and the place that it points from stay where they are"
-                             : sprung         ? "its springs' points stay where they are"
-                                              : "the place that it points from stays where it is";
+    const std::string what = sprung && points
+                                 ? "its springs' points and the place that it points from stay where they are"
+                             : sprung ? "its springs' points stay where they are"
+                                      : "the place that it points from stays where it is";
     result.notes.push_back(
         fmt::format("error {}: \"{}\" grows between its joints; {}", error.name, name_of(error.body), what));
   }

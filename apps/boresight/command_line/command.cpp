@@ -108,9 +108,10 @@ Command CommandOptions::command(const std::string& verb) const {
 
 void MotionOptions::declare(CLI::App& app, bool with_poses) {
   keeps_histories_ = true;
-  sample_option_ = app.add_option("--sample", sample, "spacing of the time series; of a long motion wider, unless given")
-                       ->type_name("TIME")
-                       ->capture_default_str();
+  sample_option_ =
+      app.add_option("--sample", sample, "spacing of the time series; of a long motion wider, unless given")
+          ->type_name("TIME")
+          ->capture_default_str();
   declare_model(app);
   if (with_poses)
     app.add_option("--pose", poses, "keep the pose of this body too (any number of times)")

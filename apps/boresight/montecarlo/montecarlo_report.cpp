@@ -225,7 +225,8 @@ std::string short_text(const std::string& text) {
   for (std::sregex_iterator m(text.begin(), text.end(), number), end; m != end; ++m) {
     const auto first = text.cbegin() + m->position(), last = first + m->length();
     // Not within a word, as digits of a hash are.
-    if ((first != text.cbegin() && is_of_a_word(*std::prev(first))) || (last != text.cend() && is_of_a_word(*last))) continue;
+    if ((first != text.cbegin() && is_of_a_word(*std::prev(first))) || (last != text.cend() && is_of_a_word(*last)))
+      continue;
     out.append(at, first);
     out += fmt::format("{:.4g}", std::strtod(m->str().c_str(), nullptr));
     at = last;

@@ -43,9 +43,10 @@ std::string steps_mislead(const MeasuredError& measured, const PointingIndices& 
   if (!(relative > 1.0) || (is_nothing(of.of(index), of, size) && is_nothing(of.of(measured.stated), of, size)))
     return "";
   if (scatters(measured, of))
-    return fmt::format("{}: neighbouring {} lie as far from each other as {} of what is found: this motion is not followed; take "
-                       "a smaller --step, or ask for a mean over many motions",
-                       of.title(), measured.by_instants ? "instants" : "steps", readable_share(relative));
+    return fmt::format(
+        "{}: neighbouring {} lie as far from each other as {} of what is found: this motion is not followed; take "
+        "a smaller --step, or ask for a mean over many motions",
+        of.title(), measured.by_instants ? "instants" : "steps", readable_share(relative));
   return fmt::format("{}: what {} leave out is {} of what is found: {}", of.title(),
                      measured.by_instants ? "the instants" : "the steps", readable_share(relative),
                      measured.by_instants

@@ -39,7 +39,8 @@ const KeyTable& error_keys() {
           quantity("expansion", kExpansionRange)
               .sometimes(one)
               .says("The part grows: its joint frames move apart by this times value, a difference of temperatures, of "
-                    "their distances; from its centre of mass, or on the ground from the middle of its joints. What else is "
+                    "their distances; from its centre of mass, or on the ground from the middle of its joints. What "
+                    "else is "
                     "fixed to it, springs and the place that it points from, stays where it is drawn."),
           value("value", "the error (a length, an angle or a difference of temperatures)")
               .usually("zero: the drawing itself")

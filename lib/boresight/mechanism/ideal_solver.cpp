@@ -114,7 +114,8 @@ bool IdealSolver::newton(IdealState& state) {
   const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * farthest / length;
   const double exact = std::max(kExact, 0.25 * rounding), converged = std::max(kConverged, rounding);
   // An open chain closes in one way.
-  const double largest = mechanism_.joints() == mechanism_.bodies() ? std::numeric_limits<double>::infinity() : kLargestCorrection;
+  const double largest =
+      mechanism_.joints() == mechanism_.bodies() ? std::numeric_limits<double>::infinity() : kLargestCorrection;
   double previous = 1e300, corrected = 0.0;
   for (int step = 0; step < kNewtonSteps; ++step) {
     system_.evaluate(state.bodies, laws_);

@@ -311,7 +311,8 @@ GeometricErrors::GeometricErrors(std::shared_ptr<const Mechanism> mechanism, Poi
 GeometricErrors::~GeometricErrors() = default;
 
 double GeometricErrors::operations() const {
-  const double errors = prepared_->influence->count(), rows = prepared_->quantity == PointingQuantity::line_of_sight_error ? 6.0 : 3.0;
+  const double errors = prepared_->influence->count(),
+               rows = prepared_->quantity == PointingQuantity::line_of_sight_error ? 6.0 : 3.0;
   const double knots = prepared_->influence->cells() + 1.0, instants = static_cast<double>(prepared_->time.size());
   return 2.0 * rows * knots * errors + 30.0 * instants;
 }

@@ -81,7 +81,8 @@ MatX ClearanceScene::stiffness_at_rest(const Parameters& parameters, int knot) c
     MatX M, C;
     VecX r;
     assemble(parameters, knots_[knot], M, C, r);
-    return M * knots_[knot].stiffness - (moving() ? moving_stiffness(parameters, knots_[knot]) : MatX::Zero(layout_.n, layout_.n));
+    return M * knots_[knot].stiffness -
+           (moving() ? moving_stiffness(parameters, knots_[knot]) : MatX::Zero(layout_.n, layout_.n));
   }
   MatX K = MatX::Zero(layout_.n, layout_.n);
   const std::vector<SpringGain>& springs = knots_[knot].springs;

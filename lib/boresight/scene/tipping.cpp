@@ -44,10 +44,14 @@ std::string tipping_sentence(const Mechanism& mechanism, const SceneLayout& layo
   std::string names;
   for (std::size_t k = 0; k < layout.tipped.size(); ++k) {
     const int joint = description.clearances[static_cast<std::size_t>(layout.tipped[k])].joint;
-    names += (k == 0 ? "" : k + 1 < layout.tipped.size() ? ", " : " and ") + ("\"" + description.joints[joint].name + "\"");
+    names += (k == 0                         ? ""
+              : k + 1 < layout.tipped.size() ? ", "
+                                             : " and ") +
+             ("\"" + description.joints[joint].name + "\"");
   }
   return "the loads tip over what stands in the play of " + names +
-         ": nothing pushes it there, and the least tilt or shift makes a load that grows with it; so it leans to one side from the start, "
+         ": nothing pushes it there, and the least tilt or shift makes a load that grows with it; so it leans to one "
+         "side from the start, "
          "and to which nothing in the drawing decides";
 }
 

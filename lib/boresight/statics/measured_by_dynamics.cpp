@@ -156,7 +156,8 @@ class MeasuredByDynamics final : public Rung {
     }
     if (bounds_ && measured.bent > kBent) {
       char text[80];
-      std::snprintf(text, sizeof text, "' offsets, and the pose is not: errors may exceed it by %.2g %%", 100.0 * measured.bent);
+      std::snprintf(text, sizeof text, "' offsets, and the pose is not: errors may exceed it by %.2g %%",
+                    100.0 * measured.bent);
       result.warnings.push_back("the bound is linear in the " + parts_in_play(mechanism_->description()).inserts +
                                 text);
     }

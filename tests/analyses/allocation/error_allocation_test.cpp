@@ -107,7 +107,7 @@ TEST(ErrorAllocation, NoSetIsCheaperByBruteForceWhereOthersScatterBeside) {
     const DistributionPtr squareness = make_normal(0.0, 60e-6), zero = make_normal(20e-6, 80e-6);
     for (const double u : s.unit[2]) beside[0].push_back(zero->quantile(u));
     for (const double u : s.unit[3]) beside[1].push_back(squareness->quantile(u));
-    for (const double limit : {0.05e-3, 0.07e-3, 0.09e-3, 0.12e-3, 0.16e-3}) {
+    for (const double limit : {0.1e-3, 0.115e-3, 0.13e-3, 0.15e-3, 0.17e-3, 0.2e-3, 0.23e-3, 0.27e-3}) {
       const StatisticalRequirement statistical(s.deviation, zone, s.unit, 6, limit, beside);
       const WorstCaseRequirement worst(s.deviation, zone, limit, beside);
       const RootSumSquareRequirement root(s.deviation, zone, 0.95, limit, {false, true}, beside);

@@ -115,6 +115,13 @@ TEST_F(BudgetPlanTest, MistakesAreOneLineWithFileLineAndKey) {
   says(contributor + "class = \"bias\"\n", "a distribution, or a value");
   says(contributor + "class = \"periodic\"\nvalue = \"1 arcsec\"\n", "a period");
   says(contributor + "class = \"bias\"\nvalue = \"1 arcsec\"\nperiod = \"1 s\"\n", "periodic");
+  // As many as the sampling: every sample of a member is the same.
+  says("sampling = \"5 ms\"\n" + contributor + "class = \"periodic\"\nvalue = \"1 arcsec\"\nperiod = \"5 ms\"\n",
+       "more than two samples of the histories, 0.01 s");
+  says(contributor +
+           "class = \"bias\"\nvalue = \"1 arcsec\"\nthrough = [{ loop = { numerator = [-1, 20], denominator = [1, "
+           "0], seen_by = \"sensor\" } }]\n",
+       "grows without bound");
   says(contributor + "class = \"drift\"\nvalue = \"1 arcsec\"\n", "an angular rate");
   says(contributor + "class = \"bias\"\nvalue = \"1 arcsec\"\naxes = [\"q\"]\n", "an axis of the error");
   says(contributor + "class = \"bias\"\nvalue = \"1 arcsec\"\n" + contributor +

@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <map>
+#include <numbers>
 #include <thread>
 
 #include "program.hpp"
@@ -234,6 +236,22 @@ TEST_F(BudgetProgram, MistakesAreOneLine) {
   EXPECT_EQ(ended.status, 2);
   EXPECT_TRUE(is_one_line(ended.err)) << ended.err;
   EXPECT_THAT(ended.err, AllOf(HasSubstr("study.toml:"), HasSubstr("a separation, which PDE needs")));
+}
+
+// A record at 20 kHz of what happens at 5 kHz, in histories at 5 kHz: every sample is the same.
+TEST_F(BudgetProgram, SaysThatItsHistoriesDoNotShowACourse) {
+  {
+    std::ofstream file(folder_ / "shake.csv");
+    file << "t,x\n";
+    for (int k = 0; k <= 400; ++k) file << 0.05e-3 * k << ',' << std::sin(std::numbers::pi / 2.0 * k) << '\n';
+  }
+  study(
+      "[[budget.contributor]]\nname = \"shake\"\naxes = [\"x\"]\nmeasured = { file = \"shake.csv\", time = \"t\", "
+      "columns = "
+      "[\"x\"], unit = \"arcsec\" }\n");
+  const Ended ended = call(arguments());
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("shake changes faster than the histories are sampled"));
 }
 
 TEST_F(BudgetProgram, SaysWhyParallelAxesLeaveNothingToBudget) {

@@ -138,6 +138,24 @@ TEST_F(ErrorsProgram, ASeatFurtherOffThanTheHeldPlayIsSaid) {
   EXPECT_THAT(call({"run", "roomy.toml", "--out", "d"}).out, Not(HasSubstr("more room")));
 }
 
+// An arm of 1 m on an axis that is off by 0.7 rad about the arm's own direction across: its end is off by 2 sin(0.35) m, as an open
+// chain takes any error up. Over an hour, whose histories are as wide as they must be.
+TEST_F(ErrorsProgram, AnOpenChainTakesUpLargeErrorsForHours) {
+  std::ofstream(folder_ / "arm.toml") << R"toml(format = 1
+name = "arm"
+body = [{ name = "arm", mass = "1 kg", center_of_mass = ["1 m", "0 m", "0 m"], inertia = ["0.1 kg m^2", "0.1 kg m^2", "0.1 kg m^2"], boresight = [1, 0, 0] }]
+joint = [{ name = "J", type = "revolute", connects = ["ground", "arm"], point = ["0 m", "0 m", "0 m"], axis = [0, 0, 1], driven = true }]
+error = [{ name = "off", joint = "J", body = "ground", rotation = [0, 1, 0], value = "0.7 rad" }]
+[motion]
+duration = "3600 s"
+drives = { J = "0" }
+)toml";
+  const Ended ended =
+      call({"run", "arm.toml", "--rung", "multibody", "--step", "1s", "--step-error", "off", "--out", "arm"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NEAR(json("arm/summary.json")["index"]["position_error"]["max"].get<double>(), 2.0 * std::sin(0.35), 1e-9);
+}
+
 TEST_F(ErrorsProgram, SettingADimensionSaysThatTheDrawingChangesAndSettingAnErrorDoesNot) {
   const std::string says = "changes the drawing, ideal and built alike";
   EXPECT_THAT(

@@ -167,6 +167,20 @@ TEST_F(MonteCarloProgram, TheCostIsThatOfAllParts) {
   EXPECT_GT(cpu[2], cpu[1] + 0.01);
 }
 
+// The rows' hash has digits like those of a number too large for any.
+TEST_F(MonteCarloProgram, ReportsRowsOfATable) {
+  std::ofstream(folder_ / "rows.csv") << "b\n49\n88\n28\n";
+  std::ofstream(folder_ / "rows.toml")
+      << "format = 1\nmechanism = \"" << mechanism_
+      << "\"\n[montecarlo]\nsamples = 20\n[[random]]\nparameters = "
+         "[\"clearance.F1.radial\"]\ndistribution = { rows = { file = \"rows.csv\", columns = "
+         "[\"b\"], units = [\"um\"] } }\n";
+  const Ended ended =
+      call({"montecarlo", "rows.toml", "--rung", "quasistatic", "--set", "motion.duration=10ms", "--out", "rows"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(text("rows/report.html"), HasSubstr("rows("));
+}
+
 TEST_F(MonteCarloProgram, MistakesInTheStudyAreOneLine) {
   study("bad.toml", 100, "desing = \"lhs\"");
   const Ended ended = call(quick("bad.toml", "out"));

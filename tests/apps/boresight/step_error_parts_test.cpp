@@ -43,6 +43,12 @@ TEST(StepsMislead, WhereTheyLeaveOutMoreThanThereIs) {
   EXPECT_THAT(steps_mislead(off_by(9e-5, 0.0), indices(1e-4, 0.0), kMaximum, 1.0), IsEmpty());
   EXPECT_THAT(steps_mislead(off_by(0.0, 2e-6), indices(0.0, 1e-6), kTurn, 1.0), HasSubstr("not followed"));
 }
+// Neighbouring steps that lie as far apart as all there is show no motion of many, but none.
+TEST(StepsMislead, WhereNeighbouringStepsLieAsFarApart) {
+  MeasuredError scattered = off_by(2e-4, 0.0);
+  scattered.spread = scattered.stated;
+  EXPECT_THAT(steps_mislead(scattered, indices(1e-4, 0.0), kMaximum, 1.0), HasSubstr("neighbouring steps"));
+}
 TEST(StepsMislead, ButNotAboutTheRoundingOfAMotionWithoutError) {
   EXPECT_THAT(steps_mislead(off_by(3e-13, 0.0), indices(1e-14, 0.0), kMaximum, 1.0), IsEmpty());
   EXPECT_THAT(steps_mislead(off_by(0.0, 3e-13), indices(0.0, 1e-14), kTurn, 1.0), IsEmpty());
