@@ -144,8 +144,10 @@ void MotionOptions::set_sample_spacing(RunOptions& options, const Mechanism& mec
   const double bytes_of_sample = sizeof(double) + sizeof(PoseSample) * (1.0 + static_cast<double>(poses.size())) +
                                  sizeof(ClearanceSample) * mechanism.clearances();
   if (sample_option_ == nullptr || sample_option_->count() == 0) {
-    const double most = std::min(most_samples, kMostBytes / bytes_of_sample);
-    options.sample_spacing = std::max(options.sample_spacing, mechanism.duration() / most);
+    constexpr double kOfLongMotion = 2e5;
+    const double samples = mechanism.duration() / options.sample_spacing;
+    if (samples > most_samples || samples * bytes_of_sample > kMostBytes)
+      options.sample_spacing = mechanism.duration() / std::min(kOfLongMotion, kMostBytes / bytes_of_sample);
     return;
   }
   if (mechanism.duration() / options.sample_spacing > most_samples)
