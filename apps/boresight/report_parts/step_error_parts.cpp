@@ -72,11 +72,15 @@ std::string step_error_sentence(const MeasuredError& measured, const PointingInd
 
 ModelErrorSaid model_error_said(const RunResult& result, const IndexChoice& of, double size) {
   // A tenth of what is asked for is more than any reader would take for granted.
-  constexpr double kMuch = 0.1;
+  constexpr double kMuch = 0.1, kManyTimes = 2.0;
   const double share = result.error.model_of(of.kind());
-  if (result.error.basis.empty() || !(share > kOfRounding) || is_nothing(of.of(result.index), of, size)) return {};
-  const std::string about = share < 1.0 ? fmt::format("about {} of it", readable_share(share))
-                                        : std::string("anything up to the whole of it");
+  // Where nothing is found only a share of what another rung finds can be many times that.
+  const bool nothing = is_nothing(of.of(result.index), of, size);
+  if (result.error.basis.empty() || !(share > kOfRounding) || (nothing && share < kManyTimes)) return {};
+  const std::string about = nothing              ? std::string("far more than it finds")
+                            : share < 1.0        ? fmt::format("about {} of it", readable_share(share))
+                            : share < kManyTimes ? std::string("anything up to the whole of it")
+                                                 : fmt::format("up to {:.2g} times what it finds", share);
   ModelErrorSaid said{
       fmt::format("{}: what the {} rung leaves out is {}, by its own estimate", of.title(), result.rung, about), ""};
   if (share > kMuch) said.warning = said.sentence + "; --rung multibody leaves nothing of that out";

@@ -36,6 +36,9 @@
 namespace boresight::app {
 namespace {
 
+constexpr double kOfAnother =
+    1.0;  // of an index that is printed beside the one asked for: what its rung leaves out is all of it
+
 void print(const Mechanism& mechanism, const RungChoice& choice, const RunResult& result,
            const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
            const std::optional<Predictability>& predictability, const MeasuredError& measured,
@@ -242,6 +245,14 @@ class RunVerb : public Verb {
       if (const ModelErrorSaid said = model_error_said(result, index, mechanism->characteristic_length());
           !cut_short && !said.warning.empty())
         result.warnings.push_back(said.warning);
+      // Of the others that are printed, where they are not worth printing.
+      for (const char* quantity : {"position_error", "orientation_error", "boresight_error"}) {
+        const IndexChoice other{quantity, index.statistic};
+        const ModelErrorSaid said = model_error_said(result, other, mechanism->characteristic_length());
+        if (quantity != index.quantity && !cut_short && !said.warning.empty() &&
+            result.error.model_of(other.kind()) > kOfAnother)
+          result.warnings.push_back(said.warning);
+      }
     } catch (const Interrupted&) {  // the motion itself is there, and is kept
       cut_short = interrupted();
     }

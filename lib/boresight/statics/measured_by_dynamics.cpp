@@ -278,8 +278,10 @@ class MeasuredByDynamics final : public Rung {
           sum += value;
         }
         const double mean = sum / static_cast<double>(motions.size());
-        const double off = std::abs(index.of(quantity).*statistic - mean) + kOfRange * (high - low);
-        const double against = unit(quantity) * mean > kNextToNothing * largest ? mean : largest / unit(quantity);
+        const double own = index.of(quantity).*statistic, least = kNextToNothing * largest / unit(quantity);
+        const double off = std::abs(own - mean) + kOfRange * (high - low);
+        // Relative to what is said, which may be far less than what there is.
+        const double against = mean > least ? std::max(std::min(own, mean), least) : largest / unit(quantity);
         if (against > 0.0)
           model = std::max(model, off / against);
         else if (off > kRounding)  // where nothing moves at all, all of it is wrong

@@ -5,7 +5,7 @@
 // turn, how long bounces last against the motion, what friction holds. So the rung with dynamics is asked:
 // three motions, at its own step, at one 3 percent smaller and at half of it, for impacts make each of them a
 // draw. With q an index of the static rung, m the mean of the three and s their range, the error stated is
-//   (|q - m| + 1.5 s) / m    and what the perturbation rung states for its own model besides, as closely as the caller looks,
+//   (|q - m| + 1.5 s) / min(q, m)    and what the perturbation rung states for its own model besides, as closely as the caller looks,
 // the largest over maximum, RMS and mean of the position error and of the orientation and boresight errors,
 // as far as these weigh against each other on the mechanism's size.
 //

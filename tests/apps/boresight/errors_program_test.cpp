@@ -151,8 +151,7 @@ error = [{ name = "off", joint = "J", body = "ground", rotation = [0, 1, 0], val
 duration = "3600 s"
 drives = { J = "0" }
 )toml";
-  const Ended ended =
-      call({"run", "arm.toml", "--rung", "multibody", "--out", "arm"});
+  const Ended ended = call({"run", "arm.toml", "--rung", "multibody", "--out", "arm"});
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_NEAR(json("arm/summary.json")["index"]["position_error"]["max"].get<double>(), 2.0 * std::sin(0.35), 1e-9);
 }

@@ -71,8 +71,14 @@ TEST(ModelErrorSaid, IsASentenceToATenthAndAWarningBeyond) {
   EXPECT_THAT(little.warning, IsEmpty());
   const ModelErrorSaid much = model_error_said(left_out(0.39, indices(1e-4, 0.0)), kMaximum, 1.0);
   EXPECT_THAT(much.warning, AllOf(HasSubstr("about 39 % of it"), HasSubstr("--rung multibody")));
-  const ModelErrorSaid all = model_error_said(left_out(3.0, indices(1e-4, 0.0)), kMaximum, 1.0);
+  const ModelErrorSaid many = model_error_said(left_out(82.0, indices(1e-4, 0.0)), kMaximum, 1.0);
+  EXPECT_THAT(many.warning, HasSubstr("up to 82 times what it finds"));
+  const ModelErrorSaid all = model_error_said(left_out(1.3, indices(1e-4, 0.0)), kMaximum, 1.0);
   EXPECT_THAT(all.warning, AllOf(HasSubstr("up to the whole of it"), Not(HasSubstr("300"))));
+}
+TEST(ModelErrorSaid, IsSaidWhereARungFindsNothingAndAnotherMuch) {
+  EXPECT_THAT(model_error_said(left_out(40.0, indices(1e-14, 0.0)), kMaximum, 1.0).warning,
+              HasSubstr("far more than it finds"));
 }
 TEST(ModelErrorSaid, IsNothingWhereNothingIsLeftOutOrNothingDeviates) {
   EXPECT_THAT(model_error_said(left_out(0.0, indices(1e-4, 0.0)), kMaximum, 1.0).sentence, IsEmpty());
