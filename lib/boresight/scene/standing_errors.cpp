@@ -15,6 +15,7 @@ namespace {
 constexpr const char* kFollowing = "following the influence of errors";
 
 // First grid, and how often it is halved at most: a thousandth of the first spacing shows the ripple of ten thousand turns of a screw.
+constexpr int kTabledBodies = 2;
 constexpr int kFewestCellsOfColumns = 16, kMostHalvingsOfColumns = 12;
 // What is left of the columns between the knots where the grid is finest must not be more.
 constexpr double kLargestMissOfColumns = 1e-3;
@@ -28,8 +29,9 @@ StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& co
   // A sixteenth of what the commanded motion is tabled with: no turn of it is overlooked.
   int cells = std::max(kFewestCellsOfColumns, commanded.knots() / 16);
   const auto refuse_unless_held = [&](double knots) {
-    // Knots, and two tables of four coefficients a function.
-    const double bytes = knots * 9.0 * 8.0 * 6.0 * bodies_ * count();
+    // Knots, of all bodies; and of those that are asked for, the boresight body and now and then another one, two tables of four
+    // coefficients a function.
+    const double bytes = knots * 8.0 * 6.0 * count() * (bodies_ + 8.0 * std::min(bodies_, kTabledBodies));
     if (bytes > kMostTableBytes)
       throw MotionTooDense(
           "what standing errors do to the pose would take too much memory as a table over so long a motion; shorten "
