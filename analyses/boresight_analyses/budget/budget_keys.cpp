@@ -64,7 +64,9 @@ const KeyTable& budget_keys() {
               .sometimes("left out, the mechanism's own error is the pointing error itself")
               .says("Transfer functions between the mechanism's own error, clearances and standing errors, and the "
                     "pointing: "
-                    "a pointing loop that sees it. They have settled at its first value where a history begins."),
+                    "a pointing loop that sees it. They are followed from as long before `start` as they take to "
+                    "settle, or from "
+                    "the beginning of the motion, and have settled at its first value there."),
           tables("requirement", budget_requirement_keys)
               .sometimes("left out, nothing is required")
               .says("What is required, one table each; the first one is what shares and reliefs are about."),

@@ -9,6 +9,7 @@
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/budget/budget_keys.hpp"
+#include "boresight_analyses/budget/budget_runs.hpp"
 #include "boresight_analyses/budget/read_contributor.hpp"
 #include "boresight_analyses/budget/read_correlations.hpp"
 #include "boresight_analyses/budget/read_noise.hpp"
@@ -187,6 +188,7 @@ std::string BudgetPlan::sample_text(const Study& study) const {
   char times[80];
   std::snprintf(times, sizeof times, "sampling %.17g start %.17g\n", sampling, start);
   std::string text = inputs.text + design().text() + "\nquantity " + study.index.quantity + "\n" + times;
+  if (const std::size_t lead = lead_of(*this); lead > 0) text += "lead " + std::to_string(lead) + "\n";
   for (const auto& group : groups.members) {
     text += "group";
     for (const int i : group) text += " " + std::to_string(i);

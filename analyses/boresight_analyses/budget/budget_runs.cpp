@@ -132,7 +132,7 @@ void BudgetModel::evaluate(std::span<const Sample> samples, std::span<Outcome> o
     const std::size_t alone = runs_.has_alone() ? runs_.joints() : 0;
     if (!deviates(samples[k])) {
       outcomes[k] = {.status = Outcome::Status::done, .value = 0.0};
-      outcomes[k].history.assign(3 * samples_of(plan_), 0.0);
+      outcomes[k].history.assign(3 * (lead_of(plan_) + samples_of(plan_)), 0.0);
       continue;
     }
     std::size_t which = 0;
@@ -146,17 +146,24 @@ std::size_t samples_of(const BudgetPlan& plan) {
   return static_cast<std::size_t>(std::max(1.0, std::round(plan.duration / plan.sampling)));
 }
 
+std::size_t lead_of(const BudgetPlan& plan) {
+  if (!plan.through) return 0;
+  constexpr double kSlack = 1e-6, kMost = 1e6;  // of the sampling; samples
+  return static_cast<std::size_t>(std::min({kMost, std::floor(plan.start / plan.sampling + kSlack),
+                                            std::ceil(CourseFilter::settling_time(*plan.through) / plan.sampling)}));
+}
+
 std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Pointing& pointing,
                                     const BudgetPlan& plan) {
   const std::vector<PoseSample>& samples = run.boresight.samples;
-  const std::size_t size = samples_of(plan);
+  const std::size_t lead = lead_of(plan), size = lead + samples_of(plan);
   std::vector<double> out;
   out.reserve(3 * size);
   std::size_t at = 0;
   constexpr double kSlack = 1e-6;  // of the sampling: rounding of t
   const auto error = [&](std::size_t k) { return error_vector(quantity, samples[k].pose, samples[k].ideal, pointing); };
   for (std::size_t k = 0; k < size; ++k) {
-    const double t = plan.start + static_cast<double>(k) * plan.sampling;
+    const double t = plan.start + (static_cast<double>(k) - static_cast<double>(lead)) * plan.sampling;
     while (at + 2 < samples.size() && run.time[at + 1] <= t + kSlack * plan.sampling) ++at;
     const std::size_t next = std::min(at + 1, samples.size() - 1);
     const double span = run.time[next] - run.time[at];
@@ -168,7 +175,9 @@ std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quant
   return out;
 }
 
-PointingHistory sampled_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan) {
+namespace {
+
+PointingHistory history_with_lead(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan) {
   const std::vector<double> doubles = store.history(number);
   PointingHistory history{plan.sampling, {}};
   for (std::size_t k = 0; k + 2 < doubles.size(); k += 3)
@@ -176,8 +185,21 @@ PointingHistory sampled_history(const SampleStore& store, std::uint64_t number, 
   return history;
 }
 
+void drop_lead(const BudgetPlan& plan, std::vector<Vec3>& error) {
+  const std::size_t lead = std::min(error.size(), lead_of(plan));
+  error.erase(error.begin(), error.begin() + static_cast<std::ptrdiff_t>(lead));
+}
+
+}  // namespace
+
+PointingHistory sampled_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan) {
+  PointingHistory history = history_with_lead(store, number, plan);
+  drop_lead(plan, history.error);
+  return history;
+}
+
 PointingHistory stored_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan) {
-  PointingHistory history = sampled_history(store, number, plan);
+  PointingHistory history = history_with_lead(store, number, plan);
   pass_through(plan, history.error);
   return history;
 }
@@ -191,6 +213,7 @@ void pass_through(const BudgetPlan& plan, std::vector<Vec3>& error) {
     const std::vector<double> seen = filter.through(course);
     for (std::size_t k = 0; k < error.size(); ++k) error[k][axis] = seen[k];
   }
+  drop_lead(plan, error);
 }
 
 }  // namespace boresight

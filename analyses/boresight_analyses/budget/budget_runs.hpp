@@ -88,12 +88,16 @@ class BudgetModel final : public SampleModel {
 // Error vectors out of a run's samples onto the grid of the plan.
 // How many of them that has.
 std::size_t samples_of(const BudgetPlan& plan);
+// Samples before the start that a history is followed from, as far as a pointing loop that sees it takes to settle and the motion has them.
+std::size_t lead_of(const BudgetPlan& plan);
+// With the lead before it.
 std::vector<double> history_on_grid(const RunResult& run, PointingQuantity quantity, const Pointing& pointing,
                                     const BudgetPlan& plan);
 // What the store holds of a run, the mechanism's own error; empty if it failed.
 PointingHistory sampled_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan);
 // The same as the pointing has it: behind BudgetPlan::through.
 PointingHistory stored_history(const SampleStore& store, std::uint64_t number, const BudgetPlan& plan);
+// error: with the lead; then without.
 void pass_through(const BudgetPlan& plan, std::vector<Vec3>& error);
 
 }  // namespace boresight

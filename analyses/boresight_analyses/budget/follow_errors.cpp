@@ -40,8 +40,10 @@ class ColumnsOnGrid {
         quantity_(quantity),
         commanded_(ideal_motion(mechanism, mechanism.parameters())),
         columns_(mechanism, commanded_) {
-    for (std::size_t k = 0; k < samples_of(plan); ++k) {
-      time_.push_back(std::min(mechanism.duration(), plan.start + static_cast<double>(k) * plan.sampling));
+    const std::size_t lead = lead_of(plan);
+    for (std::size_t k = 0; k < lead + samples_of(plan); ++k) {
+      time_.push_back(std::min(mechanism.duration(),
+                               plan.start + (static_cast<double>(k) - static_cast<double>(lead)) * plan.sampling));
       const MatX gain = columns_.at(time_.back());
       for (const std::size_t error : errors) gain_[error].emplace_back(gain.col(static_cast<Eigen::Index>(error)));
     }

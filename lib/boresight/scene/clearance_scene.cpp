@@ -89,8 +89,11 @@ std::vector<int> ClearanceScene::tipped_at_start(const IdealMotion& ideal, const
   append_row(parameters, knot, row, true);
   const MatX AK =
       deviation_stiffness(mechanism_, ideal, parameters, coordinates_, knot.state, knot.T, solve_positive(M, C), r);
+  MatX K = M * AK;
+  if (moving())
+    K -= moving_stiffness(parameters, knot);  // which hangs on the coordinates, and not on where journals lie
   const Tipping tipping = tipped_by_loads(
-      RestingBalance(layout_, row.data(), joint_plays(mechanism_.description(), parameters)), layout_, M * AK, acting);
+      RestingBalance(layout_, row.data(), joint_plays(mechanism_.description(), parameters)), layout_, K, acting);
   // What loads push along the way later in the motion, they decide.
   constexpr double kLooks[] = {0.11, 0.29, 0.43, 0.61, 0.79, 0.97};
   for (const double share : kLooks) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <complex>
 
 #include "budget/made_budget.hpp"
 
@@ -65,6 +66,18 @@ TEST_F(BudgetOfErrors, GoThroughALoopThatContributorsFromOutsideDoNotSee) {
                                     "[[budget.contributor]]\nname = \"star tracker\"\nclass = \"bias\"\n"
                                     "distribution = { discrete = { values = [\"0.1 mrad\"] } }\naxes = [\"x\"]\n");
   EXPECT_NEAR(mixed(outside, ErrorIndex::ape), 1e-4, 1e-9);
+}
+
+// Where the histories begin later than the motion, the loop has settled on the sinusoid by then: of it |S| is left and no mean,
+// S = (s^2 + 2 z w s) / (s^2 + 2 z w s + w^2).
+TEST_F(BudgetOfErrors, GoThroughALoopThatHasSettledWhereHistoriesBegin) {
+  const Budget b =
+      budget({{"error.ripple", "0.3 mrad"}},
+             "start = \"0.2 s\"\nthrough = [{ sensitivity = { frequency = \"20 Hz\", damping = 0.7 } }]\n");
+  const std::complex<double> s(0.0, 5.0), top = s * s + 2.0 * 0.7 * 20.0 * s, bottom = top + 400.0;
+  const double left = std::abs(top / bottom) * kRipple;
+  EXPECT_NEAR(mixed(b, ErrorIndex::rpe), left * std::sin(0.95 * M_PI / 2.0), 5e-3 * left);
+  EXPECT_LT(mixed(b, ErrorIndex::mpe), 2e-3 * left);
 }
 
 TEST_F(BudgetOfErrors, SharesAreThoseOfTheMeanSquaresAndAddUpWhicheverMembersAreAttributed) {
