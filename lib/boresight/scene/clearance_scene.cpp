@@ -72,9 +72,11 @@ std::vector<int> ClearanceScene::tipped_at_start(const IdealMotion& ideal, const
   assemble(parameters, knot, M, C, r);
   const std::vector<MassProperties> masses = mechanism_.mass_properties(parameters);
   VecX acting = VecX::Zero(n);
+  double fastest = 0.0;  // turning [1/s^2]
   for (std::size_t b = 0; b < masses.size(); ++b) {
     const BodyAcceleration& a = knot.state.acceleration[b];
     const double turning = a.tail<3>().norm() + knot.state.bodies[b].w.squaredNorm(), arm = masses[b].c.norm();
+    fastest = std::max(fastest, turning);
     const double force = masses[b].mass * (a.head<3>().norm() + arm * turning + parameters.gravity.norm());
     const double couple = masses[b].inertia.norm() * turning + arm * force;
     const Eigen::Index row = 6 * static_cast<Eigen::Index>(b);
@@ -94,6 +96,10 @@ std::vector<int> ClearanceScene::tipped_at_start(const IdealMotion& ideal, const
     K -= moving_stiffness(parameters, knot);  // which hangs on the coordinates, and not on where journals lie
   const Tipping tipping = tipped_by_loads(
       RestingBalance(layout_, row.data(), joint_plays(mechanism_.description(), parameters)), layout_, K, acting);
+  // What the motion's own turning makes of a displacement is over when it has turned.
+  constexpr double kBesideTurning = 2.0;
+  if (!tipping.clearances.empty() && !(tipping.fall > kBesideTurning * fastest * tipping.way.dot(M * tipping.way)))
+    return {};
   // What loads push along the way later in the motion, they decide.
   constexpr double kLooks[] = {0.11, 0.29, 0.43, 0.61, 0.79, 0.97};
   for (const double share : kLooks) {
