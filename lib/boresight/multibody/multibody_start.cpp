@@ -239,7 +239,10 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
       length = other_length;
     }
   }
-  if (!(length <= kAcceptableRest)) {
+  if (!(length <= kAcceptableRest) && scene.layout.tips) {
+    // Where the linear balance leans to is nearer to a rest than the middle, which is none that lasts.
+    z = rest.z;
+  } else if (!(length <= kAcceptableRest)) {
     resting.refusal = "no position was found in which the " + parts_in_play(mechanism.description()).inserts +
                       "' contacts carry the loads of t = 0 on the mechanism's own geometry, which bends within the "
                       "clearances";

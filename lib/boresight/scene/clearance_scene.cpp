@@ -100,12 +100,16 @@ std::vector<int> ClearanceScene::tipped_at_start(const IdealMotion& ideal, const
   constexpr double kBesideTurning = 2.0;
   if (!tipping.clearances.empty() && !(tipping.fall > kBesideTurning * fastest * tipping.way.dot(M * tipping.way)))
     return {};
-  // What loads push along the way later in the motion, they decide.
+  // What loads push along the way later in the motion, or hold against it, they decide.
   constexpr double kLooks[] = {0.11, 0.29, 0.43, 0.61, 0.79, 0.97};
   for (const double share : kLooks) {
     if (tipping.clearances.empty()) break;
-    assemble(parameters, knot_at(share * ideal.duration(), ideal, exact, parameters), M, C, r);
-    if (std::abs(tipping.way.dot(r)) > tipping.fall) return {};
+    const Knot later = knot_at(share * ideal.duration(), ideal, exact, parameters);
+    assemble(parameters, later, M, C, r);
+    K = M *
+        deviation_stiffness(mechanism_, ideal, parameters, coordinates_, later.state, later.T, solve_positive(M, C), r);
+    if (moving()) K -= moving_stiffness(parameters, later);
+    if (std::abs(tipping.way.dot(r)) > tipping.fall || !(tipping.way.dot(K * tipping.way) < 0.0)) return {};
   }
   return tipping.clearances;
 }

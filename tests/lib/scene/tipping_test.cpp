@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
 #include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
@@ -116,6 +120,84 @@ joint = "way"
 force = "-1000"
 )toml";
 
+// The column in a rectangular guide, with 50 and 20 um to its sides.
+constexpr const char* kRectangularColumn = R"toml(format = 1
+name = "col_re"
+gravity = ["-9.81 m/s^2", "0 m/s^2", "0 m/s^2"]
+[[body]]
+name = "car"
+mass = "4 kg"
+center_of_mass = ["0.3 m", "0 m", "0 m"]
+inertia = ["0.02 kg m^2", "0.03 kg m^2", "0.03 kg m^2", "0 kg m^2", "0 kg m^2", "0 kg m^2"]
+boresight = [1, 0, 0]
+[[joint]]
+name = "sl"
+type = "prismatic"
+connects = ["ground", "car"]
+point = ["0 m", "0 m", "0 m"]
+axis = [1, 0, 0]
+driven = true
+[motion]
+duration = "1 s"
+drives = { sl = "0" }
+[[clearance]]
+joint = "sl"
+guide = "rectangular"
+journal = "car"
+width_gap = "2e-05 m"
+height_gap = "5e-05 m"
+width = "0.06 m"
+height = "0.04 m"
+length = "0.2 m"
+width_direction = [0, 1, 0]
+axes = "free"
+
+  [clearance.contact]
+  law = "flores"
+  restitution = 0.5
+  young = ["207 GPa", "207 GPa"]
+  poisson = [0.3, 0.3]
+)toml";
+
+// A slider whose mass overhangs and whose drive pushes it first and holds it back later.
+constexpr const char* kPushedAndPulled = R"toml(format = 1
+name = "sl_mv"
+gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
+[[body]]
+name = "car"
+mass = "4 kg"
+center_of_mass = ["0.3 m", "0 m", "0.05 m"]
+inertia = ["0.02 kg m^2", "0.03 kg m^2", "0.03 kg m^2", "0 kg m^2", "0 kg m^2", "0 kg m^2"]
+boresight = [1, 0, 0]
+[[joint]]
+name = "sl"
+type = "prismatic"
+connects = ["ground", "car"]
+point = ["0 m", "0 m", "0 m"]
+axis = [1, 0, 0]
+driven = true
+[motion]
+duration = "1 s"
+drives = { sl = "0.25-0.25*cos(pi*t)" }
+[[clearance]]
+joint = "sl"
+guide = "rectangular"
+journal = "car"
+width_gap = "2e-05 m"
+height_gap = "5e-05 m"
+width = "0.06 m"
+height = "0.04 m"
+length = "0.2 m"
+width_direction = [0, 1, 0]
+axes = "free"
+
+  [clearance.contact]
+  law = "flores"
+  restitution = 0.5
+  young = ["207 GPa", "207 GPa"]
+  poisson = [0.3, 0.3]
+)toml";
+
 using MechanismPtr = std::shared_ptr<const Mechanism>;
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -179,6 +261,17 @@ TEST(Tipping, ATopHeavyColumnLeansOnItsGuide) {
     }
   }
 }
+
+// In both of its directions as far as the guide lets it.
+TEST(Tipping, AColumnInARectangularGuideLeansIntoItsCorner) {
+  for (const std::string& text : {std::string(kRectangularColumn), turned(kRectangularColumn)}) {
+    const MechanismPtr mechanism = scene(text);
+    for (const char* rung : {"quasistatic", "perturbation", "multibody"})
+      EXPECT_NEAR(index_of(rung, mechanism).boresight_error.max / std::hypot(0.5e-3, 0.2e-3), 1.0, 2e-3) << rung;
+  }
+}
+
+TEST(Tipping, IsNotOfAPushThatTurnsIntoAPull) { EXPECT_FALSE(tips(*scene(kPushedAndPulled))); }
 
 TEST(Tipping, AHangingColumnStaysUpright) {
   const MechanismPtr mechanism = scene(replaced(kColumn, "-9.81 m/s^2", "9.81 m/s^2"));
