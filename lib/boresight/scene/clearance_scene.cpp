@@ -53,14 +53,19 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const Parameters& par
       layout_(offsets_, coordinates_,
               coordinates_.leftover() > 0 || moving() || !mechanism.description().springs.empty()),
       groups_(riding_masses(mechanism, parameters)) {
-  std::vector<int> tipped = tipped_at_start(ideal, parameters);
+  std::vector<int> tipped;
+  try {
+    tipped = tipped_by_all_loads(ideal, parameters);
+  } catch (const ComputationError&) {
+    // Where a pose near this one cannot be closed nothing is known of it; whoever needs that pose says so.
+  }
   if (tipped.empty()) return;
   layout_ = SceneLayout(offsets_, coordinates_, true);
   layout_.tips = true;
   layout_.tipped = std::move(tipped);
 }
 
-std::vector<int> ClearanceScene::tipped_at_start(const IdealMotion& ideal, const Parameters& parameters) {
+std::vector<int> ClearanceScene::tipped_by_all_loads(const IdealMotion& ideal, const Parameters& parameters) {
   // Where a load pushes on every coordinate, no tilt or shift within the play makes one that counts beside it.
   constexpr double kPushes = 1e-3;
   const int n = layout_.n;

@@ -129,7 +129,8 @@ class ClearanceScene {
                   SceneForm form = SceneForm::accelerations) const;
   double slowest_rate(const std::vector<double>& rows, const Parameters& parameters) const;
   double interpolation_error(const std::vector<double>& rows, const Parameters& parameters) const;
-  std::vector<int> tipped_at_start(const IdealMotion& ideal, const Parameters& parameters);
+  // Clearances whose journals the loads of the motion tip over.
+  std::vector<int> tipped_by_all_loads(const IdealMotion& ideal, const Parameters& parameters);
   // A K by differences, of which all forces have their part.
   bool stiff_by_differences() const { return coordinates_.leftover() > 0 || layout_.tips; }
   // Whether T'' has a part.
