@@ -94,13 +94,16 @@ std::vector<int> ClearanceScene::tipped_by_all_loads(const IdealMotion& ideal, c
   acting = acting.cwiseMax(most);
   std::vector<double> row;
   append_row(parameters, knot, row, true);
-  const MatX AK =
-      deviation_stiffness(mechanism_, ideal, parameters, coordinates_, knot.state, knot.T, solve_positive(M, C), r);
-  MatX K = M * AK;
-  if (moving())
-    K -= moving_stiffness(parameters, knot);  // which hangs on the coordinates, and not on where journals lie
-  const Tipping tipping = tipped_by_loads(
-      RestingBalance(layout_, row.data(), joint_plays(mechanism_.description(), parameters)), layout_, K, acting);
+  // Of the loads at a knot, without what hangs on the coordinates and not on where journals lie.
+  const auto stiffness_at = [&](const Knot& at) {
+    MatX K =
+        M * deviation_stiffness(mechanism_, ideal, parameters, coordinates_, at.state, at.T, solve_positive(M, C), r);
+    if (moving()) K -= moving_stiffness(parameters, at);
+    return K;
+  };
+  const Tipping tipping =
+      tipped_by_loads(RestingBalance(layout_, row.data(), joint_plays(mechanism_.description(), parameters)), layout_,
+                      stiffness_at(knot), acting);
   // What the motion's own turning makes of a displacement is over when it has turned.
   constexpr double kBesideTurning = 2.0;
   if (!tipping.clearances.empty() && !(tipping.fall > kBesideTurning * fastest * tipping.way.dot(M * tipping.way)))
@@ -111,10 +114,8 @@ std::vector<int> ClearanceScene::tipped_by_all_loads(const IdealMotion& ideal, c
     if (tipping.clearances.empty()) break;
     const Knot later = knot_at(share * ideal.duration(), ideal, exact, parameters);
     assemble(parameters, later, M, C, r);
-    K = M *
-        deviation_stiffness(mechanism_, ideal, parameters, coordinates_, later.state, later.T, solve_positive(M, C), r);
-    if (moving()) K -= moving_stiffness(parameters, later);
-    if (std::abs(tipping.way.dot(r)) > tipping.fall || !(tipping.way.dot(K * tipping.way) < 0.0)) return {};
+    if (std::abs(tipping.way.dot(r)) > tipping.fall || !(tipping.way.dot(stiffness_at(later) * tipping.way) < 0.0))
+      return {};
   }
   return tipping.clearances;
 }
