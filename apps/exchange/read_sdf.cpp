@@ -197,7 +197,13 @@ class SdfReader {
         if (!in.empty())
           X_PC = part.X_WP.inverse() * model.X_WM * frame_in_model(model, in, *pose, "pose.relative_to") * X_PC;
       }
-      if (const auto given = inertial->child("mass")) mass = given->content_number();
+      // Resolved by SDF's own library from shapes and densities, of which nothing is read here.
+      if (inertial->text("auto", "false") == "true" || inertial->text("auto", "false") == "1")
+        inertial->fail("inertial.auto", "true", "mass and moments of inertia as numbers");
+      if (const auto given = inertial->child("mass"))
+        mass = given->content_number();
+      else
+        drawing_.assumed.push_back({origin.line, name + " has 1 kg, SDF's default"});
       const auto moments = inertial->child("inertia");
       const auto moment = [&](const char* tag, double otherwise) {
         const auto given = moments ? moments->child(tag) : std::nullopt;
@@ -207,8 +213,13 @@ class SdfReader {
       inertia(0, 1) = inertia(1, 0) = moment("ixy", 0.0);
       inertia(0, 2) = inertia(2, 0) = moment("ixz", 0.0);
       inertia(1, 2) = inertia(2, 1) = moment("iyz", 0.0);
+      std::string missing;
+      for (const char* tag : {"ixx", "iyy", "izz"})
+        if (!moments || !moments->child(tag)) missing += (missing.empty() ? "" : ", ") + std::string(tag);
       if (!moments)
         drawing_.assumed.push_back({origin.line, name + " has moments of inertia of 1 kg m^2, SDF's default"});
+      else if (!missing.empty())
+        drawing_.assumed.push_back({moments->origin().line, name + " has " + missing + " of 1 kg m^2, SDF's default"});
     } else {
       drawing_.assumed.push_back({origin.line, name + " has 1 kg and moments of inertia of 1 kg m^2, SDF's default"});
     }
@@ -269,6 +280,20 @@ class SdfReader {
     made.p_WJ = (model.X_WM * X_MJ).p;
     if (made.type != JointType::fixed && made.type != JointType::spherical) {
       made.axis = axis_of(joint, "axis", X_MJ, model);
+      if (const auto axis = joint.child("axis"); axis && axis->child("mimic")) {
+        const XmlElement mimic = *axis->child("mimic");
+        const auto number = [&](const char* tag, double otherwise) {
+          const auto given = mimic.child(tag);
+          return given ? given->content_number() : otherwise;
+        };
+        // Follower = multiplier (leader - reference) + offset (SDF 1.11).
+        const double multiplier = number("multiplier", 1.0);
+        if (made.type == JointType::universal)
+          leave_out(mimic, name + " moving with " + mimic.text("joint"));
+        else
+          made.mimic = Mimic{model.prefix + mimic.text("joint"), multiplier,
+                             number("offset", 0.0) - multiplier * number("reference", 0.0)};
+      }
       if (made.type == JointType::universal) {
         made.second_axis = axis_of(joint, "axis2", X_MJ, model);
         if (std::abs(made.axis.dot(made.second_axis)) > 1e-6)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <httplib.h>
+#include <sys/socket.h>
 
 #include <chrono>
 #include <list>
@@ -101,6 +102,11 @@ struct HttpServer::Server {
   void take_port() {
     http.new_task_queue = [] { return new httplib::ThreadPool(kMostConnections); };
     http.set_payload_max_length(options.most_bytes);
+    // Not the library's SO_REUSEPORT, with which a second server would take the same port, and answer every other question.
+    http.set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
     http.set_tcp_nodelay(true);  // else head and body of an answer wait for each other, 40 ms
     http.set_keep_alive_max_count(1'000'000'000);
     http.set_keep_alive_timeout(kPatience);

@@ -284,8 +284,9 @@ AllocationConfirmation Allocating::confirmed(const Allocation& a, const Confirmi
 }
 
 void Allocating::find_first_factor(const Allocation& a, const ConfirmingModel& confirm) {
-  const auto gaps = gaps_of(a, unit_, kTrialSamples);
-  const std::vector<double> values = values_of(confirm(gaps, others_of(unit_, kTrialSamples)));
+  const auto trial = std::min(kTrialSamples, plan_.samples);
+  const auto gaps = gaps_of(a, unit_, trial);
+  const std::vector<double> values = values_of(confirm(gaps, others_of(unit_, trial)));
   const std::vector<double> linear_values = linear_of(gaps, beside_);
   double sum = 0.0, linear = 0.0;
   for (std::size_t k = 0; k < values.size(); ++k)

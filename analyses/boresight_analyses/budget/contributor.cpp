@@ -127,8 +127,15 @@ Moments moments(const Contributor& c, int axis, ErrorIndex index, Interpretation
       if (index == ErrorIndex::rpe) return of_drift(e, interpretation, 0.0, half * windows.window);
       if (index == ErrorIndex::pde) return of_drift(e, interpretation, gain * windows.separation, 0.0);
       const double revisit = windows.revisit_after();
-      const double passed = c.recalibrated ? revisit - std::round(revisit / whole) * whole : revisit;
-      return of_drift(e, interpretation, gain * passed, 0.0);
+      if (!c.recalibrated) return of_drift(e, interpretation, gain * revisit, 0.0);
+      // The two windows lie in different observations, s = revisit - q whole further on in theirs, or that and an observation less: the drift
+      // has been reset q or q + 1 times in between. How often either, by the places that a window has in an observation.
+      const double q = std::floor(revisit / whole * (1.0 + 1e-12)), s = std::max(0.0, revisit - q * whole);
+      const double fewer = q > 0.0 ? std::max(0.0, whole - windows.window - s) : 0.0,
+                   more = std::max(0.0, s - windows.window), all = fewer + more;
+      const double share = all > 0.0 ? more / all : 1.0;
+      return of_drift(e, interpretation, gain * (s - share * whole),
+                      std::abs(gain) * whole * std::sqrt(3.0 * share * (1.0 - share)));
     }
   }
   const double deviation = std::sqrt(c.noise->variance(index, windows));

@@ -16,6 +16,10 @@ std::size_t samples_in(double time, double spacing) {
   return static_cast<std::size_t>(std::max(0.0, std::round(time / spacing)));
 }
 
+std::size_t whole_samples_in(double time, double spacing) {
+  return static_cast<std::size_t>(std::max(0.0, std::floor(time / spacing * (1.0 + kRounding))));
+}
+
 // Means over windows of `width` samples from running sums.
 class WindowMeans {
  public:
@@ -63,25 +67,34 @@ std::string Windows::missing_for(ErrorIndex index, double duration) const {
 }
 
 std::vector<Vec3> index_values(ErrorIndex index, const PointingHistory& history, const Windows& windows) {
-  const std::string missing = windows.missing_for(index, history.duration());
+  // Half a sample is what a history may be shorter than the motion that the windows were chosen for.
+  const std::string missing = windows.missing_for(index, history.duration() + (0.5 + kRounding) * history.spacing);
   if (!missing.empty()) throw std::invalid_argument(std::string(to_string(index)) + " needs " + missing);
   const std::vector<Vec3>& e = history.error;
   if (index == ErrorIndex::ape) return e;
 
-  const std::size_t width = std::max<std::size_t>(1, samples_in(windows.window, history.spacing));
-  const std::size_t observed =
-      std::min(e.size(), samples_in(windows.observation_in(history.duration()), history.spacing));
+  // Lengths in whole samples, rounded; or rounded down, with which fits what fits unrounded.
+  const double second =
+      index == ErrorIndex::pde ? windows.separation : index == ErrorIndex::pre ? windows.revisit_after() : 0.0;
+  std::size_t width = samples_in(windows.window, history.spacing), apart = samples_in(second, history.spacing),
+              observed = samples_in(windows.observation_in(history.duration()), history.spacing);
+  const std::size_t there = index == ErrorIndex::pre ? e.size() : std::min(observed, e.size());
+  if (std::max(apart, index == ErrorIndex::pre ? observed : 0) + width > there) {
+    width = whole_samples_in(windows.window, history.spacing);
+    apart = whole_samples_in(second, history.spacing);
+    observed = whole_samples_in(windows.observation_in(history.duration()), history.spacing);
+  }
+  width = std::max<std::size_t>(1, width);
+  observed = std::min(e.size(), observed);
   const WindowMeans means(e, width);
   std::vector<Vec3> values;
   if (index == ErrorIndex::pre) {
-    const std::size_t apart = samples_in(windows.revisit_after(), history.spacing);
     const auto whole = [&](std::size_t begin) { return begin / observed == (begin + width - 1) / observed; };
     for (std::size_t begin = 0; begin + apart + width <= e.size(); ++begin)
       if (whole(begin) && whole(begin + apart) && begin / observed != (begin + apart) / observed)
         values.push_back(means.from(begin + apart) - means.from(begin));
     return values;
   }
-  const std::size_t apart = index == ErrorIndex::pde ? samples_in(windows.separation, history.spacing) : 0;
   const std::size_t places = std::clamp(kMany / std::max<std::size_t>(1, e.size()), kFewestPlaces, kPlaces);
   const std::size_t stride = index == ErrorIndex::rpe ? std::max<std::size_t>(1, width / places) : 1;
   for (std::size_t start = 0; start < e.size(); start += observed) {

@@ -208,6 +208,9 @@ MeasuredData read_measured_table(const std::string& file, const ReadAs& as) {
     const double t = as.rate ? static_cast<double>(readings) / *as.rate - as.start
                              : time_of(row[static_cast<std::size_t>(columns.time)], as, origin, columns);
     ++readings;
+    if (!(t > before) && as.rate)
+      throw InputError(origin, "start", "readings closer together than times so far from it can be told apart",
+                       "a time of the first reading's own clock, which begins near it");
     if (!(t > before))
       throw InputError(origin, as.time, in_quotes(row[static_cast<std::size_t>(columns.time)]),
                        "a time later than that of the row before");

@@ -128,16 +128,20 @@ void take_intervals(const std::vector<Profile>& profiles, double confidence, con
   const double reach = std::sqrt(boost::math::quantile(boost::math::chi_squared(1.0), confidence));
   for (const Profile& profile : profiles) {
     ParameterEstimate& e = inference.parameters[profile.parameter];
-    if (!std::isfinite(profile.low) || !std::isfinite(profile.high)) continue;
+    // A side that nothing tried excludes, up to a bound or as far as was looked, is open at least to there.
+    const double low = std::isfinite(profile.low) ? profile.low : std::min(e.low, profile.value.front());
+    const double high = std::isfinite(profile.high) ? profile.high : std::max(e.high, profile.value.back());
+    if (low == e.low && high == e.high) continue;
     const FittedParameter& parameter = problem.parameters[profile.parameter];
-    const double width = parameter.coordinate(profile.high) - parameter.coordinate(profile.low);
+    const double width = parameter.coordinate(high) - parameter.coordinate(low);
+    if (!std::isfinite(width)) continue;
     const double error = 0.5 * width / reach, grow = error / e.coordinate_error;
     inference.covariance.row(profile.parameter) *= grow;
     inference.covariance.col(profile.parameter) *= grow;
     e.standard_error *= grow;
     e.coordinate_error = error;
-    e.low = profile.low;
-    e.high = profile.high;
+    e.low = low;
+    e.high = high;
     assess_identifiability(parameter, e);
   }
 }

@@ -48,6 +48,7 @@ void CalibrationProblem::channel_rows(const CalibrationRun& run, int kind, doubl
 void CalibrationProblem::set_start(const Window& w, const std::vector<double>& values, const VecX& state,
                                    bool derivatives, MotionRequest& request) const {
   request.start_state = state.cwiseProduct(state_scale(w));
+  request.longest_step = longest_step_of(*runs[w.run].prepared);
   if (!w.from_rest) return;
   const CalibrationRun& run = runs[w.run];
   const StartSlopes start = start_slopes(*run.mechanism, *tables_at(w.run, values), with_followed(w.run, values),

@@ -123,7 +123,7 @@ FidelityPlan plan_fidelities(const FidelityPilot& pilot, double budget, std::uin
   const std::vector<double> rho = picked(m.correlation, plan.models), cost = picked(pilot.cost, plan.models);
   const auto share = [&](std::size_t i) {  // m_i is proportional to it
     const double next = i + 1 < rho.size() ? rho[i + 1] * rho[i + 1] : 0.0;
-    return std::sqrt((rho[i] * rho[i] - next) / cost[i]);
+    return std::sqrt(std::max(0.0, rho[i] * rho[i] - next) / cost[i]);
   };
   double unit = 0.0;
   for (std::size_t i = 0; i < rho.size(); ++i) unit += cost[i] * share(i);

@@ -53,6 +53,7 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
   request.start_state.head(n).array() += options.start_offset;
   if (own_start && !values.empty()) request.start_by_parameters = start.by;
   request.tolerance = options.tolerance;
+  request.longest_step = longest_step_of(prepared);
   request.derivative_tolerance = options.control_derivatives ? options.tolerance : 0.0;
   request.by_parameters = !values.empty();
   for (int k = 0; k <= options.points; ++k)

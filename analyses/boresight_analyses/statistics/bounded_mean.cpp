@@ -36,7 +36,9 @@ double bounded_mean_lower(double mean, double samples, double confidence) {
   const double most = allowed_divergence(samples, confidence);
   if (mean == 0.0) return 0.0;
   if (mean == 1.0) return std::exp(-most);
-  constexpr double kTiny = 1e-300;  // KL grows without bound towards 0
+  // KL grows without bound towards 0, but only as a logarithm: of a small mean it is not beyond `most` even here.
+  constexpr double kTiny = 1e-300;
+  if (divergence(mean, kTiny) <= most) return 0.0;
   return root([&](double p) { return divergence(mean, p) - most; }, kTiny, mean);
 }
 

@@ -14,6 +14,7 @@
 #include "command_line/verb.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
+#include "results/start_warnings.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
@@ -232,6 +233,7 @@ class AllocateVerb : public Verb {
       allocated.warnings.push_back(
           fmt::format("{} of {} confirming runs failed", confirming.failures.count, confirming.runs) +
           first_failure_text(confirming.failures, "run"));
+    for (const std::string& one : start_warnings(*mechanism)) allocated.warnings.push_back(one);
     if (!store->damage().empty()) allocated.warnings.push_back(store->damage());
     Json summary = summary_of(allocated, own, watch, store->earlier());
     add_first_failure(summary, confirming.failures, "run");

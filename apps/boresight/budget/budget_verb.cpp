@@ -17,6 +17,7 @@
 #include "command_line/verb.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
+#include "results/start_warnings.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
 #include "terminal/exit_status.hpp"
@@ -227,6 +228,7 @@ class BudgetVerb : public Verb {
     result.steps = steps;
     if (budget) result.warnings = warnings_of(result, seen);
     result.warnings.insert(result.warnings.end(), untold.begin(), untold.end());
+    for (const std::string& one : start_warnings(*mechanism)) result.warnings.push_back(one);
     if (!stuck.empty()) result.warnings.push_back(stuck);
     if (!store.damage().empty()) result.warnings.push_back(store.damage());
     write(result, seen, own, watch, store.earlier());

@@ -142,13 +142,14 @@ class ChartVerb : public Verb {
     return "boresight chart antenna/mechanism.toml --time \"5 s\" --accuracy \"1 %\"";
   }
   std::string next(const Command& command, bool) const override {
-    return "boresight run " + shell_word(command.file) + " --accuracy '1 %' takes the cheapest way by itself";
+    return "boresight run " + shell_word(mechanism_file_.empty() ? command.file : mechanism_file_) +
+           " --accuracy '1 %' takes the cheapest way by itself";
   }
   std::vector<std::string> unused_options() const override { return {"--rung"}; }
   void declare_options(CLI::App& app) override {
-    declare_option_with_default(app, "--index", index_,
-                                "of a mechanism, whose file names none: position_error.max, boresight_error.rms, ...",
-                                "QUANTITY.STATISTIC");
+    declare_option(app, "--index", index_,
+                   "of a mechanism, whose file names none: position_error.max, which it is otherwise, boresight_error.rms, ...",
+                   "QUANTITY.STATISTIC");
     declare_option(app, "--start", start_, "the index leaves out what the motion does before; a study says so itself",
                    "TIME");
     declare_option_with_default(app, "--time", time_, "of CPU in all; ways for which none is left are named", "TIME");
@@ -157,7 +158,8 @@ class ChartVerb : public Verb {
   int execute(const Command& command) override {
     const Stopwatch watch;
     ChartOptions options;
-    options.index = index_named("--index", index_);
+    const std::string asked = index_.empty() ? "position_error.max" : index_;
+    options.index = index_named("--index", asked);
     options.total_seconds = quantity_between("--time", time_, {kDuration, "0.1 s", "1e7 s"});
     options.reference_seconds = 0.15 * options.total_seconds;
     std::optional<double> accuracy = command.accuracy;
@@ -167,8 +169,11 @@ class ChartVerb : public Verb {
     std::optional<Study> study;
     if (root.has("mechanism")) {
       study = read_study(root, document.content_hash());
-      mechanism_file = study->mechanism_file;
+      mechanism_file = mechanism_file_ = study->mechanism_file;
       study_hash = study->content_hash;
+      if (!index_.empty())
+        throw InputError({"command line", 0}, "--index", in_quotes(index_),
+                         "none: a study says itself what is asked, in [index]");
       options.index = study->index;
       if (!accuracy) accuracy = study->accuracy;
     }
@@ -184,7 +189,7 @@ class ChartVerb : public Verb {
     check_start(options.index.start, *mechanism, {"command line", 0}, "--start");
     const VerbStudy own(command, mechanism, options.index, study ? study->accuracy : std::nullopt, {},
                         identity_of(command, mechanism->description().content_hash, study_hash,
-                                    {{"index", index_ + (start_.empty() ? "" : " from " + start_)}, {"time", time_}}));
+                                    {{"index", asked + (start_.empty() ? "" : " from " + start_)}, {"time", time_}}));
     const std::unique_ptr<Stage> stage = own.run().stage(100.0, "%");
     options.progress = [&](double share, const std::string& what) {
       stage->update(100.0 * share, what);
@@ -210,7 +215,7 @@ class ChartVerb : public Verb {
   }
 
  private:
-  std::string index_ = "position_error.max", time_ = "60 s", start_;
+  std::string index_, time_ = "60 s", start_, mechanism_file_;
 };
 
 }  // namespace

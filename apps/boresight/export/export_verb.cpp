@@ -116,10 +116,11 @@ class ExportVerb : public Verb {
   int execute(const Command& command) override {
     const std::filesystem::path folder = command.file,
                                 to = command.out.empty() ? folder : std::filesystem::path(command.out);
-    if (!std::filesystem::is_directory(folder))
+    std::error_code error;
+    if (!std::filesystem::is_directory(folder, error))
       throw InputError({"command line", 0}, "DIR", "\"" + command.file + "\"", "a folder of results");
     const SampleStore store(folder / "samples.db");
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
       const std::string name = entry.path().filename().string();
       if (name != "samples.db" && name.starts_with("samples.") && name.ends_with(".db"))
         fmt::print(
@@ -127,7 +128,6 @@ class ExportVerb : public Verb {
             "boresight: {} holds samples of a lost rank that are left out: the next montecarlo there merges them\n",
             printable(entry.path().string()));
     }
-    std::error_code error;
     std::filesystem::create_directories(to, error);
     if (error) throw OutputDirectoryError("--out " + to.string() + ": cannot create the directory: " + error.message());
     if (::access(to.c_str(), W_OK | X_OK) != 0)

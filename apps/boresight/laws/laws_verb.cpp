@@ -66,7 +66,8 @@ class LawsVerb : public Verb {
   }
   std::string example() const override { return "boresight laws antenna/mechanism.toml"; }
   std::string next(const Command& command, bool) const override {
-    return "boresight run " + shell_word(command.file) + " --set 'clearance.*.contact.law=NAME'";
+    return "boresight run " + (command.file.empty() ? "MECHANISM.toml" : shell_word(command.file)) +
+           " --set 'clearance.*.contact.law=NAME'";
   }
   std::vector<std::string> unused_options() const override { return {"--rung", "--accuracy"}; }
   void declare_options(CLI::App& app) override {

@@ -1,17 +1,19 @@
 #include "montecarlo/several_rungs.hpp"
 
 #include "report_parts/report_parts.hpp"
+#include "results/start_warnings.hpp"
 
 namespace boresight::app {
 
 RungChoice named_rung(const std::string& rung) { return {rung, "the study names its rungs", 0.0}; }
 
 std::vector<std::string> several_rungs_warnings(const SeveralRungs& s) {
+  std::vector<std::string> warnings = start_warnings(*s.question.mechanism);
   const MonteCarloPlan& plan = s.question.plan;
-  if (!plan.samples_of_budget) return {};
-  const std::string key = plan.fidelities ? "fidelities" : "tail";
-  return {"samples = " + std::to_string(plan.samples) + " is not used: the budget of " + key +
-          " decides how many samples there are"};
+  if (plan.samples_of_budget)
+    warnings.push_back("samples = " + std::to_string(plan.samples) + " is not used: the budget of " +
+                       (plan.fidelities ? "fidelities" : "tail") + " decides how many samples there are");
+  return warnings;
 }
 
 Json several_rungs_summary(const SeveralRungs& s, const std::string& rung, const std::vector<std::string>& warnings,

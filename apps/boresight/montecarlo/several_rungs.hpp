@@ -21,7 +21,7 @@ int run_tail(const SeveralRungs& study);
 
 // What the two share.
 RungChoice named_rung(const std::string& rung);
-// What a reader of the study file should know that its budget decides, to begin with.
+// What a reader should know of how motions start, and of what the budget decides.
 std::vector<std::string> several_rungs_warnings(const SeveralRungs& study);
 // What every summary of a Monte Carlo study has; the report's head and end.
 Json several_rungs_summary(const SeveralRungs& study, const std::string& rung, const std::vector<std::string>& warnings,

@@ -59,15 +59,16 @@ class NewVerb : public Verb {
                  {"match.toml", boresight_template_match},         {"allocate.toml", boresight_template_allocate},
                  {"budget.toml", boresight_template_budget},       {"calibrate.toml", boresight_template_calibrate}};
     // Some of them word for word as they would be written, and not all: a start that was killed, which this one completes.
-    const auto is_there = [&](const auto& file) { return fs::exists(folder / file.name); };
+    std::error_code failed;
+    const auto is_there = [&](const auto& file) { return fs::exists(folder / file.name, failed); };
     const bool all = std::all_of(std::begin(files), std::end(files), is_there);
     for (const auto& file : files)
       if (is_there(file) && (all || text_of(folder / file.name) != file.text))
         throw OutputDirectoryError((folder / file.name).string() +
                                    ": is there already; give another folder, or remove it");
-    std::error_code failed;
     fs::create_directories(folder, failed);
-    if (failed || !fs::is_directory(folder))
+    std::error_code unknown;
+    if (failed || !fs::is_directory(folder, unknown))
       throw OutputDirectoryError(folder.string() + ": cannot make this folder" +
                                  (failed ? ": " + failed.message() : ""));
     const std::optional<FolderClaim> claim = FolderClaim::take(folder);

@@ -123,13 +123,18 @@ OutputDirectory::~OutputDirectory() {
 
 OutputDirectory OutputDirectory::open(const std::string& asked, const std::string& verb, const std::string& file,
                                       nlohmann::json identity) {
+  return open(asked, verb, file, "", std::move(identity));
+}
+
+OutputDirectory OutputDirectory::open(const std::string& asked, const std::string& verb, const std::string& file,
+                                      const std::string& name, nlohmann::json identity) {
   fs::path path = asked;
   Opened opened;
   if (asked.empty()) {
     const std::string stem = fs::path(file).stem().string();
     // "clearance-sweep.toml" swept is results/clearance-sweep, not results/clearance-sweep-sweep.
     const bool named_after_verb = stem == verb || (stem.size() > verb.size() && stem.ends_with("-" + verb));
-    const fs::path base = fs::path("results") / (named_after_verb ? stem : stem + "-" + verb);
+    const fs::path base = fs::path("results") / (!name.empty() ? name : named_after_verb ? stem : stem + "-" + verb);
     path = base;
     for (int n = 2;; ++n) {
       opened = open_folder(path, identity);

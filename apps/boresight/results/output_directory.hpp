@@ -37,6 +37,9 @@ class OutputDirectory {
   // found there. Creates the directory, and claims it until the end. Throws OutputDirectoryError.
   static OutputDirectory open(const std::string& asked, const std::string& verb, const std::string& file,
                               nlohmann::json identity);
+  // name: of the folder in ./results, in place of FILESTEM-VERB, where it is not empty.
+  static OutputDirectory open(const std::string& asked, const std::string& verb, const std::string& file,
+                              const std::string& name, nlohmann::json identity);
 
   OutputDirectory(OutputDirectory&& other) noexcept;
   OutputDirectory& operator=(OutputDirectory&&) = delete;

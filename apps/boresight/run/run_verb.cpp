@@ -94,8 +94,8 @@ Json model_errors_json(const RunResult& result) {
 Json summary_of(const Command& command, const Mechanism& mechanism, const RungChoice& rung, const RunResult& result,
                 const std::vector<Compared>& others, const std::optional<AxesComparison>& axes,
                 const std::optional<Predictability>& predictability, const MeasuredError& measured,
-                const IndexChoice& wanted, const Stopwatch& watch, const OutputDirectory& out) {
-  Json json = common_summary(command, mechanism, rung, watch, result.warnings, result.interrupted, out);
+                const IndexChoice& wanted, const Stopwatch& watch, bool cut_short, const OutputDirectory& out) {
+  Json json = common_summary(command, mechanism, rung, watch, result.warnings, cut_short, out);
   json["formulation"] = result.formulation;
   json["integrator"] = result.integrator;
   json["start"] = result.start;
@@ -174,9 +174,9 @@ class RunVerb : public Verb {
         app, "--step-error", step_error_,
         "what the steps do to the indices, by further runs: auto where these take less than 10 s of CPU, on, off",
         "WHEN");
-    declare_option_with_default(app, "--index", index_,
-                                "what --accuracy is about: position_error.max, boresight_error.rms, ...",
-                                "QUANTITY.STATISTIC");
+    declare_option(app, "--index", index_,
+                   "what --accuracy is about: position_error.max, which it is otherwise, boresight_error.rms, ...",
+                   "QUANTITY.STATISTIC");
   }
 
   int execute(const Command& asked) override {
@@ -186,7 +186,7 @@ class RunVerb : public Verb {
     check_rung_name(command.rung);
     RunOptions options = motion_.run_options(*mechanism, command.rung);
     check_step_error();
-    IndexChoice index = index_named("--index", index_);
+    IndexChoice index = index_named("--index", index_.empty() ? "position_error.max" : index_);
     index.start = options.start = start_.empty() ? replayed_start_ : positive_quantity("--start", start_, kDuration);
     check_line_of_sight(index, *mechanism, {"command line", 0}, "--index");
     check_start(index.start, *mechanism, {"command line", 0}, "--start");
@@ -200,7 +200,7 @@ class RunVerb : public Verb {
       identity["nonlinear"] = nonlinear_;
     }
     const OutputDirectory out =
-        OutputDirectory::open(command.out, command.verb, command.file,
+        OutputDirectory::open(command.out, command.verb, command.file, replayed_as_,
                               identity_of(command, mechanism->description().content_hash, "", identity));
 
     const std::size_t finer = history_refinement(mechanism->duration(), options.sample_spacing);
@@ -238,6 +238,7 @@ class RunVerb : public Verb {
       if (!integrator_names(choice.name).empty() && mechanism->clearances() > 0 && !cut_short)
         predictability = measure_predictability(mechanism, mechanism->parameters());
       if (!cut_short) measured = step_error(*rung, mechanism->parameters(), options, result, progress);
+      cut_short = cut_short || interrupted();
       if (measured.measured) result.error.discretisation = relative_step_error(measured, result.index, index);
       if (const std::string warning = steps_mislead(measured, result.index, index, mechanism->characteristic_length());
           !warning.empty())
@@ -256,9 +257,11 @@ class RunVerb : public Verb {
     } catch (const Interrupted&) {  // the motion itself is there, and is kept
       cut_short = interrupted();
     }
+    if (cut_short && !result.interrupted)
+      result.warnings.push_back("interrupted after the motion: what compares it, or measures its steps, is not all there");
 
     Json summary =
-        summary_of(command, *mechanism, choice, result, others, axes, predictability, measured, index, watch, out);
+        summary_of(command, *mechanism, choice, result, others, axes, predictability, measured, index, watch, cut_short, out);
     report::Document document =
         run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability,
                    step_error_sentence(measured, result.index, index, mechanism->characteristic_length()));
@@ -295,6 +298,9 @@ class RunVerb : public Verb {
     double number = 0.0;
     if (!parse_number(sample_number_, number) || number < 0.0 || number != std::floor(number) || number > 1e15)
       throw InputError({"command line", 0}, "--sample-number", in_quotes(sample_number_), "a sample's number, from 0");
+    if (!index_.empty())
+      throw InputError({"command line", 0}, "--index", in_quotes(index_),
+                       "none: a study says itself what is asked, in [index]");
     const MonteCarloQuestion question = read_montecarlo_question(asked.file, asked.settings);
     if (!question.plan.tail && !question.plan.fidelities && number >= static_cast<double>(question.plan.samples))
       throw InputError(
@@ -302,8 +308,7 @@ class RunVerb : public Verb {
           fmt::format("one of the study's {} samples, from 0 to {}", question.plan.samples, question.plan.samples - 1));
     Command command = asked;
     command.file = question.study.mechanism_file;
-    if (command.out.empty())
-      command.out = "results/" + std::filesystem::path(asked.file).stem().string() + "-sample-" + sample_number_;
+    replayed_as_ = std::filesystem::path(asked.file).stem().string() + "-sample-" + sample_number_;
     for (const Setting& setting : question.settings_of_sample(static_cast<std::uint64_t>(number)))
       command.settings.push_back(setting);
     if (!command.accuracy && asked.rung == "auto") command.accuracy = question.study.accuracy;
@@ -334,6 +339,7 @@ class RunVerb : public Verb {
     } catch (const ComputationError& failure) {
       other.refusal = failure.what();
     }
+    if (other.result.interrupted) throw Interrupted{};  // a part of a motion compares to nothing
     return other;
   }
 
@@ -362,9 +368,9 @@ class RunVerb : public Verb {
   MotionOptions motion_;
   std::string step_error_ = "auto";
   bool compare_ = false;
-  std::string index_ = "position_error.max", nonlinear_, start_;
+  std::string index_, nonlinear_, start_;
   double replayed_start_ = 0.0;  // of a study's index [s]
-  std::string sample_number_;
+  std::string sample_number_, replayed_as_;
 };
 
 }  // namespace

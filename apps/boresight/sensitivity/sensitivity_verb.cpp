@@ -11,6 +11,7 @@
 #include "command_line/verb.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
+#include "results/start_warnings.hpp"
 #include "results/tables.hpp"
 #include "results/verb_study.hpp"
 #include "sensitivity/sensitivity_report.hpp"
@@ -124,6 +125,7 @@ class SensitivityVerb : public Verb {
       if (r.number % every == 0 && r.outcome.status == Outcome::Status::done) result.shown.push_back(r);
     });
     result.warnings = warnings_of(result);
+    for (const std::string& one : start_warnings(*mechanism)) result.warnings.push_back(one);
     if (!stuck.empty()) result.warnings.push_back(stuck);
     if (!store.damage().empty()) result.warnings.push_back(store.damage());
     write(result, own, watch, store.earlier());

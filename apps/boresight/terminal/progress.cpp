@@ -43,6 +43,8 @@ std::string progress_line(double done, double total, const std::string& unit, do
                                       100.0 * share),
                     more = estimate.empty() ? "" : "; " + estimate;
   if (unit.empty()) return fmt::format("{}  {}{}", bar, time, more);
+  // How many there are was an estimate: it is not "27 of 24".
+  if (done > total) return fmt::format("{}  {:.3g} {}, {}{}", bar, done, unit, time, more);
   return fmt::format("{}  {:.3g} of {:.3g} {}, {}{}{}", bar, done, total, unit,
                      paced ? fmt::format("{:.3g}/s, ", rate) : "", time, more);
 }

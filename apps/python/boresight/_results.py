@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import html
 import json
 import os
@@ -10,6 +11,18 @@ import weakref
 from typing import Any, Dict, List, Optional
 
 import numpy
+
+
+def _column(texts: List[str]) -> numpy.ndarray:
+    # Whole numbers, then numbers of any kind, of which nothing is none; text otherwise.
+    try:
+        return numpy.array([int(text) for text in texts])
+    except (ValueError, OverflowError):
+        pass
+    try:
+        return numpy.array([float(text) if text else numpy.nan for text in texts])
+    except ValueError:
+        return numpy.array(texts)
 
 
 class Result:
@@ -44,8 +57,13 @@ class Result:
 
     def table(self, name: str) -> numpy.ndarray:
         """A table of the folder ("timeseries.csv") as a structured array, one field a column, text as str."""
-        return numpy.genfromtxt(os.path.join(self.folder, name), delimiter=",", names=True, dtype=None, encoding="utf-8",
-                                deletechars="", replace_space=" ", comments=None)
+        with open(os.path.join(self.folder, name), encoding="utf-8", newline="") as file:
+            names, *rows = csv.reader(file)
+        columns = [_column(list(texts)) for texts in zip(*rows)] if rows else [numpy.empty(0) for _ in names]
+        table = numpy.empty(len(rows), dtype=[(name, column.dtype) for name, column in zip(names, columns)])
+        for name, column in zip(names, columns):
+            table[name] = column
+        return table
 
     def report(self, path: "str | os.PathLike[str]") -> str:
         """Writes the report, one file for a browser, and returns its path."""

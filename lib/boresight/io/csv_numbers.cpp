@@ -5,6 +5,13 @@
 
 namespace boresight {
 
+namespace {
+
+// Of a file with one column: no mark that a line may hold, so that its numbers may have decimal commas.
+constexpr char kNone = '\n';
+
+}  // namespace
+
 // The mark that separates most fields: a name may hold another one.
 CsvNumbers::CsvNumbers(const std::string& header) {
   std::size_t most = csv_fields(header, separator_).size();
@@ -13,6 +20,7 @@ CsvNumbers::CsvNumbers(const std::string& header) {
       most = fields;
       separator_ = mark;
     }
+  if (most == 1) separator_ = kNone;
 }
 
 std::vector<std::string> CsvNumbers::fields(const std::string& line) const { return csv_fields(line, separator_); }

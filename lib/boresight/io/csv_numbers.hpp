@@ -1,6 +1,7 @@
 // How one CSV file separates its fields and marks its decimals.
 //
-// Where the header separates its columns by semicolons or tabs, rows do too, and numbers may have a decimal comma, all of them or none: a comma mixed
+// Where the header separates its columns by semicolons or tabs, or has one column, rows do too, and numbers may have a decimal comma, all of
+// them or none: a comma mixed
 // with points may be one of thousands, a thousandfold error that nobody would see.
 #pragma once
 

@@ -121,6 +121,10 @@ bool Cursor::has(const std::string& key) const {
   return node_->member(key) != nullptr || document_->setting_under(path(key)) != nullptr;
 }
 
+bool Cursor::has_by_name(const std::string& key) const {
+  return node_->member(key) != nullptr || document_->setting_under(path(key), false) != nullptr;
+}
+
 std::vector<std::string> Cursor::keys() const {
   std::vector<std::string> names;
   for (const auto& entry : node_->members) names.push_back(entry.first);
@@ -134,7 +138,7 @@ const Node* Cursor::member(const std::string& key) const {
 
 const Node& Cursor::required(const std::string& key, const std::string& expected) const {
   const Node* node = member(key);
-  if (node == nullptr) throw InputError(origin(), path(key), "nothing", expected);
+  if (node == nullptr) throw InputError(origin(key), path(key), "nothing", expected);
   return *node;
 }
 

@@ -5,6 +5,7 @@
 #include "boresight/io/content_hash.hpp"
 #include "boresight/io/toml_tree.hpp"
 #include "boresight/io/whole_file.hpp"
+#include "boresight/keys/mechanism_keys.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
 
@@ -29,7 +30,20 @@ std::vector<std::string_view> segments(std::string_view path) {
     parts[1] = std::string_view(parts[1].data(), parts[1].size() + 1 + parts[2].size());
     parts.erase(parts.begin() + 2);
   }
+  // An error's name may hold dots, and ends before a key of its table: error, arm.length; error, arm.length, rotation, x.
+  if (parts[0] == "error" && parts.size() > 2) {
+    std::size_t end = 2;
+    while (end < parts.size() && error_keys().find(std::string(parts[end])) == nullptr) ++end;
+    for (std::size_t i = 2; i < end; ++i)
+      parts[1] = std::string_view(parts[1].data(), parts[1].size() + 1 + parts[i].size());
+    if (end > 2) parts.erase(parts.begin() + 2, parts.begin() + static_cast<long>(end));
+  }
   return parts;
+}
+
+// "*" is any part; "*.floating" the floating bearing of any joint, "*.length" the length of any body.
+bool same(std::string_view wanted, std::string_view present) {
+  return wanted == present || wanted == "*" || (wanted.starts_with("*.") && present.ends_with(wanted.substr(1)));
 }
 
 // Does `pattern` name `path` (whole), or something at or below it (not whole)?
@@ -38,7 +52,7 @@ bool names(std::string_view pattern, std::string_view path, bool whole) {
   const auto wanted = segments(pattern), present = segments(path);
   if (whole ? wanted.size() != present.size() : wanted.size() < present.size()) return false;
   for (std::size_t i = 0; i < present.size(); ++i) {
-    if (wanted[i] != present[i] && wanted[i] != "*") return false;
+    if (!same(wanted[i], present[i])) return false;
   }
   return true;
 }
@@ -130,10 +144,10 @@ const Setting* Document::setting_for(const std::string& path) {
   return last;
 }
 
-const Setting* Document::setting_under(const std::string& path) const {
+const Setting* Document::setting_under(const std::string& path, bool by_star) const {
   const Setting* last = nullptr;
   for (const Setting& setting : settings_) {
-    if (names(setting.path, path, false)) last = &setting;
+    if ((by_star || setting.path.find('*') == std::string::npos) && names(setting.path, path, false)) last = &setting;
   }
   return last;
 }

@@ -55,8 +55,8 @@ class Document {
 
   // The last setting that applies to this path, or nullptr. Marks it, and any earlier ones, as used.
   const Setting* setting_for(const std::string& path);
-  // The last setting that applies to this path or to one below it, or nullptr. Marks nothing.
-  const Setting* setting_under(const std::string& path) const;
+  // The last setting that applies to this path or to one below it, or nullptr. Marks nothing. by_star: those count whose path holds a star.
+  const Setting* setting_under(const std::string& path, bool by_star = true) const;
 
   // From here on every path that is asked for is remembered, even where there are no settings.
   void record_paths() { records_paths_ = true; }

@@ -57,7 +57,7 @@ ContactParameters read_contact(Cursor& cursor, std::string& law, std::string& di
   ContactParameters p;
   law = cursor.choice("law");
   const ContactGeometry geometry = normal_law(law).geometry;
-  if (cursor.has("dissipation")) {
+  if (geometry == ContactGeometry::line ? cursor.has("dissipation") : cursor.has_by_name("dissipation")) {
     dissipation = cursor.choice("dissipation");
     if (geometry != ContactGeometry::line)
       cursor.fail_found("dissipation", "it with law = " + in_quotes(law),
@@ -68,7 +68,7 @@ ContactParameters read_contact(Cursor& cursor, std::string& law, std::string& di
     p.linear_damping = cursor.quantity("damping");
   } else {
     for (const char* key : {"stiffness", "damping"})
-      if (cursor.has(key))
+      if (cursor.has_by_name(key))
         cursor.fail_found(key, "it with law = " + in_quotes(law), "it only with law = \"kelvin-voigt\"");
   }
   p.restitution = cursor.number("restitution");
@@ -106,8 +106,8 @@ FrictionParameters read_friction(Cursor& cursor, std::string& law, std::vector<A
                  "dynamic_speed above static_speed");
   const FrictionLawEntry& entry = friction_law(law);
   const auto belongs = [&](const char* key, bool allowed, const char* to) {
-    if (cursor.has(key) && !allowed) cursor.fail_found(key, "it with law = " + in_quotes(law), to);
-    return cursor.has(key);
+    if (cursor.has_by_name(key) && !allowed) cursor.fail_found(key, "it with law = " + in_quotes(law), to);
+    return allowed && cursor.has(key);
   };
   const char* peaked = "it only with a law that has a static peak: bengisu-akay, brown-mcphee, lugre";
   if (belongs("static_coefficient", entry.peak, peaked)) {
@@ -190,26 +190,26 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
   }
   const bool ball = joint.type == JointType::spherical, pad = joint.type == JointType::planar;
   const bool slider = cursor.choice("guide") == "rectangular";
-  if (cursor.has("guide") && joint.type != JointType::prismatic)
+  if (cursor.has_by_name("guide") && joint.type != JointType::prismatic)
     cursor.fail_found("guide", "it on " + in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint",
                       "it only on a prismatic joint");
   for (const char* key : {"radial", "axial", "journal_radius", "cap_radius", "sleeve_length"})
-    if (slider && cursor.has(key))
+    if (slider && cursor.has_by_name(key))
       cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", whose guide is rectangular",
                         "width, height, length, width_gap and height_gap: the slider's size and its gaps");
   for (const char* key : {"width", "height", "length", "width_gap", "height_gap", "width_direction"})
-    if (!slider && cursor.has(key))
+    if (!slider && cursor.has_by_name(key))
       cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", which has no rectangular guide",
                         "it only on a prismatic joint with guide = \"rectangular\"");
   for (const char* key : {"radial", "journal_radius", "cap_radius", "sleeve_length"})
-    if (pad && cursor.has(key))
+    if (pad && cursor.has_by_name(key))
       cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", a planar joint",
                         "axial and pad_radius alone: the gap on each side of a pad and the pad's radius");
-  if (!pad && cursor.has("pad_radius"))
+  if (!pad && cursor.has_by_name("pad_radius"))
     cursor.fail_found("pad_radius", "it on " + in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint",
                       "it only on a planar joint, which has a pad");
   for (const char* key : {"axial", "cap_radius", "sleeve_length", "axes"})
-    if (ball && cursor.has(key))
+    if (ball && cursor.has_by_name(key))
       cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", a spherical joint",
                         "radial and journal_radius alone: the play of a ball and its radius");
   clearance.axes =
@@ -218,7 +218,7 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
   // A cylindrical or prismatic joint slides along its axis: no caps, no axial clearance, and no ends unless the journal may tilt.
   ClearanceParameters& p = clearance.parameters;
   const bool caps = joint.type == JointType::revolute;
-  if (slides_along_axis(joint.type) && cursor.has("axial"))
+  if (slides_along_axis(joint.type) && cursor.has_by_name("axial"))
     cursor.fail_found("axial", "it on " + in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint",
                       "no axial clearance: the journal slides through its sleeve and has no end faces");
   if (slider) {
@@ -231,11 +231,12 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
     cursor.require(p.radial < p.journal_radius, "radial", "less than journal_radius");
   }
   if (caps || pad) p.axial = cursor.quantity("axial");
-  if (caps || cursor.has("cap_radius")) {
+  const bool sleeve = !ball && !pad && !slider;
+  if (caps || (sleeve && cursor.has("cap_radius"))) {
     p.cap_radius = cursor.quantity("cap_radius");
     cursor.require(p.cap_radius > p.journal_radius + p.radial, "cap_radius", "more than journal_radius + radial");
   }
-  if (caps || (clearance.axes == JournalAxes::free && !pad && !slider) || cursor.has("sleeve_length")) {
+  if (caps || (sleeve && (clearance.axes == JournalAxes::free || cursor.has("sleeve_length")))) {
     p.sleeve_length = cursor.quantity("sleeve_length");
   }
   Cursor contact = cursor.table_or_empty("contact"), friction = cursor.table_or_empty("friction");

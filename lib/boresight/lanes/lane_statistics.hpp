@@ -31,6 +31,10 @@ struct LaneStatistics {
     const auto at = [&](const T& s) { return value + s * (slope + s * bend); };
     const T rest = T(1.0) - before;
     value = select(across, at(before), value);
+    // Where it only falls from there on, its value at `start` is the largest.
+    const Mask first = across & (before < T(1.0)) & (value > max);
+    max = select(first, value, max);
+    time_of_max = select(first, t + before * h, time_of_max);
     const T middle_of_rest = select(across, at(before + T(0.5) * rest), middle);
     add(accepted & (before < T(1.0)), t + before * h, rest * h, middle_of_rest, end);
     value = select(accepted, end, value);

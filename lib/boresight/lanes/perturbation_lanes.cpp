@@ -156,9 +156,7 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
         cache_->prepared.splice(cache_->prepared.begin(), cache_->prepared, it);
         return cache_->prepared.front();
       }
-    if (!cache_->scene || !same_centers(cache_->scene_parameters, parameters) ||
-        ((!is_kinematic(*mechanism_) || cache_->scene->scene().tips()) &&
-         !same_scene(cache_->scene_parameters, parameters))) {
+    if (!cache_->scene || !serves(*mechanism_, *cache_->scene, cache_->scene_parameters, parameters)) {
       cache_->scene = scene_for_lanes(*mechanism_, parameters);
       cache_->scene_parameters = parameters;
       if (cache_->scene->scene().layout().n > 0) cache_->gain = gain_over_time(*cache_->scene);
@@ -365,6 +363,11 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
       std::fill(outcomes.begin(), outcomes.end(), LaneOutcome{.t = mechanism_->duration()});
       for (std::size_t i = 0; watch.ended && i < samples.size(); ++i) watch.ended(i, 0.0);
       return;
+    }
+    // One call is of one layout: loads that tip journals over have a stiffness of their own.
+    if (!batch->jobs.empty() && !same_scene(batch->prepared.back()->parameters, samples[k])) {
+      const LaneScene &before = batch->prepared.back()->lane, &now = prepared_for(samples[k])->lane;
+      if (before.width != now.width || before.layout->tips != now.layout->tips) flush();
     }
     add(samples[k], tolerance, *batch);
     if (batch->bytes > kMostBytesHeld) flush();

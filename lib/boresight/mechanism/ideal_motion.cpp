@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 
 #include "boresight/mechanism/error.hpp"
@@ -120,10 +121,17 @@ IdealMotion IdealMotion::kinematic(const Mechanism& mechanism) {
   const double T = mechanism.duration();
   const bool read_drives = mechanism.description().motion.pose.has_value();
   const Laws laws(mechanism);
+  // Far from the world's origin poses are closed to fewer digits, which no finer grid brings back: it makes accelerations of them.
+  double farthest = 0.0;
+  for (const BodyDescription& body : mechanism.description().bodies)
+    farthest = std::max(farthest, body.center_of_mass.lpNorm<Eigen::Infinity>());
+  const double rounding =
+      32.0 * std::numeric_limits<double>::epsilon() * farthest / mechanism.characteristic_length();
   int most = kUsual;
   while (2 * most <= kMostIntervals && 2.0 * most * bytes_of_state(mechanism.bodies()) < kMostTableBytes) most *= 2;
   for (int intervals = kFewestIntervals;; intervals *= 2) {
-    const double spacing = T / intervals, tolerance = intervals < kUsual ? kTolerance : kLongMotionsTolerance;
+    const double spacing = T / intervals,
+                 tolerance = std::max(rounding, intervals < kUsual ? kTolerance : kLongMotionsTolerance);
     IdealSolver solver(mechanism);
     IdealState state;
     solver.start(state);

@@ -146,8 +146,10 @@ void JointConstraint::evaluate(const std::vector<BodyMotion>& bodies, const Time
     }
     rows.gamma[i] = -bias;
     if (i == drive_row_) {
-      rows.value[i] -= drive_sign_ * law.value;
-      if (row.kind == Kind::twist) rows.value[i] = wrapped(rows.value[i]);
+      // Of a turn that has gone on for thousands of turns, what is left of the last one: the difference keeps its digits.
+      const bool turns = row.kind == Kind::twist;
+      rows.value[i] -= drive_sign_ * (turns ? wrapped(law.value) : law.value);
+      if (turns) rows.value[i] = wrapped(rows.value[i]);
       rows.rate[i] -= drive_sign_ * law.rate;
       rows.gamma[i] += drive_sign_ * law.acceleration;
     }

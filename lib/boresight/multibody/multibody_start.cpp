@@ -154,7 +154,7 @@ double rest_as_clearances_grow(const Mechanism& mechanism, const Parameters& par
     for (ClearanceParameters& c : narrowed.clearance)
       for (const auto gap : kGaps) c.*gap *= share;
     const RestingBalance balance(scene.layout, scene.numbers.row.data(),
-                                 joint_plays(mechanism.description(), narrowed));
+                                 joint_plays(mechanism.description(), narrowed), scene.numbers.cancelled);
     if (!from) {
       const RestingStart linear = balance.solve();
       if (!linear.refusal.empty()) return std::numeric_limits<double>::infinity();
@@ -209,7 +209,7 @@ RestingBodies resting_bodies(const Mechanism& mechanism, const Parameters& param
   formulation->start(scene.ideal, y);
   std::vector<JointPlay> joints;
   for (int c = 0; c < formulation->forces().clearances(); ++c) joints.push_back(formulation->forces().joint(c));
-  const RestingBalance balance(scene.layout, scene.numbers.row.data(), joints);
+  const RestingBalance balance(scene.layout, scene.numbers.row.data(), joints, scene.numbers.cancelled);
   const RestingStart rest = balance.solve();
   if (!rest.refusal.empty()) {
     resting.refusal = rest.refusal;

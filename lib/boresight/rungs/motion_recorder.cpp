@@ -1,6 +1,7 @@
 #include "boresight/rungs/motion_recorder.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "boresight/mechanism/interruption.hpp"
 
@@ -65,13 +66,13 @@ const PoseError& MotionRecorder::accept(double t, const BodyMotion& body, const 
     result_.platform_acceleration_max = result_.platform_acceleration_max.cwiseMax(acceleration.head<3>().cwiseAbs());
   result_.end_time = t;
   sampling_ = wants_sample(t);
-  framing_ = sampling_ && frame_spacing_ > 0.0 && t >= next_frame_ - kSlack * frame_spacing_;
+  framing_ = sampling_ && frame_spacing_ > 0.0 && t >= (frames_ - kSlack) * frame_spacing_;
   if (framing_) {
-    while (next_frame_ <= t + kSlack * frame_spacing_) next_frame_ += frame_spacing_;
+    frames_ = std::max(frames_ + 1.0, std::floor(t / frame_spacing_ + kSlack) + 1.0);
     result_.frames.push_back({.sample = result_.time.size(), .pose = {}, .ideal = {}});
   }
   if (sampling_) {
-    while (next_sample_ <= t + kSlack * spacing_) next_sample_ += spacing_;
+    samples_ = std::max(samples_ + 1.0, std::floor(t / spacing_ + kSlack) + 1.0);
     result_.time.push_back(t);
     result_.boresight.samples.push_back(pose_sample(index, body, acceleration));
     if (bound) result_.boresight.samples.back().error = error_;

@@ -19,7 +19,7 @@ class MotionRecorder {
   const PoseError& accept(double t, const BodyMotion& body, const BodyAcceleration& acceleration,
                           const PoseError* bound = nullptr);
   // Whether a state at t, accepted next, will be sampled.
-  bool wants_sample(double t) const { return spacing_ > 0.0 && t >= next_sample_ - kSlack * spacing_; }
+  bool wants_sample(double t) const { return spacing_ > 0.0 && t >= (samples_ - kSlack) * spacing_; }
   // True if the state accepted last is to be sampled: then call the two below, bodies first.
   bool sampling() const { return sampling_; }
   // The bodies to sample then: those asked for, and all of them where the sample is a frame.
@@ -38,7 +38,9 @@ class MotionRecorder {
 
   const Mechanism& mechanism_;
   const IdealMotion& ideal_;
-  double spacing_, next_sample_ = 0.0, frame_spacing_, next_frame_ = 0.0, t_ = 0.0, position_error_max_ = 0.0;
+  double spacing_, frame_spacing_;
+  double samples_ = 0.0, frames_ = 0.0;  // spacings until the next one: a sum of spacings would drift off them
+  double t_ = 0.0, position_error_max_ = 0.0;
   bool sampling_ = false, framing_ = false;
   const bool watched_;  // by the caller, who hears an interruption through RunOptions::progress
   unsigned accepted_ = 0;

@@ -12,6 +12,7 @@
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/load_time.hpp"
 #include "boresight/mechanism/motion_density.hpp"
+#include "boresight/scene/acting_loads.hpp"
 #include "boresight/scene/deviation_stiffness.hpp"
 #include "boresight/scene/start_rates.hpp"
 #include "boresight/scene/table_row.hpp"
@@ -65,6 +66,10 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const Parameters& par
   layout_.tipped = std::move(tipped);
 }
 
+bool ClearanceScene::would_tip(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters) {
+  return ClearanceScene(mechanism, parameters, ideal).tips();
+}
+
 std::vector<int> ClearanceScene::tipped_by_all_loads(const IdealMotion& ideal, const Parameters& parameters) {
   // Where a load pushes on every coordinate, no tilt or shift within the play makes one that counts beside it.
   constexpr double kPushes = 1e-3;
@@ -80,13 +85,10 @@ std::vector<int> ClearanceScene::tipped_by_all_loads(const IdealMotion& ideal, c
   double fastest = 0.0;  // turning [1/s^2]
   for (std::size_t b = 0; b < masses.size(); ++b) {
     const BodyAcceleration& a = knot.state.acceleration[b];
-    const double turning = a.tail<3>().norm() + knot.state.bodies[b].w.squaredNorm(), arm = masses[b].c.norm();
+    const double turning = a.tail<3>().norm() + knot.state.bodies[b].w.squaredNorm();
     fastest = std::max(fastest, turning);
-    const double force = masses[b].mass * (a.head<3>().norm() + arm * turning + parameters.gravity.norm());
-    const double couple = masses[b].inertia.norm() * turning + arm * force;
-    const Eigen::Index row = 6 * static_cast<Eigen::Index>(b);
-    for (int j = 0; j < n; ++j)
-      acting[j] += force * knot.T.col(j).segment<3>(row).norm() + couple * knot.T.col(j).segment<3>(row + 3).norm();
+    add_to_coordinates(weight_and_inertia(masses[b], parameters.gravity.norm(), a.head<3>().norm(), turning),
+                       static_cast<int>(b), knot.T, acting);
   }
   // Springs and loads push too, and may do so along what no play gives way to.
   const double most = r.size() > 0 ? r.cwiseAbs().maxCoeff() : 0.0;
@@ -122,6 +124,8 @@ std::vector<int> ClearanceScene::tipped_by_all_loads(const IdealMotion& ideal, c
 
 SceneStart ClearanceScene::start_of(const Parameters& parameters, const Knot& first) const {
   SceneStart start{{}, start_rates(mechanism_, parameters, first.state, first.T, first.T_rate)};
+  start.cancelled = kCancelledLoad * sum_of_acting_loads(mechanism_, parameters, first.state.t, first.state.bodies,
+                                                     first.state.acceleration);
   append_row(parameters, first, start.row, true);
   return start;
 }
@@ -259,7 +263,7 @@ double ClearanceScene::interpolation_error(const std::vector<double>& rows, cons
   size[3] = std::max(size[3], rate * rate);
   for (std::size_t c = 0; c < layout_.joints.size();
        ++c)  // a drift against its gain: what the coordinates do within the motion
-    for (const std::size_t gain : {5 + 6 * c, 8 + 6 * c})
+    for (const std::size_t gain : {5 + 7 * c, 8 + 7 * c})
       size[gain + 1] = std::max(size[gain + 1], size[gain] / mechanism_.duration());
   double worst = 0.0;
   for (std::size_t g = 0; g < ends.size(); ++g)

@@ -42,6 +42,7 @@ class ExactStates;
 struct SceneStart {
   std::vector<double> row;
   MatX rates;
+  double cancelled = 0.0;  // a load below is what rounding leaves of loads that cancel [N]
   VecX beside = {};  // where journals rest: what motions start beside that balance, z, then zdot; empty: nothing
 };
 
@@ -103,6 +104,8 @@ class ClearanceScene {
   // Whether loads tip journals that they push nowhere (tipping.hpp): then their own stiffness is kept, and the scene holds for `parameters`'
   // masses, gravity, springs and loads only.
   bool tips() const { return layout_.tips; }
+  // Whether a scene of these parameters would tip, by the mechanism at t = 0 alone: to be asked before a scene that does not serves others.
+  static bool would_tip(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters);
 
  private:
   ClearanceScene(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal);  // without knots

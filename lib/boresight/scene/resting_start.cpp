@@ -42,11 +42,12 @@ MatX carried_along(const MatX& mass, const std::vector<bool>& held) {
 
 }  // namespace
 
-RestingBalance::RestingBalance(const SceneLayout& layout, std::vector<JointPlay> joints)
+RestingBalance::RestingBalance(const SceneLayout& layout, std::vector<JointPlay> joints, double cancelled)
     : at_(layout),
       stiffness_(MatX::Zero(layout.n, layout.n)),
       reaction_(VecX::Zero(layout.n)),
-      held_(static_cast<std::size_t>(layout.n), false) {
+      held_(static_cast<std::size_t>(layout.n), false),
+      cancelled_(cancelled) {
   // A rest is a matter of elastic forces: what contacts dissipate and rub hangs on how fast the bodies carry them along.
   for (const JointPlay& joint : joints) joints_.push_back(joint.elastic_only());
   for (const JointPlay& law : joints_) widest_ = std::max(widest_, law.widest());
@@ -65,8 +66,9 @@ RestingBalance::RestingBalance(const SceneLayout& layout, std::vector<JointPlay>
   with_offsets_ = MatX::Identity(at_.n, at_.n);
 }
 
-RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std::vector<JointPlay> joints)
-    : RestingBalance(layout, std::move(joints)) {
+RestingBalance::RestingBalance(const SceneLayout& layout, const double* row, std::vector<JointPlay> joints,
+                               double cancelled)
+    : RestingBalance(layout, std::move(joints), cancelled) {
   const int n = at_.n;
   MatX inverse;
   at_.inverse_mass(row, inverse);
@@ -122,7 +124,7 @@ void RestingBalance::weigh() {
   reaction_ = balanceable(reaction_);
   const VecX parts = reaction_.cwiseProduct(scale).cwiseAbs();
   for (int k = 0; k < n; ++k)
-    if (parts[k] <= kNoLoad * parts.maxCoeff()) reaction_[k] = 0.0;
+    if (parts[k] <= std::max(kNoLoad * parts.maxCoeff(), cancelled_ * widest_)) reaction_[k] = 0.0;
 
   MatX spread = MatX::Zero(n, n);
   for (int k = 0; k < n; ++k)
@@ -139,6 +141,9 @@ void RestingBalance::weigh() {
   load_ = size(reaction_);
   // What loads make of a tilt is a load too.
   if (at_.tips) load_ = std::max(load_, (unit_.transpose() * stiffness_ * unit_).norm());
+  // Where nothing else acts, standing errors that have used up the play press journals through their sleeves.
+  const auto shifted = [](const PlayOffsets& shift) { return shift.cwiseAbs().maxCoeff() > 0.0; };
+  if (!(load_ > 0.0) && std::any_of(shift_.begin(), shift_.end(), shifted)) load_ = size(left(VecX::Zero(n)));
 }
 
 PlayMotion<double> RestingBalance::motion_of(std::size_t joint, const VecX& z) const {
@@ -352,7 +357,7 @@ VecX start_coordinates(const Mechanism& mechanism, const SceneLayout& layout, co
                        const std::vector<JointPlay>& joints, std::string& warning) {
   VecX state = VecX::Zero(2 * layout.n);
   if (mechanism.description().journals == JournalStart::centred) return state;
-  const RestingStart rest = RestingBalance(layout, start.row.data(), joints).solve();
+  const RestingStart rest = RestingBalance(layout, start.row.data(), joints, start.cancelled).solve();
   if (!rest.refusal.empty()) {
     warning = centred_for_want_of(mechanism, rest.refusal);
     return state;

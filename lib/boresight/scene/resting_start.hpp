@@ -33,9 +33,10 @@ struct RestingStart {
 // The balance at one instant: `row` holds the scene's numbers there (SceneTables::dynamics).
 class RestingBalance {
  public:
-  RestingBalance(const SceneLayout& layout, const double* row, std::vector<JointPlay> joints);
+  // cancelled: a load below is what rounding leaves of loads that cancel [N].
+  RestingBalance(const SceneLayout& layout, const double* row, std::vector<JointPlay> joints, double cancelled = 0.0);
   // Of mechanisms all of whose coordinates are offsets, at one instant after the other: take() says which.
-  RestingBalance(const SceneLayout& layout, std::vector<JointPlay> joints);
+  RestingBalance(const SceneLayout& layout, std::vector<JointPlay> joints, double cancelled = 0.0);
   // Another instant. row: of it, read for gains, slides and shifts alone. reaction, stiffness: r and K as forces [N, N m; per m, per slope].
   void take(const double* row, const VecX& reaction, const MatX& stiffness);
 
@@ -108,7 +109,7 @@ class RestingBalance {
   std::vector<MatX> works_on_;       // per joint: 6 x n, the rates that force and moment work on
   std::vector<double> slide_;
   std::vector<PlayOffsets> shift_;  // what standing errors leave of the offsets with all coordinates zero
-  double load_ = 0.0, widest_ = 0.0;
+  double load_ = 0.0, widest_ = 0.0, cancelled_ = 0.0;
   MatX kept_;  // z per load, where follow() was last
 };
 

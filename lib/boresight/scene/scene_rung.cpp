@@ -160,14 +160,21 @@ BodyMotion DisplacedBodies::moving(int body, const Eigen::Ref<const VecX>& z_dot
   return motion;
 }
 
+bool serves(const Mechanism& mechanism, const PreparedScene& kept, const Parameters& its_own,
+            const Parameters& parameters) {
+  if (!same_centers(its_own, parameters)) return false;
+  if (same_scene(its_own, parameters)) return true;
+  if (!is_kinematic(mechanism) || kept.scene().tips()) return false;
+  return mechanism.clearances() == 0 || !ClearanceScene::would_tip(mechanism, kept.ideal(), parameters);
+}
+
 std::shared_ptr<const PreparedScene> SceneRung::prepared_for(const Parameters& parameters) const {
   if (mechanism_->clearances() == 0 && mechanism_->description().errors.empty())
     throw ComputationError(
         "no joint has clearance and no [[error]] is declared, so nothing deviates from the ideal motion; multibody "
         "follows that");
   const std::lock_guard lock(mutex_);
-  if (!prepared_ || !same_centers(prepared_parameters_, parameters) ||
-      ((!is_kinematic(*mechanism_) || prepared_->scene().tips()) && !same_scene(prepared_parameters_, parameters))) {
+  if (!prepared_ || !serves(*mechanism_, *prepared_, prepared_parameters_, parameters)) {
     prepared_ = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
     prepared_parameters_ = parameters;
   }

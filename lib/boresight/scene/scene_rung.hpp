@@ -60,6 +60,10 @@ class PreparedScene {
   mutable std::shared_ptr<const StandingLoads> loads_;
 };
 
+// Whether a scene that was prepared with other parameters holds for these.
+bool serves(const Mechanism& mechanism, const PreparedScene& kept, const Parameters& its_own,
+            const Parameters& parameters);
+
 // Bodies of the ideal motion displaced by the deviation x = E z + G eps, at one instant: x moves the body, its turning part theta
 // makes R = exp(theta) R_ideal. To first order in theta
 //   v = v_ideal + x'       w = w_ideal + theta' + theta x w_ideal

@@ -182,7 +182,7 @@ bool StandingErrors::uses_play(std::size_t error) const {
   std::vector<double> values(static_cast<std::size_t>(of_unit.width()));
   // Of a unit, a metre or a radian: what is below is rounding.
   constexpr double kRounding = 1e-9;
-  for (int k = 0; k < of_unit.cells(); ++k) {
+  for (int k = 0; k <= of_unit.cells(); ++k) {
     of_unit.at(k * of_unit.spacing(), values.data());
     for (const double value : values)
       if (std::abs(value) > kRounding) return true;
@@ -197,7 +197,7 @@ bool StandingDisplacement::shifts() const {
   std::vector<double> values(static_cast<std::size_t>(shift_->width()));
   // Below a picometre in a metre it is rounding.
   constexpr double kRounding = 1e-12;
-  for (int k = 0; k < shift_->cells(); ++k) {
+  for (int k = 0; k <= shift_->cells(); ++k) {
     shift_->at(k * shift_->spacing(), values.data());
     for (const double value : values) shifts_ = shifts_ || std::abs(value) > kRounding;
   }

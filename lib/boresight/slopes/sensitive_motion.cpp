@@ -6,17 +6,19 @@
 #include "boresight/integrate/integrator.hpp"
 #include "boresight/integrate/rosenbrock_method.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight/mechanism/load_time.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/slopes/sensitive_system.hpp"
 #include "boresight/slopes/shifted_sensitivities.hpp"
+#include "boresight/stepping/motion_scales.hpp"
 
 namespace boresight {
 namespace {
 
 // As the perturbation rung's own; columns of sensitivity have no say in the step.
 IntegrationOptions integration_options(const SceneLayout& at, const Parameters& parameters,
-                                       const ContactNumbers& numbers, double asked, double duration, Eigen::Index size,
-                                       long most_steps) {
+                                       const ContactNumbers& numbers, double asked, double longest_step,
+                                       Eigen::Index size, long most_steps) {
   const double clearance = smallest_clearance(parameters);
   const double length = clearance > 0.0 ? clearance : 1e-6;
   VecX tolerance = VecX::Constant(at.n, asked * length);
@@ -29,7 +31,7 @@ IntegrationOptions integration_options(const SceneLayout& at, const Parameters& 
   options.absolute_tolerances.head(2 * at.n) << tolerance, tolerance / kFlightTime;
   // The norm is a mean over all unknowns.
   options.absolute_tolerances.head(2 * at.n) *= std::sqrt(2.0 * at.n / static_cast<double>(size));
-  options.largest_step = duration / 100.0;
+  options.largest_step = longest_step;
   if (most_steps > 0) options.most_steps = most_steps;
   return options;
 }
@@ -71,7 +73,8 @@ struct Follower {
   const MotionRequest& request;
 
   IntegrationOptions options(Eigen::Index size) const {
-    return integration_options(tables->layout, parameters, numbers, request.tolerance, mechanism.duration(), size,
+    return integration_options(tables->layout, parameters, numbers, request.tolerance,
+                               std::min(mechanism.duration() / 100.0, request.longest_step), size,
                                request.most_steps);
   }
 
@@ -125,6 +128,10 @@ struct Follower {
 };
 
 }  // namespace
+
+double longest_step_of(const PreparedScene& scene) {
+  return std::min(kTurnOfAStep * scene.own_time(), kStepOfLoads * scene.load_time());
+}
 
 SensitiveMotion follow_with_sensitivity(const Mechanism& mechanism, const Parameters& parameters,
                                         const std::shared_ptr<const SceneTables>& tables, const ContactNumbers& numbers,

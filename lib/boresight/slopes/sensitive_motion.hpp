@@ -32,10 +32,12 @@
 // that factor.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "boresight/scene/clearance_scene.hpp"
+#include "boresight/scene/scene_rung.hpp"
 #include "boresight/slopes/contact_number_slopes.hpp"
 #include "boresight/slopes/tables_beside.hpp"
 
@@ -68,10 +70,14 @@ struct MotionRequest {
   double tolerance = 1e-3;            // of a step, over the smallest clearance
   double derivative_tolerance = 0.0;  // of S times each quantity's own size, as tolerance; 0: S has no say in the steps
   double grazing_speed = 0.0;         // approaches slower than this graze; 0: twice the least impact speed [m/s]
+  double longest_step = std::numeric_limits<double>::infinity();  // of a step: longest_step_of() its scene [s]
   long most_steps = 0;                // attempts of steps; 0: any that one run may take
   // Steps that no stiff or damped contact keeps short (RODAS4), each as dear as some of the explicit ones: implicit_steps_pay().
   bool implicit = false;
 };
+
+// As the perturbation rung's own: no turn of the mechanism and no change of a load is stepped over.
+double longest_step_of(const PreparedScene& scene);
 
 // parameters: the mechanism's at this point, for clearances and least impact speeds.
 // Throws ComputationError where the motion cannot be followed.

@@ -143,6 +143,7 @@ class Envelope final : public SceneRung {
         bound.boresight += worst(directions.across * turns);
         bound.line_of_sight += worst(directions.sight.leftCols<3>() * moves + directions.sight.rightCols<3>() * turns);
       }
+      if (now.load[c].slides) offset[1] = now.load[c].slide;  // where its ends are
       bounded.worst[c].motion = at_rest_at(offset);
       joints[c].penetrations(bounded.worst[c].motion, bounded.worst[c].contact);
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -51,35 +52,64 @@ double standing_for(double b, double a) {
 
 // What a sample's play is told apart by.
 constexpr std::array kSizes = {
+    &ClearanceParameters::journal_radius, &ClearanceParameters::cap_radius,
     &ClearanceParameters::radial,     &ClearanceParameters::axial,         &ClearanceParameters::width_gap,
     &ClearanceParameters::height_gap, &ClearanceParameters::sleeve_length, &ClearanceParameters::pad_radius,
     &ClearanceParameters::width,      &ClearanceParameters::height,        &ClearanceParameters::length};
+
+constexpr std::array kOfContact = {&ContactParameters::stiffness_scale, &ContactParameters::linear_stiffness,
+                                   &ContactParameters::linear_damping, &ContactParameters::density,
+                                   &ContactParameters::minimum_impact_speed};
+constexpr std::array kOfFriction = {
+    &FrictionParameters::coefficient,    &FrictionParameters::static_speed,      &FrictionParameters::dynamic_speed,
+    &FrictionParameters::stribeck_speed, &FrictionParameters::bristle_stiffness, &FrictionParameters::bristle_damping,
+    &FrictionParameters::viscosity,      &FrictionParameters::static_coefficient};
+constexpr std::array kOfSpring = {&SpringParameters::stiffness, &SpringParameters::damping, &SpringParameters::preload};
+// Of lengths that are no sizes, places of a grid stand, of the mechanism's own length: mass centres, springs at rest.
+constexpr double kGridOfCentres = 0.1, kGridOfSprings = 0.01;
+double standing_for(double b, double a, double grid) { return a + grid * std::round((b - a) / grid); }
 
 ClearanceParameters standing_for(const ClearanceParameters& b, const ClearanceParameters& a) {
   ClearanceParameters p = a;
   for (const auto number : kSizes) p.*number = standing_for(b.*number, a.*number);
   const double lost = standing_for(1.0 - b.contact.restitution, 1.0 - a.contact.restitution);
   p.contact.restitution = lost < 1.0 ? 1.0 - lost : b.contact.restitution;
-  p.contact.stiffness_scale = standing_for(b.contact.stiffness_scale, a.contact.stiffness_scale);
-  for (int side = 0; side < 2; ++side)
+  for (const auto number : kOfContact) p.contact.*number = standing_for(b.contact.*number, a.contact.*number);
+  for (int side = 0; side < 2; ++side) {
     p.contact.young[side] = standing_for(b.contact.young[side], a.contact.young[side]);
-  p.friction.coefficient = standing_for(b.friction.coefficient, a.friction.coefficient);
+    p.contact.poisson[side] = standing_for(b.contact.poisson[side], a.contact.poisson[side]);
+  }
+  for (const auto number : kOfFriction) p.friction.*number = standing_for(b.friction.*number, a.friction.*number);
+  // Numbers that belong together do so still: a peak is no lower than what it decays to.
+  const FrictionParameters& f = p.friction;
+  if ((f.static_coefficient > 0.0 && f.static_coefficient < f.coefficient) || f.dynamic_speed <= f.static_speed)
+    p.friction = b.friction;
+  if (p.cap_radius > 0.0 && p.cap_radius <= p.journal_radius + p.radial) {
+    p.cap_radius = b.cap_radius;
+    p.journal_radius = b.journal_radius;
+    p.radial = b.radial;
+  }
   return p;
 }
 
 // The parameters at which the error of a sample b is measured: the mechanism's own, departed from by factors of two. Standing errors are the
 // sample's: where they add to what the play does, or to a load that is next to nothing, hangs on all of them together.
-Parameters standing_for(const Parameters& b, const Parameters& a) {
+Parameters standing_for(const Parameters& b, const Parameters& a, double length) {
   Parameters p = a;
+  const auto centre = [&](const Vec3& of_b, const Vec3& of_a, Vec3& stands) {
+    for (int i = 0; i < 3; ++i) stands[i] = standing_for(of_b[i], of_a[i], kGridOfCentres * length);
+  };
+  centre(b.payload_center, a.payload_center, p.payload_center);
+  for (std::size_t k = 0; k < a.body_center.size(); ++k) centre(b.body_center[k], a.body_center[k], p.body_center[k]);
   p.error = b.error;
   if ((b.gravity - a.gravity).norm() > 0.5 * a.gravity.norm()) p.gravity = b.gravity;
   p.payload_mass = standing_for(b.payload_mass, a.payload_mass);
   for (std::size_t k = 0; k < a.body_mass.size(); ++k) p.body_mass[k] = standing_for(b.body_mass[k], a.body_mass[k]);
   for (std::size_t k = 0; k < a.clearance.size(); ++k) p.clearance[k] = standing_for(b.clearance[k], a.clearance[k]);
   for (std::size_t k = 0; k < a.spring.size(); ++k) {
-    p.spring[k].stiffness = standing_for(b.spring[k].stiffness, a.spring[k].stiffness);
-    p.spring[k].damping = standing_for(b.spring[k].damping, a.spring[k].damping);
-    p.spring[k].preload = standing_for(b.spring[k].preload, a.spring[k].preload);
+    for (const auto number : kOfSpring) p.spring[k].*number = standing_for(b.spring[k].*number, a.spring[k].*number);
+    p.spring[k].free_length =
+        standing_for(b.spring[k].free_length, a.spring[k].free_length, kGridOfSprings * length);
   }
   return p;
 }
@@ -90,10 +120,17 @@ std::vector<double> numbers_of(const Parameters& p) {
   numbers.insert(numbers.end(), p.body_mass.begin(), p.body_mass.end());
   for (const ClearanceParameters& c : p.clearance) {
     for (const auto size : kSizes) numbers.push_back(c.*size);
-    numbers.insert(numbers.end(), {c.contact.restitution, c.contact.stiffness_scale, c.contact.young[0],
-                                   c.contact.young[1], c.friction.coefficient});
+    for (const auto number : kOfContact) numbers.push_back(c.contact.*number);
+    for (const auto number : kOfFriction) numbers.push_back(c.friction.*number);
+    numbers.insert(numbers.end(), {c.contact.restitution, c.contact.young[0], c.contact.young[1], c.contact.poisson[0],
+                                   c.contact.poisson[1]});
   }
-  for (const SpringParameters& s : p.spring) numbers.insert(numbers.end(), {s.stiffness, s.damping, s.preload});
+  for (const SpringParameters& s : p.spring) {
+    for (const auto number : kOfSpring) numbers.push_back(s.*number);
+    numbers.push_back(s.free_length);
+  }
+  numbers.insert(numbers.end(), p.payload_center.data(), p.payload_center.data() + 3);
+  for (const Vec3& center : p.body_center) numbers.insert(numbers.end(), center.data(), center.data() + 3);
   numbers.insert(numbers.end(), p.error.begin(), p.error.end());
   return numbers;
 }
@@ -146,12 +183,15 @@ class MeasuredByDynamics final : public Rung {
     result.cost.wall_seconds += cost.wall_seconds;
     result.cost.evaluations += cost.evaluations;
     if (bounds_ && measured.exceeded > kExceeds) {
-      char text[160];
-      std::snprintf(text, sizeof text,
-                    "impacts exceed the bound, which is one of continuous contact: the perturbation rung's "
-                    "largest position error "
-                    "is %.2g %% above it",
-                    100.0 * measured.exceeded);
+      char text[200];
+      if (std::isinf(measured.exceeded))
+        std::snprintf(text, sizeof text,
+                      "the bound is zero, which is one of continuous contact: on the perturbation rung the pose errs");
+      else
+        std::snprintf(text, sizeof text,
+                      "impacts exceed the bound, which is one of continuous contact: the perturbation rung's "
+                      "largest position error is %.2g %% above it",
+                      100.0 * measured.exceeded);
       result.warnings.push_back(text);
     }
     if (bounds_ && measured.bent > kBent) {
@@ -166,7 +206,7 @@ class MeasuredByDynamics final : public Rung {
 
  private:
   Measured measure(const Parameters& parameters, const RunOptions& options, RunCost& cost) const {
-    Parameters at = standing_for(parameters, mechanism_->parameters());
+    Parameters at = standing_for(parameters, mechanism_->parameters(), mechanism_->characteristic_length());
     // A bound holds whatever its journals do: one measure without errors serves all samples.
     if (bounds_) std::fill(at.error.begin(), at.error.end(), 0.0);
     std::vector<double> key = numbers_of(at);
@@ -286,8 +326,8 @@ class MeasuredByDynamics final : public Rung {
           model = std::max(model, off / against);
         else if (off > kRounding)  // where nothing moves at all, all of it is wrong
           model = std::max(model, 1.0);
-        if (statistic == &Statistics::max && quantity == quantities[0])
-          measured.exceeded = high / index.of(quantity).max - 1.0;
+        if (statistic == &Statistics::max && quantity == quantities[0] && high > own + kRounding)
+          measured.exceeded = own > 0.0 ? high / own - 1.0 : std::numeric_limits<double>::infinity();
       }
     }
     for (const RunResult& motion : motions)

@@ -8,6 +8,7 @@
 #include "boresight/mechanism/interruption.hpp"
 #include "boresight/mechanism/load_time.hpp"
 #include "boresight/play/play_words.hpp"
+#include "boresight/scene/acting_loads.hpp"
 
 namespace boresight {
 namespace {
@@ -23,9 +24,6 @@ constexpr double kKnotsOfInstant = 4.0;
 constexpr double kNothing = 1e-6;
 // Of the largest load: its direction is then known to two thousandths of a radian.
 constexpr double kDecides = 500.0 * ClearanceScene::kAccuracy;
-// Of what the bodies weigh and resist: far above what rounding leaves where these cancel, far below any load that is read.
-constexpr double kCancelled = 1e-10;
-
 // Of a load: its force, and its couple as forces at the sleeve's ends [N].
 double size(const PlayOffsets& load, const JointPlay& joint) {
   const double couple = load.tail<3>().norm();
@@ -34,48 +32,40 @@ double size(const PlayOffsets& load, const JointPlay& joint) {
 
 constexpr int kLooks = 41;  // along a motion, for the size of what acts
 
-// The largest sum of the bodies' weights and inertial forces along the motion [N].
+// The largest sum of what acts on the bodies along the motion [N].
 double acting_forces(const Mechanism& mechanism, const Parameters& parameters, const IdealMotion& ideal) {
-  const std::vector<MassProperties> masses = mechanism.mass_properties(parameters);
   double largest = 0.0;
+  std::vector<BodyMotion> bodies(mechanism.bodies());
+  std::vector<BodyAcceleration> accelerations(mechanism.bodies());
   for (int i = 0; i < kLooks; ++i) {
-    double sum = 0.0;
-    for (std::size_t b = 0; b < masses.size(); ++b) {
-      BodyAcceleration acceleration;
-      ideal.body(mechanism.duration() * i / (kLooks - 1), static_cast<int>(b), &acceleration);
-      sum += masses[b].mass * (acceleration.head<3>().norm() + parameters.gravity.norm());
-    }
-    largest = std::max(largest, sum);
+    const double t = mechanism.duration() * i / (kLooks - 1);
+    for (int b = 0; b < mechanism.bodies(); ++b) bodies[b] = ideal.body(t, b, &accelerations[b]);
+    largest = std::max(largest, sum_of_acting_loads(mechanism, parameters, t, bodies, accelerations));
   }
   return largest;
 }
 
-// What the bodies weigh and resist on each coordinate, without regard to sign, where it is largest [N, N m]. Each body is taken to be
-// accelerated as the fastest of them is: an acceleration is known as well as the largest is, whatever its own.
-VecX acting_loads(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters) {
+// What the bodies weigh and resist on each coordinate where it is largest [N, N m]. Each body is taken to be accelerated as the fastest of
+// them is: an acceleration is known as well as the largest is, whatever its own.
+VecX weight_and_inertia_on_coordinates(const Mechanism& mechanism, const PreparedScene& prepared,
+                                       const Parameters& parameters) {
   const ClearanceScene& scene = prepared.scene();
   const std::vector<MassProperties> masses = mechanism.mass_properties(parameters);
-  VecX largest = VecX::Zero(scene.layout().n);
-  const int stride = std::max(1, (scene.knots() - 1) / (kLooks - 1));
+  const int bodies = mechanism.bodies(), stride = std::max(1, (scene.knots() - 1) / (kLooks - 1));
   double linear = 0.0, angular = 0.0;
   for (int k = 0; k < scene.knots(); k += stride)
-    for (std::size_t b = 0; b < masses.size(); ++b) {
+    for (int b = 0; b < bodies; ++b) {
       BodyAcceleration acceleration;
-      const BodyMotion motion = prepared.ideal().body(k * scene.spacing(), static_cast<int>(b), &acceleration);
-      const double turning = acceleration.tail<3>().norm() + motion.w.squaredNorm();
-      linear = std::max(linear, acceleration.head<3>().norm() + masses[b].c.norm() * turning);
-      angular = std::max(angular, turning);
+      const BodyMotion motion = prepared.ideal().body(k * scene.spacing(), b, &acceleration);
+      linear = std::max(linear, acceleration.head<3>().norm());
+      angular = std::max(angular, acceleration.tail<3>().norm() + motion.w.squaredNorm());
     }
+  VecX largest = VecX::Zero(scene.layout().n);
   for (int k = 0; k < scene.knots(); k += stride) {
-    const MatX& T = scene.pose_gains_at(k);
     VecX sum = VecX::Zero(largest.size());
-    for (std::size_t b = 0; b < masses.size(); ++b) {
-      const double force = masses[b].mass * (linear + parameters.gravity.norm());
-      const double couple = masses[b].inertia.norm() * angular + force * masses[b].c.norm();
-      const Eigen::Index row = 6 * static_cast<Eigen::Index>(b);
-      for (Eigen::Index j = 0; j < sum.size(); ++j)
-        sum[j] += force * T.col(j).segment<3>(row).norm() + couple * T.col(j).segment<3>(row + 3).norm();
-    }
+    for (int b = 0; b < bodies; ++b)
+      add_to_coordinates(weight_and_inertia(masses[b], parameters.gravity.norm(), linear, angular), b,
+                         scene.pose_gains_at(k), sum);
     largest = largest.cwiseMax(sum);
   }
   return largest;
@@ -83,9 +73,19 @@ VecX acting_loads(const Mechanism& mechanism, const PreparedScene& prepared, con
 
 }  // namespace
 
+namespace {
+
+// What a spring does hangs on where journals lie.
+bool held_by_springs(const Parameters& parameters) {
+  return std::any_of(parameters.spring.begin(), parameters.spring.end(),
+                     [](const SpringParameters& s) { return s.stiffness > 0.0; });
+}
+
+}  // namespace
+
 ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& prepared,
                              const StandingDisplacement& standing, const Parameters& parameters, double share)
-    : mechanism_(mechanism), layout_(prepared.scene().layout()), tied_(standing.shifts() || layout_.tips) {
+    : mechanism_(mechanism), layout_(prepared.scene().layout()), tied_(standing.shifts() || layout_.tips || held_by_springs(parameters)) {
   const ClearanceScene& scene = prepared.scene();
   if (scene.coordinates().leftover() > 0)
     throw ComputationError(parts_in_play(mechanism.description()).inserts +
@@ -138,7 +138,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
     }
   }
   table_ = EightPointTable(scene.spacing(), width, std::move(values));
-  cancelled_ = kCancelled * acting_forces(mechanism, parameters, prepared.ideal());
+  cancelled_ = kCancelledLoad * acting_forces(mechanism, parameters, prepared.ideal());
   for (std::size_t c = 0; c < joints_.size(); ++c) {
     std::vector<double>& least = least_.emplace_back();
     for (const std::vector<int>& group : groups_[c])
@@ -158,7 +158,7 @@ ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& pr
 void ReactionTable::find_least_loads(const PreparedScene& prepared, const Parameters& parameters) {
   if (joints_.empty()) return;
   const double largest = *std::max_element(largest_load_.begin(), largest_load_.end());
-  const VecX acting = acting_loads(mechanism_, prepared, parameters);
+  const VecX acting = weight_and_inertia_on_coordinates(mechanism_, prepared, parameters);
   for (std::size_t c = 0; c < joints_.size(); ++c)
     for (std::size_t g = 1; g < groups_[c].size(); ++g) {
       double own = 0.0;

@@ -46,6 +46,8 @@ class ReactionTable {
   // regard to sign, so that what cancels counts), and no more than that of the largest load of all. A light part at the end of heavy ones
   // has its loads told apart by its own weight.
   static constexpr double kRounding = 10.0 * ClearanceScene::kAccuracy;
+  // A load below is what rounding leaves of loads that cancel, along the whole motion [N].
+  double cancelled() const { return cancelled_; }
   // Whether a load is known well enough for its direction: the tables are accurate to a hundred-thousandth of the largest.
   bool decides(const Instant& instant, int clearance) const;
   // E of one joint's offsets: 6 x 5, zero columns where an offset is none.
@@ -67,7 +69,7 @@ class ReactionTable {
   std::vector<JointPlay> joints_;
   std::vector<OffsetGroups> groups_;        // of each
   std::vector<double> largest_load_;        // per clearance [N]
-  double cancelled_ = 0.0;                  // what rounding may leave of loads that cancel [N]
+  double cancelled_ = 0.0;
   std::vector<std::vector<double>> least_;  // per clearance and group: a load below counts as none [N, N m]
   bool tied_ = false, slides_ = false;
 };

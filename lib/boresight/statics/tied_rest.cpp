@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/play/play_words.hpp"
@@ -18,7 +19,7 @@ TiedRest::TiedRest(const PreparedScene& prepared, const StandingDisplacement& st
     : reactions_(reactions),
       layout_(prepared.scene().layout()),
       tables_(prepared.tables(parameters, standing)),
-      balance_(layout_, reactions.joints()),
+      balance_(layout_, reactions.joints(), reactions.cancelled()),
       inserts_(parts_in_play(reactions.joints()).inserts),
       row_(static_cast<std::size_t>(layout_.width)),
       stiffness_(MatX::Zero(layout_.n, layout_.n)) {
@@ -58,8 +59,9 @@ TiedRest::Rest TiedRest::at(const ReactionTable::Instant& now, const Rest* befor
       before ? balance_.solve_near(before->z, offsets, ReactionTable::kRounding * largest_) : balance_.solve();
   if (!rest.refusal.empty())
     throw ComputationError(
-        "redundant joints tie the offsets of clearance joints together, and no position was found in which the " +
-        inserts_ + "' contacts carry the loads of t = " + std::to_string(now.t) + " s all together; use perturbation");
+        "redundant joints or springs tie the offsets of clearance joints together, and no position was found in which "
+        "the " + inserts_ + "' contacts carry the loads of t = " + std::to_string(now.t) +
+        " s all together; use perturbation");
   Rest found{rest.z, {}};
   for (std::size_t c = 0; c < layout_.joints.size(); ++c) found.joint.push_back(resting(c, rest.z));
   return found;
@@ -76,13 +78,15 @@ RestingPlay TiedRest::resting(std::size_t joint, const VecX& z) const {
   rest.carried = wrench.force.norm();
   const std::vector<double> gaps = law.clearances();
   rest.radial_reach.fill(gaps[0]);
-  if (gaps.size() > 1) rest.axial_reach = gaps[1];
+  const auto* pad = std::get_if<PadInSlot>(&law.kind);
+  if (pad || gaps.size() > 1) rest.axial_reach = gaps.back();
   for (const ContactPlace place : law.places()) {
     const ContactState<double>& contact = rest.contact[static_cast<int>(place)];
     const double pressed = std::max(0.0, contact.penetration);
     if (is_axial(place))
       rest.axial_reach = std::max(
-          {rest.axial_reach, gaps[1] + contact.normal_force / law.axial_stiffness(), std::abs(rest.motion.e.y())});
+          {rest.axial_reach, gaps.back() + contact.normal_force / law.axial_stiffness(),
+           std::abs(rest.motion.e.y()) + (pad ? pad->radius * rest.motion.slope.norm() : 0.0)});
     else if (place == ContactPlace::radial)
       rest.radial_reach.fill(gaps[0] + pressed);
     else

@@ -252,5 +252,25 @@ TEST(Allocation, OverCostCurvesClaimsNoProof) {
   EXPECT_FALSE(result.chosen.proven);
 }
 
+// Samples of the search that a moderate requirement does with: the rung is first tried on those, and no more.
+TEST(Confirmation, OfFewSamplesIsTriedOnThoseThatThereAre) {
+  AllocationPlan plan = plan_with(7, 3);
+  plan.samples = 8;
+  plan.requirement = {2.05 * kMilli, 0.8, 0.8};
+  std::vector<std::size_t> asked;
+  const AllocationResult result =
+      run_allocation(plan, sum_of_gaps(), 0.0,
+                     [&](const std::vector<std::vector<double>>& gaps, const std::vector<std::vector<double>>&) {
+                       asked.push_back(gaps.size());
+                       std::vector<Outcome> outcomes;
+                       for (const std::vector<double>& gap : gaps) outcomes.push_back(done(gap[0] + gap[1]));
+                       return outcomes;
+                     },
+                     "synthetic", {});
+  ASSERT_FALSE(asked.empty());
+  EXPECT_EQ(asked.front(), 8u);
+  EXPECT_NEAR(result.factor, 1.0, 0.02);  // the rung is the sum that the search goes by
+}
+
 }  // namespace confirmation_test
 }  // namespace boresight

@@ -167,5 +167,28 @@ TEST(Contributor, ADriftBeginsWithTheMotionAndNotWithTheHistory) {
   EXPECT_NEAR(course(drift, 1, 0, 0, 0.01, 100, late).front().x(), 2.0 * 0.005, 1e-6);
 }
 
+// Of a drift that is reset with every observation, two windows in different ones differ by what it has been reset by since, however short
+// the revisit: the table and the course agree.
+TEST(Contributor, PreOfARecalibratedDriftKnowsOfTheReset) {
+  Contributor drift{.name = "drift", .kind = ContributorClass::drift};
+  drift.parameter[0] = make_uniform(1.0, 1.0 + 1e-9);
+  drift.recalibrated = true;
+  for (const double revisit : {0.1, 0.15, 0.3, 0.4, 0.5, 0.62, 0.7}) {
+    const Windows windows{.window = 0.05, .observation = 0.4, .revisit = revisit};
+    const PointingHistory history{0.001, course(drift, 1, 0, 0, 0.001, 80000, windows)};
+    const std::vector<Vec3> seen = index_values(ErrorIndex::pre, history, windows);
+    ASSERT_FALSE(seen.empty()) << revisit;
+    double sum = 0.0, square = 0.0;
+    for (const Vec3& value : seen) {
+      sum += value.x();
+      square += value.x() * value.x();
+    }
+    const auto count = static_cast<double>(seen.size());
+    const Moments line = moments(drift, 0, ErrorIndex::pre, Interpretation::mixed, windows, 80.0);
+    EXPECT_NEAR(line.mean, sum / count, 2e-3) << revisit;
+    EXPECT_NEAR(line.sd, std::sqrt(std::max(0.0, square / count - sum / count * sum / count)), 2e-3) << revisit;
+  }
+}
+
 }  // namespace contributor_test
 }  // namespace boresight

@@ -164,5 +164,16 @@ TEST(WindowFilter, KnowsTheLargestRelativeErrorOfASinusoid) {
               1e-12);
 }
 
+// Lengths that fit into the motion fit into its history, though samples do not divide them: 3333 of 0.3 ms in a second.
+TEST(ErrorIndexOfAHistory, HasPlaceForWhatTheMotionHasPlaceFor) {
+  const PointingHistory h = history_of(0.9999, 3333, [](double t) { return Vec3(t < 0.5 ? 1.0 : 4.0, 0, 0); });
+  const std::vector<Vec3> halves = index_values(ErrorIndex::pre, h, {.window = 0.5, .observation = 0.5});
+  ASSERT_FALSE(halves.empty());
+  EXPECT_NEAR(halves.front().x(), 3.0, 0.01);
+  EXPECT_EQ(index_values(ErrorIndex::mpe, h, {.window = 1.0}).size(), 1u);
+  EXPECT_FALSE(index_values(ErrorIndex::pde, h, {.window = 0.4, .separation = 0.6}).empty());
+  EXPECT_THROW(index_values(ErrorIndex::pre, h, {.window = 0.5, .observation = 0.501}), std::invalid_argument);
+}
+
 }  // namespace window_test
 }  // namespace boresight

@@ -105,6 +105,13 @@ TEST_F(SensorTest, SaysWhatIsWrongWithTheLine) {
               HasSubstr("no reading during the motion"));
 }
 
+// A clock that counts from 1970 has not the digits for readings that come ten million times a second.
+TEST_F(SensorTest, RefusesAStartSoFarAwayThatReadingsFallTogether) {
+  const ReadAs as =
+      planned("rate = \"10 MHz\"\nstart = \"1764000000 s\"\ncolumns = { dx = \"X\" }\nunits = { dx = \"nm\" }\n").as;
+  EXPECT_THAT(fault([&] { read("X\n1\n2\n3\n4\n5\n", as); }), AllOf(HasSubstr("start"), HasSubstr("told apart")));
+}
+
 TEST_F(SensorTest, TablesOfAStudyThatContradictThemselvesAreRefused) {
   EXPECT_THAT(fault([&] { planned("rate = \"1 kHz\"\ntime = \"t\"\ncolumns = { dx = \"X\" }\n"); }), HasSubstr("rate"));
   EXPECT_THAT(fault([&] { planned("rate = \"1 kHz\"\nstart = \"2026-11-24T10:15:30Z\"\ncolumns = { dx = \"X\" }\n"); }),

@@ -51,5 +51,18 @@ TEST(CsvColumn, DoesNotMixDecimalMarks) {
   EXPECT_NE(refusal("a,b\n1,\"0,5\"\n").find("expected a finite number"), std::string::npos);
 }
 
+TEST(CsvColumn, OfAFileWithOneColumnMayHaveDecimalCommas) {
+  const std::vector<double> expected = {12.5, 13.1};
+  EXPECT_EQ(read_csv_column(file_of("b\n12,5\n13,1\n"), "b"), expected);
+  EXPECT_EQ(read_csv_column(file_of("b\n12.5\n13.1\n"), "b"), expected);
+  EXPECT_NE(refusal("b\n12,5\n13.1\n").find("expected a decimal comma"), std::string::npos);
+}
+
+TEST(CsvColumn, IsRefusedWhereARowHasMoreFieldsThanTheHeader) {
+  EXPECT_NE(refusal("a,b\n1,5,0,5\n").find("4 fields in line 2"), std::string::npos);
+  EXPECT_NE(refusal("a,b\n1,5,0,5\n").find("expected 2, as in the header"), std::string::npos);
+  EXPECT_EQ(read_csv_column(file_of("a,b\n1,0.5,\n2,1e-3, ,\n"), "b"), (std::vector<double>{0.5, 1e-3}));
+}
+
 }  // namespace csv_column_test
 }  // namespace boresight

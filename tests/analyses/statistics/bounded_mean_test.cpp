@@ -53,5 +53,18 @@ TEST(BoundedMean, RefusesWhatIsNoShare) {
   EXPECT_THROW(bounded_mean_lower(0.5, 10, 1.0), std::invalid_argument);
 }
 
+// A handful of hits in two hundred thousand: nothing is shown, and nothing fails.
+TEST(BoundedMean, OfNextToNothingShowsNothing) {
+  for (const double mean : {1e-300, 1e-12, 5e-6, 3e-5})
+    for (const double samples : {1.0, 10.0, 100.0}) {
+      const double low = bounded_mean_lower(mean, samples, 0.9);
+      EXPECT_GE(low, 0.0);
+      EXPECT_LT(low, mean);
+      const double high = bounded_mean_upper(1.0 - mean, samples, 0.9);
+      EXPECT_GE(high, 1.0 - mean);
+      EXPECT_LE(high, 1.0);
+    }
+}
+
 }  // namespace bounded_mean_test
 }  // namespace boresight

@@ -55,10 +55,22 @@ TEST_F(MonteCarloProgram, ASampleIsReplayedToTheSameBitsWhereAllTakeOneStep) {
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(json("seven/summary.json")["index"]["position_error"]["max"].get<double>(), stored);
   EXPECT_EQ(call({"run", "study.toml", "--sample-number", "-1"}).status, 2);
+  EXPECT_EQ(call({"run", "study.toml", "--sample-number", "7", "--index", "position_error.max"}).status, 2);
   EXPECT_EQ(call({"run", "study.toml", "--sample-number", "1.5"}).status, 2);
   const Ended beyond = call({"run", "study.toml", "--sample-number", "400"});
   EXPECT_EQ(beyond.status, 2);
   EXPECT_THAT(beyond.err, HasSubstr("expected one of the study's 400 samples, from 0 to 399"));
+}
+
+// Without --out, as everything without it.
+TEST_F(MonteCarloProgram, ASampleThatIsReplayedDifferentlyHasAFolderOfItsOwn) {
+  for (const char* step : {"50 us", "25 us"}) {
+    const Ended ended = call({"run", "study.toml", "--set", "motion.duration=5ms", "--rung", "perturbation", "--step",
+                              step, "--sample-number", "7", "--step-error", "off"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+  }
+  EXPECT_EQ(json("results/study-sample-7/summary.json")["verb"], "run");
+  EXPECT_EQ(json("results/study-sample-7-2/summary.json")["verb"], "run");
 }
 
 // Lanes choose their steps by the error; so does the replay, by the same method at other times.

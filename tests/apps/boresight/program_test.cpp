@@ -286,6 +286,20 @@ TEST_F(ProgramTest, AChartOfAStudyTakesItsIndexAndItsAccuracy) {
   EXPECT_FALSE(summary["machine"]["processor"].get<std::string>().empty());
   EXPECT_FALSE(summary["cheapest_within_accuracy"].is_null());
   EXPECT_THAT(text("out/report.html"), HasSubstr("Trajectory error before the first impact"));
+  EXPECT_THAT(ended.out, HasSubstr("next: boresight run " + mechanism_));  // which `run` takes, and no study
+  expect_refused({"chart", "study.toml", "--index", "boresight_error.rms"}, "a study says itself what is asked");
+}
+
+TEST_F(ProgramTest, NamesThatNoFileSystemTakesAreTheUsersMistake) {
+  const std::string longer(300, 'a');
+  expect_refused({"new", longer}, "cannot make this folder");
+  expect_refused({"export", longer}, "a folder of results");
+}
+
+TEST_F(ProgramTest, LawsWithoutAMechanismNamesACommandThatCanBeTyped) {
+  const Ended ended = call({"laws", "--out", "out"});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("next: boresight run MECHANISM.toml --set"));
 }
 
 TEST_F(ProgramTest, TwoStartsOfTheProgramGiveTheSameBytes) {

@@ -6,6 +6,7 @@ namespace boresight::app {
 namespace progress_test {
 
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(ProgressLine, ShowsBarRateTimeLeftAndEstimate) {
   EXPECT_EQ(progress_line(0.5, 2.0, "s of motion", 10.0, "error 0.2 mm"),
@@ -26,7 +27,9 @@ TEST(ProgressLine, OfAShareThatCountsNothingIsShareAndTimeLeft) {
 }
 
 TEST(ProgressLine, NeverLeavesTheBar) {
-  EXPECT_THAT(progress_line(3.0, 2.0, "points", 1.0, ""), HasSubstr("[####################] 100 %"));
+  const std::string line = progress_line(3.0, 2.0, "points", 1.0, "");
+  EXPECT_THAT(line, HasSubstr("[####################] 100 %  3 points, 1 s so far"));
+  EXPECT_THAT(line, Not(HasSubstr("of 2")));
 }
 
 TEST(ProgressLine, LongTimesAreInMinutesAndHours) {

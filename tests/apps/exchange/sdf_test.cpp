@@ -45,6 +45,38 @@ TEST(Sdf, AJointStandsInItsChildUnlessItSaysOtherwise) {
   expect_near(point("<pose degrees='true' relative_to='__model__'>0 0.2 0 90 0 0</pose>"), Vec3(0.8, 2.0, 3.0), 1e-12);
 }
 
+TEST(Sdf, AJointThatMimicsAnotherMovesWithIt) {
+  const std::string link = inertial(1.0) + "</link>";
+  const Assembly made = assembled(
+      read_sdf("<sdf version='1.11'><model name='m'><link name='a'>" + link + "<link name='b'>" + link +
+                   "<joint name='left' type='revolute'><parent>world</parent><child>a</child><axis><xyz>0 0 1</xyz>"
+                   "</axis></joint><joint name='right' type='revolute'><parent>world</parent><child>b</child>"
+                   "<axis><xyz>0 0 1</xyz><mimic joint='left'><multiplier>-2</multiplier><offset>0.1</offset>"
+                   "<reference>0.3</reference></mimic></axis></joint>"
+                   "<plugin name='JointPositionController'><joint_name>left</joint_name></plugin></model></sdf>",
+               "m.sdf"),
+      {});
+  EXPECT_EQ(made.drives.count("right"), 1u);
+  EXPECT_NEAR(std::stod(made.drives.at("right")), 0.1 + 2.0 * 0.3, 1e-12);  // left stands still at 0
+}
+
+TEST(Sdf, SaysEachMassAndMomentThatItAssumes) {
+  const auto assumed = [](const std::string& inertial) {
+    std::string all;
+    for (const Remark& remark : read_sdf("<sdf version='1.9'><model name='m'><link name='a'>" + inertial +
+                                             "</link><joint name='j' type='revolute'><parent>world</parent>"
+                                             "<child>a</child><axis><xyz>0 0 1</xyz></axis></joint></model></sdf>",
+                                         "m.sdf")
+                                    .assumed)
+      all += remark.text + "; ";
+    return all;
+  };
+  EXPECT_THAT(assumed("<inertial><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>"),
+              HasSubstr("a has 1 kg, SDF's default"));
+  EXPECT_THAT(assumed("<inertial><mass>2</mass><inertia><ixx>1</ixx></inertia></inertial>"),
+              HasSubstr("a has iyy, izz of 1 kg m^2, SDF's default"));
+}
+
 TEST(Sdf, FramesHangInFrames) {
   const MechanismDescription m =
       imported(read_sdf("<sdf version='1.9'><world name='w'><gravity>0 0 -1.62</gravity><model name='m'>"

@@ -118,6 +118,14 @@ class Python(unittest.TestCase):
             motion = bs.report_of_run(MECHANISM, settings=SHORT, rung="quasistatic", step_error="off")
             table = motion.table("timeseries.csv")
             self.assertEqual(table.dtype.names[:4], ("t", "dx", "dy", "dz"))
+            self.assertTrue(all(table.dtype[name].kind in "fi" for name in ("t", "dx")))
+            self.assertEqual(len(table["t"]), len(set(table["t"])))
+            # Text with commas, which the file quotes.
+            with open(os.path.join(motion.folder, "texts.csv"), "w", encoding="utf-8") as file:
+                file.write('name,says,value\na,"one, two",1\nb,"a ""word""",\n')
+            texts = motion.table("texts.csv")
+            self.assertEqual(list(texts["says"]), ["one, two", 'a "word"'])
+            self.assertEqual(texts["value"][0], 1.0)
             run = bs.run(bs.Mechanism(MECHANISM, SHORT), rung="quasistatic", sample=1e-3)
             self.assertEqual(motion.summary["index"], run.index)
 

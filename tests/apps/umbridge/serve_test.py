@@ -162,6 +162,13 @@ class Serve(unittest.TestCase):
             with self.assertRaises(OSError):  # of the same machine, by another address than the one it listens on
                 socket.create_connection(("127.0.0.2", server.port), timeout=5)
 
+    def test_does_not_share_its_port_with_another(self):
+        with served() as server:
+            second = subprocess.run([PROGRAM, "serve", FOUR_BAR, "--input", "clearance.D.radial", "--port",
+                                     str(server.port)], capture_output=True, text=True, check=False, timeout=60)
+            self.assertEqual(second.returncode, 3, second.stderr)
+            self.assertIn("it is taken", second.stderr)
+
     def test_gives_gradients_where_there_are_such(self):
         with Server(FOUR_BAR, "--input", "clearance.D.radial", "--rung", "quasistatic") as server:
             request = {"name": "index", "input": [[1e-4]], "outWrt": 0, "inWrt": 0, "sens": [2.0]}

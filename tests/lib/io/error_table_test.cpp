@@ -129,5 +129,19 @@ TEST(ErrorTable, IsRefusedInOneLineThatSaysWhy) {
       "paths must tell them apart");
 }
 
+// A star stands for a whole name, dots and all.
+TEST(ErrorTable, IsSetByAStarWhateverItsNamesHold) {
+  const auto errors = [](const std::string& path) {
+    std::string text;
+    for (const char* name : {"a", "b.c", "b.d.length"})
+      text += "[[error]]\nname = \"" + std::string(name) +
+              "\"\njoint = \"R\"\nbody = \"arm\"\nrotation = [0, 0, 1]\n";
+    return nominal_parameters(read_with(text, {{path, "1 mrad"}})).error;
+  };
+  EXPECT_EQ(errors("error.*"), (std::vector<double>{1e-3, 1e-3, 1e-3}));
+  EXPECT_EQ(errors("error.b.c"), (std::vector<double>{0.0, 1e-3, 0.0}));
+  EXPECT_EQ(errors("error.*.length"), (std::vector<double>{0.0, 0.0, 1e-3}));
+}
+
 }  // namespace error_table_test
 }  // namespace boresight

@@ -226,5 +226,52 @@ TEST(ContentHash, IsTheSameForTheSameBytesAndSettingsOnly) {
             read_mechanism_text(kRing, "other.toml").content_hash);
 }
 
+MechanismDescription example(const std::string& file, const std::vector<Setting>& settings) {
+  return read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/" + file, settings);
+}
+
+// What a star stands for is every joint that has the number, whatever others there are.
+TEST(Setting, WithAStarMeansThoseThatHaveTheNumber) {
+  const MechanismDescription gimbal = example("bearing-pairs/gimbal.toml", {{"clearance.*.axial", "0.03 mm"}});
+  int set = 0;
+  for (const ClearanceDescription& c : gimbal.clearances)
+    if (gimbal.joints[c.joint].type == JointType::revolute) {
+      EXPECT_DOUBLE_EQ(c.parameters.axial, 0.03e-3) << gimbal.joints[c.joint].name;
+      ++set;
+    } else {
+      EXPECT_EQ(c.parameters.axial, 0.0) << gimbal.joints[c.joint].name;
+    }
+  EXPECT_GT(set, 0);
+  EXPECT_THROW(example("3-rrcpr/3-rrcpr.toml", {{"clearance.*.pad_radius", "3 mm"}}), InputError);  // which none has
+}
+
+TEST(Setting, WithAStarNamesTheFloatingBearings) {
+  const MechanismDescription plain = example("bearing-pairs/gimbal.toml", {});
+  std::string floating;
+  for (const ClearanceDescription& c : plain.clearances)
+    if (const std::string& name = plain.joints[c.joint].name; name.ends_with(".floating")) floating = name;
+  ASSERT_FALSE(floating.empty());
+  const MechanismDescription all =
+      example("bearing-pairs/gimbal.toml", {{"clearance.*.floating.radial", "0.021 mm"}});
+  for (const ClearanceDescription& c : all.clearances) {
+    const bool floats = all.joints[c.joint].name.ends_with(".floating");
+    if (floats) {
+      EXPECT_DOUBLE_EQ(c.parameters.radial, 0.021e-3) << all.joints[c.joint].name;
+    } else {
+      EXPECT_NE(c.parameters.radial, 0.021e-3) << all.joints[c.joint].name;
+    }
+  }
+}
+
+// An absent table is none of the file's mistakes.
+TEST(Setting, BelowATableThatTheFileHasNotIsBlamedItself) {
+  try {
+    example("2-us-pointing/2-us-pointing.toml", {{"payload.mass", "1 kg"}});
+    ADD_FAILURE();
+  } catch (const InputError& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("--set payload.mass=1 kg"), std::string::npos) << refusal.what();
+  }
+}
+
 }  // namespace settings_test
 }  // namespace boresight

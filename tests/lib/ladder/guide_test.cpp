@@ -88,5 +88,39 @@ TEST(SliderOnItsGuide, SlidesDownAnInclineWithCoulombsFriction) {
   }
 }
 
+// A spring across the play carries the slider before the guide does: w = m g / k, and not the whole play.
+TEST(SliderOnItsGuide, HangsInASpringWhereTheSpringHoldsItWithinItsPlay) {
+  constexpr double kStiffness = 0.4e6;
+  MechanismDescription m = slider(Vec3::UnitX(), JournalAxes::parallel, "0*t");
+  SpringDescription spring;
+  spring.first = kGround;
+  spring.second = 0;
+  spring.first_point = Vec3(0.0, 0.0, 0.1);
+  spring.second_point = Vec3::Zero();
+  spring.parameters = {.stiffness = kStiffness, .free_length = 0.1};
+  m.springs.push_back(spring);
+  m.journals = JournalStart::rest;
+  for (const char* rung : {"quasistatic", "perturbation", "multibody"})
+    EXPECT_NEAR(followed(rung, m).index.position_error.max / (2.0 * kGravity / kStiffness), 1.0, 1e-3) << rung;
+}
+
+// Its ends are where it has slid to: at rest on them nothing is pressed in by more than it carries.
+TEST(SliderOnItsGuide, IsDrawnByTheBoundWithItsEndsWhereItHasSlidTo) {
+  MechanismDescription m = slider(Vec3::UnitX(), JournalAxes::free, "0.02*sin(20*t)");
+  m.journals = JournalStart::rest;
+  const auto mechanism = scenes::build(m);
+  RunOptions options;
+  options.sample_spacing = 1e-3;
+  const RunResult bound = make_rung("envelope", mechanism)->run(mechanism->parameters(), options);
+  ASSERT_FALSE(bound.clearances.empty());
+  double farthest = 0.0, deepest = 0.0;
+  for (const ClearanceSample& sample : bound.clearances[0]) {
+    farthest = std::max(farthest, std::abs(sample.offset.y()));
+    deepest = std::max(deepest, sample.penetration);
+  }
+  EXPECT_NEAR(farthest, 0.02 * std::sin(1.0), 1e-4);
+  EXPECT_LT(deepest, 0.05 * kClearance);
+}
+
 }  // namespace guide_test
 }  // namespace boresight

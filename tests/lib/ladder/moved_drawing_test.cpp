@@ -1,6 +1,7 @@
 // Where a drawing puts its origin and its axes is nobody's error.
 #include <gtest/gtest.h>
 
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "scenes.hpp"
@@ -86,6 +87,29 @@ TEST(MovedDrawing, PushesNoJournalAlongItsAxis) {
     for (const ClearanceSample& s : r.clearances[0]) EXPECT_EQ(s.offset.y(), 0.0);
     EXPECT_GT(r.index.position_error.rms, 0.0);
   }
+}
+
+// Ten kilometres away a metre keeps four digits less: the poses that a motion is told by must not be differentiated more closely than that.
+TEST(MovedDrawing, ByTenKilometresChangesNoAccelerationOfAPrescribedPose) {
+  const auto at = [](const std::string& z) {
+    return read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/3-rrcpr/3-rrcpr.toml",
+                          {{"motion.duration", "0.2 s"}, {"motion.position.z", z}});
+  };
+  const MechanismDescription here = at("500*cos(theta)");
+  MechanismDescription far = at("500*cos(theta) + 1e7");
+  for (BodyDescription& b : far.bodies) b.center_of_mass.z() += 1e4;
+  for (JointDescription& j : far.joints) j.point.z() += 1e4;
+  if (far.payload) far.payload->center_of_mass.z() += 1e4;
+  const auto own = std::make_shared<const Mechanism>(here), moved = std::make_shared<const Mechanism>(far);
+  const IdealMotion a = ideal_motion(*own, own->parameters()), b = ideal_motion(*moved, moved->parameters());
+  EXPECT_LT(b.knots(), 4 * a.knots());
+  RunOptions options;
+  options.step = 2e-5;
+  options.sample_spacing = 0.0;
+  const auto index = [&](const std::shared_ptr<const Mechanism>& m) {
+    return make_rung("multibody", m)->run(m->parameters(), options).index.position_error;
+  };
+  EXPECT_NEAR(index(moved).rms / index(own).rms, 1.0, 2e-3);
 }
 
 }  // namespace moved_drawing_test

@@ -300,5 +300,21 @@ TEST(PadInItsSlot, StandsOnThreePads) {
   for (const ContactSummary& contact : exact.contact) EXPECT_GT(contact.contact_fraction, 0.2) << contact.joint;
 }
 
+// Two pads that lie in one plane tie each other's play: what the bound takes from each is still its whole gap.
+TEST(PadInItsSlot, BesideAnotherIsBoundByTheGapOfBoth) {
+  MechanismDescription m = held_stage(0.0);
+  m.gravity.setZero();
+  JointDescription other = m.joints[0];
+  other.name += "2";
+  other.point += Vec3(0.1, 0.05, 0.0);
+  ClearanceDescription clearance = m.clearances[0];
+  m.clearances[0].axes = clearance.axes = JournalAxes::parallel;
+  clearance.joint = static_cast<int>(m.joints.size());
+  m.joints.push_back(other);
+  m.clearances.push_back(clearance);
+  const RunResult bound = followed("envelope", m, "tree", "");
+  EXPECT_NEAR(bound.index.position_error.max / kGap, 1.0, 1e-3);
+}
+
 }  // namespace pad_test
 }  // namespace boresight

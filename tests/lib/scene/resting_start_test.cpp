@@ -184,6 +184,83 @@ TEST(RestingStart, WithoutALoadJournalsStayInTheMiddle) {
   }
 }
 
+// A torque that the bearing bears: the cross carries nothing of it, and rounding is no load.
+constexpr const char* kTwistedShaft = R"toml(format = 1
+name = "torque through a universal joint with parallel axes"
+gravity = ["0 m/s^2", "0 m/s^2", "0 m/s^2"]
+
+[[body]]
+name = "input"
+mass = "1 kg"
+center_of_mass = ["40 mm", "0 mm", "0 mm"]
+inertia = ["0.0002667 kg m^2", "0.0006667 kg m^2", "0.0006667 kg m^2"]
+
+[[body]]
+name = "shaft"
+mass = "2.5 kg"
+center_of_mass = ["230 mm", "0 mm", "0 mm"]
+inertia = ["0.000375 kg m^2", "0.01894 kg m^2", "0.01894 kg m^2"]
+boresight = [1, 0, 0]
+
+[[joint]]
+name = "motor"
+type = "revolute"
+connects = ["ground", "input"]
+point = ["0 mm", "0 mm", "0 mm"]
+axis = [1, 0, 0]
+driven = true
+
+[[joint]]
+name = "cross"
+type = "universal"
+connects = ["input", "shaft"]
+point = ["80 mm", "0 mm", "0 mm"]
+axis = [0, 0, 1]
+second_axis = [0, 1, 0]
+
+[[joint]]
+name = "bearing"
+type = "revolute"
+connects = ["ground", "shaft"]
+point = ["460 mm", "0 mm", "0 mm"]
+axis = [1, 0, 0]
+
+[[load]]
+joint = "bearing"
+torque = "10"
+
+[motion]
+duration = "120 ms"
+drives = { motor = "0.3*t" }
+
+[[clearance]]
+joint = "cross"
+axes = "parallel"
+cross_mass = "60 g"
+cross_radius = "20 mm"
+radial = "0.01 mm"
+axial = "0.01 mm"
+journal_radius = "6 mm"
+cap_radius = "8 mm"
+sleeve_length = "12 mm"
+  [clearance.contact]
+  law = "flores"
+  restitution = 0.85
+  young = ["207 GPa", "72 GPa"]
+  poisson = [0.3, 0.33]
+  density = "2700 kg/m^3"
+  minimum_impact_speed = "1 mm/s"
+)toml";
+
+TEST(RestingStart, LoadsThatIdealConstraintsBearPushNoJournal) {
+  const auto m = std::make_shared<const Mechanism>(read_mechanism_text(kTwistedShaft, "twisted.toml"));
+  for (const char* rung : {"quasistatic", "perturbation", "multibody"}) {
+    const RunResult r = make_rung(rung, m)->run(m->parameters(), {});
+    EXPECT_LT(r.index.position_error.max, 1e-9) << rung;
+    EXPECT_TRUE(r.warnings.empty()) << rung << ": " << r.warnings.front();
+  }
+}
+
 TEST(RestingStart, JournalsThatStartFreeAreSaidToHaveToSettle) {
   Settings centred = {{"motion.drives.A", "0.3"}, {"initial.journals", "centred"}, {"motion.duration", "200 ms"}};
   const auto m = std::make_shared<const Mechanism>(

@@ -316,5 +316,25 @@ TEST(Tipping, OfNoMechanismWhoseLoadsPushItsJournals) {
   }
 }
 
+// A rung is asked for many samples, and keeps a scene for as long as it holds: whichever came before, each answers as if it were alone.
+TEST(Tipping, IsKnownOfEachSampleInAnyOrder) {
+  const MechanismPtr mechanism = scene(kColumn);
+  Parameters tipping = mechanism->parameters(), hanging = tipping;
+  hanging.gravity = -tipping.gravity;
+  RunOptions options;
+  options.sample_spacing = 0.0;
+  for (const char* name : {"quasistatic", "perturbation", "multibody"}) {
+    const auto rung = make_rung(name, mechanism);
+    for (const bool tips : {false, true, true, false, true}) {
+      const RunResult result = rung->run(tips ? tipping : hanging, options);
+      EXPECT_NEAR(result.index.boresight_error.max, tips ? 0.5e-3 : 0.0, 1e-7) << name;
+      EXPECT_EQ(std::any_of(result.warnings.begin(), result.warnings.end(),
+                            [](const std::string& w) { return w.find("tip over") != std::string::npos; }),
+                tips)
+          << name;
+    }
+  }
+}
+
 }  // namespace tipping_test
 }  // namespace boresight

@@ -1,0 +1,15 @@
+// What a study's reader should know of how its motions begin: said of the drawing, once, for all of its samples.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "boresight/mechanism/mechanism.hpp"
+
+namespace boresight::app {
+
+// That loads tip journals over to a side that nothing decides (scene/tipping.hpp), and that no position of rest was found. Samples
+// whose masses or loads are far from the drawing's may do otherwise. Empty where nothing is to be said, or nothing could be found out.
+std::vector<std::string> start_warnings(const Mechanism& mechanism);
+
+}  // namespace boresight::app
