@@ -63,6 +63,8 @@ void check_energy(const std::shared_ptr<const Mechanism>& mechanism, const Limit
   };
   const Outcome outcome = changes(kEnergySteps);
   if (outcome.end == Outcome::End::refused) verdict.refusals.push_back({"energy", outcome.reason});
+  if (outcome.end == Outcome::End::crashed) verdict.fault("crash", "energy", outcome.reason);
+  if (outcome.end == Outcome::End::out_of_time) verdict.fault("hang", "energy", outcome.reason);
   if (outcome.end != Outcome::End::answered) return;
   std::optional<Outcome> finer;
   for (const auto& [formulation, energy] : outcome.answer.items()) {

@@ -62,7 +62,7 @@ class Progress {
 // Several scenes at once, each in its own process; verdicts of those that were tried, in the order of the scenes. Ctrl-C ends it with the
 // scenes under way.
 std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, const TrialOptions& options, int jobs,
-                             KnownFaults& known) {
+                             KnownFaults& known, const std::string& flags) {
   std::vector<Verdict> verdicts(scenes.size());
   struct Running {
     pid_t process;
@@ -119,7 +119,7 @@ std::vector<Verdict> try_all(const std::vector<std::function<Entry()>>& scenes, 
         v = verdict_from(json);
       }
       known.mark(v);
-      print_faults(v);
+      print_faults(v, flags);
       fflush(stdout);
       progress.done(v);
       running.erase(running.begin() + static_cast<std::ptrdiff_t>(k));
@@ -185,7 +185,15 @@ int run(int argc, char** argv) {
       return Entry{fmt::format("seed {}", seed), scene.family, dressed(scene.toml())};
     });
   KnownFaults known = known_file.empty() ? KnownFaults() : KnownFaults(known_file);
-  const std::vector<Verdict> verdicts = try_all(scenes, options, jobs, known);
+  std::string flags;  // of this call, by which a scene is made and tried again
+  for (const auto& [given, flag] : {std::pair{errors, "--errors"},
+                                    {plays, "--plays"},
+                                    {options.automatic, "--auto"},
+                                    {options.verbs, "--verbs"},
+                                    {!options.integrators, "--no-integrators"},
+                                    {!options.invariances, "--no-invariances"}})
+    if (given) flags += std::string(" ") + flag;
+  const std::vector<Verdict> verdicts = try_all(scenes, options, jobs, known, flags);
   print_table(verdicts);
   for (const std::string& gone : known.gone()) fmt::print("mended, take it off the list: {}\n", gone);
   if (!save.empty()) {

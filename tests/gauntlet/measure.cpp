@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "boresight/ladder/ladder.hpp"
+#include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 #include "boresight/stepping/measured_error.hpp"
 
@@ -112,7 +113,7 @@ Json measure(const std::shared_ptr<const Mechanism>& mechanism, const Asked& ask
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC < most_seconds;
   };
   const RunResult r = make_rung(asked.rung, mechanism)->run(mechanism->parameters(), options);
-  if (r.interrupted) throw std::runtime_error("longer than the limit, ended when asked to");
+  if (r.interrupted) throw ComputationError("longer than the limit, ended when asked to");
   std::string start;
   for (const std::string& warning : r.warnings)
     if (warning.find(" start in the middle of their ") != std::string::npos) start = warning;

@@ -77,6 +77,7 @@ int ProgramTrial::call(const std::string& stage, const std::vector<std::string>&
     // A study of the gauntlet's own that is refused for how it is written shows nothing of the program.
     static const std::regex in_a_study(R"(\b(?!scene\.)[a-z]+\.toml:\d+: )");
     if (outcome.status == 2 && std::regex_search(said, in_a_study)) verdict_.fault("verb", stage, said);
+    if (outcome.output.find("a fault in the program itself") != std::string::npos) verdict_.fault("crash", stage, said);
     verdict_.refusals.push_back({stage, said});
   } else if (outcome.status != 0 && outcome.status != 1) {
     verdict_.fault("crash", stage, fmt::format("status {}: {}", outcome.status, said));
@@ -95,6 +96,10 @@ void ProgramTrial::search_outputs(const std::string& stage, const std::string& o
     const std::string text = read(entry.path());
     if (std::regex_search(text, found, in_table))
       verdict_.fault("not finite", stage, entry.path().filename().string() + " holds " + found.str(2));
+    // Numbers that are none are written as nothing; in a motion's history each has one.
+    static const std::regex nothing(R"((\n,|,,|,\n))");
+    if (entry.path().filename() == "timeseries.csv" && std::regex_search(text, nothing))
+      verdict_.fault("not finite", stage, "timeseries.csv has cells without a number");
   }
   if (stage == "export") return;  // writes a table and nothing else
   const Json json = summary(out);

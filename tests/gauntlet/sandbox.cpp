@@ -17,6 +17,8 @@
 #include <typeinfo>
 #include <vector>
 
+#include "boresight/mechanism/error.hpp"
+
 namespace boresight::gauntlet {
 namespace {
 
@@ -118,9 +120,12 @@ Outcome in_sandbox(const Limits& limits, const std::function<Json()>& work) {
     Json message;
     try {
       message["answer"] = work();
-    } catch (const std::exception& e) {
+    } catch (const InputError& e) {
       message["refused"] = e.what();
-      message["type"] = typeid(e).name();
+    } catch (const ComputationError& e) {
+      message["refused"] = e.what();
+    } catch (const std::exception& e) {
+      message["fault"] = std::string(e.what()) + " (" + typeid(e).name() + ")";
     }
     write_all(ends[1], message.dump());
     _exit(0);
@@ -134,10 +139,12 @@ Outcome in_sandbox(const Limits& limits, const std::function<Json()>& work) {
   if (message.is_discarded()) {
     outcome.end = Outcome::End::crashed;
     outcome.reason = "left without an answer, status " + std::to_string(WEXITSTATUS(ended.status));
+  } else if (message.contains("fault")) {
+    outcome.end = Outcome::End::crashed;
+    outcome.reason = "an exception that is no refusal: " + message["fault"].get<std::string>();
   } else if (message.contains("refused")) {
     outcome.end = Outcome::End::refused;
     outcome.reason = message["refused"];
-    outcome.answer = {{"type", message["type"]}};
   } else {
     outcome.answer = message["answer"];
   }

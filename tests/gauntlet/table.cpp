@@ -26,7 +26,7 @@ double ratio(const Claim& claim) {
 
 }  // namespace
 
-void print_faults(const Verdict& v) {
+void print_faults(const Verdict& v, const std::string& flags) {
   for (const Fault& f : v.faults)
     fmt::print("  {} ({}): {}{} in {}: {}\n", v.scene, v.family,
                f.known       ? "known: "
@@ -36,8 +36,8 @@ void print_faults(const Verdict& v) {
   if (v.faults.empty()) return;
   const bool seeded = v.scene.rfind("seed ", 0) == 0;
   fmt::print("    again: boresight_gauntlet {}\n",
-             seeded ? "--from " + v.scene.substr(5) + " --count 1" : "--scene " + v.scene);
-  if (seeded) fmt::print("    file:  boresight_gauntlet --write {} scene.toml\n", v.scene.substr(5));
+             (seeded ? "--from " + v.scene.substr(5) + " --count 1" : "--scene " + v.scene) + flags);
+  if (seeded) fmt::print("    file:  boresight_gauntlet{} --write {} scene.toml\n", flags, v.scene.substr(5));
 }
 
 void print_table(const std::vector<Verdict>& verdicts) {

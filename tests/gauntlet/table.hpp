@@ -1,6 +1,7 @@
 // The gauntlet's result in print: what agreed, what was refused and why, what is wrong, and how errors stand to claims.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "verdict.hpp"
@@ -8,7 +9,7 @@
 namespace boresight::gauntlet {
 
 void print_table(const std::vector<Verdict>& verdicts);
-// A line on each scene with a fault, and how to see it again.
-void print_faults(const Verdict& verdict);
+// A line on each scene with a fault, and how to see it again: flags of the call, each with a space in front.
+void print_faults(const Verdict& verdict, const std::string& flags);
 
 }  // namespace boresight::gauntlet

@@ -25,7 +25,11 @@ void allow_for(const Discrepancy& discrepancy, CalibrationProblem& problem) {
         std::find(paths.begin(), paths.end(), path) == paths.end())
       continue;
     const double told = ParameterPath(m, path).get(problem.runs.front().told());
-    if (!(told > 0.0)) continue;
+    // Runs that set a gap each in its own way have no one gap to fit.
+    if (!(told > 0.0) || std::any_of(problem.runs.begin(), problem.runs.end(), [&](const CalibrationRun& run) {
+          return ParameterPath(m, path).get(run.told()) != told;
+        }))
+      continue;
     problem.parameters.push_back(fitted_parameter(m, path, told));
     problem.parameters.back().has_prior = true;
     problem.parameters.back().prior = discrepancy.axial * told;

@@ -65,11 +65,16 @@ CalibrationResult Calibrator::run() {
     name_outliers();
     explain_what_is_held();
     judge_fit();
-    result_.hold_out = score_held_out(problem_, result_.fit.globals, options_.jobs);
+    score_what_is_held_out();
     for (const std::string& law : options_.laws) {
       tell("contact laws", law);
-      result_.laws.push_back(
-          law_score(problem_, law, result_.fit.globals, fit_options("law " + law, 25, options_.jobs)));
+      try {
+        result_.laws.push_back(
+            law_score(problem_, law, result_.fit.globals, fit_options("law " + law, 25, options_.jobs)));
+      } catch (const ComputationError& failure) {  // no reason to lose the rest
+        result_.warnings.push_back("law " + law + " is not compared: " + failure.what());
+        continue;
+      }
       result_.evaluations += result_.laws.back().evaluations;
     }
     compare(result_.laws);
@@ -141,13 +146,24 @@ void Calibrator::fit_poses() {
   }
 }
 
+void Calibrator::score_what_is_held_out() {
+  try {
+    cut_what_is_held_out(result_.fit.globals);
+    result_.hold_out = score_held_out(problem_, result_.fit.globals, options_.jobs);
+  } catch (const ComputationError& failure) {
+    result_.warnings.push_back(std::string("what is held out is not scored: ") + failure.what());
+  }
+}
+
 void Calibrator::judge_fit() {
   if (!problem_.follows_play()) return judge_poses();
   const VecX rough = noise_from_differences(problem_).cwiseMax(noise_of_steps(problem_));
   double worst = 0.0;
   int channel = 0;
   for (Eigen::Index c = 0; c < rough.size(); ++c)
-    if (problem_.sigma[c] * std::sqrt(result_.inference.variance_factor) / rough[c] > worst) {
+    // Whoever says what the noise is is not told otherwise by readings that are too coarse to show it.
+    if (!(options_.noise.size() > 0 && std::isfinite(options_.noise[problem_.channels[static_cast<std::size_t>(c)]])) &&
+        problem_.sigma[c] * std::sqrt(result_.inference.variance_factor) / rough[c] > worst) {
       worst = problem_.sigma[c] * std::sqrt(result_.inference.variance_factor) / rough[c];
       channel = problem_.channels[static_cast<std::size_t>(c)];
     }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <set>
 
+#include "boresight/contact/normal_law.hpp"
 #include "boresight/io/referred_file.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -50,7 +51,7 @@ PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechan
   p.lower = value("lower");
   p.upper = value("upper");
   p.prior_is_share =
-      table.has("prior") && !is_error && table.is_text("prior") && table.unit_as_written("prior") == "%" && unit != "1";
+      table.has("prior") && !is_error && table.is_text("prior") && table.unit_as_written("prior") == "%";
   if (p.prior_is_share) {
     p.prior = table.quantity("prior", kRatio);
     if (!(*p.prior > 0.0)) table.fail("prior", "more than 0");
@@ -151,6 +152,25 @@ void refuse_what_poses_have_not(const CalibrationPlan& plan, const CalibrationPr
                      "no laws, or a parameter of a clearance beside the errors");
 }
 
+// A law whose numbers the file has not would be compared with none of them.
+void refuse_law_without_numbers(const CalibrationPlan& plan, const MechanismDescription& mechanism,
+                                const std::string& law) {
+  const ContactGeometry geometry = normal_law(law).geometry;
+  for (const ClearanceDescription& c : mechanism.clearances) {
+    const JointDescription& joint = mechanism.joints[static_cast<std::size_t>(c.joint)];
+    const auto refuse = [&](const std::string& expected) {
+      throw InputError(plan.parameters.front().origin, "calibrate.laws", in_quotes(law) + " for " + in_quotes(joint.name),
+                       expected);
+    };
+    if (geometry == ContactGeometry::linear && !(c.parameters.contact.linear_stiffness > 0.0))
+      refuse("laws that need no stiffness of their own, which the mechanism file gives that law alone");
+    if (geometry == ContactGeometry::line &&
+        (!(c.parameters.sleeve_length > 0.0) || joint.type == JointType::spherical || joint.type == JointType::planar ||
+         c.guide == GuideShape::rectangular))
+      refuse("laws for points: a law for cylinders is one of a journal in a sleeve whose length is known");
+  }
+}
+
 // Which fitted parameter a setting would hold at a value of its own; "": none.
 std::string also_fitted(const MechanismDescription& mechanism, const std::set<std::string>& fitted,
                         const std::string& path) {
@@ -228,6 +248,9 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
     const std::string name = candidate.text("name");
     candidate.require(!name.empty(), "name", "a name");
     plan.candidates.push_back({name, "", settings_of(candidate), candidate.origin()});
+    for (const Setting& setting : plan.candidates.back().settings)
+      if (const std::string both = also_fitted(mechanism, fitted, setting.path); !both.empty())
+        candidate.fail_found("set", "\"" + both + "\", which is fitted", "settings of what is known");
     candidate.finish();
   }
   table.finish();
@@ -247,6 +270,7 @@ CalibrationProblem calibration_problem(
       run.data.value.row(static_cast<Eigen::Index>(i)).setConstant(std::numeric_limits<double>::quiet_NaN());
   const Mechanism& mechanism = *problem.runs.front().mechanism;
   for (const PlannedParameter& p : plan.parameters) check_values(p, mechanism, mechanism_with);
+  for (const std::string& law : plan.laws) refuse_law_without_numbers(plan, mechanism.description(), law);
   for (const CalibrationRun& run : problem.runs)
     for (int channel : run.data.channels)
       if (channel_names()[channel].name == std::string("line_of_sight_error") && !mechanism.pointing().line_of_sight)

@@ -79,6 +79,9 @@ class Calibrator {
   std::vector<FitResult> grown(const Globals& at, double most_growth, bool give_up, std::size_t path);
   // While the horizon grows: data that the motion at a place no longer foretells are left out from there on (foretold_data.cpp). Whether none were.
   bool keep_what_is_foretold(const CalibrationProblem& part, const Globals& at);
+  // The same of windows that are held out, which no fit has cut.
+  void cut_what_is_held_out(const Globals& at);
+  void score_what_is_held_out();
   void say_what_is_left_out();
   // By all data from the first, in windows that grow until they are half of a run (growing_windows.cpp); none where one cannot be followed. from, to: the share of the fit that it is.
   std::optional<Globals> joined(const Globals& at, double from, double to);

@@ -10,11 +10,29 @@
 
 namespace boresight {
 
+namespace {
+
+// The last digit of a channel that is read in so few that most readings are there more than once; otherwise 0.
+double last_digit(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  double smallest = std::numeric_limits<double>::infinity();
+  std::size_t different = values.empty() ? 0 : 1;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] > values[i - 1]) {
+      smallest = std::min(smallest, values[i] - values[i - 1]);
+      ++different;
+    }
+  return std::isfinite(smallest) && 2 * different <= values.size() ? smallest : 0.0;
+}
+
+}  // namespace
+
 VecX noise_from_differences(const CalibrationProblem& problem) {
   VecX sigma(static_cast<Eigen::Index>(problem.channels.size()));
   for (int c = 0; c < static_cast<int>(problem.channels.size()); ++c) {
     std::vector<double> differences;
     std::vector<double> sizes;
+    double resolution = 0.0;  // of the readings: of those without a resolution next to nothing
     for (std::size_t r = 0; r < problem.runs.size(); ++r) {
       const int column = problem.column(static_cast<int>(r), c);
       if (column < 0) continue;
@@ -23,13 +41,18 @@ VecX noise_from_differences(const CalibrationProblem& problem) {
       std::vector<double> v;
       for (const double reading : all)
         if (std::isfinite(reading)) v.push_back(reading);
-      const bool gaps = !problem.runs[r].data.file_of.empty();
+      // The same of a channel that is read in every second row.
+      long adjacent = 0;
+      for (Eigen::Index i = 1; i + 1 < all.size(); ++i)
+        adjacent += std::isfinite(all[i - 1]) && std::isfinite(all[i]) && std::isfinite(all[i + 1]);
+      const bool gaps = !problem.runs[r].data.file_of.empty() || 4 * adjacent < static_cast<long>(v.size()) - 2;
       for (Eigen::Index i = 1; !gaps && i + 1 < all.size(); ++i)
         if (const double d = all[i - 1] - 2.0 * all[i] + all[i + 1]; std::isfinite(d))
           differences.push_back(std::abs(d));
       for (std::size_t i = 1; gaps && i + 1 < v.size(); ++i)
         differences.push_back(std::abs(v[i - 1] - 2.0 * v[i] + v[i + 1]));
       for (std::size_t i = 1; i + 1 < v.size(); ++i) sizes.push_back(std::abs(v[i]));
+      resolution = std::max(resolution, last_digit(v));
     }
     double middle = 0.0;
     if (!differences.empty()) {
@@ -45,7 +68,7 @@ VecX noise_from_differences(const CalibrationProblem& problem) {
       std::nth_element(sizes.begin(), ninth, sizes.end());
       large = *ninth;
     }
-    sigma[c] = std::max({1.4826 * middle / std::sqrt(6.0), 1e-6 * large, 1e-15});
+    sigma[c] = std::max({1.4826 * middle / std::sqrt(6.0), resolution / std::sqrt(12.0), 1e-6 * large, 1e-15});
   }
   return sigma;
 }

@@ -88,6 +88,20 @@ bool Calibrator::keep_what_is_foretold(const CalibrationProblem& part, const Glo
   return all;
 }
 
+void Calibrator::cut_what_is_held_out(const Globals& at) {
+  for (std::size_t k = 0; k < problem_.windows.size(); ++k) {
+    Window& w = problem_.windows[k];
+    if (!w.held_out || !w.from_rest || !problem_.follows_play()) continue;
+    const int last = last_foretold(problem_, w, at, 1.0);
+    if (last == w.last) continue;
+    result_.warnings.push_back(problem_.runs[w.run].data.file + ": of " + std::to_string(w.last - w.first + 1) +
+                               " samples that are held out " + std::to_string(last - w.first + 1) +
+                               " are scored, those that a motion of this place foretells");
+    w.last = last;
+    w.end = problem_.end_of(w);
+  }
+}
+
 void Calibrator::say_what_is_left_out() {
   for (const auto& [k, last] : left_out_) {
     const Window& w = problem_.windows[static_cast<std::size_t>(k)];

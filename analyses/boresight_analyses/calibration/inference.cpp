@@ -32,11 +32,17 @@ MatX inverse_of(const MatX& H, const std::vector<int>& free) {
   MatX part(free.size(), free.size());
   for (std::size_t a = 0; a < free.size(); ++a)
     for (std::size_t b = 0; b < free.size(); ++b) part(a, b) = H(free[a], free[b]);
-  // A direction that nothing sees gets a large variance in place of an infinite one.
-  Eigen::SelfAdjointEigenSolver<MatX> eigen(part);
+  // Parameters and biases are of different units, and so are their informations: 1 beside 1e18. Scaled, each loses its own digits alone. A
+  // direction that nothing sees gets a large variance in place of an infinite one.
+  constexpr double kUnseen = 1e-13;
+  VecX unit = VecX::Ones(part.rows());
+  for (Eigen::Index a = 0; a < unit.size(); ++a)
+    if (part(a, a) > 1e-8) unit[a] = 1.0 / std::sqrt(part(a, a));
+  Eigen::SelfAdjointEigenSolver<MatX> eigen(MatX(unit.asDiagonal() * part * unit.asDiagonal()));
   VecX values = eigen.eigenvalues();
-  for (double& v : values) v = 1.0 / std::max(v, 1e-8);
-  const MatX inverse = eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
+  for (double& v : values) v = 1.0 / std::max(v, kUnseen);
+  const MatX inverse = unit.asDiagonal() * eigen.eigenvectors() * values.asDiagonal() *
+                       eigen.eigenvectors().transpose() * unit.asDiagonal();
   for (std::size_t a = 0; a < free.size(); ++a)
     for (std::size_t b = 0; b < free.size(); ++b) out(free[a], free[b]) = inverse(a, b);
   return out;
@@ -159,9 +165,10 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   out.autocorrelation = out.autocorrelations.size() > 1 ? out.autocorrelations[1] : 0.0;
   const double noise = 3.0 / std::sqrt(static_cast<double>(out.values));
   const bool lost_in_time = *std::min_element(out.autocorrelations.begin(), out.autocorrelations.end()) <= noise;
-  out.per_independent_one = values_per_independent_one(
-      lost_in_time ? out.autocorrelations : autocorrelations_of(out.residuals, std::max(1, longest / 2)), noise,
-      static_cast<double>(out.values), out.unknowns);
+  const std::vector<double> until_lost =
+      lost_in_time ? out.autocorrelations : autocorrelations_of(out.residuals, std::max(1, longest / 2));
+  out.per_independent_one =
+      values_per_independent_one(until_lost, noise, static_cast<double>(out.values), out.unknowns);
   const MatX inverse = inverse_of(out.information, free);
   // s^2 is the data's: what was known before is known as well as it was told.
   out.covariance =
@@ -169,7 +176,7 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   out.white_covariance = inverse;
   if (out.autocorrelation > noise) {
     int lost = 1;
-    while (lost + 1 < static_cast<int>(out.autocorrelations.size()) && out.autocorrelations[lost] > noise) ++lost;
+    while (lost + 1 < static_cast<int>(until_lost.size()) && until_lost[static_cast<std::size_t>(lost)] > noise) ++lost;
     out.lags = 2 * lost;
     MatX meat = white;
     for (const WindowInformation& part : parts)

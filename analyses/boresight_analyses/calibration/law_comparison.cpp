@@ -4,15 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "boresight/contact/normal_law.hpp"
 #include "boresight_analyses/calibration/inference.hpp"
 
 namespace boresight {
 
 void hold_out_windows(CalibrationProblem& problem, double share) {
   if (share <= 0.0) return;
-  const int every = std::max(2, static_cast<int>(std::lround(1.0 / share)));
-  for (std::size_t w = 0; w < problem.windows.size(); ++w)
-    problem.windows[w].held_out = static_cast<int>(w) % every == every - 1;
+  // At least one, and at least one that is fitted; spread over all.
+  const auto windows = static_cast<int>(problem.windows.size());
+  if (windows < 2) return;
+  const int held = std::clamp(static_cast<int>(std::lround(share * windows)), 1, windows - 1);
+  for (int k = 0; k < held; ++k)
+    problem.windows[static_cast<std::size_t>((k + 1) * windows / held - 1)].held_out = true;
 }
 
 std::optional<HoldOut> score_held_out(const CalibrationProblem& problem, const Globals& globals, int jobs) {
@@ -38,7 +42,11 @@ LawScore law_score(const CalibrationProblem& problem, const std::string& law, co
   CalibrationProblem other = problem;
   for (CalibrationRun& run : other.runs) {
     MechanismDescription description = run.mechanism->description();
-    for (ClearanceDescription& c : description.clearances) c.contact_law = law;
+    for (ClearanceDescription& c : description.clearances) {
+      c.contact_law = law;
+      // Damping of another law's is a matter of laws for cylinders, which have none of their own.
+      if (normal_law(law).geometry != ContactGeometry::line) c.dissipation_law.clear();
+    }
     run.mechanism = std::make_shared<const Mechanism>(std::move(description));
   }
   // A tangent is that of the law it was taken with.

@@ -96,7 +96,8 @@ class Chart {
     ChartPoint point{
         .setup = setup, .family = family, .measured = measured(rung, setup, options_.most_seconds), .papers = papers};
     spent_ += point.measured.spent_seconds;
-    if (point.measured.refusal.empty()) point.error = relative_error(point.measured, result_.reference.value);
+    if (point.measured.refusal.empty()) 
+      point.error = relative_error(point.measured, result_.reference.value, nothing_of(options_.index));
     result_.points.push_back(std::move(point));
     return result_.points.back();
   }

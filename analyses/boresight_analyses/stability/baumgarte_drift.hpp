@@ -6,7 +6,9 @@
 // 2 alpha Phi' + beta^2 Phi = 0 exactly.
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,6 +50,12 @@ class BaumgarteDrift {
   Vec3 direction_ = Vec3::UnitX();
   std::string joint_name_;
 };
+
+// How far a limit is from theory, relative; infinite where none was found near it.
+inline double off_theory(double measured, double theory) {
+  const double off = std::abs(measured / theory - 1.0);
+  return std::isnan(off) ? std::numeric_limits<double>::infinity() : off;
+}
 
 struct BaumgarteLimit {
   double zeta = 0.0;                    // alpha / beta

@@ -215,8 +215,8 @@ int Scene::stiffest() const {
 
 double StabilityResult::largest_difference() const {
   double worst = 0.0;
-  for (const AxisLimit& l : limits) worst = std::max(worst, std::abs(l.measured / l.theory - 1.0));
-  for (const BaumgarteLimit& l : baumgarte.limits) worst = std::max(worst, std::abs(l.measured / l.theory - 1.0));
+  for (const AxisLimit& l : limits) worst = std::max(worst, off_theory(l.measured, l.theory));
+  for (const BaumgarteLimit& l : baumgarte.limits) worst = std::max(worst, off_theory(l.measured, l.theory));
   return worst;
 }
 

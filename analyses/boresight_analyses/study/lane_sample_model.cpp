@@ -27,11 +27,23 @@ LaneSampleModel::LaneSampleModel(std::shared_ptr<const Mechanism> mechanism,
       lanes_(mechanism_, index_.kind(), index_.start),
       tolerance_(tolerance) {}
 
+namespace {
+
+// What one unit of the index is as a displacement [m]: of a turn, what it displaces by across the mechanism.
+double displacement_of(const IndexChoice& index, const Mechanism& mechanism) {
+  if (index.kind() == PointingQuantity::position_error) return 1.0;
+  if (index.kind() != PointingQuantity::line_of_sight_error) return mechanism.characteristic_length();
+  const BodyDescription& home = mechanism.description().bodies[mechanism.boresight_body()];
+  return mechanism.pointing().line_of_sight->line({home.center_of_mass, Quat(home.axes)}).norm();
+}
+
+}  // namespace
+
 // What the rung itself estimates (perturbation.cpp), from what the lanes keep: the deviation over the mechanism's size, times
 // how much the mechanism magnifies its offsets.
 double LaneSampleModel::nonlinearity(const Parameters& parameters, const LaneOutcome& found) const {
   const double length = mechanism_->characteristic_length();
-  const double deviation = index_.quantity == "position_error" ? found.max / length : found.max;
+  const double deviation = found.max * displacement_of(index_, *mechanism_) / length;
   double offset = 0.0;
   for (const ClearanceParameters& c : parameters.clearance) offset = std::max(offset, widest_gap(c));
   offset += found.max_penetration;

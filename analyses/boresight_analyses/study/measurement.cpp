@@ -50,8 +50,8 @@ std::string RungSetup::family() const {
   return text;
 }
 
-double relative_error(const Measurement& measured, double reference) {
-  if (std::abs(reference) <= kNothing && std::abs(measured.value) <= kNothing) return 0.0;
+double relative_error(const Measurement& measured, double reference, double nothing) {
+  if (std::abs(reference) <= nothing && std::abs(measured.value) <= nothing) return 0.0;
   return (std::abs(measured.value - reference) + measured.half_spread) / std::max(std::abs(reference), 1e-300);
 }
 

@@ -36,6 +36,10 @@ struct RungSetup {
 
 // Of an index, rounding of a motion integrated in metres [m or rad].
 inline constexpr double kNothing = 1e-9;
+// The same of any index: a line of sight errs by a displacement over its target's distance, however far that is.
+inline double nothing_of(const IndexChoice& index) {
+  return index.kind() == PointingQuantity::line_of_sight_error ? 1e-9 * kNothing : kNothing;
+}
 
 struct Measurement {
   std::vector<double> values;  // of the index, in the order of the neighbours
@@ -51,7 +55,7 @@ struct Measurement {
 
 // How far a measured index is from a reference: |value - reference| + half the spread, relative. Indices that
 // are zero on both (angles where axes stay parallel) agree.
-double relative_error(const Measurement& measured, double reference);
+double relative_error(const Measurement& measured, double reference, double nothing = kNothing);
 
 struct MeasureOptions {
   IndexChoice index = {};

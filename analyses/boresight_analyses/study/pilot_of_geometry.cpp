@@ -97,10 +97,11 @@ class PilotOfGeometry {
     if (linear == nullptr) return;
     linear_trial_.value = linear->value(0);
     take(*linear, linear_trial_);
+    const double nothing = nothing_of(options_.index);
     for (const std::size_t k : all) {
       const double size = std::abs(exact.value(k)), off = linear->value(k) - exact.value(k);
-      if (size <= kNothing && std::abs(linear->value(k)) <= kNothing) continue;
-      const double relative = off / std::max(size, kNothing);
+      if (size <= nothing && std::abs(linear->value(k)) <= nothing) continue;
+      const double relative = off / std::max(size, nothing);
       if (std::abs(relative) <= linear_trial_.error) continue;
       linear_trial_.error = std::abs(relative);
       linear_trial_.difference = relative;
@@ -153,10 +154,10 @@ class PilotOfGeometry {
       result_.errors.push_back({p, taken ? difference(*linear, exact, pairs, scores, {p}).bound() : 0.0});
   }
 
-  static ScatterDifference difference(const SetupSamples& setup, const SetupSamples& exact,
-                                      const std::vector<std::size_t>& pairs, const std::vector<double>& scores,
-                                      const ScatterStatistic& statistic) {
-    return compare_scatter(setup.values(pairs), exact.values(pairs), scores, statistic);
+  ScatterDifference difference(const SetupSamples& setup, const SetupSamples& exact,
+                               const std::vector<std::size_t>& pairs, const std::vector<double>& scores,
+                               const ScatterStatistic& statistic) const {
+    return compare_scatter(setup.values(pairs), exact.values(pairs), scores, statistic, nothing_of(options_.index));
   }
 
   std::string why(bool taken) const {

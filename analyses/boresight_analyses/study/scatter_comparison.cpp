@@ -56,7 +56,7 @@ std::string ScatterStatistic::title() const {
 }
 
 ScatterDifference compare_scatter(std::span<const double> values, std::span<const double> reference,
-                                  std::span<const double> scores, const ScatterStatistic& statistic) {
+                                  std::span<const double> scores, const ScatterStatistic& statistic, double nothing) {
   ScatterDifference d;
   d.pairs = values.size();
   d.half_width = std::numeric_limits<double>::infinity();
@@ -65,8 +65,8 @@ ScatterDifference compare_scatter(std::span<const double> values, std::span<cons
     const double x = statistic_of(values, scores, statistic, left_out);
     const double y = statistic_of(reference, scores, statistic, left_out);
     if (left_out >= values.size()) d.value = x, d.reference = y;
-    if (std::abs(x) <= kNothing && std::abs(y) <= kNothing) return 0.0;
-    return (x - y) / std::max(std::abs(y), kNothing);
+    if (std::abs(x) <= nothing && std::abs(y) <= nothing) return 0.0;
+    return (x - y) / std::max(std::abs(y), nothing);
   };
   d.difference = relative(values.size());
   if (values.size() < 4) return d;

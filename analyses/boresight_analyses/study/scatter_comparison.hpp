@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "boresight_analyses/study/measurement.hpp"
+
 namespace boresight {
 
 // What a study asks of the index over its scatter.
@@ -39,7 +41,8 @@ struct ScatterDifference {
 // values, reference: of the same samples. scores: their normal scores; empty where nothing ranks them: the values' own
 // mean and standard deviation then stand for a and s, and the pairs must be plain draws.
 ScatterDifference compare_scatter(std::span<const double> values, std::span<const double> reference,
-                                  std::span<const double> scores, const ScatterStatistic& statistic);
+                                  std::span<const double> scores, const ScatterStatistic& statistic,
+                                  double nothing = kNothing);
 
 // Samples to pair, in the order in which to take them, and their scores.
 struct ChosenSamples {

@@ -128,9 +128,11 @@ std::string requirement_sentence(const BudgetStudy& s, const RequirementAnswer& 
   else if (r.margin() < 0.0)
     text += fmt::format(", {} above the limit", readable_share(-r.margin() / r.asked.limit));
   else
-    text += fmt::format(": the members do not contradict it, and show {:.4g} % with {} confidence{}",
-                        100.0 * r.compliance.shown, percent(r.asked.confidence),
-                        r.judgement.by == Judgement::By::nothing ? "" : "; more of them may show it");
+    text += r.judgement.by == Judgement::By::nothing
+                ? std::string(": the members do not contradict it")
+                : fmt::format(": the members do not contradict it, and show {:.4g} % with {} confidence; more of them "
+                              "may show it",
+                              100.0 * r.compliance.shown, percent(r.asked.confidence));
   return r.judgement.why.empty() ? text : text + " (" + r.judgement.why + ")";
 }
 

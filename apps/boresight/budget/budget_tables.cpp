@@ -99,7 +99,9 @@ report::Table requirement_table(const BudgetStudy& s, const Budget& b) {
     table.rows.push_back(
         {requirement_title(s, r.asked), budget_value(s, r.asked.limit), budget_value(s, r.level.level.value),
          interval_text(s, r.level.level), readable_share(r.margin() / r.asked.limit),
-         fmt::format("{:.4g} % with {} confidence", 100.0 * r.compliance.shown, percent(r.asked.confidence)),
+         r.judgement.by == Judgement::By::nothing
+             ? std::string("nothing")
+             : fmt::format("{:.4g} % with {} confidence", 100.0 * r.compliance.shown, percent(r.asked.confidence)),
          r.compliance.met ? "met" : "not shown to be met",
          fmt::format("{} ({})", budget_value(s, r.level.by_rule), r.rule_says_met() ? "met" : "not met"),
          kFromMembers});
@@ -204,8 +206,9 @@ report::Table contributor_table(const BudgetStudy& s) {
         {m.joints[static_cast<std::size_t>(c.joint)].name, kClearanceKind,
          "the motion's own, " + readable(s.mechanism.duration(), "s"),
          (slider ? "gaps " + readable(c.parameters.width_gap, "m") + " and " + readable(c.parameters.height_gap, "m")
-                 : (pad ? "gap " : "radial " + readable(c.parameters.radial, "m") + ", axial ") +
-                       readable(c.parameters.axial, "m")) +
+          : pad  ? "gap " + readable(c.parameters.axial, "m")
+                 : "radial " + readable(c.parameters.radial, "m") +
+                       (c.parameters.axial > 0.0 ? ", axial " + readable(c.parameters.axial, "m") : "")) +
              (pad || slider ? " on each side" : "") + " where nothing else is drawn",
          "all", kFromNominal});
   }

@@ -287,8 +287,10 @@ std::vector<report::Fact> facts_of(const MonteCarloStudy& s) {
     if (std::isfinite(p.value))
       facts.push_back({.label = "Share within the limit",
                        .value = readable_share(p.value),
-                       .note = fmt::format("at least {} with {} confidence", readable_share(p.low),
-                                           readable_share(s.plan.requirement->confidence))});
+                       .note = s.estimates.requirement->judgement.by == Judgement::By::nothing
+                                   ? std::string()
+                                   : fmt::format("at least {} with {} confidence", readable_share(p.low),
+                                                 readable_share(s.plan.requirement->confidence))});
   }
   return facts;
 }
@@ -317,7 +319,9 @@ std::string verdict_sentence(const MonteCarloStudy& s) {
       "Wanted: {} at or below {} in {} of all cases, with {} confidence: {}.", s.study.index.title(),
       readable_as(asked.limit, s.study.index.si_unit(), asked.unit), fmt::format("{:g} %", 100.0 * asked.probability),
       fmt::format("{:g} %", 100.0 * asked.confidence), found.met ? "met" : "not shown to be met");
-  if (std::isfinite(found.probability.value))
+  if (std::isfinite(found.probability.value) && found.judgement.by == Judgement::By::nothing)
+    text += fmt::format(" The share is {:.6g} %.", 100.0 * found.probability.value);
+  else if (std::isfinite(found.probability.value))
     text += fmt::format(" The share is {:.6g} %, and at least {:.6g} % with {} confidence.",
                         100.0 * found.probability.value, 100.0 * found.probability.low,
                         found.judgement.confidence == asked.confidence

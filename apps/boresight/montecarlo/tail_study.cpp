@@ -170,7 +170,7 @@ int run_tail(const SeveralRungs& s) {
   document.facts = {{"exceed the limit", fmt::format("{:.3g}", p.value), "",
                      fmt::format("at most {:.3g} with {:g} % confidence", p.high, 100.0 * requirement.confidence)},
                     {"standard error", fmt::format("{:.2g}", estimate.standard_error), "",
-                     fmt::format("forecast {:.2g}", pilot.standard_error)},
+                     pilot.informed ? fmt::format("forecast {:.2g}", pilot.standard_error) : std::string()},
                     {"effective points beyond", readable_number(estimate.effective_exceedances), "", ""},
                     {"CPU", readable(before + spent, "s"), "", "search and pilot included"}};
   report::Table table{.title = "What the same CPU would have given",
@@ -184,6 +184,8 @@ int run_tail(const SeveralRungs& s) {
     table.caption +=
         fmt::format(" A sample takes {} on {} and {} on {}, which was left alone.", readable(found.costs.exact, "s"),
                     asked.exact, readable(found.costs.cheap, "s"), asked.cheap);
+  else if (!pilot.informed)
+    table.caption = "No point of the pilot exceeded the limit, so there is no forecast.";
   else
     table.caption += " The cheap rung found the tail; measuring it on the exact rung alone is the better buy here.";
   document.sections.insert(

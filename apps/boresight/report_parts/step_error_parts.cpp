@@ -22,7 +22,11 @@ constexpr double kOfRounding = 1e-9;
 // tolerances of an integrator leave: no clearance and no error of a drawing is as small.
 constexpr double kNothing = 1e-9;
 bool is_nothing(double value, const IndexChoice& of, double size) {
-  return std::abs(value) <= kNothing * (of.kind() == PointingQuantity::position_error ? size : 1.0);
+  // A line of sight errs by a displacement over its target's distance, however far that is.
+  const double unit = of.kind() == PointingQuantity::position_error        ? size
+                      : of.kind() == PointingQuantity::line_of_sight_error ? 1e-9
+                                                                           : 1.0;
+  return std::abs(value) <= kNothing * unit;
 }
 
 // Neighbouring steps lie as far from each other as from finer ones.

@@ -98,8 +98,9 @@ report::Section nonlinear_section(const NonlinearAnalysis& analysis, const Mecha
     section.items.push_back(report::Text{sentence(j)});
     const ClearanceParameters& gap = mechanism.parameters().clearance[static_cast<std::size_t>(j.clearance)];
     const double radial = 1e6 * gap.*carrying_gap(gap);
+    const bool slider = is_slider(mechanism, j.clearance);
     report::Panels panels{
-        .title = j.joint + ": the journal's centre in its sleeve",
+        .title = j.joint + (slider ? ": the slider's centre in its guide" : ": the journal's centre in its sleeve"),
         .caption =
             "Above the section: one point a period. One point: the drive's own period; a few: a multiple of "
             "it; a closed curve: two periods that do not fit; a cloud: chaos, or periods too few to tell.",
@@ -116,7 +117,13 @@ report::Section nonlinear_section(const NonlinearAnalysis& analysis, const Mecha
     };
     report::Chart place = markers("Poincaré section: place", 0, 1, "x", "z", "µm", 1e6);
     place.equal_axes = true;
-    place.circles.push_back({0.0, 0.0, radial, "bore"});
+    if (slider) {
+      const double w = 1e6 * gap.width_gap, h = 1e6 * gap.height_gap;
+      place.series.push_back(
+          {.name = "room in the guide", .x = report::Numbers{-w, w, w, -w, -w}, .y = report::Numbers{-h, -h, h, h, -h}});
+    } else {
+      place.circles.push_back({0.0, 0.0, radial, "bore"});
+    }
     panels.panels.push_back(std::move(place));
     panels.panels.push_back(markers("Poincaré section: state along x", 0, 2, "x", "rate of x", "mm/s", 1e3));
     // The newest ten periods, so that single orbits can be told apart.

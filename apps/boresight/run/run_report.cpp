@@ -58,6 +58,9 @@ report::Section joint_section(const Mechanism& mechanism, const RunResult& resul
   const ClearanceParameters& p = mechanism.parameters().clearance[c];
   const bool ball = is_ball(mechanism, static_cast<int>(c)), pad = is_pad(mechanism, static_cast<int>(c)),
              slider = is_slider(mechanism, static_cast<int>(c));
+  const MechanismDescription& m = mechanism.description();
+  // Along its axis it goes where the mechanism has it, past no end faces.
+  const bool slides = slides_along_axis(m.joints[static_cast<std::size_t>(m.clearances[c].joint)].type);
   report::Section section{
       .id = fmt::format("joint-{}", c + 1),
       .title = "Joint " + joint,
@@ -68,6 +71,7 @@ report::Section joint_section(const Mechanism& mechanism, const RunResult& resul
                                       "along its height of {}; {} long.",
                                       readable(p.width_gap, "m"), readable(p.width, "m"), readable(p.height_gap, "m"),
                                       readable(p.height, "m"), readable(p.length, "m"))
+               : slides ? fmt::format("Radial clearance {}; it slides freely along its axis.", readable(p.radial, "m"))
                         : fmt::format("Radial clearance {}, axial clearance {} per side.", readable(p.radial, "m"),
                                       readable(p.axial, "m"))};
   if (slider)
@@ -90,7 +94,7 @@ report::Section joint_section(const Mechanism& mechanism, const RunResult& resul
                                              : axial.y.unit == "µm" ? 1e6
                                              : axial.y.unit == "nm" ? 1e9
                                                                     : 1.0};
-  if (!ball && !slider)
+  if (!ball && !slides)
     axial.lines = {{'y', p.axial * axial_unit.per_si, pad ? "face" : "end face"},
                    {'y', -p.axial * axial_unit.per_si, pad ? "face" : "end face"}};
   panels.panels = {joint_chart("Penetration", "penetration", "m", result, c,
@@ -107,8 +111,7 @@ report::Section joint_section(const Mechanism& mechanism, const RunResult& resul
     panels.panels.push_back(joint_chart(
         ball ? "Offset" : "Radial offset", "distance of the centres", "m", result, c,
         [ball](const ClearanceSample& s) { return ball ? s.offset.norm() : std::hypot(s.offset.x(), s.offset.z()); }));
-  // Along its axis a slider goes where the mechanism has it.
-  if (!slider) panels.panels.push_back(std::move(axial));
+  if (!slides) panels.panels.push_back(std::move(axial));
   section.items.push_back(std::move(panels));
   return section;
 }
@@ -132,9 +135,16 @@ report::Panels event_histograms(const RunResult& result) {
   };
   panels.panels = {histogram("Approach speed", "speed", "mm/s", speed),
                    histogram("Duration", "duration", "ms", duration), histogram("Largest force", "force", "kN", force)};
-  const double valid = result.contact.empty() ? 0.0 : 1e3 * result.contact.front().validity_speed;
+  // Of several joints, the law that holds least far.
+  double valid = 0.0;
+  std::string joint;
+  for (const ContactSummary& c : result.contact)
+    if (c.validity_speed > 0.0 && std::isfinite(c.validity_speed) && (valid == 0.0 || 1e3 * c.validity_speed < valid)) {
+      valid = 1e3 * c.validity_speed;
+      joint = result.contact.size() > 1 ? " of " + c.joint : "";
+    }
   if (valid > 0.0 && !speed.empty() && valid < 1.5 * *std::max_element(speed.begin(), speed.end()))
-    panels.panels[0].lines.push_back({'x', valid, "the contact law holds up to here"});
+    panels.panels[0].lines.push_back({'x', valid, "the contact law" + joint + " holds up to here"});
   return panels;
 }
 

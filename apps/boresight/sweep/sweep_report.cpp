@@ -51,6 +51,9 @@ report::Chart against_parameter(const std::string& title, const std::string& lab
   const DisplayUnit y_unit = display_unit(si_unit, most);
   report::Chart chart{.title = title, .caption = {}, .x = {axis.name(), x_unit.name}, .y = {label, y_unit.name}};
   const std::size_t runs = plan.points() / axis.values.size();  // combinations of the other axes
+  if (runs > kMostOverlaid)
+    chart.caption = fmt::format("The first {} of {} combinations of the other parameters; sweep.csv has all.",
+                                kMostOverlaid, runs);
   for (std::size_t r = 0; r < std::min(runs, kMostOverlaid); ++r) {
     for (const Measure& m : measures) {
       report::Numbers x, y;
@@ -100,7 +103,8 @@ report::Section index_section(const Study& study, const SweepPlan& plan, const S
     panels.panels.push_back(
         against_parameter("Boresight error", "boresight error", "rad", plan, result,
                           {{"maximum", of("boresight_error", "max")}, {"RMS", of("boresight_error", "rms")}}));
-  if (!result.points.empty() && result.points.front().result.index.has_line_of_sight)
+  if (std::any_of(result.points.begin(), result.points.end(),
+                  [](const SweepPoint& p) { return p.result.index.has_line_of_sight; }))
     panels.panels.push_back(
         against_parameter("Line-of-sight error", "line-of-sight error", "rad", plan, result,
                           {{"maximum", of("line_of_sight_error", "max")}, {"RMS", of("line_of_sight_error", "rms")}}));

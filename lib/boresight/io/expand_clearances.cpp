@@ -62,7 +62,7 @@ Node without_shorthand(const Node& table) {
 void refuse(const Cursor& cursor, const std::vector<const char*>& keys, const std::string& found,
             const std::string& expected) {
   for (const char* key : keys)
-    if (cursor.has(key)) cursor.fail_found(key, found, expected);
+    if (cursor.has_by_name(key)) cursor.fail_found(key, found, expected);
 }
 
 class Expansion {

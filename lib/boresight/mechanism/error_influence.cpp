@@ -90,6 +90,9 @@ void ErrorInfluence::right_side(std::size_t e, double t) {
   if (error.kind != ErrorDescription::Kind::drive) return;
   const int k = block_of_[error.joint];
   const double errs = error.law->at(laws_[error.joint], t).value;
+  if (!std::isfinite(errs))
+    throw ComputationError("the law of error." + error.name + " has no value at t = " + std::to_string(t) +
+                           " s, where its drive is at " + std::to_string(laws_[error.joint].value) + " (rad or m)");
   right_[k][closed_.joints()[k].drive_row()] += closed_.joints()[k].drive_sign() * errs;
   asked_ = std::abs(errs) / (closed_.joints()[k].is_distance(closed_.joints()[k].drive_row()) ? length : 1.0);
 }

@@ -26,6 +26,7 @@ constexpr int kInstantsAKnot = 2;
 // A motion that ripples faster than its knots show is looked at this often, each time at so many times more instants at most.
 constexpr int kMostLooks = 4;
 constexpr double kMostTimesMore = 16.0;
+constexpr double kTimesMoreOfRipples = 5.0;  // no fraction of which two that are tried are alike
 constexpr long kInstantsBetweenLooks = 256;  // at whether to go on
 
 // How much higher than at its instants a number is somewhere between them, by the parabola through a peak and its neighbours.
@@ -109,6 +110,34 @@ RunResult follow(const Mechanism& mechanism, const std::function<void(double, Id
   return result;
 }
 
+// What goes on a whole number of times between two instants is a constant at all of them: whether, at places of no order that a motion has,
+// the pose is elsewhere than its neighbours a step apart say.
+bool ripples_between(const Mechanism& mechanism, const std::function<void(double, IdealState&)>& state_at,
+                     const IdealMotion& commanded, double step) {
+  constexpr int kPlaces = 31;
+  constexpr double kGolden = 0.6180339887498949, kBeside = 0.02, kRounding = 1e-11;
+  const int boresight = mechanism.boresight_body();
+  const double length = mechanism.characteristic_length(), duration = mechanism.duration();
+  const auto error_at = [&](double t) {
+    IdealState state;
+    state_at(std::min(duration, t), state);
+    const BodyMotion ideal = commanded.body(std::min(duration, t), boresight);
+    const BodyMotion& body = state.bodies[boresight];
+    const PoseError error = pose_error({body.p, Quat(body.R)}, {ideal.p, Quat(ideal.R)}, mechanism.pointing());
+    Vec6 off;
+    off << error.displacement / length, error.rotation;
+    return off;
+  };
+  double largest = 0.0, off = 0.0;
+  for (int i = 1; i <= kPlaces; ++i) {
+    const double place = std::fmod(i * kGolden, 1.0) * duration / step, whole = std::floor(place), share = place - whole;
+    const Vec6 before = error_at(whole * step), after = error_at((whole + 1.0) * step), here = error_at(place * step);
+    off = std::max(off, (here - (1.0 - share) * before - share * after).norm());
+    largest = std::max({largest, here.norm(), before.norm()});
+  }
+  return off > kBeside * largest && largest > kRounding;
+}
+
 }  // namespace
 
 RunResult motion_without_play(const Mechanism& mechanism, const std::function<void(double, IdealState&)>& state,
@@ -125,9 +154,15 @@ RunResult motion_without_play(const Mechanism& mechanism, const std::function<vo
   for (int look = 1;; ++look) {
     Peaks peaks;
     RunResult result = follow(mechanism, state, commanded, parameters, options, step, peaks);
-    if (result.interrupted || peaks.missed() <= kMissed || look == kMostLooks) return result;
-    // What is missed goes with the square of the step.
-    step /= std::clamp(std::ceil(std::sqrt(peaks.missed() / kMissed)), 2.0, kMostTimesMore);
+    if (result.interrupted || look == kMostLooks) return result;
+    if (peaks.missed() > kMissed) {
+      // What is missed goes with the square of the step.
+      step /= std::clamp(std::ceil(std::sqrt(peaks.missed() / kMissed)), 2.0, kMostTimesMore);
+    } else if (ripples_between(mechanism, state, commanded, step)) {
+      step /= kTimesMoreOfRipples;
+    } else {
+      return result;
+    }
   }
 }
 

@@ -76,6 +76,8 @@ StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& co
     double error = 0.0;
     for (int e = 0; e < count(); ++e)
       if (largest[e] > 0.0) error = std::max(error, missed[e] / largest[e]);
+    // What goes on a whole number of times between instants that halve the motion again and again is a constant at all of them.
+    if (error <= 16.0 * kAccuracy) error = missed_elsewhere(at, scale, largest);
     // The finer grid's own error is a sixteenth of what the coarser one missed.
     if (error <= 16.0 * kAccuracy) break;
     if (halving == kMostHalvingsOfColumns) {
@@ -86,6 +88,23 @@ StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& co
     }
   }
   table_shifts(influence);
+}
+
+double StandingErrors::missed_elsewhere(const std::function<MatX(double)>& at, const VecX& scale,
+                                        const Eigen::RowVectorXd& largest) const {
+  // Cells in no order that a motion has, each at a place of its own.
+  constexpr int kPlaces = 29;
+  constexpr double kGolden = 0.6180339887498949;
+  double missed = 0.0;
+  for (int i = 1; i <= kPlaces; ++i) {
+    const double place = std::fmod(i * kGolden, 1.0) * cells();
+    const int k = std::min(static_cast<int>(place), cells() - 1);
+    const MatX off = at(place * spacing_) - cubic_at(knots_, k, place - k);
+    const Eigen::RowVectorXd size = (scale.asDiagonal() * off).cwiseAbs().colwise().maxCoeff();
+    for (Eigen::Index e = 0; e < size.size(); ++e)
+      if (largest[e] > 0.0) missed = std::max(missed, size[e] / largest[e]);
+  }
+  return missed;
 }
 
 // Of the knots there are now.

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -51,6 +52,9 @@ class StandingErrors {
   int instants_a_cell() const { return std::max(2, (kFewestInstants + cells() - 1) / cells()); }
 
  private:
+  // The largest miss of the knots' cubics at places that are no fractions of the motion, relative to each column's largest.
+  double missed_elsewhere(const std::function<MatX(double)>& at, const VecX& scale,
+                          const Eigen::RowVectorXd& largest) const;
   void table_shifts(ErrorInfluence& influence);
   const TimeTable& kept(std::map<int, TimeTable>& tables, int body, bool rate) const;
 

@@ -132,6 +132,9 @@ StandingLoads::Parts StandingLoads::computed(std::size_t error, const Parameters
   const auto at = [&](double t) { return VecX((built.parts(t) - drawn_->parts_once(t)) / with.error[error]); };
   // As fine as the influence's own first grid: no turn of the motion is overlooked.
   int cells = std::max(kFewestCellsOfLoads, commanded_->knots() / 16);
+  // Nor a ripple of a drive, which the influence's grid has found out.
+  if (mechanism_.description().errors[error].kind == ErrorDescription::Kind::drive)
+    cells = std::max(cells, influence.cells() / 4);
   const auto when = [&](double k) { return std::min(duration, duration * k / cells); };
   std::vector<VecX> knots;
   double load = 0.0;  // the largest, in forces, per unit of the error

@@ -9,9 +9,9 @@
 namespace boresight {
 namespace {
 
-// Instants that are looked at, both ends among them, each the knot before it: no two of them lie alike in a period of the motion, as
-// their number is prime.
-constexpr int kInstants = 13;
+// Instants that are looked at, both ends among them, each the knot before it: no two of them lie alike in a period of the motion, as the
+// number of gaps between them is prime.
+constexpr int kInstants = 14;
 // Below this share of the others an index counts as next to nothing.
 constexpr double kNextToNoError = 1e-4;
 

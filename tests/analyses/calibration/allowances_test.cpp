@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "boresight_analyses/calibration/allowances.hpp"
 #include "four_bar_rig.hpp"
 
 namespace boresight {
@@ -134,6 +135,25 @@ TEST(Fit, WeighsWhatWasKnownOfAContact) {
   radial.has_prior = true;
   radial.prior = 100.0 * error;
   EXPECT_NEAR(problem.values(fit(problem, problem.start(), {}, {}).globals)[0], found, 0.1 * error);
+}
+
+// Runs with shims of their own have no one gap to fit.
+TEST(Allowances, LeaveAGapAloneThatEachRunSetsInItsOwnWay) {
+  const Bench bench({2.0, 2.4}, 0.02, false);
+  const auto axial = [](const CalibrationProblem& problem) {
+    return std::any_of(problem.parameters.begin(), problem.parameters.end(),
+                       [](const FittedParameter& p) { return p.path == "clearance.D.axial"; });
+  };
+  CalibrationProblem same = bench.problem({}, kThree), other = bench.problem({}, kThree);
+  MechanismDescription shimmed = other.runs[1].mechanism->description();
+  for (ClearanceDescription& c : shimmed.clearances) c.parameters.axial *= 3.0;
+  other.runs[1].mechanism = std::make_shared<const Mechanism>(shimmed);
+  for (CalibrationProblem* problem : {&same, &other}) {
+    ASSERT_FALSE(axial(*problem));
+    allow_for({.axial = 0.2}, *problem);
+  }
+  EXPECT_TRUE(axial(same));
+  EXPECT_FALSE(axial(other));
 }
 
 }  // namespace allowances_test

@@ -41,5 +41,18 @@ TEST(CalibrationPlan, TakesWholeNumbersUpToTheEndsThatItNames) {
   EXPECT_THAT(fault("corrections = 11"), testing::HasSubstr("0 to 10"));
 }
 
+TEST(CalibrationPlan, TakesAPriorAsAShareOfWhatHasNoUnitToo) {
+  const CalibrationPlan plan = read(
+      "[[calibrate.parameter]]\npath = \"clearance.A.friction.coefficient\"\nstart = 0.08\nprior = \"20 %\"\n");
+  ASSERT_EQ(plan.parameters.size(), 2u);
+  EXPECT_TRUE(plan.parameters[0].prior_is_share);
+  EXPECT_NEAR(*plan.parameters[0].prior, 0.2, 1e-15);
+}
+
+TEST(CalibrationPlan, RefusesACandidateThatSetsWhatIsFitted) {
+  EXPECT_THAT(fault("[[calibrate.candidate]]\nname = \"next\"\nset = [\"clearance.A.radial=0.1 mm\"]\n"),
+              testing::HasSubstr("which is fitted"));
+}
+
 }  // namespace calibration_plan_test
 }  // namespace boresight

@@ -45,5 +45,22 @@ TEST(NoiseFromDifferences, OfExactDataIsAMillionthOfTheirSize) {
   EXPECT_NEAR(noise_from_differences(of_one_channel(readings))[0], 19e-9, 1e-15);
 }
 
+// Of a slow sensor in the table of a fast one, no three rows in a row have a reading.
+TEST(NoiseFromDifferences, OfAChannelThatIsReadEverySecondRowIsThatOfItsReadings) {
+  std::mt19937_64 engine(5);
+  std::normal_distribution<double> normal;
+  std::vector<double> readings;
+  for (int i = 0; i < 8000; ++i)
+    readings.push_back(i % 2 == 0 ? 1e-3 * std::sin(0.005 * i) + 3e-6 * normal(engine)
+                                  : std::numeric_limits<double>::quiet_NaN());
+  EXPECT_NEAR(noise_from_differences(of_one_channel(readings))[0], 3e-6, 0.2e-6);
+}
+
+TEST(NoiseFromDifferences, IsNoLessThanTheLastDigitOfReadingsLeaves) {
+  std::vector<double> readings;
+  for (int i = 0; i < 8000; ++i) readings.push_back(1e-6 * std::round(1e6 * 1e-5 * std::sin(0.001 * i)));
+  EXPECT_NEAR(noise_from_differences(of_one_channel(readings))[0], 1e-6 / std::sqrt(12.0), 1e-12);
+}
+
 }  // namespace channel_noise_test
 }  // namespace boresight

@@ -77,5 +77,22 @@ TEST(LawComparisonLong, TheWrongLawIsDecidedForNoMoreOftenForNoiseThatFollowsIts
   }
 }
 
+// However few windows there are, one is kept out where a share is asked for, and one is fitted.
+TEST(HoldOut, KeepsAtLeastOneWindowOut) {
+  const Bench bench({2.0, 2.2, 2.4}, 0.02, false);
+  CalibrationProblem problem = problem_of(bench, 0.01, 0.0, 1);
+  const auto held = [&](double share) {
+    for (Window& w : problem.windows) w.held_out = false;
+    hold_out_windows(problem, share);
+    return std::count_if(problem.windows.begin(), problem.windows.end(), [](const Window& w) { return w.held_out; });
+  };
+  ASSERT_EQ(problem.windows.size(), 3u);
+  EXPECT_EQ(held(0.0), 0);
+  EXPECT_EQ(held(0.1), 1);
+  EXPECT_EQ(held(0.25), 1);
+  EXPECT_EQ(held(0.6), 2);
+  EXPECT_EQ(held(0.99), 2);
+}
+
 }  // namespace law_comparison_test
 }  // namespace boresight

@@ -51,5 +51,13 @@ TEST(Measurement, HasNeighboursOfTheIntegratorThatTookOver) {
   EXPECT_LT(m.half_spread, 0.02 * m.value);
 }
 
+// Sighted from 400 km, a displacement of a tenth of a millimetre is 0.25 nrad: an error like any other.
+TEST(Measurement, OfALineOfSightIsNothingOnlyWhereTheDisplacementIs) {
+  Measurement m;
+  m.value = 2.0e-10;
+  EXPECT_GT(relative_error(m, 2.5e-10, nothing_of({"line_of_sight_error", "max"})), 0.1);
+  EXPECT_EQ(relative_error(m, 2.5e-10, nothing_of({"position_error", "max"})), 0.0);
+}
+
 }  // namespace measurement_test
 }  // namespace boresight

@@ -245,6 +245,12 @@ TEST(Setting, WithAStarMeansThoseThatHaveTheNumber) {
   EXPECT_THROW(example("3-rrcpr/3-rrcpr.toml", {{"clearance.*.pad_radius", "3 mm"}}), InputError);  // which none has
 }
 
+TEST(Setting, WithAStarMeansThePairsAmongTheBearings) {
+  const MechanismDescription m = example("bearing-pairs/preloaded.toml", {{"clearance.*.preload", "41 N"}});
+  ASSERT_FALSE(m.springs.empty());
+  for (const SpringDescription& spring : m.springs) EXPECT_DOUBLE_EQ(spring.parameters.preload, 41.0);
+}
+
 TEST(Setting, WithAStarNamesTheFloatingBearings) {
   const MechanismDescription plain = example("bearing-pairs/gimbal.toml", {});
   std::string floating;

@@ -106,5 +106,25 @@ TEST(MotionWithoutPlay, EndsWhereItIsInterrupted) {
     }
 }
 
+// A ripple with a whole number of cycles between any two instants that halve the motion, or that divide it by a thousand, is a constant at all
+// of them: of 50 urad it has an RMS of 50 / sqrt(2), on every rung.
+TEST(MotionWithoutPlay, SeesARippleThatGoesOnBetweenItsInstants) {
+  for (const char* ripple : {"cos(64*q)", "sin(64*q + 0.5)", "cos(500*q)", "cos(1000*q)"}) {
+    MechanismDescription m = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/altaz-gimbal/altaz-gimbal.toml",
+                                            {{"motion.drives.azimuth", "2*pi*t"},
+                                             {"motion.drives.elevation", "0.4"},
+                                             {"motion.duration", "1 s"}});
+    m.errors.clear();
+    m.errors.push_back(scenes::drive_error(m, "azimuth", ripple));
+    m.errors.back().value = 50e-6;
+    const auto mechanism = scenes::build(m);
+    for (const char* rung : {"quasistatic", "perturbation", "multibody"}) {
+      const Statistics found = of_indices(*mechanism, *make_rung(rung, mechanism)).index.orientation_error;
+      EXPECT_NEAR(found.rms / 50e-6, std::sqrt(0.5), 2e-3) << ripple << ", " << rung;
+      EXPECT_NEAR(found.max / 50e-6, 1.0, 2e-3) << ripple << ", " << rung;
+    }
+  }
+}
+
 }  // namespace motion_without_play_test
 }  // namespace boresight
