@@ -133,7 +133,11 @@ Moments moments(const Contributor& c, int axis, ErrorIndex index, Interpretation
       const double q = std::floor(revisit / whole * (1.0 + 1e-12)), s = std::max(0.0, revisit - q * whole);
       const double fewer = q > 0.0 ? std::max(0.0, whole - windows.window - s) : 0.0,
                    more = std::max(0.0, s - windows.window), all = fewer + more;
-      const double share = all > 0.0 ? more / all : 1.0;
+      // Windows as long as an observation lie in whole ones.
+      const double share = all > 0.0 ? more / all : q > 0.0 && s < 0.5 * whole ? 0.0 : 1.0;
+      if (interpretation == Interpretation::ensemble)
+        return of_drift(e, interpretation,
+                        std::abs(gain) * std::max(share < 1.0 ? s : 0.0, share > 0.0 ? whole - s : 0.0), 0.0);
       return of_drift(e, interpretation, gain * (s - share * whole),
                       std::abs(gain) * whole * std::sqrt(3.0 * share * (1.0 - share)));
     }

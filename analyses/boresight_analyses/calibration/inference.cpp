@@ -177,7 +177,8 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   if (out.autocorrelation > noise) {
     int lost = 1;
     while (lost + 1 < static_cast<int>(until_lost.size()) && until_lost[static_cast<std::size_t>(lost)] > noise) ++lost;
-    out.lags = 2 * lost;
+    // Scores add up to nothing at the optimum: over all of them nothing would be left.
+    out.lags = std::min(2 * lost, std::max(1, longest / 2));
     MatX meat = white;
     for (const WindowInformation& part : parts)
       for (int l = 1; l <= out.lags && l < part.scores.rows(); ++l) {

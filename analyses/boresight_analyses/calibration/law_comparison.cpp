@@ -11,12 +11,12 @@ namespace boresight {
 
 void hold_out_windows(CalibrationProblem& problem, double share) {
   if (share <= 0.0) return;
-  // At least one, and at least one that is fitted; spread over all.
+  const int every = std::max(2, static_cast<int>(std::lround(1.0 / share)));
+  for (std::size_t w = 0; w < problem.windows.size(); ++w)
+    problem.windows[w].held_out = static_cast<int>(w) % every == every - 1;
+  // Of few windows one.
   const auto windows = static_cast<int>(problem.windows.size());
-  if (windows < 2) return;
-  const int held = std::clamp(static_cast<int>(std::lround(share * windows)), 1, windows - 1);
-  for (int k = 0; k < held; ++k)
-    problem.windows[static_cast<std::size_t>((k + 1) * windows / held - 1)].held_out = true;
+  if (windows > 1 && windows < every) problem.windows.back().held_out = true;
 }
 
 std::optional<HoldOut> score_held_out(const CalibrationProblem& problem, const Globals& globals, int jobs) {

@@ -75,7 +75,9 @@ class Matching {
       const MatchingVisit v = visit(design_at(x));
       if (!gradient.empty()) slopes_at(x, v.design, gradient);
       const double value = objective ? objective->of(evaluator_->at(v.design)) : v.objective;
-      return std::isfinite(value) ? value : 10.0 * largest_;
+      // Before any design has answered nothing is known of how large answers are.
+      constexpr double kNoneYet = 1e3;
+      return std::isfinite(value) ? value : largest_ > 0.0 ? 10.0 * largest_ : kNoneYet;
     };
     for (const MatchingConstraint& c : plan_.constraints)
       p.constraints.push_back(
@@ -125,8 +127,10 @@ class Matching {
     if (m.interrupted) throw EvaluationInterrupted{};
     result_.descents.push_back({name, from, design_at(m.x), m.objective, m.evaluations, m.converged, false, m.local});
     result_.local = m.local;
-    const bool better = result_.design.empty() || m.violation < result_.violation ||
-                        (m.violation == result_.violation && m.objective < result_.objective);
+    // A place whose runs failed is no optimum, whatever stood for its objective.
+    const bool answered = std::isfinite(plan_.objective.of(evaluator_->at(design_at(m.x))));
+    const bool better = answered && (result_.design.empty() || m.violation < result_.violation ||
+                                     (m.violation == result_.violation && m.objective < result_.objective));
     if (better) {
       result_.design = design_at(m.x);
       result_.objective = m.objective;
@@ -337,7 +341,15 @@ class Matching {
       const MatchingResult cheap = result_;
       result_.design.clear();
       const std::size_t visits_before = result_.visits.size();
-      descend(cheap.design, "the optimum, on " + rung, std::max(8, plan_.evaluations / 3));
+      try {
+        descend(cheap.design, "the optimum, on " + rung, std::max(8, plan_.evaluations / 3));
+        if (result_.design.empty()) result_.design = cheap.design;  // no run there has answered
+      } catch (const EvaluationInterrupted&) {
+        // What was found before, on its own rung, stands.
+        evaluator_ = before;
+        result_ = cheap;
+        throw;
+      }
       c.went_on = result_.design != cheap.design;
       c.design = result_.design;
       c.objective = result_.objective;

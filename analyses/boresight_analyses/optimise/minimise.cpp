@@ -49,7 +49,7 @@ class Search {
     if (const Algorithm* a = named(kGlobal, global)) attempt(*a, best_, options_.global_evaluations, true);
     if (const Algorithm* a = named(kLocal, local); a && !result_.interrupted)
       attempt(*a, best_, options_.local_evaluations, false);
-    if (!seen_) evaluate(best_, nullptr);
+    if (!seen_ && !result_.interrupted) evaluate(best_, nullptr);
     result_.x = scaled(best_);
     result_.objective = best_value_;
     result_.violation = std::max(0.0, best_violation_);

@@ -42,14 +42,17 @@ bool started_by_mpi() {
 class Mpi final : public Ranks {
  public:
   Mpi() {
-    int provided = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+    // Whoever has begun it, as another library of an interpreter, ends it too.
+    int begun = 0, provided = 0;
+    MPI_Initialized(&begun);
+    own_ = begun == 0;
+    if (own_) MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
   }
   // A rank that ends by an exception leaves without finalising: mpirun then ends the others.
   ~Mpi() override {
-    if (std::uncaught_exceptions() == 0) MPI_Finalize();
+    if (own_ && std::uncaught_exceptions() == 0) MPI_Finalize();
   }
 
   int rank() const override { return rank_; }
@@ -148,6 +151,7 @@ class Mpi final : public Ranks {
   }
 
   int rank_ = 0, size_ = 1;
+  bool own_ = true;
 };
 
 #endif
@@ -164,7 +168,12 @@ std::vector<NumberRange> blocks_of(const std::vector<NumberRange>& ranges, std::
 
 std::unique_ptr<Ranks> Ranks::join() {
 #ifdef BORESIGHT_MPI
-  if (started_by_mpi()) return std::make_unique<Mpi>();
+  if (started_by_mpi()) {
+    // A second study of one process, an interpreter, whose ranks have parted: once ended MPI cannot begin again.
+    int ended = 0;
+    MPI_Finalized(&ended);
+    if (ended == 0) return std::make_unique<Mpi>();
+  }
 #endif
   return std::make_unique<Alone>();
 }

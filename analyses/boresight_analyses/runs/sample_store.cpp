@@ -16,12 +16,6 @@
 namespace boresight {
 namespace {
 
-double process_cpu_seconds() {
-  timespec time = {};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 // A folder of our own for a copy, removed with everything in it.
 class CopyOf {
  public:
@@ -65,6 +59,12 @@ bool has_no_tables(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+double SampleStore::process_cpu_seconds() {
+  timespec time = {};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 struct SampleStore::Database {
   sqlite3* handle = nullptr;
@@ -303,7 +303,7 @@ void SampleStore::put_cost() {
   }
   Statement put(db_->handle, file_, "INSERT OR REPLACE INTO part VALUES (?, ?, ?)");
   put.bind(1, part_);
-  put.bind(2, process_cpu_seconds());
+  put.bind(2, process_cpu_seconds() - opened_cpu_);
   put.bind(3, std::chrono::duration<double>(std::chrono::steady_clock::now() - opened_).count());
   put.step();
 }

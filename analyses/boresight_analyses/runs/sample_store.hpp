@@ -96,6 +96,8 @@ class SampleStore {
   bool has_checksums_ = false, has_parts_ = false;
   std::int64_t part_ = 0;  // of this process; 0: none yet; -1: the store is only read
   std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
+  static double process_cpu_seconds();
+  double opened_cpu_ = process_cpu_seconds();
   Cost earlier_;
   mutable std::string damage_;
   mutable std::optional<std::uint64_t> count_;  // kept up once it is known: counting reads the whole file

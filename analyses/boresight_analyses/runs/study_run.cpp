@@ -65,12 +65,20 @@ std::unique_ptr<SampleStore> StudyRun::open_samples(const std::string& decides,
 
 std::unique_ptr<EvaluationStore> StudyRun::open_evaluations(const std::string& name,
                                                             const std::vector<std::string>& variables,
-                                                            const std::string& rung, double step) const {
+                                                            const std::string& rung, double step,
+                                                            const std::string& model) const {
   if (options_.begun)
     options_.begun("begun and not yet ended: the same command goes on, and reuses what is in " + name);
-  auto store = std::make_unique<EvaluationStore>(options_.folder / name,
-                                                 std::map<std::string, std::string>{{"study", hash()}, {"rung", rung}},
-                                                 variables, rung, step);
+  // Values of another model are worth nothing here, and are computed anew.
+  const std::string decides = rung + " at " + exact(step) + " s, " + model;
+  if (auto found = readable_store(options_.folder / name);
+      found && found->fact("study") == hash() && found->fact("model") != decides) {
+    found.reset();
+    forget(name);
+  }
+  auto store = std::make_unique<EvaluationStore>(
+      options_.folder / name,
+      std::map<std::string, std::string>{{"study", hash()}, {"rung", rung}, {"model", decides}}, variables, rung, step);
   if (options_.damaged && !store->damage().empty()) options_.damaged(store->damage());
   return store;
 }
@@ -185,8 +193,13 @@ StudySteps StudyRun::steps_of_scatter(const ScatterAsked& asked, const RunOption
                                       SampleStore* store) const {
   if (store != nullptr)
     if (const std::string why = store->fact("discretisation_why"); !why.empty()) {
-      const std::string relative = store->fact("discretisation");
-      return {relative.empty() ? kNotMeasured : std::strtod(relative.c_str(), nullptr), why};
+      const std::string relative = store->fact("discretisation"), of = store->fact("discretisation_of"),
+                        runs = store->fact("discretisation_runs");
+      // Measured for another statistic it says nothing of this one; and what was too dear for a small study may not be for a larger one.
+      const bool larger = relative.empty() && !runs.empty() &&
+                          static_cast<double>(asked.runs) > 1.5 * std::strtod(runs.c_str(), nullptr);
+      if ((of.empty() || of == asked.statistic.title()) && !larger)
+        return {relative.empty() ? kNotMeasured : std::strtod(relative.c_str(), nullptr), why};
     }
   const RungSetup setup{
       .rung = rung,
@@ -219,8 +232,11 @@ StudySteps StudyRun::steps_of_scatter(const ScatterAsked& asked, const RunOption
     return {kNotMeasured, "not measured: the study was interrupted before; the same command measures it", true};
   StudySteps steps{found.measured ? found.relative : kNotMeasured, found.why};
   if (store != nullptr) {
+    // The reason last: it says that the rest is there.
+    store->note("discretisation", found.measured ? exact(steps.relative) : "");
+    store->note("discretisation_of", asked.statistic.title());
+    store->note("discretisation_runs", std::to_string(asked.runs));
     store->note("discretisation_why", steps.why);
-    if (found.measured) store->note("discretisation", exact(steps.relative));
   }
   return steps;
 }

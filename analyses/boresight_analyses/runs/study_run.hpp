@@ -89,7 +89,8 @@ class StudyRun {
   std::unique_ptr<SampleStore> open_samples(const std::string& decides, const std::vector<std::string>& parameters,
                                             const std::string& name = "samples.db") const;
   std::unique_ptr<EvaluationStore> open_evaluations(const std::string& name, const std::vector<std::string>& variables,
-                                                    const std::string& rung, double step) const;
+                                                    const std::string& rung, double step,
+                                                    const std::string& model) const;
   // Removes a store that has been closed: the study is whole, and computed anew where it is asked once more.
   void forget(const std::string& name) const;
 

@@ -33,8 +33,7 @@ namespace {
 double displacement_of(const IndexChoice& index, const Mechanism& mechanism) {
   if (index.kind() == PointingQuantity::position_error) return 1.0;
   if (index.kind() != PointingQuantity::line_of_sight_error) return mechanism.characteristic_length();
-  const BodyDescription& home = mechanism.description().bodies[mechanism.boresight_body()];
-  return mechanism.pointing().line_of_sight->line({home.center_of_mass, Quat(home.axes)}).norm();
+  return distance_of_target(mechanism);
 }
 
 }  // namespace

@@ -50,6 +50,17 @@ std::string RungSetup::family() const {
   return text;
 }
 
+double distance_of_target(const Mechanism& mechanism) {
+  if (!mechanism.pointing().line_of_sight) return 0.0;
+  const BodyDescription& home = mechanism.description().bodies[mechanism.boresight_body()];
+  return mechanism.pointing().line_of_sight->line({home.center_of_mass, Quat(home.axes)}).norm();
+}
+
+double nothing_of(const IndexChoice& index, const Mechanism& mechanism) {
+  if (index.kind() != PointingQuantity::line_of_sight_error) return kNothing;
+  return kNothing / std::max(1.0, distance_of_target(mechanism));
+}
+
 double relative_error(const Measurement& measured, double reference, double nothing) {
   if (std::abs(reference) <= nothing && std::abs(measured.value) <= nothing) return 0.0;
   return (std::abs(measured.value - reference) + measured.half_spread) / std::max(std::abs(reference), 1e-300);

@@ -37,9 +37,9 @@ struct RungSetup {
 // Of an index, rounding of a motion integrated in metres [m or rad].
 inline constexpr double kNothing = 1e-9;
 // The same of any index: a line of sight errs by a displacement over its target's distance, however far that is.
-inline double nothing_of(const IndexChoice& index) {
-  return index.kind() == PointingQuantity::line_of_sight_error ? 1e-9 * kNothing : kNothing;
-}
+double nothing_of(const IndexChoice& index, const Mechanism& mechanism);
+// How far the target is as the mechanism is drawn [m]; 0: none is sighted.
+double distance_of_target(const Mechanism& mechanism);
 
 struct Measurement {
   std::vector<double> values;  // of the index, in the order of the neighbours

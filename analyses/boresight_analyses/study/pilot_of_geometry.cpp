@@ -97,7 +97,7 @@ class PilotOfGeometry {
     if (linear == nullptr) return;
     linear_trial_.value = linear->value(0);
     take(*linear, linear_trial_);
-    const double nothing = nothing_of(options_.index);
+    const double nothing = nothing_of(options_.index, *mechanism_);
     for (const std::size_t k : all) {
       const double size = std::abs(exact.value(k)), off = linear->value(k) - exact.value(k);
       if (size <= nothing && std::abs(linear->value(k)) <= nothing) continue;
@@ -157,7 +157,7 @@ class PilotOfGeometry {
   ScatterDifference difference(const SetupSamples& setup, const SetupSamples& exact,
                                const std::vector<std::size_t>& pairs, const std::vector<double>& scores,
                                const ScatterStatistic& statistic) const {
-    return compare_scatter(setup.values(pairs), exact.values(pairs), scores, statistic, nothing_of(options_.index));
+    return compare_scatter(setup.values(pairs), exact.values(pairs), scores, statistic, nothing_of(options_.index, *mechanism_));
   }
 
   std::string why(bool taken) const {

@@ -126,7 +126,7 @@ class PilotOfScatter {
 
   ScatterDifference compared(const SetupSamples& setup) const {
     const std::vector<double> values = setup.values(pairs_), reference = fine_->values(pairs_);
-    return compare_scatter(values, reference, scores_, *options_.statistic, nothing_of(options_.index));
+    return compare_scatter(values, reference, scores_, *options_.statistic, nothing_of(options_.index, *mechanism_));
   }
 
   bool more_pairs() {
@@ -306,9 +306,9 @@ class PilotOfScatter {
         continue;
       for (const double p : stated_probabilities(*options_.statistic)) {
         const std::vector<double> reference = fine_->values(pairs_);
-        const ScatterDifference d = compare_scatter(setup->values(pairs_), reference, scores_, {p}, nothing_of(options_.index));
+        const ScatterDifference d = compare_scatter(setup->values(pairs_), reference, scores_, {p}, nothing_of(options_.index, *mechanism_));
         // The reference is off by something itself, as its own step shows.
-        const ScatterDifference own = compare_scatter(own_->values(pairs_), reference, scores_, {p}, nothing_of(options_.index));
+        const ScatterDifference own = compare_scatter(own_->values(pairs_), reference, scores_, {p}, nothing_of(options_.index, *mechanism_));
         result_.errors.push_back({p, d.bound() + own.bound() / kOwnOverReference});
       }
       return;

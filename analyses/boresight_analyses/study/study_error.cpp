@@ -63,7 +63,7 @@ StudyDiscretisation measure_study_discretisation(std::shared_ptr<const Mechanism
       }
       return found;
     }
-    const ScatterDifference d = compare_scatter(x, y, {}, options.statistic, nothing_of(options.index));
+    const ScatterDifference d = compare_scatter(x, y, {}, options.statistic, nothing_of(options.index, *mechanism));
     found.measured = true;
     found.relative = d.bound();
     std::snprintf(text, sizeof text, "measured: the %s of %zu samples against %s", options.statistic.title().c_str(),

@@ -201,7 +201,9 @@ class AllocateVerb : public Verb {
     for (const AllocationEntry& joint : plan.entries) names.push_back(joint.name());
     if (plan.inputs)
       for (const RandomParameter& p : plan.inputs->parameters) names.push_back(p.name());
-    const auto store = own.run().open_evaluations("confirmation.db", names, model.rung(), model.step());
+    const auto store = own.run().open_evaluations(
+        "confirmation.db", names, model.rung(), model.step(),
+        fmt::format("{}, accuracy {:g}", model.batch() > 1 ? "lanes" : "runs", accuracy));
     Confirming confirming(model, plan, *store, command.jobs);
 
     if (!command.quiet) {
@@ -233,7 +235,7 @@ class AllocateVerb : public Verb {
       allocated.warnings.push_back(
           fmt::format("{} of {} confirming runs failed", confirming.failures.count, confirming.runs) +
           first_failure_text(confirming.failures, "run"));
-    for (const std::string& one : start_warnings(*mechanism)) allocated.warnings.push_back(one);
+    for (const std::string& one : start_warnings(*mechanism, choice.name)) allocated.warnings.push_back(one);
     if (!store->damage().empty()) allocated.warnings.push_back(store->damage());
     Json summary = summary_of(allocated, own, watch, store->earlier());
     add_first_failure(summary, confirming.failures, "run");

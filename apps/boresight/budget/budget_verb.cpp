@@ -228,7 +228,7 @@ class BudgetVerb : public Verb {
     result.steps = steps;
     if (budget) result.warnings = warnings_of(result, seen);
     result.warnings.insert(result.warnings.end(), untold.begin(), untold.end());
-    for (const std::string& one : start_warnings(*mechanism)) result.warnings.push_back(one);
+    for (const std::string& one : start_warnings(*mechanism, choice.name)) result.warnings.push_back(one);
     if (!stuck.empty()) result.warnings.push_back(stuck);
     if (!store.damage().empty()) result.warnings.push_back(store.damage());
     write(result, seen, own, watch, store.earlier());

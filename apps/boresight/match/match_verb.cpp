@@ -139,7 +139,11 @@ class MatchVerb : public Verb {
     const SampleModel& model = *designs_model.samples;
     std::vector<std::string> names;
     for (const DesignVariable& v : plan.variables) names.push_back(v.name());
-    const auto store = own.run().open_evaluations("evaluations.db", names, model.rung(), model.step());
+    // What designs' values hang on beside rung and step.
+    const auto model_text = [&](const SampleModel& m) {
+      return fmt::format("{}, accuracy {:g}", m.batch() > 1 ? "lanes" : "runs", accuracy);
+    };
+    const auto store = own.run().open_evaluations("evaluations.db", names, model.rung(), model.step(), model_text(model));
     if (choice.pilot) note_choice(*store, choice);
     const RandomInputs* inputs = plan.inputs ? &*plan.inputs : nullptr;
     DesignEvaluator evaluator(model, inputs, store.get(),
@@ -155,7 +159,7 @@ class MatchVerb : public Verb {
     if (upper != choice.name || plan.inputs) {
       RungChoice upper_choice{upper, "confirms"};
       upper_model = std::move(design_model(upper_choice, designs_asked).samples);
-      upper_store = own.run().open_evaluations("confirmation.db", names, upper, upper_model->step());
+      upper_store = own.run().open_evaluations("confirmation.db", names, upper, upper_model->step(), model_text(*upper_model));
       upper_evaluator =
           std::make_unique<DesignEvaluator>(*upper_model, inputs, upper_store.get(),
                                             DesignEvaluator::Options{.samples = plan.confirm,
@@ -209,7 +213,7 @@ class MatchVerb : public Verb {
     };
     add_failed(evaluator, choice.name);
     if (upper_evaluator) add_failed(*upper_evaluator, upper);
-    for (const std::string& one : start_warnings(*mechanism)) matched.warnings.push_back(one);
+    for (const std::string& one : start_warnings(*mechanism, choice.name)) matched.warnings.push_back(one);
     if (!store->damage().empty()) matched.warnings.push_back(store->damage());
     Json summary = summary_of(matched, own, watch, store->earlier());
     add_first_failure(summary, evaluator.failures(), "run");

@@ -263,7 +263,7 @@ class MonteCarloVerb : public Verb {
                           .warnings = warnings_of(question, result, estimates, shown.failures),
                           .leaves_out = model.leaves_out(),
                           .replay = replay_command(command, choice, model)};
-    for (const std::string& one : start_warnings(*question.mechanism)) study.warnings.push_back(one);
+    for (const std::string& one : start_warnings(*question.mechanism, choice.name)) study.warnings.push_back(one);
     if (!stuck.empty()) study.warnings.push_back(stuck);
     if (!store.damage().empty()) study.warnings.push_back(store.damage());
     write_json(out, "summary.json", summary_of(study, watch, own, store));

@@ -8,7 +8,7 @@ namespace boresight::app {
 RungChoice named_rung(const std::string& rung) { return {rung, "the study names its rungs", 0.0}; }
 
 std::vector<std::string> several_rungs_warnings(const SeveralRungs& s) {
-  std::vector<std::string> warnings = start_warnings(*s.question.mechanism);
+  std::vector<std::string> warnings = start_warnings(*s.question.mechanism, "perturbation");
   const MonteCarloPlan& plan = s.question.plan;
   if (plan.samples_of_budget)
     warnings.push_back("samples = " + std::to_string(plan.samples) + " is not used: the budget of " +

@@ -22,9 +22,9 @@ constexpr double kOfRounding = 1e-9;
 // tolerances of an integrator leave: no clearance and no error of a drawing is as small.
 constexpr double kNothing = 1e-9;
 bool is_nothing(double value, const IndexChoice& of, double size) {
-  // A line of sight errs by a displacement over its target's distance, however far that is.
+  // A line of sight errs by a displacement over its target's distance: of a thousand kilometres.
   const double unit = of.kind() == PointingQuantity::position_error        ? size
-                      : of.kind() == PointingQuantity::line_of_sight_error ? 1e-9
+                      : of.kind() == PointingQuantity::line_of_sight_error ? 1e-6
                                                                            : 1.0;
   return std::abs(value) <= kNothing * unit;
 }

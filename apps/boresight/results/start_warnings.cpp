@@ -7,14 +7,14 @@
 
 namespace boresight::app {
 
-std::vector<std::string> start_warnings(const Mechanism& mechanism) {
+std::vector<std::string> start_warnings(const Mechanism& mechanism, const std::string& rung) {
   std::vector<std::string> warnings;
   if (mechanism.clearances() == 0) return warnings;
   try {
     const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
     const StartingJournals start = starting_journals(mechanism, mechanism.parameters(), ideal);
-    for (const std::string& one : {start.remark, start.warning})
-      if (!one.empty()) warnings.push_back(one);
+    if (!start.remark.empty()) warnings.push_back(start.remark);
+    if (!start.warning.empty() && rung != "envelope" && rung != "quasistatic") warnings.push_back(start.warning);
   } catch (const ComputationError&) {  // the samples say it themselves
   } catch (const Interrupted&) {       // what the study has is written first
   }

@@ -8,8 +8,9 @@
 
 namespace boresight::app {
 
-// That loads tip journals over to a side that nothing decides (scene/tipping.hpp), and that no position of rest was found. Samples
+// That loads tip journals over to a side that nothing decides (scene/tipping.hpp), and, on rungs that follow a motion, that no position of
+// rest was found. Samples
 // whose masses or loads are far from the drawing's may do otherwise. Empty where nothing is to be said, or nothing could be found out.
-std::vector<std::string> start_warnings(const Mechanism& mechanism);
+std::vector<std::string> start_warnings(const Mechanism& mechanism, const std::string& rung);
 
 }  // namespace boresight::app

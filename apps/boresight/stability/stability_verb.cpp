@@ -94,7 +94,7 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const Stabil
                 const Stopwatch& watch, const OutputDirectory& out) {
   Json json = common_summary(command, mechanism, {.name = "several", .why = "each part says which"}, watch,
                              result.warnings, result.interrupted, out);
-  json["largest_difference_from_theory"] = result.largest_difference();
+  json["largest_difference_from_theory"] = finite(result.largest_difference());
   json["limits"] = Json::array();
   for (const AxisLimit& l : result.limits)
     json["limits"].push_back(
@@ -139,8 +139,10 @@ void print(const Mechanism& mechanism, const StabilityResult& result, const Outp
     if (l.method == "RK4")
       tell("  RK4, {:<10} step limit {:.5g} measured, {:.5g} in theory\n", l.axis + ":", l.measured, l.theory);
   if (!result.baumgarte.limits.empty())
-    tell("  Baumgarte: {} limits on the drift of {}; all limits within {:.2g} % of theory\n",
-         result.baumgarte.limits.size(), result.baumgarte.joint, 100.0 * result.largest_difference());
+    tell("  Baumgarte: {} limits on the drift of {}; {}\n", result.baumgarte.limits.size(), result.baumgarte.joint,
+         std::isinf(result.largest_difference())
+             ? std::string("not all limits are where theory has them, nor near")
+             : fmt::format("all limits within {:.2g} % of theory", 100.0 * result.largest_difference()));
   for (const FailureCase& c : result.cases) tell("  {:<8} {}: {}\n", to_string(c.standing), c.name, c.measured);
   for (const std::string& warning : result.warnings) tell("  warning: {}\n", warning);
   tell("  report: {}\n", (out.path() / "report.html").string());

@@ -14,7 +14,9 @@ import numpy
 
 
 def _column(texts: List[str]) -> numpy.ndarray:
-    # Whole numbers, then numbers of any kind, of which nothing is none; text otherwise.
+    # Yes or no, whole numbers, then numbers of any kind, of which nothing is none; text otherwise.
+    if texts and set(texts) <= {"true", "false"}:
+        return numpy.array([text == "true" for text in texts])
     try:
         return numpy.array([int(text) for text in texts])
     except (ValueError, OverflowError):

@@ -44,6 +44,8 @@ class Cursor {
   void finish() const;
 
   bool has(const std::string& key) const;  // in the file, or set
+  // The table is that of an error of this name.
+  void name_error(const std::string& name) { document_->name_error(name); }
   // In the file, or set by its own name: what is refused where it has no meaning. "clearance.*.axial" means the joints that have one.
   bool has_by_name(const std::string& key) const;
   std::vector<std::string> keys() const;   // in the order of the file

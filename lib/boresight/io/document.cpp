@@ -14,7 +14,7 @@ namespace {
 
 // A path taken apart at its dots, but for those within the names of what a bearing pair or a universal joint with play is made of:
 // clearance, pitch.floating, radial.
-std::vector<std::string_view> segments(std::string_view path) {
+std::vector<std::string_view> segments(std::string_view path, const std::set<std::string>& errors) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0;;) {
     const std::size_t dot = path.find('.', begin);
@@ -30,10 +30,16 @@ std::vector<std::string_view> segments(std::string_view path) {
     parts[1] = std::string_view(parts[1].data(), parts[1].size() + 1 + parts[2].size());
     parts.erase(parts.begin() + 2);
   }
-  // An error's name may hold dots, and ends before a key of its table: error, arm.length; error, arm.length, rotation, x.
+  // An error's name may hold dots: the longest that is known, or what stands before a key of its table: error, arm.length, rotation, x.
   if (parts[0] == "error" && parts.size() > 2) {
-    std::size_t end = 2;
-    while (end < parts.size() && error_keys().find(std::string(parts[end])) == nullptr) ++end;
+    std::size_t end = 0;
+    std::string name(parts[1]);
+    for (std::size_t i = 2; i <= parts.size(); ++i) {
+      if (errors.contains(name)) end = i;
+      if (i < parts.size()) name += "." + std::string(parts[i]);
+    }
+    if (end == 0)
+      for (end = 2; end < parts.size() && error_keys().find(std::string(parts[end])) == nullptr;) ++end;
     for (std::size_t i = 2; i < end; ++i)
       parts[1] = std::string_view(parts[1].data(), parts[1].size() + 1 + parts[i].size());
     if (end > 2) parts.erase(parts.begin() + 2, parts.begin() + static_cast<long>(end));
@@ -41,15 +47,19 @@ std::vector<std::string_view> segments(std::string_view path) {
   return parts;
 }
 
-// "*" is any part; "*.floating" the floating bearing of any joint, "*.length" the length of any body.
+// "*" is any part; "*.floating" the floating bearing of any joint, "*.length" the length of any body, "arm.*" what is wrong with the arm.
 bool same(std::string_view wanted, std::string_view present) {
-  return wanted == present || wanted == "*" || (wanted.starts_with("*.") && present.ends_with(wanted.substr(1)));
+  if (wanted == present || wanted == "*") return true;
+  const bool begins = wanted.starts_with("*."), ends = wanted.ends_with(".*");
+  if (begins && ends) return wanted == "*.*" && present.find('.') != std::string_view::npos;
+  return (begins && present.ends_with(wanted.substr(1))) ||
+         (ends && present.starts_with(wanted.substr(0, wanted.size() - 1)));
 }
 
 // Does `pattern` name `path` (whole), or something at or below it (not whole)?
-bool names(std::string_view pattern, std::string_view path, bool whole) {
+bool names(std::string_view pattern, std::string_view path, bool whole, const std::set<std::string>& errors) {
   if (pattern == path) return true;
-  const auto wanted = segments(pattern), present = segments(path);
+  const auto wanted = segments(pattern, errors), present = segments(path, errors);
   if (whole ? wanted.size() != present.size() : wanted.size() < present.size()) return false;
   for (std::size_t i = 0; i < present.size(); ++i) {
     if (!same(wanted[i], present[i])) return false;
@@ -136,7 +146,7 @@ const Setting* Document::setting_for(const std::string& path) {
   asked_.insert(path);
   const Setting* last = nullptr;
   for (std::size_t i = 0; i < settings_.size(); ++i) {
-    if (names(settings_[i].path, path, true)) {
+    if (names(settings_[i].path, path, true, error_names_)) {
       used_[i] = true;
       last = &settings_[i];
     }
@@ -147,7 +157,7 @@ const Setting* Document::setting_for(const std::string& path) {
 const Setting* Document::setting_under(const std::string& path, bool by_star) const {
   const Setting* last = nullptr;
   for (const Setting& setting : settings_) {
-    if ((by_star || setting.path.find('*') == std::string::npos) && names(setting.path, path, false)) last = &setting;
+    if ((by_star || setting.path.find('*') == std::string::npos) && names(setting.path, path, false, error_names_)) last = &setting;
   }
   return last;
 }

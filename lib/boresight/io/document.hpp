@@ -58,6 +58,9 @@ class Document {
   // The last setting that applies to this path or to one below it, or nullptr. Marks nothing. by_star: those count whose path holds a star.
   const Setting* setting_under(const std::string& path, bool by_star = true) const;
 
+  // An error of this name is read from here on: its paths are taken apart behind it.
+  void name_error(const std::string& name) { error_names_.insert(name); }
+
   // From here on every path that is asked for is remembered, even where there are no settings.
   void record_paths() { records_paths_ = true; }
   const std::set<std::string>& asked_paths() const { return asked_; }
@@ -77,6 +80,7 @@ class Document {
   std::vector<bool> used_;
   std::set<std::string> asked_;
   std::map<std::string, std::string> written_;
+  std::set<std::string> error_names_;
   bool records_paths_ = false;
 };
 

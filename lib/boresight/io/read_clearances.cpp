@@ -189,7 +189,7 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
         "one of the bodies of joint " + joint.name + ": " + name(joint.first) + " or " + name(joint.second));
   }
   const bool ball = joint.type == JointType::spherical, pad = joint.type == JointType::planar;
-  const bool slider = cursor.choice("guide") == "rectangular";
+  const bool slider = joint.type == JointType::prismatic && cursor.choice("guide") == "rectangular";
   if (cursor.has_by_name("guide") && joint.type != JointType::prismatic)
     cursor.fail_found("guide", "it on " + in_quotes(joint.name) + ", a " + to_string(joint.type) + " joint",
                       "it only on a prismatic joint");
@@ -212,8 +212,8 @@ ClearanceDescription read_clearance(Cursor& cursor, const MechanismDescription& 
     if (ball && cursor.has_by_name(key))
       cursor.fail_found(key, "it on " + in_quotes(joint.name) + ", a spherical joint",
                         "radial and journal_radius alone: the play of a ball and its radius");
-  clearance.axes =
-      cursor.choice("axes", {"parallel", "free"}, "parallel") == "free" ? JournalAxes::free : JournalAxes::parallel;
+  const bool free = !ball && cursor.choice("axes", {"parallel", "free"}, "parallel") == "free";
+  clearance.axes = free ? JournalAxes::free : JournalAxes::parallel;
 
   // A cylindrical or prismatic joint slides along its axis: no caps, no axial clearance, and no ends unless the journal may tilt.
   ClearanceParameters& p = clearance.parameters;

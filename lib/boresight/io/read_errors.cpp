@@ -131,6 +131,7 @@ ErrorDescription read_error(Cursor& cursor, const MechanismDescription& so_far) 
   error.origin = cursor.origin();
   error.name = read_dotted_name(cursor, "name");
   check_name(cursor, so_far, error.name);
+  cursor.name_error(error.name);
   cursor.rename("error." + error.name);
   cursor.stands_for_table("value");
   error.kind = read_kind(cursor);

@@ -149,6 +149,7 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
   auto p = std::make_shared<Prepared>();
   p->parameters = parameters;
   std::shared_ptr<const TimeTable> gain_table;
+  Parameters its_own;
   {
     const std::lock_guard lock(cache_->mutex);
     for (auto it = cache_->prepared.begin(); it != cache_->prepared.end(); ++it)
@@ -156,7 +157,15 @@ std::shared_ptr<const PerturbationLanes::Prepared> PerturbationLanes::prepared_f
         cache_->prepared.splice(cache_->prepared.begin(), cache_->prepared, it);
         return cache_->prepared.front();
       }
-    if (!cache_->scene || !serves(*mechanism_, *cache_->scene, cache_->scene_parameters, parameters)) {
+    p->scene = cache_->scene;
+    gain_table = cache_->gain;
+    its_own = cache_->scene_parameters;
+  }
+  if (!p->scene || !serves(*mechanism_, *p->scene, its_own, parameters)) {
+    const std::lock_guard lock(cache_->mutex);
+    // Another thread may have been here in the meantime.
+    if (!cache_->scene || cache_->scene == p->scene ||
+        !serves(*mechanism_, *cache_->scene, cache_->scene_parameters, parameters)) {
       cache_->scene = scene_for_lanes(*mechanism_, parameters);
       cache_->scene_parameters = parameters;
       if (cache_->scene->scene().layout().n > 0) cache_->gain = gain_over_time(*cache_->scene);
@@ -366,7 +375,8 @@ void PerturbationLanes::run(const LaneTarget& target, std::span<const Parameters
     }
     // One call is of one layout: loads that tip journals over have a stiffness of their own.
     if (!batch->jobs.empty() && !same_scene(batch->prepared.back()->parameters, samples[k])) {
-      const LaneScene &before = batch->prepared.back()->lane, &now = prepared_for(samples[k])->lane;
+      const std::shared_ptr<const Prepared> next = prepared_for(samples[k]);
+      const LaneScene &before = batch->prepared.back()->lane, &now = next->lane;
       if (before.width != now.width || before.layout->tips != now.layout->tips) flush();
     }
     add(samples[k], tolerance, *batch);

@@ -173,8 +173,16 @@ std::shared_ptr<const PreparedScene> SceneRung::prepared_for(const Parameters& p
     throw ComputationError(
         "no joint has clearance and no [[error]] is declared, so nothing deviates from the ideal motion; multibody "
         "follows that");
-  const std::lock_guard lock(mutex_);
-  if (!prepared_ || !serves(*mechanism_, *prepared_, prepared_parameters_, parameters)) {
+  std::unique_lock lock(mutex_);
+  if (prepared_) {  // whether it holds for these is asked with nobody waiting
+    const std::shared_ptr<const PreparedScene> kept = prepared_;
+    const Parameters its_own = prepared_parameters_;
+    lock.unlock();
+    if (serves(*mechanism_, *kept, its_own, parameters)) return kept;
+    lock.lock();
+    if (prepared_ != kept && serves(*mechanism_, *prepared_, prepared_parameters_, parameters)) return prepared_;
+  }
+  {
     prepared_ = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
     prepared_parameters_ = parameters;
   }

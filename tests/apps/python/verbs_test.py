@@ -122,10 +122,11 @@ class Python(unittest.TestCase):
             self.assertEqual(len(table["t"]), len(set(table["t"])))
             # Text with commas, which the file quotes.
             with open(os.path.join(motion.folder, "texts.csv"), "w", encoding="utf-8") as file:
-                file.write('name,says,value\na,"one, two",1\nb,"a ""word""",\n')
+                file.write('name,says,value,so\na,"one, two",1,true\nb,"a ""word""",,false\n')
             texts = motion.table("texts.csv")
             self.assertEqual(list(texts["says"]), ["one, two", 'a "word"'])
             self.assertEqual(texts["value"][0], 1.0)
+            self.assertEqual(list(texts["so"]), [True, False])
             run = bs.run(bs.Mechanism(MECHANISM, SHORT), rung="quasistatic", sample=1e-3)
             self.assertEqual(motion.summary["index"], run.index)
 

@@ -132,7 +132,7 @@ class Serve(unittest.TestCase):
             self.assertEqual(server.end()[0], 0)
 
     def test_stops_a_motion_at_the_limit(self):
-        with Server(MECHANISM, "--input", "payload.mass", "--rung", "multibody", "--set", "motion.duration=1000s",
+        with Server(MECHANISM, "--input", "payload.mass", "--rung", "multibody", "--set", "motion.duration=200s",
                     "--step", "1us", "--limit", "1 s", "--jobs", "1") as server:
             start = time.monotonic()
             status, answer, _ = server.ask("/Evaluate", {"name": "index", "input": [[10.0]]})

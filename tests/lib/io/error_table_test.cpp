@@ -141,6 +141,13 @@ TEST(ErrorTable, IsSetByAStarWhateverItsNamesHold) {
   EXPECT_EQ(errors("error.*"), (std::vector<double>{1e-3, 1e-3, 1e-3}));
   EXPECT_EQ(errors("error.b.c"), (std::vector<double>{0.0, 1e-3, 0.0}));
   EXPECT_EQ(errors("error.*.length"), (std::vector<double>{0.0, 0.0, 1e-3}));
+  EXPECT_EQ(errors("error.b.*"), (std::vector<double>{0.0, 1e-3, 1e-3}));
+  // Names that hold what a table of errors may hold, too.
+  EXPECT_EQ(nominal_parameters(read_with("[[error]]\nname = \"arm.rotation\"\njoint = \"R\"\nbody = \"arm\"\n"
+                                         "rotation = [0, 0, 1]\n",
+                                         {{"error.*", "1 mrad"}}))
+                .error,
+            (std::vector<double>{1e-3}));
 }
 
 }  // namespace error_table_test
