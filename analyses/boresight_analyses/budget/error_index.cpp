@@ -74,8 +74,9 @@ std::vector<Vec3> index_values(ErrorIndex index, const PointingHistory& history,
   if (index == ErrorIndex::ape) return e;
 
   // Lengths in whole samples, rounded; or rounded down, with which fits what fits unrounded.
-  const double second =
-      index == ErrorIndex::pde ? windows.separation : index == ErrorIndex::pre ? windows.revisit_after() : 0.0;
+  const double second = index == ErrorIndex::pde   ? windows.separation
+                        : index == ErrorIndex::pre ? windows.revisit_after()
+                                                   : 0.0;
   std::size_t width = samples_in(windows.window, history.spacing), apart = samples_in(second, history.spacing),
               observed = samples_in(windows.observation_in(history.duration()), history.spacing);
   const std::size_t there = index == ErrorIndex::pre ? e.size() : std::min(observed, e.size());

@@ -50,8 +50,7 @@ PlannedParameter read_parameter(Cursor table, const MechanismDescription& mechan
   p.start = value("start");
   p.lower = value("lower");
   p.upper = value("upper");
-  p.prior_is_share =
-      table.has("prior") && !is_error && table.is_text("prior") && table.unit_as_written("prior") == "%";
+  p.prior_is_share = table.has("prior") && !is_error && table.is_text("prior") && table.unit_as_written("prior") == "%";
   if (p.prior_is_share) {
     p.prior = table.quantity("prior", kRatio);
     if (!(*p.prior > 0.0)) table.fail("prior", "more than 0");
@@ -159,8 +158,8 @@ void refuse_law_without_numbers(const CalibrationPlan& plan, const MechanismDesc
   for (const ClearanceDescription& c : mechanism.clearances) {
     const JointDescription& joint = mechanism.joints[static_cast<std::size_t>(c.joint)];
     const auto refuse = [&](const std::string& expected) {
-      throw InputError(plan.parameters.front().origin, "calibrate.laws", in_quotes(law) + " for " + in_quotes(joint.name),
-                       expected);
+      throw InputError(plan.parameters.front().origin, "calibrate.laws",
+                       in_quotes(law) + " for " + in_quotes(joint.name), expected);
     };
     if (geometry == ContactGeometry::linear && !(c.parameters.contact.linear_stiffness > 0.0))
       refuse("laws that need no stiffness of their own, which the mechanism file gives that law alone");

@@ -96,7 +96,7 @@ class Chart {
     ChartPoint point{
         .setup = setup, .family = family, .measured = measured(rung, setup, options_.most_seconds), .papers = papers};
     spent_ += point.measured.spent_seconds;
-    if (point.measured.refusal.empty()) 
+    if (point.measured.refusal.empty())
       point.error = relative_error(point.measured, result_.reference.value, nothing_of(options_.index, *mechanism_));
     result_.points.push_back(std::move(point));
     return result_.points.back();

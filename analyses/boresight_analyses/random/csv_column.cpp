@@ -33,10 +33,10 @@ std::vector<double> read_csv_column(const std::string& file, const std::string& 
     // More than names, as of decimal commas in a file that separates by commas: which belong to which cannot be known.
     const auto more = [&](const std::string& field) { return !trimmed(field).empty(); };
     if (row.size() > names.size() && std::any_of(row.begin() + static_cast<long>(names.size()), row.end(), more))
-      throw ColumnFault{false,
-                        std::to_string(row.size()) + " fields in line " + std::to_string(lines.number()) + " of " +
-                            in_quotes(file),
-                        std::to_string(names.size()) + ", as in the header", ""};
+      throw ColumnFault{
+          false,
+          std::to_string(row.size()) + " fields in line " + std::to_string(lines.number()) + " of " + in_quotes(file),
+          std::to_string(names.size()) + ", as in the header", ""};
     double value = 0.0;
     const std::string expected = index < row.size() ? numbers.read(row[index], value) : "a finite number";
     if (!expected.empty())

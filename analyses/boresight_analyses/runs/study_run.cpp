@@ -77,8 +77,8 @@ std::unique_ptr<EvaluationStore> StudyRun::open_evaluations(const std::string& n
     forget(name);
   }
   auto store = std::make_unique<EvaluationStore>(
-      options_.folder / name,
-      std::map<std::string, std::string>{{"study", hash()}, {"rung", rung}, {"model", decides}}, variables, rung, step);
+      options_.folder / name, std::map<std::string, std::string>{{"study", hash()}, {"rung", rung}, {"model", decides}},
+      variables, rung, step);
   if (options_.damaged && !store->damage().empty()) options_.damaged(store->damage());
   return store;
 }

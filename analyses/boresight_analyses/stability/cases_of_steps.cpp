@@ -93,14 +93,14 @@ FailureCase case_of_baumgarte_gains(const BaumgarteMap& map) {
                 .program = "draws the map of the drift per step over both gains times the step, with its limits",
                 .measured = {}};
   double worst = 0.0;
-  for (const BaumgarteLimit& limit : map.limits) 
-    worst = std::max(worst, off_theory(limit.measured, limit.theory));
+  for (const BaumgarteLimit& limit : map.limits) worst = std::max(worst, off_theory(limit.measured, limit.theory));
   if (map.limits.empty()) {
     c.measured = "the constraints of this motion cannot be stepped";
     return c;
   }
   if (std::isinf(worst)) {
-    c.measured = text("of %zu limits along rays of alpha/beta one is not where theory has it, nor near", map.limits.size());
+    c.measured =
+        text("of %zu limits along rays of alpha/beta one is not where theory has it, nor near", map.limits.size());
     c.standing = FailureCase::Standing::differs;
     return c;
   }

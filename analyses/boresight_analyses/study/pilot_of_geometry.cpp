@@ -157,7 +157,8 @@ class PilotOfGeometry {
   ScatterDifference difference(const SetupSamples& setup, const SetupSamples& exact,
                                const std::vector<std::size_t>& pairs, const std::vector<double>& scores,
                                const ScatterStatistic& statistic) const {
-    return compare_scatter(setup.values(pairs), exact.values(pairs), scores, statistic, nothing_of(options_.index, *mechanism_));
+    return compare_scatter(setup.values(pairs), exact.values(pairs), scores, statistic,
+                           nothing_of(options_.index, *mechanism_));
   }
 
   std::string why(bool taken) const {

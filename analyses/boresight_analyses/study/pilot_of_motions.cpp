@@ -101,7 +101,8 @@ class PilotOfMotions {
       r.deviation = std::sqrt((squares(r.own) + squares(r.fine)) / (2.0 * neighbours - 2.0));
       reference_.push_back(r);
       const double size = std::abs(mean(r.fine));
-      if (size > nothing_of(options_.index, *mechanism_)) result_.scatter = std::max(result_.scatter, r.deviation / size);
+      if (size > nothing_of(options_.index, *mechanism_))
+        result_.scatter = std::max(result_.scatter, r.deviation / size);
       if (reference_.size() == 1) {
         own.step = first.integrator.empty() ? first.step : 0.0;
         own.integrator = first.integrator;
@@ -121,7 +122,9 @@ class PilotOfMotions {
   void weigh(const std::vector<double>& values, std::size_t motion, bool stepless, PilotTrial& trial) const {
     const Reference& r = reference_[motion];
     const double size = std::abs(mean(r.fine)), n = static_cast<double>(r.fine.size());
-    if (const double nothing = nothing_of(options_.index, *mechanism_); size <= nothing && std::abs(mean(values)) <= nothing) return;
+    if (const double nothing = nothing_of(options_.index, *mechanism_);
+        size <= nothing && std::abs(mean(values)) <= nothing)
+      return;
     // The deviation is that of all groups; a rung without steps has none of its own.
     double sum = squares(r.own) + squares(r.fine), freedom = 2.0 * n - 2.0;
     if (!stepless && values.data() != r.own.data() && values != r.own) {

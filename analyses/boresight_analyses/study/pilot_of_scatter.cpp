@@ -306,9 +306,11 @@ class PilotOfScatter {
         continue;
       for (const double p : stated_probabilities(*options_.statistic)) {
         const std::vector<double> reference = fine_->values(pairs_);
-        const ScatterDifference d = compare_scatter(setup->values(pairs_), reference, scores_, {p}, nothing_of(options_.index, *mechanism_));
+        const ScatterDifference d =
+            compare_scatter(setup->values(pairs_), reference, scores_, {p}, nothing_of(options_.index, *mechanism_));
         // The reference is off by something itself, as its own step shows.
-        const ScatterDifference own = compare_scatter(own_->values(pairs_), reference, scores_, {p}, nothing_of(options_.index, *mechanism_));
+        const ScatterDifference own =
+            compare_scatter(own_->values(pairs_), reference, scores_, {p}, nothing_of(options_.index, *mechanism_));
         result_.errors.push_back({p, d.bound() + own.bound() / kOwnOverReference});
       }
       return;

@@ -201,9 +201,9 @@ class AllocateVerb : public Verb {
     for (const AllocationEntry& joint : plan.entries) names.push_back(joint.name());
     if (plan.inputs)
       for (const RandomParameter& p : plan.inputs->parameters) names.push_back(p.name());
-    const auto store = own.run().open_evaluations(
-        "confirmation.db", names, model.rung(), model.step(),
-        fmt::format("{}, accuracy {:g}", model.batch() > 1 ? "lanes" : "runs", accuracy));
+    const auto store =
+        own.run().open_evaluations("confirmation.db", names, model.rung(), model.step(),
+                                   fmt::format("{}, accuracy {:g}", model.batch() > 1 ? "lanes" : "runs", accuracy));
     Confirming confirming(model, plan, *store, command.jobs);
 
     if (!command.quiet) {

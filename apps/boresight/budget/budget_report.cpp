@@ -130,9 +130,10 @@ std::string requirement_sentence(const BudgetStudy& s, const RequirementAnswer& 
   else
     text += r.judgement.by == Judgement::By::nothing
                 ? std::string(": the members do not contradict it")
-                : fmt::format(": the members do not contradict it, and show {:.4g} % with {} confidence; more of them "
-                              "may show it",
-                              100.0 * r.compliance.shown, percent(r.asked.confidence));
+                : fmt::format(
+                      ": the members do not contradict it, and show {:.4g} % with {} confidence; more of them "
+                      "may show it",
+                      100.0 * r.compliance.shown, percent(r.asked.confidence));
   return r.judgement.why.empty() ? text : text + " (" + r.judgement.why + ")";
 }
 

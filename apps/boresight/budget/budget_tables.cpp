@@ -208,7 +208,7 @@ report::Table contributor_table(const BudgetStudy& s) {
          (slider ? "gaps " + readable(c.parameters.width_gap, "m") + " and " + readable(c.parameters.height_gap, "m")
           : pad  ? "gap " + readable(c.parameters.axial, "m")
                  : "radial " + readable(c.parameters.radial, "m") +
-                       (c.parameters.axial > 0.0 ? ", axial " + readable(c.parameters.axial, "m") : "")) +
+                      (c.parameters.axial > 0.0 ? ", axial " + readable(c.parameters.axial, "m") : "")) +
              (pad || slider ? " on each side" : "") + " where nothing else is drawn",
          "all", kFromNominal});
   }

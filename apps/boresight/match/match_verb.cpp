@@ -143,7 +143,8 @@ class MatchVerb : public Verb {
     const auto model_text = [&](const SampleModel& m) {
       return fmt::format("{}, accuracy {:g}", m.batch() > 1 ? "lanes" : "runs", accuracy);
     };
-    const auto store = own.run().open_evaluations("evaluations.db", names, model.rung(), model.step(), model_text(model));
+    const auto store =
+        own.run().open_evaluations("evaluations.db", names, model.rung(), model.step(), model_text(model));
     if (choice.pilot) note_choice(*store, choice);
     const RandomInputs* inputs = plan.inputs ? &*plan.inputs : nullptr;
     DesignEvaluator evaluator(model, inputs, store.get(),
@@ -159,7 +160,8 @@ class MatchVerb : public Verb {
     if (upper != choice.name || plan.inputs) {
       RungChoice upper_choice{upper, "confirms"};
       upper_model = std::move(design_model(upper_choice, designs_asked).samples);
-      upper_store = own.run().open_evaluations("confirmation.db", names, upper, upper_model->step(), model_text(*upper_model));
+      upper_store =
+          own.run().open_evaluations("confirmation.db", names, upper, upper_model->step(), model_text(*upper_model));
       upper_evaluator =
           std::make_unique<DesignEvaluator>(*upper_model, inputs, upper_store.get(),
                                             DesignEvaluator::Options{.samples = plan.confirm,

@@ -1,8 +1,8 @@
 #include "results/start_warnings.hpp"
 
+#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/interruption.hpp"
-#include "boresight/formulations/ideal_simulation.hpp"
 #include "boresight/scene/starting_journals.hpp"
 
 namespace boresight::app {

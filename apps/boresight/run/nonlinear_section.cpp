@@ -119,8 +119,9 @@ report::Section nonlinear_section(const NonlinearAnalysis& analysis, const Mecha
     place.equal_axes = true;
     if (slider) {
       const double w = 1e6 * gap.width_gap, h = 1e6 * gap.height_gap;
-      place.series.push_back(
-          {.name = "room in the guide", .x = report::Numbers{-w, w, w, -w, -w}, .y = report::Numbers{-h, -h, h, h, -h}});
+      place.series.push_back({.name = "room in the guide",
+                              .x = report::Numbers{-w, w, w, -w, -w},
+                              .y = report::Numbers{-h, -h, h, h, -h}});
     } else {
       place.circles.push_back({0.0, 0.0, radial, "bore"});
     }

@@ -258,10 +258,11 @@ class RunVerb : public Verb {
       cut_short = interrupted();
     }
     if (cut_short && !result.interrupted)
-      result.warnings.push_back("interrupted after the motion: what compares it, or measures its steps, is not all there");
+      result.warnings.push_back(
+          "interrupted after the motion: what compares it, or measures its steps, is not all there");
 
-    Json summary =
-        summary_of(command, *mechanism, choice, result, others, axes, predictability, measured, index, watch, cut_short, out);
+    Json summary = summary_of(command, *mechanism, choice, result, others, axes, predictability, measured, index, watch,
+                              cut_short, out);
     report::Document document =
         run_report(command, *mechanism, choice, rung->leaves_out(), result, others, axes, predictability,
                    step_error_sentence(measured, result.index, index, mechanism->characteristic_length()));

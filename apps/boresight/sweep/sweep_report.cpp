@@ -52,8 +52,8 @@ report::Chart against_parameter(const std::string& title, const std::string& lab
   report::Chart chart{.title = title, .caption = {}, .x = {axis.name(), x_unit.name}, .y = {label, y_unit.name}};
   const std::size_t runs = plan.points() / axis.values.size();  // combinations of the other axes
   if (runs > kMostOverlaid)
-    chart.caption = fmt::format("The first {} of {} combinations of the other parameters; sweep.csv has all.",
-                                kMostOverlaid, runs);
+    chart.caption =
+        fmt::format("The first {} of {} combinations of the other parameters; sweep.csv has all.", kMostOverlaid, runs);
   for (std::size_t r = 0; r < std::min(runs, kMostOverlaid); ++r) {
     for (const Measure& m : measures) {
       report::Numbers x, y;

@@ -48,7 +48,7 @@ class Cursor {
   void name_error(const std::string& name) { document_->name_error(name); }
   // In the file, or set by its own name: what is refused where it has no meaning. "clearance.*.axial" means the joints that have one.
   bool has_by_name(const std::string& key) const;
-  std::vector<std::string> keys() const;   // in the order of the file
+  std::vector<std::string> keys() const;  // in the order of the file
 
   // A key without a default must be there. `otherwise` is the value of a key whose default depends on others.
   double quantity(const std::string& key);

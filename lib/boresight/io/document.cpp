@@ -157,7 +157,8 @@ const Setting* Document::setting_for(const std::string& path) {
 const Setting* Document::setting_under(const std::string& path, bool by_star) const {
   const Setting* last = nullptr;
   for (const Setting& setting : settings_) {
-    if ((by_star || setting.path.find('*') == std::string::npos) && names(setting.path, path, false, error_names_)) last = &setting;
+    if ((by_star || setting.path.find('*') == std::string::npos) && names(setting.path, path, false, error_names_))
+      last = &setting;
   }
   return last;
 }

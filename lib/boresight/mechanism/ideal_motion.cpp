@@ -125,8 +125,7 @@ IdealMotion IdealMotion::kinematic(const Mechanism& mechanism) {
   double farthest = 0.0;
   for (const BodyDescription& body : mechanism.description().bodies)
     farthest = std::max(farthest, body.center_of_mass.lpNorm<Eigen::Infinity>());
-  const double rounding =
-      32.0 * std::numeric_limits<double>::epsilon() * farthest / mechanism.characteristic_length();
+  const double rounding = 32.0 * std::numeric_limits<double>::epsilon() * farthest / mechanism.characteristic_length();
   int most = kUsual;
   while (2 * most <= kMostIntervals && 2.0 * most * bytes_of_state(mechanism.bodies()) < kMostTableBytes) most *= 2;
   for (int intervals = kFewestIntervals;; intervals *= 2) {

@@ -153,8 +153,8 @@ double rest_as_clearances_grow(const Mechanism& mechanism, const Parameters& par
     Parameters narrowed = parameters;
     for (ClearanceParameters& c : narrowed.clearance)
       for (const auto gap : kGaps) c.*gap *= share;
-    const RestingBalance balance(scene.layout, scene.numbers.row.data(),
-                                 joint_plays(mechanism.description(), narrowed), scene.numbers.cancelled);
+    const RestingBalance balance(scene.layout, scene.numbers.row.data(), joint_plays(mechanism.description(), narrowed),
+                                 scene.numbers.cancelled);
     if (!from) {
       const RestingStart linear = balance.solve();
       if (!linear.refusal.empty()) return std::numeric_limits<double>::infinity();

@@ -125,7 +125,7 @@ std::vector<int> ClearanceScene::tipped_by_all_loads(const IdealMotion& ideal, c
 SceneStart ClearanceScene::start_of(const Parameters& parameters, const Knot& first) const {
   SceneStart start{{}, start_rates(mechanism_, parameters, first.state, first.T, first.T_rate)};
   start.cancelled = kCancelledLoad * sum_of_acting_loads(mechanism_, parameters, first.state.t, first.state.bodies,
-                                                     first.state.acceleration);
+                                                         first.state.acceleration);
   append_row(parameters, first, start.row, true);
   return start;
 }

@@ -43,7 +43,7 @@ struct SceneStart {
   std::vector<double> row;
   MatX rates;
   double cancelled = 0.0;  // a load below is what rounding leaves of loads that cancel [N]
-  VecX beside = {};  // where journals rest: what motions start beside that balance, z, then zdot; empty: nothing
+  VecX beside = {};        // where journals rest: what motions start beside that balance, z, then zdot; empty: nothing
 };
 
 // The scene for one set of masses and one gravity, ready to integrate.

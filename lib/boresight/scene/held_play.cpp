@@ -130,7 +130,8 @@ bool ripples_between(const Mechanism& mechanism, const std::function<void(double
   };
   double largest = 0.0, off = 0.0;
   for (int i = 1; i <= kPlaces; ++i) {
-    const double place = std::fmod(i * kGolden, 1.0) * duration / step, whole = std::floor(place), share = place - whole;
+    const double place = std::fmod(i * kGolden, 1.0) * duration / step, whole = std::floor(place),
+                 share = place - whole;
     const Vec6 before = error_at(whole * step), after = error_at((whole + 1.0) * step), here = error_at(place * step);
     off = std::max(off, (here - (1.0 - share) * before - share * after).norm());
     largest = std::max({largest, here.norm(), before.norm()});

@@ -74,8 +74,7 @@ struct Follower {
 
   IntegrationOptions options(Eigen::Index size) const {
     return integration_options(tables->layout, parameters, numbers, request.tolerance,
-                               std::min(mechanism.duration() / 100.0, request.longest_step), size,
-                               request.most_steps);
+                               std::min(mechanism.duration() / 100.0, request.longest_step), size, request.most_steps);
   }
 
   // W of the directions, from `first` on.

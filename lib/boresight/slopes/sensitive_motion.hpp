@@ -71,7 +71,7 @@ struct MotionRequest {
   double derivative_tolerance = 0.0;  // of S times each quantity's own size, as tolerance; 0: S has no say in the steps
   double grazing_speed = 0.0;         // approaches slower than this graze; 0: twice the least impact speed [m/s]
   double longest_step = std::numeric_limits<double>::infinity();  // of a step: longest_step_of() its scene [s]
-  long most_steps = 0;                // attempts of steps; 0: any that one run may take
+  long most_steps = 0;                                            // attempts of steps; 0: any that one run may take
   // Steps that no stiff or damped contact keeps short (RODAS4), each as dear as some of the explicit ones: implicit_steps_pay().
   bool implicit = false;
 };

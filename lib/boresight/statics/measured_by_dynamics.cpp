@@ -52,18 +52,18 @@ double standing_for(double b, double a) {
 
 // What a sample's play is told apart by.
 constexpr std::array kSizes = {
-    &ClearanceParameters::journal_radius, &ClearanceParameters::cap_radius,
-    &ClearanceParameters::radial,     &ClearanceParameters::axial,         &ClearanceParameters::width_gap,
-    &ClearanceParameters::height_gap, &ClearanceParameters::sleeve_length, &ClearanceParameters::pad_radius,
-    &ClearanceParameters::width,      &ClearanceParameters::height,        &ClearanceParameters::length};
+    &ClearanceParameters::journal_radius, &ClearanceParameters::cap_radius, &ClearanceParameters::radial,
+    &ClearanceParameters::axial,          &ClearanceParameters::width_gap,  &ClearanceParameters::height_gap,
+    &ClearanceParameters::sleeve_length,  &ClearanceParameters::pad_radius, &ClearanceParameters::width,
+    &ClearanceParameters::height,         &ClearanceParameters::length};
 
 constexpr std::array kOfContact = {&ContactParameters::stiffness_scale, &ContactParameters::linear_stiffness,
                                    &ContactParameters::linear_damping, &ContactParameters::density,
                                    &ContactParameters::minimum_impact_speed};
-constexpr std::array kOfFriction = {
-    &FrictionParameters::coefficient,    &FrictionParameters::static_speed,      &FrictionParameters::dynamic_speed,
-    &FrictionParameters::stribeck_speed, &FrictionParameters::bristle_stiffness, &FrictionParameters::bristle_damping,
-    &FrictionParameters::viscosity,      &FrictionParameters::static_coefficient};
+constexpr std::array kOfFriction = {&FrictionParameters::coefficient,       &FrictionParameters::static_speed,
+                                    &FrictionParameters::dynamic_speed,     &FrictionParameters::stribeck_speed,
+                                    &FrictionParameters::bristle_stiffness, &FrictionParameters::bristle_damping,
+                                    &FrictionParameters::viscosity,         &FrictionParameters::static_coefficient};
 constexpr std::array kOfSpring = {&SpringParameters::stiffness, &SpringParameters::damping, &SpringParameters::preload};
 // Of lengths that are no sizes, places of a grid stand, of the mechanism's own length: mass centres, springs at rest.
 constexpr double kGridOfCentres = 0.1, kGridOfSprings = 0.01;
@@ -108,8 +108,7 @@ Parameters standing_for(const Parameters& b, const Parameters& a, double length)
   for (std::size_t k = 0; k < a.clearance.size(); ++k) p.clearance[k] = standing_for(b.clearance[k], a.clearance[k]);
   for (std::size_t k = 0; k < a.spring.size(); ++k) {
     for (const auto number : kOfSpring) p.spring[k].*number = standing_for(b.spring[k].*number, a.spring[k].*number);
-    p.spring[k].free_length =
-        standing_for(b.spring[k].free_length, a.spring[k].free_length, kGridOfSprings * length);
+    p.spring[k].free_length = standing_for(b.spring[k].free_length, a.spring[k].free_length, kGridOfSprings * length);
   }
   return p;
 }

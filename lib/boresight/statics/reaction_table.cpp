@@ -85,7 +85,9 @@ bool held_by_springs(const Parameters& parameters) {
 
 ReactionTable::ReactionTable(const Mechanism& mechanism, const PreparedScene& prepared,
                              const StandingDisplacement& standing, const Parameters& parameters, double share)
-    : mechanism_(mechanism), layout_(prepared.scene().layout()), tied_(standing.shifts() || layout_.tips || held_by_springs(parameters)) {
+    : mechanism_(mechanism),
+      layout_(prepared.scene().layout()),
+      tied_(standing.shifts() || layout_.tips || held_by_springs(parameters)) {
   const ClearanceScene& scene = prepared.scene();
   if (scene.coordinates().leftover() > 0)
     throw ComputationError(parts_in_play(mechanism.description()).inserts +

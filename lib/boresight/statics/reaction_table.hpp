@@ -67,8 +67,8 @@ class ReactionTable {
   EightPointTable table_;  // r (n), E (6 x n), and per clearance its slide and what coordinates add to it (n)
   TimeTable change_;       // of r by standing errors (n, or no functions)
   std::vector<JointPlay> joints_;
-  std::vector<OffsetGroups> groups_;        // of each
-  std::vector<double> largest_load_;        // per clearance [N]
+  std::vector<OffsetGroups> groups_;  // of each
+  std::vector<double> largest_load_;  // per clearance [N]
   double cancelled_ = 0.0;
   std::vector<std::vector<double>> least_;  // per clearance and group: a load below counts as none [N, N m]
   bool tied_ = false, slides_ = false;

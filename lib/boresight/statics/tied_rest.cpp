@@ -60,8 +60,8 @@ TiedRest::Rest TiedRest::at(const ReactionTable::Instant& now, const Rest* befor
   if (!rest.refusal.empty())
     throw ComputationError(
         "redundant joints or springs tie the offsets of clearance joints together, and no position was found in which "
-        "the " + inserts_ + "' contacts carry the loads of t = " + std::to_string(now.t) +
-        " s all together; use perturbation");
+        "the " +
+        inserts_ + "' contacts carry the loads of t = " + std::to_string(now.t) + " s all together; use perturbation");
   Rest found{rest.z, {}};
   for (std::size_t c = 0; c < layout_.joints.size(); ++c) found.joint.push_back(resting(c, rest.z));
   return found;
@@ -84,9 +84,8 @@ RestingPlay TiedRest::resting(std::size_t joint, const VecX& z) const {
     const ContactState<double>& contact = rest.contact[static_cast<int>(place)];
     const double pressed = std::max(0.0, contact.penetration);
     if (is_axial(place))
-      rest.axial_reach = std::max(
-          {rest.axial_reach, gaps.back() + contact.normal_force / law.axial_stiffness(),
-           std::abs(rest.motion.e.y()) + (pad ? pad->radius * rest.motion.slope.norm() : 0.0)});
+      rest.axial_reach = std::max({rest.axial_reach, gaps.back() + contact.normal_force / law.axial_stiffness(),
+                                   std::abs(rest.motion.e.y()) + (pad ? pad->radius * rest.motion.slope.norm() : 0.0)});
     else if (place == ContactPlace::radial)
       rest.radial_reach.fill(gaps[0] + pressed);
     else

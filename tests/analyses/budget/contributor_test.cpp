@@ -189,7 +189,8 @@ TEST(Contributor, PreOfARecalibratedDriftKnowsOfTheReset) {
     EXPECT_NEAR(line.sd, std::sqrt(std::max(0.0, square / count - sum / count * sum / count)), 2e-3) << revisit;
     double worst = 0.0;
     for (const Vec3& value : seen) worst = std::max(worst, std::abs(value.x()));
-    EXPECT_NEAR(moments(drift, 0, ErrorIndex::pre, Interpretation::ensemble, windows, 80.0).mean, worst, 2e-3) << revisit;
+    EXPECT_NEAR(moments(drift, 0, ErrorIndex::pre, Interpretation::ensemble, windows, 80.0).mean, worst, 2e-3)
+        << revisit;
   }
   // Windows as long as an observation lie in whole ones, of which each has the same mean.
   const Windows whole{.window = 0.4, .observation = 0.4};

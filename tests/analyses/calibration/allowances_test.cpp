@@ -1,11 +1,12 @@
 // What a fit allows for beside its parameters: jumps of the motion, a lag and drifts of the sensor, what was known before.
 
+#include "boresight_analyses/calibration/allowances.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "boresight_analyses/calibration/allowances.hpp"
 #include "four_bar_rig.hpp"
 
 namespace boresight {

@@ -42,8 +42,8 @@ TEST(CalibrationPlan, TakesWholeNumbersUpToTheEndsThatItNames) {
 }
 
 TEST(CalibrationPlan, TakesAPriorAsAShareOfWhatHasNoUnitToo) {
-  const CalibrationPlan plan = read(
-      "[[calibrate.parameter]]\npath = \"clearance.A.friction.coefficient\"\nstart = 0.08\nprior = \"20 %\"\n");
+  const CalibrationPlan plan =
+      read("[[calibrate.parameter]]\npath = \"clearance.A.friction.coefficient\"\nstart = 0.08\nprior = \"20 %\"\n");
   ASSERT_EQ(plan.parameters.size(), 2u);
   EXPECT_TRUE(plan.parameters[0].prior_is_share);
   EXPECT_NEAR(*plan.parameters[0].prior, 0.2, 1e-15);

@@ -109,8 +109,8 @@ TEST_F(DocumentedTables, OfOtherVerbsAreThoseThatTheyWrite) {
   expect_explained({"restitution.csv", "force.csv", "friction.csv"});
   ASSERT_EQ(call({"check", BORESIGHT_EXAMPLES "/four-bar/four-bar.toml", "--quiet", "--out", "checked"}).status, 0);
   expect_explained({"conditioning.csv"}, "checked");
-  ASSERT_EQ(call({"stability", BORESIGHT_EXAMPLES "/four-bar/four-bar.toml", "--set",
-                  "motion.duration=20ms", "--quiet", "--out", "stable"})
+  ASSERT_EQ(call({"stability", BORESIGHT_EXAMPLES "/four-bar/four-bar.toml", "--set", "motion.duration=20ms", "--quiet",
+                  "--out", "stable"})
                 .status,
             0);
   expect_explained({"limits.csv", "growth.csv", "steps.csv", "baumgarte.csv", "horizon.csv", "cases.csv"}, "stable");

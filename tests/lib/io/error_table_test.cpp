@@ -134,8 +134,7 @@ TEST(ErrorTable, IsSetByAStarWhateverItsNamesHold) {
   const auto errors = [](const std::string& path) {
     std::string text;
     for (const char* name : {"a", "b.c", "b.d.length"})
-      text += "[[error]]\nname = \"" + std::string(name) +
-              "\"\njoint = \"R\"\nbody = \"arm\"\nrotation = [0, 0, 1]\n";
+      text += "[[error]]\nname = \"" + std::string(name) + "\"\njoint = \"R\"\nbody = \"arm\"\nrotation = [0, 0, 1]\n";
     return nominal_parameters(read_with(text, {{path, "1 mrad"}})).error;
   };
   EXPECT_EQ(errors("error.*"), (std::vector<double>{1e-3, 1e-3, 1e-3}));

@@ -257,8 +257,7 @@ TEST(Setting, WithAStarNamesTheFloatingBearings) {
   for (const ClearanceDescription& c : plain.clearances)
     if (const std::string& name = plain.joints[c.joint].name; name.ends_with(".floating")) floating = name;
   ASSERT_FALSE(floating.empty());
-  const MechanismDescription all =
-      example("bearing-pairs/gimbal.toml", {{"clearance.*.floating.radial", "0.021 mm"}});
+  const MechanismDescription all = example("bearing-pairs/gimbal.toml", {{"clearance.*.floating.radial", "0.021 mm"}});
   for (const ClearanceDescription& c : all.clearances) {
     const bool floats = all.joints[c.joint].name.ends_with(".floating");
     if (floats) {

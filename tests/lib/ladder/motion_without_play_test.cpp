@@ -110,10 +110,9 @@ TEST(MotionWithoutPlay, EndsWhereItIsInterrupted) {
 // of them: of 50 urad it has an RMS of 50 / sqrt(2), on every rung.
 TEST(MotionWithoutPlay, SeesARippleThatGoesOnBetweenItsInstants) {
   for (const char* ripple : {"cos(64*q)", "sin(64*q + 0.5)", "cos(500*q)", "cos(1000*q)"}) {
-    MechanismDescription m = read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/altaz-gimbal/altaz-gimbal.toml",
-                                            {{"motion.drives.azimuth", "2*pi*t"},
-                                             {"motion.drives.elevation", "0.4"},
-                                             {"motion.duration", "1 s"}});
+    MechanismDescription m = read_mechanism(
+        std::string(BORESIGHT_EXAMPLES) + "/altaz-gimbal/altaz-gimbal.toml",
+        {{"motion.drives.azimuth", "2*pi*t"}, {"motion.drives.elevation", "0.4"}, {"motion.duration", "1 s"}});
     m.errors.clear();
     m.errors.push_back(scenes::drive_error(m, "azimuth", ripple));
     m.errors.back().value = 50e-6;
