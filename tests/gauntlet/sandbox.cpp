@@ -124,6 +124,8 @@ Outcome in_sandbox(const Limits& limits, const std::function<Json()>& work) {
       message["refused"] = e.what();
     } catch (const ComputationError& e) {
       message["refused"] = e.what();
+    } catch (const std::invalid_argument& e) {  // options that do not go together: the library's contract
+      message["refused"] = e.what();
     } catch (const std::exception& e) {
       message["fault"] = std::string(e.what()) + " (" + typeid(e).name() + ")";
     }
