@@ -26,7 +26,7 @@ constexpr int kInstantsAKnot = 2;
 // A motion that ripples faster than its knots show is looked at this often, each time at so many times more instants at most.
 constexpr int kMostLooks = 4;
 constexpr double kMostTimesMore = 16.0;
-constexpr double kTimesMoreOfRipples = 5.0;  // no fraction of which two that are tried are alike
+constexpr double kTimesMoreOfRipples = 5.0;  // other than the twos of the grids before
 constexpr long kInstantsBetweenLooks = 256;  // at whether to go on
 
 // How much higher than at its instants a number is somewhere between them, by the parabola through a peak and its neighbours.
