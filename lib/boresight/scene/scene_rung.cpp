@@ -182,10 +182,8 @@ std::shared_ptr<const PreparedScene> SceneRung::prepared_for(const Parameters& p
     lock.lock();
     if (prepared_ != kept && serves(*mechanism_, *prepared_, prepared_parameters_, parameters)) return prepared_;
   }
-  {
-    prepared_ = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
-    prepared_parameters_ = parameters;
-  }
+  prepared_ = std::make_shared<const PreparedScene>(*mechanism_, ideal_motion(*mechanism_, parameters), parameters);
+  prepared_parameters_ = parameters;
   return prepared_;
 }
 
