@@ -15,7 +15,8 @@ CalibrationProblem of_one_channel(const std::vector<double>& readings) {
   data.channels = {0};
   data.value.resize(static_cast<Eigen::Index>(readings.size()), 1);
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    data.time.push_back(1e-5 * static_cast<double>(i));
+    // Within the motion, which lasts 0.05 s.
+    data.time.push_back(0.05 * static_cast<double>(i) / static_cast<double>(readings.size()));
     data.line.push_back(static_cast<int>(i) + 2);
     data.value(static_cast<Eigen::Index>(i), 0) = readings[i];
   }
