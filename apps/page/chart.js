@@ -42,6 +42,15 @@ function chartRows(chart) {
   if (map) map.z.forEach((row, j) => row.forEach((z, i) => rows.push([withUnit(map.label, map.unit), map.x[i], map.y[j], undefined, undefined, undefined, z])));
   return rows;
 }
+const sameAxes = (a, b) => ["x", "y"].every((axis) => a[axis].label === b[axis].label && a[axis].unit === b[axis].unit);
+// Of panels, each row of which says itself what it holds where they have axes of their own.
+function panelsText(panels) {
+  const alike = panels.every((panel) => sameAxes(panel, panels[0]));
+  const own = (panel) => (alike ? [] : [panel.x.label, panel.x.unit, panel.y.label, panel.y.unit]);
+  const [series, x, y, ...rest] = rowHeader(panels[0]);
+  const header = alike ? ["panel", series, x, y, ...rest] : ["panel", "x_is", "x_unit", "y_is", "y_unit", series, "x", "y", ...rest];
+  return csv(header, panels.flatMap((panel) => chartRows(panel).map((row) => [panel.title, ...own(panel), ...row])));
+}
 const rowHeader = (chart) => ["series", withUnit(chart.x.label, chart.x.unit), withUnit(chart.y.label, chart.y.unit), "y_low", "error_low", "error_high", chart.heatmap ? "value" : "text"];
 
 function wantsLegend(entries, title) {
@@ -135,7 +144,7 @@ export function panelsItem(item) {
   const keys = item.legend !== "none" && wantsLegend(entries, item.title) ? legend(entries, () => plots.forEach((one) => one.redraw())) : null;
   const parts = frame(item, "panels", {
     reset: () => plots.forEach((one) => one.setZoom(null)),
-    saveCsv: () => save(fileName(item.title, "csv"), csv(["panel", ...rowHeader(item.panels[0])], item.panels.flatMap((panel) => chartRows(panel).map((row) => [panel.title, ...row]))), "text/csv"),
+    saveCsv: () => save(fileName(item.title, "csv"), panelsText(item.panels), "text/csv"),
     savePng: async () => {
       const width = 520, height = item.panels.some((panel) => panel.equal_axes) ? 520 : 400;
       const pictures = [];

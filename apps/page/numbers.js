@@ -32,3 +32,17 @@ export function shown(value) {
 export function withUnit(label, unit) {
   return unit ? `${label} (${unit})` : label;
 }
+
+// Sizes of units with their prefixes, as reports write quantities.
+const prefixes = { n: 1e-9, "\u00b5": 1e-6, u: 1e-6, m: 1e-3, c: 1e-2, k: 1e3, M: 1e6, G: 1e9 };
+const units = { "": 1, "%": 0.01, m: 1, rad: 1, s: 1, N: 1, Hz: 1, Pa: 1, J: 1, W: 1, g: 1, K: 1, min: 60, h: 3600, deg: Math.PI / 180, "\u00b0": Math.PI / 180, arcmin: Math.PI / 10800, arcsec: Math.PI / 648000, mas: Math.PI / 648e6 };
+const sizeOf = (unit) => units[unit] ?? (unit[0] in prefixes && unit.slice(1) in units && unit.length > 1 ? prefixes[unit[0]] * units[unit.slice(1)] : undefined);
+
+// Of a quantity as text, "0.12 mm": its number in SI, to rank it by; undefined where it is none. What stands behind a power or a
+// slash scales with it in every row, so the first unit's size decides.
+export function magnitude(text) {
+  const parts = /^\s*([-+\u2212]?\d+(?:\.\d*)?(?:e[-+]?\d+)?)\s*([^\s/^]*)\S*\s*\S*$/i.exec(String(text));
+  if (!parts) return undefined;
+  const size = sizeOf(parts[2]);
+  return size === undefined ? undefined : Number(parts[1].replace("\u2212", "-")) * size;
+}

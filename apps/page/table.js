@@ -1,7 +1,7 @@
 // Tables that sort, and findings.
 import { copy, csv, fileName, save } from "./csv.js";
 import { element, icon, icons, paragraphs, tool } from "./dom.js";
-import { shown, withUnit } from "./numbers.js";
+import { magnitude, shown, withUnit } from "./numbers.js";
 
 const shownAtFirst = 25;
 
@@ -23,9 +23,14 @@ export function tableItem(item) {
     more.hidden = all;
     more.textContent = `Show all ${item.rows.length} rows`;
   }
+  // Quantities as text ("0.12 mm", "35 µm") by how large they are, where all of a column are such.
+  const sizes = item.columns.map((_, k) => {
+    const cells = item.rows.map((row) => (row[k] === null ? null : typeof row[k] === "number" ? row[k] : magnitude(row[k])));
+    return cells.some((size, i) => size === undefined && item.rows[i][k] !== "") ? null : cells;
+  });
   function sort(k) {
     sorted = { column: k, down: sorted.column === k && !sorted.down };
-    const key = (i) => item.rows[i][k];
+    const key = (i) => (sizes[k] ? sizes[k][i] ?? null : item.rows[i][k]);
     order.sort((a, b) => {
       const [left, right] = [key(a), key(b)];
       if (left === null || right === null) return (left === null) - (right === null);

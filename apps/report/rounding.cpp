@@ -48,15 +48,41 @@ void round_lists(json& object, Words keys) {
     if (object.contains(key)) round_numbers(object[key]);
 }
 
-// Of a picture five digits are more than anyone sees; deviations have digits of their own.
-void round_track(json& point) {
-  for (const char* key : {"x", "y", "z", "dx", "dy", "dz"}) {
+// Of a picture five digits of its extent are more than anyone sees, wherever the drawing lies; deviations have digits of their own.
+double extent_of(const json& points) {
+  double extent = 0.0;
+  for (const char* key : {"x", "y", "z"}) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const json& point : points) {
+      if (!point.contains(key)) continue;
+      for (const json& entry : point[key]) {
+        least = std::min(least, entry.get<double>());
+        most = std::max(most, entry.get<double>());
+      }
+    }
+    if (most > least) extent = std::max(extent, most - least);
+  }
+  return extent;
+}
+
+void round_to_share(json& list, double size) {
+  if (!(size > 0.0)) return;
+  const double unit = std::pow(10.0, std::floor(std::log10(size)) - 4.0);
+  for (json& entry : list) {
+    const double steps = std::round(entry.get<double>() / unit);
+    const double digits = std::abs(steps) >= 1.0 ? std::floor(std::log10(std::abs(steps))) + 2.0 : 2.0;
+    entry = round_to(steps * unit, std::clamp(static_cast<int>(digits), 6, 17));
+  }
+}
+
+void round_track(json& point, double extent) {
+  for (const char* key : {"x", "y", "z"})
+    if (point.contains(key)) round_to_share(point[key], extent);
+  for (const char* key : {"dx", "dy", "dz"}) {
     if (!point.contains(key)) continue;
     double size = 0.0;
     for (const json& entry : point[key]) size = std::max(size, std::abs(entry.get<double>()));
-    if (size == 0.0) continue;
-    const double unit = std::pow(10.0, std::floor(std::log10(size)) - 4.0);
-    for (json& entry : point[key]) entry = round_to(std::round(entry.get<double>() / unit) * unit, 6);
+    round_to_share(point[key], size);
   }
 }
 
@@ -66,7 +92,8 @@ void round_item(json& item) {
   } else if (item["kind"] == "strip") {
     for (json& row : item["rows"]) round_lists(row, {"start", "end"});
   } else if (item["kind"] == "view") {
-    for (json& point : item["points"]) round_track(point);
+    const double extent = extent_of(item["points"]);
+    for (json& point : item["points"]) round_track(point, extent);
   } else if (item["kind"] == "chart") {
     if (item.contains("series")) {
       for (json& one : item["series"]) round_lists(one, {"x", "y", "y_low", "error_low", "error_high"});

@@ -182,7 +182,7 @@ class Maker {
     for (std::size_t i = 0; i < plan_.contributors.size(); ++i) {
       const Contributor& c = plan_.contributors[i];
       const AxesMoments m = axes_moments(c, index, interpretation, windows, plan_.duration);
-      t.lines.push_back({c.name, kind_of(c), c.group, {}, m.factor, draws[i]});
+      t.lines.push_back({c.name, kind_of(c), c.group, {}, m.factor, draws[i], m.either_sign});
       for (Eigen::Index a = 0; a < axes; ++a) t.lines.back().axes.push_back({m.mean[a], m.factor.row(a).norm()});
     }
     t.total = total_of(t.lines);

@@ -109,6 +109,11 @@ void read_times(Cursor& table, BudgetPlan& plan, double index_start, double dura
   fits("window", ErrorIndex::mpe);
   fits("separation", ErrorIndex::pde);
   fits("revisit", ErrorIndex::pre);
+  // Whole samples may have no place for what fits in seconds.
+  if (w.missing_for(ErrorIndex::pre, plan.duration).empty() &&
+      index_values(ErrorIndex::pre, {plan.sampling, std::vector<Vec3>(samples_of(plan), Vec3::Zero())}, w).empty())
+    table.fail(table.has("revisit") ? "revisit" : "window",
+               "windows that find a place in the samples of the motion: a finer `sampling`, or a shorter window");
 }
 
 // What scatters: the study's [[random]] tables, or those of a calibration's posterior.

@@ -60,14 +60,16 @@ ClassicalTotal total_of(std::span<const ClassicalLine> lines) {
   ClassicalTotal total;
   if (lines.empty()) return total;
   total.axes.resize(lines.front().axes.size());
+  std::vector<double> sizes(total.axes.size(), 0.0);
   for (const ClassicalLine& line : lines) {
-    for (std::size_t a = 0; a < total.axes.size(); ++a) total.axes[a].mean += line.axes[a].mean;
+    for (std::size_t a = 0; a < total.axes.size(); ++a)       (line.either_sign ? sizes[a] : total.axes[a].mean) += line.either_sign ? std::abs(line.axes[a].mean) : line.axes[a].mean;
     for (const ClassicalLine& other : lines)
       if (const double correlation = correlation_of(line, other); correlation != 0.0)
         total.covariance += correlation * factor_of(line) * factor_of(other).transpose();
   }
   for (std::size_t a = 0; a < total.axes.size(); ++a) {
     const auto at = static_cast<Eigen::Index>(a);
+    total.axes[a].mean += std::copysign(sizes[a], total.axes[a].mean);
     total.axes[a].sd = std::sqrt(std::max(0.0, total.covariance(at, at)));
   }
   return total;

@@ -74,6 +74,15 @@ Moments of_drift(const Ensemble& e, Interpretation interpretation, double middle
   return {};
 }
 
+// Whether the means of a contributor are sizes without a sign.
+bool comes_either_way(const Contributor& c, Interpretation interpretation) {
+  if (interpretation == Interpretation::mixed) return false;
+  if (interpretation == Interpretation::ensemble) return c.of_error || c.kind != ContributorClass::bias;
+  const auto scatters = [](const DistributionPtr& of) { return of && of->sd() > 0.0; };
+  if (c.of_error) return scatters(c.of_error->factor) || scatters(c.of_error->value);
+  return std::any_of(c.parameter.begin(), c.parameter.end(), scatters);
+}
+
 constexpr std::uint64_t kAxes = 4;           // places a stream has for an observation
 constexpr std::uint64_t kPlaceOfFactor = 3;  // the last of them
 
@@ -155,8 +164,8 @@ AxesMoments axes_moments(const Contributor& c, ErrorIndex index, Interpretation 
     out.mean[axis] = m.mean;
     deviations(axis, axis) = m.sd;
   }
-  const bool of_sizes = interpretation == Interpretation::ensemble;
-  out.mean = (of_sizes ? Mat3(c.frame.cwiseAbs()) : c.frame) * out.mean;
+  out.either_sign = comes_either_way(c, interpretation);
+  out.mean = out.either_sign ? Vec3(c.frame.cwiseAbs() * out.mean.cwiseAbs()) : Vec3(c.frame * out.mean);
   out.factor = c.frame * deviations * c.axes_factor;
   return out;
 }
@@ -237,8 +246,7 @@ std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t
           break;
         case ContributorClass::drift:
           e = parameter *
-              (gain * (c.recalibrated ? t - static_cast<double>(k / observed) * observation : t + windows.start) +
-               behind);
+              (gain * (c.recalibrated ? (static_cast<double>(k % observed) + 0.5) * spacing : t + windows.start) + behind);
           break;
         case ContributorClass::spectrum:
         case ContributorClass::measured:

@@ -64,11 +64,13 @@ struct Contributor {
 Moments moments(const Contributor& contributor, int axis, ErrorIndex index, Interpretation interpretation,
                 const Windows& windows, double duration);
 
-// Of all axes together: the means, and B with B B^T their covariance, in the axes of the error. Of the ensemble interpretation, whose means
-// are of largest sizes, those of turned axes add up as if they came at one time.
+// Of all axes together: the means, and B with B B^T their covariance, in the axes of the error. Where means are largest sizes, as of what
+// changes in the ensemble interpretation, or worst cases of what scatters, they may come with either sign: those of turned axes add up, and
+// nothing cancels them.
 struct AxesMoments {
   Vec3 mean = Vec3::Zero();
   Mat3 factor = Mat3::Zero();
+  bool either_sign = false;
 };
 AxesMoments axes_moments(const Contributor& contributor, ErrorIndex index, Interpretation interpretation,
                          const Windows& windows, double duration);

@@ -77,15 +77,21 @@ ErrorCourse read_error_course(Cursor& table, const BudgetPlan& plan, const Mecha
 }
 
 // The axes that it acts on, each with the parameter.
-void read_axes(Cursor& table, const BudgetAxes& axes, const DistributionPtr& parameter, Contributor& c) {
+// Returns the axes in the order in which they are named.
+std::vector<std::size_t> read_axes(Cursor& table, const BudgetAxes& axes, const DistributionPtr& parameter,
+                                   Contributor& c) {
   const std::vector<std::string> own = table.has("frame") ? std::vector<std::string>{"x", "y", "z"} : axes.names;
   const std::vector<std::string> named = table.has("axes") ? table.texts("axes") : own;
   table.require(!named.empty(), "axes", "at least one axis");
+  std::vector<std::size_t> order;
   for (const std::string& name : named) {
     const auto at = std::find(own.begin(), own.end(), name);
     if (at == own.end()) table.fail_found("axes", "\"" + name + "\"", "an axis of the error", nearest_name(name, own));
-    c.parameter[static_cast<std::size_t>(at - own.begin())] = parameter;
+    order.push_back(static_cast<std::size_t>(at - own.begin()));
+    if (c.parameter[order.back()]) table.fail_found("axes", "\"" + name + "\" twice", "each axis once");
+    c.parameter[order.back()] = parameter;
   }
+  return order;
 }
 
 // How a factor scatters over the members; 1 without the key.
@@ -122,8 +128,8 @@ void read_measured(Cursor& table, const BudgetPlan& plan, const BudgetAxes& axes
   refuse_beside(table, "measured",
                 {"class", "error", "course", "value", "distribution", "period", "correlation_time", "recalibrated"});
   c.kind = ContributorClass::measured;
-  read_axes(table, axes, read_factor(table), c);
-  c.measured = read_measured_course(table, plan, c, si_unit);
+  const std::vector<std::size_t> order = read_axes(table, axes, read_factor(table), c);
+  c.measured = read_measured_course(table, plan, order, si_unit);
 }
 
 // What the transfer functions leave of a class.

@@ -12,7 +12,8 @@
 
 namespace boresight {
 std::shared_ptr<const MeasuredCourse> read_measured_course(Cursor& contributor, const BudgetPlan& plan,
-                                                           const Contributor& axes, const std::string& si_unit) {
+                                                           const std::vector<std::size_t>& axes,
+                                                           const std::string& si_unit) {
   using Ends = MeasuredCourse::Ends;
   using Begin = MeasuredCourse::Begin;
   Cursor table = contributor.table("measured");
@@ -32,19 +33,16 @@ std::shared_ptr<const MeasuredCourse> read_measured_course(Cursor& contributor, 
     throw InputError(table.origin("unit"), table.path("unit"), fault.found, fault.expected, fault.nearest);
   }
   const std::vector<std::string> columns = table.texts("columns");
-  const auto acting = static_cast<std::size_t>(std::count_if(axes.parameter.begin(), axes.parameter.end(),
-                                                             [](const DistributionPtr& p) { return p != nullptr; }));
-  if (columns.size() != acting)
+  if (columns.size() != axes.size())
     table.fail_found("columns", std::to_string(columns.size()) + " columns",
-                     std::to_string(acting) + ", one for each axis that the contributor acts on");
-  std::size_t next = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!axes.parameter[axis]) continue;
-    record.value[axis] = read_column(table, "columns", columns[next++]);
-    if (record.value[axis].size() != record.time.size())
-      table.fail_found("columns", std::to_string(record.value[axis].size()) + " values of " + columns[next - 1],
+                     std::to_string(axes.size()) + ", one for each axis that the contributor acts on");
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    std::vector<double>& values = record.value[axes[k]];
+    values = read_column(table, "columns", columns[k]);
+    if (values.size() != record.time.size())
+      table.fail_found("columns", std::to_string(values.size()) + " values of " + columns[k],
                        std::to_string(record.time.size()) + ", as many as times");
-    for (double& v : record.value[axis]) v *= scale;
+    for (double& v : values) v *= scale;
   }
   const std::string ends = table.choice("ends");
   for (const Ends one : {Ends::refused, Ends::held, Ends::zero, Ends::repeated})

@@ -10,8 +10,9 @@
 
 namespace boresight {
 
-// On the plan's grid; the axes are those that have a parameter already. `si_unit`: of the index. Throws InputError.
+// On the plan's grid. `axes`: of the columns, in their order. `si_unit`: of the index. Throws InputError.
 std::shared_ptr<const MeasuredCourse> read_measured_course(Cursor& contributor, const BudgetPlan& plan,
-                                                           const Contributor& axes, const std::string& si_unit);
+                                                           const std::vector<std::size_t>& axes,
+                                                           const std::string& si_unit);
 
 }  // namespace boresight

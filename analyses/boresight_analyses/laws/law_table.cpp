@@ -15,7 +15,7 @@ constexpr double kGood = 0.02;
 NormalLaw law_for(const NormalLawEntry& entry, ClearanceParameters p, double e, double mass, bool own_dashpot) {
   p.contact.restitution = e;
   if (entry.geometry == ContactGeometry::linear && !own_dashpot)
-    p.contact.linear_damping = kelvin_voigt_dashpot(p.contact.linear_stiffness, mass, e);
+    p.contact.linear_damping = kelvin_voigt_dashpot(p.contact.stiffness_scale * p.contact.linear_stiffness, mass, e);
   return make_normal_law(entry.name, "", p);
 }
 
@@ -24,7 +24,8 @@ NormalLaw law_for(const NormalLawEntry& entry, ClearanceParameters p, double e, 
 std::vector<NormalLawRow> normal_law_table(ClearanceParameters p, double mass, double speed) {
   const bool own_spring = p.contact.linear_stiffness > 0.0;
   const double K = radial_hertz_stiffness(p), hertz_depth = std::pow(1.25 * mass * speed * speed / K, 0.4);
-  if (!own_spring) p.contact.linear_stiffness = K * std::sqrt(hertz_depth);
+  // K holds the scale, and so does the law.
+  if (!own_spring) p.contact.linear_stiffness = K * std::sqrt(hertz_depth) / p.contact.stiffness_scale;
   std::vector<NormalLawRow> rows;
   for (const NormalLawEntry& entry : normal_laws()) {
     if (entry.geometry == ContactGeometry::line && !(p.sleeve_length > 0.0)) continue;

@@ -117,6 +117,7 @@ MonteCarloPlan read_montecarlo_plan(Cursor& root, const Study& study, const Mech
   if (by_budget && plan.design.kind != SamplingKind::random)
     table.fail("design", "\"random\" with fidelities or tail: their intervals are for independent samples");
   plan.samples_of_budget = by_budget && table.has("samples");
+  plan.confidence_of_requirement = table.has("tail") && table.has("confidence");
   if (table.has("strata") && plan.design.kind != SamplingKind::lhs)
     table.fail("strata", "strata with design = \"lhs\" only");
   if (table.has("replicates") && plan.design.kind != SamplingKind::sobol)

@@ -43,9 +43,12 @@ std::vector<double> indices_of(const std::vector<double>& sums, double n) {
 }
 
 double centre_of(const std::vector<const SobolRow*>& rows) {
+  if (rows.empty()) return 0.0;
+  // From one of them, so that it is exactly that where all are the same: what rounding leaves would count as what varies.
+  const double first = rows.front()->a;
   double sum = 0.0;
-  for (const SobolRow* r : rows) sum += 0.5 * (r->a + r->b);
-  return sum / double(rows.size());
+  for (const SobolRow* r : rows) sum += 0.5 * ((r->a - first) + (r->b - first));
+  return first + sum / double(rows.size());
 }
 
 std::vector<const SobolRow*> whole_rows(const std::vector<SobolRow>& rows, std::size_t groups) {

@@ -13,6 +13,8 @@ std::vector<std::string> several_rungs_warnings(const SeveralRungs& s) {
   if (plan.samples_of_budget)
     warnings.push_back("samples = " + std::to_string(plan.samples) + " is not used: the budget of " +
                        (plan.fidelities ? "fidelities" : "tail") + " decides how many samples there are");
+  if (plan.confidence_of_requirement)
+    warnings.push_back("the study's own confidence is not used: what tail states has the requirement's");
   return warnings;
 }
 

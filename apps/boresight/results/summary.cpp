@@ -101,6 +101,7 @@ std::filesystem::path& summary_written() {
 }  // namespace
 
 const std::filesystem::path& last_summary() { return summary_written(); }
+void forget_summary() { summary_written().clear(); }
 
 void write_json(const OutputDirectory& out, const std::string& name, const Json& json) {
   clear_work_line();  // whatever is printed now stands on a line of its own

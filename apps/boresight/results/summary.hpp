@@ -38,6 +38,7 @@ Json vector_json(const Vec3& vector);                           // [x, y, z]
 
 // Where this program's last summary.json went; empty before the first.
 const std::filesystem::path& last_summary();
+void forget_summary();
 
 void write_json(const OutputDirectory& out, const std::string& name, const Json& json);
 

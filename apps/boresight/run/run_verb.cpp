@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include "boresight/contact/law_range.hpp"
 #include "boresight/io/mechanism_file.hpp"
 #include "boresight/ladder/ladder.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -20,6 +19,7 @@
 #include "report_parts/mechanism_view.hpp"
 #include "report_parts/step_error_parts.hpp"
 #include "results/assumed.hpp"
+#include "results/motion_claims.hpp"
 #include "results/report_files.hpp"
 #include "results/scatter_parts.hpp"
 #include "results/tables.hpp"
@@ -132,22 +132,6 @@ Json summary_of(const Command& command, const Mechanism& mechanism, const RungCh
   return json;
 }
 
-// Numbers that left what a double holds are no results.
-void refuse_infinite(const RunResult& result) {
-  const auto check = [](double value, const std::string& what) {
-    if (!std::isfinite(value))
-      throw ComputationError(
-          what + " grew beyond every number: forces, masses or speeds are out of all proportion to each other");
-  };
-  for (const QuantityName& quantity : quantity_names())
-    for (const StatisticName& statistic : statistic_names())
-      check((result.index.*quantity.statistics).*statistic.value, "the " + std::string(quantity.name));
-  for (const ContactSummary& c : result.contact) {
-    check(c.max_force, "the contact force of " + c.joint);
-    check(c.max_load, "the load on " + c.joint);
-  }
-}
-
 class RunVerb : public Verb {
  public:
   std::string name() const override { return "run"; }
@@ -219,7 +203,7 @@ class RunVerb : public Verb {
     const std::unique_ptr<Rung> rung = make_rung(choice.name, mechanism);
     RunResult result = rung->run(mechanism->parameters(), options);
     refuse_infinite(result);
-    add_range_warnings(*mechanism, result);
+    add_range_warnings(*mechanism, mechanism->parameters(), result);
     std::vector<Compared> others;
     std::optional<AxesComparison> axes;
     std::optional<Predictability> predictability;
@@ -316,13 +300,6 @@ class RunVerb : public Verb {
     index_ = question.study.index.quantity + "." + question.study.index.statistic;
     replayed_start_ = question.study.index.start;
     return command;
-  }
-
-  static void add_range_warnings(const Mechanism& mechanism, RunResult& result) {
-    for (std::size_t c = 0; c < result.contact.size(); ++c)
-      if (const auto warning = range_warning(result.contact[c].joint, mechanism.description().clearances[c].contact_law,
-                                             mechanism.parameters().clearance[c], result.contact[c].max_force))
-        result.warnings.push_back(*warning);
   }
 
   // A rung that cannot follow the motion says why, and the others go on.

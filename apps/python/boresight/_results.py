@@ -13,12 +13,20 @@ from typing import Any, Dict, List, Optional
 import numpy
 
 
+# Columns that hold names, which may look like numbers.
+_NAMES = {"joint", "contact", "body", "parameter", "name", "group"}
+
+
 def _column(texts: List[str]) -> numpy.ndarray:
     # Yes or no, whole numbers, then numbers of any kind, of which nothing is none; text otherwise.
     if texts and set(texts) <= {"true", "false"}:
         return numpy.array([text == "true" for text in texts])
+    if any("_" in text for text in texts):  # no number is written so, though Python reads some
+        return numpy.array(texts)
     try:
-        return numpy.array([int(text) for text in texts])
+        numbers = [int(text) for text in texts]
+        if [str(number) for number in numbers] == texts:
+            return numpy.array(numbers)
     except (ValueError, OverflowError):
         pass
     try:
@@ -40,8 +48,11 @@ class Result:
         self.folder: str = folder
         if own is not None:
             weakref.finalize(self, shutil.rmtree, own, ignore_errors=True)
-        with open(os.path.join(folder, "summary.json"), encoding="utf-8") as file:
-            self.summary: Dict[str, Any] = json.load(file)  #: summary.json; apps/boresight/summary.md says what is in it
+        self.summary: Dict[str, Any] = {}  #: summary.json; apps/boresight/summary.md says what is in it. Empty where a verb writes none
+        path = os.path.join(folder, "summary.json")
+        if os.path.exists(path):
+            with open(path, encoding="utf-8") as file:
+                self.summary = json.load(file)
 
     @property
     def answer(self) -> bool:
@@ -61,7 +72,8 @@ class Result:
         """A table of the folder ("timeseries.csv") as a structured array, one field a column, text as str."""
         with open(os.path.join(self.folder, name), encoding="utf-8", newline="") as file:
             names, *rows = csv.reader(file)
-        columns = [_column(list(texts)) for texts in zip(*rows)] if rows else [numpy.empty(0) for _ in names]
+        columns = ([numpy.array(texts) if name in _NAMES else _column(list(texts)) for name, texts in zip(names, zip(*rows))]
+                   if rows else [numpy.empty(0) for _ in names])
         table = numpy.empty(len(rows), dtype=[(name, column.dtype) for name, column in zip(names, columns)])
         for name, column in zip(names, columns):
             table[name] = column

@@ -15,7 +15,7 @@ File = Union[str, "os.PathLike[str]"]
 
 
 def _text(value: Any) -> str:
-    return value if isinstance(value, str) else repr(value) if isinstance(value, float) else str(value)
+    return value if isinstance(value, str) else repr(float(value)) if isinstance(value, float) else str(value)
 
 
 def verb(
@@ -58,7 +58,7 @@ def verb(
         if own is not None:
             shutil.rmtree(own, ignore_errors=True)
         raise
-    return Result(name, found["status"], found["folder"], own)
+    return Result(name, found["status"], found["folder"] or folder, own)
 
 
 def _named(name: str, of_study: bool, says: str) -> Callable[..., Result]:

@@ -38,7 +38,9 @@ pybind11::array column(const std::shared_ptr<Owner>& owner, const std::vector<El
 // A vector that becomes the array's own memory.
 inline pybind11::array owned(std::vector<double> values, std::vector<pybind11::ssize_t> shape) {
   auto owner = std::make_shared<std::vector<double>>(std::move(values));
-  return pybind11::array(pybind11::dtype::of<double>(), std::move(shape), owner->data(), kept(owner));
+  std::vector<pybind11::ssize_t> strides(shape.size(), static_cast<pybind11::ssize_t>(sizeof(double)));
+  for (std::size_t k = shape.size(); k-- > 1;) strides[k - 1] = strides[k] * shape[k];
+  return pybind11::array(pybind11::dtype::of<double>(), std::move(shape), std::move(strides), owner->data(), kept(owner));
 }
 
 }  // namespace boresight::python

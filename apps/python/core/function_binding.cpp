@@ -12,6 +12,7 @@
 #include "python/core/arrays.hpp"
 #include "python/core/bindings.hpp"
 #include "python/core/task.hpp"
+#include "terminal/embedding.hpp"
 
 namespace py = pybind11;
 
@@ -80,7 +81,15 @@ Function of_file(const std::string& file, const std::vector<std::string>& inputs
   question.command.quiet = true;
   app::AskedFunction asked;
   Task task(progress);
-  task.run([&] { asked = app::read_function(question); });
+  const app::Embedding host{.interrupted = [&] { return task.stop().load(); },
+                            .progress = [&](double done, double total, const std::string& unit,
+                                            const std::string& estimate) { task.tell(done, total, unit, estimate); },
+                            .failed = [](const std::string&) {}};
+  task.run([&] {
+    const std::scoped_lock lock(one_at_a_time());
+    const app::Embedded in(host);
+    asked = app::read_function(question);
+  });
   return {asked.function, asked.name, asked.rung.why};
 }
 

@@ -7,11 +7,13 @@
 #include "boresight/rungs/option_check.hpp"
 #include "boresight_analyses/study/index_choice.hpp"
 #include "boresight_analyses/study/rung_choice.hpp"
+#include "boresight_analyses/study/study.hpp"
 #include "command_line/command.hpp"
 #include "python/core/arrays.hpp"
 #include "python/core/bindings.hpp"
 #include "python/core/histories.hpp"
 #include "python/core/task.hpp"
+#include "results/motion_claims.hpp"
 
 namespace py = pybind11;
 
@@ -76,6 +78,21 @@ py::dict events_of(const Run& run) {
   return all;
 }
 
+// Every so many samples, and the last one, as the command's files have them.
+void thin(RunResult& result, std::size_t every) {
+  const auto thinned = [every](auto& samples) {
+    if (samples.empty()) return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      if (i % every == 0 || i + 1 == samples.size()) samples[kept++] = samples[i];
+    samples.resize(kept);
+  };
+  thinned(result.time);
+  thinned(result.boresight.samples);
+  for (BodyHistory& body : result.others) thinned(body.samples);
+  for (auto& samples : result.clearances) thinned(samples);
+}
+
 Run run(const std::shared_ptr<Mechanism>& mechanism, const std::optional<NamedParameters>& parameters,
         const std::string& rung, RunOptions options, const std::vector<std::string>& poses,
         const py::object& progress) {
@@ -87,7 +104,9 @@ Run run(const std::shared_ptr<Mechanism>& mechanism, const std::optional<NamedPa
     options.pose_bodies.push_back(body);
   }
   check_rung_name(rung);
-  const std::size_t every =
+  if (!(options.start >= 0.0)) throw InputError({}, "start", std::to_string(options.start), "a time of 0 s or more");
+  check_start(options.start, *mechanism, {}, "start");
+  std::size_t every =
       options.sample_spacing > 0.0 ? app::history_refinement(mechanism->duration(), options.sample_spacing) : 1;
   options.sample_spacing /= static_cast<double>(every);
   const Parameters& values = parameters ? parameters->values : mechanism->parameters();
@@ -98,6 +117,12 @@ Run run(const std::shared_ptr<Mechanism>& mechanism, const std::optional<NamedPa
   };
   auto result = std::make_shared<RunResult>();
   task.run([&] { *result = make_rung(rung == "auto" ? rung_names().back() : rung, mechanism)->run(values, options); });
+  app::refuse_infinite(*result);
+  app::add_range_warnings(*mechanism, values, *result);
+  if (every > 1 && !result->time.empty() && (result->time.size() - 1) % every != 0) {
+    thin(*result, every);
+    every = 1;
+  }
   return {mechanism, result, every};
 }
 

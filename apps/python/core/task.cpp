@@ -17,6 +17,11 @@ bool go_on(const char*, double) { return current == nullptr || !current->stop();
 
 }  // namespace
 
+std::mutex& one_at_a_time() {
+  static std::mutex mutex;
+  return mutex;
+}
+
 void watch_tasks() { watch_work(go_on); }
 
 void Task::tell(double done, double total, const std::string& unit, const std::string& estimate) {

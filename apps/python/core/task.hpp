@@ -42,6 +42,9 @@ class Task {
   Told told_;
 };
 
+// Verbs, and what reads studies, end by one flag and tell of their progress in one place: one at a time.
+std::mutex& one_at_a_time();
+
 // The library's long work (boresight/mechanism/interruption.hpp) on a task's thread hears of it from now on.
 void watch_tasks();
 

@@ -41,7 +41,6 @@ int execute(const std::vector<std::string>& words) {
 
 // Verbs end by one flag and tell of their progress in one place: one at a time.
 py::dict call(const std::vector<std::string>& words, const py::object& progress) {
-  static std::mutex one_at_a_time;
   Task task(progress);
   int status = kBadInput;
   std::string reason, folder;
@@ -50,8 +49,9 @@ py::dict call(const std::vector<std::string>& words, const py::object& progress)
                                        const std::string& estimate) { task.tell(done, total, unit, estimate); },
                        .failed = [&](const std::string& why) { reason = why; }};
   task.run([&] {
-    const std::scoped_lock lock(one_at_a_time);
+    const std::scoped_lock lock(one_at_a_time());
     const Embedded in(host);
+    forget_summary();
     try {
       status = execute(words);
     } catch (const SilentExit& exit) {

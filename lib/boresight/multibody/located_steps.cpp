@@ -73,7 +73,7 @@ RunResult follow_locating_contacts(const MultibodyMotion& run, const std::string
   y.conservativeResizeLike(VecX::Zero(system.size()));
   system.start(0.0, y);
   double drift = 0.0;
-  long points = 0;
+  long points = 0, ends = 0;  // looked at; of steps
   bool interrupted = false;
   // The energy's balance, by Simpson's rule over each step. The power at a step's start is that at the end of the one
   // before, unless an event changed what acts in between.
@@ -107,8 +107,9 @@ RunResult follow_locating_contacts(const MultibodyMotion& run, const std::string
     }
     system.observe(t, state, whole);
     run.record(*formulation, system.bodies_part(state), t, recorder);
-    interrupted =
-        ++points % 1024 == 0 && options.progress && !options.progress({t, duration, recorder.position_error_max()});
+    ++points;
+    interrupted = at_end && ++ends % kEndsBetweenLooks == 0 && options.progress &&
+                  !options.progress({t, duration, recorder.position_error_max()});
     return !interrupted;
   };
   IntegrationSummary summary;

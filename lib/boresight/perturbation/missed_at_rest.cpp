@@ -23,13 +23,9 @@ MissedAtRest missed_at_rest(const Mechanism& mechanism, const PreparedScene& pre
   std::string warning;
   missed.start = -start_coordinates(mechanism, tables->layout, tables->start,
                                     joint_plays(mechanism.description(), parameters), warning);
-  DeviationCoordinates coordinates = prepared.scene().coordinates();
-  MatX T;
-  coordinates.gain(0.0, T);
-  VecX z, z_dot;
-  coordinates.coordinate_rates(resting.exact, z_dot, z);
-  missed.start.head(z.size()) += z;
-  missed.start.tail(z.size()) += z_dot;
+  const DeviationCoordinates::Deviation exact = prepared.scene().coordinates().deviation(state, resting.exact, {});
+  missed.start.head(exact.z.size()) += exact.z;
+  missed.start.tail(exact.z.size()) += exact.z_dot;
   return missed;
 }
 

@@ -29,6 +29,11 @@ class MissedShare {
     if (square > 0.0) return std::sqrt(part_square_ / square);
     return part_square_ > 0.0 ? std::numeric_limits<double>::infinity() : 0.0;
   }
+  // The same, of a root mean square that is more than the displacements' own.
+  double mean_value(double least, double rms) const {
+    const double of = std::max(rms, least);
+    return instants_ > 0 ? ratio(std::sqrt(part_square_ / instants_), of) : 0.0;
+  }
   // The largest of the ratios of maxima, root mean squares and means; what is smaller than `least` is held against that. The instants are those of
   // large deviations, and a mean over them is more than the motion's own, by index: what is missed all along counts against that.
   double value(double least, const Statistics& index) const {
@@ -38,6 +43,14 @@ class MissedShare {
                  mean = std::max(std::min(sum_ / n, index.mean), least);
     const double by_rms = std::sqrt(part_square_ / n), by_mean = part_sum_ / n;
     return std::max({part_ / size, ratio(by_rms, rms), ratio(by_mean, mean)});
+  }
+  // Where something else displaces as well, and the index is of all: the share of that.
+  double share_of(double least, const Statistics& index) const {
+    if (instants_ == 0) return 0.0;
+    const double n = instants_;
+    return std::max({ratio(part_, std::max(index.max, least)),
+                     ratio(std::sqrt(part_square_ / n), std::max(index.rms, least)),
+                     ratio(part_sum_ / n, std::max(index.mean, least))});
   }
 
  private:

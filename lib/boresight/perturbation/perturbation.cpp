@@ -166,16 +166,16 @@ class Perturbation final : public SceneRung {
     VecX y = system.start_state(mechanism(), options.start_offset, start_warning), slope = y;
     largest.forget();
     bool interrupted = false;
-    long points = 0;
+    long ends = 0;  // of steps
     system.start_located(0.0, y);
     const IntegrationSummary summary = follow_located(
         integrator, system, duration, options.sample_spacing, y,
         integration_options(prepared, system, parameters, options),
-        [&](double t, const VecX& state, bool) {
+        [&](double t, const VecX& state, bool at_end) {
           system.derivative(t, state, slope);
           system.observe(t);
           record(prepared, standing, t, state, slope, system, recorder, largest);
-          interrupted = ++points % kStepsBetweenLooks == 0 && options.progress &&
+          interrupted = at_end && ++ends % kEndsBetweenLooks == 0 && options.progress &&
                         !options.progress({t, duration, recorder.position_error_max()});
           return !interrupted;
         },

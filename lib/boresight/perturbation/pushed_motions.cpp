@@ -5,6 +5,7 @@
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
+#include "boresight/stepping/located_motion.hpp"
 
 namespace boresight {
 namespace {
@@ -158,13 +159,14 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
   beside.pose_bodies.clear();
   beside.events = false;
   double looks = 0.0;
-  const double most_looks = 2.0 + kMostSteps * static_cast<double>(result.cost.steps) / kStepsBetweenLooks;
+  if (!result.integrator_taken.empty()) beside.integrator = result.integrator_taken;
+  const bool by_steps = beside.integrator.empty() || beside.integrator == "rk4";
+  const double most_looks = 2.0 + kMostSteps * static_cast<double>(result.cost.steps) /
+                                      (by_steps ? kStepsBetweenLooks : kEndsBetweenLooks);
   beside.progress = [&](const RunProgress&) {
     return ++looks <= most_looks && (!options.progress || options.progress({mechanism.duration(), mechanism.duration(),
                                                                             result.index.position_error.max}));
   };
-  if (!result.integrator_taken.empty()) beside.integrator = result.integrator_taken;
-  const bool by_steps = beside.integrator.empty() || beside.integrator == "rk4";
   if (by_steps && result.cost.steps > 0) beside.step = result.end_time / static_cast<double>(result.cost.steps);
 
   const double length = mechanism.characteristic_length();

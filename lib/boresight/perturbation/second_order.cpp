@@ -7,6 +7,7 @@
 #include "boresight/formulations/formulation.hpp"
 #include "boresight/formulations/shared_reactions.hpp"
 #include "boresight/math/dense_solves.hpp"
+#include "boresight/mechanism/built_mechanism.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/perturbation/displacement_sizes.hpp"
 #include "boresight/perturbation/missed_at_rest.hpp"
@@ -100,6 +101,7 @@ class LeftOut {
  public:
   LeftOut(const Mechanism& mechanism, const PreparedScene& prepared, const Parameters& parameters, bool want_missed)
       : want_missed_(want_missed),
+        displaced_(has_errors(parameters)),
         mechanism_(mechanism),
         prepared_(prepared),
         parameters_(parameters),
@@ -130,9 +132,7 @@ class LeftOut {
     IdealState state;
     prepared_.ideal().state(deviation.t, state);
     const std::vector<BodyMotion> bodies = made_exactly(state, deviation, T);
-    VecX z, z_dot, z_ddot;
-    coordinates_.coordinate_rates(bodies, z_dot, z);
-    coordinates_.coordinate_accelerations(bodies, formulation_->acceleration(), z_ddot);
+    const auto [z, z_dot, z_ddot] = coordinates_.deviation(state, bodies, formulation_->acceleration());
 
     const int body = mechanism_.boresight_body();
     const auto E = T.middleRows<6>(6 * body);
@@ -188,16 +188,21 @@ class LeftOut {
     found.start = at_rest.start;
     for (int k = 0; k < kKinds; ++k) {
       const double least = k == kMoved ? next_to_nothing : k == kSighted ? 0.0 : next_to_nothing / length;
-      const double size = std::max(miss_[k].size(), least);
-      double of_kind = miss_[k].value(least, index.of(PointingQuantity(k)));
+      const Statistics& of_all_errors = index.of(PointingQuantity(k));
+      const auto share = [&](const MissedShare& part) {
+        return displaced_ ? part.share_of(least, of_all_errors) : part.value(least, of_all_errors);
+      };
+      const double size = std::max(displaced_ ? of_all_errors.max : miss_[k].size(), least);
+      double of_kind = share(miss_[k]);
       const double by_rest = size > 0.0 ? at_rest.pose[k] / size : 0.0;
       found.pose[k] = of_all(std::max(of_kind, by_rest));
       // A force that is off early shows in where the journal gets to later: all of its part counts by the share of all forces. And where
       // next to nothing pushes for a while, all of its part counts for that while. Together no more than all of it by the largest share.
       for (std::size_t g = 0; g < groups_.size(); ++g) {
-        const double part = part_[g][k].value(least, index.of(PointingQuantity(k))),
-                     by_forces = part * std::min(1.0, push_[g].mean_value(0.0));
-        of_kind += std::min(part * pushed_off_[g], by_forces + astray_[g][k].mean_value(least));
+        const double part = share(part_[g][k]), by_forces = part * std::min(1.0, push_[g].mean_value(0.0)),
+                     astray = displaced_ ? astray_[g][k].mean_value(least, of_all_errors.rms)
+                                         : astray_[g][k].mean_value(least);
+        of_kind += std::min(part * pushed_off_[g], by_forces + astray);
       }
       found.whole[k] = of_all(std::max(of_kind, by_rest));
     }
@@ -231,10 +236,8 @@ class LeftOut {
   VecX acceleration_under(double t, const std::vector<PlayOffsets>& loads) {
     formulation_->forces().replace_contact(loads);
     formulation_->derivative(t, y_, memory_, dy_);
-    VecX z, z_dot, z_ddot;
-    const std::vector<BodyMotion>& bodies = formulation_->bodies(t, y_);
-    coordinates_.coordinate_rates(bodies, z_dot, z);
-    coordinates_.coordinate_accelerations(bodies, formulation_->acceleration(), z_ddot);
+    VecX z_ddot;
+    coordinates_.coordinate_accelerations(formulation_->bodies(t, y_), formulation_->acceleration(), z_ddot);
     return z_ddot;
   }
 
@@ -258,6 +261,7 @@ class LeftOut {
   }
 
   bool want_missed_;
+  bool displaced_;  // by standing errors too, which the index holds beside the play
   const Mechanism& mechanism_;
   const PreparedScene& prepared_;
   const Parameters& parameters_;

@@ -54,6 +54,9 @@ struct SceneTables {
   SceneStart start;
   // What one sample's standing errors add to A r, or to r: n functions on a grid of their own; none (width 0) without errors.
   TimeTable load_change = {};
+  // What they shift each joint's offsets by that follow from others, then these shifts' rates, on a grid of their own: one a joint, of width 0
+  // where none follow; empty without such errors.
+  std::vector<TimeTable> shifts = {};
 
   // All numbers at t, those of the errors included: a row of dynamics.
   void at(double t, double* row) const;
@@ -127,6 +130,10 @@ class ClearanceScene {
   MatX spring_stiffness(const Parameters& parameters, const Knot& knot) const;
   // What T'' takes, where offsets depend on others: a load on z of -K z.
   MatX moving_stiffness(const Parameters& parameters, const Knot& knot) const;
+  MatX stiffness_at_rest(const Parameters& parameters, const Knot& knot) const;
+  // What differences know of how the coordinates change along the motion, which does not push what lies still: what T'' takes, and dampers
+  // whose stretch rate z changes.
+  MatX changing_stiffness(const Parameters& parameters, const Knot& knot) const;
   // at_rest: for a balance of forces, which does not ask how the coordinates change.
   void append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row, bool at_rest = false,
                   SceneForm form = SceneForm::accelerations) const;

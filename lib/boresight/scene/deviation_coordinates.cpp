@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/generic_instant.hpp"
@@ -299,6 +301,22 @@ void DeviationCoordinates::coordinate_rates(const std::vector<BodyMotion>& bodie
     z_dot[k] = rows.rate[chosen_[k].row];
     z[k] = rows.value[chosen_[k].row];
   }
+}
+
+DeviationCoordinates::Deviation DeviationCoordinates::deviation(
+    const IdealState& ideal, const std::vector<BodyMotion>& bodies,
+    const std::vector<BodyAcceleration>& acceleration) const {
+  Deviation now, drawn;
+  for (auto [of, motion] : {std::pair(&now, &bodies), std::pair(&drawn, &ideal.bodies)})
+    coordinate_rates(*motion, of->z_dot, of->z);
+  now.z_dot.tail(leftover_) -= drawn.z_dot.tail(leftover_);
+  // Turns may be a full turn apart.
+  for (int k = count_ - leftover_; k < count_; ++k) now.z[k] = std::remainder(now.z[k] - drawn.z[k], 2.0 * std::numbers::pi);
+  if (acceleration.empty()) return now;
+  coordinate_accelerations(bodies, acceleration, now.z_ddot);
+  coordinate_accelerations(ideal.bodies, ideal.acceleration, drawn.z_ddot);
+  now.z_ddot.tail(leftover_) -= drawn.z_ddot.tail(leftover_);
+  return now;
 }
 
 }  // namespace boresight

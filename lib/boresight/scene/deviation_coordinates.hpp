@@ -48,6 +48,13 @@ class DeviationCoordinates {
                                 const std::vector<BodyAcceleration>& acceleration, VecX& z_ddot) const;
   // Rates of the chosen rows, and their values, of given body motions.
   void coordinate_rates(const std::vector<BodyMotion>& bodies, VecX& z_dot, VecX& z) const;
+  // What bodies do beyond the ideal motion: the same, less what the ideal motion has of the coordinates that are no offsets. Without
+  // accelerations z_ddot stays empty.
+  struct Deviation {
+    VecX z, z_dot, z_ddot;
+  };
+  Deviation deviation(const IdealState& ideal, const std::vector<BodyMotion>& bodies,
+                      const std::vector<BodyAcceleration>& acceleration) const;
 
  private:
   void gain_here(MatX& T);

@@ -76,18 +76,26 @@ MatX ClearanceScene::spring_stiffness(const Parameters& parameters, const Knot& 
   return K;
 }
 
-MatX ClearanceScene::stiffness_at_rest(const Parameters& parameters, int knot) const {
+MatX ClearanceScene::changing_stiffness(const Parameters& parameters, const Knot& knot) const {
+  MatX K = moving() ? moving_stiffness(parameters, knot) : MatX::Zero(layout_.n, layout_.n);
+  for (std::size_t s = 0; s < knot.springs.size(); ++s) K += knot.springs[s].turning_damping(parameters.spring[s]);
+  return K;
+}
+
+MatX ClearanceScene::stiffness_at_rest(const Parameters& parameters, const Knot& knot) const {
   if (stiff_by_differences()) {
     MatX M, C;
     VecX r;
-    assemble(parameters, knots_[knot], M, C, r);
-    return M * knots_[knot].stiffness -
-           (moving() ? moving_stiffness(parameters, knots_[knot]) : MatX::Zero(layout_.n, layout_.n));
+    assemble(parameters, knot, M, C, r);
+    return M * knot.stiffness - changing_stiffness(parameters, knot);
   }
   MatX K = MatX::Zero(layout_.n, layout_.n);
-  const std::vector<SpringGain>& springs = knots_[knot].springs;
-  for (std::size_t s = 0; s < springs.size(); ++s) K += springs[s].stiffness_at_rest(parameters.spring[s]);
+  for (std::size_t s = 0; s < knot.springs.size(); ++s) K += knot.springs[s].stiffness_at_rest(parameters.spring[s]);
   return K;
+}
+
+MatX ClearanceScene::stiffness_at_rest(const Parameters& parameters, int knot) const {
+  return stiffness_at_rest(parameters, knots_[knot]);
 }
 
 void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, std::vector<double>& row, bool at_rest,
@@ -107,12 +115,12 @@ void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, 
   append(row, forces ? r : VecX(cholesky.solve(r)));
   append(row, divided(C));
   if (stiff_by_differences()) {
-    // Differences know what T'' takes.
-    const MatX AK = moving() && at_rest ? MatX(knot.stiffness - cholesky.solve(moving_stiffness(parameters, knot)))
-                                        : knot.stiffness;
+    // Differences know what T'' takes, and what turns a damper.
+    const MatX AK =
+        at_rest ? MatX(knot.stiffness - cholesky.solve(changing_stiffness(parameters, knot))) : knot.stiffness;
     append(row, forces ? MatX(M * AK) : AK);
   } else if (layout_.stiff) {
-    MatX K = spring_stiffness(parameters, knot);
+    MatX K = at_rest ? stiffness_at_rest(parameters, knot) : spring_stiffness(parameters, knot);
     if (moving() && !at_rest) K += moving_stiffness(parameters, knot);
     append(row, divided(K));
   }
@@ -122,6 +130,8 @@ void ClearanceScene::append_row(const Parameters& parameters, const Knot& knot, 
 void SceneTables::at(double t, double* row) const {
   dynamics.at(t, row);
   if (load_change.width() > 0) load_change.add(t, row + layout.Ar);
+  for (std::size_t c = 0; c < shifts.size(); ++c)
+    if (shifts[c].width() > 0) shifts[c].add(t, row + layout.joints[c].shift);
 }
 
 SceneTables ClearanceScene::tables(const Parameters& parameters, SceneForm form) const {

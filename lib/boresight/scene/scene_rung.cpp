@@ -56,19 +56,22 @@ std::shared_ptr<const SceneTables> PreparedScene::tables(const Parameters& param
   own->load_change = changed_accelerations(parameters, standing, *own).table(own->layout.n);
   if (own->load_change.width() > 0) own->load_change.add(0.0, &own->start.row[own->layout.Ar]);
   if (!standing.shifts()) return own;
-  const double spacing = own->dynamics.spacing();
+  // The errors' own grid, where it is the finer one: a drive may err far faster than it moves.
+  const int cells = std::max(own->dynamics.cells(), standing.influence().cells());
+  const double spacing = mechanism_.duration() / cells;
+  own->shifts.resize(own->layout.joints.size());
   for (std::size_t c = 0; c < own->layout.joints.size(); ++c) {
     const SceneLayout::Joint& joint = own->layout.joints[c];
     if (!joint.has_dependent) continue;
     const int first = scene_.offsets().joint(static_cast<int>(c)).first;
     std::vector<double> values;
-    for (int k = 0; k <= own->dynamics.cells(); ++k) {
+    for (int k = 0; k <= cells; ++k) {
       const StandingDisplacement::Shift shift = standing.shift(k * spacing);
       for (const VecX* part : {&shift.value, &shift.rate})
         for (int i = 0; i < joint.offsets; ++i) values.push_back((*part)[first + i]);
     }
     const int width = 2 * joint.offsets;
-    own->dynamics.replace(joint.shift, TimeTable(spacing, width, values));
+    own->shifts[c] = TimeTable(spacing, width, values);
     std::copy_n(values.begin(), width, own->start.row.begin() + joint.shift);
   }
   return own;

@@ -61,7 +61,7 @@ SpringGain spring_gain(const MechanismDescription& mechanism, const SpringDescri
 }
 
 MatX SpringGain::stiffness(const SpringParameters& p) const {
-  return stiffness_at_rest(p) + p.damping * g * g_rate.transpose();
+  return stiffness_at_rest(p) + turning_damping(p);
 }
 
 MatX SpringGain::stiffness_at_rest(const SpringParameters& p) const {

@@ -25,6 +25,8 @@ struct SpringGain {
   MatX stiffness(const SpringParameters& p) const;
   // The same of what lies still: f W + k g g^T.
   MatX stiffness_at_rest(const SpringParameters& p) const;
+  // What stiffness() has beyond that: of a damper whose stretch rate z changes.
+  MatX turning_damping(const SpringParameters& p) const { return p.damping * g * g_rate.transpose(); }
   MatX damping(const SpringParameters& p) const { return p.damping * g * g.transpose(); }
 };
 

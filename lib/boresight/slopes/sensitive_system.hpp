@@ -144,10 +144,10 @@ class SensitiveSystem {
 
   void scene_at(double t) const {
     if (t == row_time_) return;
-    tables_->dynamics.at(t, row_.data());
+    tables_->at(t, row_.data());
     for (std::size_t b = 0; b < beside_.size(); ++b) {
-      beside_[b].less->dynamics.at(t, less_.data());
-      beside_[b].more->dynamics.at(t, more_.data());
+      beside_[b].less->at(t, less_.data());
+      beside_[b].more->at(t, more_.data());
       // Masses do not move the joints.
       for (int k = 0; k < tables_->layout.joints_at; ++k)
         slope_of_row_[b][k] = (more_[k] - less_[k]) / beside_[b].apart;
@@ -214,7 +214,7 @@ class SensitiveSystem {
     double rate[2];
     for (int side = 0; side < 2; ++side) {
       const double dt = side == 0 ? kShort : -kShort;
-      tables_->dynamics.at(t + dt, row.data());
+      tables_->at(t + dt, row.data());
       const VecX y = y_ + dt * slope_;
       plain_.joints()[gap.clearance].penetrations(
           play_motion(at, at.joints[gap.clearance], row.data(), y.data(), y.data() + at.n), contact);

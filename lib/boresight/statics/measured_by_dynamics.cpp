@@ -21,7 +21,7 @@ namespace {
 // Of the rung's own step: the second one is as good as the first, the third is finer.
 constexpr std::array kShares = {1.0, 0.97, 0.5};
 // Steps after which a motion counts as too long to be followed for an estimate, in the looks that a rung
-// grants (every 4096).
+// grants: every 4096 of rk4, every 64 of an integrator with steps of its own.
 constexpr int kMostLooks = 1000;
 constexpr double kRounding = 1e-12;  // of a motion in metres [m or rad]
 // What is smaller than this share of the largest, on the mechanism's size, is next to nothing: what it is off by counts against the largest.
@@ -216,9 +216,19 @@ class MeasuredByDynamics final : public Rung {
     plain.start = options.start;
     plain.sample_spacing = 0.0;
     plain.events = false;
-    const Measured measured = against_dynamics(at, options, rung_->run(at, plain).index, cost);
+    Measured measured;
+    try {
+      measured = against_dynamics(at, options, rung_->run(at, plain).index, cost);
+    } catch (const ComputationError& failure) {
+      // Of what stands for the sample, and not of the sample itself.
+      measured = not_measured(std::string("near this sample ") + failure.what());
+    }
     if (measured.keeps && measured_.size() < kMostKept) measured_.emplace(std::move(key), measured);
     return measured;
+  }
+
+  static Measured not_measured(const std::string& why, bool keeps = true) {
+    return {{all_of_it(), kNotMeasured, "not measured, so anything up to the whole: " + why}, 0.0, {}, 0.0, keeps};
   }
 
   Measured against_dynamics(const Parameters& parameters, const RunOptions& asked, const PointingIndices& index,
@@ -232,7 +242,8 @@ class MeasuredByDynamics final : public Rung {
     int looks = 0;
     bool stopped = false, asked_to = false;
     options.progress = [&](const RunProgress&) {
-      asked_to = asked_to || (++looks % 16 == 0 && asked.progress &&
+      ++looks;
+      asked_to = asked_to || (asked.progress &&
                               !asked.progress({mechanism_->duration(), mechanism_->duration(), 0.0}));
       stopped = asked_to || looks > kMostLooks;
       return !stopped;
@@ -262,12 +273,7 @@ class MeasuredByDynamics final : public Rung {
     }
     if (stopped) why_not = "following the motion takes too long";
     if (!why_not.empty() || (motions.size() < kShares.size() && !says_nothing(motions[0])))
-      return {
-          {all_of_it(), kNotMeasured, "not measured, so anything up to the whole: on the perturbation rung " + why_not},
-          0.0,
-          {},
-          0.0,
-          !asked_to};
+      return not_measured("on the perturbation rung " + why_not, !asked_to);
     return compared(index, motions);
   }
 

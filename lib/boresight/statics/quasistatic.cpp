@@ -41,7 +41,8 @@ class Quasistatic final : public SceneRung {
     std::optional<TiedRest> tied;
     if (reactions.tied()) tied.emplace(prepared, standing, parameters, reactions);
     const auto balance_at = [&](double t, const Balance* before) {
-      return tied ? balance_of_all(reactions, *tied, t, before) : balance_of_each(reactions, t, before);
+      return tied ? balance_of_all(reactions, *tied, t, before)
+                  : balance_of_each(reactions, t, before, mechanism().description().journals != JournalStart::centred);
     };
     MotionRecorder recorder(mechanism(), prepared.ideal(), options, reactions.instants());
     RestingContacts contacts(reactions, options.start);
@@ -93,7 +94,8 @@ class Quasistatic final : public SceneRung {
     Vec3 moved;
     std::vector<bool> decided;  // whether a load decides where its joint rests; empty where joints are tied
   };
-  static Balance balance_of_each(const ReactionTable& reactions, double t, const Balance* before) {
+  // rests: whether journals start where they rest, which is where nothing rubs, as on every rung; else friction may hold them at their middle.
+  static Balance balance_of_each(const ReactionTable& reactions, double t, const Balance* before, bool rests) {
     Balance balance{reactions.at_time(t), std::vector<RestingPlay>(reactions.joints().size()), {}, {}, {}};
     for (std::size_t c = 0; c < balance.rest.size(); ++c)
       balance.decided.push_back(reactions.decides(balance.now, static_cast<int>(c)));
@@ -106,8 +108,11 @@ class Quasistatic final : public SceneRung {
         if (before && !balance.decided[c])
           balance.rest[c] = before->rest[c];
         else
-          balance.rest[c] =
-              reactions.joints()[c].rest_under(load.force, slide, before ? before->rest[c] : RestingPlay{});
+          balance.rest[c] = reactions.joints()[c].rest_under(
+              load.force, slide,
+              before   ? before->rest[c]
+              : rests ? reactions.joints()[c].elastic_only().rest_under(load.force, slide, RestingPlay{})
+                      : RestingPlay{});
         if (load.slides) balance.rest[c].motion.e.y() = slide;
       }
       balance.z = reactions.coordinates(balance.rest);

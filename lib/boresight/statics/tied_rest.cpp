@@ -41,7 +41,7 @@ TiedRest::TiedRest(const PreparedScene& prepared, const StandingDisplacement& st
 }
 
 void TiedRest::take(double t, const VecX& reaction) {
-  tables_->dynamics.at(t, row_.data());
+  tables_->at(t, row_.data());
   if (springs_.width() > 0) {
     std::vector<double> values(static_cast<std::size_t>(springs_.width()));
     springs_.at(t, values.data());

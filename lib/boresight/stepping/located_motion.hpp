@@ -24,6 +24,9 @@ inline double most_error(double tolerance) { return kMisleadingError / tolerance
 ComputationError misleading_step(const std::string& method, const IntegrationSummary& summary,
                                  const IntegrationOptions& options);
 
+// After so many steps a rung asks whether to go on: implicit ones of many coordinates take a millisecond each.
+inline constexpr int kEndsBetweenLooks = 64;
+
 // The finest grid that long motions are looked at on, as a share of them.
 inline constexpr double kFinestGrid = 1e-4;
 

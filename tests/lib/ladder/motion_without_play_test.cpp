@@ -125,5 +125,22 @@ TEST(MotionWithoutPlay, SeesARippleThatGoesOnBetweenItsInstants) {
   }
 }
 
+// A dent of a screw, or a knock, between all instants of a first grid: a law is looked at as a motion's own is.
+TEST(MotionWithoutPlay, SeesAnErrorThatActsForAMoment) {
+  for (const char* law : {"exp(-((t-0.5137)/2e-4)^2)", "exp(-((q-3.2173)/1e-3)^2)"}) {
+    MechanismDescription m = read_mechanism(
+        std::string(BORESIGHT_EXAMPLES) + "/altaz-gimbal/altaz-gimbal.toml",
+        {{"motion.drives.azimuth", "2*pi*t"}, {"motion.drives.elevation", "0.4"}, {"motion.duration", "1 s"}});
+    m.errors.clear();
+    m.errors.push_back(scenes::drive_error(m, "azimuth", law));
+    m.errors.back().value = 50e-6;
+    const auto mechanism = scenes::build(m);
+    for (const char* rung : {"quasistatic", "perturbation", "multibody"}) {
+      const Statistics found = of_indices(*mechanism, *make_rung(rung, mechanism)).index.orientation_error;
+      EXPECT_NEAR(found.max / 50e-6, 1.0, 0.05) << law << ", " << rung;
+    }
+  }
+}
+
 }  // namespace motion_without_play_test
 }  // namespace boresight

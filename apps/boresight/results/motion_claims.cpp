@@ -1,0 +1,34 @@
+#include "results/motion_claims.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "boresight/contact/law_range.hpp"
+#include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/study/index_choice.hpp"
+
+namespace boresight::app {
+
+void refuse_infinite(const RunResult& result) {
+  const auto check = [](double value, const std::string& what) {
+    if (!std::isfinite(value))
+      throw ComputationError(
+          what + " grew beyond every number: forces, masses or speeds are out of all proportion to each other");
+  };
+  for (const QuantityName& quantity : quantity_names())
+    for (const StatisticName& statistic : statistic_names())
+      check((result.index.*quantity.statistics).*statistic.value, "the " + std::string(quantity.name));
+  for (const ContactSummary& c : result.contact) {
+    check(c.max_force, "the contact force of " + c.joint);
+    check(c.max_load, "the load on " + c.joint);
+  }
+}
+
+void add_range_warnings(const Mechanism& mechanism, const Parameters& parameters, RunResult& result) {
+  for (std::size_t c = 0; c < result.contact.size(); ++c)
+    if (const auto warning = range_warning(result.contact[c].joint, mechanism.description().clearances[c].contact_law,
+                                           parameters.clearance[c], result.contact[c].max_force))
+      result.warnings.push_back(*warning);
+}
+
+}  // namespace boresight::app
