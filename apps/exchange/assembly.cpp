@@ -302,6 +302,10 @@ class Assembler {
 
   // Of a joint that moves with another one, the course follows from the other's.
   void follow(const std::string& name, const Mimic& mimic) {
+    if (!followed_.insert(name).second) return;
+    // The other may follow a third one, and first of all has to.
+    if (const auto leads = joint_of_.find(mimic.joint); leads != joint_of_.end())
+      if (const auto other = mimics_.find(leads->second); other != mimics_.end()) follow(other->first, other->second);
     if (choices_.drives_given && result_.drives.count(name) != 0) return;  // the user says how it moves
     const auto joint = std::find_if(result_.mechanism.joints.begin(), result_.mechanism.joints.end(),
                                     [&](const JointDescription& j) { return j.name == name; });
@@ -326,6 +330,7 @@ class Assembler {
   std::set<std::string> names_;
   std::map<std::string, std::string> joint_of_;  // as the file names it -> as the mechanism does
   std::map<std::string, Mimic> mimics_;
+  std::set<std::string> followed_;  // of them, those whose course is known
   double length_ = 1.0;  // diagonal of the box that holds all joints [m]
 };
 

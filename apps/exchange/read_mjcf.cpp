@@ -49,12 +49,20 @@ class MjcfReader {
   Drawing read() {
     const mjModel& m = *model_;
     drawing_.name = m.names;  // the model's comes first
-    drawing_.gravity = vec3(m.opt.gravity);
+    // What flags switch off is not there, whatever stands elsewhere.
+    const auto off = [&m](int flags) { return (m.opt.disableflags & flags) != 0; };
+    drawing_.gravity = off(mjDSBL_GRAVITY) ? Vec3(Vec3::Zero()) : vec3(m.opt.gravity);
     read_bodies();
     read_drives();
     for (int body = 1; body < m.nbody; ++body) connect(body);
-    read_equalities();
-    read_springs();
+    if (!off(mjDSBL_EQUALITY | mjDSBL_CONSTRAINT))
+      read_equalities();
+    else if (m.neq > 0)
+      leave_out("equalities, which a flag disables");
+    if (!off(mjDSBL_PASSIVE))
+      read_springs();
+    else if (m.ntendon > 0)
+      leave_out("tendons, which a flag disables");
     name_the_rest();
     return std::move(drawing_);
   }

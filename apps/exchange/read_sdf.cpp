@@ -248,10 +248,22 @@ class SdfReader {
       const int part = part_named(drawing_, model.prefix + name);
       if (part >= 0) return part;
       const auto frame = model.frames.find(name);
-      if (frame == model.frames.end() || frame->second.element.tag() == "model" || frame->second.in == "__model__")
+      if (frame == model.frames.end()) break;
+      // What a frame is attached to is not what its pose is given in: without a word it is the model's first link.
+      const XmlElement& named = frame->second.element;
+      if (named.tag() == "frame")
+        name = named.text("attached_to", "__model__");
+      else if (named.tag() == "joint")
+        name = named.needed("child").content();
+      else
         break;
-      name = frame->second.element.tag() == "frame" ? frame->second.element.text("attached_to", frame->second.in)
-                                                    : frame->second.in;
+      if (name == "__model__") {
+        const auto first = std::find_if(drawing_.parts.begin(), drawing_.parts.end(), [&](const Part& p) {
+          return p.name.size() > model.prefix.size() && p.name.compare(0, model.prefix.size(), model.prefix) == 0;
+        });
+        if (first == drawing_.parts.end()) break;
+        return static_cast<int>(first - drawing_.parts.begin());
+      }
     }
     std::vector<std::string> names;
     for (const Part& part : drawing_.parts) names.push_back(part.name);

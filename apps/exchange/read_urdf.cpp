@@ -203,13 +203,18 @@ class UrdfReader {
   // What <transmission> and <ros2_control> move; where there is neither, everything that can be driven.
   void read_drives() {
     std::set<std::string> driven;
+    bool named = false;
     for (const char* tag : {"transmission", "ros2_control"})
       for (const XmlElement& element : robot_.children(tag))
-        for (const XmlElement& joint : element.children("joint")) driven.insert(joint.text("name"));
-    if (driven.empty()) drawing_.drives = "every joint that can be driven is: the file names no transmission";
+        for (const XmlElement& joint : element.children("joint")) {
+          named = true;
+          // What is only measured there moves as it likes.
+          if (std::string(tag) == "transmission" || joint.child("command_interface")) driven.insert(joint.text("name"));
+        }
+    if (!named) drawing_.drives = "every joint that can be driven is: the file names no transmission";
     for (Connection& c : drawing_.connections)
       c.driven = (c.type == JointType::revolute || c.type == JointType::prismatic) &&
-                 (driven.empty() || driven.count(c.name) != 0 || c.mimic.has_value());
+                 (!named || driven.count(c.name) != 0 || c.mimic.has_value());
   }
 
   void name_the_rest() {

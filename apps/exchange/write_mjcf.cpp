@@ -1,3 +1,4 @@
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
@@ -132,7 +133,12 @@ class MjcfWriter {
     printer_.CloseElement();
   }
 
-  void write_inertial(double mass, const Vec3& c, const Mat3& I) {
+  void write_inertial(double mass, const Vec3& c, Mat3 I) {
+    // MuJoCo takes no plate whose moments miss A + B = C by rounding.
+    constexpr double kSpare = 1e-12;
+    const Vec3 moments = Eigen::SelfAdjointEigenSolver<Mat3>(I, Eigen::EigenvaluesOnly).eigenvalues();
+    if (const double lack = moments[2] * (1.0 + kSpare) - moments[0] - moments[1]; lack > 0.0)
+      I.diagonal().array() += lack;
     open("inertial");
     attribute("pos", list(c));
     attribute("mass", fmt::format("{}", mass));

@@ -122,6 +122,7 @@ const ChartPoint* ChartResult::papers() const {
 
 const ChartPoint* ChartResult::cheapest_within(double accuracy) const {
   const ChartPoint* best = nullptr;
+  if (reference.uncertainty > accuracy) return nullptr;  // then it is luck which point comes near
   for (const ChartPoint& p : points)
     if (p.measured.refusal.empty() && p.error <= accuracy &&
         (!best || p.measured.cpu_seconds < best->measured.cpu_seconds))

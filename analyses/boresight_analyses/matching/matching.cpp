@@ -21,6 +21,7 @@ class Matching {
   MatchingResult run(DesignEvaluator* confirm, const std::string& rung) {
     try {
       search();
+      if (result_.design.empty()) return result_;  // no design answered, and the failures say why
       draw_map();
       take_from_map();
       judge_descents();
@@ -127,7 +128,12 @@ class Matching {
     if (m.interrupted) throw EvaluationInterrupted{};
     result_.descents.push_back({name, from, design_at(m.x), m.objective, m.evaluations, m.converged, false, m.local});
     result_.local = m.local;
-    // A place whose runs failed is no optimum, whatever stood for its objective.
+    take(m);
+    return m;
+  }
+
+  // Where it is the best so far. A place whose runs failed is no optimum, whatever stood for its objective.
+  void take(const Minimum& m) {
     const bool answered = std::isfinite(plan_.objective.of(evaluator_->at(design_at(m.x))));
     const bool better = answered && (result_.design.empty() || m.violation < result_.violation ||
                                      (m.violation == result_.violation && m.objective < result_.objective));
@@ -138,7 +144,6 @@ class Matching {
       result_.converged = m.converged;
       result_.feasible = m.violation <= 1e-6;
     }
-    return m;
   }
 
   void search() {
@@ -151,6 +156,12 @@ class Matching {
       if (m.interrupted) throw EvaluationInterrupted{};
       result_.global = m.global;
       result_.why = m.why.substr(0, m.why.find("; the descent"));
+      if (plan_.local == "none") {
+        take(m);
+        result_.local = "none";
+        best_of_visits();
+        return;
+      }
       descend(design_at(m.x), "the box", plan_.evaluations);
     } else {
       result_.global = "none";

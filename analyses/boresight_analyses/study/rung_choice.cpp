@@ -61,7 +61,7 @@ RungChoice choose_rung(const RungQuestion& question, std::shared_ptr<const Mecha
   if (question.asked != "auto") return {question.asked, "asked for by name"};
   const std::string most_exact = rung_names().back();  // cheapest first, so the last one leaves out least
   if (question.wants_multibody) return {most_exact, "the only rung that has the options given"};
-  if (mechanism->clearances() == 0 && std::none_of(samples.begin(), samples.end(), has_errors))
+  if (mechanism->clearances() == 0 && !samples.empty() && std::none_of(samples.begin(), samples.end(), has_errors))
     return {most_exact, "no joint has clearance and no error is other than zero: nothing to choose between"};
   if (!question.accuracy)
     return {most_exact, "the rung that leaves out least; give an accuracy to have the cheapest that meets it"};

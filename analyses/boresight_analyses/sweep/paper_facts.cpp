@@ -90,9 +90,13 @@ GrowthPerAxis growth_per_axis(const SweepLine& line) {
   return found;
 }
 
-LeastOffTheBore least_off_the_bore(const SweepLine& line) {
+std::optional<LeastOffTheBore> least_off_the_bore(const SweepLine& line) {
   LeastOffTheBore found;
-  for (const RunResult* result : line.results) found.share.push_back(off_the_bore_share(*result).value_or(0.0));
+  for (const RunResult* result : line.results) {
+    const std::optional<double> share = off_the_bore_share(*result);
+    if (!share) return std::nullopt;
+    found.share.push_back(*share);
+  }
   found.point =
       static_cast<std::size_t>(std::min_element(found.share.begin(), found.share.end()) - found.share.begin());
   found.interior = line.size() > 2 && found.point > 0 && found.point + 1 < line.size();

@@ -45,13 +45,13 @@ struct GrowthPerAxis {
 };
 GrowthPerAxis growth_per_axis(const SweepLine& line);
 
-// The point at which the journal is away from the bore least, and whether it lies inside the line.
+// The point at which the journal is away from the bore least, and whether it lies inside the line. Nothing where the contacts were not kept.
 struct LeastOffTheBore {
   std::vector<double> share;  // at each point, of the time
   std::size_t point = 0;
   bool interior = false;
 };
-LeastOffTheBore least_off_the_bore(const SweepLine& line);
+std::optional<LeastOffTheBore> least_off_the_bore(const SweepLine& line);
 
 // Among the twenty fastest impacts of a run: how far the first five are apart on average, and the last five [s]. Nothing where
 // there are fewer than ten.

@@ -37,9 +37,18 @@ double free_flight_share(const RunResult& result) {
 
 std::optional<double> off_the_bore_share(const RunResult& result) {
   if (result.events.empty() || result.end_time <= 0.0) return std::nullopt;
-  double touching = 0.0;
+  // Of a journal that tilts, either end may touch, or both at once.
+  std::vector<std::pair<double, double>> spans;
   for (const ContactEvent& e : result.events)
-    if (e.clearance == 0 && e.place == ContactPlace::radial) touching += e.duration;
+    if (e.clearance == 0 && (e.place == ContactPlace::radial || e.place == ContactPlace::radial_minus ||
+                             e.place == ContactPlace::radial_plus))
+      spans.emplace_back(e.start, e.start + e.duration);
+  std::sort(spans.begin(), spans.end());
+  double touching = 0.0, until = 0.0;
+  for (const auto& [start, end] : spans) {
+    touching += std::max(0.0, end - std::max(start, until));
+    until = std::max(until, end);
+  }
   return std::max(0.0, 1.0 - touching / result.end_time);
 }
 

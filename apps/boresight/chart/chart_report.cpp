@@ -214,7 +214,11 @@ report::Document chart_report(const Command& command, const Mechanism& mechanism
                                            : std::string())};
   else
     document.verdict =
-        report::Verdict{report::Standing::bad, fmt::format("No way comes within {}.", readable_share(wanted))};
+        report::Verdict{report::Standing::bad,
+                        result.reference.uncertainty > wanted
+                            ? fmt::format("The reference is known to {} only: what comes within {} cannot be told.",
+                                          readable_share(result.reference.uncertainty), readable_share(wanted))
+                            : fmt::format("No way comes within {}.", readable_share(wanted))};
   for (const std::string& name : result.flight.left_out)
     document.warnings.push_back("no time was left for the flight before the first impact of " + name);
   document.facts.push_back({.label = "Reference",

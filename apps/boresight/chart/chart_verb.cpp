@@ -122,7 +122,10 @@ void print(const Mechanism& mechanism, const ChartResult& result, std::optional<
   if (accuracy) {
     const ChartPoint* best = result.cheapest_within(*accuracy);
     tell("  cheapest within {}: {}\n", readable_share(*accuracy),
-         best ? best->family + ", " + fineness(best->setup) : "none");
+         best ? best->family + ", " + fineness(best->setup)
+         : result.reference.uncertainty > *accuracy
+             ? "cannot be told, as the reference is known to " + readable_share(result.reference.uncertainty) + " only"
+             : "none");
   }
   std::size_t failed = 0;
   for (const ChartPoint& p : result.points) failed += !p.measured.refusal.empty();

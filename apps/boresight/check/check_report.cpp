@@ -244,6 +244,13 @@ void add_cost_note(const std::shared_ptr<const Mechanism>& mechanism, CheckResul
 // What a standing error does to the pointing, and which of them do nothing or cannot be taken up.
 void add_error_notes(const Mechanism& mechanism, CheckResult& result) {
   if (mechanism.description().errors.empty()) return;
+  // Columns of influence belong to a pose that drives or a prescribed motion hold.
+  if (!is_kinematic(mechanism)) {
+    result.notes.push_back(
+        "what each error does by itself hangs on the whole motion where nothing drives a freedom; the multibody rung "
+        "follows it");
+    return;
+  }
   result.errors = error_effects(mechanism, ideal_motion(mechanism, mechanism.parameters()));
   std::string idle, using_play;
   int count = 0;
@@ -300,6 +307,7 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
   }
   if (sound) {
     try {
+      add_growth_notes(mechanism, result);
       add_error_notes(mechanism, result);
     } catch (const ComputationError& error) {
       result.findings.emplace_back(error.what());
@@ -309,7 +317,6 @@ CheckResult check_mechanism(const std::shared_ptr<const Mechanism>& shared) {
     try {
       const IdealMotion ideal = ideal_motion(mechanism, mechanism.parameters());
       add_play_findings(mechanism, ideal, result);
-      add_growth_notes(mechanism, result);
       for (const std::string& sentence : overrun_plays(mechanism, mechanism.parameters(), ideal))
         result.findings.push_back(sentence);
       result.contacts = analyse_contacts(mechanism, mechanism.parameters(), ideal);

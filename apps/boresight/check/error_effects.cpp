@@ -52,7 +52,26 @@ std::vector<ErrorEffect> error_effects(const Mechanism& mechanism, const IdealMo
   const double length = mechanism.characteristic_length();
   for (int i = 0; i < kInstantsOfEffects; ++i) {
     const double t = mechanism.duration() * i / (kInstantsOfEffects - 1);
-    if (columns_at(influence, t, wanted, G)) continue;  // a singular pose, which check names by itself
+    if (columns_at(influence, t, wanted, G)) {
+      // One may strain that did not at the start, as a drive's error may that is zero there. All of them: a singular pose, which check names
+      // by itself.
+      std::vector<std::string> strain(effects.size());
+      bool some = false;
+      for (std::size_t e = 0; e < effects.size(); ++e) {
+        if (!wanted[e]) continue;
+        std::vector<bool> one(effects.size(), false);
+        one[e] = true;
+        strain[e] = columns_at(influence, t, one, G).value_or("");
+        some = some || strain[e].empty();
+      }
+      if (!some) continue;
+      for (std::size_t e = 0; e < effects.size(); ++e)
+        if (!strain[e].empty()) {
+          effects[e].strain = strain[e];
+          wanted[e] = false;
+        }
+      if (columns_at(influence, t, wanted, G)) continue;
+    }
     const Vec3 axis = commanded.body(t, body).R * mechanism.pointing().boresight_B;
     for (std::size_t e = 0; e < effects.size(); ++e) {
       const Vec6 column = G.block<6, 1>(6 * body, static_cast<Eigen::Index>(e));

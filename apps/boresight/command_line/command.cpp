@@ -213,7 +213,7 @@ void check_run_options(const RunOptions& options, const std::string& rung, const
 }
 
 bool MotionOptions::asks_for_multibody() const {
-  return !formulation.empty() || !stabilisation.empty() || !integrator.empty();
+  return !formulation.empty() || !stabilisation.empty() || integrator == "generalized-alpha";
 }
 
 std::size_t history_refinement(double duration, double sample_spacing) {

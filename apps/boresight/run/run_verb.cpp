@@ -166,7 +166,8 @@ class RunVerb : public Verb {
   int execute(const Command& asked) override {
     const Stopwatch watch;
     const Command command = sample_number_.empty() ? asked : replay_of(asked);
-    const auto mechanism = std::make_shared<const Mechanism>(read_mechanism(command.file, command.settings));
+    const auto mechanism = std::make_shared<const Mechanism>(
+        replayed_ ? *replayed_ : Mechanism(read_mechanism(command.file, command.settings)));
     check_rung_name(command.rung);
     RunOptions options = motion_.run_options(*mechanism, command.rung);
     check_step_error();
@@ -296,6 +297,12 @@ class RunVerb : public Verb {
     replayed_as_ = std::filesystem::path(asked.file).stem().string() + "-sample-" + sample_number_;
     for (const Setting& setting : question.settings_of_sample(static_cast<std::uint64_t>(number)))
       command.settings.push_back(setting);
+    // Its numbers, and not another drawing: a body's mass that is elsewhere leaves the body where it is.
+    Parameters parameters = question.mechanism->parameters();
+    const std::vector<double> values = question.values_of_sample(static_cast<std::uint64_t>(number));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      for (const ParameterPath& place : question.plan.inputs.parameters[i].places) place.set(parameters, values[i]);
+    replayed_ = question.mechanism->with(std::move(parameters));
     if (!command.accuracy && asked.rung == "auto") command.accuracy = question.study.accuracy;
     index_ = question.study.index.quantity + "." + question.study.index.statistic;
     replayed_start_ = question.study.index.start;
@@ -348,6 +355,7 @@ class RunVerb : public Verb {
   bool compare_ = false;
   std::string index_, nonlinear_, start_;
   double replayed_start_ = 0.0;  // of a study's index [s]
+  std::optional<Mechanism> replayed_;
   std::string sample_number_, replayed_as_;
 };
 

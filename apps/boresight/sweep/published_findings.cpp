@@ -121,10 +121,11 @@ Findings of_clearance(const Mechanism& mechanism, const SweepLine& line) {
        "with speed to the power 1.2. A peak is one impact, so it scatters more than the error does."});
 
   if (!line.results.front()->boresight.samples.empty()) findings.push_back(strongest_direction(line));
-  findings.push_back(angular_acceleration(mechanism, line,
-                                          "The angular acceleration in three directions has a certain degree "
-                                          "of sudden change, without an obvious rule in its peak; "
-                                          "at 0.4 s the peak is larger with 0.2 mm."));
+  if (!line.results.front()->boresight.samples.empty())
+    findings.push_back(angular_acceleration(mechanism, line,
+                                            "The angular acceleration in three directions has a certain degree "
+                                            "of sudden change, without an obvious rule in its peak; "
+                                            "at 0.4 s the peak is larger with 0.2 mm."));
 
   const std::vector<double> flight = over(line, free_flight_share);
   findings.push_back(
@@ -182,20 +183,21 @@ PublishedFinding peaks_against_load(const SweepLine& line) {
   const std::vector<double> peak = over(line, peak_acceleration), speed = over(line, fastest_impact),
                             force = over(line, largest_force);
   const std::vector<double> flight = over(line, free_flight_share);
-  const auto [off, least, interior] = least_off_the_bore(line);
+  const std::optional<LeastOffTheBore> off = least_off_the_bore(line);
+  const bool interior = off && off->interior;
   const bool rising = rises(peak, 0.05), falling = falls(peak, 0.05);
   std::string measured = fmt::format(
-      "Peak acceleration: {}. Fastest impact: {}. Largest force: {}. Impacts: {}. Free flight: {}. Away from "
-      "the bore: {}. ",
+      "Peak acceleration: {}. Fastest impact: {}. Largest force: {}. Impacts: {}. Free flight: {}. ",
       listed(line, peak, "m/s^2"), listed(line, speed, "m/s"), listed(line, force, "N"),
-      listed(line, over(line, impacts), readable_number), listed(line, flight, readable_share),
-      listed(line, off, readable_share));
+      listed(line, over(line, impacts), readable_number), listed(line, flight, readable_share));
+  if (off) measured += fmt::format("Away from the bore: {}. ", listed(line, off->share, readable_share));
   measured += rising    ? "The peak rises with load, as section 4 has it."
               : falling ? "The peak falls with load, as section 5 would have it and against section 4."
                         : "The peak neither rises nor falls throughout: neither sentence holds as it stands.";
-  measured += fmt::format(" The journal is away from the bore least at {}, {} of this sweep.",
-                          readable_as(line.values[least], line.axis->si_unit, line.axis->unit),
-                          interior ? "inside the range" : "at an end");
+  if (off)
+    measured += fmt::format(" The journal is away from the bore least at {}, {} of this sweep.",
+                            readable_as(line.values[off->point], line.axis->si_unit, line.axis->unit),
+                            interior ? "inside the range" : "at an end");
   std::string why =
       "A load adds mass to what an impact has to move, and it adds to the joint reaction that presses the "
       "journal on. ";
@@ -206,8 +208,10 @@ PublishedFinding peaks_against_load(const SweepLine& line) {
         "not for the joint. ";
   else if (rising)
     why += "Here the harder impacts win over the greater mass. ";
-  why += interior ? "A moderate load keeps the journal on the bore best: an optimum, not a trend."
-                  : "Two or three loads cannot show an optimum between them; a finer sweep can.";
+  if (interior)
+    why += "A moderate load keeps the journal on the bore best: an optimum, not a trend.";
+  else if (off && line.size() < 4)
+    why += "Two or three loads cannot show an optimum between them; a finer sweep can.";
   return {
       "Section 4: when the load increases, the peak of the linear acceleration increases significantly. "
       "Section 5: increasing the load is conducive to enhancing the stability of the movement.",

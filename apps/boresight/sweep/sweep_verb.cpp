@@ -67,7 +67,10 @@ void write_sweep(std::ostream& out, const SweepPlan& plan, const Mechanism& mech
       for (std::size_t n = 0; n < plan.axes[i].parameters.size(); ++n) row += "," + exact(p.values[i]);
     for (const QuantityName& quantity : quantity_names())
       for (const StatisticName& statistic : statistic_names())
-        add(p.result.index.*quantity.statistics.*statistic.value);
+        if (quantity.kind == PointingQuantity::line_of_sight_error && !p.result.index.has_line_of_sight)
+          row += ",";  // without a target there is none
+        else
+          add(p.result.index.*quantity.statistics.*statistic.value);
     for (int a = 0; a < 3; ++a) add(p.result.platform_acceleration_max[a]);
     add(p.result.constraint_drift);
     for (int c = 0; c < mechanism.clearances(); ++c) {
@@ -135,11 +138,11 @@ class SweepVerb : public Verb {
                   : 0.0;
     options.run.events = histories;
 
-    // The grid's first and last corner: what is true of both is taken to be true between them.
+    // The grid's corners: what is true of them is taken to be true between them.
     Unfinished begun = own.run().go_on([&] {
       return own.run().choose_rung(
           {.wants_multibody = motion_.asks_for_multibody(), .integrators = true}, kPilotTrials,
-          {plan.parameters_at(*mechanism, 0), plan.parameters_at(*mechanism, plan.points() - 1)});
+          corners_of(plan, *mechanism));
     });
     const RungChoice& choice = begun.rung;
     apply(choice, options.run);
@@ -170,6 +173,26 @@ class SweepVerb : public Verb {
   }
 
  private:
+  // Where every axis is at its smallest or its largest value, whatever order they are listed in; of many axes two opposite ones.
+  static std::vector<Parameters> corners_of(const SweepPlan& plan, const Mechanism& mechanism) {
+    constexpr std::size_t kMostAxes = 3;
+    std::vector<Parameters> corners;
+    for (std::size_t k = 0; k < plan.points(); ++k) {
+      const std::vector<double> values = plan.values_at(k);
+      std::size_t lowest = 0, highest = 0, either = 0;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto [least, largest] = std::minmax_element(plan.axes[i].values.begin(), plan.axes[i].values.end());
+        lowest += values[i] == *least;
+        highest += values[i] == *largest;
+        either += values[i] == *least || values[i] == *largest;
+      }
+      const bool corner = either == values.size();
+      if (corner && (values.size() <= kMostAxes || lowest == values.size() || highest == values.size()))
+        corners.push_back(plan.parameters_at(mechanism, k));
+    }
+    return corners;
+  }
+
   static Json summary_of(const VerbStudy& own, const Study& study, const RungChoice& choice, const SweepPlan& plan,
                          const SweepResult& result, const Stopwatch& watch, const SampleStore::Cost& earlier) {
     std::vector<std::string> warnings;

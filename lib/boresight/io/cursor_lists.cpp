@@ -30,10 +30,12 @@ std::vector<double> Cursor::list(const std::string& name, const Key& key, const 
       read.push_back(element(node->items[k], element_path(path(name), key.elements, k), unit));
     }
   }
-  if (const Setting* set = setting(path(name))) read.assign(read.size(), set_value(*set, path(name), unit));
+  // The last one given wins, of all or of one.
+  const Setting* of_all = setting(path(name));
+  if (of_all) read.assign(read.size(), set_value(*of_all, path(name), unit));
   for (std::size_t k = 0; k < read.size(); ++k) {
     const std::string where = element_path(path(name), key.elements, k);
-    if (const Setting* set = setting(where)) read[k] = set_value(*set, where, unit);
+    if (const Setting* set = setting(where); set && (!of_all || set > of_all)) read[k] = set_value(*set, where, unit);
   }
   for (const double x : read)
     if (!holds(key.range, x)) fail(name, in_words(key.range));

@@ -8,7 +8,14 @@
 namespace boresight {
 namespace {
 
-Vec3 small_rotation(const Mat3& R) { return 0.5 * Vec3(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1)); }
+// The turn that a body has to go back by: of a small one its sine, which is zero again at half a turn; of a large one its vector.
+Vec3 turn_of(const Mat3& R) {
+  if (R.trace() < 1.0) {
+    const Eigen::AngleAxisd turn(R);
+    return turn.angle() * turn.axis();
+  }
+  return 0.5 * Vec3(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+}
 
 }  // namespace
 
@@ -59,7 +66,7 @@ void ConstraintSystem::evaluate(const std::vector<BodyMotion>& bodies, const std
   if (prescribed_ == kGround) return;
   const BodyMotion& body = bodies[prescribed_];
   JointRows& rows = rows_.back();
-  rows.value << body.p - pose_.p, small_rotation(body.R * pose_.R.transpose());
+  rows.value << body.p - pose_.p, turn_of(body.R * pose_.R.transpose());
   rows.rate << body.v - pose_.v, body.w - pose_.w;
   rows.gamma << pose_.a, pose_.alpha;
 }

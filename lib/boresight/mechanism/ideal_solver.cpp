@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/rank_analysis.hpp"
@@ -18,6 +19,7 @@ constexpr int kNewtonSteps = 10;
 constexpr double kConverged = 1e-12;  // of the characteristic length, or rad
 constexpr double kExact = 1e-15;
 constexpr double kLargestCorrection = 0.3;  // [characteristic length or rad]: beyond it the branch could change
+constexpr double kAnyCorrection = std::numeric_limits<double>::infinity();
 
 // Why joints do not close at home, by the joint that stays open most.
 std::string left_open(const Mechanism& mechanism, const ConstraintSystem& system) {
@@ -80,7 +82,11 @@ IdealSolver::IdealSolver(const Mechanism& mechanism)
       weight_(kinematic_weight(mechanism)),
       laws_(mechanism.joints()),
       blocks_(system_.block_vector()),
-      motion_(system_.body_vector()) {}
+      motion_(system_.body_vector()),
+      // An open chain that its drives move closes in one way.
+      largest_correction_(open_chain() && !mechanism.description().motion.pose ? kAnyCorrection : kLargestCorrection) {}
+
+bool IdealSolver::open_chain() const { return mechanism_.joints() == mechanism_.bodies(); }
 
 void IdealSolver::laws_at(double t, double scale) {
   for (const auto& [joint, law] : mechanism_.description().motion.drives) {
@@ -113,9 +119,6 @@ bool IdealSolver::newton(IdealState& state) {
   for (const BodyMotion& body : state.bodies) farthest = std::max(farthest, body.p.lpNorm<Eigen::Infinity>());
   const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * farthest / length;
   const double exact = std::max(kExact, 0.25 * rounding), converged = std::max(kConverged, rounding);
-  // An open chain closes in one way.
-  const double largest =
-      mechanism_.joints() == mechanism_.bodies() ? std::numeric_limits<double>::infinity() : kLargestCorrection;
   double previous = 1e300, corrected = 0.0;
   for (int step = 0; step < kNewtonSteps; ++step) {
     system_.evaluate(state.bodies, laws_);
@@ -130,7 +133,7 @@ bool IdealSolver::newton(IdealState& state) {
       corrected = std::max({corrected, motion_[b].head<3>().norm() / length, motion_[b].tail<3>().norm()});
       displace(state.bodies[b], motion_[b]);
     }
-    if (!(corrected < largest)) return false;
+    if (!(corrected < largest_correction_)) return false;
     previous = violation;
   }
   return previous < converged;
@@ -168,6 +171,24 @@ bool IdealSolver::differentiate(IdealState& state) {
   return true;
 }
 
+// From home, in steps that go on along the same branch.
+bool IdealSolver::reach_start(IdealState& state) {
+  double done = 0.0, step = 1.0;
+  while (done < 1.0) {
+    IdealState trial = state;
+    const double next = std::min(1.0, done + step);
+    laws_at(0.0, next);
+    if (newton(trial)) {
+      state = trial;
+      done = next;
+      step = std::min(1.0, 2.0 * step);
+    } else if ((step *= 0.5) < 1e-4) {
+      return false;
+    }
+  }
+  return true;
+}
+
 void IdealSolver::start(IdealState& state) {
   const MechanismDescription& m = mechanism_.description();
   state.t = 0.0;
@@ -188,19 +209,15 @@ void IdealSolver::start(IdealState& state) {
   }
   system_.set_redundant(rank.rank < rank.rows);
 
-  double done = 0.0, step = 1.0;
   if (!newton(state)) throw ComputationError(left_open(mechanism_, system_));
-  while (done < 1.0) {
-    IdealState trial = state;
-    const double next = std::min(1.0, done + step);
-    laws_at(0.0, next);
-    if (newton(trial)) {
-      state = trial;
-      done = next;
-      step = std::min(1.0, 2.0 * step);
-    } else if ((step *= 0.5) < 1e-4) {
-      throw ComputationError("the starting pose cannot be reached from home");
-    }
+  const IdealState home = state;
+  if (!reach_start(state)) {
+    // Few axes may reach a pose, and none of those on the straight way there.
+    state = home;
+    const double limit = std::exchange(largest_correction_, kAnyCorrection);
+    const bool reached = open_chain() && reach_start(state);
+    largest_correction_ = limit;
+    if (!reached) throw ComputationError("the starting pose cannot be reached from home");
   }
   if (!differentiate(state)) throw ComputationError("the starting pose is singular");
 }

@@ -40,12 +40,15 @@ class IdealSolver {
   bool factor();
   bool newton(IdealState& state);
   bool differentiate(IdealState& state);
+  bool open_chain() const;
+  bool reach_start(IdealState& state);
 
   const Mechanism& mechanism_;
   ConstraintSystem system_;
   std::vector<Mat6> weight_;
   std::vector<TimeValue> laws_;
   std::vector<Vec6> blocks_, motion_;
+  double largest_correction_;  // [characteristic length or rad]
 };
 
 }  // namespace boresight

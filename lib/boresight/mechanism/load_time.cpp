@@ -6,9 +6,13 @@
 #include <vector>
 
 namespace boresight {
+namespace {
+
+constexpr double kFewest = 1024.0, kMost = 65536.0;  // looks along a motion
+
+}  // namespace
 
 double load_time(const Mechanism& mechanism) {
-  constexpr double kFewest = 1024.0, kMost = 65536.0;
   constexpr double kNothing = 1e-6;  // a load that moves nothing that anybody sees may change as fast as it likes
   const double duration = mechanism.duration();
   const int looks = static_cast<int>(std::clamp(std::ceil(duration / kLookedAt), kFewest, kMost));
@@ -42,6 +46,36 @@ double load_time(const Mechanism& mechanism) {
   for (const Change& change : changes)
     if (change.rate > 0.0 && change.range > kNothing * size) shortest = std::min(shortest, change.range / change.rate);
   return shortest;
+}
+
+double error_time(const Mechanism& mechanism, const IdealMotion& commanded, const std::vector<bool>& wanted) {
+  struct Law {
+    const ErrorDescription* error;
+    double least = std::numeric_limits<double>::infinity(), largest = -least, rate = 0.0;
+  };
+  std::vector<Law> laws;
+  for (std::size_t e = 0; e < wanted.size(); ++e)
+    if (const ErrorDescription& error = mechanism.description().errors[e]; wanted[e] && error.law)
+      laws.push_back({&error});
+  double shortest = std::numeric_limits<double>::infinity();
+  if (laws.empty()) return shortest;
+  const double duration = mechanism.duration();
+  const int looks = static_cast<int>(std::clamp(std::ceil(duration / kLookedAt), kFewest, kMost));
+  std::vector<TimeValue> drives(static_cast<std::size_t>(mechanism.joints()));
+  for (int i = 0; i <= looks; ++i) {
+    const double t = duration * i / looks;
+    commanded.drive_laws(t, drives);
+    for (Law& law : laws) {
+      const TimeValue errs = law.error->law->at(drives[static_cast<std::size_t>(law.error->joint)], t);
+      law.least = std::min(law.least, errs.value);
+      law.largest = std::max(law.largest, errs.value);
+      law.rate = std::max(law.rate, std::abs(errs.rate));
+    }
+  }
+  for (const Law& law : laws)
+    if (law.rate > 0.0 && law.largest > law.least)
+      shortest = std::min(shortest, (law.largest - law.least) / law.rate);
+  return std::max(shortest, duration / looks);  // a jump takes no time
 }
 
 }  // namespace boresight

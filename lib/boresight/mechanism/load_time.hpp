@@ -1,6 +1,9 @@
 // How fast the loads of a mechanism change: what no grid and no step may be longer than, since neither sees what begins and ends within it.
 #pragma once
 
+#include <vector>
+
+#include "boresight/mechanism/ideal_motion.hpp"
 #include "boresight/mechanism/mechanism.hpp"
 
 namespace boresight {
@@ -10,6 +13,10 @@ namespace boresight {
 // largest load. Looked for at instants kLookedAt apart, or more of a motion that
 // is longer than 65,536 of them: a blow that is over within one of these may not be seen.
 double load_time(const Mechanism& mechanism);
+
+// The same of the laws of drives' errors, those of which are `wanted`, along a commanded motion; no less than the
+// instants that were looked at lie apart.
+double error_time(const Mechanism& mechanism, const IdealMotion& commanded, const std::vector<bool>& wanted);
 
 inline constexpr double kLookedAt = 50e-6;  // [s], or a 1,024th of a shorter motion
 

@@ -51,6 +51,12 @@ class Mechanism {
 
   // The numbers as the file gives them; copy, change, and hand to a rung.
   const Parameters& parameters() const { return parameters_; }
+  // The same drawing with other numbers, such as one sample's.
+  Mechanism with(Parameters parameters) const {
+    Mechanism other = *this;
+    other.parameters_ = std::move(parameters);
+    return other;
+  }
 
   int bodies() const { return static_cast<int>(description_.bodies.size()); }
   int joints() const { return static_cast<int>(description_.joints.size()); }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "boresight/mechanism/generic_instant.hpp"
+#include "boresight/mechanism/load_time.hpp"
 #include "boresight/mechanism/play_mobility.hpp"
 #include "boresight/rungs/motion_recorder.hpp"
 #include "boresight/scene/standing_errors.hpp"
@@ -152,6 +153,9 @@ RunResult motion_without_play(const Mechanism& mechanism, const std::function<vo
                               const IdealMotion& commanded, const Parameters& parameters, const RunOptions& options) {
   double step =
       mechanism.duration() / std::max(StandingErrors::kFewestInstants, kInstantsAKnot * (commanded.knots() - 1));
+  std::vector<bool> errs;
+  for (const double value : parameters.error) errs.push_back(value != 0.0);
+  step = std::min(step, kStepOfLoads * error_time(mechanism, commanded, errs));
   for (int look = 1;; ++look) {
     Peaks peaks;
     RunResult result = follow(mechanism, state, commanded, parameters, options, step, peaks);

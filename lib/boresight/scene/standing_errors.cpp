@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "boresight/math/cubic_at_middle.hpp"
 #include "boresight/mechanism/error.hpp"
@@ -24,38 +23,6 @@ constexpr int kMostCellsOfLaws = 1 << 14;
 // What is left of the columns between the knots where the grid is finest must not be more.
 constexpr double kLargestMissOfColumns = 1e-3;
 
-// The shortest time in which the law of one of the drives' errors changes by all that it ever does, as load_time() is of loads [s].
-double law_time(const Mechanism& mechanism, const IdealMotion& commanded, const std::vector<bool>& wanted) {
-  constexpr double kFewest = 1024.0, kMost = 65536.0;
-  struct Law {
-    const ErrorDescription* error;
-    double least = std::numeric_limits<double>::infinity(), largest = -least, rate = 0.0;
-  };
-  std::vector<Law> laws;
-  for (std::size_t e = 0; e < wanted.size(); ++e)
-    if (const ErrorDescription& error = mechanism.description().errors[e]; wanted[e] && error.law)
-      laws.push_back({&error});
-  double shortest = std::numeric_limits<double>::infinity();
-  if (laws.empty()) return shortest;
-  const double duration = mechanism.duration();
-  const int looks = static_cast<int>(std::clamp(std::ceil(duration / kLookedAt), kFewest, kMost));
-  std::vector<TimeValue> drives(static_cast<std::size_t>(mechanism.joints()));
-  for (int i = 0; i <= looks; ++i) {
-    const double t = duration * i / looks;
-    commanded.drive_laws(t, drives);
-    for (Law& law : laws) {
-      const TimeValue errs = law.error->law->at(drives[static_cast<std::size_t>(law.error->joint)], t);
-      law.least = std::min(law.least, errs.value);
-      law.largest = std::max(law.largest, errs.value);
-      law.rate = std::max(law.rate, std::abs(errs.rate));
-    }
-  }
-  for (const Law& law : laws)
-    if (law.rate > 0.0 && law.largest > law.least)
-      shortest = std::min(shortest, (law.largest - law.least) / law.rate);
-  return shortest;
-}
-
 }  // namespace
 
 StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& commanded, std::vector<bool> wanted)
@@ -64,7 +31,7 @@ StandingErrors::StandingErrors(const Mechanism& mechanism, const IdealMotion& co
   const double duration = mechanism.duration(), length = mechanism.characteristic_length();
   // A sixteenth of what the commanded motion is tabled with: no turn of it is overlooked.
   int cells = std::max(kFewestCellsOfColumns, commanded.knots() / 16);
-  const double cells_of_laws = duration / (kCellOfLoads * law_time(mechanism, commanded, wanted_));
+  const double cells_of_laws = duration / (kCellOfLoads * error_time(mechanism, commanded, wanted_));
   cells = std::max(cells, static_cast<int>(std::min(cells_of_laws, double{kMostCellsOfLaws})));
   const auto refuse_unless_held = [&](double knots) {
     // Knots, of all bodies; and of those that are asked for, the boresight body and now and then another one, two tables of four
