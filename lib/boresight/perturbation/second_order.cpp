@@ -144,8 +144,11 @@ class LeftOut {
     const auto whole = sizes(linear), bent = sizes(off), taken = sizes(along);
     for (int k = 0; counts && k < kKinds; ++k) miss_[k].add(whole[k], bent[k] + taken[k]);
 
-    VecX left = z_ddot + Rows(row_.data() + at_.AC, at_.n, at_.n) * z_dot;
-    if (at_.stiff) left += Rows(row_.data() + at_.AK, at_.n, at_.n) * z;
+    const VecX by_rates = Rows(row_.data() + at_.AC, at_.n, at_.n) * z_dot;
+    const VecX by_places = at_.stiff ? VecX(Rows(row_.data() + at_.AK, at_.n, at_.n) * z) : VecX(VecX::Zero(at_.n));
+    const VecX left = z_ddot + by_rates + by_places;
+    // What no contact carries, nothing pushes on the average: it goes by the sum of these.
+    const VecX moving = z_ddot.cwiseAbs() + by_rates.cwiseAbs() + by_places.cwiseAbs();
     if (want_missed_)
       missed_.push_back(missed(deviation.t, left, reaction, A, coordinates_.offsets_per_coordinate(T),
                                dependent.beyond.cwiseQuotient(dependent.length)));
@@ -156,8 +159,9 @@ class LeftOut {
       double reach = 0.0;
       std::array<double, kKinds> gain = {0.0, 0.0, 0.0, 0.0};
       for (int i : groups_[g]) {
-        size += push[i] * push[i];
-        size_off += push_off[i] * push_off[i];
+        const bool carried = i < at_.n - coordinates_.leftover();
+        size += std::pow(carried ? push[i] : moving[i], 2);
+        size_off += std::pow(carried ? push_off[i] : left[i], 2);
         reach += unit_[i] * unit_[i] * z[i] * z[i];
         const auto of_one = sizes(E.col(i) / unit_[i]);
         for (int k = 0; k < kKinds; ++k) gain[k] += of_one[k] * of_one[k];

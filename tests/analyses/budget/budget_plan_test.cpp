@@ -293,5 +293,27 @@ measured = { file = ")" +
   std::filesystem::remove(file);
 }
 
+TEST_F(BudgetPlanTest, ColumnsBelongToTheAxesInTheOrderInWhichTheseAreNamed) {
+  const std::string file = testing::TempDir() + "boresight_turned_floor.csv";
+  std::ofstream(file) << "t,a,b\n0,1,-4\n10,3,-8\n";
+  const auto text = [&](const std::string& axes) {
+    return "[[budget.contributor]]\nname = \"floor\"\naxes = " + axes + "\nmeasured = { file = \"" + file +
+           "\", time = \"t\", columns = [\"a\", \"b\"], unit = \"arcsec\", ends = \"held\" }";
+  };
+  const Contributor turned = read(text(R"(["y", "x"])")).contributors.at(0);
+  EXPECT_NEAR(turned.measured->record().value[1][1], 3.0 * arcsec_, 1e-18);
+  EXPECT_NEAR(turned.measured->record().value[0][1], -8.0 * arcsec_, 1e-18);
+  EXPECT_THAT(fault(text(R"(["x", "x"])")), HasSubstr("each axis once"));
+  std::filesystem::remove(file);
+}
+
+// A second window that would lie in two observations wherever the first one is, is no index.
+TEST_F(BudgetPlanTest, ARevisitHasToLeadFromOneObservationIntoOneOther) {
+  EXPECT_THAT(fault("window = \"0.3 s\"\nobservation = \"0.4 s\"\nrevisit = \"0.65 s\"\n"), HasSubstr("revisit"));
+  EXPECT_THAT(fault("window = \"0.4 s\"\nobservation = \"0.4 s\"\nrevisit = \"0.5 s\"\n"), HasSubstr("revisit"));
+  EXPECT_EQ(read("window = \"0.1 s\"\nobservation = \"0.4 s\"\nrevisit = \"0.6 s\"\n").windows.revisit, 0.6);
+  EXPECT_EQ(read("window = \"0.1 s\"\nobservation = \"0.4 s\"\n").windows.window, 0.1);
+}
+
 }  // namespace budget_plan_test
 }  // namespace boresight

@@ -197,5 +197,40 @@ TEST(Contributor, PreOfARecalibratedDriftKnowsOfTheReset) {
   EXPECT_NEAR(moments(drift, 0, ErrorIndex::pre, Interpretation::mixed, whole, 80.0).mean, 0.0, 1e-9);
 }
 
+// Also where an observation is no whole number of samples: it begins with the samples that the index takes for its first.
+TEST(Contributor, ADriftThatIsRecalibratedBeginsEveryObservationAtNothing) {
+  Contributor drift{.name = "drift", .kind = ContributorClass::drift, .recalibrated = true};
+  drift.parameter[0] = make_uniform(2.0, 2.0 + 1e-9);
+  const double spacing = 0.55e-3;
+  const std::vector<Vec3> seen = course(drift, 1, 0, 0, spacing, 2000, {.window = 1e-3, .observation = 20e-3});
+  double least = 1.0, most = 0.0;
+  for (const Vec3& e : seen) {
+    least = std::min(least, e.x());
+    most = std::max(most, e.x());
+  }
+  EXPECT_NEAR(least, 2.0 * 0.5 * spacing, 1e-9);
+  EXPECT_NEAR(most, 2.0 * 35.5 * spacing, 1e-9);
+}
+
+// Whatever axes a scattering bias is drawn in, its worst case is no less, and no other one cancels it.
+TEST(Contributor, TheWorstOfWhatScattersCancelsNothing) {
+  Contributor bias{.name = "bias", .kind = ContributorClass::bias};
+  bias.parameter[0] = bias.parameter[1] = make_uniform(-3.0, 3.0);
+  const double c = std::sqrt(0.5);
+  bias.frame << c, -c, 0.0, c, c, 0.0, 0.0, 0.0, 1.0;
+  const AxesMoments turned = axes_moments(bias, ErrorIndex::ape, Interpretation::temporal, {}, 1.0);
+  EXPECT_TRUE(turned.either_sign);
+  EXPECT_NEAR(turned.mean[0], 6.0 * c, 1e-12);
+  EXPECT_NEAR(turned.mean[1], 6.0 * c, 1e-12);
+  const auto line = [](double mean, bool either) {
+    return ClassicalLine{.name = "", .kind = "", .group = "", .axes = {{mean, 0.0}}, .either_sign = either};
+  };
+  const std::vector<ClassicalLine> lines = {line(-2.0, false), line(3.0, true)};
+  EXPECT_NEAR(std::abs(total_of(lines).axes[0].mean), 5.0, 1e-12);
+  // What is the same in all members keeps its sign.
+  const std::vector<ClassicalLine> known = {line(-2.0, false), line(2.0, false)};
+  EXPECT_NEAR(total_of(known).axes[0].mean, 0.0, 1e-12);
+}
+
 }  // namespace contributor_test
 }  // namespace boresight

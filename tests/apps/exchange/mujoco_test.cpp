@@ -114,6 +114,18 @@ TEST(MuJoCo, ABodyThatOnlyASpringHoldsIsAPartOfTheMechanism) {
   expect_near(m.springs[0].second_point, Vec3(0.0, 0.0, 2.0), 1e-12);
 }
 
+TEST(MuJoCo, WhatAFlagDisablesIsNotThere) {
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / ("flags-" + std::to_string(::getpid()) + ".xml");
+  std::ofstream(file) << "<mujoco><option><flag gravity='disable' equality='disable'/></option><worldbody>"
+                         "<body name='a'><joint name='j'/><inertial pos='0 0 1' mass='1' diaginertia='1 1 1'/></body>"
+                         "</worldbody><equality><connect name='tie' body1='a' anchor='0 0 1'/></equality></mujoco>";
+  const MechanismDescription m = imported(read_mjcf(file.string()));
+  std::filesystem::remove(file);
+  EXPECT_EQ(m.gravity.norm(), 0.0);
+  EXPECT_EQ(m.joints.size(), 1u);
+}
+
 TEST(MuJoCo, ReadsSeveralJointsOfABodyAsOneOrAsAChain) {
   const auto read = [](const std::string& joints, const std::string& actuators = "") {
     const std::filesystem::path file =

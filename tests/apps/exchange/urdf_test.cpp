@@ -1,3 +1,4 @@
+#include "boresight/io/expression.hpp"
 #include "imported.hpp"
 
 namespace boresight::app {
@@ -73,6 +74,38 @@ TEST(Urdf, AJointThatMimicsAnotherFollowsItsCourse) {
     if (m.joints[j].name == "k") {
       EXPECT_NEAR(m.motion.drives.at(static_cast<int>(j))->at(1.0).value, 0.5 - 2.0 * std::sin(1.0), 1e-12);
     }
+}
+
+// Whichever name comes first.
+TEST(Urdf, AJointMayFollowOneThatFollows) {
+  for (const char* last : {"a", "z"}) {
+    const std::string name = last;
+    ImportChoices choices;
+    choices.drives_given = true;
+    choices.drives["j"] = "sin(t)";
+    const Assembly a =
+        assembled(read_urdf(R"(<robot name="r"><link name="base"/><link name="l1"/><link name="l2"/><link name="l3"/>
+    <joint name="j" type="continuous"><parent link="base"/><child link="l1"/></joint>
+    <joint name="k" type="continuous"><parent link="l1"/><child link="l2"/><mimic joint="j" multiplier="2"/></joint>
+    <joint name=")" + name + R"(" type="continuous"><parent link="l2"/><child link="l3"/>
+      <mimic joint="k" multiplier="3" offset="0.5"/></joint></robot>)",
+                            "r.urdf"),
+                  choices);
+    ASSERT_EQ(a.drives.count(name), 1u) << name;
+    EXPECT_NEAR(parse_expression(a.drives.at(name))->at(1.0).value, 0.5 + 6.0 * std::sin(1.0), 1e-12) << name;
+  }
+}
+
+TEST(Urdf, WhatIsMeasuredAndNotCommandedIsFree) {
+  const Assembly a = assembled(read_urdf(R"(<robot name="r"><link name="base"/><link name="cart"/><link name="pole"/>
+    <joint name="slide" type="prismatic"><parent link="base"/><child link="cart"/></joint>
+    <joint name="swing" type="continuous"><parent link="cart"/><child link="pole"/></joint>
+    <ros2_control name="c" type="system"><joint name="slide"><command_interface name="position"/></joint>
+    <joint name="swing"><state_interface name="position"/></joint></ros2_control></robot>)",
+                                         "r.urdf"),
+                               {});
+  EXPECT_TRUE(joint_called(a.mechanism, "slide").driven);
+  EXPECT_FALSE(joint_called(a.mechanism, "swing").driven);
 }
 
 TEST(Urdf, AJointThatMimicsAFreeOneIsFree) {

@@ -72,6 +72,21 @@ class Python(unittest.TestCase):
                 bs.import_mechanism(os.path.join(folder, "bad.urdf"), os.path.join(folder, "bad.toml"))
             self.assertEqual((caught.exception.line, caught.exception.key), (2, "link.name"))
 
+    def test_a_verb_without_a_summary_answers_with_its_own_folder(self):
+        study = os.path.join(EXAMPLES, "3-rrcpr", "montecarlo.toml")
+        with tempfile.TemporaryDirectory() as folder:
+            first, other, to = (os.path.join(folder, name) for name in ("a", "b", "csv"))
+            bs.montecarlo(study, settings=SHORT, rung="envelope", out=first)
+            bs.montecarlo(study, settings=SHORT, rung="quasistatic", out=other)
+            exported = bs.verb("export", first, out=to)
+            self.assertEqual(os.path.realpath(exported.folder), os.path.realpath(to))
+            self.assertEqual(exported.summary, {})
+
+    def test_a_start_beyond_the_motion_is_refused(self):
+        m = bs.Mechanism(os.path.join(EXAMPLES, "four-bar", "four-bar.toml"))
+        with self.assertRaises(bs.InputError):
+            bs.run(m, rung="envelope", start=50.0)
+
     def test_the_example_from_urdf_ends_with_a_budget(self):
         with tempfile.TemporaryDirectory() as folder:
             ran = self.example("gimbal_from_urdf.py", folder)

@@ -72,6 +72,15 @@ TEST(Setting, ReplacesAnyValueByItsPath) {
 
 TEST(Setting, TheLastOneOfAPathWins) {
   EXPECT_EQ(scene({{"payload.mass", "1 kg"}, {"payload.mass", "2 kg"}}).payload->mass, 2.0);
+  // Of one element, and of all of them.
+  EXPECT_DOUBLE_EQ(scene({{"clearance.F1.contact.young.journal", "200 GPa"}, {"clearance.F1.contact.young", "72 GPa"}})
+                       .clearances[0]
+                       .parameters.contact.young[0],
+                   72e9);
+  EXPECT_DOUBLE_EQ(scene({{"clearance.F1.contact.young", "72 GPa"}, {"clearance.F1.contact.young.journal", "200 GPa"}})
+                       .clearances[0]
+                       .parameters.contact.young[0],
+                   200e9);
   EXPECT_DOUBLE_EQ(
       scene({{"clearance.F1.radial", "1 mm"}, {"clearance.*.radial", "2 mm"}}).clearances[0].parameters.radial, 2e-3);
 }

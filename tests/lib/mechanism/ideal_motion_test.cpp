@@ -165,5 +165,91 @@ TEST(ConstraintSystem, RedundantRowsGiveTheSameMotionAsAnIndependentSet) {
   }
 }
 
+// A pose that starts half a turn from home is another one than home.
+TEST(IdealMotion, StartsWhereThePoseSaysAlsoHalfATurnFromHome) {
+  const std::string text = R"(format = 1
+name = "mount"
+gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
+[[body]]
+name = "fork"
+mass = "1 kg"
+center_of_mass = ["0 mm", "0 mm", "0 mm"]
+inertia = ["0.1 kg m^2", "0.1 kg m^2", "0.1 kg m^2"]
+[[body]]
+name = "tube"
+mass = "1 kg"
+center_of_mass = ["0 mm", "0 mm", "0 mm"]
+inertia = ["0.1 kg m^2", "0.1 kg m^2", "0.1 kg m^2"]
+boresight = [1, 0, 0]
+[[joint]]
+name = "azimuth"
+type = "revolute"
+connects = ["ground", "fork"]
+point = ["0 mm", "0 mm", "-100 mm"]
+axis = [0, 0, 1]
+driven = true
+[[joint]]
+name = "elevation"
+type = "revolute"
+connects = ["fork", "tube"]
+point = ["0 mm", "0 mm", "0 mm"]
+axis = [0, 1, 0]
+driven = true
+[motion]
+duration = "1 s"
+body = "tube"
+angles = { convention = "ZYZ", psi = "pi", theta = "0.3 + 0.2*t", phi = "0" }
+position = { unit = "mm", x = "0", y = "0", z = "0" }
+)";
+  const Mechanism mechanism(read_mechanism_text(text, "mount.toml"));
+  const IdealMotion ideal = IdealMotion::kinematic(mechanism);
+  for (const double t : {0.0, 0.5, 1.0}) {
+    const Mat3 expected = rotation(std::numbers::pi, 2) * rotation(0.3 + 0.2 * t, 1);
+    EXPECT_LE((ideal.body(t, 1).R - expected).cwiseAbs().maxCoeff(), 1e-9) << t;
+  }
+}
+
+// An arm whose end is led to its pose keeps the elbow that it is drawn with.
+TEST(IdealMotion, AnArmLedByItsEndKeepsItsElbow) {
+  const double bend = 0.3;
+  MechanismDescription m;
+  m.name = "arm";
+  std::vector<Vec3> points = {Vec3::Zero()};
+  const std::vector<double> lengths = {1.0, 1.0, 0.3}, angles = {0.4, 0.4 - bend, 0.4 - 2.0 * bend};
+  for (int k = 0; k < 3; ++k)
+    points.emplace_back(points.back() + lengths[k] * Vec3(std::cos(angles[k]), std::sin(angles[k]), 0.0));
+  for (int k = 0; k < 3; ++k) {
+    BodyDescription b;
+    b.name = "link" + std::to_string(k);
+    b.mass = 1.0;
+    b.center_of_mass = k == 2 ? points[3] : Vec3(0.5 * (points[k] + points[k + 1]));
+    b.inertia = Mat3::Identity();
+    if (k == 2) b.boresight = Vec3::UnitX();
+    m.bodies.push_back(b);
+    JointDescription j;
+    j.name = "j" + std::to_string(k);
+    j.first = k - 1;
+    j.second = k;
+    j.point = points[k];
+    j.axis = Vec3::UnitZ();
+    j.driven = true;
+    m.joints.push_back(j);
+  }
+  // The end goes round, seen from the base, by far more than a step of Newton's method keeps a branch.
+  for (const double turn : {-1.2, 0.7, 1.5}) {
+    const Mat3 R = rotation(turn, 2);
+    const Vec3 end = R * points[3];
+    PoseMotionDescription pose;
+    pose.body = 2;
+    pose.angle = {parse_expression(std::to_string(turn)), parse_expression("0"), parse_expression("0")};
+    for (int k = 0; k < 3; ++k) pose.position[k] = parse_expression(std::to_string(end[k]));  // to a micrometre
+    m.motion.pose = pose;
+    m.motion.duration = 0.1;
+    const Mechanism mechanism(m);
+    const BodyMotion upper = IdealMotion::kinematic(mechanism).body(0.0, 0);
+    EXPECT_LE((upper.p - R * m.bodies[0].center_of_mass).norm(), 1e-4) << turn;
+  }
+}
+
 }  // namespace ideal_motion_test
 }  // namespace boresight
