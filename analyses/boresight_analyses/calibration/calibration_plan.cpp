@@ -207,7 +207,10 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
                       discrepancy.quantity("masses", plan.discrepancy.masses), discrepancy.quantity("lag"),
                       discrepancy.boolean("law")};
   discrepancy.finish();
-  if (table.has("hold_out")) plan.hold_out = table.quantity("hold_out");
+  if (table.has("hold_out")) {
+    plan.hold_out = table.quantity("hold_out");
+    plan.hold_out_origin = table.origin("hold_out");
+  }
   plan.profile = table.boolean("profile");
   if (table.has("posterior")) {
     plan.draws = read_draws(table.table("posterior"));
@@ -223,6 +226,7 @@ CalibrationPlan read_calibration_plan(Cursor& root, const Study& study, const Me
       const ChannelName& channel = channel_names()[c];
       if (!noise.has(channel.name)) continue;
       plan.noise[static_cast<Eigen::Index>(c)] = noise.quantity(channel.name);
+      plan.noise_origin[static_cast<int>(c)] = noise.origin(channel.name);
     }
     noise.finish();
   }
@@ -294,7 +298,14 @@ CalibrationProblem calibration_problem(
   problem.fit_drift = plan.drift;
   allow_for(plan.discrepancy, problem);
   problem.prepare(plan.window, plan.from_rest);
+  for (const auto& [channel, origin] : plan.noise_origin)
+    if (std::find(problem.channels.begin(), problem.channels.end(), channel) == problem.channels.end())
+      throw InputError(origin, std::string("calibrate.noise.") + channel_names()[static_cast<std::size_t>(channel)].name,
+                       "noise of a channel that no data have", "a channel that was measured");
   hold_out_windows(problem, plan.hold_out);
+  if (plan.hold_out > 0.0 && problem.windows.size() < 2)
+    throw InputError(plan.hold_out_origin, "calibrate.hold_out", "one window",
+                     "two at least, so that one is left to fit: a second run, or a window shorter than the run");
   if (plan.draws &&
       std::any_of(problem.windows.begin(), problem.windows.end(), [](const Window& w) { return !w.from_rest; }))
     throw InputError(plan.draws_origin, "calibrate.posterior",

@@ -41,6 +41,7 @@
 //   set = ["motion.drives.A=4*pi*t"]
 #pragma once
 
+#include <map>
 #include <optional>
 
 #include "boresight/io/cursor.hpp"
@@ -77,6 +78,8 @@ struct CalibrationPlan {
   bool mounting_bias = false, drift = false;
   Discrepancy discrepancy;
   double hold_out = 0.0;
+  Origin hold_out_origin;
+  std::map<int, Origin> noise_origin;  // per channel whose noise was told
   int corrections = 6;
   bool profile = true;
   std::optional<DrawOptions> draws;

@@ -123,6 +123,7 @@ class CalibrationProblem {
   std::vector<FittedParameter> parameters;
   std::vector<Window> windows;
   std::vector<ModelCorrection> corrections;  // per run; empty: none
+  bool noise_told = false;                   // that of all channels
   std::vector<int> channels;                 // among channel_names(), of all runs together
   VecX sigma;                                // noise per channel [SI]
   bool fit_time_offset = false, fit_lag = false, fit_bias = false, fit_drift = false;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "boresight/mechanism/parameter_path.hpp"
+#include "boresight_analyses/random/contact_path.hpp"
 
 namespace boresight {
 
@@ -27,7 +28,7 @@ struct FittedParameter {
 
   // Whether it is a standing error, error.NAME; else it belongs to a contact.
   bool is_error() const { return transform == Transform::linear; }
-  bool is_contact() const { return path.starts_with("clearance."); }
+  bool is_contact() const { return is_contact_path(path); }
   // Of u, what is known before: one over its variance; 0: nothing.
   double prior_information() const;
   // How far u is from what was told, in standard deviations of the prior.

@@ -89,10 +89,13 @@ bool Calibrator::keep_what_is_foretold(const CalibrationProblem& part, const Glo
 }
 
 void Calibrator::cut_what_is_held_out(const Globals& at) {
+  // The motions themselves: what corrects them is a straight line about the fit, and that foretells anything.
+  CalibrationProblem plain = problem_;
+  plain.corrections.clear();
   for (std::size_t k = 0; k < problem_.windows.size(); ++k) {
     Window& w = problem_.windows[k];
     if (!w.held_out || !w.from_rest || !problem_.follows_play()) continue;
-    const int last = last_foretold(problem_, w, at, 1.0);
+    const int last = last_foretold(plain, w, at, 1.0);
     if (last == w.last) continue;
     result_.warnings.push_back(problem_.runs[w.run].data.file + ": of " + std::to_string(w.last - w.first + 1) +
                                " samples that are held out " + std::to_string(last - w.first + 1) +

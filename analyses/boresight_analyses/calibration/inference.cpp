@@ -1,6 +1,7 @@
 #include "boresight_analyses/calibration/inference.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdio>
@@ -154,6 +155,9 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   const double freedom = std::max(1.0, static_cast<double>(out.values - out.unknowns));
   const double mean_slope = psi_slope / static_cast<double>(out.values);
   out.variance_factor = psi_square / freedom / std::max(mean_slope, 1e-3);
+  // A fit that goes through all readings leaves nothing to measure the noise by: it is what it was told to be, or nobody knows it.
+  const bool nothing_left = out.values <= out.unknowns;
+  if (nothing_left) out.variance_factor = 1.0;
   if (problem.follows_play())
     out.variance_factor =
         std::max(out.variance_factor, std::pow(noise_of_steps(problem).cwiseQuotient(problem.sigma).maxCoeff(), 2));
@@ -202,7 +206,9 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   Eigen::SelfAdjointEigenSolver<MatX> eigen(out.information.topLeftCorner(P, P) / out.variance_factor);
   out.rank = static_cast<int>((eigen.eigenvalues().array() > 1.0 / (kUnknown * kUnknown)).count());
 
-  const double quantile = boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
+  const double quantile =
+      nothing_left ? boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence)
+                   : boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
   const std::vector<std::string> names = problem.global_names();
   for (int g = 0; g < G; ++g) {
     ParameterEstimate e;
@@ -222,6 +228,11 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
         e.reason = "held at its start";
       } else {
         assess_identifiability(p, e);
+        if (nothing_left && !problem.noise_told) {
+          e.identifiable = false;
+          e.reason = std::to_string(out.values) + " values for " + std::to_string(out.unknowns) +
+                     " unknowns leave nothing that would tell the noise";
+        }
       }
     } else {
       e.value = problem.packed(fit.globals)[g];

@@ -107,7 +107,7 @@ std::string posterior_toml(const CalibrationProblem& problem, const Inference& i
                " about its start, within what the data tell of it and others together.";
       distribution = "{ normal = { mean = " + quantity(parameter.value(known.u[p]), e.si_unit) +
                      ", sd = " + quantity(known.deviation[p] * parameter.size, e.si_unit) + " } }";
-    } else if (!e.identifiable) {
+    } else if (!is_told(p) || !std::isfinite(e.coordinate_error)) {
       out += "\n# Not identifiable (" + e.reason + "): all that is allowed for it.";
       distribution = "{ uniform = { min = " + quantity(parameter.lower, e.si_unit) +
                      ", max = " + quantity(parameter.upper, e.si_unit) + " } }";

@@ -198,12 +198,34 @@ std::string posterior_toml(const PosteriorDraws& draws, const CalibrationProblem
                                           [&](const FittedParameter& p) { return p.path == q.name; });
     if (of_mechanism) names += (names.empty() ? "\"" : ", \"") + q.name + "\"";
   }
-  return "# What a calibration knows of the parameters, as random inputs of a study (boresight montecarlo): draws of "
-         "their posterior, a row "
-         "each.\n"
-         "# " +
-         draws.says + "\n\n[[random]]\nparameters = [" + names + "]\ndistribution = { rows = { file = \"" + file +
-         "\" } }\n";
+  std::string text =
+      "# What a calibration knows of the parameters, as random inputs of a study (boresight montecarlo): draws of "
+      "their posterior, a row "
+      "each.\n"
+      "# " +
+      draws.says + "\n\n[[random]]\nparameters = [" + names + "]\ndistribution = { rows = { file = \"" + file +
+      "\" } }\n";
+  // Those that were held have no draws, and are no better known for that.
+  for (const FittedParameter& p : problem.parameters) {
+    const bool drawn = std::any_of(draws.quantities.begin(), draws.quantities.end(),
+                                   [&](const DrawnQuantity& q) { return q.name == p.path; });
+    if (drawn) continue;
+    if (p.is_error()) {
+      text += "\n# " + p.path + " was held: it stays what the mechanism file says.\n";
+      continue;
+    }
+    const auto quantity = [&](double value) {
+      char number[100];
+      if (p.si_unit == "1" || p.si_unit.empty())
+        std::snprintf(number, sizeof number, "%.17g", value);
+      else
+        std::snprintf(number, sizeof number, "\"%.17g %s\"", value, p.si_unit.c_str());
+      return std::string(number);
+    };
+    text += "\n# Held, as the data do not show it: all that is allowed for it.\n[[random]]\nparameter = \"" + p.path +
+            "\"\ndistribution = { uniform = { min = " + quantity(p.lower) + ", max = " + quantity(p.upper) + " } }\n";
+  }
+  return text;
 }
 
 }  // namespace boresight

@@ -111,7 +111,7 @@ std::string csv_of(const MeasuredData& data) {
   }
   char text[40];
   for (std::size_t i = 0; i < data.time.size(); ++i) {
-    std::snprintf(text, sizeof text, "\n%.9g", data.time[i]);
+    std::snprintf(text, sizeof text, "\n%.12g", data.time[i]);
     out += text;
     for (Eigen::Index c = 0; c < data.value.cols(); ++c) {
       std::snprintf(text, sizeof text, ", %.4f", 1e6 * data.value(static_cast<Eigen::Index>(i), c));

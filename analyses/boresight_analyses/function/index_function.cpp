@@ -7,6 +7,7 @@
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/sensitivity/predictable_slopes.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
+#include "boresight_analyses/random/contact_path.hpp"
 
 namespace boresight {
 namespace {
@@ -86,7 +87,7 @@ std::string IndexFunction::why_no_slopes() const {
     return "exact slopes are those of the perturbation rung, and this function is of " + model_.rung;
   for (const FunctionInput& input : inputs_) {
     const bool of_error = all_begin_with(input, "error.") && mechanism_->clearances() > 0;
-    if (!of_error && !all_begin_with(input, "clearance."))
+    if (!of_error && !std::all_of(input.paths.begin(), input.paths.end(), has_exact_slope))
       return "exact slopes are those by standing errors beside play, and by numbers of a clearance's contacts; " +
              input.name() + " is neither";
   }

@@ -5,6 +5,7 @@
 
 #include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/sensitivity/predictable_slopes.hpp"
+#include "boresight_analyses/random/contact_path.hpp"
 
 namespace boresight {
 
@@ -15,7 +16,7 @@ std::string why_no_slopes(const MatchingPlan& plan) {
   if (!plan.constraints.empty()) return "contact measures, which limits are put to, have no slopes";
   for (const DesignVariable& v : plan.variables)
     for (const std::string& path : v.paths)
-      if (path.rfind("clearance.", 0) != 0)
+      if (!has_exact_slope(path))
         return "slopes are those by numbers of a clearance's contacts, and " + path + " is none";
   for (const DesignVariable& v : plan.variables)
     if (!(v.from > 0.0)) return "slopes are those by numbers above zero, and " + v.name() + " may be zero";

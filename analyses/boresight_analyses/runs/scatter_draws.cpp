@@ -3,12 +3,13 @@
 #include <algorithm>
 
 #include "boresight_analyses/random/sampling_design.hpp"
+#include "boresight_analyses/random/contact_path.hpp"
 
 namespace boresight {
 
 bool scene_varies(const std::vector<std::string>& paths) {
   return std::any_of(paths.begin(), paths.end(), [](const std::string& path) {
-    return !path.starts_with("clearance.") && !path.starts_with("error.");
+    return !is_contact_path(path) && !path.starts_with("error.");
   });
 }
 

@@ -1,3 +1,4 @@
+#include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/sensitivity/index_slopes.hpp"
 
 #include <algorithm>
@@ -36,13 +37,17 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
                          const std::function<Parameters(const std::vector<double>&)>& parameters_at,
                          const std::vector<double>& values, const IndexChoice& index, const SlopeOptions& options) {
   const Parameters parameters = parameters_at(values);
-  const auto tables = prepared.tables(parameters);
   const StandingDisplacement standing = prepared.standing(parameters);
+  const auto tables = prepared.tables(parameters, standing);
   std::vector<StandingDisplacement> by_error;  // per unit
   for (const std::vector<double>& unit : options.errors) {
     Parameters of_unit = parameters;
     of_unit.error = unit;
     by_error.push_back(prepared.standing(of_unit));
+    for (std::size_t e = 0; e < unit.size(); ++e)
+      if (unit[e] != 0.0 && by_error.back() && by_error.back().influence().uses_play(e))
+        throw ComputationError("error." + mechanism.description().errors[e].name +
+                               " takes up play of joints that hold each other: what that does is no slope of the motion");
   }
   const Eigen::Index n = tables->layout.n;
   MotionRequest request;

@@ -40,7 +40,8 @@ IndexSlopes predictable_slopes(const std::shared_ptr<const Mechanism>& mechanism
   if (!horizon.measured) throw ComputationError(horizon.refusal);
   if (horizon.parted) throw ComputationError(beyond(horizon, mechanism->duration()));
   const PreparedScene prepared(*mechanism, ideal_motion(*mechanism, parameters), parameters);
-  const PerturbationSystem system(*mechanism, parameters, prepared.tables(parameters), false);
+  const PerturbationSystem system(*mechanism, parameters, prepared.tables(parameters, prepared.standing(parameters)),
+                                  false);
   if (!system.elements().empty()) throw ComputationError("friction with a state (LuGre) carries no derivatives");
   SlopeOptions options;
   // Steps that serve the motion alone leave its derivatives to grow where a journal rests on its sleeve: there they stand at the

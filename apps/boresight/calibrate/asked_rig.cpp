@@ -74,6 +74,9 @@ SyntheticRig AskedRig::rig() const {
   const double displaced = positive_quantity("--make-offset", offset, kLength);
   for (std::size_t c = 0; c < rig.channels.size(); ++c)
     if (rig.channels[c] < 3) rig.bias[static_cast<Eigen::Index>(c)] = displaced;
+  if (std::none_of(rig.channels.begin(), rig.channels.end(), [](int c) { return c < 3; }))
+    throw InputError(Origin{"command line", 0}, "--make-offset", in_quotes(offset),
+                     "channels that measure displacements, by --make-channels");
   return rig;
 }
 

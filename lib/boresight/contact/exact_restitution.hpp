@@ -18,9 +18,11 @@ inline double exact_restitution_defect(double h, double e) {
   return sum;
 }
 
-// e: restitution asked for, 0 < e <= 1. Returns h [-].
+// e: restitution asked for, 0 < e <= 1. Returns h [-]. The relation is the same for 1/e and -e h: beyond 1 it goes on smoothly, as
+// differences about 1 need it.
 inline double exact_restitution_damping_factor(double e) {
-  if (e >= 1.0) return 0.0;
+  if (e > 1.0) return -exact_restitution_damping_factor(1.0 / e) / e;
+  if (e == 1.0) return 0.0;
   double low = 0.0, high = 1.0 / e;
   // Regula falsi in Illinois' form would crawl at the pole h = 1/e; halving costs some fifty cheap steps, once a sample.
   for (int k = 0; k < 200 && high - low > 1e-16 * high; ++k) {

@@ -323,7 +323,20 @@ void PerturbationLanes::add_errors(const Parameters& sample, const Prepared& pre
                                            ? prepared.scene->changed_accelerations(sample, standing, *prepared.tables)
                                            : prepared.scene->changed_loads(sample, standing);
   if (change.values.empty()) return;
-  own.loads = to.courses(prepared.tables->layout.n, change.spacing, change.values);
+  const SceneLayout& at = prepared.tables->layout;
+  // Journals start where these loads have them rest, too.
+  SceneStart start = prepared.tables->start;
+  VecX more = Eigen::Map<const VecX>(change.values.data(), at.n);
+  if (prepared.lane.form == SceneForm::forces) {
+    MatX A;
+    at.inverse_mass(start.row.data(), A);
+    more = (A * more).eval();
+  }
+  Eigen::Map<VecX>(&start.row[static_cast<std::size_t>(at.Ar)], at.n) += more;
+  std::string warning;  // the rung itself says it
+  to.starts.back() = start_coordinates(*mechanism_, at, start, to.joints.back(), warning);
+  to.jobs.back().start = to.starts.back().data();
+  own.loads = to.courses(at.n, change.spacing, change.values);
   own.longest_step = std::min(own.longest_step, kCellsOfLoads * change.spacing);
 }
 

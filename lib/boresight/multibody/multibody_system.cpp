@@ -250,7 +250,14 @@ void MultibodySystem::observe(double t, const VecX& y, bool with_forces) {
     read(c, t, y);
     trackers_[c].observe(t, contact_);
     memory_[c] = trackers_[c].memory();
-    if (with_forces) trackers_[c].observe_forces(formulation_.forces().contact(c));
+    if (!with_forces) continue;
+    // The law that acts may not see the contacts that are open.
+    PlayWrench<double>& wrench = formulation_.forces().contact(c);
+    for (int k = 0; k < kContactPlaces; ++k) {
+      wrench.contact[k].penetration = contact_[k].penetration;
+      wrench.contact[k].rate = contact_[k].rate;
+    }
+    trackers_[c].observe_forces(wrench);
   }
 }
 

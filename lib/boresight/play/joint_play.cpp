@@ -1,6 +1,8 @@
 #include "boresight/play/joint_play.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "boresight/contact/hertz.hpp"
@@ -99,8 +101,10 @@ double JointPlay::widest() const {
   return *std::max_element(all.begin(), all.end());
 }
 double JointPlay::narrowest() const {
-  const std::vector<double> all = clearances();
-  return *std::min_element(all.begin(), all.end());
+  double least = std::numeric_limits<double>::infinity();
+  for (const double gap : clearances())
+    if (gap > 0.0) least = std::min(least, gap);
+  return std::isfinite(least) ? least : 0.0;
 }
 PlayOffsets JointPlay::widths(double other) const {
   return std::visit([&](const auto& k) { return k.widths(other); }, kind);

@@ -210,12 +210,15 @@ class MeasuredByDynamics final : public Rung {
     if (bounds_) std::fill(at.error.begin(), at.error.end(), 0.0);
     std::vector<double> key = numbers_of(at);
     key.insert(key.end(), {options.start, static_cast<double>(options.model_look)});
-    const std::lock_guard lock(mutex_);
+    // What samples share is measured once; errors of its own nobody shares, and others need not wait.
+    const bool own = std::any_of(at.error.begin(), at.error.end(), [](double error) { return error != 0.0; });
+    std::unique_lock lock(mutex_);
     if (const auto known = measured_.find(key); known != measured_.end()) return known->second;
     RunOptions plain;
     plain.start = options.start;
     plain.sample_spacing = 0.0;
     plain.events = false;
+    if (own) lock.unlock();
     Measured measured;
     try {
       measured = against_dynamics(at, options, rung_->run(at, plain).index, cost);
@@ -223,6 +226,7 @@ class MeasuredByDynamics final : public Rung {
       // Of what stands for the sample, and not of the sample itself.
       measured = not_measured(std::string("near this sample ") + failure.what());
     }
+    if (own) lock.lock();
     if (measured.keeps && measured_.size() < kMostKept) measured_.emplace(std::move(key), measured);
     return measured;
   }

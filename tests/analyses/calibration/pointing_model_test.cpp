@@ -217,6 +217,19 @@ TEST(PointingModel, APriorIsWhatItWasToldWhateverTheNoise) {
   for (const double error : errors) EXPECT_NEAR(error / errors[1], 1.0, 0.02);
 }
 
+// A fit through all its readings leaves no residual: the noise is what it was told to be, or unknown.
+TEST(PointingModel, AsManyReadingsAsTermsTellNothingOfTheirNoise) {
+  const Bench bench(gimbal(), {"error.IA", "error.IE"}, {6, 8}, 1);
+  const auto found = [&](bool told) {
+    CalibrationProblem problem = bench.problem(std::vector<double>(2, kArcsec), 7);
+    CalibrationOptions options;
+    if (told) options.noise = VecX::Constant(static_cast<Eigen::Index>(channel_names().size()), kArcsec);
+    return calibrate(problem, options).inference;
+  };
+  for (const ParameterEstimate& e : found(true).parameters) EXPECT_GT(e.standard_error, 0.5 * kArcsec) << e.name;
+  for (const ParameterEstimate& e : found(false).parameters) EXPECT_FALSE(e.identifiable) << e.name;
+}
+
 TEST(PointingModel, AConstantOffsetOfTheChannelsHidesWhatItDoesAlike) {
   // A tube that stands still: every error is an offset.
   const Bench bench(gimbal({{"motion.drives.elevation", "pi/4"}, {"motion.drives.azimuth", "0.3"}}), {"error.IE"},
