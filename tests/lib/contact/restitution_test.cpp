@@ -85,6 +85,9 @@ TEST(ExactRestitution, ReturnsWhatItWasAskedForWhateverMassSpeedAndElasticCurve)
 TEST(ExactRestitution, GoesToZeroDampingSmoothlyAtFullRestitution) {
   EXPECT_EQ(exact_restitution_damping_factor(1.0), 0.0);
   EXPECT_NEAR(exact_restitution_damping_factor(1.0 - 1e-9) / 1.5e-9, 1.0, 1e-6);
+  // Beyond it the relation goes on smoothly, as derivatives by differences need it.
+  const double slope = (exact_restitution_damping_factor(1.01) - exact_restitution_damping_factor(0.99)) / 0.02;
+  EXPECT_NEAR(slope, -1.5, 1e-3);
 }
 
 TEST(ContactLaws, ReachTheDepthAndForceThatTheoryForesees) {

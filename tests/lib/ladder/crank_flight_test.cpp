@@ -125,5 +125,16 @@ TEST(SliderCrankWithPlayInItsGuide, LeavesItsFirstImpactAsComputed) {
   EXPECT_NEAR(rebound.u2 - free.u2, after_it[2] - before.u2, 1e-6);
 }
 
+// A gap is a gap, also where the integrator leaves contacts out that are far away.
+TEST(CrankFlight, ShowsTheGapOfAContactThatIsOpen) {
+  const auto mechanism = scenes::build(scenes::rrcpr({{"motion.duration", "0.02 s"}}));
+  RunOptions options;
+  options.integrator = "rosenbrock";
+  const RunResult result = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
+  ASSERT_FALSE(result.clearances.empty());
+  const double clearance = mechanism->parameters().clearance[0].radial;
+  for (const ClearanceSample& sample : result.clearances[0]) EXPECT_GT(sample.penetration, -2.0 * clearance);
+}
+
 }  // namespace crank_flight_test
 }  // namespace boresight

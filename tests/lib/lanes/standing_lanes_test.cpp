@@ -154,5 +154,61 @@ TEST(StandingLanes, BuildAnotherSceneWhereACentreOfMassHasMoved) {
   EXPECT_EQ(out[2].mean_square, out[0].mean_square);
 }
 
+// What an error loads a journal with along its axis, it is loaded with before the motion begins.
+TEST(StandingLanes, StartWhereTheErrorsLoadsHaveTheJournalsRest) {
+  const std::string text = R"(format = 1
+name = "arm"
+gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
+[[body]]
+name = "arm"
+mass = "2 kg"
+center_of_mass = ["200 mm", "0 mm", "0 mm"]
+inertia = ["0.01 kg m^2", "0.02 kg m^2", "0.02 kg m^2"]
+boresight = [1, 0, 0]
+[[joint]]
+name = "A"
+type = "revolute"
+connects = ["ground", "arm"]
+point = ["0 mm", "0 mm", "0 mm"]
+axis = [0, 1, 0]
+driven = true
+[motion]
+duration = "0.1 s"
+drives = { A = "0.05*sin(20*t)" }
+[[error]]
+name = "lean"
+joint = "A"
+body = "ground"
+rotation = [1, 0, 0]
+value = "0 mrad"
+[[clearance]]
+joint = "A"
+journal = "arm"
+radial = "0.1 mm"
+axial = "0.1 mm"
+journal_radius = "10 mm"
+cap_radius = "14 mm"
+sleeve_length = "30 mm"
+axes = "parallel"
+[clearance.contact]
+law = "flores"
+restitution = 0.6
+young = ["200 GPa", "200 GPa"]
+poisson = [0.3, 0.3]
+density = "7800 kg/m^3"
+minimum_impact_speed = "1 mm/s"
+)";
+  const auto mechanism = std::make_shared<const Mechanism>(read_mechanism_text(text, "arm.toml"));
+  Parameters sample = mechanism->parameters();
+  sample.error[0] = 2e-3;
+  RunOptions options;
+  options.sample_spacing = 0.0;
+  const Statistics expected = make_rung("perturbation", mechanism)->run(sample, options).index.position_error;
+  LaneOutcome out;
+  PerturbationLanes(mechanism, PointingQuantity::position_error).run({&sample, 1}, {&out, 1});
+  EXPECT_NEAR(std::sqrt(out.mean_square), expected.rms, 0.01 * expected.rms);
+  EXPECT_NEAR(out.mean, expected.mean, 0.01 * expected.mean);
+}
+
 }  // namespace standing_lanes_test
 }  // namespace boresight
