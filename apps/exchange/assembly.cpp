@@ -331,7 +331,7 @@ class Assembler {
   std::map<std::string, std::string> joint_of_;  // as the file names it -> as the mechanism does
   std::map<std::string, Mimic> mimics_;
   std::set<std::string> followed_;  // of them, those whose course is known
-  double length_ = 1.0;  // diagonal of the box that holds all joints [m]
+  double length_ = 1.0;             // diagonal of the box that holds all joints [m]
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <tinyxml2.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <set>
 

@@ -62,7 +62,9 @@ ClassicalTotal total_of(std::span<const ClassicalLine> lines) {
   total.axes.resize(lines.front().axes.size());
   std::vector<double> sizes(total.axes.size(), 0.0);
   for (const ClassicalLine& line : lines) {
-    for (std::size_t a = 0; a < total.axes.size(); ++a)       (line.either_sign ? sizes[a] : total.axes[a].mean) += line.either_sign ? std::abs(line.axes[a].mean) : line.axes[a].mean;
+    for (std::size_t a = 0; a < total.axes.size(); ++a)
+      (line.either_sign ? sizes[a] : total.axes[a].mean) +=
+          line.either_sign ? std::abs(line.axes[a].mean) : line.axes[a].mean;
     for (const ClassicalLine& other : lines)
       if (const double correlation = correlation_of(line, other); correlation != 0.0)
         total.covariance += correlation * factor_of(line) * factor_of(other).transpose();

@@ -246,7 +246,8 @@ std::vector<Vec3> course(const Contributor& c, std::uint64_t seed, std::uint64_t
           break;
         case ContributorClass::drift:
           e = parameter *
-              (gain * (c.recalibrated ? (static_cast<double>(k % observed) + 0.5) * spacing : t + windows.start) + behind);
+              (gain * (c.recalibrated ? (static_cast<double>(k % observed) + 0.5) * spacing : t + windows.start) +
+               behind);
           break;
         case ContributorClass::spectrum:
         case ContributorClass::measured:

@@ -86,7 +86,8 @@ std::string Windows::missing_for(ErrorIndex index, double duration) const {
     const double whole = std::floor(revisit_after() / observed * (1.0 + 1e-12)),
                  later = std::max(0.0, revisit_after() - whole * observed);
     if (!(whole > 0.0 && later + window <= observed + slack) && later < window - slack)
-      return "a revisit after which both windows lie within one observation each, such as a whole number of observations";
+      return "a revisit after which both windows lie within one observation each, such as a whole number of "
+             "observations";
   }
   return "";
 }

@@ -206,9 +206,9 @@ void Calibrator::judge_poses() {
 }
 
 void Calibrator::set_noise(const VecX& sigma) {
-  problem_.noise_told = options_.noise.size() > 0 &&
-                        std::all_of(problem_.channels.begin(), problem_.channels.end(),
-                                    [&](int c) { return std::isfinite(options_.noise[c]); });
+  problem_.noise_told =
+      options_.noise.size() > 0 && std::all_of(problem_.channels.begin(), problem_.channels.end(),
+                                               [&](int c) { return std::isfinite(options_.noise[c]); });
   problem_.sigma = problem_.follows_play() ? VecX(sigma.cwiseMax(noise_of_steps(problem_))) : sigma;
   for (std::size_t c = 0; c < problem_.channels.size(); ++c)
     if (options_.noise.size() > 0 && std::isfinite(options_.noise[problem_.channels[c]]))

@@ -300,7 +300,8 @@ CalibrationProblem calibration_problem(
   problem.prepare(plan.window, plan.from_rest);
   for (const auto& [channel, origin] : plan.noise_origin)
     if (std::find(problem.channels.begin(), problem.channels.end(), channel) == problem.channels.end())
-      throw InputError(origin, std::string("calibrate.noise.") + channel_names()[static_cast<std::size_t>(channel)].name,
+      throw InputError(origin,
+                       std::string("calibrate.noise.") + channel_names()[static_cast<std::size_t>(channel)].name,
                        "noise of a channel that no data have", "a channel that was measured");
   hold_out_windows(problem, plan.hold_out);
   if (plan.hold_out > 0.0 && problem.windows.size() < 2)

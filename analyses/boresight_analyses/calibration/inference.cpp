@@ -206,9 +206,9 @@ Inference infer(const CalibrationProblem& problem, const FitResult& fit, double 
   Eigen::SelfAdjointEigenSolver<MatX> eigen(out.information.topLeftCorner(P, P) / out.variance_factor);
   out.rank = static_cast<int>((eigen.eigenvalues().array() > 1.0 / (kUnknown * kUnknown)).count());
 
-  const double quantile =
-      nothing_left ? boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence)
-                   : boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
+  const double quantile = nothing_left
+                              ? boost::math::quantile(boost::math::normal(), 0.5 + 0.5 * confidence)
+                              : boost::math::quantile(boost::math::students_t(freedom), 0.5 + 0.5 * confidence);
   const std::vector<std::string> names = problem.global_names();
   for (int g = 0; g < G; ++g) {
     ParameterEstimate e;

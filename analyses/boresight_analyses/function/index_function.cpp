@@ -4,10 +4,10 @@
 
 #include "boresight/keys/value_fault.hpp"
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/random/contact_path.hpp"
 #include "boresight_analyses/runs/scatter_draws.hpp"
 #include "boresight_analyses/sensitivity/predictable_slopes.hpp"
 #include "boresight_analyses/study/lane_sample_model.hpp"
-#include "boresight_analyses/random/contact_path.hpp"
 
 namespace boresight {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "boresight/mechanism/error.hpp"
-#include "boresight_analyses/sensitivity/predictable_slopes.hpp"
 #include "boresight_analyses/random/contact_path.hpp"
+#include "boresight_analyses/sensitivity/predictable_slopes.hpp"
 
 namespace boresight {
 

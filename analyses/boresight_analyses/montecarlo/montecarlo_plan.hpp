@@ -55,7 +55,7 @@ struct TailQuestion {
 
 struct MonteCarloPlan {
   std::uint64_t samples = 0;
-  bool samples_of_budget = false;  // `samples` was given, where fidelities or tail decide how many there are
+  bool samples_of_budget = false;          // `samples` was given, where fidelities or tail decide how many there are
   bool confidence_of_requirement = false;  // `confidence` was given beside tail, whose intervals have the requirement's
   SamplingOptions design;
   double confidence = 0.95;

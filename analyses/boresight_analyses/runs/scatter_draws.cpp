@@ -2,15 +2,14 @@
 
 #include <algorithm>
 
-#include "boresight_analyses/random/sampling_design.hpp"
 #include "boresight_analyses/random/contact_path.hpp"
+#include "boresight_analyses/random/sampling_design.hpp"
 
 namespace boresight {
 
 bool scene_varies(const std::vector<std::string>& paths) {
-  return std::any_of(paths.begin(), paths.end(), [](const std::string& path) {
-    return !is_contact_path(path) && !path.starts_with("error.");
-  });
+  return std::any_of(paths.begin(), paths.end(),
+                     [](const std::string& path) { return !is_contact_path(path) && !path.starts_with("error."); });
 }
 
 bool scene_varies(const RandomInputs& inputs) {

@@ -5,8 +5,8 @@
 #include <cstdio>
 
 #include "boresight/mechanism/error.hpp"
-#include "boresight_analyses/sensitivity/predictable_slopes.hpp"
 #include "boresight_analyses/random/contact_path.hpp"
+#include "boresight_analyses/sensitivity/predictable_slopes.hpp"
 
 namespace boresight {
 namespace {

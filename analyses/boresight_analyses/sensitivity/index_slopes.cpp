@@ -1,9 +1,9 @@
-#include "boresight/mechanism/error.hpp"
 #include "boresight_analyses/sensitivity/index_slopes.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "boresight/mechanism/error.hpp"
 #include "boresight/slopes/sensitive_motion.hpp"
 #include "boresight/slopes/start_slopes.hpp"
 
@@ -46,8 +46,9 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
     by_error.push_back(prepared.standing(of_unit));
     for (std::size_t e = 0; e < unit.size(); ++e)
       if (unit[e] != 0.0 && by_error.back() && by_error.back().influence().uses_play(e))
-        throw ComputationError("error." + mechanism.description().errors[e].name +
-                               " takes up play of joints that hold each other: what that does is no slope of the motion");
+        throw ComputationError(
+            "error." + mechanism.description().errors[e].name +
+            " takes up play of joints that hold each other: what that does is no slope of the motion");
   }
   const Eigen::Index n = tables->layout.n;
   MotionRequest request;

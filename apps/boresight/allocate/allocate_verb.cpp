@@ -251,9 +251,10 @@ class AllocateVerb : public Verb {
  private:
   static RungChoice rung_for(const Command& command, const Mechanism& mechanism) {
     if (command.rung == "envelope" || command.rung == "quasistatic")
-      throw InputError({"command line", 0}, "--rung", command.rung,
-                       "perturbation, multibody or auto: the search is on the quasistatic rung already, and another one "
-                       "confirms it");
+      throw InputError(
+          {"command line", 0}, "--rung", command.rung,
+          "perturbation, multibody or auto: the search is on the quasistatic rung already, and another one "
+          "confirms it");
     if (command.rung == "perturbation" || command.rung == "multibody")
       return {.name = command.rung, .why = "asked for by name; confirms what the linear deviation at rest finds"};
     return {.name = next_rung_up("quasistatic", mechanism),

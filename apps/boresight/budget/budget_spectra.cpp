@@ -178,9 +178,10 @@ std::vector<std::string> courses_warnings(const BudgetStudy& s) {
   std::vector<std::string> out;
   for (const Contributor& c : s.plan.contributors) {
     if (c.kind == ContributorClass::random && !c.noise && c.correlation_time < s.plan.sampling)
-      out.push_back(fmt::format("the correlation time of {}, {}, is shorter than the histories' `sampling`, {}: means of "
-                                "it over windows come out too large",
-                                c.name, readable(c.correlation_time, "s"), readable(s.plan.sampling, "s")));
+      out.push_back(
+          fmt::format("the correlation time of {}, {}, is shorter than the histories' `sampling`, {}: means of "
+                      "it over windows come out too large",
+                      c.name, readable(c.correlation_time, "s"), readable(s.plan.sampling, "s")));
     double share = 0.0;
     if (c.measured) share = c.measured->share_between_samples();
     if (c.of_error && c.of_error->course)

@@ -186,10 +186,10 @@ PublishedFinding peaks_against_load(const SweepLine& line) {
   const std::optional<LeastOffTheBore> off = least_off_the_bore(line);
   const bool interior = off && off->interior;
   const bool rising = rises(peak, 0.05), falling = falls(peak, 0.05);
-  std::string measured = fmt::format(
-      "Peak acceleration: {}. Fastest impact: {}. Largest force: {}. Impacts: {}. Free flight: {}. ",
-      listed(line, peak, "m/s^2"), listed(line, speed, "m/s"), listed(line, force, "N"),
-      listed(line, over(line, impacts), readable_number), listed(line, flight, readable_share));
+  std::string measured =
+      fmt::format("Peak acceleration: {}. Fastest impact: {}. Largest force: {}. Impacts: {}. Free flight: {}. ",
+                  listed(line, peak, "m/s^2"), listed(line, speed, "m/s"), listed(line, force, "N"),
+                  listed(line, over(line, impacts), readable_number), listed(line, flight, readable_share));
   if (off) measured += fmt::format("Away from the bore: {}. ", listed(line, off->share, readable_share));
   measured += rising    ? "The peak rises with load, as section 4 has it."
               : falling ? "The peak falls with load, as section 5 would have it and against section 4."

@@ -140,9 +140,8 @@ class SweepVerb : public Verb {
 
     // The grid's corners: what is true of them is taken to be true between them.
     Unfinished begun = own.run().go_on([&] {
-      return own.run().choose_rung(
-          {.wants_multibody = motion_.asks_for_multibody(), .integrators = true}, kPilotTrials,
-          corners_of(plan, *mechanism));
+      return own.run().choose_rung({.wants_multibody = motion_.asks_for_multibody(), .integrators = true}, kPilotTrials,
+                                   corners_of(plan, *mechanism));
     });
     const RungChoice& choice = begun.rung;
     apply(choice, options.run);

@@ -40,7 +40,8 @@ inline pybind11::array owned(std::vector<double> values, std::vector<pybind11::s
   auto owner = std::make_shared<std::vector<double>>(std::move(values));
   std::vector<pybind11::ssize_t> strides(shape.size(), static_cast<pybind11::ssize_t>(sizeof(double)));
   for (std::size_t k = shape.size(); k-- > 1;) strides[k - 1] = strides[k] * shape[k];
-  return pybind11::array(pybind11::dtype::of<double>(), std::move(shape), std::move(strides), owner->data(), kept(owner));
+  return pybind11::array(pybind11::dtype::of<double>(), std::move(shape), std::move(strides), owner->data(),
+                         kept(owner));
 }
 
 }  // namespace boresight::python

@@ -73,8 +73,7 @@ double error_time(const Mechanism& mechanism, const IdealMotion& commanded, cons
     }
   }
   for (const Law& law : laws)
-    if (law.rate > 0.0 && law.largest > law.least)
-      shortest = std::min(shortest, (law.largest - law.least) / law.rate);
+    if (law.rate > 0.0 && law.largest > law.least) shortest = std::min(shortest, (law.largest - law.least) / law.rate);
   return std::max(shortest, duration / looks);  // a jump takes no time
 }
 

@@ -161,8 +161,8 @@ void state_what_pushes_move(const SecondOrder& beyond, const Mechanism& mechanis
   double looks = 0.0;
   if (!result.integrator_taken.empty()) beside.integrator = result.integrator_taken;
   const bool by_steps = beside.integrator.empty() || beside.integrator == "rk4";
-  const double most_looks = 2.0 + kMostSteps * static_cast<double>(result.cost.steps) /
-                                      (by_steps ? kStepsBetweenLooks : kEndsBetweenLooks);
+  const double most_looks =
+      2.0 + kMostSteps * static_cast<double>(result.cost.steps) / (by_steps ? kStepsBetweenLooks : kEndsBetweenLooks);
   beside.progress = [&](const RunProgress&) {
     return ++looks <= most_looks && (!options.progress || options.progress({mechanism.duration(), mechanism.duration(),
                                                                             result.index.position_error.max}));

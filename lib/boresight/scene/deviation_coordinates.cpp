@@ -311,7 +311,8 @@ DeviationCoordinates::Deviation DeviationCoordinates::deviation(
     coordinate_rates(*motion, of->z_dot, of->z);
   now.z_dot.tail(leftover_) -= drawn.z_dot.tail(leftover_);
   // Turns may be a full turn apart.
-  for (int k = count_ - leftover_; k < count_; ++k) now.z[k] = std::remainder(now.z[k] - drawn.z[k], 2.0 * std::numbers::pi);
+  for (int k = count_ - leftover_; k < count_; ++k)
+    now.z[k] = std::remainder(now.z[k] - drawn.z[k], 2.0 * std::numbers::pi);
   if (acceleration.empty()) return now;
   coordinate_accelerations(bodies, acceleration, now.z_ddot);
   coordinate_accelerations(ideal.bodies, ideal.acceleration, drawn.z_ddot);

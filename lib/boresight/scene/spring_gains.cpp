@@ -60,9 +60,7 @@ SpringGain spring_gain(const MechanismDescription& mechanism, const SpringDescri
   return gain;
 }
 
-MatX SpringGain::stiffness(const SpringParameters& p) const {
-  return stiffness_at_rest(p) + turning_damping(p);
-}
+MatX SpringGain::stiffness(const SpringParameters& p) const { return stiffness_at_rest(p) + turning_damping(p); }
 
 MatX SpringGain::stiffness_at_rest(const SpringParameters& p) const {
   return p.pull(length, speed) * W + p.stiffness * g * g.transpose();

@@ -247,8 +247,7 @@ class MeasuredByDynamics final : public Rung {
     bool stopped = false, asked_to = false;
     options.progress = [&](const RunProgress&) {
       ++looks;
-      asked_to = asked_to || (asked.progress &&
-                              !asked.progress({mechanism_->duration(), mechanism_->duration(), 0.0}));
+      asked_to = asked_to || (asked.progress && !asked.progress({mechanism_->duration(), mechanism_->duration(), 0.0}));
       stopped = asked_to || looks > kMostLooks;
       return !stopped;
     };

@@ -110,7 +110,7 @@ class Quasistatic final : public SceneRung {
         else
           balance.rest[c] = reactions.joints()[c].rest_under(
               load.force, slide,
-              before   ? before->rest[c]
+              before  ? before->rest[c]
               : rests ? reactions.joints()[c].elastic_only().rest_under(load.force, slide, RestingPlay{})
                       : RestingPlay{});
         if (load.slides) balance.rest[c].motion.e.y() = slide;

@@ -156,7 +156,7 @@ TEST(StandingLanes, BuildAnotherSceneWhereACentreOfMassHasMoved) {
 
 // What an error loads a journal with along its axis, it is loaded with before the motion begins.
 TEST(StandingLanes, StartWhereTheErrorsLoadsHaveTheJournalsRest) {
-  const std::string text = R"(format = 1
+  const std::string text = R"toml(format = 1
 name = "arm"
 gravity = ["0 m/s^2", "0 m/s^2", "-9.81 m/s^2"]
 [[body]]
@@ -197,7 +197,7 @@ young = ["200 GPa", "200 GPa"]
 poisson = [0.3, 0.3]
 density = "7800 kg/m^3"
 minimum_impact_speed = "1 mm/s"
-)";
+)toml";
   const auto mechanism = std::make_shared<const Mechanism>(read_mechanism_text(text, "arm.toml"));
   Parameters sample = mechanism->parameters();
   sample.error[0] = 2e-3;
