@@ -27,6 +27,7 @@ constexpr int kInstantsAKnot = 2;
 // A motion that ripples faster than its knots show is looked at this often, each time at so many times more instants at most.
 constexpr int kMostLooks = 4;
 constexpr double kMostTimesMore = 16.0;
+constexpr double kMostInstants = 131072.0;  // and so many in all: some seconds
 constexpr double kTimesMoreOfRipples = 5.0;  // other than the twos of the grids before
 constexpr long kInstantsBetweenLooks = 256;  // at whether to go on
 
@@ -159,10 +160,11 @@ RunResult motion_without_play(const Mechanism& mechanism, const std::function<vo
   for (int look = 1;; ++look) {
     Peaks peaks;
     RunResult result = follow(mechanism, state, commanded, parameters, options, step, peaks);
-    if (result.interrupted || look == kMostLooks) return result;
+    const double finest = mechanism.duration() / kMostInstants;
+    if (result.interrupted || look == kMostLooks || step <= finest) return result;
     if (peaks.missed() > kMissed) {
       // What is missed goes with the square of the step.
-      step /= std::clamp(std::ceil(std::sqrt(peaks.missed() / kMissed)), 2.0, kMostTimesMore);
+      step = std::max(finest, step / std::clamp(std::ceil(std::sqrt(peaks.missed() / kMissed)), 2.0, kMostTimesMore));
     } else if (ripples_between(mechanism, state, commanded, step)) {
       step /= kTimesMoreOfRipples;
     } else {
