@@ -20,26 +20,6 @@ std::size_t whole_samples_in(double time, double spacing) {
   return static_cast<std::size_t>(std::max(0.0, std::floor(time / spacing * (1.0 + kRounding))));
 }
 
-// A window of RPE holds so many instants: those in the middle of `n` parts see 1 - 1/n of what a ramp does within it.
-constexpr double kFewestInWindow = 20.0;
-
-// Each observation by straight lines through its instants, on a grid `times` finer.
-std::vector<Vec3> finer(const std::vector<Vec3>& e, std::size_t times, std::size_t observed) {
-  std::vector<Vec3> out;
-  out.reserve(e.size() * times);
-  for (std::size_t start = 0; start < e.size(); start += observed) {
-    const std::size_t end = std::min(start + observed, e.size());
-    for (std::size_t i = 0; i < (end - start) * times; ++i) {
-      const double place = (static_cast<double>(i) + 0.5) / static_cast<double>(times) - 0.5;
-      const std::size_t last = end - start > 1 ? end - 2 : start,
-                        k = std::min(start + static_cast<std::size_t>(std::max(0.0, place)), last);
-      const double along = place - static_cast<double>(k - start);
-      out.push_back(end - start > 1 ? Vec3(e[k] + along * (e[k + 1] - e[k])) : e[k]);
-    }
-  }
-  return out;
-}
-
 // Means over windows of `width` samples from running sums.
 class WindowMeans {
  public:
@@ -96,9 +76,8 @@ std::vector<Vec3> index_values(ErrorIndex index, const PointingHistory& history,
   // Half a sample is what a history may be shorter than the motion that the windows were chosen for.
   const std::string missing = windows.missing_for(index, history.duration() + (0.5 + kRounding) * history.spacing);
   if (!missing.empty()) throw std::invalid_argument(std::string(to_string(index)) + " needs " + missing);
-  if (index == ErrorIndex::ape) return history.error;
-  std::vector<Vec3> between;
-  std::size_t samples = history.error.size();
+  const std::vector<Vec3>& e = history.error;
+  if (index == ErrorIndex::ape) return e;
 
   // Lengths in whole samples, rounded; or rounded down, with which fits what fits unrounded.
   const double second = index == ErrorIndex::pde   ? windows.separation
@@ -106,22 +85,14 @@ std::vector<Vec3> index_values(ErrorIndex index, const PointingHistory& history,
                                                    : 0.0;
   std::size_t width = samples_in(windows.window, history.spacing), apart = samples_in(second, history.spacing),
               observed = samples_in(windows.observation_in(history.duration()), history.spacing);
-  const std::size_t there = index == ErrorIndex::pre ? samples : std::min(observed, samples);
+  const std::size_t there = index == ErrorIndex::pre ? e.size() : std::min(observed, e.size());
   if (std::max(apart, index == ErrorIndex::pre ? observed : 0) + width > there) {
     width = whole_samples_in(windows.window, history.spacing);
     apart = whole_samples_in(second, history.spacing);
     observed = whole_samples_in(windows.observation_in(history.duration()), history.spacing);
   }
   width = std::max<std::size_t>(1, width);
-  observed = std::min(samples, observed);
-  if (const double in_window = windows.window / history.spacing;
-      index == ErrorIndex::rpe && in_window < kFewestInWindow && observed > 0) {
-    const auto times = static_cast<std::size_t>(std::ceil(kFewestInWindow / in_window));
-    between = finer(history.error, times, observed);
-    observed *= times;
-    width = std::min(observed, samples_in(windows.window, history.spacing / static_cast<double>(times)));
-  }
-  const std::vector<Vec3>& e = between.empty() ? history.error : between;
+  observed = std::min(e.size(), observed);
   const WindowMeans means(e, width);
   std::vector<Vec3> values;
   if (index == ErrorIndex::pre) {

@@ -250,11 +250,6 @@ class AllocateVerb : public Verb {
 
  private:
   static RungChoice rung_for(const Command& command, const Mechanism& mechanism) {
-    if (command.rung == "envelope" || command.rung == "quasistatic")
-      throw InputError(
-          {"command line", 0}, "--rung", command.rung,
-          "perturbation, multibody or auto: the search is on the quasistatic rung already, and another one "
-          "confirms it");
     if (command.rung == "perturbation" || command.rung == "multibody")
       return {.name = command.rung, .why = "asked for by name; confirms what the linear deviation at rest finds"};
     return {.name = next_rung_up("quasistatic", mechanism),
@@ -266,6 +261,9 @@ class AllocateVerb : public Verb {
   static std::vector<std::string> warnings_of(const AllocateStudy& s) {
     std::vector<std::string> warnings;
     const AllocationResult& r = s.result;
+    if (s.command.rung == "envelope" || s.command.rung == "quasistatic")
+      warnings.push_back("--rung " + s.command.rung + " is not used: the search is on the quasistatic rung, and " +
+                         s.rung.name + " confirms what it finds");
     if (r.feasible && !r.chosen.finished)
       warnings.push_back("the search ended before it had shown that nothing cheaper meets the requirement");
     for (std::size_t k = 0; k + 1 < r.confirmations.size(); ++k)

@@ -27,7 +27,7 @@ constexpr int kInstantsAKnot = 2;
 // A motion that ripples faster than its knots show is looked at this often, each time at so many times more instants at most.
 constexpr int kMostLooks = 4;
 constexpr double kMostTimesMore = 16.0;
-constexpr double kMostInstants = 131072.0;  // and so many in all: some seconds
+constexpr double kMostInstants = 131072.0;   // and so many in all: some seconds
 constexpr double kTimesMoreOfRipples = 5.0;  // other than the twos of the grids before
 constexpr long kInstantsBetweenLooks = 256;  // at whether to go on
 

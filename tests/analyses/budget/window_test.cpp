@@ -175,17 +175,5 @@ TEST(ErrorIndexOfAHistory, HasPlaceForWhatTheMotionHasPlaceFor) {
   EXPECT_THROW(index_values(ErrorIndex::pre, h, {.window = 0.5, .observation = 0.501}), std::invalid_argument);
 }
 
-// A ramp goes from one end of a window to the other, and not from the middle of its first sample to that of its last.
-TEST(ErrorIndexOfAHistory, RpeOfARampIsThatOfTheWholeWindowHoweverFewSamplesItHas) {
-  PointingHistory ramp{.spacing = 1e-3, .error = {}};
-  for (int k = 0; k < 100; ++k) ramp.error.emplace_back(5.0 * (k + 0.5) * 1e-3, 0.0, 0.0);
-  for (const double window : {2e-3, 2.5e-3, 5e-3, 20e-3}) {
-    double largest = 0.0;
-    for (const Vec3& e : index_values(ErrorIndex::rpe, ramp, {.window = window}))
-      largest = std::max(largest, std::abs(e.x()));
-    EXPECT_NEAR(largest / (0.5 * 5.0 * window), 1.0, 0.06) << window;
-  }
-}
-
 }  // namespace window_test
 }  // namespace boresight

@@ -102,7 +102,7 @@ TEST(Integrators, PutTheStepUpToAnEventToTheErrorTestToo) {
     options.integrator = "dopri5";
     options.tolerance = tolerance;
     int looks = 0;
-    options.progress = [&](const RunProgress&) { return ++looks < 20; };  // every 1024 points
+    options.progress = [&](const RunProgress&) { return ++looks < 320; };  // every 64 steps
     const RunResult loose = make_rung("multibody", mechanism)->run(mechanism->parameters(), options);
     EXPECT_FALSE(loose.interrupted) << tolerance;
     EXPECT_LT(loose.contact[0].max_penetration, 1.2 * deepest) << tolerance;
