@@ -206,7 +206,8 @@ class LeftOut {
         const double part = share(part_[g][k]), by_forces = part * std::min(1.0, push_[g].mean_value(0.0)),
                      astray = displaced_ ? astray_[g][k].mean_value(least, of_all_errors.rms)
                                          : astray_[g][k].mean_value(least);
-        of_kind += std::min(part * pushed_off_[g], by_forces + astray);
+        // What a freedom that nothing holds is off by early it is off by from then on.
+        of_kind += is_free(g) ? part * pushed_off_[g] : std::min(part * pushed_off_[g], by_forces + astray);
       }
       found.whole[k] = of_all(std::max(of_kind, by_rest));
     }
@@ -214,6 +215,10 @@ class LeftOut {
   }
 
  private:
+  bool is_free(std::size_t group) const {
+    return !groups_[group].empty() && groups_[group].front() >= at_.n - coordinates_.leftover();
+  }
+
   // The bodies displaced by T z, as fast as that goes on, and all joints closed around them.
   std::vector<BodyMotion> made_exactly(const IdealState& ideal, const LargestDeviations::Deviation& deviation,
                                        const MatX& T) {

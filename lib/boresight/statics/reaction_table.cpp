@@ -22,8 +22,8 @@ constexpr int kManyInstants = 200000, kInstantsPerKnot = 4;
 constexpr double kKnotsOfInstant = 4.0;
 // Share of the offsets that counts as none.
 constexpr double kNothing = 1e-6;
-// Of the largest load: its direction is then known to two hundredths of a radian.
-constexpr double kDecides = 50.0 * ClearanceScene::kAccuracy;
+// Of the largest load: its direction is then known to two thousandths of a radian.
+constexpr double kDecides = 500.0 * ClearanceScene::kAccuracy;
 // Of a load: its force, and its couple as forces at the sleeve's ends [N].
 double size(const PlayOffsets& load, const JointPlay& joint) {
   const double couple = load.tail<3>().norm();
