@@ -1,6 +1,7 @@
 // The classical table: contributors by their moments, added up by rule (ECSS-E-ST-60-10C, 5.2; Annex A.2).
 //
-//   means add linearly, to the size of their sum those that may come with either sign; standard deviations linearly within a group of correlated contributors, and groups (and those
+//   means add linearly; those that may come with either sign add to the size of the others' sum
+//   standard deviations linearly within a group of correlated contributors, and groups (and those
 //   that belong to none) by the root of the sum of squares, or by their coefficients where they are correlated
 //   one axis:   |mean| + n_P sd
 //   half cone:  sd sqrt(-2 ln(1 - P)), sd the root mean square of the axes', as if there were no mean; of the ensemble

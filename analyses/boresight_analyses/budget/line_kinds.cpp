@@ -29,12 +29,13 @@ std::string kind_of_group(const BudgetPlan& plan, std::size_t group, const Mecha
   if (!plan.is_of_errors(group)) return kScatterKind;
   std::string kind;
   for (const int i : plan.groups.members[group])
-    for (const std::string& path : plan.inputs.parameters[static_cast<std::size_t>(i)].paths)
+    for (const std::string& path : plan.inputs.parameters[static_cast<std::size_t>(i)].paths) {
+      const std::vector<std::string> named = single_paths(mechanism, path);
       for (const ErrorDescription& error : mechanism.errors) {
-        const std::vector<std::string> named = single_paths(mechanism, path);
         if (std::find(named.begin(), named.end(), "error." + error.name) == named.end()) continue;
         kind = kind.empty() || kind == kind_of(error) ? kind_of(error) : kErrorsKind;
       }
+    }
   return kind;
 }
 

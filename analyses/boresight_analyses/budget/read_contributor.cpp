@@ -76,8 +76,7 @@ ErrorCourse read_error_course(Cursor& table, const BudgetPlan& plan, const Mecha
   return error;
 }
 
-// The axes that it acts on, each with the parameter.
-// Returns the axes in the order in which they are named.
+// The axes that it acts on, each with the parameter; returns them in the order in which they are named.
 std::vector<std::size_t> read_axes(Cursor& table, const BudgetAxes& axes, const DistributionPtr& parameter,
                                    Contributor& c) {
   const std::vector<std::string> own = table.has("frame") ? std::vector<std::string>{"x", "y", "z"} : axes.names;

@@ -192,10 +192,8 @@ void Calibrator::warn_of_play() {
 // Poses lie anywhere, and no neighbours say how noisy they are: only where the noise is known can a fit be judged by it.
 void Calibrator::judge_poses() {
   const double left = std::sqrt(result_.inference.variance_factor);
-  const bool known = options_.noise.size() > 0 && std::all_of(problem_.channels.begin(), problem_.channels.end(),
-                                                              [&](int c) { return std::isfinite(options_.noise[c]); });
   // Of N values a standard deviation is known to 1 / sqrt(2 N); three of them, and a tenth.
-  if (!known || left < 1.1 + 3.0 / std::sqrt(2.0 * static_cast<double>(result_.inference.values))) return;
+  if (!problem_.noise_told || left < 1.1 + 3.0 / std::sqrt(2.0 * static_cast<double>(result_.inference.values))) return;
   char text[240];
   std::snprintf(
       text, sizeof text,

@@ -89,6 +89,8 @@ bool Calibrator::keep_what_is_foretold(const CalibrationProblem& part, const Glo
 }
 
 void Calibrator::cut_what_is_held_out(const Globals& at) {
+  if (std::none_of(problem_.windows.begin(), problem_.windows.end(), [](const Window& w) { return w.held_out; }))
+    return;
   // The motions themselves: what corrects them is a straight line about the fit, and that foretells anything.
   CalibrationProblem plain = problem_;
   plain.corrections.clear();

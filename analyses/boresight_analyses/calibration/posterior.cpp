@@ -69,7 +69,21 @@ Known known_of(const CalibrationProblem& problem, const Inference& inference) {
   return known;
 }
 
+std::string quantity(double value, const std::string& unit) {
+  char number[100];
+  if (unit == "1" || unit.empty())
+    std::snprintf(number, sizeof number, "%.17g", value);
+  else
+    std::snprintf(number, sizeof number, "\"%.17g %s\"", value, unit.c_str());
+  return number;
+}
+
 }  // namespace
+
+std::string all_allowed(const FittedParameter& parameter) {
+  return "{ uniform = { min = " + quantity(parameter.lower, parameter.si_unit) +
+         ", max = " + quantity(parameter.upper, parameter.si_unit) + " } }";
+}
 
 std::string posterior_toml(const CalibrationProblem& problem, const Inference& inference) {
   std::string out =
@@ -79,14 +93,6 @@ std::string posterior_toml(const CalibrationProblem& problem, const Inference& i
       "be; standing errors: normal.\n";
   char text[400];
   const int P = problem.parameter_count();
-  const auto quantity = [](double value, const std::string& unit) {
-    char number[64];
-    if (unit == "1" || unit.empty())
-      std::snprintf(number, sizeof number, "%.17g", value);
-    else
-      std::snprintf(number, sizeof number, "\"%.17g %s\"", value, unit.c_str());
-    return std::string(number);
-  };
   const Known known = known_of(problem, inference);
   // What was known before bounds what the data do not know.
   const auto is_told = [&](int p) {
@@ -109,8 +115,7 @@ std::string posterior_toml(const CalibrationProblem& problem, const Inference& i
                      ", sd = " + quantity(known.deviation[p] * parameter.size, e.si_unit) + " } }";
     } else if (!is_told(p) || !std::isfinite(e.coordinate_error)) {
       out += "\n# Not identifiable (" + e.reason + "): all that is allowed for it.";
-      distribution = "{ uniform = { min = " + quantity(parameter.lower, e.si_unit) +
-                     ", max = " + quantity(parameter.upper, e.si_unit) + " } }";
+      distribution = all_allowed(parameter);
     } else if (parameter.transform == Transform::log) {
       std::snprintf(text, sizeof text, "%.17g", std::exp(e.coordinate_error));
       distribution = "{ lognormal = { median = " + quantity(e.value, e.si_unit) + ", factor = " + text + " } }";

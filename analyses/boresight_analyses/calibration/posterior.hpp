@@ -13,4 +13,7 @@ namespace boresight {
 // what they are together is what the data tell.
 std::string posterior_toml(const CalibrationProblem& problem, const Inference& inference);
 
+// A distribution in TOML: uniform over all that is allowed for a parameter that the data do not show.
+std::string all_allowed(const FittedParameter& parameter);
+
 }  // namespace boresight

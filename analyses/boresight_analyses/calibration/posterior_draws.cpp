@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "boresight/mechanism/error.hpp"
+#include "boresight_analyses/calibration/posterior.hpp"
 #include "boresight_analyses/posterior/chain_diagnostics.hpp"
 #include "boresight_analyses/posterior/sample_posterior.hpp"
 #include "boresight_analyses/runs/sample_record.hpp"
@@ -214,16 +215,8 @@ std::string posterior_toml(const PosteriorDraws& draws, const CalibrationProblem
       text += "\n# " + p.path + " was held: it stays what the mechanism file says.\n";
       continue;
     }
-    const auto quantity = [&](double value) {
-      char number[100];
-      if (p.si_unit == "1" || p.si_unit.empty())
-        std::snprintf(number, sizeof number, "%.17g", value);
-      else
-        std::snprintf(number, sizeof number, "\"%.17g %s\"", value, p.si_unit.c_str());
-      return std::string(number);
-    };
     text += "\n# Held, as the data do not show it: all that is allowed for it.\n[[random]]\nparameter = \"" + p.path +
-            "\"\ndistribution = { uniform = { min = " + quantity(p.lower) + ", max = " + quantity(p.upper) + " } }\n";
+            "\"\ndistribution = " + all_allowed(p) + "\n";
   }
   return text;
 }

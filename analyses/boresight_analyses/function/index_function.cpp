@@ -120,7 +120,10 @@ IndexSlopes IndexFunction::slopes_at(std::span<const double> point) const {
       predictable_slopes(mechanism_, parameters_with, values, model_.index, model_.run.start_offset, errors);
   std::vector<double> by(inputs_.size());
   varied.insert(varied.end(), of_errors.begin(), of_errors.end());
-  for (std::size_t k = 0; k < varied.size(); ++k) by[varied[k]] = slopes.by[k];
+  for (std::size_t k = 0; k < varied.size(); ++k) {
+    if (!slopes.why_not[k].empty()) throw ComputationError(slopes.why_not[k]);
+    by[varied[k]] = slopes.by[k];
+  }
   if (!std::all_of(by.begin(), by.end(), [](double slope) { return std::isfinite(slope); }))
     throw ComputationError("the derivatives of the motion overflow");
   slopes.by = by;

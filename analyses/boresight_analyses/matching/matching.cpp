@@ -156,13 +156,10 @@ class Matching {
       if (m.interrupted) throw EvaluationInterrupted{};
       result_.global = m.global;
       result_.why = m.why.substr(0, m.why.find("; the descent"));
-      if (plan_.local == "none") {
-        take(m);
-        result_.local = "none";
-        best_of_visits();
-        return;
-      }
-      descend(design_at(m.x), "the box", plan_.evaluations);
+      if (plan_.local == "none")
+        take(m);  // it is the whole search, and knows whether it was exhausted
+      else
+        descend(design_at(m.x), "the box", plan_.evaluations);
     } else {
       result_.global = "none";
       result_.why = "no search of the whole box was asked for";

@@ -70,7 +70,7 @@ void add_exact_slopes(const std::shared_ptr<const Mechanism>& shared, const Rand
       if (std::isfinite(s.exact))
         compare(slopes, s);
       else
-        s.exact_note = "the derivatives of the motion overflow";
+        s.exact_note = !slopes.why_not[k].empty() ? slopes.why_not[k] : "the derivatives of the motion overflow";
     }
   } catch (const ComputationError& failure) {
     for (const std::vector<std::size_t>& failed : {varied, of_errors})

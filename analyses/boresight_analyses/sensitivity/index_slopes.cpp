@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "boresight/mechanism/error.hpp"
 #include "boresight/slopes/sensitive_motion.hpp"
 #include "boresight/slopes/start_slopes.hpp"
 
@@ -40,15 +40,16 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
   const StandingDisplacement standing = prepared.standing(parameters);
   const auto tables = prepared.tables(parameters, standing);
   std::vector<StandingDisplacement> by_error;  // per unit
+  std::vector<std::string> why_not(values.size());
   for (const std::vector<double>& unit : options.errors) {
     Parameters of_unit = parameters;
     of_unit.error = unit;
     by_error.push_back(prepared.standing(of_unit));
+    why_not.emplace_back();
     for (std::size_t e = 0; e < unit.size(); ++e)
       if (unit[e] != 0.0 && by_error.back() && by_error.back().influence().uses_play(e))
-        throw ComputationError(
-            "error." + mechanism.description().errors[e].name +
-            " takes up play of joints that hold each other: what that does is no slope of the motion");
+        why_not.back() = "error." + mechanism.description().errors[e].name +
+                         " takes up play of joints that hold each other: what that does is no slope of the motion";
   }
   const Eigen::Index n = tables->layout.n;
   MotionRequest request;
@@ -117,6 +118,9 @@ IndexSlopes index_slopes(const Mechanism& mechanism, const PreparedScene& prepar
     by = slope.col(nearest - e.begin());
   }
   out.by.assign(by.data(), by.data() + by.size());
+  for (std::size_t k = 0; k < why_not.size(); ++k)
+    if (!why_not[k].empty()) out.by[k] = std::numeric_limits<double>::quiet_NaN();
+  out.why_not = std::move(why_not);
   return out;
 }
 

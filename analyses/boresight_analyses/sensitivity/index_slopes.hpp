@@ -37,9 +37,10 @@ struct SlopeOptions {
 };
 
 struct IndexSlopes {
-  double value = 0.0;            // of the index [SI]
-  std::vector<double> by;        // per parameter, then per entry of SlopeOptions::errors [SI]
-  int impacts = 0, grazing = 0;  // grazing: contacts that a change of the parameters may undo
+  double value = 0.0;      // of the index [SI]
+  std::vector<double> by;  // per parameter, then per entry of SlopeOptions::errors [SI]; NaN where there is none
+  std::vector<std::string> why_not = {};  // one an entry of by: why there is none; "": there is, or it overflows
+  int impacts = 0, grazing = 0;           // grazing: contacts that a change of the parameters may undo
 };
 
 // parameters_at: the mechanism's parameters at values > 0 of those varied, which may change numbers of the

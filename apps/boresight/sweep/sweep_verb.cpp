@@ -175,15 +175,20 @@ class SweepVerb : public Verb {
   // Where every axis is at its smallest or its largest value, whatever order they are listed in; of many axes two opposite ones.
   static std::vector<Parameters> corners_of(const SweepPlan& plan, const Mechanism& mechanism) {
     constexpr std::size_t kMostAxes = 3;
+    std::vector<double> least, largest;
+    for (const SweepAxis& axis : plan.axes) {
+      const auto [low, high] = std::minmax_element(axis.values.begin(), axis.values.end());
+      least.push_back(*low);
+      largest.push_back(*high);
+    }
     std::vector<Parameters> corners;
     for (std::size_t k = 0; k < plan.points(); ++k) {
       const std::vector<double> values = plan.values_at(k);
       std::size_t lowest = 0, highest = 0, either = 0;
       for (std::size_t i = 0; i < values.size(); ++i) {
-        const auto [least, largest] = std::minmax_element(plan.axes[i].values.begin(), plan.axes[i].values.end());
-        lowest += values[i] == *least;
-        highest += values[i] == *largest;
-        either += values[i] == *least || values[i] == *largest;
+        lowest += values[i] == least[i];
+        highest += values[i] == largest[i];
+        either += values[i] == least[i] || values[i] == largest[i];
       }
       const bool corner = either == values.size();
       if (corner && (values.size() <= kMostAxes || lowest == values.size() || highest == values.size()))

@@ -12,6 +12,7 @@
 #include "boresight/io/tape.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/keys/value_fault.hpp"
+#include "boresight/math/constant_law.hpp"
 
 namespace boresight {
 namespace {
@@ -209,7 +210,9 @@ CoordinateFunctionPtr compile_of_coordinate(const std::string& text) {
   Compiler compiler(t, q);
   std::array<int, 6> results{};
   for (std::size_t k = 0; k < wanted.size(); ++k) results[k] = compiler.slot_of(wanted[k]);
-  return std::make_shared<CoordinateTape>(std::move(compiler.entries), results);
+  auto tape = std::make_shared<CoordinateTape>(std::move(compiler.entries), results);
+  if (!value.has(q) && !value.has(t)) return std::make_shared<ConstantLaw>(tape->at({}, 0.0).value);
+  return tape;
 }
 
 // What compiles, with its faults as those of the text.

@@ -296,18 +296,21 @@ void PerturbationLanes::add(const Parameters& sample, double tolerance, Batch& t
                                    1.0 / mechanism_->duration());  // where nothing loads them
   for (int k = 0; k < at.n; ++k) errors.push_back(tolerance * scale[k] * std::max(crossing[k], quickest));
   errors.insert(errors.end(), gap.begin(), gap.end());
-  std::string warning;  // the rung itself says it
-  to.starts.push_back(start_coordinates(*mechanism_, at, p.tables->start, own, warning));
   to.jobs.push_back({.scene = &p.lane,
                      .joints = own.data(),
                      .tolerance = errors.data(),
-                     .start = to.starts.back().data(),
+                     .start = nullptr,
                      .gap_tolerance = errors.data() + 2 * at.n,
                      .standing = {}});
-  if (has_errors(sample)) add_errors(sample, p, to);
+  SceneStart start = p.tables->start;
+  if (has_errors(sample)) add_errors(sample, p, start, to);
+  std::string warning;  // the rung itself says it
+  to.starts.push_back(start_coordinates(*mechanism_, at, start, own, warning));
+  to.jobs.back().start = to.starts.back().data();
 }
 
-void PerturbationLanes::add_errors(const Parameters& sample, const Prepared& prepared, Batch& to) const {
+void PerturbationLanes::add_errors(const Parameters& sample, const Prepared& prepared, SceneStart& start,
+                                   Batch& to) const {
   const std::shared_ptr<const ErrorsOverTime> errors = errors_for(prepared.scene);
   errors->influence->require(sample.error);
   const StandingDisplacement standing(errors->influence, sample.error);
@@ -325,7 +328,6 @@ void PerturbationLanes::add_errors(const Parameters& sample, const Prepared& pre
   if (change.values.empty()) return;
   const SceneLayout& at = prepared.tables->layout;
   // Journals start where these loads have them rest, too.
-  SceneStart start = prepared.tables->start;
   VecX more = Eigen::Map<const VecX>(change.values.data(), at.n);
   if (prepared.lane.form == SceneForm::forces) {
     MatX A;
@@ -333,9 +335,6 @@ void PerturbationLanes::add_errors(const Parameters& sample, const Prepared& pre
     more = (A * more).eval();
   }
   Eigen::Map<VecX>(&start.row[static_cast<std::size_t>(at.Ar)], at.n) += more;
-  std::string warning;  // the rung itself says it
-  to.starts.back() = start_coordinates(*mechanism_, at, start, to.joints.back(), warning);
-  to.jobs.back().start = to.starts.back().data();
   own.loads = to.courses(at.n, change.spacing, change.values);
   own.longest_step = std::min(own.longest_step, kCellsOfLoads * change.spacing);
 }

@@ -67,7 +67,8 @@ class PerturbationLanes {
   struct ErrorsOverTime;
   struct Batch;
   void add(const Parameters& sample, double tolerance, Batch& to) const;
-  void add_errors(const Parameters& sample, const Prepared& prepared, Batch& to) const;
+  // start: what the drawing's is changed to.
+  void add_errors(const Parameters& sample, const Prepared& prepared, SceneStart& start, Batch& to) const;
   std::shared_ptr<const ErrorsOverTime> errors_for(const std::shared_ptr<const PreparedScene>& scene) const;
   std::shared_ptr<const Prepared> prepared_for(const Parameters& parameters) const;
   std::shared_ptr<const TimeTable> gain_over_time(const PreparedScene& scene) const;

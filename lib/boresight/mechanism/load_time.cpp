@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "boresight/math/constant_law.hpp"
+
 namespace boresight {
 namespace {
 
@@ -55,7 +57,8 @@ double error_time(const Mechanism& mechanism, const IdealMotion& commanded, cons
   };
   std::vector<Law> laws;
   for (std::size_t e = 0; e < wanted.size(); ++e)
-    if (const ErrorDescription& error = mechanism.description().errors[e]; wanted[e] && error.law)
+    if (const ErrorDescription& error = mechanism.description().errors[e];
+        wanted[e] && error.law && dynamic_cast<const ConstantLaw*>(error.law.get()) == nullptr)
       laws.push_back({&error});
   double shortest = std::numeric_limits<double>::infinity();
   if (laws.empty()) return shortest;
