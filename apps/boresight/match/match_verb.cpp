@@ -95,7 +95,8 @@ class MatchVerb : public Verb {
     StudyInput input(command.file, command.settings);
     const Study& study = input.study;
     const std::shared_ptr<const Mechanism>& mechanism = input.mechanism;
-    const MatchingPlan plan = read_matching_plan(input.root, study, mechanism->description(), input.trial);
+    const MatchingPlan plan =
+        read_matching_plan(input.root, study, mechanism->description(), input.trial, input.trial_all);
     check_rung_name(command.rung);
     const RunOptions asked = motion_.run_options(*mechanism, command.rung);
 
