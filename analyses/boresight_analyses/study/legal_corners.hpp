@@ -26,7 +26,7 @@ using AcceptsSetting = std::function<void(const Setting&)>;
 using AcceptsSettings = std::function<void(const std::vector<Setting>&)>;
 
 // Throws InputError, with the corner named where no side is at fault alone. Without accepts_all each side is asked of alone,
-// everything else as the file has it.
+// everything else as the file has it; so is each of more than eight in one section of the file.
 void check_corners(const std::vector<BoxSide>& sides, const AcceptsSetting& accepts,
                    const AcceptsSettings& accepts_all);
 

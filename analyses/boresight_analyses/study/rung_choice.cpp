@@ -35,9 +35,8 @@ RungChoice most_demanding(const std::vector<RungChoice>& choices) {
     const auto rank = std::find(names.begin(), names.end(), c.name) - names.begin();
     return std::tuple(c.pilot.has_value(), rank, -c.step, -c.tolerance);
   };
-  const auto most = std::max_element(choices.begin(), choices.end(), [&](const RungChoice& a, const RungChoice& b) {
-    return demand(a) < demand(b);
-  });
+  const auto most = std::max_element(choices.begin(), choices.end(),
+                                     [&](const RungChoice& a, const RungChoice& b) { return demand(a) < demand(b); });
   RungChoice chosen = *most;
   const auto piloted = std::count_if(choices.begin(), choices.end(), [](const RungChoice& c) { return c.pilot; });
   if (choices.size() > 1 && chosen.pilot)

@@ -17,8 +17,9 @@ std::shared_ptr<const Mechanism> hexapod() {
 }
 
 // Two legs whose lengths scatter about the drawing's, and a variable by which nothing deviates unless it is an error itself.
-MatchingPlan plan(const Mechanism& mechanism, const std::string& over, const std::string& sd,
-                  const std::string& variable = "parameter = \"gravity.z\"\nfrom = \"-10 m/s^2\"\nto = \"-9 m/s^2\"\n") {
+MatchingPlan plan(
+    const Mechanism& mechanism, const std::string& over, const std::string& sd,
+    const std::string& variable = "parameter = \"gravity.z\"\nfrom = \"-10 m/s^2\"\nto = \"-9 m/s^2\"\n") {
   std::string text = "[match]\nminimise = \"index\"\nover = \"" + over + "\"\n";
   if (over != "nominal") text += "samples = 50\n";
   text += "[[match.variable]]\n" + variable;
@@ -72,9 +73,9 @@ TEST(DesignsTried, HaveAPilotFlownOfStandingErrorsWithoutPlay) {
 TEST(DesignsTried, TakeTheRungThatTheDesignWhichAsksForMostNeeds) {
   const auto mechanism = hexapod();
   // One leg is as drawn at one corner of the box and wrong by a fiftieth of its length at the other.
-  const RungChoice choice =
-      choice_of(mechanism, plan(*mechanism, "mean", "20 um",
-                                "parameter = \"error.leg3a.length\"\nfrom = \"0 mm\"\nto = \"12 mm\"\n"));
+  const RungChoice choice = choice_of(
+      mechanism,
+      plan(*mechanism, "mean", "20 um", "parameter = \"error.leg3a.length\"\nfrom = \"0 mm\"\nto = \"12 mm\"\n"));
   EXPECT_EQ(choice.name, "multibody") << choice.why;
   EXPECT_THAT(choice.why, testing::HasSubstr("asks for most, of 3 tried"));
 }
