@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,6 +40,7 @@ class Stage {
 
 struct StudyRunOptions {
   std::string identity = {};            // tells this study from every other one: its stores are known by it
+  std::string version = {};             // of the program: stores of another are refused; "": it does not matter
   std::filesystem::path folder = {};    // of its results; it must exist before a store is opened
   std::string rung = "auto";            // asked for
   std::optional<double> accuracy = {};  // relative, of the index
@@ -93,6 +95,8 @@ class StudyRun {
 
   // By which its stores are known. decides: what decides a run beside the identity; "": nothing.
   std::string hash(const std::string& decides = "") const;
+  // What a store of it says of itself: that hash, and the version.
+  std::map<std::string, std::string> facts(const std::string& decides = "") const;
   // Open a store in the folder; what is in it already stays. Throw StoreRefused, StoreFailed.
   std::unique_ptr<SampleStore> open_samples(const std::string& decides, const std::vector<std::string>& parameters,
                                             const std::string& name = "samples.db") const;
