@@ -70,8 +70,8 @@ TEST_F(MonteCarloProgram, SamplesOfAnotherVersionAreRefusedInALineAndLeftAsTheyA
   const auto version = [&] { return SampleStore(folder_ / "out/samples.db").fact("version"); };
   const std::string own = version();
   EXPECT_EQ(json("out/summary.json")["version"], own);
-  SampleStore(folder_ / "out/samples.db", {}, SampleStore(folder_ / "out/samples.db").parameters())
-      .note("version", "0.9.0");
+  const auto parameters = [&] { return SampleStore(folder_ / "out/samples.db").parameters(); }();
+  SampleStore(folder_ / "out/samples.db", {}, parameters).note("version", "0.9.0");
   for (const std::vector<std::string>& more :
        {std::vector<std::string>{}, {"--resume"}, {"--resume", "--from", (folder_ / "out").string()}}) {
     const Ended again = call(quick("study.toml", more.size() > 1 ? "copy" : "out", more));
