@@ -101,9 +101,8 @@ std::string another_than(const std::map<std::string, std::string>& wanted,
   };
   const auto differs = [&](const std::string& key) { return wanted.contains(key) && said(key) != wanted.at(key); };
   if (!differs("study") && differs(kVersionFact))
-    return "results of " +
-           (said(kVersionFact).empty() ? "an earlier version" : "version " + said(kVersionFact)) + ", and this is " +
-           wanted.at(kVersionFact) + ": results of two versions are not mixed";
+    return "results of " + (said(kVersionFact).empty() ? "an earlier version" : "version " + said(kVersionFact)) +
+           ", and this is " + wanted.at(kVersionFact) + ": results of two versions are not mixed";
   for (const auto& [key, value] : wanted)
     if (said(key) != value) return "the samples of another study (its " + key + " differs)";
   return "";

@@ -134,15 +134,28 @@ RungChoice StudyRun::choose_rung(RungQuestion question, double trials, const std
   return boresight::choose_rung(question, mechanism_, samples);
 }
 
-RungChoice StudyRun::rung_of_corners(const std::vector<Parameters>& corners, const std::string& store) const {
+RungChoice StudyRun::rung_of_designs(const DesignsTried& tried, const std::string& store) const {
   // What a pilot chooses hangs on times. A store that cannot be gone on with is refused before there is a pilot.
   if (const auto found = readable_store(options_.folder / store); found && found->fact("study") == hash()) {
     found->require(facts());
     if (std::optional<RungChoice> begun_with = stored_choice(*found); begun_with && begun_with->pilot)
       return std::move(*begun_with);
   }
-  return choose_rung({.wants_multibody = !options_.run.formulation.empty() || !options_.run.stabilisation.empty()},
-                     kPilotTrialsOfScatter, corners);
+  RungQuestion question{.wants_multibody = !options_.run.formulation.empty() || !options_.run.stabilisation.empty()};
+  if (!tried.statistic) {
+    std::vector<Parameters> motions;
+    for (const std::vector<Parameters>& samples : tried.samples)
+      motions.insert(motions.end(), samples.begin(), samples.end());
+    return choose_rung(question, kPilotTrialsOfScatter, motions);
+  }
+  question.statistic = tried.statistic;
+  question.scene_varies = tried.scene_varies;
+  question.runs = tried.runs / tried.samples.size();
+  question.jobs = options_.jobs;
+  std::vector<RungChoice> choices;
+  for (const std::vector<Parameters>& samples : tried.samples)
+    choices.push_back(choose_rung(question, kPilotTrialsOfScatter, samples));
+  return most_demanding(choices);
 }
 
 RungChoice StudyRun::choose_rung_of_scatter(const ScatterAsked& asked) const {

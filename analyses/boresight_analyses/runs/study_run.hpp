@@ -62,6 +62,14 @@ struct ScatterAsked {
   bool integrators = false;  // whether it can take an integrator and its tolerance
 };
 
+// Designs that stand for all designs of a study, as it judges them.
+struct DesignsTried {
+  std::vector<std::vector<Parameters>> samples;    // of each design
+  std::optional<ScatterStatistic> statistic = {};  // of its samples; nothing: each one is a motion of its own
+  bool scene_varies = true;                        // over the samples of one design
+  std::uint64_t runs = 0;                          // that the study will make in all; 0: not known
+};
+
 // What the steps do to a study's answer, relative.
 struct StudySteps {
   double relative = kNotMeasured;
@@ -105,9 +113,8 @@ class StudyRun {
   // choose_rung() with the pilot's progress shown and an interruption heard (PilotInterrupted). trials: about as many as the
   // pilot makes. question: what only the caller knows; the rung asked for, accuracy, index and options are filled in.
   RungChoice choose_rung(RungQuestion question, double trials, const std::vector<Parameters>& samples) const;
-  // For a study of designs: at these corners of them, each a motion of its own. store: the name of its evaluations, where
-  // note_choice() has kept what a pilot chose.
-  RungChoice rung_of_corners(const std::vector<Parameters>& corners, const std::string& store) const;
+  // For a study of designs. store: the name of its evaluations, where note_choice() has kept what a pilot chose.
+  RungChoice rung_of_designs(const DesignsTried& tried, const std::string& store) const;
   // For a study of a scatter. With a store, the one it was begun with, or the one that is chosen and noted now.
   RungChoice choose_rung_of_scatter(const ScatterAsked& asked) const;
   RungChoice rung_of_scatter(const ScatterAsked& asked, SampleStore& store) const;

@@ -132,7 +132,7 @@ TEST_F(KeptResultsTest, AStudyDoesNotGoOnWithWhatAnotherVersionKept) {
   EXPECT_THAT([&] { later.go_on(choose); }, refused);
   for (const char* model : {"a model", "another model"})
     EXPECT_THAT([&] { later.open_evaluations("evaluations.db", {"x"}, "perturbation", 1e-5, model); }, refused);
-  EXPECT_THAT([&] { later.rung_of_corners({}, "evaluations.db"); }, refused);
+  EXPECT_THAT([&] { later.rung_of_designs({}, "evaluations.db"); }, refused);
   EXPECT_EQ(of("0.9.0").go_on(choose).results->size(), 1u) << "it is left as it was";
 }
 

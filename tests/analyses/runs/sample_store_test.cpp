@@ -118,8 +118,9 @@ TEST(SampleStore, OfAnotherVersionIsRefusedInALineThatSaysWhatToDo) {
   const std::filesystem::path file = folder.path() / "samples.db";
   SampleStore(file, with("0.9.0"), {"x1", "x2"}).add(record(1));
   EXPECT_EQ(refusal_of(file, with("1.0.0")),
-            file.string() + " holds results of version 0.9.0, and this is 1.0.0: results of two versions are not mixed; "
-                            "give another --out, or remove it");
+            file.string() +
+                " holds results of version 0.9.0, and this is 1.0.0: results of two versions are not mixed; "
+                "give another --out, or remove it");
   EXPECT_THAT(refusal_of(file, {{"study", "product"}, {"version", "1.0.0"}}), testing::HasSubstr("another study"));
   EXPECT_EQ(refusal_of(file, with("0.9.0")), "taken");
   EXPECT_EQ(refusal_of(file, {{"study", "sum"}}), "taken") << "who asks for no version";
@@ -128,7 +129,8 @@ TEST(SampleStore, OfAnotherVersionIsRefusedInALineThatSaysWhatToDo) {
   // As versions before wrote them.
   const std::filesystem::path silent = folder.path() / "silent.db";
   SampleStore(silent, {{"study", "sum"}}, {"x1", "x2"}).add(record(1));
-  EXPECT_THAT(refusal_of(silent, with("1.0.0")), testing::HasSubstr("results of an earlier version, and this is 1.0.0"));
+  EXPECT_THAT(refusal_of(silent, with("1.0.0")),
+              testing::HasSubstr("results of an earlier version, and this is 1.0.0"));
 
   // A rank's own.
   SampleStore store(file, with("0.9.0"), {"x1", "x2"});
