@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "boresight/math/eigenvalues.hpp"
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight_analyses/calibration/channel_noise.hpp"
 #include "boresight_analyses/statistics/effective_samples.hpp"
 
@@ -64,7 +65,8 @@ static void assess_error(const FittedParameter& parameter, ParameterEstimate& e)
   if (parameter.at_bound(parameter.coordinate(e.value)))
     e.reason = "the fit ran into the bound of what is allowed for it";
   else if (parameter.has_prior)
-    e.reason = "its standard error is " + number("%.2g %%", 100.0 * share) + " of what was known before";
+    e.reason = "its standard error is " + (share < kSaidAsMultiple ? relative_text(share) + " of what was known before"
+                                                                   : relative_text(share, 2, "what was known before"));
   else
     e.reason =
         (e.identifiable ? "known to " : "its standard error is ") + number("%.2g", e.standard_error) + " " + e.si_unit;
@@ -77,7 +79,8 @@ void assess_identifiability(const FittedParameter& parameter, ParameterEstimate&
   if (parameter.at_bound(parameter.coordinate(e.value))) {
     e.reason = "the fit ran into the bound of what is allowed for it: the data ask for less or more, or for nothing";
   } else if (!(share < kUnknown)) {
-    e.reason = "its standard error is " + number("%.0f %%", 100.0 * share) + " of it";
+    e.reason =
+        "its standard error is " + (share < kSaidAsMultiple ? relative_text(share) + " of it" : relative_text(share));
   } else {
     e.identifiable = true;
     e.reason = "known to " + number("%.2g %%", 100.0 * share);

@@ -13,6 +13,7 @@
 #include "boresight/mechanism/error.hpp"
 #include "boresight/perturbation/perturbation.hpp"
 #include "boresight/play/play_words.hpp"
+#include "boresight/pointing/relative_text.hpp"
 #include "boresight/rungs/integrator_choice.hpp"
 
 namespace boresight {
@@ -191,16 +192,14 @@ class MeasuredByDynamics final : public Rung {
       else
         std::snprintf(text, sizeof text,
                       "impacts exceed the bound, which is one of continuous contact: the perturbation rung's "
-                      "largest position error is %.2g %% above it",
-                      100.0 * measured.exceeded);
+                      "largest position error is %s above it",
+                      relative_text(measured.exceeded, 2, "the bound").c_str());
       result.warnings.push_back(text);
     }
     if (bounds_ && measured.bent > kBent) {
-      char text[80];
-      std::snprintf(text, sizeof text, "' offsets, and the pose is not: errors may exceed it by %.2g %%",
-                    100.0 * measured.bent);
       result.warnings.push_back("the bound is linear in the " + parts_in_play(mechanism_->description()).inserts +
-                                text);
+                                "' offsets, and the pose is not: errors may exceed it by " +
+                                relative_text(measured.bent, 2, "the bound"));
     }
     return result;
   }
