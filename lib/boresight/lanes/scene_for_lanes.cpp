@@ -52,7 +52,8 @@ std::shared_ptr<const PreparedScene> scene_for_lanes(const Mechanism& mechanism,
   const SceneLayout& at = prepared->scene().layout();
   if (at.n == 0 || lane_form(at) == SceneForm::accelerations) return prepared;
   for (int k = 0; k < kMostRefinements; ++k) {
-    const double error = error_of_accelerations(prepared->scene().tables(parameters, SceneForm::forces));
+    const Parameters grid = prepared->scene().gridded_by(parameters);
+    const double error = error_of_accelerations(prepared->scene().tables(grid, SceneForm::forces));
     if (error <= ClearanceScene::kAccuracy) break;
     accuracy *= ClearanceScene::kAccuracy / error;
     prepared = std::make_shared<const PreparedScene>(mechanism, ideal, parameters, accuracy);

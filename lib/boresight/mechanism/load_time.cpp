@@ -11,6 +11,7 @@ namespace boresight {
 namespace {
 
 constexpr double kFewest = 1024.0, kMost = 65536.0;  // looks along a motion
+constexpr double kMostAtErrors = 16384.0;            // each asks every law
 
 }  // namespace
 
@@ -63,7 +64,7 @@ double error_time(const Mechanism& mechanism, const IdealMotion& commanded, cons
   double shortest = std::numeric_limits<double>::infinity();
   if (laws.empty()) return shortest;
   const double duration = mechanism.duration();
-  const int looks = static_cast<int>(std::clamp(std::ceil(duration / kLookedAt), kFewest, kMost));
+  const int looks = static_cast<int>(std::clamp(std::ceil(duration / kLookedAt), kFewest, kMostAtErrors));
   std::vector<TimeValue> drives(static_cast<std::size_t>(mechanism.joints()));
   for (int i = 0; i <= looks; ++i) {
     const double t = duration * i / looks;

@@ -15,7 +15,7 @@ namespace boresight {
 double load_time(const Mechanism& mechanism);
 
 // The same of the laws of drives' errors, those of which are `wanted`, along a commanded motion; no less than the
-// instants that were looked at lie apart.
+// instants that were looked at lie apart, which are 16,384 at most: grids have no more cells.
 double error_time(const Mechanism& mechanism, const IdealMotion& commanded, const std::vector<bool>& wanted);
 
 inline constexpr double kLookedAt = 50e-6;  // [s], or a 1,024th of a shorter motion

@@ -138,9 +138,20 @@ ClearanceScene::Start ClearanceScene::at_start(const Mechanism& mechanism, const
   return {scene.layout_, scene.start_of(parameters, knot), knot.state, knot.T, knot.T_rate};
 }
 
+Parameters ClearanceScene::gridded_by(const Parameters& parameters) const {
+  Parameters grid = parameters;
+  grid.clearance = mechanism_.parameters().clearance;
+  if (coordinates_.leftover() > 0 || tips()) return grid;
+  grid = mechanism_.parameters();
+  grid.body_center = parameters.body_center;
+  grid.payload_center = parameters.payload_center;
+  return grid;
+}
+
 ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
                                double accuracy)
     : ClearanceScene(mechanism, parameters, ideal) {
+  const Parameters grid = gridded_by(parameters);
   // Halve the spacing until the coarse grid's cubics meet the new knots: the finer grid's own error is a sixteenth of that.
   const double knot_spacing = spacing_of_knots(ideal);
   const double finest = std::max(kFinestOfKnot * knot_spacing, std::min(kFinestSpacing, knot_spacing));
@@ -194,8 +205,8 @@ ClearanceScene::ClearanceScene(const Mechanism& mechanism, const IdealMotion& id
     cells *= 2;
     spacing_ *= 0.5;
     rows.clear();
-    for (const Knot& knot : knots_) append_row(parameters, knot, rows);
-    const double error = interpolation_error(rows, parameters);
+    for (const Knot& knot : knots_) append_row(grid, knot, rows);
+    const double error = interpolation_error(rows, grid);
     if (error <= 16.0 * accuracy) break;
     if (0.5 * spacing_ >= finest) continue;
     if (error <= kLargestMissOfTables || nothing_deviates) break;

@@ -65,7 +65,7 @@ struct SceneTables {
 class ClearanceScene {
  public:
   // accuracy: of the functions of time between the knots, relative to each group's largest value; the grid is refined until
-  // it holds. Throws ComputationError, naming the time, where T does not exist: near a singular pose.
+  // it holds for gridded_by(parameters). Throws ComputationError, naming the time, where T does not exist: near a singular pose.
   // Where the ideal motion is simulated (freedoms that nothing drives) the scene holds for `parameters`' masses, gravity,
   // springs and loads only.
   ClearanceScene(const Mechanism& mechanism, const IdealMotion& ideal, const Parameters& parameters,
@@ -86,6 +86,9 @@ class ClearanceScene {
   const SceneLayout& layout() const { return layout_; }
   int knots() const { return static_cast<int>(knots_.size()); }
   double spacing() const { return spacing_; }
+  // Whose tables choose the grid of a scene made for these. One that serves other masses, gravity and springs too takes the drawing's, and
+  // these' centres of mass alone: what a sample gets does not hang on which came first.
+  Parameters gridded_by(const Parameters& parameters) const;
   // In which a load changes by all that it does [s]: load_time.hpp.
   double load_time() const { return load_time_; }
 

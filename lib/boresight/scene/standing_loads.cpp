@@ -29,6 +29,18 @@ bool same_loads(const Parameters& a, const Parameters& b) {
          a.spring == b.spring;
 }
 
+// Knots of a grid and what lies in the middle of its cells, in order.
+std::vector<VecX> between_each(std::vector<VecX> knots, std::vector<VecX> middles) {
+  std::vector<VecX> finer;
+  finer.reserve(knots.size() + middles.size());
+  for (std::size_t k = 0; k < middles.size(); ++k) {
+    finer.push_back(std::move(knots[k]));
+    finer.push_back(std::move(middles[k]));
+  }
+  finer.push_back(std::move(knots.back()));
+  return finer;
+}
+
 }  // namespace
 
 // r of one mechanism, closed exactly where it is asked for.
@@ -69,7 +81,7 @@ class StandingLoads::Instants {
  private:
   std::shared_ptr<const Mechanism> mechanism_;
   const IdealMotion& commanded_;
-  const Parameters& parameters_;
+  Parameters parameters_;
   IdealSolver solver_;
   DeviationCoordinates coordinates_;
   std::vector<std::vector<RidingMass>> masses_;
@@ -79,7 +91,12 @@ class StandingLoads::Instants {
 };
 
 struct StandingLoads::Parts {
-  std::vector<VecX> at_knot;  // per unit of the error
+  std::unique_ptr<Instants> built;  // with a little of the error; none where that displaces nothing
+  double size = 0.0, little = 0.0;  // what a unit of the error displaces; how much of the error it is built with
+  int first_cells = 0;
+  std::vector<VecX> at_knot;  // per unit of the error, on the finest grid that any sample has asked for
+
+  int cells() const { return static_cast<int>(at_knot.size()) - 1; }
 };
 
 StandingLoads::StandingLoads(const Mechanism& drawn, const IdealMotion& commanded)
@@ -121,45 +138,77 @@ double StandingLoads::size_of(std::size_t error, const StandingErrors& influence
   return size;
 }
 
-StandingLoads::Parts StandingLoads::computed(std::size_t error, const Parameters& parameters,
-                                             const StandingErrors& influence) const {
-  const double duration = mechanism_.duration(), size = size_of(error, influence);
-  if (!(size > 0.0)) return {};
-  Parameters with = parts_of_;
-  std::fill(with.error.begin(), with.error.end(), 0.0);
-  with.error[error] = kLittle / size;
-  Instants built(built_mechanism(mechanism_, with, commanded_), *commanded_, choice_, with);
-  const auto at = [&](double t) { return VecX((built.parts(t) - drawn_->parts_once(t)) / with.error[error]); };
-  // As fine as the influence's own first grid: no turn of the motion is overlooked.
-  int cells = std::max(kFewestCellsOfLoads, commanded_->knots() / 16);
-  // Nor a ripple of a drive, which the influence's grid has found out.
-  if (mechanism_.description().errors[error].kind == ErrorDescription::Kind::drive)
-    cells = std::max(cells, influence.cells() / 4);
-  const auto when = [&](double k) { return std::min(duration, duration * k / cells); };
-  std::vector<VecX> knots;
-  double load = 0.0;  // the largest, in forces, per unit of the error
-  for (int k = 0; k <= cells; ++k) {
-    work_reached(kTabling, 0.5 * k / cells);
-    knots.push_back(at(when(k)));
-    load =
-        std::max(load, assembled(drawn_->parts_once(when(k)), parameters).cwiseQuotient(unit_).cwiseAbs().maxCoeff());
+StandingLoads::Parts& StandingLoads::parts(std::size_t error, const Parameters& parameters,
+                                           const StandingErrors& influence) const {
+  if (!drawn_ || parts_of_.spring != parameters.spring) {
+    parts_.clear();
+    parts_of_ = parameters;
+    drawn_ = std::make_unique<Instants>(as_drawn_, *commanded_, choice_, parts_of_);
   }
-  load *= size;
+  const auto found = parts_.find(error);
+  if (found != parts_.end()) return found->second;
+  Parts first;
+  first.size = size_of(error, influence);
+  if (first.size > 0.0) {
+    Parameters with = parts_of_;
+    std::fill(with.error.begin(), with.error.end(), 0.0);
+    first.little = with.error[error] = kLittle / first.size;
+    first.built = std::make_unique<Instants>(built_mechanism(mechanism_, with, commanded_), *commanded_, choice_, with);
+    // As fine as the influence's own first grid: no turn of the motion is overlooked.
+    first.first_cells = std::max(kFewestCellsOfLoads, commanded_->knots() / 16);
+    // Nor a ripple of a drive, which the influence's grid has found out.
+    if (mechanism_.description().errors[error].kind == ErrorDescription::Kind::drive)
+      first.first_cells = std::max(first.first_cells, influence.cells() / 4);
+    for (int k = 0; k <= first.first_cells; ++k) {
+      work_reached(kTabling, 0.5 * k / first.first_cells);
+      first.at_knot.push_back(change_at(first, time_of(k, first.first_cells)));
+    }
+  }
+  return parts_.emplace(error, std::move(first)).first->second;
+}
+
+double StandingLoads::time_of(int knot, int cells) const {
+  return std::min(mechanism_.duration(), mechanism_.duration() * knot / cells);
+}
+
+VecX StandingLoads::change_at(Parts& of, double t) const {
+  return (of.built->parts(t) - drawn_->parts_once(t)) / of.little;
+}
+
+void StandingLoads::halve(Parts& of) const {
+  const int cells = of.cells();
+  std::vector<VecX> middles;
+  for (int k = 0; k < cells; ++k) {
+    work_reached(kTabling, 0.5 + 0.5 * k / cells);
+    middles.push_back(change_at(of, time_of(2 * k + 1, 2 * cells)));
+  }
+  of.at_knot = between_each(std::move(of.at_knot), std::move(middles));
+}
+
+// The grid is the first of those halved again and again that serves these parameters, and its knots are the same instants however deep others
+// have had it: what a sample gets does not hang on which came before.
+StandingLoads::Columns::Column StandingLoads::column(std::size_t error, Parts& of, const Parameters& parameters) const {
+  if (!of.built) return {};
+  const auto units = [&](const VecX& part) { return VecX(assembled(part, parameters).cwiseQuotient(unit_)); };
+  int cells = of.first_cells;
+  std::vector<VecX> knots;  // in units of each coordinate's load
+  double load = 0.0;        // the largest, in forces, per unit of the error
+  for (int k = 0; k <= cells; ++k) {
+    knots.push_back(units(of.at_knot[static_cast<std::size_t>(k * (of.cells() / cells))]));
+    load = std::max(load, units(drawn_->parts_once(time_of(k, cells))).cwiseAbs().maxCoeff());
+  }
+  load *= of.size;
   for (int halving = 0;; ++halving) {
-    std::vector<VecX> finer, assembled_knots;
-    for (const VecX& knot : knots) assembled_knots.push_back(assembled(knot, parameters).cwiseQuotient(unit_));
+    if (of.cells() == cells) halve(of);
+    const int stride = of.cells() / (2 * cells);
+    std::vector<VecX> middles;
     VecX largest = VecX::Zero(unit_.size()), missed = largest;
     for (int k = 0; k < cells; ++k) {
-      work_reached(kTabling, 0.5 + 0.5 * k / cells);
-      VecX middle = at(when(k + 0.5));
-      const VecX value = assembled(middle, parameters).cwiseQuotient(unit_);
-      missed = missed.cwiseMax((value - cubic_at_middle(assembled_knots, k)).cwiseAbs());
-      largest = largest.cwiseMax(value.cwiseAbs());
-      finer.push_back(std::move(knots[static_cast<std::size_t>(k)]));
-      finer.push_back(std::move(middle));
+      middles.push_back(units(of.at_knot[static_cast<std::size_t>((2 * k + 1) * stride)]));
+      missed = missed.cwiseMax((middles.back() - cubic_at_middle(knots, k)).cwiseAbs());
+      largest = largest.cwiseMax(middles.back().cwiseAbs());
     }
-    finer.push_back(std::move(knots.back()));
-    knots = std::move(finer);
+    knots = between_each(std::move(knots), std::move(middles));
     cells *= 2;
     const double floor = kNextToNoLoad * std::max(load, largest.maxCoeff());
     double miss = 0.0;
@@ -170,22 +219,16 @@ StandingLoads::Parts StandingLoads::computed(std::size_t error, const Parameters
     if (halving < kMostHalvingsOfLoads) continue;
     if (miss <= kLargestMissOfLoads) break;
     throw ComputationError("what error." + mechanism_.description().errors[error].name +
-                           " changes of the loads in the joints ripples within " + std::to_string(duration / cells) +
+                           " changes of the loads in the joints ripples within " +
+                           std::to_string(mechanism_.duration() / cells) +
                            " s: too fast for a table; the multibody rung needs none");
   }
-  return {std::move(knots)};
-}
-
-const StandingLoads::Parts& StandingLoads::parts(std::size_t error, const Parameters& parameters,
-                                                 const StandingErrors& influence) const {
-  if (!drawn_ || parts_of_.spring != parameters.spring) {
-    parts_.clear();
-    parts_of_ = parameters;
-    drawn_ = std::make_unique<Instants>(as_drawn_, *commanded_, choice_, parts_of_);
-  }
-  const auto found = parts_.find(error);
-  return found != parts_.end() ? found->second
-                               : parts_.emplace(error, computed(error, parameters, influence)).first->second;
+  const Eigen::Index n = unit_.size();
+  Columns::Column column{cells, VecX(n * (cells + 1))};
+  const int stride = of.cells() / cells;
+  for (int k = 0; k <= cells; ++k)
+    column.values.segment(n * k, n) = assembled(of.at_knot[static_cast<std::size_t>(k * stride)], parameters);
+  return column;
 }
 
 std::shared_ptr<const StandingLoads::Columns> StandingLoads::columns(const Parameters& parameters,
@@ -200,15 +243,9 @@ std::shared_ptr<const StandingLoads::Columns> StandingLoads::columns(const Param
   if (whole) return columns_;
   auto more = same ? std::make_shared<Columns>(*columns_) : std::make_shared<Columns>();
   more->of = parameters;
-  const Eigen::Index n = unit_.size();
   for (std::size_t e = 0; e < parameters.error.size(); ++e) {
     if (!missing(e)) continue;
-    const Parts& of_error = parts(e, parameters, influence);
-    Columns::Column& column = more->of_error[e];
-    column.cells = std::max(0, static_cast<int>(of_error.at_knot.size()) - 1);
-    column.values.resize(n * static_cast<Eigen::Index>(of_error.at_knot.size()));
-    for (std::size_t k = 0; k < of_error.at_knot.size(); ++k)
-      column.values.segment(n * static_cast<Eigen::Index>(k), n) = assembled(of_error.at_knot[k], parameters);
+    more->of_error[e] = column(e, parts(e, parameters, influence), parameters);
   }
   return columns_ = std::move(more);
 }

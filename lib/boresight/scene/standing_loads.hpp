@@ -3,7 +3,7 @@
 // An error leaves the loads what they were but for its own small share of them, with one exception: where nothing pushes a journal, the
 // error's tilt or its drive's ripple does, and the journal goes to the end of its play. A column is r of the mechanism built with a little
 // of one error, its joints closed exactly, less r of the drawn one, divided by that little. Each has a grid of its own: the ripple of a
-// screw needs a fine one, a length does not. Masses and gravity enter r by parts (riding_masses.hpp), which are kept: another payload asks
+// screw needs a fine one, a length does not; and so has each set of masses, by itself, whichever were asked for before. Masses and gravity enter r by parts (riding_masses.hpp), which are kept: another payload asks
 // for no new columns.
 #pragma once
 
@@ -39,7 +39,7 @@ class StandingLoads {
 
  private:
   class Instants;  // a mechanism at instants
-  struct Parts;    // of one column at its knots
+  struct Parts;    // of one column at the knots that samples have needed so far
   // Columns for one set of masses, gravity and springs.
   struct Columns {
     Parameters of;
@@ -51,8 +51,11 @@ class StandingLoads {
   };
 
   std::shared_ptr<const Columns> columns(const Parameters& parameters, const StandingErrors& influence) const;
-  const Parts& parts(std::size_t error, const Parameters& parameters, const StandingErrors& influence) const;
-  Parts computed(std::size_t error, const Parameters& parameters, const StandingErrors& influence) const;
+  Parts& parts(std::size_t error, const Parameters& parameters, const StandingErrors& influence) const;
+  double time_of(int knot, int cells) const;
+  VecX change_at(Parts& of, double t) const;
+  void halve(Parts& of) const;
+  Columns::Column column(std::size_t error, Parts& of, const Parameters& parameters) const;
   VecX assembled(const VecX& parts, const Parameters& parameters) const;
   double size_of(std::size_t error, const StandingErrors& influence) const;
 

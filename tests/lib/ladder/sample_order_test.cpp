@@ -22,6 +22,7 @@ std::vector<Parameters> samples_of(const Mechanism& mechanism) {
   for (ClearanceParameters& c : samples[5].clearance) c.radial *= 0.5;
   for (SpringParameters& s : samples[5].spring) s.stiffness *= 10.0;
   for (double& error : samples[6].error) error += 2e-5;
+  samples[4].error = samples[6].error;
   return samples;
 }
 
@@ -48,10 +49,7 @@ void expect_same_in_any_order(const std::string& file, const std::vector<Setting
       const auto rung = make_rung(name, mechanism);
       for (const std::size_t k : order) {
         const std::vector<double> now = answer(*rung, samples[k]);
-        for (std::size_t i = 0; i < now.size(); ++i)
-          // A grid that was found for another sample meets the same functions to its own accuracy.
-          EXPECT_NEAR(now[i], alone[k][i], 2e-4 * std::abs(alone[k][i]) + 1e-12)
-              << file << ", " << name << ", sample " << k << " with " << order.front() << " first";
+        EXPECT_EQ(now, alone[k]) << file << ", " << name << ", sample " << k << " with " << order.front() << " first";
       }
     }
   }

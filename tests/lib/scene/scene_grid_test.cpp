@@ -47,6 +47,20 @@ TEST(SceneGrid, OfADayIsNoFinerThanItsMotion) {
   EXPECT_LT(table_error(*mechanism), 1e-4);
 }
 
+// A scene serves samples of other masses and gravity too: whichever asked for it first, its grid is the same.
+TEST(SceneGrid, IsTheDrawingsWhateverSampleAsksForIt) {
+  const Mechanism mechanism(read_mechanism(std::string(BORESIGHT_EXAMPLES) + "/bearing-pairs/gimbal.toml"));
+  const IdealMotion ideal = IdealMotion::kinematic(mechanism);
+  std::vector<Parameters> samples(2, mechanism.parameters());
+  samples[0].gravity *= 1e3;
+  for (double& mass : samples[1].body_mass) mass *= 100.0;
+  for (const double accuracy : {2e-6, 1e-6, 5e-7, 2.5e-7, 1e-7}) {
+    const int knots = ClearanceScene(mechanism, ideal, mechanism.parameters(), accuracy).knots();
+    for (const Parameters& sample : samples)
+      EXPECT_EQ(ClearanceScene(mechanism, ideal, sample, accuracy).knots(), knots) << accuracy;
+  }
+}
+
 TEST(SceneGrid, IsGivenUpWhenItsWatchWantsIt) {
   const auto mechanism = crank_slider("2*pi*5*t", "0.4 s");
   const IdealMotion ideal = IdealMotion::kinematic(*mechanism);
