@@ -71,8 +71,8 @@ int joint_or_bearing(const Cursor& cursor, const std::string& key, const Mechani
 }
 
 // A direction in words: towards another joint, or along the joint's own axis.
-Vec3 direction_in_words(Cursor& cursor, const std::string& key, const MechanismDescription& so_far,
-                        const JointDescription& joint) {
+Vec3 direction_in_words(Cursor& cursor, const std::string& key, const MechanismDescription& so_far, int of_joint) {
+  const JointDescription& joint = so_far.joints[of_joint];
   const std::string words = cursor.text(key), towards = "towards ";
   if (words == "axis") {
     if (joint.type == JointType::spherical || joint.type == JointType::fixed)
@@ -82,9 +82,8 @@ Vec3 direction_in_words(Cursor& cursor, const std::string& key, const MechanismD
   }
   if (!words.starts_with(towards))
     cursor.fail_found(key, in_quotes(words), "three numbers, \"towards JOINT\", or \"axis\"");
-  const JointDescription& other =
-      so_far.joints[joint_or_bearing(cursor, key, so_far, words.substr(towards.size()), joint.first)];
-  const Vec3 way = other.point - joint.point;
+  const int other = joint_or_bearing(cursor, key, so_far, words.substr(towards.size()), joint.first);
+  const Vec3 way = drawn_point(so_far, other) - drawn_point(so_far, of_joint);
   if (!(way.norm() > 1e-12 * (1.0 + joint.point.norm())))
     cursor.fail_found(key, in_quotes(words) + ", which is at the same point as " + in_quotes(joint.name),
                       "a joint elsewhere, or three numbers");
@@ -148,7 +147,7 @@ ErrorDescription read_error(Cursor& cursor, const MechanismDescription& so_far) 
       if (error.body != joint.first && error.body != joint.second)
         cursor.fail("body", "one of the two bodies that " + in_quotes(name) + " connects");
       // A universal joint's own axis is that of its first bearing.
-      const JointDescription& named = so_far.joints[joint_or_bearing(cursor, "joint", so_far, name, kNoBody)];
+      const int named = joint_or_bearing(cursor, "joint", so_far, name, kNoBody);
       error.direction = cursor.is_text(key) ? direction_in_words(cursor, key, so_far, named) : cursor.direction(key);
       if (error.kind == Kind::rotation) range = kFrameTurnRange;
       break;

@@ -16,7 +16,8 @@ const KeyTable& error_keys() {
           text("name").says("Its name; it may have dots in it (\"rod1.length\")."),
           text("joint")
               .sometimes("needed with translation and rotation")
-              .says("The joint whose frame is not where the drawing has it."),
+              .says("The joint whose frame is not where the drawing has it. A bearing pair is the one joint that it is "
+                    "drawn as: both its seats are displaced together; JOINT.floating is its floating bearing alone."),
           text("body")
               .sometimes("needed with translation, rotation and expansion")
               .says("The part that the error is in: one of the two that the joint connects, or the part that grows. "

@@ -18,21 +18,33 @@ Vec3 centre_of_growth(const MechanismDescription& m, int body) {
   if (body != kGround) return m.bodies[body].center_of_mass;
   Vec3 sum = Vec3::Zero();
   int count = 0;
-  for (const JointDescription& j : m.joints)
-    if (j.first == kGround || j.second == kGround) {
-      sum += j.point;
+  for (int j = 0; j < static_cast<int>(m.joints.size()); ++j)
+    if ((m.joints[j].first == kGround || m.joints[j].second == kGround) && !is_floating_bearing(m, j)) {
+      sum += drawn_point(m, j);
       ++count;
     }
   return count > 0 ? Vec3(sum / count) : sum;
 }
 
-void displace_frame(const MechanismDescription& m, const Vec3& translation, const Vec3& rotation, JointFrame& frame,
-                    Vec3* second_axis) {
+// Of one frame, all errors together; world axes at home.
+struct Displacement {
+  Vec3 translation = Vec3::Zero(), rotation = Vec3::Zero();
+  // The part of the rotation that turns about a point beside the frame, which stands this far off it.
+  Vec3 beside = Vec3::Zero(), arm = Vec3::Zero();
+};
+
+void displace_frame(const MechanismDescription& m, const Displacement& by, JointFrame& frame, Vec3* second_axis) {
   const Mat3 axes = frame.body == kGround ? Mat3(Mat3::Identity()) : m.bodies[frame.body].axes;
-  frame.p += axes.transpose() * translation;
-  const double angle = rotation.norm();
-  if (!(angle > 0.0)) return;
-  const Mat3 turn = Eigen::AngleAxisd(angle, axes.transpose() * rotation / angle).toRotationMatrix();
+  const auto turn_of = [&](const Vec3& rotation) {
+    const double angle = rotation.norm();
+    return angle > 0.0 ? Eigen::AngleAxisd(angle, axes.transpose() * rotation / angle).toRotationMatrix()
+                       : Mat3(Mat3::Identity());
+  };
+  frame.p += axes.transpose() * by.translation;
+  const Vec3 arm = axes.transpose() * by.arm;
+  frame.p += turn_of(by.beside) * arm - arm;
+  if (!(by.rotation.norm() > 0.0)) return;
+  const Mat3 turn = turn_of(by.rotation);
   frame.R = turn * frame.R;
   if (second_axis) *second_axis = turn * *second_axis;
 }
@@ -104,9 +116,18 @@ std::vector<FrameError> frame_errors(const MechanismDescription& m, const ErrorD
   switch (error.kind) {
     case Kind::translation:
     case Kind::rotation: {
-      FrameError frame{.joint = error.joint, .second = m.joints[error.joint].second == error.body};
-      (error.kind == Kind::translation ? frame.translation : frame.rotation) = error.direction;
-      frames.push_back(frame);
+      const bool second = m.joints[error.joint].second == error.body;
+      for (int joint : {error.joint, floating_bearing(m, error.joint)}) {
+        if (joint < 0) continue;
+        FrameError frame{.joint = joint, .second = second};
+        if (error.kind == Kind::translation) {
+          frame.translation = error.direction;
+        } else {
+          frame.rotation = error.direction;
+          if (floating_bearing(m, error.joint) >= 0) frame.arm = m.joints[joint].point - drawn_point(m, error.joint);
+        }
+        frames.push_back(frame);
+      }
       break;
     }
     case Kind::drive:
@@ -131,23 +152,23 @@ bool has_errors(const Parameters& parameters) {
 std::shared_ptr<const Mechanism> built_mechanism(const Mechanism& drawn, const Parameters& parameters,
                                                  std::shared_ptr<const IdealMotion> commanded) {
   const MechanismDescription& m = drawn.description();
-  struct Displacement {
-    Vec3 translation = Vec3::Zero(), rotation = Vec3::Zero();
-  };
   std::vector<std::array<Displacement, 2>> displaced(m.joints.size());  // in the first body, in the second
   for (std::size_t e = 0; e < m.errors.size(); ++e)
     for (const FrameError& frame : frame_errors(m, m.errors[e])) {
       Displacement& d = displaced[frame.joint][frame.second ? 1 : 0];
       d.translation += parameters.error[e] * frame.translation;
       d.rotation += parameters.error[e] * frame.rotation;
+      if (frame.arm.isZero(0.0)) continue;
+      d.beside += parameters.error[e] * frame.rotation;
+      d.arm = frame.arm;
     }
   std::vector<JointGeometry> geometry;
   std::map<int, TimeFunctionPtr> drives;
   const auto told = std::make_shared<const CommandedLaws>(drawn.joints(), commanded);
   for (int j = 0; j < drawn.joints(); ++j) {
     JointGeometry g = drawn.geometry(j);
-    displace_frame(m, displaced[j][0].translation, displaced[j][0].rotation, g.first, nullptr);
-    displace_frame(m, displaced[j][1].translation, displaced[j][1].rotation, g.second, &g.second_axis);
+    displace_frame(m, displaced[j][0], g.first, nullptr);
+    displace_frame(m, displaced[j][1], g.second, &g.second_axis);
     geometry.push_back(g);
     if (m.joints[j].driven) drives[j] = std::make_shared<ErringDrive>(drawn, parameters, j, told);
   }

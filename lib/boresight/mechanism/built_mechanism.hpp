@@ -6,8 +6,9 @@
 //
 //     X_a D_a J(q) = X_b D_b,      q = q_commanded(t) + sum of value * law(q_commanded, t) on a drive.
 //
-// Several turns of one frame add up as rotation vectors. What grows moves its joint frames away from its centre of mass, or on the
-// ground from the middle of its joints.
+// Several turns of one frame add up as rotation vectors. A bearing pair is displaced as the one joint that it was drawn as: both of its bearings,
+// turned about the point between them, so that they stay in line. What grows moves its joint frames away from its centre of mass, or on the
+// ground from the middle of its joints, of which a pair is one.
 #pragma once
 
 #include <memory>
@@ -23,7 +24,11 @@ struct FrameError {
   int joint = 0;
   bool second = false;              // in the joint's second body, else in its first
   Vec3 translation = Vec3::Zero();  // [m per unit]
-  Vec3 rotation = Vec3::Zero();     // through the joint's point [rad per unit]
+  Vec3 rotation = Vec3::Zero();     // through the joint's point, which the frame stands `arm` off [rad per unit]
+  Vec3 arm = Vec3::Zero();          // [m]; none but in a bearing pair
+
+  // What a small turn and the translation displace the frame by.
+  Vec3 displacement() const { return translation + rotation.cross(arm); }
 };
 
 // What one error displaces; nothing for one of a drive.

@@ -69,7 +69,7 @@ Vec6 ErrorInfluence::seen(const JointConstraint& constraint, const JointRows& ro
     // The frame has turned with its body since home.
     const Mat3 turn = ground ? R : Mat3(R * m.bodies[body].axes.transpose());
     const Vec3 r = R * (frame.second ? geometry.second : geometry.first).p;
-    const Vec3 translation = turn * frame.translation, rotation = turn * frame.rotation;
+    const Vec3 translation = turn * frame.displacement(), rotation = turn * frame.rotation;
     Vec6 moved;
     moved << translation - rotation.cross(r), rotation;
     change += (body == constraint.other_body() ? rows.other : rows.reference) * moved;
@@ -84,7 +84,7 @@ void ErrorInfluence::right_side(std::size_t e, double t) {
   const double length = mechanism_.characteristic_length();
   asked_ = 0.0;
   for (const FrameError& frame : frames_[e])
-    asked_ = std::max(asked_, frame.translation.norm() / length + frame.rotation.norm());
+    asked_ = std::max(asked_, frame.displacement().norm() / length + frame.rotation.norm());
   for (const FrameError& frame : frames_[e])
     if (const int k = block_of_[frame.joint]; k >= 0) right_[k] = -seen(closed_.joints()[k], closed_.rows(k), e);
   const ErrorDescription& error = m.errors[e];

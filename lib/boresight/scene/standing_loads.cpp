@@ -129,7 +129,7 @@ double StandingLoads::size_of(std::size_t error, const StandingErrors& influence
   const double length = mechanism_.characteristic_length();
   double size = 0.0;
   for (const FrameError& frame : frame_errors(m, m.errors[error]))
-    size = std::max(size, frame.translation.norm() / length + frame.rotation.norm());
+    size = std::max(size, frame.displacement().norm() / length + frame.rotation.norm());
   for (int k = 0; k <= influence.cells(); ++k)
     for (int b = 0; b < mechanism_.bodies(); ++b) {
       const auto moved = influence.at_knot(k, b).col(static_cast<Eigen::Index>(error));

@@ -288,6 +288,13 @@ TEST(BearingPair, LetsErrorsNameEitherBearing) {
   EXPECT_EQ(m.errors[1].direction, Vec3::UnitX());
 }
 
+// Another joint's way there is the one to the joint as it was drawn, between its bearings.
+TEST(BearingPair, IsPointedToWhereItWasDrawn) {
+  const std::string beside = "[[error]]\nname = \"way\"\njoint = \"P\"\nbody = \"arm\"\ntranslation = \"towards R\"\n";
+  for (const char* span : {"span = \"60 mm\"\n", "span = \"60 mm\"\nfixed_end = \"end\"\n"})
+    EXPECT_NE(error_of(pair(span) + beside).find("which is at the same point as \"P\""), std::string::npos);
+}
+
 // An error of the universal joint is one of its bearing in that body: a file stays valid when its joint gets play.
 TEST(UniversalJoint, WithPlayKeepsItsErrors) {
   const auto m = read(universal() +
