@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -18,20 +19,26 @@ void read_table(Cursor table, const SiUnit& unit, PowerDensity& density) {
   table.only(spectrum_table_keys());
   density.frequency = read_column(table, "frequency", table.text("frequency"));
   density.density = read_column(table, "density", table.text("density"));
+  double scale = 1.0;
   try {
-    const double scale = scale_of_unit(table.text("unit"), unit);
-    for (double& d : density.density) d *= scale;
+    scale = scale_of_unit(table.text("unit"), unit);
   } catch (const ValueFault& fault) {
     throw InputError(table.origin("unit"), table.path("unit"), fault.found, fault.expected, fault.nearest);
   }
   table.require(density.frequency.size() >= 2, "file", "at least two rows");
   for (std::size_t k = 0; k < density.frequency.size(); ++k) {
-    const auto row = [&](double value) { return std::to_string(value) + " in row " + std::to_string(k + 1); };
+    // As the file has it: arcsec^2/Hz are some 1e-11 rad^2/Hz.
+    const auto row = [&](double value) {
+      char text[60];
+      std::snprintf(text, sizeof text, "%.6g in row %zu", value, k + 1);
+      return std::string(text);
+    };
     if (!(density.frequency[k] > (k == 0 ? 0.0 : density.frequency[k - 1])))
       table.fail_found("frequency", row(density.frequency[k]), "frequencies above zero that rise from row to row");
     if (!(density.density[k] > 0.0))
       table.fail_found("density", row(density.density[k]),
                        "densities above zero; outside of the table's ends there are none");
+    density.density[k] *= scale;
   }
   table.finish();
 }

@@ -193,6 +193,20 @@ TEST_F(BudgetPlanTest, MistakesInASpectrumAreOneLineWithFileLineAndKey) {
        "none.csv");
 }
 
+// Of an arcsec^2/Hz there are 2e-11 rad^2/Hz.
+TEST_F(BudgetPlanTest, AMistakeInATableOfDensitiesIsShownAsItsFileHasIt) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "boresight_negative_density.csv";
+  const auto found = [&](const char* rows) {
+    std::ofstream(file) << "f,s\n" << rows;
+    return fault("[[budget.contributor]]\nname = \"a\"\nspectrum = { table = { file = \"" + file.string() +
+                 "\", frequency = \"f\", density = \"s\", unit = \"arcsec^2/Hz\" } }\n");
+  };
+  EXPECT_THAT(found("1,2\n2,-0.5\n"), HasSubstr("found -0.5 in row 2, expected densities above zero"));
+  EXPECT_THAT(found("1,0\n2,1\n"), HasSubstr("found 0 in row 1"));
+  EXPECT_THAT(found("1e-9,2\n1e-10,1\n"), HasSubstr("found 1e-10 in row 2, expected frequencies"));
+  std::filesystem::remove(file);
+}
+
 TEST_F(BudgetPlanTest, RequirementsByExposureTimeAreOneEachWithAWindowOfTheirOwn) {
   const BudgetPlan plan = read(R"(
 [[budget.requirement]]
