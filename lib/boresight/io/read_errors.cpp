@@ -5,6 +5,7 @@
 #include "boresight/keys/mechanism_keys.hpp"
 #include "boresight/keys/units.hpp"
 #include "boresight/keys/value_fault.hpp"
+#include "boresight/mechanism/drawn_joint.hpp"
 #include "boresight/mechanism/error.hpp"
 
 namespace boresight {

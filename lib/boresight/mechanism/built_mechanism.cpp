@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 
+#include "boresight/mechanism/drawn_joint.hpp"
 #include "boresight/mechanism/error.hpp"
 #include "boresight/mechanism/offset_choice.hpp"
 
