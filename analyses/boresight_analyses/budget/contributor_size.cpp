@@ -21,8 +21,8 @@ double size_of(const ErrorCourse& error, double start, double duration, std::siz
   double largest = 0.0;
   for (std::size_t k = 0; error.course && k <= samples; ++k)
     largest = std::max(
-        largest, std::abs(error.course->at(start + duration * static_cast<double>(k) / static_cast<double>(samples))
-                              .value));
+        largest,
+        std::abs(error.course->at(start + duration * static_cast<double>(k) / static_cast<double>(samples)).value));
   return (largest > 0.0 ? largest * largest_of(error.factor, 1.0) : 0.0) + largest_of(error.value, 0.0);
 }
 

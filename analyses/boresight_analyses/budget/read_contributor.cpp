@@ -215,7 +215,9 @@ Contributor read_contributor(Cursor& table, const BudgetPlan& plan, PointingQuan
   Contributor c = read_any_size(table, plan, quantity, mechanism);
   const double size = largest_size(c, plan.windows, plan.duration, samples_of(plan));
   if (size <= kLargestExternalError) return c;
-  const std::string unit = c.of_error ? c.of_error->si_unit : quantity != PointingQuantity::position_error ? "rad" : "m";
+  const std::string unit = c.of_error                                     ? c.of_error->si_unit
+                           : quantity != PointingQuantity::position_error ? "rad"
+                                                                          : "m";
   char found[80], expected[80];
   std::snprintf(found, sizeof found, "errors of up to %.3g %s", size, unit.c_str());
   std::snprintf(expected, sizeof expected, "none above %.0g %s", kLargestExternalError, unit.c_str());

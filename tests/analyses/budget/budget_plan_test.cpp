@@ -332,8 +332,8 @@ TEST_F(BudgetPlanTest, ErrorsOfASizeThatNothingHasAreRefusedWhereTheyAreGiven) {
            {"measured", measured("b")},
            {"measured", measured("a") + "factor = { uniform = { min = 0.0, max = 1e300 } }\n"},
            {"measured", measured("a", ", of = \"rad\"") + gain}})
-    EXPECT_THAT(fault(of(text)),
-                AllOf(HasSubstr("budget.contributor.wild." + key + ": found errors"), HasSubstr("none above 1e+09 rad")))
+    EXPECT_THAT(fault(of(text)), AllOf(HasSubstr("budget.contributor.wild." + key + ": found errors"),
+                                       HasSubstr("none above 1e+09 rad")))
         << text;
   EXPECT_EQ(fault(of(measured("a"))), "no fault");
   EXPECT_EQ(fault(of("class = \"drift\"\nvalue = \"1 deg/s\"\n")), "no fault");
