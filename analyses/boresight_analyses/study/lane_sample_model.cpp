@@ -9,6 +9,7 @@
 #include "boresight/rungs/cpu_clock.hpp"
 #include "boresight/stepping/measured_error.hpp"
 #include "boresight_analyses/study/geometric_sample_model.hpp"
+#include "boresight_analyses/study/measurement.hpp"
 
 namespace boresight {
 
@@ -38,15 +39,15 @@ double displacement_of(const IndexChoice& index, const Mechanism& mechanism) {
 
 }  // namespace
 
-// What the rung itself estimates (perturbation.cpp), from what the lanes keep: the deviation over the mechanism's size, times
-// how much the mechanism magnifies its offsets.
+// Of what the lanes keep: the deviation over the mechanism's size, times how much the mechanism magnifies its offsets; and what being
+// linear in standing errors misses besides. These displace the pose beside the play, however far: that magnifies no offset.
 double LaneSampleModel::nonlinearity(const Parameters& parameters, const LaneOutcome& found) const {
-  const double length = mechanism_->characteristic_length();
-  const double deviation = found.max * displacement_of(index_, *mechanism_) / length;
+  const double unit = displacement_of(index_, *mechanism_);
+  const double deviation = found.max * unit / mechanism_->characteristic_length();
   double offset = 0.0;
   for (const ClearanceParameters& c : parameters.clearance) offset = std::max(offset, widest_gap(c));
   offset += found.max_penetration;
-  const double of_play = offset > 0.0 ? deviation * std::max(1.0, deviation * length / offset) : 0.0;
+  const double of_play = offset > 0.0 ? deviation * std::max(1.0, found.max_of_play * unit / offset) : 0.0;
   return of_play + lanes_.error_of_linearity(parameters, found.max);
 }
 

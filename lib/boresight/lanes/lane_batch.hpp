@@ -71,6 +71,7 @@ struct LaneOutcome {
   double t = 0.0;  // reached [s]
   // Of the index over time, from LaneSettings::start on.
   double max = 0.0, time_of_max = 0.0, mean = 0.0, mean_square = 0.0;
+  double max_of_play = 0.0;  // the largest without what standing errors add, at the ends of steps of the whole motion
   double free_flight_share = 0.0;  // of that time, of the joint least in contact
   long impacts = 0;                // contacts begun in it
   double touching_time = 0.0;      // with any contact [s]

@@ -104,13 +104,14 @@ class LaneIntegrator {
       contacts_.slowest[c].set(l, job.joints[c].minimum_impact_speed);
     }
     standing_.set(l, job.standing.index);
+    errs_[static_cast<std::size_t>(l)] = job.standing.index.knots != nullptr;
     step_.set_loads(l, job.standing.loads, job.standing.longest_step);
     longest_.set(l, std::min(step_.longest(), job.standing.longest_step));
     clock_.set(l, 0.0, job.scene->duration);
     contact_since_.set(l, 0.0);
     h_.set(l, settings_.first_step);
     for (T* x : {&statistics_.value, &statistics_.max, &statistics_.time_of_max, &statistics_.integral,
-                 &statistics_.square, &touching_time_, &deepest_, &impacts_, &steps_, &rejected_})
+                 &statistics_.square, &of_play_, &touching_time_, &deepest_, &impacts_, &steps_, &rejected_})
       x->set(l, 0.0);
     entry_.set(l, longest_.lane(l));
     running_.set(l, true);
@@ -122,6 +123,7 @@ class LaneIntegrator {
   void rest(int l) {
     jobs_of_[l] = nullptr;
     standing_.set(l, {});
+    errs_[static_cast<std::size_t>(l)] = false;
     step_.set_loads(l, {}, settings_.longest_step);
     for (int k = 0; k < count(); ++k) {
       z_[k].set(l, 0.0);
@@ -137,7 +139,7 @@ class LaneIntegrator {
     step_.open(lanes, scenes_, clock_);
     T standing[3];
     standing_.at(clock_.times(), standing);
-    statistics_.begin(lanes, step_.index_at_start(z_.data(), standing), settings_.start == 0.0);
+    statistics_.begin(lanes, step_.index_here(z_.data(), standing), settings_.start == 0.0);
     step_.contacts(z_.data(), v_.data(), contacts_.end.data());
     for (int l = 0; l < W; ++l)
       if (lanes.lane(l)) contacts_.restart(l, step_.play.impact_speed);
@@ -220,11 +222,21 @@ class LaneIntegrator {
       statistics_.add_from(T(settings_.start), accepted, clock_.now(), h, middle, end);
     else
       statistics_.add(accepted, clock_.now(), h, middle, end);
+    if (any_errs()) {
+      const T none[3] = {T(0.0), T(0.0), T(0.0)};
+      of_play_ = select(accepted, larger(of_play_, step_.index_here(new_z_.data(), none)), of_play_);
+    }
     touching_time_ = select(accepted & contacts_.touching(), touching_time_ + h, touching_time_);
     const T counted = settings_.start > 0.0 ? larger(T(0.0), smaller(h, clock_.now() + h - T(settings_.start))) : h;
     for (std::size_t c = 0; c < held_.size(); ++c)
       held_[c] = select(accepted & contacts_.touching(c), held_[c] + counted, held_[c]);
     deepest_ = select(accepted, larger(deepest_, contacts_.deepest(h)), deepest_);
+  }
+
+  bool any_errs() const {
+    bool any = false;
+    for (const bool one : errs_) any |= one;
+    return any;
   }
 
   void finish(int l) {
@@ -236,6 +248,7 @@ class LaneIntegrator {
     out.t = t;
     out.max = statistics_.max.lane(l);
     out.time_of_max = statistics_.time_of_max.lane(l);
+    out.max_of_play = errs_[static_cast<std::size_t>(l)] ? of_play_.lane(l) : out.max;
     const double counted = t - settings_.start;
     out.mean = counted > 0.0 ? statistics_.integral.lane(l) / counted : 0.0;
     out.mean_square = counted > 0.0 ? statistics_.square.lane(l) / counted : 0.0;
@@ -266,6 +279,8 @@ class LaneIntegrator {
   LaneOwnCourses<T> standing_{3};
   LaneClock<T> clock_;
   T h_{1.0}, entry_{1.0}, longest_{1.0};
+  std::array<bool, W> errs_{};  // whether the lane's sample has standing errors
+  T of_play_{0.0};              // the largest index that the offsets alone would make, where any lane's sample has such
   T contact_since_{0.0}, touching_time_{0.0}, deepest_{0.0}, impacts_{0.0}, steps_{0.0}, rejected_{0.0};
   Mask running_ = Mask::all(false), rejected_before_ = running_, entering_ = running_, gave_up_ = running_,
        ends_ = running_;

@@ -40,7 +40,8 @@ class LaneRowStep {
     read(scenes, clock.times());
     for (int k = 0; k < used(); ++k) row_[k] = select(lanes, new_row_[k], row_[k]);
   }
-  T index_at_start(const T* z, const T* standing) const { return index_value(N, &new_row_[gain_], z, standing); }
+  // Where the last step, or open(), ended.
+  T index_here(const T* z, const T* standing) const { return index_value(N, &new_row_[gain_], z, standing); }
 
   void step(const Mask&, const Scenes& scenes, const LaneClock<T>& clock, const T& h, const T* z, const T* v, T* new_z,
             T* new_v, T* error) {

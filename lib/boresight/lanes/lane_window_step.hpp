@@ -36,9 +36,8 @@ class LaneWindowStep {
     start_ = end_ = window_.since(clock.times());
     window_.hold_at(start_);
   }
-  T index_at_start(const T* z, const T* standing) {
-    return index_value(n_, window_.gain_at(end_) + gain_, z, standing);
-  }
+  // Where the last step, or open(), ended.
+  T index_here(const T* z, const T* standing) { return index_value(n_, window_.gain_at(end_) + gain_, z, standing); }
 
   void step(const Mask& running, const Scenes& scenes, const LaneClock<T>& clock, const T& h, const T* z, const T* v,
             T* new_z, T* new_v, T* error) {

@@ -1,0 +1,80 @@
+// What lanes state of their own model where standing errors displace the pose by far more than the play does.
+#include "boresight_analyses/study/lane_sample_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "boresight/io/mechanism_file.hpp"
+#include "boresight/ladder/ladder.hpp"
+
+namespace boresight {
+namespace lane_sample_model_test {
+
+// The mechanism of a file with its lengths off by so much, in turns to either side; joints without errors of their own get them.
+struct Built {
+  std::shared_ptr<const Mechanism> mechanism;
+  Parameters parameters;
+
+  Built(const std::string& file, const std::string& duration, double length) {
+    MechanismDescription m = read_mechanism(BORESIGHT_EXAMPLES "/" + file, {{"motion.duration", duration}});
+    for (std::size_t j = 0; m.errors.size() < 4 && j < m.joints.size(); ++j) {
+      ErrorDescription e;
+      e.name = m.joints[j].name + ".off";
+      e.joint = static_cast<int>(j);
+      e.body = m.joints[j].second;
+      e.direction = j % 2 == 0 ? Vec3(0.8, 0.0, 0.6) : Vec3(0.6, 0.0, -0.8);
+      m.errors.push_back(e);
+    }
+    mechanism = std::make_shared<const Mechanism>(m);
+    parameters = mechanism->parameters();
+    for (std::size_t e = 0; e < m.errors.size(); ++e) {
+      const ParameterPath place(mechanism->description(), "error." + m.errors[e].name);
+      if (place.unit() == std::string("m")) place.set(parameters, e % 2 == 0 ? length : -length);
+    }
+  }
+  Outcome by_lanes() const {
+    const LaneSampleModel model(
+        mechanism, [this](std::span<const double>) { return parameters; }, {"position_error", "max"}, false);
+    const Sample sample{.number = 0, .values = {}};
+    Outcome outcome;
+    model.evaluate({&sample, 1}, {&outcome, 1}, std::atomic<bool>{false});
+    return outcome;
+  }
+  double exactly() const {
+    RunOptions options;
+    options.sample_spacing = 0.0;
+    options.events = false;
+    return make_rung("multibody", mechanism)->run(parameters, options).index.position_error.max;
+  }
+};
+
+class LargeErrors : public testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+// Errors magnify no offset: that the whole deviation is many times the gap says nothing of the play.
+TEST_P(LargeErrors, AreNotTakenForPlayThatTheMechanismMagnifies) {
+  const Built built(GetParam().first, GetParam().second, 1e-3);
+  const Outcome found = built.by_lanes();
+  ASSERT_EQ(found.status, Outcome::Status::done) << found.message;
+  const double off = std::abs(found.value / built.exactly() - 1.0);
+  EXPECT_GE(found.model_error, off);
+  EXPECT_LT(found.model_error, 0.1) << off;
+}
+
+INSTANTIATE_TEST_SUITE_P(Lanes, LargeErrors,
+                         testing::Values(std::pair{"3-rrcpr/tolerances.toml", "10 ms"},
+                                         std::pair{"crank-slider/crank-slider.toml", "20 ms"},
+                                         std::pair{"four-bar/four-bar.toml", "20 ms"}));
+
+// Without errors all of the deviation is the play's.
+TEST(LaneSampleModel, StatesOfPlayAloneItsShareOfTheMechanismTimesWhatMagnifiesIt) {
+  const Built built("crank-slider/crank-slider.toml", "20 ms", 0.0);
+  const Outcome found = built.by_lanes();
+  ASSERT_EQ(found.status, Outcome::Status::done) << found.message;
+  const double share = found.value / built.mechanism->characteristic_length();
+  EXPECT_GE(found.model_error, share);
+  EXPECT_LT(found.model_error, 10.0 * share);
+}
+
+}  // namespace lane_sample_model_test
+}  // namespace boresight
